@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+#include "core/domain.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/spec.hpp"
+#include "core/text.hpp"
+
+namespace stipple {
+namespace {
+
+std::vector<std::string> axis_names(std::size_t dimension) {
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < dimension; ++k) names.push_back(fmt::format("x{}", k + 1));
+    return names;
+}
+
+class UnitCube final : public Domain {
+  public:
+    explicit UnitCube(std::size_t dimension) : dimension_(dimension) {}
+    std::string spec() const override { return "unit-cube"; }
+    std::size_t dimension() const override { return dimension_; }
+    double measure() const override { return 1; }
+    bool contains(std::span<const double> point) const override {
+        return std::ranges::all_of(point, [](double x) { return x >= 0 && x <= 1; });
+    }
+    void to_cube(std::span<const double> point, std::span<double> cube) const override {
+        std::ranges::copy(point, cube.begin());
+    }
+    std::vector<std::string> cube_axes() const override { return axis_names(dimension_); }
+
+  private:
+    std::size_t dimension_;
+};
+
+class BoxDomain final : public Domain {
+  public:
+    explicit BoxDomain(Box box) : box_(std::move(box)) {}
+    std::string spec() const override { return "box:bounds=[" + format_box(box_) + "]"; }
+    std::size_t dimension() const override { return box_.dimension(); }
+    double measure() const override {
+        double volume = 1;
+        for (std::size_t k = 0; k < dimension(); ++k) volume *= box_.extent(k);
+        return volume;
+    }
+    bool contains(std::span<const double> point) const override {
+        for (std::size_t k = 0; k < dimension(); ++k)
+            if (!(point[k] >= box_.low[k] && point[k] <= box_.high[k])) return false;
+        return true;
+    }
+    void to_cube(std::span<const double> point, std::span<double> cube) const override {
+        for (std::size_t k = 0; k < dimension(); ++k)
+            cube[k] = std::clamp((point[k] - box_.low[k]) / box_.extent(k), 0.0, 1.0);
+    }
+    std::vector<std::string> cube_axes() const override { return axis_names(dimension()); }
+
+  private:
+    Box box_;
+};
+
+class ProductDomain final : public Domain {
+  public:
+    explicit ProductDomain(std::vector<Factor> factors) : factors_(std::move(factors)) {}
+    std::string spec() const override {
+        std::vector<std::string> parts;
+        for (const auto& [domain, coordinates] : factors_) {
+            const std::string name = domain->spec();
+            const auto options = std::min(name.find(':'), name.size());
+            parts.push_back(name.substr(0, options) + "@" + format_coordinates(coordinates) +
+                            name.substr(options));
+        }
+        return join(parts, " x ");
+    }
+    std::size_t dimension() const override {
+        std::size_t sum = 0;
+        for (const auto& factor : factors_) sum += factor.domain->dimension();
+        return sum;
+    }
+    std::size_t cube_dimension() const override {
+        std::size_t sum = 0;
+        for (const auto& factor : factors_) sum += factor.domain->cube_dimension();
+        return sum;
+    }
+    double measure() const override {
+        double product = 1;
+        for (const auto& factor : factors_) product *= factor.domain->measure();
+        return product;
+    }
+    bool contains(std::span<const double> point) const override {
+        return std::ranges::all_of(factors_, [&](const Factor& factor) {
+            return factor.domain->contains(part(factor, point));
+        });
+    }
+    void to_cube(std::span<const double> point, std::span<double> cube) const override {
+        for (const auto& factor : factors_) {
+            const std::size_t size = factor.domain->cube_dimension();
+            factor.domain->to_cube(part(factor, point), cube.first(size));
+            cube = cube.subspan(size);
+        }
+    }
+    std::vector<std::string> cube_axes() const override {
+        std::vector<std::string> axes;
+        for (const auto& factor : factors_)
+            for (auto& axis : factor.domain->cube_axes()) axes.push_back(std::move(axis));
+        return axes;
+    }
+
+  private:
+    static std::vector<double> part(const Factor& factor, std::span<const double> point) {
+        std::vector<double> out;
+        for (const std::size_t k : factor.coordinates) out.push_back(point[k]);
+        return out;
+    }
+
+    std::vector<Factor> factors_;
+};
+
+}  // namespace
+
+DomainPtr unit_cube(std::size_t dimension) { return std::make_shared<UnitCube>(dimension); }
+DomainPtr box_domain(Box box) { return std::make_shared<BoxDomain>(std::move(box)); }
+DomainPtr product_domain(std::vector<Factor> factors) {
+    return std::make_shared<ProductDomain>(std::move(factors));
+}
+
+Box parse_box(std::string_view text, std::size_t dimension) {
+    Box box;
+    for (const auto part : split(text, ',')) {
+        const auto dots = part.find("..");
+        const auto low = parse_number(trim(part.substr(0, dots)));
+        const auto high = dots == std::string_view::npos
+                              ? std::nullopt
+                              : parse_number(trim(part.substr(dots + 2)));
+        if (!low || !high || !(*low < *high) || !std::isfinite(*high - *low))
+            fail(ErrorKind::usage,
+                 "--bounds: '{}' is not a range lo..hi of finite numbers with lo < hi", part);
+        box.low.push_back(*low);
+        box.high.push_back(*high);
+    }
+    if (box.dimension() == 1) {
+        box.low.resize(dimension, box.low[0]);
+        box.high.resize(dimension, box.high[0]);
+    }
+    if (box.dimension() != dimension)
+        fail(ErrorKind::usage,
+             "--bounds: {} ranges for {} coordinates; one for all, or one for each",
+             box.dimension(), dimension);
+    return box;
+}
+
+std::string format_box(const Box& box) {
+    std::vector<std::string> parts;
+    for (std::size_t k = 0; k < box.dimension(); ++k)
+        parts.push_back(fmt::format("{}..{}", box.low[k], box.high[k]));
+    return join(parts, ",");
+}
+
+void scale_into(const Box& box, std::span<double> rows) {
+    const std::size_t d = box.dimension();
+    for (std::size_t i = 0; i < rows.size(); i += d)
+        for (std::size_t k = 0; k < d; ++k) {
+            const double x = box.low[k] + rows[i + k] * box.extent(k);
+            // Rounding may reach the upper face, which the half-open box does not hold.
+            rows[i + k] = x < box.high[k] ? x : std::nextafter(box.high[k], box.low[k]);
+        }
+}
+
+}  // namespace stipple

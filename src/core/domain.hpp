@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+//
+// What points live on: its measure, its density, a membership test, and coordinates in which cells
+// of known probability are plain boxes.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace stipple {
+
+class Domain;
+using DomainPtr = std::shared_ptr<const Domain>;
+
+/// An axis-parallel box [low, high).
+struct Box {
+    std::vector<double> low;
+    std::vector<double> high;
+
+    [[nodiscard]] std::size_t dimension() const { return low.size(); }
+    [[nodiscard]] double extent(std::size_t k) const { return high[k] - low[k]; }
+    bool operator==(const Box&) const = default;
+};
+
+class Domain {
+  public:
+    Domain() = default;
+    Domain(const Domain&) = delete;
+    Domain& operator=(const Domain&) = delete;
+    virtual ~Domain() = default;
+
+    /// How it is written: "unit-cube", "disk", "disk:radius=2".
+    [[nodiscard]] virtual std::string spec() const = 0;
+
+    /// Numbers that make a point.
+    [[nodiscard]] virtual std::size_t dimension() const = 0;
+
+    /// Length, area, volume...
+    [[nodiscard]] virtual double measure() const = 0;
+
+    /// Whether the closed domain contains the point, up to the rounding that a point on its rim
+    /// has.
+    [[nodiscard]] virtual bool contains(std::span<const double> point) const = 0;
+
+    /// Numbers that to_cube gives.
+    [[nodiscard]] virtual std::size_t cube_dimension() const { return dimension(); }
+
+    /// Measure-preserving coordinates in [0, 1]: a point uniform on the domain is uniform on the
+    /// cube, so every box of the cube is a cell of exactly known probability.
+    virtual void to_cube(std::span<const double> point, std::span<double> cube) const = 0;
+
+    /// What the coordinates of to_cube mean, for people: "x", "area fraction r^2/R^2", "angle".
+    [[nodiscard]] virtual std::vector<std::string> cube_axes() const = 0;
+};
+
+DomainPtr unit_cube(std::size_t dimension);
+DomainPtr box_domain(Box box);
+
+/// Domains side by side: factor j lives on coordinates[j] of the row. Flattens nothing, sorts
+/// nothing.
+struct Factor {
+    DomainPtr domain;
+    std::vector<std::size_t> coordinates;
+};
+DomainPtr product_domain(std::vector<Factor> factors);
+
+/// Parses "lo..hi" (for all coordinates) or "lo..hi,lo..hi,...". @throws Error(usage)
+Box parse_box(std::string_view text, std::size_t dimension);
+std::string format_box(const Box& box);
+
+/// Moves points of the unit cube into the box, in place; half-open stays half-open.
+void scale_into(const Box& box, std::span<double> rows);
+
+}  // namespace stipple

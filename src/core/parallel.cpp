@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "core/parallel.hpp"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+
+namespace stipple {
+
+void within_threads(const RunContext& run, const std::function<void()>& work) {
+    const unsigned threads = run.thread_count();
+    // More threads than cores are only had by raising the library's own bound.
+    const tbb::global_control more(tbb::global_control::max_allowed_parallelism,
+                                   std::max<std::size_t>(threads, 1));
+    tbb::task_arena arena(static_cast<int>(threads));
+    arena.execute(work);
+}
+
+void for_each_block(const RunContext& run, std::uint64_t count, std::uint64_t size,
+                    const std::function<void(const Block&)>& body, bool silent) {
+    const std::size_t blocks = block_count(count, size);
+    const auto block = [&](std::size_t b) {
+        const std::uint64_t first = b * size;
+        return Block{first, first + std::min(size, count - first), b};
+    };
+    if (blocks <= 1 || run.thread_count() == 1) {
+        for (std::size_t b = 0; b < blocks; ++b) {
+            run.check_stop();
+            body(block(b));
+            if (!silent) run.tick(b + 1, blocks);
+        }
+        return;
+    }
+    std::mutex reporting;
+    std::size_t done = 0;
+    within_threads(run, [&] {
+        tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
+            run.check_stop();
+            body(block(b));
+            if (silent) return;
+            const std::lock_guard lock(reporting);
+            run.tick(++done, blocks);
+        });
+    });
+}
+
+}  // namespace stipple

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+//
+// Points with where they come from: a plain value.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/domain.hpp"
+#include "core/options.hpp"
+
+namespace stipple {
+
+/// Where a point set comes from: enough to make it again.
+struct Provenance {
+    std::string version;                                       ///< of stipple
+    std::string generator;                                     ///< empty: not known
+    std::vector<std::pair<std::string, std::string>> options;  ///< as one types them
+    std::uint64_t seed = 1;
+    std::uint64_t count = 0;
+    std::size_t dimension = 0;
+    std::uint64_t start = 0;
+    std::vector<std::string> warps;  ///< specs, in order
+    std::string domain = "unit-cube";
+    std::string bounds;   ///< empty: none
+    std::string shard;    ///< "I/K"; empty: the whole
+    std::string command;  ///< that makes it, without what cannot change it
+
+    bool operator==(const Provenance&) const = default;
+};
+
+class PointSet {
+  public:
+    PointSet() = default;
+    PointSet(std::size_t count, std::size_t dimension)
+        : PointSet(std::vector<double>(count * dimension), dimension) {}
+
+    /// Takes rows of `dimension` numbers.
+    PointSet(std::vector<double> rows, std::size_t dimension)
+        : domain(unit_cube(dimension)), rows_(std::move(rows)), dimension_(dimension) {}
+
+    [[nodiscard]] std::size_t count() const { return dimension_ ? rows_.size() / dimension_ : 0; }
+    [[nodiscard]] std::size_t dimension() const { return dimension_; }
+
+    [[nodiscard]] std::span<double> operator[](std::size_t i) {
+        return std::span(rows_).subspan(i * dimension_, dimension_);
+    }
+    [[nodiscard]] std::span<const double> operator[](std::size_t i) const {
+        return std::span(rows_).subspan(i * dimension_, dimension_);
+    }
+
+    [[nodiscard]] std::span<double> flat() { return rows_; }
+    [[nodiscard]] std::span<const double> flat() const { return rows_; }
+
+    /// The same numbers, wherever they come from.
+    bool operator==(const PointSet& other) const {
+        return dimension_ == other.dimension_ && rows_ == other.rows_;
+    }
+
+    DomainPtr domain;       ///< what the points live on; the unit cube unless set
+    Provenance provenance;  ///< empty unless known
+
+  private:
+    std::vector<double> rows_;
+    std::size_t dimension_ = 0;
+};
+
+}  // namespace stipple

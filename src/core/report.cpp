@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "core/report.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace stipple {
+namespace {
+
+/// The held T under the key. @throws Error(usage)
+template <class T>
+const T& held(const Report& report, std::string_view key, std::string_view kind) {
+    const Report::Item* item = report.find(key);
+    const T* value = item ? std::get_if<T>(item) : nullptr;
+    if (value == nullptr)
+        fail_with_hint(ErrorKind::usage, suggest(key, report.keys()),
+                       "'{}' is not a {} of the result", key, kind);
+    return *value;
+}
+
+}  // namespace
+
+bool Report::operator==(const Report&) const = default;
+
+Report& Report::put(std::string_view name, Item value, std::string_view unit) {
+    const auto it = std::ranges::find(entries_, name, &Entry::name);
+    if (it == entries_.end())
+        entries_.push_back({std::string(name), std::move(value), std::string(unit)});
+    else
+        *it = {std::string(name), std::move(value), std::string(unit)};
+    return *this;
+}
+
+Report& Report::add(std::string_view name, bool value) { return put(name, value, {}); }
+Report& Report::add(std::string_view name, std::int64_t value, std::string_view unit) {
+    return put(name, value, unit);
+}
+Report& Report::add(std::string_view name, std::uint64_t value, std::string_view unit) {
+    return put(name, static_cast<std::int64_t>(value), unit);
+}
+Report& Report::add(std::string_view name, double value, std::string_view unit) {
+    return put(name, value, unit);
+}
+Report& Report::add(std::string_view name, const char* value) {
+    return put(name, std::string(value), {});
+}
+Report& Report::add(std::string_view name, std::string value) {
+    return put(name, std::move(value), {});
+}
+Report& Report::add(std::string_view name, Curve value, std::string_view unit) {
+    return put(name, std::move(value), unit);
+}
+Report& Report::add(std::string_view name, Integers value, std::string_view unit) {
+    return put(name, std::move(value), unit);
+}
+Report& Report::add(std::string_view name, Grid value) { return put(name, std::move(value), {}); }
+Report& Report::add(std::string_view name, Report value) { return put(name, std::move(value), {}); }
+
+const Report::Item* Report::find(std::string_view key) const {
+    const auto dot = key.find('.');
+    const auto it = std::ranges::find(entries_, key.substr(0, dot), &Entry::name);
+    if (it == entries_.end()) return nullptr;
+    if (dot == std::string_view::npos) return &it->value;
+    const auto* group = std::get_if<Report>(&it->value);
+    return group ? group->find(key.substr(dot + 1)) : nullptr;
+}
+
+Report::Item* Report::find(std::string_view key) {
+    return const_cast<Item*>(std::as_const(*this).find(key));
+}
+
+double Report::number(std::string_view key) const {
+    const Item* item = find(key);
+    if (item)
+        if (const auto* whole = std::get_if<std::int64_t>(item)) return static_cast<double>(*whole);
+    return held<double>(*this, key, "number");
+}
+
+const std::string& Report::text(std::string_view key) const {
+    return held<std::string>(*this, key, "word");
+}
+
+const Report::Curve& Report::curve(std::string_view key) const {
+    return held<Curve>(*this, key, "curve");
+}
+
+std::vector<std::string> Report::keys() const {
+    std::vector<std::string> keys;
+    for (const auto& [name, value, unit] : entries_) {
+        if (const auto* group = std::get_if<Report>(&value)) {
+            for (const auto& inner : group->keys()) keys.push_back(name + "." + inner);
+        } else if (!std::holds_alternative<Grid>(value)) {
+            keys.push_back(name);
+        }
+    }
+    return keys;
+}
+
+}  // namespace stipple

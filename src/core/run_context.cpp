@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "core/run_context.hpp"
+
+#include <algorithm>
+#include <thread>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace stipple {
+
+unsigned RunContext::thread_count() const {
+    return threads != 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+}
+
+void RunContext::check_stop() const {
+    if (stop.stop_requested()) fail(ErrorKind::cancelled, "interrupted");
+}
+
+void RunContext::tick(std::uint64_t done, std::uint64_t total) const {
+    check_stop();
+    if (progress && total > 0)
+        progress(std::min(1.0, static_cast<double>(done) / static_cast<double>(total)));
+}
+
+void RunContext::tell(const std::string& sentence) const {
+    if (warn) warn(sentence);
+}
+
+void RunContext::need_memory(double bytes, std::string_view what) const {
+    if (bytes > static_cast<double>(max_memory))
+        fail_with_hint(ErrorKind::limit, "raise the limit with --max-memory",
+                       "{} needs {} of memory; the limit is {}", what, format_bytes(bytes),
+                       format_bytes(static_cast<double>(max_memory)));
+}
+
+}  // namespace stipple

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+//
+// What a computation may know of the world outside: nothing but this, passed down.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <stop_token>
+#include <string>
+#include <string_view>
+
+namespace stipple {
+
+struct RunContext {
+    std::uint64_t seed = 1;
+
+    /// Threads to use, 0 for all cores; never changes a result.
+    unsigned threads = 0;
+
+    /// Called with the fraction done, in [0, 1] and rising; from one thread at a time.
+    std::function<void(double)> progress = {};
+
+    /// Called with a sentence that the user should see; from one thread at a time.
+    std::function<void(const std::string&)> warn = {};
+
+    std::stop_token stop = {};
+
+    /// Bytes that a computation may plan to use.
+    std::uint64_t max_memory = std::numeric_limits<std::uint64_t>::max();
+
+    /// Number of threads meant by `threads`, at least 1.
+    [[nodiscard]] unsigned thread_count() const;
+
+    /// @throws Error(cancelled) once a stop was requested.
+    void check_stop() const;
+
+    /// Reports progress and checks for a stop; call it every few milliseconds from one thread.
+    void tick(std::uint64_t done, std::uint64_t total) const;
+
+    /// Tells the user `sentence`, if anybody listens.
+    void tell(const std::string& sentence) const;
+
+    /// @throws Error(limit) naming `what` when it would need more than max_memory.
+    void need_memory(double bytes, std::string_view what) const;
+};
+
+}  // namespace stipple

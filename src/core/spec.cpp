@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "core/spec.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace stipple {
+namespace {
+
+class SpecParser {
+  public:
+    explicit SpecParser(std::string_view text) : text_(text) {}
+
+    Spec parse() {
+        Spec spec;
+        spec.name = take_until("@:");
+        if (spec.name.empty()) complain("a unit's name is expected");
+        if (accept('@')) spec.coordinates = coordinates();
+        if (accept(':')) {
+            do spec.settings.push_back(setting());
+            while (accept(','));
+        }
+        if (at_ < text_.size()) complain("the end is expected");
+        return spec;
+    }
+
+  private:
+    [[noreturn]] void complain(std::string_view wanted) const {
+        fail(ErrorKind::usage, "spec '{}', column {}: {}", text_, at_ + 1, wanted);
+    }
+
+    bool accept(char c) {
+        if (at_ >= text_.size() || text_[at_] != c) return false;
+        ++at_;
+        return true;
+    }
+
+    std::string take_until(std::string_view ends) {
+        const auto end = std::min(text_.find_first_of(ends, at_), text_.size());
+        std::string part(text_.substr(at_, end - at_));
+        at_ = end;
+        return part;
+    }
+
+    std::vector<std::size_t> coordinates() {
+        std::vector<std::size_t> list;
+        for (const auto part : split(take_until(":"), ',')) {
+            const auto k = parse_integer(part);
+            if (!k || *k < 1 || *k > 1'000'000) complain("coordinates such as 1,2 are expected");
+            const auto index = static_cast<std::size_t>(*k - 1);
+            if (std::ranges::find(list, index) != list.end()) complain("a coordinate stands twice");
+            list.push_back(index);
+        }
+        if (list.empty()) complain("coordinates such as 1,2 are expected");
+        return list;
+    }
+
+    std::pair<std::string, std::string> setting() {
+        std::string name = take_until("=,[]");
+        if (name.empty()) complain("an option's name is expected");
+        if (!accept('=')) return {std::move(name), "true"};
+        if (!accept('[')) {
+            std::string value = take_until(",[]");
+            if (at_ < text_.size() && text_[at_] != ',') complain("',' or the end is expected");
+            return {std::move(name), std::move(value)};
+        }
+        std::string value = take_until("]");
+        if (!accept(']')) complain("']' is missing");
+        return {std::move(name), std::move(value)};
+    }
+
+    std::string_view text_;
+    std::size_t at_ = 0;
+};
+
+}  // namespace
+
+Values Spec::values(const Schema& schema) const {
+    Values values = schema.defaults();
+    for (const auto& [option, text] : settings) schema.set(values, option, text);
+    return values;
+}
+
+Spec parse_spec(std::string_view text) { return SpecParser(text).parse(); }
+
+std::string format_spec(std::string_view name, const Values& values, const Schema& schema) {
+    std::string spec(name);
+    char separator = ':';
+    for (const Option& option : schema.options()) {
+        const auto& item = values.find(option.name);
+        const bool unset = option.optional && !item.given;
+        if (unset || item.value == option.fallback) continue;
+        const std::string text = format_value(item.value);
+        const bool brackets = text.find_first_of(", ") != std::string::npos;
+        spec += fmt::format(fmt::runtime(brackets ? "{}{}=[{}]" : "{}{}={}"), separator,
+                            option.name, text);
+        separator = ',';
+    }
+    return spec;
+}
+
+std::string format_coordinates(const std::vector<std::size_t>& coordinates) {
+    std::vector<std::string> parts;
+    for (const std::size_t k : coordinates) parts.push_back(std::to_string(k + 1));
+    return join(parts, ",");
+}
+
+}  // namespace stipple

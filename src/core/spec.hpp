@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+//
+// A spec names a unit with its options in one word:
+//
+//     NAME[@I,J...][:OPT=VALUE[,OPT=VALUE...]]      a value with commas stands in [brackets]
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/options.hpp"
+
+namespace stipple {
+
+struct Spec {
+    std::string name;
+    std::vector<std::size_t> coordinates;                       ///< from 0; empty: all
+    std::vector<std::pair<std::string, std::string>> settings;  ///< option, text
+
+    /// The settings laid over the schema's defaults. @throws Error(usage)
+    [[nodiscard]] Values values(const Schema& schema) const;
+};
+
+/// @throws Error(usage) naming the column at which the text stops being a spec.
+Spec parse_spec(std::string_view text);
+
+/// NAME or NAME:OPT=V,... with what differs from the defaults; parses back to the same.
+std::string format_spec(std::string_view name, const Values& values, const Schema& schema);
+
+/// Coordinates as they stand behind @, counted from 1: "4,5".
+std::string format_coordinates(const std::vector<std::size_t>& coordinates);
+
+}  // namespace stipple

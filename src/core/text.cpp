@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+#include "core/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace stipple {
+namespace {
+
+template <class T>
+std::optional<T> parse_whole(std::string_view text, int base = 10) {
+    T value{};
+    const char* end = text.data() + text.size();
+    const auto [stopped, error] = std::from_chars(text.data(), end, value, base);
+    if (error != std::errc() || stopped != end) return std::nullopt;
+    return value;
+}
+
+/// A value times a factor, or nothing when it does not fit 63 bits or is not whole.
+std::optional<std::int64_t> scaled(std::string_view text, double factor) {
+    const auto value = parse_number(text);
+    if (!value) return std::nullopt;
+    const double product = *value * factor;
+    if (product != std::floor(product) || std::abs(product) >= 0x1p63) return std::nullopt;
+    return static_cast<std::int64_t>(product);
+}
+
+std::optional<std::int64_t> power(std::string_view base_text, std::string_view exponent_text) {
+    const auto base = parse_whole<std::int64_t>(base_text);
+    const auto exponent = parse_whole<int>(exponent_text);
+    if (!base || !exponent || *exponent < 0) return std::nullopt;
+    std::int64_t value = 1;
+    for (int i = 0; i < *exponent; ++i)
+        if (__builtin_mul_overflow(value, *base, &value)) return std::nullopt;
+    return value;
+}
+
+double suffix_factor(char suffix) {
+    switch (suffix) {
+        case 'k':
+        case 'K':
+            return 0x1p10;
+        case 'M':
+            return 0x1p20;
+        case 'G':
+            return 0x1p30;
+        case 'T':
+            return 0x1p40;
+        default:
+            return 0;
+    }
+}
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i] != b[j]);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+        }
+    }
+    return row.back();
+}
+
+}  // namespace
+
+std::optional<std::int64_t> parse_integer(std::string_view text) {
+    if (text.empty()) return std::nullopt;
+    if (const auto caret = text.find('^'); caret != std::string_view::npos)
+        return power(text.substr(0, caret), text.substr(caret + 1));
+    if (const auto plain = parse_whole<std::int64_t>(text)) return plain;
+    if (const double factor = suffix_factor(text.back()); factor != 0)
+        return scaled(text.substr(0, text.size() - 1), factor);
+    return scaled(text, 1);
+}
+
+std::optional<std::uint64_t> parse_unsigned(std::string_view text) {
+    if (text.starts_with("0x") || text.starts_with("0X"))
+        return parse_whole<std::uint64_t>(text.substr(2), 16);
+    if (const auto plain = parse_whole<std::uint64_t>(text)) return plain;
+    const auto value = parse_integer(text);
+    if (!value || *value < 0) return std::nullopt;
+    return static_cast<std::uint64_t>(*value);
+}
+
+std::optional<double> parse_number(std::string_view text) {
+    if (text.starts_with('+')) text.remove_prefix(1);
+    double value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stopped, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc() || stopped != end || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
+
+std::optional<std::uint64_t> parse_bytes(std::string_view text) {
+    if (text.ends_with('B')) text.remove_suffix(text.ends_with("iB") ? 2 : 1);
+    if (text.empty()) return std::nullopt;
+    const double factor = suffix_factor(text.back());
+    const auto value = parse_number(factor != 0 ? text.substr(0, text.size() - 1) : text);
+    if (!value || *value < 0) return std::nullopt;
+    const double bytes = *value * (factor != 0 ? factor : 1);
+    if (bytes >= 0x1p63) return std::nullopt;
+    return static_cast<std::uint64_t>(bytes);
+}
+
+std::string format_number(double value) { return fmt::format("{}", value); }
+
+std::string format_bytes(double bytes) {
+    constexpr std::array units = {"bytes", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
+    std::size_t unit = 0;
+    while (bytes >= 1024 && unit + 1 < units.size()) {
+        bytes /= 1024;
+        ++unit;
+    }
+    return fmt::format("{:.{}g} {}", bytes, unit == 0 ? 4 : 3, units[unit]);
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+    std::vector<std::string_view> parts;
+    while (!text.empty()) {
+        const auto at = text.find(separator);
+        parts.push_back(text.substr(0, at));
+        if (at == std::string_view::npos) return parts;
+        text.remove_prefix(at + 1);
+        if (text.empty()) parts.emplace_back();
+    }
+    return parts;
+}
+
+std::string join(std::span<const std::string> words, std::string_view between) {
+    return fmt::format("{}", fmt::join(words, between));
+}
+
+std::string_view trim(std::string_view text) {
+    constexpr std::string_view blanks = " \t\r\n\v\f";
+    const auto first = text.find_first_not_of(blanks);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::optional<std::string> nearest_word(std::string_view word, std::span<const std::string> known) {
+    std::size_t best = std::max<std::size_t>(2, word.size() / 3) + 1;
+    std::optional<std::string> nearest;
+    for (const std::string& candidate : known) {
+        const bool begins = word.size() >= 3 && candidate.starts_with(word);
+        const std::size_t distance = begins ? 1 : edit_distance(word, candidate);
+        if (distance < best && distance < candidate.size()) {
+            best = distance;
+            nearest = candidate;
+        }
+    }
+    return nearest;
+}
+
+std::string suggest(std::string_view word, std::span<const std::string> known) {
+    if (const auto meant = nearest_word(word, known))
+        return fmt::format("did you mean '{}'?", *meant);
+    return fmt::format("known: {}", join(known, ", "));
+}
+
+}  // namespace stipple

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+//
+// Numbers, sizes and names as people write them.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stipple {
+
+/// A whole number: 1000, 1e6, 2^20, 64k (= 65536), 3M, 1G; nothing when it is not one.
+/// A number that does not fit 64 signed bits gives nothing, too.
+std::optional<std::int64_t> parse_integer(std::string_view text);
+
+/// As parse_integer, for the 64 unsigned bits of a seed; also 0x hexadecimal.
+std::optional<std::uint64_t> parse_unsigned(std::string_view text);
+
+/// A finite decimal number, or nothing; the whole text must be one.
+std::optional<double> parse_number(std::string_view text);
+
+/// A size in bytes: 500000, 64k, 2G, 1.5G; nothing when it is not one.
+std::optional<std::uint64_t> parse_bytes(std::string_view text);
+
+/// The shortest text that reads back to the same double.
+std::string format_number(double value);
+
+/// 1536 -> "1.5 KiB".
+std::string format_bytes(double bytes);
+
+/// Parts between separators; "a,b" -> {"a", "b"}, "" -> {}.
+std::vector<std::string_view> split(std::string_view text, char separator);
+
+std::string join(std::span<const std::string> words, std::string_view between);
+
+/// The text without white space at its ends.
+std::string_view trim(std::string_view text);
+
+/// The word of `known` nearest to `word` in edits, if any is near enough to be meant.
+std::optional<std::string> nearest_word(std::string_view word, std::span<const std::string> known);
+
+/// "did you mean 'halton'?" for a word near enough to a known one, else a sentence that lists them.
+std::string suggest(std::string_view word, std::span<const std::string> known);
+
+}  // namespace stipple

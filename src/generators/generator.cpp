@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "generators/generator.hpp"
+
+#include <fmt/format.h>
+
+#include "core/error.hpp"
+
+namespace stipple {
+namespace {
+
+/// base^exponent, or the largest 64-bit number when it does not fit.
+std::uint64_t saturating_power(std::uint64_t base, std::size_t exponent) {
+    std::uint64_t value = 1;
+    for (std::size_t i = 0; i < exponent; ++i)
+        if (__builtin_mul_overflow(value, base, &value))
+            return std::numeric_limits<std::uint64_t>::max();
+    return value;
+}
+
+/// The largest k with k^exponent <= value.
+std::uint64_t floor_root(std::uint64_t value, std::size_t exponent) {
+    std::uint64_t low = 1;
+    std::uint64_t high = value;
+    while (low < high) {
+        const std::uint64_t middle = low + (high - low + 1) / 2;
+        if (saturating_power(middle, exponent) <= value)
+            low = middle;
+        else
+            high = middle - 1;
+    }
+    return low;
+}
+
+void check_dimension(const Generator& generator, std::size_t dimension) {
+    const auto& traits = generator.traits;
+    if (dimension >= traits.min_dimension && dimension <= traits.max_dimension) return;
+    fail(ErrorKind::usage, "--dimension: {} is outside [{}, {}], what {} can make", dimension,
+         traits.min_dimension, traits.max_dimension, generator.name);
+}
+
+void check_indices(const Generator& generator, const Request& request, std::uint64_t count) {
+    const auto& traits = generator.traits;
+    if (request.start > 0 && !traits.prefix)
+        fail(ErrorKind::usage,
+             "--start: {} is not a sequence without end, its points depend on their number; leave "
+             "--start out",
+             generator.name);
+    if (request.start > traits.max_index || count > traits.max_index - request.start)
+        fail(ErrorKind::usage, "--start {} and {} points go beyond index {}, the last of {}",
+             request.start, count, traits.max_index, generator.name);
+}
+
+}  // namespace
+
+Plan default_plan(const Request& request, std::uint64_t count, std::size_t dimension) {
+    return {.count = request.count.value_or(count),
+            .dimension = request.dimension.value_or(dimension),
+            .seed = request.seed,
+            .bounds = request.bounds};
+}
+
+Plan plan_for(const Generator& generator, const Request& request, const Values& options) {
+    if (request.count == std::uint64_t{0})
+        fail(ErrorKind::usage, "--count: 0 is outside [1, 2^53]; a set has at least one point");
+    if (request.dimension) check_dimension(generator, *request.dimension);
+    const Plan plan = generator.plan ? generator.plan(request, options) : default_plan(request);
+    check_dimension(generator, plan.dimension);
+    check_indices(generator, request, plan.count);
+    if (generator.max_seed && plan.seed > generator.max_seed(options))
+        fail(ErrorKind::usage, "--seed: {} is outside [0, {}], what this generator's seeding takes",
+             plan.seed, generator.max_seed(options));
+    return plan;
+}
+
+std::uint64_t exact_root(std::uint64_t count, std::size_t dimension, const std::string& who) {
+    const std::uint64_t k = floor_root(count, dimension);
+    const std::uint64_t below = saturating_power(k, dimension);
+    if (below == count) return k;
+    fail(ErrorKind::usage, "--count: {} is not k^{}, as {} needs; {} and {} are the nearest", count,
+         dimension, who, below, saturating_power(k + 1, dimension));
+}
+
+}  // namespace stipple

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+//
+// What a generator is: its record, and the two ways of making points.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/options.hpp"
+#include "core/point_set.hpp"
+#include "core/run_context.hpp"
+
+namespace stipple {
+
+/// What the user asks for; what is not given, the generator's plan fills in.
+struct Request {
+    std::optional<std::uint64_t> count = {};
+    std::optional<std::size_t> dimension = {};
+    std::uint64_t start = 0;         ///< index of the first point
+    std::optional<Box> bounds = {};  ///< for sets whose distances hold in a box; else the unit cube
+    std::uint64_t seed = 1;
+};
+
+/// A request with everything decided.
+struct Plan {
+    std::uint64_t count = 0;  ///< 0: known only when the set is made
+    std::size_t dimension = 0;
+    std::uint64_t seed = 1;
+    std::optional<Box> bounds = {};
+};
+
+/// Point i as a function of i alone (given plan and options).
+class Sequence {
+  public:
+    Sequence() = default;
+    Sequence(const Sequence&) = delete;
+    Sequence& operator=(const Sequence&) = delete;
+    virtual ~Sequence() = default;
+
+    /// Writes points first, first + 1, ... until `rows` (a multiple of the dimension) is full;
+    /// coordinates in [0, 1). With random_access() several threads may call it at once.
+    virtual void fill(std::uint64_t first, std::span<double> rows) = 0;
+
+    /// False for a sequential engine: going on is cheap, any other step costs a walk to it.
+    [[nodiscard]] virtual bool random_access() const { return true; }
+};
+
+struct GeneratorTraits {
+    std::size_t min_dimension = 1;
+    std::size_t max_dimension = 1'000'000;
+    bool sequence = true;  ///< streams in constant memory, shards
+    bool prefix = true;    ///< point i does not depend on the count; --start works
+    bool seeded = true;    ///< uses the seed
+    bool boxed = false;    ///< takes the bounds itself, since its distances hold in them
+    std::uint64_t max_index = std::uint64_t{1} << 53;  ///< start + count is at most this
+};
+
+struct Generator {
+    std::string name;
+    std::string summary;
+    std::string source;
+    GeneratorTraits traits;
+    Schema options;
+
+    /// Decides count and dimension. Empty: 1024 points, 2 dimensions unless asked otherwise.
+    /// @throws Error(usage) for counts and dimensions it cannot make, naming what it can.
+    std::function<Plan(const Request&, const Values&)> plan = {};
+
+    /// Exactly one of these two, as traits.sequence says.
+    std::function<std::unique_ptr<Sequence>(const Plan&, const Values&)> sequence = {};
+    /// A set may put what it worked out (a radius) into its provenance's options.
+    std::function<PointSet(const Plan&, const Values&, const RunContext&)> set = {};
+
+    /// Largest seed, where an engine's own seeding takes fewer than 64 bits.
+    std::function<std::uint64_t(const Values&)> max_seed = {};
+};
+
+/// The request completed with the defaults and checked against the generator's traits.
+/// @throws Error(usage)
+Plan plan_for(const Generator& generator, const Request& request, const Values& options);
+
+/// What generator.plan does where it is empty.
+Plan default_plan(const Request& request, std::uint64_t count = 1024, std::size_t dimension = 2);
+
+/// k with k^dimension == count. @throws Error(usage) naming the two nearest counts that have one.
+std::uint64_t exact_root(std::uint64_t count, std::size_t dimension, const std::string& who);
+
+namespace generators {
+/// All generators, in alphabetical order.
+const std::vector<Generator>& all();
+}  // namespace generators
+
+}  // namespace stipple

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+//
+// What a point-file format is: its record, and pure functions between rows and bytes. Rows can be
+// formatted block by block on any thread and joined in order.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/options.hpp"
+#include "core/point_set.hpp"
+#include "core/run_context.hpp"
+
+namespace stipple {
+
+/// What a writer knows before the first row.
+struct Layout {
+    std::size_t dimension = 0;               ///< coordinates of a point
+    std::vector<std::string> extras = {};    ///< names of further numbers in a row ("pdf")
+    std::vector<std::uint64_t> counts = {};  ///< points of each set
+    std::size_t first_set = 0;               ///< number of the first set in this file
+    bool many_sets = false;                  ///< more than one set was asked for
+    bool header = true;                      ///< CSV
+    bool meta = false;                       ///< provenance in `# ` lines
+    bool single = false;                     ///< float32 in binary formats
+    std::optional<int> precision = {};       ///< digits after the point
+    Provenance provenance = {};
+
+    [[nodiscard]] std::size_t width() const { return dimension + extras.size(); }
+    /// x / x,y / x,y,z / x1..xd, then the extras.
+    [[nodiscard]] std::vector<std::string> columns() const;
+};
+
+/// What a reader is told.
+struct ReadOptions {
+    std::string source = "-";                   ///< for messages and reports
+    std::optional<std::size_t> dimension = {};  ///< needed by bin; checked by the others
+    std::vector<std::string> columns = {};  ///< names, or numbers from 1; empty: all coordinates
+    bool single = false;                    ///< bin holds float32
+};
+
+struct FormatTraits {
+    bool binary = false;
+    bool equal_sets = false;  ///< all sets must have as many points
+    std::size_t max_dimension = 1'000'000;
+    std::size_t min_dimension = 1;
+};
+
+struct Format {
+    using Rows = void (*)(const Layout&, std::size_t set, std::uint64_t first,
+                          std::span<const double> rows, std::string& out);
+
+    std::string name;
+    std::string summary;
+    std::string source;                   ///< where the format is described
+    std::vector<std::string> extensions;  ///< ".csv"
+    FormatTraits traits;
+
+    /// Appends what comes before all rows, before the rows of each set, and after all; may be
+    /// empty.
+    std::function<void(const Layout&, std::string& out)> head = {};
+    std::function<void(const Layout&, std::size_t set, std::string& out)> begin_set = {};
+    /// Appends rows first, first + 1, ... of a set (numbered from 0 in this file). Pure.
+    Rows rows = nullptr;
+    std::function<void(const Layout&, std::string& out)> tail = {};
+
+    /// The sets in the bytes of a file. Empty: write only.
+    /// @throws Error(input) "FILE:LINE:COLUMN: what is wrong; what is expected"
+    std::function<std::vector<PointSet>(std::string_view bytes, const ReadOptions&,
+                                        const RunContext&)>
+        read = {};
+};
+
+namespace io {
+
+/// All formats, in alphabetical order.
+const std::vector<Format>& all();
+
+/// The format called `name`. @throws Error(usage) naming the nearest.
+const Format& format_named(std::string_view name);
+
+/// The format that a file's extension means, if any.
+const Format* format_of_extension(std::string_view path);
+
+/// The format that the first bytes tell: npy, json, jsonl; else csv (which reads all plain text).
+const Format& format_of_bytes(std::string_view bytes);
+
+}  // namespace io
+}  // namespace stipple

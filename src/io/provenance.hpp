@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+//
+// Provenance as the `meta` object of JSON and the `# ` lines of text formats.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
+
+#include "core/point_set.hpp"
+
+namespace stipple::io {
+
+/// Keys tool, version, generator, options, seed, count, dimension, start, warps, domain, command;
+/// also bounds and shard where they are set.
+nlohmann::ordered_json to_json(const Provenance& provenance);
+
+/// Takes what it knows and ignores the rest.
+Provenance provenance_from(const nlohmann::ordered_json& meta);
+
+/// Lines "# key: value" (value as JSON), each with its newline.
+std::string to_comment_lines(const Provenance& provenance);
+
+/// The way back from such lines ("key: value" without "# "); false: not such a line.
+bool take_comment_line(std::string_view line, Provenance& provenance);
+
+}  // namespace stipple::io

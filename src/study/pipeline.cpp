@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "study/pipeline.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/text.hpp"
+
+namespace stipple {
+namespace {
+
+template <class Unit>
+const Unit& find_unit(std::string_view kind, const std::vector<Unit>& units,
+                      std::string_view name) {
+    const auto it = std::ranges::find(units, name, &Unit::name);
+    if (it != units.end()) return *it;
+    std::vector<std::string> names;
+    for (const Unit& unit : units) names.push_back(unit.name);
+    fail_with_hint(ErrorKind::usage, suggest(name, names), "unknown {} '{}'", kind, name);
+}
+
+Values values_of(const Schema& schema, const Settings& settings) {
+    Values values = schema.defaults();
+    for (const auto& [name, text] : settings) schema.set(values, name, text);
+    return values;
+}
+
+/// Points of a sequence, block by block on all threads.
+PointSet fill_all(Sequence& sequence, const Plan& plan, std::uint64_t start,
+                  const RunContext& run) {
+    run.need_memory(static_cast<double>(plan.count) * static_cast<double>(plan.dimension) * 8,
+                    "the point set");
+    PointSet points(plan.count, plan.dimension);
+    RunContext lane = run;
+    if (!sequence.random_access()) lane.threads = 1;
+    const std::size_t block = std::max<std::size_t>(1, 8192 / plan.dimension);
+    for_each_block(lane, plan.count, block, [&](const Block& b) {
+        sequence.fill(start + b.first, points.flat().subspan(b.first * plan.dimension,
+                                                             (b.last - b.first) * plan.dimension));
+    });
+    return points;
+}
+
+void check_cube(const PointSet& points) {
+    const auto flat = points.flat();
+    const auto outside = [](double x) { return !(x >= 0 && x <= 1); };
+    std::size_t count = 0;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < points.count(); ++i)
+        if (std::ranges::any_of(points[i], outside) && count++ == 0) first = i;
+    if (count == 0) return;
+    std::vector<std::string> numbers;
+    for (const double x : points[first]) numbers.push_back(format_number(x));
+    fail_with_hint(
+        ErrorKind::input, "--rescale or --bounds lo..hi moves points into the cube",
+        "{} of {} points are outside the unit cube [0, 1]^{}; the first is point {}: ({})", count,
+        flat.size() / points.dimension(), points.dimension(), first, join(numbers, ", "));
+}
+
+}  // namespace
+
+const Generator& find_generator(std::string_view name) {
+    return find_unit("generator", generators::all(), name);
+}
+const Warp& find_warp(std::string_view name) { return find_unit("warp", warps::all(), name); }
+const Analyzer& find_analyzer(std::string_view name) {
+    return find_unit("analyzer", analyzers::all(), name);
+}
+
+PointSet generate(const Generator& generator, const Request& request, const Values& options,
+                  const RunContext& run) {
+    const Plan plan = plan_for(generator, request, options);
+    if (!generator.traits.sequence) return generator.set(plan, options, run);
+    return fill_all(*generator.sequence(plan, options), plan, request.start, run);
+}
+
+PointSet generate(std::string_view name, const Request& request, const Settings& settings,
+                  const RunContext& run) {
+    const Generator& generator = find_generator(name);
+    return generate(generator, request, values_of(generator.options, settings), run);
+}
+
+Report analyze(const Analyzer& analyzer, const PointSet& points, const Values& options,
+               const RunContext& run) {
+    if (points.count() == 0)
+        fail(ErrorKind::input, "{} needs at least one point; the set is empty", analyzer.name);
+    check_dimension(analyzer, points.dimension());
+    if (analyzer.traits.unit_cube) check_cube(points);
+    return analyzer.analyze(points, options, run);
+}
+
+Report analyze(std::string_view name, const PointSet& points, const Settings& settings,
+               const RunContext& run) {
+    const Analyzer& analyzer = find_analyzer(name);
+    return analyze(analyzer, points, values_of(analyzer.options, settings), run);
+}
+
+}  // namespace stipple

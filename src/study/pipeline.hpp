@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+//
+// Units by name, and the line they stand on: make points, warp them, measure them. What the command
+// line does with files, another program does with these.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "analyzers/analyzer.hpp"
+#include "generators/generator.hpp"
+#include "io/format.hpp"
+#include "warps/warp.hpp"
+
+namespace stipple {
+
+/// The unit of that name. @throws Error(usage) naming the nearest one.
+const Generator& find_generator(std::string_view name);
+const Warp& find_warp(std::string_view name);
+const Analyzer& find_analyzer(std::string_view name);
+
+/// Options as text: {{"base", "3"}}.
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+/// All points of a request, in memory. The seed is the request's.
+PointSet generate(const Generator& generator, const Request& request, const Values& options,
+                  const RunContext& run);
+PointSet generate(std::string_view generator, const Request& request, const Settings& settings = {},
+                  const RunContext& run = {});
+
+/// Measures a set after checking that the analyzer takes it: its dimension and, where the analyzer
+/// needs it, that all points are in the closed unit cube.
+/// @throws Error(input)
+Report analyze(const Analyzer& analyzer, const PointSet& points, const Values& options,
+               const RunContext& run);
+Report analyze(std::string_view analyzer, const PointSet& points, const Settings& settings = {},
+               const RunContext& run = {});
+
+}  // namespace stipple

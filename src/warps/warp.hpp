@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+//
+// What a warp is: its record, and the map it makes for given options.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/domain.hpp"
+#include "core/options.hpp"
+
+namespace stipple {
+
+/// A map from the unit cube [0, 1)^cube_dimension() to a domain; safe to use from several threads.
+class Mapping {
+  public:
+    Mapping() = default;
+    Mapping(const Mapping&) = delete;
+    Mapping& operator=(const Mapping&) = delete;
+    virtual ~Mapping() = default;
+
+    /// What the image lives on. The image's numbers a point are domain()->dimension().
+    [[nodiscard]] virtual DomainPtr domain() const = 0;
+
+    /// Unit coordinates that make one point.
+    [[nodiscard]] virtual std::size_t cube_dimension() const = 0;
+
+    /// Maps point after point: `cube` holds count x cube_dimension() numbers, `image` takes
+    /// count x domain()->dimension(). Where the trait `drops` is set, keep[i] = 0 marks a point
+    /// that has no image; else `keep` is not touched.
+    virtual void forward(std::span<const double> cube, std::span<double> image,
+                         std::span<std::uint8_t> keep) const = 0;
+
+    /// The way back, into the closed unit cube. @throws Error(usage) where there is none.
+    virtual void inverse(std::span<const double> image, std::span<double> cube) const;
+
+    /// Density of the image of a uniform point with respect to the domain's measure.
+    [[nodiscard]] virtual double density(std::span<const double> point) const = 0;
+};
+
+struct WarpTraits {
+    bool invertible = true;
+    bool drops = false;   ///< with some options, some points have no image
+    bool biased = false;  ///< with some options, deliberately wrong; the option's help says which
+};
+
+struct Warp {
+    std::string name;
+    std::string summary;
+    std::string source;
+    WarpTraits traits;
+    Schema options;
+
+    /// The map for these options. `given` is the number of coordinates at hand: a warp of fixed
+    /// dimension ignores it. @throws Error(usage)
+    std::function<std::unique_ptr<Mapping>(const Values&, std::size_t given)> make;
+};
+
+namespace warps {
+/// All warps, in alphabetical order.
+const std::vector<Warp>& all();
+}  // namespace warps
+
+}  // namespace stipple
