@@ -1,8 +1,122 @@
 // SPDX-License-Identifier: MIT
 #include "cli/cli.hpp"
 
-namespace stipple::cli {
+#include <fmt/format.h>
 
-int run(int, char**) { return 0; }
+#include <algorithm>
+#include <exception>
+#include <new>
+
+#include "cli/arguments.hpp"
+#include "cli/help.hpp"
+#include "cli/verbs.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "io/files.hpp"
+
+namespace stipple::cli {
+namespace {
+
+/// The contract's exit codes.
+int exit_code(ErrorKind kind) {
+    switch (kind) {
+        case ErrorKind::usage:
+            return 2;
+        case ErrorKind::input:
+            return 3;
+        case ErrorKind::io:
+            return 4;
+        case ErrorKind::limit:
+            return 5;
+        case ErrorKind::cancelled:
+            return 130;
+    }
+    return 4;
+}
+
+/// The verb's unit must be named; the hint lists what there is.
+void require_unit(const Arguments& arguments, const std::vector<Kind>& kinds) {
+    const auto& info = *std::ranges::find(verbs(), *arguments.verb, &VerbInfo::verb);
+    const auto kind = std::ranges::find(kinds, info.name, &Kind::verb);
+    if (kind == kinds.end() || !arguments.unit.empty()) return;
+    std::vector<std::string> names;
+    for (const UnitInfo& unit : kind->units) names.push_back(unit.name);
+    fail_with_hint(ErrorKind::usage, "known: " + join(names, ", "), "{}: name one of the {}",
+                   info.name, kind->name);
+}
+
+int dispatch(const Arguments& arguments, const std::vector<Kind>& kinds) {
+    if (arguments.version) {
+        write_text("-", version_text());
+        return 0;
+    }
+    if (arguments.help) {
+        write_text("-", help_text(arguments, kinds));
+        return 0;
+    }
+    if (!arguments.verb)
+        fail_with_hint(ErrorKind::usage, "'stipple --help' lists the verbs", "no verb given");
+    require_unit(arguments, kinds);
+    if (arguments.verb == Verb::list) return list(arguments, kinds);
+    Session session(arguments);
+    switch (*arguments.verb) {
+        case Verb::generate:
+            return generate(arguments, session);
+        case Verb::warp:
+            return warp(arguments, session);
+        case Verb::convert:
+            return convert(arguments, session);
+        default:
+            return analyze(arguments, session);
+    }
+}
+
+/// One line, and the hint in a second sentence of it.
+int report_error(const std::string& what, const std::string& hint, int code) {
+    fmt::print(stderr, "stipple: {}{}{}\n", what, hint.empty() ? "" : "; ", hint);
+    return code;
+}
+
+}  // namespace
+
+void write_text(const std::string& path, const std::string& text) {
+    io::Output output(path);
+    if (output.write(text)) output.commit();
+}
+
+int list(const Arguments& arguments, const std::vector<Kind>& all) {
+    std::vector<Kind> kinds = all;
+    if (arguments.inputs.size() > 1)
+        fail(ErrorKind::usage, "list takes one KIND; {} are given", arguments.inputs.size());
+    if (!arguments.inputs.empty()) {
+        const std::string& wanted = arguments.inputs[0];
+        std::erase_if(kinds, [&](const Kind& kind) {
+            return kind.name != wanted && kind.name != wanted + "s";
+        });
+        if (kinds.empty())
+            fail_with_hint(ErrorKind::usage, "known: generators, warps, analyzers, formats",
+                           "unknown kind '{}'", wanted);
+    }
+    write_text(arguments.get("output").value_or("-"), arguments.has("json") ? list_json(kinds)
+                                                      : arguments.has("markdown")
+                                                          ? list_markdown(kinds)
+                                                          : list_text(kinds));
+    return 0;
+}
+
+int run(int argc, char** argv) {
+    catch_interrupts();
+    try {
+        const auto kinds = catalog();
+        return dispatch(parse_arguments(argc, argv, kinds), kinds);
+    } catch (const Error& e) {
+        return report_error(e.what(), e.hint(), exit_code(e.kind()));
+    } catch (const std::bad_alloc&) {
+        return report_error("out of memory", "", exit_code(ErrorKind::limit));
+    } catch (const std::exception& e) {
+        return report_error(fmt::format("internal error: {}", e.what()), "",
+                            exit_code(ErrorKind::io));
+    }
+}
 
 }  // namespace stipple::cli

@@ -38,7 +38,8 @@ void check_dimension(const Generator& generator, std::size_t dimension) {
          traits.min_dimension, traits.max_dimension, generator.name);
 }
 
-void check_indices(const Generator& generator, const Request& request, std::uint64_t count) {
+void check_indices(const Generator& generator, const Request& request, std::uint64_t count,
+                   std::size_t dimension) {
     const auto& traits = generator.traits;
     if (request.start > 0 && !traits.prefix)
         fail(ErrorKind::usage,
@@ -48,6 +49,11 @@ void check_indices(const Generator& generator, const Request& request, std::uint
     if (request.start > traits.max_index || count > traits.max_index - request.start)
         fail(ErrorKind::usage, "--start {} and {} points go beyond index {}, the last of {}",
              request.start, count, traits.max_index, generator.name);
+    const auto numbers =
+        static_cast<double>(request.start + count) * static_cast<double>(dimension);
+    if (numbers >= 0x1p63)
+        fail(ErrorKind::usage, "{} points of dimension {} are more numbers than 2^63",
+             request.start + count, dimension);
 }
 
 }  // namespace
@@ -65,7 +71,7 @@ Plan plan_for(const Generator& generator, const Request& request, const Values& 
     if (request.dimension) check_dimension(generator, *request.dimension);
     const Plan plan = generator.plan ? generator.plan(request, options) : default_plan(request);
     check_dimension(generator, plan.dimension);
-    check_indices(generator, request, plan.count);
+    check_indices(generator, request, plan.count, plan.dimension);
     if (generator.max_seed && plan.seed > generator.max_seed(options))
         fail(ErrorKind::usage, "--seed: {} is outside [0, {}], what this generator's seeding takes",
              plan.seed, generator.max_seed(options));

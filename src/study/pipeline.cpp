@@ -42,22 +42,6 @@ PointSet fill_all(Sequence& sequence, const Plan& plan, std::uint64_t start,
     return points;
 }
 
-void check_cube(const PointSet& points) {
-    const auto flat = points.flat();
-    const auto outside = [](double x) { return !(x >= 0 && x <= 1); };
-    std::size_t count = 0;
-    std::size_t first = 0;
-    for (std::size_t i = 0; i < points.count(); ++i)
-        if (std::ranges::any_of(points[i], outside) && count++ == 0) first = i;
-    if (count == 0) return;
-    std::vector<std::string> numbers;
-    for (const double x : points[first]) numbers.push_back(format_number(x));
-    fail_with_hint(
-        ErrorKind::input, "--rescale or --bounds lo..hi moves points into the cube",
-        "{} of {} points are outside the unit cube [0, 1]^{}; the first is point {}: ({})", count,
-        flat.size() / points.dimension(), points.dimension(), first, join(numbers, ", "));
-}
-
 }  // namespace
 
 const Generator& find_generator(std::string_view name) {
@@ -81,12 +65,27 @@ PointSet generate(std::string_view name, const Request& request, const Settings&
     return generate(generator, request, values_of(generator.options, settings), run);
 }
 
+void require_unit_cube(const PointSet& points) {
+    const auto outside = [](double x) { return !(x >= 0 && x <= 1); };
+    std::size_t count = 0;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < points.count(); ++i)
+        if (std::ranges::any_of(points[i], outside) && count++ == 0) first = i;
+    if (count == 0) return;
+    std::vector<std::string> numbers;
+    for (const double x : points[first]) numbers.push_back(format_number(x));
+    fail_with_hint(
+        ErrorKind::input, "--rescale or --bounds lo..hi moves points into the cube",
+        "{} of {} points are outside the unit cube [0, 1]^{}; the first is point {}: ({})", count,
+        points.count(), points.dimension(), first, join(numbers, ", "));
+}
+
 Report analyze(const Analyzer& analyzer, const PointSet& points, const Values& options,
                const RunContext& run) {
     if (points.count() == 0)
         fail(ErrorKind::input, "{} needs at least one point; the set is empty", analyzer.name);
     check_dimension(analyzer, points.dimension());
-    if (analyzer.traits.unit_cube) check_cube(points);
+    if (analyzer.traits.unit_cube) require_unit_cube(points);
     return analyzer.analyze(points, options, run);
 }
 

@@ -30,6 +30,9 @@ PointSet generate(const Generator& generator, const Request& request, const Valu
 PointSet generate(std::string_view generator, const Request& request, const Settings& settings = {},
                   const RunContext& run = {});
 
+/// @throws Error(input) counting the points outside the closed unit cube and naming the first
+void require_unit_cube(const PointSet& points);
+
 /// Measures a set after checking that the analyzer takes it: its dimension and, where the analyzer
 /// needs it, that all points are in the closed unit cube.
 /// @throws Error(input)

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: MIT
+#include "cli/arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace stipple::cli {
+namespace {
+
+constexpr unsigned generate = static_cast<unsigned>(Verb::generate);
+constexpr unsigned warp = static_cast<unsigned>(Verb::warp);
+constexpr unsigned analyze = static_cast<unsigned>(Verb::analyze);
+constexpr unsigned convert = static_cast<unsigned>(Verb::convert);
+constexpr unsigned list = static_cast<unsigned>(Verb::list);
+constexpr unsigned writers = generate | warp | convert;
+constexpr unsigned readers = warp | analyze | convert;
+constexpr unsigned workers = writers | analyze;
+
+/// Long name of "-n,--count": "count".
+std::string long_name(std::string_view names) {
+    return std::string(names.substr(names.rfind("--") + 2));
+}
+
+bool takes(const CommonOption& option, Verb verb) {
+    return (option.verbs & static_cast<unsigned>(verb)) != 0;
+}
+
+/// Options that may stand here, for suggestions.
+std::vector<std::string> known_options(Verb verb, const UnitInfo* unit) {
+    std::vector<std::string> names = {"--help"};
+    for (const auto& option : common_options())
+        if (takes(option, verb)) names.push_back("--" + long_name(option.names));
+    if (unit)
+        for (const auto& option : unit->options) names.push_back("--" + option.name);
+    return names;
+}
+
+/// The parser of one command line: CLI11 splits it up, and what is typed is kept as text.
+class Parser {
+  public:
+    explicit Parser(const std::vector<Kind>& kinds) : kinds_(kinds) {
+        app_.set_help_flag();
+        app_.allow_extras();
+        add_flag(app_, "-h,--help", help_);
+        add_flag(app_, "--version", version_);
+        for (const VerbInfo& info : verbs()) add_verb(info);
+    }
+
+    Arguments parse(std::vector<std::string> words) {
+        split_coordinates(words);
+        std::ranges::reverse(words);
+        try {
+            app_.parse(std::move(words));
+        } catch (const CLI::ParseError& e) {
+            fail(ErrorKind::usage, "{}", e.what());
+        }
+        arguments_.help = help_;
+        arguments_.version = version_;
+        find_verb();
+        check_remaining();
+        return std::move(arguments_);
+    }
+
+  private:
+    static void add_flag(CLI::App& app, const std::string& names, bool& flag) {
+        app.add_flag_callback(names, [&flag] { flag = true; });
+    }
+
+    void add_verb(const VerbInfo& info) {
+        CLI::App* verb = app_.add_subcommand(info.name);
+        verb->set_help_flag();
+        verb->allow_extras();
+        add_flag(*verb, "-h,--help", help_);
+        for (const auto& option : common_options())
+            if (takes(option, info.verb)) add_common(*verb, option);
+        const auto kind = std::ranges::find(kinds_, info.name, &Kind::verb);
+        if (kind != kinds_.end())
+            for (const UnitInfo& unit : kind->units) add_unit(*verb, info.verb, unit);
+        if (info.verb == Verb::convert || info.verb == Verb::list) add_inputs(*verb);
+    }
+
+    void add_common(CLI::App& app, const CommonOption& option) {
+        const std::string name = long_name(option.names);
+        auto& common = arguments_.common;
+        if (*option.value == '\0') {
+            app.add_flag_callback(option.names,
+                                  [&common, name] { common.emplace_back(name, "true"); });
+            return;
+        }
+        auto* added = app.add_option_function<std::vector<std::string>>(
+            option.names, [&common, name](const std::vector<std::string>& texts) {
+                for (const auto& text : texts) common.emplace_back(name, text);
+            });
+        added->expected(1)->allow_extra_args(false);
+        if (option.repeatable) added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    }
+
+    void add_unit(CLI::App& verb, Verb which, const UnitInfo& unit) {
+        CLI::App* app = verb.add_subcommand(unit.name);
+        app->set_help_flag();
+        app->fallthrough();
+        app->allow_extras();
+        add_flag(*app, "-h,--help", help_);
+        auto& settings = arguments_.settings;
+        for (const Option& option : unit.options) {
+            const std::string name = option.name;
+            if (option.type == "flag")
+                app->add_flag_callback("--" + name,
+                                       [&settings, name] { settings.emplace_back(name, "true"); });
+            else
+                app->add_option_function<std::string>("--" + name,
+                                                      [&settings, name](const std::string& text) {
+                                                          settings.emplace_back(name, text);
+                                                      });
+        }
+        if (which != Verb::generate) add_inputs(*app);
+    }
+
+    void add_inputs(CLI::App& app) {
+        app.add_option_function<std::vector<std::string>>(
+            "INPUT", [this](const std::vector<std::string>& files) { arguments_.inputs = files; });
+    }
+
+    /// `warp disk@4,5` means `warp disk --coordinates 4,5`.
+    void split_coordinates(std::vector<std::string>& words) const {
+        const auto verb = std::ranges::find(words, "warp");
+        if (verb == words.end()) return;
+        const auto kind = std::ranges::find(kinds_, "warp", &Kind::verb);
+        for (auto word = verb + 1; word != words.end(); ++word) {
+            const auto at = word->find('@');
+            if (at == std::string::npos) continue;
+            const std::string name = word->substr(0, at);
+            if (std::ranges::find(kind->units, name, &UnitInfo::name) == kind->units.end())
+                continue;
+            const std::string coordinates = word->substr(at + 1);
+            *word = name;
+            words.insert(word + 1, {"--coordinates", coordinates});
+            return;
+        }
+    }
+
+    void find_verb() {
+        for (const CLI::App* verb : app_.get_subcommands()) {
+            const auto it = std::ranges::find_if(
+                verbs(), [&](const VerbInfo& info) { return verb->get_name() == info.name; });
+            arguments_.verb = it->verb;
+            for (const CLI::App* unit : verb->get_subcommands()) arguments_.unit = unit->get_name();
+        }
+    }
+
+    void check_remaining() const {
+        const auto rest = app_.remaining(true);
+        if (rest.empty()) return;
+        const auto option = std::ranges::find_if(
+            rest, [](const std::string& s) { return s.size() > 1 && s[0] == '-'; });
+        if (!arguments_.verb) {
+            if (option == rest.begin()) complain("option", *option, {"--help", "--version"});
+            std::vector<std::string> names;
+            for (const VerbInfo& info : verbs()) names.emplace_back(info.name);
+            complain("verb", rest.front(), names);
+        }
+        const auto& info = *std::ranges::find(verbs(), *arguments_.verb, &VerbInfo::verb);
+        const auto kind = std::ranges::find(kinds_, info.name, &Kind::verb);
+        const bool wants_unit = kind != kinds_.end() && arguments_.unit.empty();
+        if (wants_unit && rest.front()[0] != '-') unit_of(kinds_, info.name, rest.front());
+        const UnitInfo* unit =
+            arguments_.unit.empty() ? nullptr : &unit_of(kinds_, info.name, arguments_.unit);
+        if (option != rest.end())
+            complain("option", option->substr(0, option->find('=')),
+                     known_options(info.verb, unit));
+        fail(ErrorKind::usage, "unexpected argument '{}'", rest.front());
+    }
+
+    [[noreturn]] static void complain(std::string_view what, const std::string& word,
+                                      const std::vector<std::string>& known) {
+        const auto meant = nearest_word(word, known);
+        std::string hint = meant            ? fmt::format("did you mean {}?", *meant)
+                           : what == "verb" ? "known: " + join(known, ", ")
+                                            : "--help lists the options";
+        fail_with_hint(ErrorKind::usage, hint, "unknown {} '{}'", what, word);
+    }
+
+    const std::vector<Kind>& kinds_;
+    CLI::App app_{"stipple"};
+    Arguments arguments_;
+    bool help_ = false;
+    bool version_ = false;
+};
+
+}  // namespace
+
+const std::vector<VerbInfo>& verbs() {
+    static const std::vector<VerbInfo> table = {
+        {Verb::generate, "generate", "stipple generate GENERATOR [OPTIONS]", "makes points",
+         "The same command gives the same bytes on any machine and for any number of threads: "
+         "points\n"
+         "depend on generator, options, count, dimension and seed alone.",
+         "  stipple generate halton -n 4096 --start 1 -w disk -o points.csv\n"
+         "  stipple generate random -d 5 -n 1e6 --seed 7 -f npy -o points.npy\n"
+         "  stipple generate jittered -m 10 -o 'set{set}.csv'\n"
+         "  stipple generate poisson-disk -n 2000 --bounds 0..40,0..30\n"},
+        {Verb::warp, "warp", "stipple warp WARP [INPUT] [OPTIONS]",
+         "moves points of the unit cube onto another domain, or back",
+         "INPUT is a file of points; standard input by default. WARP@I,J warps coordinates I and J "
+         "and\n"
+         "leaves the others. Deterministic: the image depends on the points and the options alone.",
+         "  stipple warp disk points.csv -o disk.csv\n"
+         "  stipple warp triangle --vertices '0,0 2,0 0,1' points.csv\n"
+         "  stipple warp disk --inverse disk.csv\n"},
+        {Verb::analyze, "analyze", "stipple analyze ANALYZER [INPUT...] [OPTIONS]",
+         "measures point sets",
+         "INPUTs are files of points; standard input by default. Results are deterministic, for "
+         "any\n"
+         "number of threads; only \"seconds\" is measured. --format is text on a terminal, else "
+         "json.",
+         "  stipple generate halton -n 1000 | stipple analyze star-discrepancy\n"
+         "  stipple analyze chi-square disk.csv --domain disk --expect uniform\n"
+         "  stipple analyze star-discrepancy a.csv b.csv --format csv\n"
+         "  stipple analyze star-discrepancy a.csv --check 'value<0.01'\n"},
+        {Verb::convert, "convert", "stipple convert INPUT -o OUTPUT [OPTIONS]",
+         "from one file format to another",
+         "The formats are those of the names' extensions, or --from and --format. Every double "
+         "survives\n"
+         "unless --dtype or --precision cut it.",
+         "  stipple convert points.csv -o points.npy\n"
+         "  stipple convert points.bin -d 3 -o points.json\n"
+         "  stipple convert table.csv --column 3,1 -o points.csv\n"},
+        {Verb::list, "list", "stipple list [KIND] [OPTIONS]", "every unit with its options",
+         "KIND is generators, warps, analyzers or formats; all of them by default.",
+         "  stipple list generators\n"
+         "  stipple list --json\n"}};
+    return table;
+}
+
+const std::vector<CommonOption>& common_options() {
+    static const std::vector<CommonOption> table = {
+        {"-n,--count", "N", "1024", "points in a set; 1e6, 2^20 and 64k (= 65536) are accepted",
+         generate},
+        {"-d,--dimension", "D", "2", "dimension", generate},
+        {"-d,--dimension", "D", "", "numbers of a point; needed to read raw binary", readers},
+        {"-s,--seed", "S", "1", "64-bit seed; 'random' draws one and says so", generate},
+        {"-m,--sets", "R", "1", "independent realizations, with seeds S, S + 1, ...", generate},
+        {"--start", "I", "0", "index of a sequence's first point", generate},
+        {"--shard", "I/K", "0/1",
+         "the I-th of K (from 0) contiguous parts; together they are the whole, byte for byte",
+         generate},
+        {"--bounds", "LO..HI,...", "",
+         "scale to a box: one range for all coordinates, or one for each", generate},
+        {"--bounds", "LO..HI,...", "", "the box that is mapped to the unit cube before", analyze},
+        {"-w,--warp", "NAME[:OPT=V,...]", "", "warp on the way out; NAME@I,J warps two coordinates",
+         generate, true},
+        {"--with-pdf", "", "", "add a column with the density of each point", generate | warp},
+        {"--inverse", "", "", "the way back, to the unit cube", warp},
+        {"--coordinates", "I,J,...", "", "coordinates to warp, from 1; the same as WARP@I,J", warp},
+        {"--domain", "SPEC", "",
+         "what the points live on: unit-cube, disk, triangle:vertices=[...], ...; else as the file "
+         "says",
+         analyze},
+        {"--rescale", "", "", "map the bounding box of the points to the unit cube before",
+         analyze},
+        {"--average", "", "", "one result: the mean over all sets, with standard errors", analyze},
+        {"--check", "KEY<VALUE", "", "exit with 1 unless it holds; also <= > >= == !=", analyze,
+         true},
+        {"--column", "X,Y,...", "", "columns to read, by name or number (from 1)", readers},
+        {"--from", "FORMAT", "", "format of the input; else from its extension or first bytes",
+         readers},
+        {"-o,--output", "FILE", "-",
+         "- is standard output; {set} and {seed} in the name make a file for each set", writers},
+        {"-o,--output", "FILE", "-", "- is standard output", analyze | list},
+        {"-f,--format", "FORMAT", "", "file format; else from the extension, else csv", writers},
+        {"-f,--format", "text|json|csv", "", "how results are printed", analyze},
+        {"--dtype", "f64|f32", "f64", "number type of binary formats", writers},
+        {"--dtype", "f64|f32", "f64", "number type of raw binary input", analyze},
+        {"--precision", "P", "",
+         "digits after the point, cut off; else the shortest text that reads back the same",
+         writers},
+        {"--meta", "", "", "put the provenance in '# ' lines on top of text formats", writers},
+        {"--no-header", "", "", "no header line in csv", writers},
+        {"--json", "", "", "complete and stable, for programs", list},
+        {"--markdown", "", "", "as tables in Markdown", list},
+        {"--threads", "T", "0", "0 = all cores; never changes a result", workers},
+        {"--max-memory", "SIZE", "80 % of the machine's",
+         "refuse what would need more, before starting; 500M, 2G", workers},
+        {"--quiet", "", "", "no warnings and no progress", workers},
+        {"--progress", "auto|always|never", "auto", "a bar on stderr, after 0.5 s on a terminal",
+         workers}};
+    return table;
+}
+
+bool Arguments::has(std::string_view name) const { return get(name).has_value(); }
+
+std::optional<std::string> Arguments::get(std::string_view name) const {
+    const auto texts = all(name);
+    return texts.empty() ? std::nullopt : std::optional(texts.back());
+}
+
+std::vector<std::string> Arguments::all(std::string_view name) const {
+    std::vector<std::string> texts;
+    for (const auto& [option, text] : common)
+        if (option == name) texts.push_back(text);
+    return texts;
+}
+
+std::optional<std::uint64_t> Arguments::integer(std::string_view name, std::uint64_t low,
+                                                std::uint64_t high) const {
+    const auto text = get(name);
+    if (!text) return std::nullopt;
+    const auto value = parse_unsigned(*text);
+    if (value && *value >= low && *value <= high) return value;
+    const auto number = parse_number(*text);
+    if (!value && (!number || *number != std::floor(*number)))
+        fail(ErrorKind::usage, "--{}: '{}' is not a whole number, such as 1000, 1e6, 2^20 or 64k",
+             name, *text);
+    fail(ErrorKind::usage, "--{}: {} is outside [{}, {}]", name, *text, low, high);
+}
+
+Arguments parse_arguments(int argc, const char* const* argv, const std::vector<Kind>& kinds) {
+    Parser parser(kinds);
+    return parser.parse({argv + 1, argv + argc});
+}
+
+}  // namespace stipple::cli

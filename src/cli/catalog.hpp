@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+//
+// All units of all kinds in one shape, for `list`, help and README's tables.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/options.hpp"
+
+namespace stipple::cli {
+
+struct UnitInfo {
+    std::string name;
+    std::string summary;
+    std::string source;
+    nlohmann::ordered_json traits;
+    std::vector<std::string> remarks;  ///< the traits in words
+    std::vector<Option> options;
+    std::vector<std::pair<std::string, std::string>> results;  ///< key, help; of analyzers
+};
+
+struct Kind {
+    std::string name;  ///< "generators"
+    std::string verb;  ///< that takes such a unit, or nothing
+    std::vector<UnitInfo> units;
+};
+
+/// Generators, warps, analyzers, formats.
+std::vector<Kind> catalog();
+
+/// The unit of a verb. @throws Error(usage)
+const UnitInfo& unit_of(const std::vector<Kind>& kinds, std::string_view verb,
+                        std::string_view name);
+
+std::string list_text(const std::vector<Kind>& kinds);
+std::string list_json(const std::vector<Kind>& kinds);
+std::string list_markdown(const std::vector<Kind>& kinds);
+
+/// "default 1, in [0, 9], steps": what help says behind an option.
+std::string option_notes(const Option& option);
+
+/// "--radius R": how an option is typed.
+std::string option_usage(const Option& option);
+
+}  // namespace stipple::cli

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+//
+// The verbs that write points: generate, warp, convert.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <random>
+
+#include "cli/verbs.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "io/files.hpp"
+#include "study/chain.hpp"
+#include "study/pipeline.hpp"
+
+namespace stipple::cli {
+namespace {
+
+constexpr std::uint64_t most_points = std::uint64_t{1} << 53;
+constexpr std::uint64_t most_dimensions = 1'000'000;
+
+bool asks_single(const Arguments& arguments, bool otherwise) {
+    const auto text = arguments.get("dtype");
+    if (text && *text != "f64" && *text != "f32")
+        fail(ErrorKind::usage, "--dtype: '{}' is not one of f64, f32", *text);
+    return text ? *text == "f32" : otherwise;
+}
+
+const Format& output_format(const Arguments& arguments, const std::string& path) {
+    if (const auto name = arguments.get("format")) return io::format_named(*name);
+    const Format* format = io::format_of_extension(path);
+    return format ? *format : io::format_named("csv");
+}
+
+std::optional<Shard> parse_shard(const Arguments& arguments) {
+    const auto text = arguments.get("shard");
+    if (!text) return std::nullopt;
+    const auto parts = split(*text, '/');
+    const auto index = parts.size() == 2 ? parse_unsigned(parts[0]) : std::nullopt;
+    const auto of = parts.size() == 2 ? parse_unsigned(parts[1]) : std::nullopt;
+    if (!index || !of || *index >= *of)
+        fail(ErrorKind::usage, "--shard: '{}' is not I/K with 0 <= I < K", *text);
+    return Shard{*index, *of};
+}
+
+std::uint64_t drawn_seed(std::uint64_t largest) {
+    std::random_device device;
+    const std::uint64_t bits = (static_cast<std::uint64_t>(device()) << 32) | device();
+    // 53 bits at most, so that the seed survives every program that reads numbers as doubles.
+    return bits % (std::min(largest, most_points - 1) + 1);
+}
+
+std::uint64_t seed_of(const Arguments& arguments, const Generator& generator, const Values& options,
+                      Session& session) {
+    const auto text = arguments.get("seed");
+    if (!text) return 1;
+    if (*text == "random") {
+        const std::uint64_t largest =
+            generator.max_seed ? generator.max_seed(options) : ~std::uint64_t{0};
+        const std::uint64_t seed = drawn_seed(largest);
+        session.warn(fmt::format("--seed {}", seed));
+        return seed;
+    }
+    const auto seed = parse_unsigned(*text);
+    if (!seed)
+        fail(ErrorKind::usage, "--seed: '{}' is not a whole number in [0, 2^64) or 'random'",
+             *text);
+    return *seed;
+}
+
+Request request_of(const Arguments& arguments) {
+    Request request;
+    request.count = arguments.integer("count", 1, most_points);
+    if (const auto d = arguments.integer("dimension", 1, most_dimensions)) request.dimension = *d;
+    request.start = arguments.integer("start", 0, most_points).value_or(0);
+    return request;
+}
+
+/// A word as a shell takes it.
+std::string shell_word(const std::string& word) {
+    constexpr std::string_view plain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+,./:@%^";
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+    std::string out = "'";
+    for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return out + "'";
+}
+
+/// The command that makes these bytes: what was typed, less what cannot change them.
+std::string command_of(const Arguments& arguments, const Schema& schema, const Target& target,
+                       std::uint64_t seed) {
+    std::vector<std::string> words = {"stipple", "generate", arguments.unit};
+    const auto type = [&words](const std::string& name, const std::string& text, bool flag) {
+        words.push_back("--" + name);
+        if (!flag) words.push_back(shell_word(text));
+    };
+    for (const auto& [name, text] : arguments.settings) {
+        const auto option = std::ranges::find(schema.options(), name, &Option::name);
+        type(name, text, option->type == "flag");
+    }
+    const std::vector<std::string> silent = {"output",     "format", "threads", "quiet",
+                                             "max-memory", "seed",   "progress"};
+    for (const auto& [name, text] : arguments.common)
+        if (std::ranges::find(silent, name) == silent.end())
+            type(name, text, name == "with-pdf" || name == "meta" || name == "no-header");
+    if (arguments.has("seed")) type("seed", std::to_string(seed), false);
+    if (target.format->name != "csv") type("format", target.format->name, false);
+    return join(words, " ");
+}
+
+}  // namespace
+
+Target target_of(const Arguments& arguments) {
+    Target target;
+    target.path = arguments.get("output").value_or("-");
+    target.format = &output_format(arguments, target.path);
+    target.header = !arguments.has("no-header");
+    target.meta = arguments.has("meta");
+    target.single = asks_single(arguments, target.path.ends_with(".f32"));
+    if (const auto digits = arguments.integer("precision", 0, 1000))
+        target.precision = static_cast<int>(*digits);
+    target.with_pdf = arguments.has("with-pdf");
+    const bool terminal = target.path == "-" && isatty(STDOUT_FILENO) == 1;
+    if (target.format->traits.binary && terminal)
+        fail_with_hint(ErrorKind::usage, "name a file with -o, or pipe it on",
+                       "--format: {} is binary, and standard output is a terminal",
+                       target.format->name);
+    return target;
+}
+
+Values settings_of(const Schema& schema, const Arguments& arguments) {
+    Values values = schema.defaults();
+    for (const auto& [name, text] : arguments.settings) schema.set(values, name, text);
+    return values;
+}
+
+std::vector<PointSet> read_input(const std::string& path, const Arguments& arguments,
+                                 const RunContext& run) {
+    ReadOptions options{.source = path};
+    std::string from = arguments.get("from").value_or("");
+    const bool convert = arguments.verb == Verb::convert;
+    options.single = path.ends_with(".f32") || from == "f32";
+    if (!convert) options.single = asks_single(arguments, options.single);
+    if (from == "f32" || from == "f64") from = "bin";
+    if (const auto d = arguments.integer("dimension", 1, most_dimensions)) options.dimension = *d;
+    if (const auto columns = arguments.get("column"))
+        for (const auto column : split(*columns, ',')) options.columns.emplace_back(trim(column));
+    const Format* format = from.empty() ? nullptr : &io::format_named(from);
+    auto sets = io::read_points(path, options, run, format);
+    for (PointSet& set : sets) {
+        const std::string& domain = set.provenance.domain;
+        // Columns picked by hand are not what the file's domain speaks of.
+        if (options.columns.empty() && domain != "unit-cube" && !domain.empty())
+            set.domain = parse_domain(domain, set.dimension());
+        set.provenance.domain = set.domain->spec();
+        set.provenance.count = set.count();
+        set.provenance.dimension = set.dimension();
+    }
+    return sets;
+}
+
+int generate(const Arguments& arguments, Session& session) {
+    Production job;
+    job.generator = &find_generator(arguments.unit);
+    job.options = settings_of(job.generator->options, arguments);
+    job.request = request_of(arguments);
+    job.request.seed = seed_of(arguments, *job.generator, job.options, session);
+    job.sets = arguments.integer("sets", 1, 1'000'000'000).value_or(1);
+    job.shard = parse_shard(arguments).value_or(Shard{});
+    for (const auto& spec : arguments.all("warp")) job.warps.push_back(parse_spec(spec));
+    if (const auto bounds = arguments.get("bounds")) {
+        const Plan plan = plan_for(*job.generator, job.request, job.options);
+        job.request.bounds = parse_box(*bounds, plan.dimension);
+    }
+    const Target target = target_of(arguments);
+    job.command = command_of(arguments, job.generator->options, target, job.request.seed);
+    produce(job, target, session.run());
+    return 0;
+}
+
+int warp(const Arguments& arguments, Session& session) {
+    const Warp& unit = find_warp(arguments.unit);
+    settings_of(unit.options, arguments);
+    Spec spec{.name = unit.name, .coordinates = {}, .settings = arguments.settings};
+    if (const auto coordinates = arguments.get("coordinates"))
+        spec.coordinates = parse_spec(unit.name + "@" + *coordinates).coordinates;
+    const Target target = target_of(arguments);
+    if (arguments.inputs.size() > 1)
+        fail(ErrorKind::usage, "warp takes one INPUT; {} are given", arguments.inputs.size());
+    const std::string path = arguments.inputs.empty() ? "-" : arguments.inputs[0];
+    write_warped(read_input(path, arguments, session.run()), spec, arguments.has("inverse"), target,
+                 session.run());
+    return 0;
+}
+
+int convert(const Arguments& arguments, Session& session) {
+    if (arguments.inputs.size() > 1)
+        fail(ErrorKind::usage, "convert takes one INPUT; {} are given", arguments.inputs.size());
+    const std::string path = arguments.inputs.empty() ? "-" : arguments.inputs[0];
+    const Target target = target_of(arguments);
+    write_sets(read_input(path, arguments, session.run()), target, session.run());
+    return 0;
+}
+
+}  // namespace stipple::cli

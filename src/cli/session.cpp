@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "cli/session.hpp"
+
+#include <fmt/format.h>
+#include <pthread.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace stipple::cli {
+namespace {
+
+std::stop_source& interrupts() {
+    static std::stop_source source;
+    return source;
+}
+
+pthread_t main_thread;  // NOLINT: read by the signal handler
+
+/// Lock-free as far as it goes: nobody registers callbacks at this stop source.
+extern "C" void on_interrupt(int signal) {
+    interrupts().request_stop();
+    // Only a blocked call of the main thread must be woken.
+    if (!pthread_equal(pthread_self(), main_thread)) pthread_kill(main_thread, signal);
+}
+
+/// Bytes of memory that this process may use: the machine's, or its control group's.
+double memory_of_machine() {
+    const double pages = static_cast<double>(sysconf(_SC_PHYS_PAGES));
+    double bytes = pages * static_cast<double>(sysconf(_SC_PAGESIZE));
+    for (const char* file :
+         {"/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory/memory.limit_in_bytes"}) {
+        std::ifstream in(file);
+        double limit = 0;
+        if (in >> limit && limit > 0) bytes = std::min(bytes, limit);
+    }
+    return bytes;
+}
+
+std::uint64_t memory_limit(const Arguments& arguments) {
+    const auto text = arguments.get("max-memory");
+    if (!text) return static_cast<std::uint64_t>(0.8 * memory_of_machine());
+    const auto bytes = parse_bytes(*text);
+    if (!bytes || *bytes == 0)
+        fail(ErrorKind::usage, "--max-memory: '{}' is not a size such as 500M or 2G", *text);
+    return *bytes;
+}
+
+ProgressBar::Mode progress_mode(const Arguments& arguments) {
+    const std::string text = arguments.get("progress").value_or("auto");
+    if (text != "auto" && text != "always" && text != "never")
+        fail(ErrorKind::usage, "--progress: '{}' is not one of auto, always, never", text);
+    if (arguments.has("quiet") || text == "never") return ProgressBar::Mode::never;
+    return text == "always" ? ProgressBar::Mode::always : ProgressBar::Mode::automatic;
+}
+
+std::string duration(double seconds) {
+    if (seconds < 60) return fmt::format("{:.0f} s", seconds);
+    if (seconds < 3600) return fmt::format("{:.0f} min", seconds / 60);
+    return fmt::format("{:.1f} h", seconds / 3600);
+}
+
+}  // namespace
+
+ProgressBar::ProgressBar(Mode mode)
+    : wanted_(mode == Mode::always || (mode == Mode::automatic && isatty(STDERR_FILENO) == 1)),
+      patience_(mode == Mode::always ? std::chrono::milliseconds(0)
+                                     : std::chrono::milliseconds(500)) {}
+
+void ProgressBar::show(double fraction) {
+    if (!wanted_) return;
+    const auto now = Clock::now();
+    const bool last = fraction >= 1;
+    if (now - start_ < patience_ || (!last && now - shown_ < std::chrono::milliseconds(100)))
+        return;
+    shown_ = now;
+    visible_ = true;
+    constexpr int width = 30;
+    const int filled = static_cast<int>(fraction * width);
+    const double elapsed = std::chrono::duration<double>(now - start_).count();
+    const std::string left =
+        fraction > 0 ? duration(elapsed * (1 - fraction) / fraction) + " left" : "";
+    fmt::print(stderr, "\r[{:#<{}}{:{}}] {:3.0f} %  {}\033[K", "", filled, "", width - filled,
+               100 * fraction, left);
+    std::fflush(stderr);
+}
+
+void ProgressBar::clear() {
+    if (!visible_) return;
+    fmt::print(stderr, "\r\033[K");
+    visible_ = false;
+}
+
+Session::Session(const Arguments& arguments)
+    : quiet_(arguments.has("quiet")), bar_(progress_mode(arguments)) {
+    run_.threads = static_cast<unsigned>(arguments.integer("threads", 0, 4096).value_or(0));
+    run_.max_memory = memory_limit(arguments);
+    run_.stop = interrupts().get_token();
+    run_.progress = [this](double fraction) { bar_.show(fraction); };
+    run_.warn = [this](const std::string& sentence) { warn(sentence); };
+}
+
+void Session::warn(const std::string& sentence) {
+    if (quiet_) return;
+    bar_.clear();
+    fmt::print(stderr, "stipple: {}\n", sentence);
+}
+
+void catch_interrupts() {
+    main_thread = pthread_self();
+    interrupts();
+    struct sigaction action = {};
+    action.sa_handler = on_interrupt;
+    // No SA_RESTART: a blocked read or write must come back. The second signal is final.
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    std::signal(SIGPIPE, SIG_IGN);
+}
+
+}  // namespace stipple::cli

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+//
+// One run of the program: threads, seed, memory limit, progress bar, warnings, Ctrl-C.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "cli/arguments.hpp"
+#include "core/run_context.hpp"
+
+namespace stipple::cli {
+
+/// A bar on stderr: "[####      ]  41 %  3 s left".
+class ProgressBar {
+  public:
+    enum class Mode { automatic, always, never };
+
+    explicit ProgressBar(Mode mode);
+    ProgressBar(const ProgressBar&) = delete;
+    ProgressBar& operator=(const ProgressBar&) = delete;
+    ~ProgressBar() { clear(); }
+
+    void show(double fraction);
+    /// Takes the bar off the line.
+    void clear();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    bool wanted_;
+    Clock::duration patience_;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point shown_ = {};
+    bool visible_ = false;
+};
+
+class Session {
+  public:
+    explicit Session(const Arguments& arguments);
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    [[nodiscard]] const RunContext& run() const { return run_; }
+
+    /// A sentence on stderr, unless --quiet.
+    void warn(const std::string& sentence);
+
+  private:
+    RunContext run_;
+    bool quiet_;
+    ProgressBar bar_;
+};
+
+/// From now on Ctrl-C and SIGTERM stop a Session's run; a second one ends the program at once.
+void catch_interrupts();
+
+}  // namespace stipple::cli

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+//
+// What the verbs do; each returns the exit code.
+#pragma once
+
+#include "cli/arguments.hpp"
+#include "cli/session.hpp"
+#include "study/produce.hpp"
+
+namespace stipple::cli {
+
+int generate(const Arguments& arguments, Session& session);
+int warp(const Arguments& arguments, Session& session);
+int analyze(const Arguments& arguments, Session& session);
+int convert(const Arguments& arguments, Session& session);
+int list(const Arguments& arguments, const std::vector<Kind>& kinds);
+
+/// Where points go, as -o, -f, --dtype, --precision, --meta and --no-header say.
+Target target_of(const Arguments& arguments);
+
+/// The sets of an input file, with their domain; --from, -d, --column, --dtype are heeded.
+std::vector<PointSet> read_input(const std::string& path, const Arguments& arguments,
+                                 const RunContext& run);
+
+/// The unit's options as typed. @throws Error(usage)
+Values settings_of(const Schema& schema, const Arguments& arguments);
+
+/// Writes text to a file or standard output, whole or not at all.
+void write_text(const std::string& path, const std::string& text);
+
+}  // namespace stipple::cli

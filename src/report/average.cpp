@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "report/average.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace stipple {
+namespace {
+
+using Curve = Report::Curve;
+using Item = Report::Item;
+
+void accumulate(double x, double k, double& mean, double& squares) {
+    const double step = x - mean;
+    mean += step / k;
+    squares += step * (x - mean);
+}
+
+/// An item as the numbers that it holds; nothing for words, flags and groups.
+std::optional<Curve> numbers(const Item& item) {
+    if (const auto* whole = std::get_if<std::int64_t>(&item))
+        return Curve{static_cast<double>(*whole)};
+    if (const auto* number = std::get_if<double>(&item)) return Curve{*number};
+    if (const auto* list = std::get_if<Report::Integers>(&item))
+        return Curve(list->begin(), list->end());
+    if (const auto* curve = std::get_if<Curve>(&item)) return *curve;
+    if (const auto* grid = std::get_if<Grid>(&item)) return grid->values;
+    return std::nullopt;
+}
+
+/// Numbers in the shape of `like`: a number, a curve or a grid.
+Item shaped(Curve values, const Item& like) {
+    if (const auto* grid = std::get_if<Grid>(&like))
+        return Grid{grid->rows, grid->columns, std::move(values)};
+    if (std::holds_alternative<Curve>(like) || std::holds_alternative<Report::Integers>(like))
+        return values;
+    return values.front();
+}
+
+/// Merges one report's entries into the running means; false: the entry has to go.
+bool merge(Item& mean, Item& squares, const Item& item, double k);
+
+void merge_groups(Report& mean, Report& squares, const Report& report, double k) {
+    auto& means = mean.entries();
+    auto& sums = squares.entries();
+    for (std::size_t i = 0; i < means.size();) {
+        const Item* item = report.find(means[i].name);
+        if (item && merge(means[i].value, sums[i].value, *item, k)) {
+            ++i;
+            continue;
+        }
+        means.erase(means.begin() + static_cast<std::ptrdiff_t>(i));
+        sums.erase(sums.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+}
+
+bool merge(Item& mean, Item& squares, const Item& item, double k) {
+    if (auto* group = std::get_if<Report>(&mean)) {
+        const auto* other = std::get_if<Report>(&item);
+        if (other) merge_groups(*group, std::get<Report>(squares), *other, k);
+        return other != nullptr;
+    }
+    const auto values = numbers(item);
+    auto means = numbers(mean);
+    auto sums = numbers(squares);
+    if (!values || !means) return mean == item;
+    if (values->size() != means->size()) return false;
+    for (std::size_t i = 0; i < values->size(); ++i)
+        accumulate((*values)[i], k, (*means)[i], (*sums)[i]);
+    mean = shaped(std::move(*means), item);
+    squares = shaped(std::move(*sums), item);
+    return true;
+}
+
+/// The report with every number replaced by f(number); words and flags stay.
+template <class F>
+Report mapped(const Report& report, const F& f) {
+    Report out = report;
+    for (auto& entry : out.entries()) {
+        if (auto* group = std::get_if<Report>(&entry.value)) {
+            entry.value = mapped(*group, f);
+        } else if (auto values = numbers(entry.value); values && !values->empty()) {
+            std::ranges::transform(*values, values->begin(), f);
+            entry.value = shaped(std::move(*values), entry.value);
+        }
+    }
+    return out;
+}
+
+/// The report without words, flags and grids.
+Report numbers_only(const Report& report) {
+    Report out;
+    for (const auto& entry : report.entries()) {
+        if (const auto* group = std::get_if<Report>(&entry.value))
+            out.add(entry.name, numbers_only(*group));
+        else if (numbers(entry.value) && !std::holds_alternative<Grid>(entry.value))
+            out.entries().push_back(entry);
+    }
+    return out;
+}
+
+}  // namespace
+
+void ReportAverage::add(const Report& report) {
+    ++count_;
+    if (count_ == 1) {
+        mean_ = mapped(report, [](double x) { return x; });
+        squares_ = mapped(report, [](double) { return 0.0; });
+        return;
+    }
+    merge_groups(mean_, squares_, report, static_cast<double>(count_));
+}
+
+Report ReportAverage::standard_error() const {
+    if (count_ < 2) return {};
+    const auto k = static_cast<double>(count_);
+    return numbers_only(
+        mapped(squares_, [k](double sum) { return std::sqrt(sum / (k * (k - 1))); }));
+}
+
+}  // namespace stipple

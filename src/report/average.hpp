@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+//
+// The mean of reports, in constant memory.
+//
+//     mean_k = mean_{k-1} + (x_k - mean_{k-1}) / k,    error = sqrt(sum of squared deviations / (k
+//     (k - 1)))
+//
+// Numbers, curves and grids are averaged; a word or a flag stays where all reports agree on it;
+// what they disagree on (or lists of different lengths) is left out. Source  B. P. Welford,
+// Technometrics 4 (1962) 419-420, doi:10.1080/00401706.1962.10490022.
+#pragma once
+
+#include <cstddef>
+
+#include "core/report.hpp"
+
+namespace stipple {
+
+class ReportAverage {
+  public:
+    void add(const Report& report);
+
+    [[nodiscard]] std::size_t count() const { return count_; }
+    [[nodiscard]] const Report& mean() const { return mean_; }
+
+    /// Standard errors of the mean, under the same names; empty for fewer than two reports.
+    [[nodiscard]] Report standard_error() const;
+
+  private:
+    std::size_t count_ = 0;
+    Report mean_;
+    Report squares_;  ///< sums of squared deviations from the mean
+};
+
+}  // namespace stipple

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+//
+// Conditions on results, as --check takes them: KEY<VALUE, with <, <=, >, >=, == or !=.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/report.hpp"
+
+namespace stipple {
+
+struct Check {
+    std::string key;    ///< dotted
+    std::string op;     ///< < <= > >= == !=
+    std::string value;  ///< a number, true, false, or a word
+
+    /// Whether it holds. @throws Error(usage): no such key, or no number where one is compared.
+    [[nodiscard]] bool holds(const Report& report) const;
+};
+
+/// @throws Error(usage)
+Check parse_check(std::string_view text);
+
+}  // namespace stipple

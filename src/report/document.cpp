@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+#include "report/document.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/options.hpp"
+#include "core/text.hpp"
+
+namespace stipple {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number_json(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+Json to_json(const Report& report) {
+    struct {
+        Json operator()(bool b) const { return b; }
+        Json operator()(std::int64_t i) const { return i; }
+        Json operator()(double x) const { return number_json(x); }
+        Json operator()(const std::string& s) const { return s; }
+        Json operator()(const Report::Curve& curve) const {
+            Json array = Json::array();
+            for (const double x : curve) array.push_back(number_json(x));
+            return array;
+        }
+        Json operator()(const Report::Integers& list) const { return list; }
+        Json operator()(const Grid&) const { return {}; }
+        Json operator()(const Report& group) const { return to_json(group); }
+    } convert;
+    Json object = Json::object();
+    for (const auto& [name, value, unit] : report.entries())
+        if (!std::holds_alternative<Grid>(value)) object[name] = std::visit(convert, value);
+    return object;
+}
+
+/// Option values as JSON numbers and booleans where they are such.
+Json option_json(const std::string& text) {
+    if (text == "true" || text == "false") return text == "true";
+    if (const auto whole = parse_integer(text); whole && std::to_string(*whole) == text)
+        return *whole;
+    if (const auto number = parse_number(text)) return *number;
+    return text;
+}
+
+Json to_json(const Measurement& m) {
+    Json options = Json::object();
+    for (const auto& [name, text] : m.options) options[name] = option_json(text);
+    Json input = {{"source", m.source}};
+    if (m.set) input["set"] = *m.set;
+    if (m.sets > 1) input["sets"] = m.sets;
+    input["count"] = m.count;
+    input["dimension"] = m.dimension;
+    input["domain"] = m.domain;
+    Json object = {{"format", "stipple.report"}, {"version", 1},
+                   {"analyzer", m.analyzer},     {"input", input},
+                   {"options", options},         {"results", to_json(m.results)}};
+    if (m.standard_error) object["standard_error"] = to_json(*m.standard_error);
+    object["seconds"] = m.seconds;
+    return object;
+}
+
+std::string shortened(const Report::Curve& curve) {
+    constexpr std::size_t shown = 6;
+    const std::size_t some = std::min(curve.size(), shown);
+    std::string text;
+    for (std::size_t i = 0; i < some; ++i) text += fmt::format("{}{:.6g}", i ? " " : "", curve[i]);
+    if (curve.size() > some) text += fmt::format(" ... ({} values)", curve.size());
+    return text;
+}
+
+std::string text_of(const Report::Item& item) {
+    struct {
+        std::string operator()(bool b) const { return b ? "yes" : "no"; }
+        std::string operator()(std::int64_t i) const { return std::to_string(i); }
+        std::string operator()(double x) const { return format_number(x); }
+        std::string operator()(const std::string& s) const { return s; }
+        std::string operator()(const Report::Curve& curve) const { return shortened(curve); }
+        std::string operator()(const Report::Integers& list) const {
+            return shortened(Report::Curve(list.begin(), list.end()));
+        }
+        std::string operator()(const Grid&) const { return {}; }
+        std::string operator()(const Report&) const { return {}; }
+    } text;
+    return std::visit(text, item);
+}
+
+const std::string& unit_of(const Report& report, std::string_view dotted_key) {
+    const auto dot = dotted_key.find('.');
+    const auto it =
+        std::ranges::find(report.entries(), dotted_key.substr(0, dot), &Report::Entry::name);
+    const auto* group = std::get_if<Report>(&it->value);
+    return group ? unit_of(*group, dotted_key.substr(dot + 1)) : it->unit;
+}
+
+std::string source_of(const Measurement& m) {
+    std::string source = m.source == "-" ? "standard input" : m.source;
+    if (m.set) source += fmt::format(", set {}", *m.set);
+    if (m.sets > 1) source += fmt::format(", mean of {} sets", m.sets);
+    return source;
+}
+
+std::string to_text(const Measurement& m) {
+    std::string text = fmt::format("{} of {} ({} points, dimension {}, {})\n", m.analyzer,
+                                   source_of(m), m.count, m.dimension, m.domain);
+    const auto keys = m.results.keys();
+    std::size_t width = 0;
+    for (const auto& key : keys) width = std::max(width, key.size());
+    for (const auto& key : keys) {
+        std::string line = fmt::format("  {:<{}}  {}", key, width, text_of(*m.results.find(key)));
+        const Report::Item* error = m.standard_error ? m.standard_error->find(key) : nullptr;
+        if (error && std::holds_alternative<double>(*error))
+            line += fmt::format(" +- {:.3g}", std::get<double>(*error));
+        const std::string& unit = unit_of(m.results, key);
+        text += unit.empty() ? line + "\n" : fmt::format("{} {}\n", line, unit);
+    }
+    return text;
+}
+
+/// Number of rows that a measurement takes: the length of its longest curve, at least 1.
+std::size_t rows_of(const Measurement& m) {
+    std::size_t rows = 1;
+    for (const auto& key : m.results.keys())
+        if (const auto* curve = std::get_if<Report::Curve>(m.results.find(key)))
+            rows = std::max(rows, curve->size());
+        else if (const auto* list = std::get_if<Report::Integers>(m.results.find(key)))
+            rows = std::max(rows, list->size());
+    return rows;
+}
+
+std::string cell(const Report::Item& item, std::size_t row) {
+    if (const auto* flag = std::get_if<bool>(&item)) return *flag ? "true" : "false";
+    if (const auto* curve = std::get_if<Report::Curve>(&item))
+        return row < curve->size() ? format_number((*curve)[row]) : "";
+    if (const auto* list = std::get_if<Report::Integers>(&item))
+        return row < list->size() ? std::to_string((*list)[row]) : "";
+    return text_of(item);
+}
+
+std::string quoted(const std::string& text) {
+    if (text.find_first_of(",\"\n") == std::string::npos) return text;
+    std::string out = "\"";
+    for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return out + "\"";
+}
+
+}  // namespace
+
+std::string to_json(std::span<const Measurement> measurements) {
+    if (measurements.size() == 1) return to_json(measurements[0]).dump(2) + "\n";
+    Json array = Json::array();
+    for (const Measurement& m : measurements) array.push_back(to_json(m));
+    return array.dump(2) + "\n";
+}
+
+std::string to_text(std::span<const Measurement> measurements) {
+    std::string text;
+    for (const Measurement& m : measurements) text += to_text(m);
+    return text;
+}
+
+std::string to_csv(std::span<const Measurement> measurements) {
+    if (measurements.empty()) return {};
+    const auto keys = measurements[0].results.keys();
+    std::vector<std::string> header = {"analyzer", "source", "set", "count", "dimension", "domain"};
+    header.insert(header.end(), keys.begin(), keys.end());
+    std::string text = join(header, ",") + "\n";
+    for (const Measurement& m : measurements)
+        for (std::size_t row = 0; row < rows_of(m); ++row) {
+            std::vector<std::string> cells = {m.analyzer,
+                                              quoted(m.source),
+                                              m.set ? std::to_string(*m.set) : "",
+                                              std::to_string(m.count),
+                                              std::to_string(m.dimension),
+                                              quoted(m.domain)};
+            for (const auto& key : keys) {
+                const Report::Item* item = m.results.find(key);
+                cells.push_back(item ? quoted(cell(*item, row)) : "");
+            }
+            text += join(cells, ",") + "\n";
+        }
+    return text;
+}
+
+}  // namespace stipple

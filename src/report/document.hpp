@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+//
+// Measurements as people and programs read them: text, JSON (format stipple.report, version 1),
+// CSV.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/report.hpp"
+
+namespace stipple {
+
+/// One analyzer's results on one set, or the mean over several.
+struct Measurement {
+    std::string analyzer;
+    std::string source;
+    std::optional<std::size_t> set =
+        {};                ///< number of the set in its file, where there are several
+    std::size_t sets = 1;  ///< sets that the results are the mean of
+    std::uint64_t count = 0;
+    std::size_t dimension = 0;
+    std::string domain;
+    std::vector<std::pair<std::string, std::string>> options = {};
+    Report results = {};
+    std::optional<Report> standard_error = {};  ///< of a mean
+    double seconds = 0;
+};
+
+/// One object for one measurement, an array for several; ends with a newline.
+/// Numbers that JSON cannot hold (infinities) become null.
+std::string to_json(std::span<const Measurement> measurements);
+
+/// Names, values and units in aligned columns; long curves are cut short and say so.
+std::string to_text(std::span<const Measurement> measurements);
+
+/// A tidy table: a row for each measurement, or for each entry of its curves; nested keys are
+/// dotted.
+std::string to_csv(std::span<const Measurement> measurements);
+
+}  // namespace stipple

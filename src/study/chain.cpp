@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: MIT
+#include "study/chain.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "study/pipeline.hpp"
+
+namespace stipple {
+namespace {
+
+/// Columns of rows as rows of their own.
+std::vector<double> gather(std::span<const double> rows, std::size_t width,
+                           std::span<const std::size_t> columns) {
+    std::vector<double> out;
+    out.reserve(rows.size() / width * columns.size());
+    for (std::size_t i = 0; i < rows.size(); i += width)
+        for (const std::size_t k : columns) out.push_back(rows[i + k]);
+    return out;
+}
+
+/// Coordinates of a row of `width` numbers that are not in `taken`, in order.
+std::vector<std::size_t> others(std::size_t width, std::span<const std::size_t> taken) {
+    std::vector<std::size_t> rest;
+    for (std::size_t k = 0; k < width; ++k)
+        if (std::ranges::find(taken, k) == taken.end()) rest.push_back(k);
+    return rest;
+}
+
+/// Where the numbers of an image of `size` go, replacing `taken`: one to one where sizes agree,
+/// else together where the first of them stood.
+std::vector<std::size_t> places(std::span<const std::size_t> taken, std::size_t size) {
+    if (taken.size() == size) return {taken.begin(), taken.end()};
+    const auto before =
+        std::ranges::count_if(taken, [&](std::size_t k) { return k < taken.front(); });
+    std::vector<std::size_t> at(size);
+    std::iota(at.begin(), at.end(), taken.front() - static_cast<std::size_t>(before));
+    return at;
+}
+
+/// Rows made of `part` at the places `at` and of the columns `rest` of `rows` in between.
+std::vector<double> interleave(std::span<const double> rows, std::size_t width,
+                               std::span<const std::size_t> rest, std::span<const double> part,
+                               std::span<const std::size_t> at) {
+    const std::size_t wide = rest.size() + at.size();
+    const auto free = others(wide, at);
+    const std::size_t count = rows.size() / width;
+    std::vector<double> out(count * wide);
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t k = 0; k < at.size(); ++k) out[i * wide + at[k]] = part[i * at.size() + k];
+        for (std::size_t k = 0; k < rest.size(); ++k)
+            out[i * wide + free[k]] = rows[i * width + rest[k]];
+    }
+    return out;
+}
+
+void keep_rows(std::vector<double>& rows, std::size_t width, std::span<const std::uint8_t> keep) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < keep.size(); ++i) {
+        if (!keep[i]) continue;
+        std::copy_n(rows.begin() + static_cast<std::ptrdiff_t>(i * width), width,
+                    rows.begin() + static_cast<std::ptrdiff_t>(kept * width));
+        ++kept;
+    }
+    rows.resize(kept * width);
+}
+
+std::vector<std::size_t> all_of(std::size_t dimension) {
+    std::vector<std::size_t> all(dimension);
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
+}
+
+}  // namespace
+
+WarpChain::WarpChain(std::span<const Spec> specs, std::size_t dimension)
+    : dimension_in_(dimension), dimension_out_(dimension) {
+    for (const Spec& spec : specs) add(spec);
+    find_domain();
+}
+
+void WarpChain::add(const Spec& spec) {
+    const Warp& warp = find_warp(spec.name);
+    const Values values = spec.values(warp.options);
+    Step step{.coordinates = spec.coordinates.empty() ? all_of(dimension_out_) : spec.coordinates,
+              .width_in = dimension_out_};
+    for (const std::size_t k : step.coordinates) {
+        if (k >= dimension_out_)
+            fail(ErrorKind::usage, "{}@{}: the points have coordinates 1 to {}", spec.name,
+                 format_coordinates(step.coordinates), dimension_out_);
+        for (const Step& earlier : steps_)
+            if (std::ranges::find(earlier.image, k) != earlier.image.end())
+                fail(ErrorKind::usage,
+                     "warp {}: coordinate {} is already on another domain; it takes coordinates of "
+                     "the unit cube",
+                     spec.name, k + 1);
+    }
+    step.mapping = warp.make(values, step.coordinates.size());
+    const std::size_t takes = step.mapping->cube_dimension();
+    if (takes != step.coordinates.size())
+        fail_with_hint(ErrorKind::usage,
+                       fmt::format("name the coordinates: {}@{}", spec.name,
+                                   format_coordinates(all_of(takes))),
+                       "warp {} takes {} coordinates; there are {}", spec.name, takes,
+                       step.coordinates.size());
+    const std::size_t gives = step.mapping->domain()->dimension();
+    step.width_out = step.width_in - takes + gives;
+    step.image = places(step.coordinates, gives);
+    step.drops = warp.traits.drops;
+    const auto rest = others(step.width_in, step.coordinates);
+    const auto moved = others(step.width_out, step.image);
+    for (Step& earlier : steps_)
+        for (std::size_t& k : earlier.image)
+            k = moved[static_cast<std::size_t>(std::ranges::find(rest, k) - rest.begin())];
+    std::string text = format_spec(spec.name, values, warp.options);
+    if (!spec.coordinates.empty())
+        text.insert(spec.name.size(), "@" + format_coordinates(spec.coordinates));
+    specs_.push_back(std::move(text));
+    dimension_out_ = step.width_out;
+    steps_.push_back(std::move(step));
+}
+
+void WarpChain::find_domain() {
+    std::vector<Factor> factors;
+    std::vector<std::size_t> warped;
+    for (const Step& step : steps_) {
+        factors.push_back({step.mapping->domain(), step.image});
+        warped.insert(warped.end(), step.image.begin(), step.image.end());
+    }
+    const auto rest = others(dimension_out_, warped);
+    if (!rest.empty()) factors.push_back({unit_cube(rest.size()), rest});
+    const bool whole = factors.size() == 1 && factors[0].coordinates == all_of(dimension_out_);
+    domain_ = whole ? factors[0].domain : product_domain(std::move(factors));
+}
+
+bool WarpChain::drops() const { return std::ranges::any_of(steps_, &Step::drops); }
+
+std::vector<double> WarpChain::forward(std::vector<double> rows) const {
+    for (const Step& step : steps_) {
+        const std::size_t count = rows.size() / step.width_in;
+        const std::size_t gives = step.image.size();
+        const bool whole = step.coordinates == all_of(step.width_in);
+        std::vector<double> image(count * gives);
+        std::vector<std::uint8_t> keep(step.drops ? count : 0, 1);
+        step.mapping->forward(
+            whole ? std::move(rows) : gather(rows, step.width_in, step.coordinates), image, keep);
+        rows = whole ? std::move(image)
+                     : interleave(rows, step.width_in, others(step.width_in, step.coordinates),
+                                  image, places(step.coordinates, gives));
+        if (step.drops) keep_rows(rows, step.width_out, keep);
+    }
+    return rows;
+}
+
+std::vector<double> WarpChain::inverse(std::vector<double> rows) const {
+    for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
+        const std::size_t count = rows.size() / step->width_out;
+        const auto at = places(step->coordinates, step->image.size());
+        std::vector<double> cube(count * step->coordinates.size());
+        step->mapping->inverse(gather(rows, step->width_out, at), cube);
+        rows =
+            interleave(rows, step->width_out, others(step->width_out, at), cube, step->coordinates);
+    }
+    return rows;
+}
+
+std::vector<double> WarpChain::density(std::span<const double> rows) const {
+    std::vector<double> density(rows.size() / dimension_out_, 1.0);
+    std::vector<double> point;
+    for (const Step& step : steps_)
+        for (std::size_t i = 0; i < density.size(); ++i) {
+            point.clear();
+            for (const std::size_t k : step.image) point.push_back(rows[i * dimension_out_ + k]);
+            density[i] *= step.mapping->density(point);
+        }
+    return density;
+}
+
+DomainPtr parse_domain(std::string_view text, std::size_t dimension) {
+    std::vector<Factor> factors;
+    while (!text.empty()) {
+        const auto times = text.find(" x ");
+        Spec spec = parse_spec(text.substr(0, times));
+        text = times == std::string_view::npos ? std::string_view() : text.substr(times + 3);
+        const std::size_t given = spec.coordinates.empty() ? dimension : spec.coordinates.size();
+        DomainPtr domain;
+        if (spec.name == "unit-cube") {
+            domain = unit_cube(given);
+        } else if (spec.name == "box") {
+            if (spec.settings.size() != 1 || spec.settings[0].first != "bounds")
+                fail(ErrorKind::usage, "domain box: write box:bounds=[lo..hi,lo..hi]");
+            domain = box_domain(parse_box(spec.settings[0].second, given));
+        } else {
+            const Warp& warp = find_warp(spec.name);
+            domain = warp.make(spec.values(warp.options), given)->domain();
+        }
+        factors.push_back(
+            {std::move(domain), spec.coordinates.empty() ? all_of(dimension) : spec.coordinates});
+    }
+    std::vector<std::size_t> covered;
+    for (const auto& [domain, coordinates] : factors) {
+        if (domain->dimension() != coordinates.size())
+            fail(ErrorKind::input, "the domain {} has dimension {}; the points have {}",
+                 domain->spec(), domain->dimension(), coordinates.size());
+        covered.insert(covered.end(), coordinates.begin(), coordinates.end());
+    }
+    std::ranges::sort(covered);
+    if (covered != all_of(dimension))
+        fail(ErrorKind::input, "the domain does not cover each of the {} coordinates once",
+             dimension);
+    if (factors.size() == 1 && factors[0].coordinates == all_of(dimension))
+        return factors[0].domain;
+    return product_domain(std::move(factors));
+}
+
+}  // namespace stipple

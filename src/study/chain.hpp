@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+//
+// Warps one after the other, each on the coordinates that its spec names: disk@4,5.
+//
+// Shape  rows of the unit cube in, rows of chain.domain() out. A warp whose image has more or fewer
+//        numbers than it takes puts them where its first coordinate stood; later specs count the
+//        coordinates of the row as it then is.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/point_set.hpp"
+#include "core/spec.hpp"
+#include "warps/warp.hpp"
+
+namespace stipple {
+
+class WarpChain {
+  public:
+    /// @throws Error(usage): unknown warps, coordinates that are not there or no longer uniform.
+    WarpChain(std::span<const Spec> specs, std::size_t dimension);
+
+    [[nodiscard]] bool empty() const { return steps_.empty(); }
+    [[nodiscard]] std::size_t dimension_in() const { return dimension_in_; }
+    [[nodiscard]] std::size_t dimension_out() const { return dimension_out_; }
+    [[nodiscard]] const DomainPtr& domain() const { return domain_; }
+
+    /// The specs, with what differs from the defaults.
+    [[nodiscard]] const std::vector<std::string>& specs() const { return specs_; }
+
+    /// Whether some points may have no image.
+    [[nodiscard]] bool drops() const;
+
+    /// Images of rows; with drops(), fewer rows may come out than went in.
+    [[nodiscard]] std::vector<double> forward(std::vector<double> rows) const;
+
+    /// Back to the unit cube. @throws Error(usage) where a warp has no inverse, Error(input) for
+    /// points off the domain.
+    [[nodiscard]] std::vector<double> inverse(std::vector<double> rows) const;
+
+    /// Density of each row that forward() gave, with respect to the measure of domain().
+    [[nodiscard]] std::vector<double> density(std::span<const double> rows) const;
+
+  private:
+    struct Step {
+        std::unique_ptr<Mapping> mapping = {};
+        std::vector<std::size_t> coordinates = {};  ///< taken from the row before
+        std::vector<std::size_t> image = {};        ///< where its numbers stand in the last row
+        std::size_t width_in = 0;                   ///< numbers of the row before
+        std::size_t width_out = 0;                  ///< and after
+        bool drops = false;
+    };
+
+    void add(const Spec& spec);
+    void find_domain();
+
+    std::vector<Step> steps_;
+    std::vector<std::string> specs_;
+    std::size_t dimension_in_;
+    std::size_t dimension_out_;
+    DomainPtr domain_;
+};
+
+/// The domain that a text means: unit-cube, box:bounds=[lo..hi,...], a warp's spec, or several with
+/// coordinates joined by " x ". @throws Error(usage)
+DomainPtr parse_domain(std::string_view text, std::size_t dimension);
+
+}  // namespace stipple

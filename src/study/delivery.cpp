@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include "study/delivery.hpp"
+
+#include <oneapi/tbb/parallel_pipeline.h>
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "io/files.hpp"
+
+namespace stipple {
+namespace {
+
+std::vector<double> travel(std::vector<double> rows, const Route& route) {
+    if (route.bounds) scale_into(*route.bounds, rows);
+    rows = route.chain->forward(std::move(rows));
+    return route.with_pdf ? with_density(rows, *route.chain) : std::move(rows);
+}
+
+/// A block of rows and, later, of bytes.
+struct Parcel {
+    std::uint64_t first = 0;
+    std::uint64_t last = 0;
+    std::vector<double> rows;
+    std::string bytes;
+};
+
+/// The rows of one set through fill, warps and format into the output.
+class Conveyor {
+  public:
+    Conveyor(const Source& source, const Route& route, const Layout& layout, const Format& format,
+             std::size_t set, io::Output& output, const RunContext& run)
+        : source_(source),
+          route_(route),
+          layout_(layout),
+          format_(format),
+          set_(set),
+          output_(output),
+          run_(run),
+          block_(std::max<std::uint64_t>(1, 16384 / source.dimension)) {}
+
+    /// False: the pipe was closed.
+    bool go() {
+        if (run_.thread_count() == 1 || source_.count <= block_)
+            go_alone();
+        else
+            within_threads(run_, [this] { go_parallel(); });
+        return !closed_;
+    }
+
+  private:
+    using Ptr = std::shared_ptr<Parcel>;
+
+    Ptr next() {
+        if (closed_ || at_ == source_.count) return nullptr;
+        run_.check_stop();
+        auto parcel = std::make_shared<Parcel>();
+        parcel->first = at_;
+        parcel->last = at_ = at_ + std::min(source_.count - at_, block_);
+        if (source_.in_order) fill(*parcel);
+        return parcel;
+    }
+
+    void fill(Parcel& parcel) const {
+        parcel.rows.resize((parcel.last - parcel.first) * source_.dimension);
+        source_.fill(parcel.first, parcel.rows);
+    }
+
+    void work(Parcel& parcel) const {
+        if (!source_.in_order) fill(parcel);
+        parcel.rows = travel(std::move(parcel.rows), route_);
+        format_.rows(layout_, set_, parcel.first, parcel.rows, parcel.bytes);
+    }
+
+    void deliver(const Parcel& parcel) {
+        if (!closed_ && !output_.write(parcel.bytes)) closed_ = true;
+        run_.tick(parcel.last, source_.count);
+    }
+
+    void go_alone() {
+        while (const auto parcel = next()) {
+            work(*parcel);
+            deliver(*parcel);
+        }
+    }
+
+    void go_parallel() {
+        const auto first = tbb::make_filter<void, Ptr>(tbb::filter_mode::serial_in_order,
+                                                       [this](tbb::flow_control& control) {
+                                                           auto parcel = next();
+                                                           if (!parcel) control.stop();
+                                                           return parcel;
+                                                       });
+        const auto middle = tbb::make_filter<Ptr, Ptr>(tbb::filter_mode::parallel, [this](Ptr p) {
+            work(*p);
+            return p;
+        });
+        const auto last = tbb::make_filter<Ptr, void>(tbb::filter_mode::serial_in_order,
+                                                      [this](const Ptr& p) { deliver(*p); });
+        tbb::parallel_pipeline(4 * static_cast<std::size_t>(run_.thread_count()),
+                               first & middle & last);
+    }
+
+    const Source& source_;
+    const Route& route_;
+    const Layout& layout_;
+    const Format& format_;
+    std::size_t set_;
+    io::Output& output_;
+    const RunContext& run_;
+    std::uint64_t block_;
+    std::uint64_t at_ = 0;
+    std::atomic<bool> closed_ = false;
+};
+
+void replace_all(std::string& text, std::string_view from, const std::string& to) {
+    for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+        text.replace(at, from.size(), to);
+}
+
+void check_format(const Format& format, const Layout& layout) {
+    const auto& traits = format.traits;
+    const std::size_t d = layout.dimension;
+    if (d < traits.min_dimension || d > traits.max_dimension)
+        fail(ErrorKind::usage, "--format: {} holds points of dimension {} to {}; these have {}",
+             format.name, traits.min_dimension, traits.max_dimension, d);
+    const bool equal = std::ranges::all_of(
+        layout.counts, [&](auto count) { return count == layout.counts.front(); });
+    if (traits.equal_sets && !equal)
+        fail_with_hint(ErrorKind::usage, "write a file for each set: -o 'NAME_{set}...'",
+                       "--format: {} holds sets of equal size only; these are not", format.name);
+}
+
+Layout layout_of(const Shipment& shipment, std::size_t first, std::size_t last,
+                 const Target& target) {
+    Layout layout{.dimension = shipment.route.chain->dimension_out(),
+                  .first_set = shipment.first_set + first,
+                  .many_sets = shipment.all_sets > 1,
+                  .header = target.header,
+                  .meta = target.meta,
+                  .single = target.single,
+                  .precision = target.precision,
+                  .provenance = shipment.provenance(first)};
+    if (target.with_pdf) layout.extras = {"pdf"};
+    for (std::size_t set = first; set < last; ++set) layout.counts.push_back(shipment.counts[set]);
+    return layout;
+}
+
+/// One file with sets [first, last) of the shipment.
+bool ship_file(const Shipment& shipment, std::size_t first, std::size_t last,
+               const std::string& path, const Target& target, const RunContext& run) {
+    const Format& format = *target.format;
+    const Layout layout = layout_of(shipment, first, last, target);
+    check_format(format, layout);
+    io::Output output(path);
+    std::string bytes;
+    if (format.head) format.head(layout, bytes);
+    for (std::size_t set = first; set < last; ++set) {
+        if (format.begin_set) format.begin_set(layout, set - first, bytes);
+        if (!output.write(bytes)) return false;
+        bytes.clear();
+        const RunContext part = lane(run, set, shipment.sets);
+        const Source source = shipment.source(set);
+        Conveyor conveyor(source, shipment.route, layout, format, set - first, output, part);
+        if (!conveyor.go()) return false;
+    }
+    if (format.tail) format.tail(layout, bytes);
+    if (!output.write(bytes)) return false;
+    output.commit();
+    return true;
+}
+
+}  // namespace
+
+bool file_per_set(const std::string& path) {
+    return path.find("{set}") != std::string::npos || path.find("{seed}") != std::string::npos;
+}
+
+bool ship(const Shipment& shipment, const Target& target, const RunContext& run) {
+    if (!file_per_set(target.path))
+        return ship_file(shipment, 0, shipment.sets, target.path, target, run);
+    for (std::size_t set = 0; set < shipment.sets; ++set) {
+        std::string path = target.path;
+        replace_all(path, "{set}", std::to_string(shipment.first_set + set));
+        replace_all(path, "{seed}", std::to_string(shipment.provenance(set).seed));
+        if (!ship_file(shipment, set, set + 1, path, target, run)) return false;
+    }
+    return true;
+}
+
+RunContext lane(const RunContext& run, std::size_t set, std::size_t sets) {
+    RunContext part = run;
+    if (run.progress)
+        part.progress = [&run, set, sets](double done) {
+            run.progress((static_cast<double>(set) + done) / static_cast<double>(sets));
+        };
+    return part;
+}
+
+std::vector<double> with_density(std::span<const double> rows, const WarpChain& chain) {
+    const std::size_t d = chain.dimension_out();
+    const auto density = chain.density(rows);
+    std::vector<double> wide;
+    wide.reserve(rows.size() + density.size());
+    for (std::size_t i = 0; i < density.size(); ++i) {
+        const auto row = rows.subspan(i * d, d);
+        wide.insert(wide.end(), row.begin(), row.end());
+        wide.push_back(density[i]);
+    }
+    return wide;
+}
+
+}  // namespace stipple

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+//
+// The way of rows to a file: filled, warped and formatted block by block on all threads, written in
+// order. Memory is a few blocks a thread, whatever the size of the set.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "study/chain.hpp"
+#include "study/produce.hpp"
+
+namespace stipple {
+
+/// Rows of one set, on their way to the file.
+struct Source {
+    std::uint64_t count = 0;    ///< rows
+    std::size_t dimension = 0;  ///< numbers of a row that `fill` gives
+    /// Gives rows [first, first + k) where `rows` holds k of them.
+    std::function<void(std::uint64_t first, std::span<double> rows)> fill;
+    bool in_order = false;  ///< fill must be called for one block after the other
+};
+
+/// What happens to rows between source and format.
+struct Route {
+    const WarpChain* chain = nullptr;
+    std::optional<Box> bounds = {};  ///< scales the unit cube to this box first
+    bool with_pdf = false;           ///< adds the density as a last number
+};
+
+/// Sets with everything that is needed to write them one after the other.
+struct Shipment {
+    std::size_t sets = 1;
+    std::size_t first_set = 0;  ///< number of the first one among all
+    std::size_t all_sets = 1;   ///< that the user asked for, in this shipment or others
+    std::function<Source(std::size_t set)> source;
+    std::function<Provenance(std::size_t set)> provenance;
+    std::vector<std::uint64_t> counts;
+    Route route;
+};
+
+/// Whether the path holds {set} or {seed}.
+bool file_per_set(const std::string& path);
+
+/// Writes the sets to the target's file or files. False: the pipe was closed.
+/// @throws Error
+bool ship(const Shipment& shipment, const Target& target, const RunContext& run);
+
+/// The part of a run's progress that one of several sets is.
+RunContext lane(const RunContext& run, std::size_t set, std::size_t sets);
+
+/// Each row with its density on the chain's domain behind it.
+std::vector<double> with_density(std::span<const double> rows, const WarpChain& chain);
+
+}  // namespace stipple

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: MIT
+#include "study/produce.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/text.hpp"
+#include "study/chain.hpp"
+#include "study/delivery.hpp"
+#include "study/pipeline.hpp"
+
+namespace stipple {
+namespace {
+
+/// The rows of a set that is in memory.
+Source source_of(const PointSet& points) {
+    return {.count = points.count(),
+            .dimension = points.dimension(),
+            .fill =
+                [&points](std::uint64_t first, std::span<double> rows) {
+                    std::ranges::copy(
+                        points.flat().subspan(first * points.dimension(), rows.size()),
+                        rows.begin());
+                },
+            .in_order = false};
+}
+
+/// The image of a set, block by block on all threads; tells the user how many points have none.
+PointSet image_of(const PointSet& points, const WarpChain& chain, bool inverse,
+                  const RunContext& run) {
+    const std::size_t d = points.dimension();
+    constexpr std::size_t block = 1 << 14;
+    std::vector<std::vector<double>> parts(block_count(points.count(), block));
+    for_each_block(run, points.count(), block, [&](const Block& b) {
+        const auto rows = points.flat().subspan(b.first * d, (b.last - b.first) * d);
+        std::vector<double> copy(rows.begin(), rows.end());
+        parts[b.index] = inverse ? chain.inverse(std::move(copy)) : chain.forward(std::move(copy));
+    });
+    std::vector<double> rows;
+    for (const auto& part : parts) rows.insert(rows.end(), part.begin(), part.end());
+    PointSet image(std::move(rows), inverse ? chain.dimension_in() : chain.dimension_out());
+    image.provenance = points.provenance;
+    if (!inverse) image.domain = chain.domain();
+    const auto dropped = static_cast<double>(points.count() - image.count());
+    if (dropped > 0)
+        run.tell(fmt::format("dropped {} of {} points ({:.1f} %): they have no image under {}",
+                             dropped, points.count(),
+                             100 * dropped / static_cast<double>(points.count()),
+                             join(chain.specs(), ", ")));
+    if (image.count() == 0)
+        fail(ErrorKind::input, "none of {} points has an image under {}", points.count(),
+             join(chain.specs(), ", "));
+    return image;
+}
+
+/// Writes sets as they are; `chain` is what gave them, for their density.
+void ship_images(const std::vector<PointSet>& images, const WarpChain& chain, std::size_t first_set,
+                 std::size_t all_sets, const Target& target, const RunContext& run) {
+    Target plain = target;
+    const std::size_t d = images.front().dimension();
+    const WarpChain nothing({}, d);
+    Shipment shipment{.sets = images.size(),
+                      .first_set = first_set,
+                      .all_sets = all_sets,
+                      .source = [&](std::size_t set) { return source_of(images[set]); },
+                      .provenance = [&](std::size_t set) { return images[set].provenance; },
+                      .counts = {},
+                      .route = {.chain = &nothing}};
+    for (const PointSet& set : images) shipment.counts.push_back(set.count());
+    PointSet wide;
+    if (target.with_pdf)
+        shipment.source = [&](std::size_t set) {
+            wide = PointSet(with_density(images[set].flat(), chain), d + 1);
+            return source_of(wide);
+        };
+    ship(shipment, plain, run);
+}
+
+/// Numbers of a row that the warp makes into one of `after` numbers.
+std::size_t dimension_before(const Spec& spec, std::size_t after) {
+    const Warp& warp = find_warp(spec.name);
+    const std::size_t given = spec.coordinates.empty() ? after : spec.coordinates.size();
+    const auto mapping = warp.make(spec.values(warp.options), given);
+    const std::size_t gives = mapping->domain()->dimension();
+    if (gives > after || (spec.coordinates.empty() && gives != after))
+        fail(ErrorKind::input, "the inverse of {} takes points of {} numbers; these have {}",
+             spec.name, gives, after);
+    return after - gives + mapping->cube_dimension();
+}
+
+/// Everything about a production that is the same for all its sets.
+class Producer {
+  public:
+    Producer(const Production& job, const Target& target, const RunContext& run)
+        : job_(job),
+          generator_(*job.generator),
+          target_(target),
+          run_(run),
+          plan_(plan_for(generator_, job.request, job.options)),
+          chain_(job.warps, plan_.dimension) {
+        if (!generator_.traits.boxed) bounds_ = job.request.bounds;
+        check();
+    }
+
+    void go() {
+        if (generator_.traits.sequence && !chain_.drops()) return stream();
+        const std::size_t batch = file_per_set(target_.path) ? 1 : job_.sets;
+        for (std::size_t first = 0; first < job_.sets; first += batch) {
+            std::vector<PointSet> images;
+            for (std::size_t set = first; set < first + batch; ++set) images.push_back(made(set));
+            ship_images(images, chain_, first, job_.sets, target_, lane(run_, first, job_.sets));
+        }
+    }
+
+  private:
+    void check() const {
+        if (job_.shard.of > 1 && job_.sets > 1)
+            fail(ErrorKind::usage, "--shard and --sets: parts are of one set; choose it by --seed");
+        if (job_.request.bounds && !chain_.empty())
+            fail(ErrorKind::usage,
+                 "--bounds and --warp: a warp takes points of the unit cube, which a box is not");
+        if (job_.sets - 1 > ~plan_.seed)
+            fail(ErrorKind::usage, "--seed: {} and {} sets go beyond the 64 bits of a seed",
+                 plan_.seed, job_.sets);
+        if (job_.sets > 1 && !generator_.traits.seeded)
+            run_.tell(fmt::format("{} does not use the seed: all {} sets are the same",
+                                  generator_.name, job_.sets));
+    }
+
+    /// The shard's rows [first, last) of `count`.
+    [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> part(std::uint64_t count) const {
+        const auto cut = [&](std::uint64_t index) {
+            return static_cast<std::uint64_t>(static_cast<unsigned __int128>(count) * index /
+                                              job_.shard.of);
+        };
+        const auto first = cut(job_.shard.index);
+        const auto last = cut(job_.shard.index + 1);
+        if (first == last)
+            fail(ErrorKind::usage, "--shard: part {}/{} of {} points is empty", job_.shard.index,
+                 job_.shard.of, count);
+        return {first, last};
+    }
+
+    void stream() {
+        const auto [first, last] = part(plan_.count);
+        const std::uint64_t from = first;
+        const std::uint64_t count = last - first;
+        const auto source = [&](std::size_t set) {
+            Plan plan = plan_;
+            plan.seed += set;
+            std::shared_ptr<Sequence> sequence = generator_.sequence(plan, job_.options);
+            return Source{.count = count,
+                          .dimension = plan.dimension,
+                          .fill = [sequence, start = job_.request.start + from](
+                                      std::uint64_t at,
+                                      std::span<double> rows) { sequence->fill(start + at, rows); },
+                          .in_order = !sequence->random_access()};
+        };
+        const auto meta = [&](std::size_t set) { return provenance(set, count); };
+        ship({.sets = job_.sets,
+              .all_sets = job_.sets,
+              .source = source,
+              .provenance = meta,
+              .counts = std::vector<std::uint64_t>(job_.sets, count),
+              .route = {&chain_, bounds_, target_.with_pdf}},
+             target_, run_);
+    }
+
+    /// One set, made, warped and cut in memory.
+    [[nodiscard]] PointSet made(std::size_t set) const {
+        const RunContext part_of_run = lane(run_, set, job_.sets);
+        Request request = job_.request;
+        request.seed += set;
+        PointSet points = generate(generator_, request, job_.options, part_of_run);
+        auto options = std::move(points.provenance.options);
+        if (bounds_) scale_into(*bounds_, points.flat());
+        if (!chain_.empty()) points = image_of(points, chain_, false, run_);
+        const auto [first, last] = part(points.count());
+        if (job_.shard.of > 1) {
+            const std::size_t d = points.dimension();
+            const auto rows = points.flat().subspan(first * d, (last - first) * d);
+            points = PointSet(std::vector<double>(rows.begin(), rows.end()), d);
+        }
+        points.provenance = provenance(set, points.count());
+        if (!options.empty()) points.provenance.options = std::move(options);
+        return points;
+    }
+
+    [[nodiscard]] Provenance provenance(std::size_t set, std::uint64_t count) const {
+        Provenance meta{.version = STIPPLE_VERSION,
+                        .generator = generator_.name,
+                        .options = {},
+                        .seed = plan_.seed + set,
+                        .count = count,
+                        .dimension = chain_.dimension_out(),
+                        .start = job_.request.start,
+                        .warps = chain_.specs(),
+                        .domain = chain_.domain()->spec(),
+                        .bounds = {},
+                        .shard = {},
+                        .command = job_.command};
+        for (const Option& option : generator_.options.options()) {
+            const auto& item = job_.options.find(option.name);
+            if (!option.optional || item.given)
+                meta.options.emplace_back(option.name, format_value(item.value));
+        }
+        if (job_.request.bounds) {
+            meta.bounds = format_box(*job_.request.bounds);
+            meta.domain = box_domain(*job_.request.bounds)->spec();
+        }
+        if (job_.shard.of > 1) meta.shard = fmt::format("{}/{}", job_.shard.index, job_.shard.of);
+        return meta;
+    }
+
+    const Production& job_;
+    const Generator& generator_;
+    const Target& target_;
+    const RunContext& run_;
+    Plan plan_;
+    WarpChain chain_;
+    std::optional<Box> bounds_;
+};
+
+}  // namespace
+
+void produce(const Production& production, const Target& target, const RunContext& run) {
+    Producer(production, target, run).go();
+}
+
+void write_sets(std::vector<PointSet> sets, const Target& target, const RunContext& run) {
+    ship_images(sets, WarpChain({}, sets.front().dimension()), 0, sets.size(), target, run);
+}
+
+void write_warped(std::vector<PointSet> sets, const Spec& warp, bool inverse, const Target& target,
+                  const RunContext& run) {
+    const std::size_t d = sets.front().dimension();
+    const WarpChain chain({&warp, 1}, inverse ? dimension_before(warp, d) : d);
+    if (inverse && target.with_pdf)
+        fail(ErrorKind::usage, "--with-pdf: the inverse gives points of the unit cube, density 1");
+    for (PointSet& set : sets) {
+        if (!inverse) require_unit_cube(set);
+        set = image_of(set, chain, inverse, run);
+        Provenance& meta = set.provenance;
+        meta.dimension = set.dimension();
+        meta.count = set.count();
+        meta.domain = set.domain->spec();
+        meta.warps.push_back((inverse ? "inverse " : "") + chain.specs().front());
+    }
+    ship_images(sets, chain, 0, sets.size(), target, run);
+}
+
+}  // namespace stipple

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+//
+// Point sets to files and pipes: made, warped and formatted block by block on all threads, written
+// in order, in constant memory where the generator allows it.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/spec.hpp"
+#include "generators/generator.hpp"
+#include "io/format.hpp"
+
+namespace stipple {
+
+/// Part `index` of `of` contiguous parts.
+struct Shard {
+    std::uint64_t index = 0;
+    std::uint64_t of = 1;
+};
+
+/// Where points go, and how they are written.
+struct Target {
+    std::string path = "-";  ///< may hold {set} and {seed}: a file for each set
+    const Format* format = nullptr;
+    bool header = true;
+    bool meta = false;
+    bool single = false;
+    std::optional<int> precision = {};
+    bool with_pdf = false;
+};
+
+/// Sets to make.
+struct Production {
+    const Generator* generator = nullptr;
+    Values options = {};
+    Request request = {};
+    std::uint64_t sets = 1;
+    Shard shard = {};
+    std::vector<Spec> warps = {};
+    std::string command = {};  ///< for the provenance
+};
+
+/// Makes the sets and writes them. A closed pipe ends it early, without error.
+/// @throws Error; nothing is left at the target then.
+void produce(const Production& production, const Target& target, const RunContext& run);
+
+/// Writes sets that are there already.
+void write_sets(std::vector<PointSet> sets, const Target& target, const RunContext& run);
+
+/// Writes the images of sets under a warp or, with `inverse`, what it makes them from.
+/// @throws Error(input) for points outside the unit cube, or the warp's domain
+void write_warped(std::vector<PointSet> sets, const Spec& warp, bool inverse, const Target& target,
+                  const RunContext& run);
+
+}  // namespace stipple

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/program.hpp"
+
+using namespace stipple::testing;
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+namespace {
+
+json good(const Outcome& outcome) {
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return json::parse(outcome.out);
+}
+
+std::string grid(double offset) {
+    std::string text;
+    for (int i = 0; i < 10; ++i)
+        for (int j = 0; j < 10; ++j)
+            text +=
+                std::to_string((i + offset) / 10) + "," + std::to_string((j + offset) / 10) + "\n";
+    return text;
+}
+
+}  // namespace
+
+TEST(Analyze, GivesTheContractsDocument) {
+    const Sandbox box;
+    const auto out = good(
+        box.shell("stipple generate halton -n 100 --start 1 | stipple analyze star-discrepancy"));
+    EXPECT_EQ(out["format"], "stipple.report");
+    EXPECT_EQ(out["version"], 1);
+    EXPECT_EQ(out["analyzer"], "star-discrepancy");
+    EXPECT_EQ(out["input"],
+              (json{{"source", "-"}, {"count", 100}, {"dimension", 2}, {"domain", "unit-cube"}}));
+    EXPECT_TRUE(out["options"].is_object());
+    EXPECT_TRUE(out["seconds"].is_number());
+    const auto& results = out["results"];
+    EXPECT_NEAR(results["value"].get<double>(), 6511.0 / 129600, 1e-15);
+    EXPECT_EQ(results["exact"], true);
+    for (const char* key : {"lower", "upper", "method"}) EXPECT_TRUE(results.contains(key)) << key;
+    for (const char* key : {"corner", "closed", "points", "volume"})
+        EXPECT_TRUE(results["worst_box"].contains(key)) << key;
+}
+
+TEST(Analyze, KnownDiscrepanciesComeOut) {
+    const Sandbox box;
+    const auto value = [&](const std::string& points) {
+        return good(box.run({"analyze", "star-discrepancy"}, points))["results"]["value"]
+            .get<double>();
+    };
+    EXPECT_EQ(value("0.5,0.5\n"), 0.75);
+    EXPECT_EQ(value("0,0"), 1);
+    EXPECT_EQ(value("1 1"), 1);
+    EXPECT_EQ(value("0.5\t0.5\r\n0.5\t0.5\r\n"), 0.75);
+    EXPECT_NEAR(value(grid(0)), 0.19, 1e-15);
+    EXPECT_NEAR(value(grid(0.5)), 39.0 / 400, 1e-15);
+    const auto hammersley = box.run({"generate", "hammersley", "-n", "100"}).out;
+    EXPECT_NEAR(value(hammersley), 121.0 / 3200, 1e-15);
+}
+
+TEST(Analyze, SpectrumKeysAndFiles) {
+    const Sandbox box;
+    const auto out = good(box.shell(
+        "stipple generate random -n 1000 | stipple analyze periodogram --max-frequency 20 "
+        "--grid g.npy --image g.png"));
+    const auto& results = out["results"];
+    for (const char* key :
+         {"max_frequency", "effective_nyquist", "oscillation", "method", "tolerance"})
+        EXPECT_TRUE(results.contains(key)) << key;
+    const auto& radial = results["radial"];
+    for (const char* key : {"frequency", "power", "anisotropy_db", "cells"})
+        EXPECT_EQ(radial[key].size(), radial["frequency"].size()) << key;
+    EXPECT_FALSE(results.contains("grid"));
+    EXPECT_THAT(box.read("g.npy"), HasSubstr("'shape': (41, 41)"));
+    EXPECT_TRUE(box.read("g.png").starts_with("\x89PNG\r\n\x1a\n"));
+}
+
+TEST(Analyze, ChiSquareKnowsTheDisk) {
+    const Sandbox box;
+    const std::string judge = " | stipple analyze chi-square --domain disk";
+    const auto verdict = [&](const std::string& make) {
+        return good(box.shell(make + judge))["results"]["verdict"].get<std::string>();
+    };
+    EXPECT_EQ(verdict("stipple generate random -n 1e5 -w disk"), "uniform");
+    EXPECT_EQ(verdict("stipple generate random -n 1e5 -w disk:method=concentric"), "uniform");
+    EXPECT_EQ(verdict("stipple generate random -n 1e5 -w disk:method=naive"), "non-uniform");
+    EXPECT_EQ(verdict("stipple generate halton -n 1e5 -w disk"), "stratified");
+    EXPECT_EQ(verdict("stipple generate jittered -n 1e5 -w disk"), "stratified");
+}
+
+TEST(Analyze, ChecksAndExpectationsSetTheExitCode) {
+    const Sandbox box;
+    box.write("h.csv", box.run({"generate", "halton", "-n", "1000"}).out);
+    const auto code = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"analyze", more.front(), "h.csv"});
+        more.erase(more.begin() + 3);
+        return box.run(more).code;
+    };
+    EXPECT_EQ(code({"star-discrepancy", "--check", "value<0.1", "--check", "worst_box.points>0"}),
+              0);
+    EXPECT_EQ(code({"star-discrepancy", "--check", "value < 0.001"}), 1);
+    EXPECT_EQ(code({"star-discrepancy", "--check", "exact==true"}), 0);
+    EXPECT_EQ(code({"star-discrepancy", "--check", "method==guess"}), 1);
+    EXPECT_EQ(code({"star-discrepancy", "--check", "valeu<1"}), 2);
+    EXPECT_EQ(code({"star-discrepancy", "--check", "value~1"}), 2);
+    EXPECT_EQ(code({"chi-square", "--expect", "stratified"}), 0);
+    EXPECT_EQ(code({"chi-square", "--expect", "uniform"}), 1);
+    const Outcome failed = box.run({"analyze", "star-discrepancy", "h.csv", "--check", "value<0"});
+    EXPECT_EQ(json::parse(failed.out)["analyzer"], "star-discrepancy");
+    EXPECT_THAT(failed.err, HasSubstr("value<0 does not hold"));
+}
+
+TEST(Analyze, SeveralInputsAndSetsAreAnArrayOrAMean) {
+    const Sandbox box;
+    box.write("a.csv", box.run({"generate", "random", "-n", "200", "-m", "3"}).out);
+    box.write("b.txt", box.run({"generate", "random", "-n", "200", "-s", "4", "-f", "txt"}).out);
+    const auto all = good(box.run({"analyze", "star-discrepancy", "a.csv", "b.txt"}));
+    ASSERT_EQ(all.size(), 4U);
+    EXPECT_EQ(all[1]["input"]["set"], 1);
+    EXPECT_FALSE(all[3]["input"].contains("set"));
+    const auto mean = good(box.run({"analyze", "star-discrepancy", "a.csv", "b.txt", "--average"}));
+    double sum = 0;
+    for (const auto& one : all) sum += one["results"]["value"].get<double>();
+    EXPECT_NEAR(mean["results"]["value"].get<double>(), sum / 4, 1e-15);
+    double squares = 0;
+    for (const auto& one : all)
+        squares += std::pow(one["results"]["value"].get<double>() - sum / 4, 2);
+    EXPECT_NEAR(mean["standard_error"]["value"].get<double>(), std::sqrt(squares / 12), 1e-15);
+    EXPECT_EQ(mean["input"]["sets"], 4);
+}
+
+// The anisotropy of a mean spectrum is not the mean of anisotropies: it falls by 10 log10(sets).
+TEST(Analyze, AnAverageSpectrumHasItsOwnAnisotropy) {
+    const Sandbox box;
+    const auto out = good(box.shell(
+        "stipple generate random -n 500 -m 100 | stipple analyze periodogram --max-frequency 30 "
+        "--average"));
+    const auto& radial = out["results"]["radial"];
+    double sum = 0;
+    for (std::size_t i = 10; i < 30; ++i) sum += radial["anisotropy_db"][i].get<double>();
+    EXPECT_NEAR(sum / 20, -20, 1);
+    EXPECT_TRUE(out["standard_error"]["radial"].contains("power"));
+}
+
+TEST(Analyze, PrintsTextAndTables) {
+    const Sandbox box;
+    box.write("p.csv", "0.5,0.5\n");
+    const Outcome text = box.run({"analyze", "star-discrepancy", "p.csv", "--format", "text"});
+    EXPECT_THAT(text.out,
+                HasSubstr("star-discrepancy of p.csv (1 points, dimension 2, unit-cube)"));
+    EXPECT_THAT(text.out, HasSubstr("0.75"));
+    const Outcome csv =
+        box.run({"analyze", "star-discrepancy", "p.csv", "p.csv", "--format", "csv"});
+    EXPECT_TRUE(csv.out.starts_with("analyzer,source,set,count,dimension,domain,value,"))
+        << csv.out;
+    EXPECT_THAT(csv.out, HasSubstr("\nstar-discrepancy,p.csv,,1,2,unit-cube,0.75,"));
+    EXPECT_EQ(box.run({"analyze", "star-discrepancy", "p.csv", "-o", "out.csv"}).code, 0);
+    EXPECT_TRUE(box.read("out.csv").starts_with("analyzer,"));
+    EXPECT_EQ(box.run({"analyze", "star-discrepancy", "p.csv", "-o", "out.json"}).code, 0);
+    EXPECT_EQ(json::parse(box.read("out.json"))["results"]["value"], 0.75);
+}
+
+TEST(Analyze, BoundsAndRescaleMapToTheCube) {
+    const Sandbox box;
+    const std::string points = "2,20\n";
+    EXPECT_EQ(good(box.run({"analyze", "star-discrepancy", "--bounds", "0..4,0..40"},
+                           points))["results"]["value"],
+              0.75);
+    EXPECT_EQ(good(box.run({"analyze", "star-discrepancy", "--rescale"},
+                           "2,20\n4,40\n"))["results"]["value"],
+              1);
+    EXPECT_EQ(box.run({"analyze", "star-discrepancy", "--bounds", "0..1"}, points).code, 3);
+}
+
+TEST(Analyze, PicksColumns) {
+    const Sandbox box;
+    const std::string table = "name_a,b,c\n0.1,0.5,0.5\n";
+    for (const char* columns : {"b,c", "2,3"})
+        EXPECT_EQ(good(box.run({"analyze", "star-discrepancy", "--column", columns},
+                               table))["results"]["value"],
+                  0.75);
+    EXPECT_EQ(box.run({"analyze", "star-discrepancy", "--column", "b,d"}, table).code, 2);
+}
+
+TEST(Analyze, TheInverseOfAWarpGivesTheSetBack) {
+    const Sandbox box;
+    const auto plain =
+        good(box.shell("stipple generate halton -n 500 | stipple analyze star-discrepancy"));
+    const auto back =
+        good(box.shell("stipple generate halton -n 500 -w disk | stipple warp disk --inverse | "
+                       "stipple analyze star-discrepancy"));
+    EXPECT_NEAR(back["results"]["value"].get<double>(), plain["results"]["value"].get<double>(),
+                1e-13);
+}

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+//
+// Whatever is wrong: one clear line on stderr, the contract's exit code, nothing on stdout, and no
+// file left or harmed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "support/program.hpp"
+
+using namespace stipple::testing;
+using ::testing::HasSubstr;
+
+namespace {
+
+void expect_refusal(const Outcome& outcome, int code, const std::string& words) {
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_TRUE(outcome.err.starts_with("stipple: ")) << outcome.err;
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(words));
+}
+
+/// analyze star-discrepancy of a file with these bytes.
+Outcome judge(const std::string& name, const std::string& bytes) {
+    const Sandbox box;
+    box.write(name, bytes);
+    const Outcome outcome = box.run({"analyze", "star-discrepancy", name, "-o", "result.json"});
+    EXPECT_EQ(box.files(), std::vector{name});
+    return outcome;
+}
+
+std::string npy_header() {
+    std::string text = "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 2), }";
+    text.resize(117, ' ');
+    return std::string("\x93NUMPY\x01\x00\x76\x00", 10) + text + "\n";
+}
+
+}  // namespace
+
+TEST(BadInput, NoSuchFile) {
+    const Sandbox box;
+    expect_refusal(box.run({"analyze", "star-discrepancy", "none.csv"}), 4, "none.csv");
+    expect_refusal(box.run({"convert", "none.csv", "-o", "x.npy"}), 4, "none.csv");
+    EXPECT_EQ(box.files(), std::vector<std::string>{});
+}
+
+TEST(BadInput, ADirectory) {
+    const Sandbox box;
+    expect_refusal(box.run({"analyze", "star-discrepancy", "."}), 4, "directory");
+}
+
+TEST(BadInput, EmptyFiles) {
+    expect_refusal(judge("p.csv", ""), 3, "p.csv");
+    expect_refusal(judge("p.csv", "\n\n"), 3, "p.csv");
+    expect_refusal(judge("p.csv", "# nothing\n# here\n"), 3, "p.csv");
+    expect_refusal(judge("p.csv", "x,y\n"), 3, "p.csv");
+    expect_refusal(judge("p.json", ""), 3, "p.json");
+    expect_refusal(judge("p.npy", ""), 3, "p.npy");
+    const Sandbox box;
+    expect_refusal(box.run({"analyze", "star-discrepancy"}, ""), 3, "standard input");
+}
+
+TEST(BadInput, NumbersThatAreNone) {
+    expect_refusal(judge("p.csv", "0.1,0.2\n0.3,nan\n"), 3, "p.csv:2:5");
+    expect_refusal(judge("p.csv", "0.1,0.2\ninf,0.3\n"), 3, "p.csv:2:1");
+    expect_refusal(judge("p.csv", "0.1,0.2\n0.3,-Infinity\n"), 3, "p.csv:2:5");
+    expect_refusal(judge("p.csv", "0.1,1e999\n"), 3, "p.csv:1:5");
+    expect_refusal(judge("p.csv", "nan,nan\n0.1,0.2\n"), 3, "p.csv:1:1");
+    expect_refusal(judge("p.json", R"({"points":[[0.1,NaN]]})"), 3, "p.json:1:");
+    expect_refusal(judge("p.json", R"([[0.1,1e999]])"), 3, "p.json:1:");
+}
+
+TEST(BadInput, RaggedRowsAndWords) {
+    expect_refusal(judge("p.csv", "0.1,0.2\n0.3\n"), 3, "p.csv:2");
+    expect_refusal(judge("p.csv", "0.1,0.2\n0.3,0.4,0.5\n"), 3, "p.csv:2");
+    expect_refusal(judge("p.csv", "x,y\n0.1,0.2\nhello,0.4\n"), 3, "p.csv:3:1");
+    expect_refusal(judge("p.csv", "0.1,0.2\n0.3,0.4 tail\n"), 3, "p.csv:2");
+    expect_refusal(judge("p.json", "[[0.1,0.2],[0.3]]"), 3, "p.json:1:");
+    expect_refusal(judge("p.json", R"([[0.1,"word"]])"), 3, "p.json:1:");
+}
+
+TEST(BadInput, BinaryJunkAndTruncation) {
+    expect_refusal(judge("p.csv", std::string("\x01\x02\x00\xff\xfe junk", 10)), 3, "p.csv");
+    expect_refusal(judge("p.npy", npy_header() + std::string(31, '\0')), 3, "p.npy");
+    expect_refusal(judge("p.npy", npy_header() + std::string(33, '\0')), 3, "p.npy");
+    expect_refusal(judge("p.npy", npy_header().substr(0, 40)), 3, "p.npy");
+    expect_refusal(judge("p.json", R"({"format":"stipple.points","points":[[0.1,0.2],[0.3)"), 3,
+                   "p.json:1:");
+    const Sandbox box;
+    box.write("p.bin", std::string(20, '\0'));
+    expect_refusal(box.run({"analyze", "star-discrepancy", "p.bin", "-d", "2"}), 3, "p.bin");
+    expect_refusal(box.run({"analyze", "star-discrepancy", "p.bin"}), 2, "-d");
+}
+
+TEST(BadInput, PointsOutsideTheCubeAreCountedAndTheFirstNamed) {
+    const Outcome outcome = judge("p.csv", "0.5,0.5\n1.5,0.25\n-1,0\n");
+    expect_refusal(outcome, 3, "2 of 3 points are outside");
+    EXPECT_THAT(outcome.err, HasSubstr("point 1: (1.5, 0.25)"));
+    EXPECT_THAT(outcome.err, HasSubstr("--rescale"));
+}
+
+TEST(BadInput, DimensionsThatAnAnalyzerDoesNotTake) {
+    const Sandbox box;
+    expect_refusal(box.run({"analyze", "periodogram"}, "0.1 0.2 0.3 0.4\n0.5 0.6 0.7 0.8\n"), 3,
+                   "dimension");
+}
+
+TEST(BadInput, CountsThatAreNone) {
+    const Sandbox box;
+    for (const char* count : {"0", "-5", "1e30", "99999999999999999999"})
+        expect_refusal(box.run({"generate", "random", "-n", count, "-o", "p.csv"}), 2, "--count");
+    for (const char* count : {"1.5", "ten", "", "1e", "2^"})
+        expect_refusal(box.run({"generate", "random", "-n", count}), 2, "whole number");
+    expect_refusal(box.run({"generate", "random", "-d", "0"}), 2, "--dimension");
+    expect_refusal(box.run({"generate", "random", "--seed", "-1"}), 2, "--seed");
+    expect_refusal(box.run({"generate", "random", "--shard", "3/3"}), 2, "--shard");
+    expect_refusal(box.run({"generate", "random", "--start", "2^53"}), 2, "--start");
+    expect_refusal(box.run({"generate", "random", "-m", "0"}), 2, "--sets");
+    expect_refusal(box.run({"generate", "random", "--bounds", "1..0"}), 2, "--bounds");
+    expect_refusal(box.run({"generate", "random", "--dtype", "f16"}), 2, "--dtype");
+    expect_refusal(box.run({"generate", "random", "--threads", "many"}), 2, "--threads");
+    expect_refusal(box.run({"generate", "random", "--max-memory", "lots"}), 2, "--max-memory");
+    EXPECT_EQ(box.files(), std::vector<std::string>{});
+}
+
+TEST(BadInput, CountsThatAGeneratorCannotMakeNameTheNearest) {
+    const Sandbox box;
+    const Outcome outcome = box.run({"generate", "grid", "-n", "1000"});
+    expect_refusal(outcome, 2, "961 and 1024");
+}
+
+TEST(BadInput, UnknownNamesMeetTheNearestKnownOne) {
+    const Sandbox box;
+    expect_refusal(box.run({"generate", "haltom"}), 2, "did you mean 'halton'?");
+    expect_refusal(box.run({"generate", "halton", "--cuont", "5"}), 2, "did you mean --count?");
+    expect_refusal(box.run({"generate", "random", "--rngg", "philox"}), 2, "did you mean --rng?");
+    expect_refusal(box.run({"generate", "random", "--rng", "filox"}), 2, "did you mean 'philox'?");
+    expect_refusal(box.run({"generate", "halton", "-w", "disc"}), 2, "did you mean 'disk'?");
+    expect_refusal(box.run({"generate", "halton", "-w", "disk:radus=2"}), 2,
+                   "did you mean 'radius'?");
+    expect_refusal(box.run({"generate", "halton", "-f", "nppy"}), 2, "did you mean 'npy'?");
+    expect_refusal(box.run({"analyze", "star-discrepency"}), 2, "did you mean 'star-discrepancy'?");
+    expect_refusal(box.run({"generat", "halton"}), 2, "did you mean generate?");
+    expect_refusal(box.run({"generate"}), 2, "known:");
+    expect_refusal(box.run({}), 2, "--help");
+    expect_refusal(box.run({"generate", "halton", "extra"}), 2, "extra");
+    expect_refusal(box.run({"generate", "halton", "-n"}), 2, "--count");
+}
+
+TEST(BadInput, SpecsThatDoNotParseNameTheColumn) {
+    const Sandbox box;
+    expect_refusal(box.run({"generate", "halton", "-w", "disk:center=[0,0"}), 2, "column");
+    expect_refusal(box.run({"generate", "halton", "-w", "disk:"}), 2, "column");
+    expect_refusal(box.run({"generate", "halton", "-d", "5", "-w", "disk"}), 2, "disk@1,2");
+    expect_refusal(box.run({"generate", "halton", "-w", "disk@1,3"}), 2, "coordinates 1 to 2");
+    expect_refusal(box.run({"generate", "halton", "-w", "disk", "-w", "disk"}), 2,
+                   "another domain");
+}
+
+TEST(BadInput, TargetsThatCannotBeWritten) {
+    const Sandbox box;
+    expect_refusal(box.run({"generate", "halton", "-o", "missing/p.csv"}), 4, "missing/p.csv");
+    expect_refusal(box.run({"generate", "halton", "-o", "/dev/full"}), 4, "/dev/full");
+    expect_refusal(box.shell("stipple generate halton > /dev/full"), 4, "standard output");
+    expect_refusal(box.shell("stipple list > /dev/full"), 4, "standard output");
+    std::filesystem::create_directory(box.path() / "folder");
+    expect_refusal(box.run({"generate", "halton", "-o", "folder"}), 4, "folder");
+    EXPECT_EQ(box.files(), std::vector<std::string>{"folder"});
+}
+
+// Root may write everywhere, so the command is run as nobody.
+TEST(BadInput, AReadOnlyTargetIsNotHarmed) {
+    const Sandbox box;
+    box.write("p.csv", "x,y\n0.5,0.5\n");
+    std::filesystem::permissions(box.path(), std::filesystem::perms(0777));
+    std::filesystem::permissions(box.path() / "p.csv", std::filesystem::perms(0444));
+    const std::string as_nobody =
+        geteuid() == 0 ? "setpriv --reuid=65534 --regid=65534 --clear-groups " : "";
+    expect_refusal(box.shell(as_nobody + "stipple generate halton -n 9 -o p.csv"), 4, "p.csv");
+    EXPECT_EQ(box.read("p.csv"), "x,y\n0.5,0.5\n");
+    EXPECT_EQ(box.files(), std::vector<std::string>{"p.csv"});
+}
+
+TEST(BadInput, AFailureLeavesTheOldTargetAlone) {
+    const Sandbox box;
+    box.write("p.csv", "x,y\n0.5,0.5\n");
+    box.write("bad.csv", "x,y\n0.5,word\n");
+    expect_refusal(box.run({"convert", "bad.csv", "-o", "p.csv"}), 3, "bad.csv:2:5");
+    expect_refusal(box.run({"generate", "poisson-disk", "--radius", "-1", "-o", "p.csv"}), 2,
+                   "--radius");
+    EXPECT_EQ(box.read("p.csv"), "x,y\n0.5,0.5\n");
+}
+
+TEST(BadInput, CtrlCLeavesNothingBehind) {
+    const Sandbox box;
+    const Outcome outcome =
+        box.shell("stipple generate random -n 1e10 -o p.csv & sleep 0.5; kill -INT $!; wait $!");
+    expect_refusal(outcome, 130, "interrupted");
+    EXPECT_EQ(box.files(), std::vector<std::string>{});
+    const Outcome waiting = box.shell(
+        "sleep 5 | (trap 'exit' TERM; exec timeout -s INT 0.5 stipple analyze chi-square); exit 0");
+    EXPECT_THAT(waiting.err, HasSubstr("stipple: interrupted"));
+}
+
+TEST(BadInput, TooMuchMemoryIsRefusedBeforeStarting) {
+    const Sandbox box;
+    const Outcome outcome =
+        box.run({"generate", "poisson-disk", "--radius", "1e-6", "--max-memory", "100M"});
+    expect_refusal(outcome, 5, "of memory; the limit is 100 MiB");
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/program.hpp"
+
+using namespace stipple::testing;
+using ::testing::HasSubstr;
+
+namespace {
+
+void good(const Outcome& outcome) { EXPECT_EQ(outcome.code, 0) << outcome.err; }
+
+}  // namespace
+
+// Shortest digits and float64 binaries lose nothing, so the way round all formats ends where it
+// began.
+TEST(Convert, AWayRoundAllFormatsLosesNothing) {
+    const Sandbox box;
+    good(box.run({"generate", "random", "-n", "500", "-d", "3", "-o", "a.csv"}));
+    good(box.run({"convert", "a.csv", "-o", "b.txt"}));
+    good(box.run({"convert", "b.txt", "-o", "c.json"}));
+    good(box.run({"convert", "c.json", "-o", "d.npy"}));
+    good(box.run({"convert", "d.npy", "-o", "e.jsonl"}));
+    good(box.run({"convert", "e.jsonl", "-o", "f.bin"}));
+    good(box.run({"convert", "f.bin", "-d", "3", "-o", "g.csv"}));
+    EXPECT_EQ(box.read("g.csv"), box.read("a.csv"));
+}
+
+TEST(Convert, SetsSurvive) {
+    const Sandbox box;
+    good(box.run({"generate", "random", "-n", "5", "-m", "3", "-o", "a.csv"}));
+    good(box.run({"convert", "a.csv", "-o", "b.npy"}));
+    EXPECT_THAT(box.read("b.npy"), HasSubstr("(3, 5, 2)"));
+    good(box.run({"convert", "b.npy", "-o", "c.json"}));
+    good(box.run({"convert", "c.json", "-o", "d.txt"}));
+    good(box.run({"convert", "d.txt", "-o", "e.csv"}));
+    EXPECT_EQ(box.read("e.csv"), box.read("a.csv"));
+}
+
+TEST(Convert, NumPyReadsWhatWeWriteAndWeReadWhatNumPyWrites) {
+    const Sandbox box;
+    good(box.run({"generate", "random", "-n", "50", "-o", "a.npy"}));
+    good(box.run({"generate", "random", "-n", "50", "--dtype", "f32", "-o", "s.npy"}));
+    good(box.shell(
+        "/usr/bin/python3 -c 'import numpy as np; a = np.load(\"a.npy\"); assert a.shape == (50, "
+        "2);"
+        " s = np.load(\"s.npy\"); assert s.dtype == np.float32 and abs(a - s).max() < 1e-7;"
+        " np.save(\"b.npy\", np.asfortranarray(a)); np.savetxt(\"b.txt\", a);"
+        " np.savetxt(\"b.csv\", a, delimiter=\",\", fmt=\"%.17g\", header=\"x,y\", "
+        "comments=\"\")'"));
+    good(box.run({"convert", "a.npy", "-o", "a.csv"}));
+    for (const char* name : {"b.npy", "b.txt", "b.csv"}) {
+        good(box.run({"convert", name, "-o", "again.csv"}));
+        EXPECT_EQ(box.read("again.csv"), box.read("a.csv")) << name;
+    }
+}
+
+TEST(Convert, ReadsSpreadsheetsGnuplotAndOneLineFiles) {
+    const Sandbox box;
+    const std::string wanted = "x,y\n0.25,0.5\n0.75,1\n";
+    for (const std::string text :
+         {"\xEF\xBB\xBFx,y\r\n0.25,0.5\r\n0.75,1\r\n", "# gnuplot\n0.25   0.5\n\n0.75\t1\n",
+          "0.25,0.5\n0.75,1", "0.25\t5e-1\n0.75\t1.0\n"}) {
+        const Outcome outcome = box.run({"convert", "-o", "-"}, text);
+        EXPECT_EQ(outcome.out, wanted) << text << outcome.err;
+    }
+    EXPECT_EQ(box.run({"convert"}, "0.5").out, "x\n0.5\n");
+}
+
+TEST(Convert, PicksAndOrdersColumns) {
+    const Sandbox box;
+    EXPECT_EQ(box.run({"convert", "--column", "3,1"}, "0.1,0.2,0.3\n").out, "x,y\n0.3,0.1\n");
+}
+
+TEST(Convert, PsaStartsWithTheCount) {
+    const Sandbox box;
+    EXPECT_EQ(box.run({"convert", "-f", "psa"}, "0.5 0.25\n0 0\n").out, "2\n0.5 0.25\n0 0\n");
+    EXPECT_EQ(box.run({"convert", "--from", "psa"}, "2\n0.5 0.25\n0 0\n").out,
+              "x,y\n0.5,0.25\n0,0\n");
+}
+
+TEST(Convert, PicturesAndMeshesAreWriteOnly) {
+    const Sandbox box;
+    good(box.run({"generate", "halton", "-n", "9", "-o", "p.svg"}));
+    EXPECT_THAT(box.read("p.svg"), HasSubstr("<svg"));
+    good(box.run({"generate", "halton", "-n", "9", "-d", "3", "-o", "p.ply"}));
+    EXPECT_TRUE(box.read("p.ply").starts_with("ply\n"));
+    const Outcome outcome = box.run({"convert", "p.ply", "-o", "q.csv"});
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("ply"));
+}

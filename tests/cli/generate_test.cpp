@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/program.hpp"
+
+using namespace stipple::testing;
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+namespace {
+
+std::string good(const Outcome& outcome) {
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    return outcome.out;
+}
+
+}  // namespace
+
+TEST(Generate, HaltonIsTheTextbookSet) {
+    const Sandbox box;
+    EXPECT_EQ(good(box.run({"generate", "halton", "--start", "1", "-n", "5", "-d", "1"})),
+              "x\n0.5\n0.25\n0.75\n0.125\n0.625\n");
+}
+
+TEST(Generate, HeadersNameTheCoordinates) {
+    const Sandbox box;
+    const auto header = [&](const char* d) {
+        const auto out = good(box.run({"generate", "random", "-n", "1", "-d", d}));
+        return out.substr(0, out.find('\n'));
+    };
+    EXPECT_EQ(header("1"), "x");
+    EXPECT_EQ(header("2"), "x,y");
+    EXPECT_EQ(header("3"), "x,y,z");
+    EXPECT_EQ(header("5"), "x1,x2,x3,x4,x5");
+}
+
+TEST(Generate, CountsAreWrittenInManyWays) {
+    const Sandbox box;
+    for (const auto& [text, lines] :
+         {std::pair{"1e3", 1000}, {"2^10", 1024}, {"2k", 2048}, {"1.5e2", 150}, {"7", 7}}) {
+        const auto out =
+            good(box.run({"generate", "random", "--no-header", std::string("--count=") + text}));
+        EXPECT_EQ(std::ranges::count(out, '\n'), lines) << text;
+    }
+}
+
+TEST(Generate, TheDefaultIsTheContracts) {
+    const Sandbox box;
+    const auto out = good(box.run({"generate", "random"}));
+    EXPECT_EQ(std::ranges::count(out, '\n'), 1025);
+    EXPECT_EQ(out, good(box.run({"generate", "random", "-n", "1024", "-d", "2", "-s", "1"})));
+}
+
+TEST(Generate, ShardsJoinToTheWholeByteForByte) {
+    const Sandbox box;
+    for (const char* generator : {"random", "halton", "hammersley", "jittered", "poisson-disk"})
+        for (const char* format : {"csv", "txt", "bin"}) {
+            const std::vector<std::string> base = {"generate", generator,     "-n", "1001", "-f",
+                                                   format,     "--no-header", "-d", "2"};
+            const std::string whole = good(box.run(base));
+            std::string joined;
+            for (int i = 0; i < 3; ++i) {
+                auto part = base;
+                part.insert(part.end(), {"--shard", std::to_string(i) + "/3"});
+                joined += good(box.run(part));
+            }
+            EXPECT_EQ(joined, whole) << generator << ' ' << format;
+        }
+}
+
+TEST(Generate, ThreadsNeverChangeTheBytes) {
+    const Sandbox box;
+    for (const char* generator : {"random", "jittered"}) {
+        std::vector<std::string> outs;
+        for (const char* threads : {"1", "2", "7"})
+            outs.push_back(good(box.run({"generate", generator, "-n", "1e5", "-w", "disk", "-f",
+                                         "json", "--with-pdf", "--threads", threads})));
+        EXPECT_EQ(outs[0], outs[1]) << generator;
+        EXPECT_EQ(outs[0], outs[2]) << generator;
+    }
+}
+
+TEST(Generate, SeveralSetsAreTheSeedsInTurn) {
+    const Sandbox box;
+    const auto rows = [&](std::vector<std::string> more) {
+        std::vector<std::string> words = {"generate", "random", "-n", "3", "--no-header"};
+        words.insert(words.end(), more.begin(), more.end());
+        return good(box.run(words));
+    };
+    const std::string both = rows({"-s", "5", "-m", "2", "-f", "txt"});
+    EXPECT_EQ(both, rows({"-s", "5", "-f", "txt"}) + "#\n" + rows({"-s", "6", "-f", "txt"}));
+    const auto csv = good(box.run({"generate", "random", "-n", "1", "-m", "2"}));
+    EXPECT_TRUE(csv.starts_with("set,x,y\n0,")) << csv;
+    EXPECT_THAT(csv, HasSubstr("\n1,"));
+}
+
+TEST(Generate, AFilePerSetIsNamedBySetAndSeed) {
+    const Sandbox box;
+    good(box.run(
+        {"generate", "random", "-n", "4", "-m", "2", "-s", "8", "-o", "a{set}_{seed}.csv"}));
+    EXPECT_EQ(box.files(), (std::vector<std::string>{"a0_8.csv", "a1_9.csv"}));
+    good(box.run({"generate", "random", "-n", "4", "-s", "9", "-o", "b.csv"}));
+    const std::string alone = box.read("b.csv");
+    EXPECT_THAT(box.read("a1_9.csv"), HasSubstr(alone.substr(alone.find('\n') + 1, 10)));
+}
+
+TEST(Generate, UnseededGeneratorsSayThatAllSetsAreTheSame) {
+    const Sandbox box;
+    const Outcome outcome = box.run({"generate", "halton", "-n", "2", "-m", "2"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_THAT(outcome.err, HasSubstr("does not use the seed"));
+    EXPECT_EQ(box.run({"generate", "halton", "-n", "2", "-m", "2", "--quiet"}).err, "");
+}
+
+TEST(Generate, ARandomSeedIsSaidAndMakesTheSetAgain) {
+    const Sandbox box;
+    const Outcome first = box.run({"generate", "random", "-n", "4", "--seed", "random"});
+    ASSERT_EQ(first.code, 0);
+    ASSERT_TRUE(first.err.starts_with("stipple: --seed ")) << first.err;
+    const std::string seed = first.err.substr(16, first.err.size() - 17);
+    EXPECT_EQ(good(box.run({"generate", "random", "-n", "4", "--seed", seed})), first.out);
+}
+
+TEST(Generate, BoundsScaleToAHalfOpenBox) {
+    const Sandbox box;
+    const auto out = good(
+        box.run({"generate", "random", "-n", "2000", "--bounds", "-1..3,10..10.5", "-f", "json"}));
+    const auto points = json::parse(out);
+    EXPECT_EQ(points["meta"]["domain"], "box:bounds=[-1..3,10..10.5]");
+    for (const auto& p : points["points"]) {
+        EXPECT_TRUE(p[0] >= -1 && p[0] < 3);
+        EXPECT_TRUE(p[1] >= 10 && p[1] < 10.5);
+    }
+}
+
+TEST(Generate, JsonHoldsTheWholeProvenance) {
+    const Sandbox box;
+    const auto out =
+        json::parse(good(box.run({"generate", "halton", "-n", "3", "--start", "1", "-w",
+                                  "disk:method=concentric,center=[1,0]", "-f", "json"})));
+    EXPECT_EQ(out["format"], "stipple.points");
+    EXPECT_EQ(out["version"], 1);
+    EXPECT_EQ(out["dimension"], 2);
+    EXPECT_EQ(out["count"], 3);
+    EXPECT_EQ(out["points"].size(), 3U);
+    const auto& meta = out["meta"];
+    for (const char* key : {"tool", "version", "generator", "options", "seed", "count", "dimension",
+                            "start", "warps", "domain", "command"})
+        EXPECT_TRUE(meta.contains(key)) << key;
+    EXPECT_EQ(meta["tool"], "stipple");
+    EXPECT_EQ(meta["generator"], "halton");
+    EXPECT_EQ(meta["start"], 1);
+    EXPECT_EQ(meta["warps"], json::array({"disk:method=concentric,center=[1,0]"}));
+    EXPECT_EQ(meta["domain"], "disk:center=[1,0]");
+    // The command makes the same bytes again.
+    const Outcome again = box.shell(meta["command"].get<std::string>());
+    EXPECT_EQ(json::parse(good(again)), out);
+}
+
+TEST(Generate, MetaStandsOnTopOfTextAndIsReadBack) {
+    const Sandbox box;
+    const auto out = good(box.run({"generate", "halton", "-n", "50", "-w", "disk", "--meta"}));
+    EXPECT_TRUE(out.starts_with("# ")) << out;
+    EXPECT_THAT(out, HasSubstr("# generator: \"halton\""));
+    const Outcome judged = box.run({"analyze", "chi-square"}, out);
+    EXPECT_EQ(judged.code, 0) << judged.err;
+    EXPECT_EQ(json::parse(judged.out)["input"]["domain"], "disk");
+}
+
+TEST(Generate, AWarpOnSomeCoordinatesLeavesTheOthers) {
+    const Sandbox box;
+    const auto plain =
+        json::parse(good(box.run({"generate", "halton", "-n", "9", "-d", "5", "-f", "json"})));
+    const auto warped = json::parse(good(
+        box.run({"generate", "halton", "-n", "9", "-d", "5", "-w", "disk@4,5", "-f", "json"})));
+    const auto disk = json::parse(good(box.run({"warp", "disk@4,5", "-f", "json"}, plain.dump())));
+    EXPECT_EQ(warped["points"], disk["points"]);
+    EXPECT_EQ(warped["meta"]["domain"], "disk@4,5 x unit-cube@1,2,3");
+    for (std::size_t i = 0; i < 9; ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+            EXPECT_EQ(warped["points"][i][k], plain["points"][i][k]);
+}
+
+TEST(Generate, RejectionSaysHowManyPointsItDropped) {
+    const Sandbox box;
+    const Outcome outcome =
+        box.run({"generate", "random", "-n", "1000", "-w", "disk:method=rejection", "--no-header"});
+    EXPECT_EQ(outcome.code, 0);
+    const auto kept = std::ranges::count(outcome.out, '\n');
+    EXPECT_THAT(outcome.err,
+                HasSubstr("dropped " + std::to_string(1000 - kept) + " of 1000 points"));
+}
+
+TEST(Generate, SinglePrecisionNeverHoldsOne) {
+    const Sandbox box;
+    good(box.run({"generate", "random", "-n", "1e6", "-d", "1", "-o", "p.f32"}));
+    const std::string bytes = box.read("p.f32");
+    ASSERT_EQ(bytes.size(), 4'000'000U);
+    for (std::size_t i = 0; i < bytes.size(); i += 4) {
+        float x = 0;
+        std::memcpy(&x, &bytes[i], 4);
+        ASSERT_LT(x, 1.0F);
+    }
+}
+
+TEST(Generate, PrecisionCutsAndNeverRoundsUpToOne) {
+    const Sandbox box;
+    const auto out = good(box.run(
+        {"generate", "halton", "--start", "1023", "-n", "1", "-d", "1", "--precision", "2"}));
+    EXPECT_EQ(out, "x\n0.99\n");
+}
+
+TEST(Generate, PoissonDiskPutsItsRadiusIntoTheProvenance) {
+    const Sandbox box;
+    const auto out =
+        json::parse(good(box.run({"generate", "poisson-disk", "-n", "200", "-f", "json"})));
+    EXPECT_EQ(out["count"], 200);
+    EXPECT_GT(out["meta"]["options"]["radius"].get<double>(), 0.04);
+}
+
+TEST(Generate, AClosedPipeIsNoError) {
+    const Sandbox box;
+    const Outcome outcome = box.shell("stipple generate random -n 1e9 -f bin | head -c 16 | wc -c");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.out, "16\n");
+    EXPECT_EQ(outcome.err, "");
+}
+
+// Address spaces are no measure under a sanitizer.
+TEST(Generate, StreamsInLittleMemory) {
+    if (std::string(STIPPLE_SANITIZE) != "") GTEST_SKIP() << "sanitizers need memory of their own";
+    const Sandbox box;
+    const Outcome outcome = box.shell(
+        "python3 -c 'import resource, subprocess, sys\n"
+        "p = subprocess.run([\"stipple\", \"generate\", \"random\", \"-n\", \"2e7\", \"-f\", "
+        "\"bin\"],"
+        " stdout=subprocess.DEVNULL)\n"
+        "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss)\n"
+        "sys.exit(p.returncode)'");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_LT(std::stol(outcome.out), 60'000) << "KiB";
+}

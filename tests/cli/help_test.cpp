@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "cli/arguments.hpp"
+#include "cli/catalog.hpp"
+#include "support/program.hpp"
+
+using namespace stipple::testing;
+using namespace stipple::cli;
+using ::testing::HasSubstr;
+
+TEST(Help, EveryVerbAndUnitHasItFromTheRecord) {
+    const Sandbox box;
+    EXPECT_THAT(box.run({"--help"}).out, HasSubstr("generate"));
+    for (const VerbInfo& verb : verbs()) {
+        const Outcome outcome = box.run({verb.name, "--help"});
+        EXPECT_EQ(outcome.code, 0);
+        EXPECT_THAT(outcome.out, HasSubstr(verb.summary));
+        EXPECT_THAT(outcome.out, HasSubstr("Examples:"));
+    }
+    for (const Kind& kind : catalog())
+        for (const UnitInfo& unit : kind.units) {
+            if (kind.verb.empty()) continue;
+            const Outcome outcome = box.run({kind.verb, unit.name, "-h"});
+            EXPECT_EQ(outcome.code, 0);
+            EXPECT_THAT(outcome.out, HasSubstr(unit.summary));
+            for (const auto& option : unit.options)
+                EXPECT_THAT(outcome.out, HasSubstr("--" + option.name)) << unit.name;
+        }
+}
+
+// Two options of one name could not be told apart.
+TEST(Help, NoUnitOptionHidesACommonOne) {
+    for (const Kind& kind : catalog())
+        for (const VerbInfo& verb : verbs()) {
+            if (kind.verb != verb.name) continue;
+            std::set<std::string> common;
+            for (const CommonOption& option : common_options()) {
+                const std::string names = option.names;
+                if ((option.verbs & static_cast<unsigned>(verb.verb)) == 0) continue;
+                EXPECT_TRUE(common.insert(names.substr(names.rfind("--") + 2)).second) << names;
+            }
+            for (const UnitInfo& unit : kind.units)
+                for (const auto& option : unit.options)
+                    EXPECT_FALSE(common.contains(option.name)) << unit.name << ' ' << option.name;
+        }
+}
+
+TEST(Help, ExamplesRun) {
+    const Sandbox box;
+    ASSERT_EQ(
+        box.shell("stipple generate random -n 500 -d 3 -o table.csv && stipple generate random -n "
+                  "500 -o points.csv && cp points.csv a.csv && cp points.csv b.csv && stipple "
+                  "generate random -d 3 -o points.bin")
+            .code,
+        0);
+    for (const VerbInfo& verb : verbs()) {
+        std::istringstream lines(verb.examples);
+        for (std::string line; std::getline(lines, line);) {
+            const Outcome outcome = box.shell(line);
+            const bool checks = line.find("--check") != std::string::npos;
+            EXPECT_TRUE(outcome.code == 0 || (checks && outcome.code == 1)) << line << outcome.err;
+        }
+        // The examples of later verbs read what those of earlier ones made, on the unit square.
+        if (verb.verb != Verb::generate) continue;
+        EXPECT_EQ(box.shell("stipple generate random -n 500 -o points.csv").code, 0);
+    }
+}
+
+TEST(Help, VersionNamesTheLibraries) {
+    const Sandbox box;
+    const Outcome outcome = box.run({"--version"});
+    EXPECT_TRUE(outcome.out.starts_with("stipple ")) << outcome.out;
+    for (const char* name :
+         {"CLI11", "fmt", "nlohmann-json", "fftw", "oneTBB", "Boost", "Random123", "libpng"})
+        EXPECT_THAT(outcome.out, HasSubstr(name));
+}
+
+TEST(List, IsTheWholeRegistry) {
+    const Sandbox box;
+    const auto out = nlohmann::json::parse(box.run({"list", "--json"}).out);
+    EXPECT_EQ(out["format"], "stipple.list");
+    for (const Kind& kind : catalog()) {
+        ASSERT_EQ(out[kind.name].size(), kind.units.size());
+        for (std::size_t i = 0; i < kind.units.size(); ++i) {
+            EXPECT_EQ(out[kind.name][i]["name"], kind.units[i].name);
+            EXPECT_EQ(out[kind.name][i]["options"].size(), kind.units[i].options.size());
+        }
+        const Outcome one = box.run({"list", kind.name});
+        EXPECT_TRUE(one.out.starts_with(kind.name + "\n")) << one.out;
+        EXPECT_EQ(box.run({"list", kind.name.substr(0, kind.name.size() - 1)}).out, one.out);
+    }
+    EXPECT_EQ(box.run({"list", "nonsense"}).code, 2);
+}
+
+TEST(List, SaysThatLegacyGeneratorsAreSequential) {
+    const Sandbox box;
+    EXPECT_THAT(box.run({"list", "generators"}).out, HasSubstr("sequential"));
+}

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+//
+// What every registered analyzer promises, with its default options.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "study/pipeline.hpp"
+#include "support/contract.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+class EveryAnalyzer : public ::testing::TestWithParam<std::string> {
+  protected:
+    const Analyzer& unit = find_analyzer(GetParam());
+    const std::size_t dimension =
+        std::clamp<std::size_t>(2, unit.traits.min_dimension, unit.traits.max_dimension);
+
+    Report report(std::uint64_t count, const RunContext& run = {}) const {
+        return analyze(unit, make("random", points(count, dimension)), unit.options.defaults(),
+                       run);
+    }
+};
+
+TEST_P(EveryAnalyzer, GivesTheSameForAnyNumberOfThreads) {
+    const Report one = report(5000, {.threads = 1});
+    EXPECT_EQ(one, report(5000, {.threads = 2}));
+    EXPECT_EQ(one, report(5000, {.threads = 7}));
+}
+
+TEST_P(EveryAnalyzer, GivesTheKeysOfItsRecord) {
+    const Report found = report(500);
+    for (const auto& [key, help] : unit.results) {
+        EXPECT_NE(found.find(key), nullptr) << key;
+        EXPECT_FALSE(help.empty()) << key;
+    }
+    for (const auto& key : found.keys())
+        EXPECT_EQ(std::ranges::count(unit.results, key, &ResultKey::key), 1) << key;
+}
+
+TEST_P(EveryAnalyzer, RefusesAnEmptySetAndWrongDimensions) {
+    const Values options = unit.options.defaults();
+    EXPECT_TRUE(error_of([&] {
+                    analyze(unit, PointSet(0, dimension), options, {});
+                }).starts_with("input: "));
+    if (unit.traits.max_dimension >= 100) return;
+    EXPECT_TRUE(
+        error_of([&] { analyze(unit, PointSet(9, 100), options, {}); }).starts_with("input: "));
+}
+
+TEST_P(EveryAnalyzer, RefusesPointsOutsideItsDomainCountingThem) {
+    PointSet set = make("random", points(100, dimension));
+    set[7][0] = 1.5;
+    set[9][0] = -0.5;
+    const auto error = error_of([&] { analyze(unit, set, unit.options.defaults(), {}); });
+    EXPECT_TRUE(error.starts_with("input: 2 of 100 points are outside")) << error;
+    EXPECT_NE(error.find("(1.5, "), std::string::npos) << error;
+}
+
+TEST_P(EveryAnalyzer, TakesPointsOnTheClosedCube) {
+    PointSet set = make("random", points(1000, dimension));
+    set[7][0] = 1;
+    set[9][0] = 0;
+    EXPECT_EQ(error_of([&] { analyze(unit, set, unit.options.defaults(), {}); }), "");
+}
+
+TEST_P(EveryAnalyzer, ProgressRisesToTheEnd) {
+    expect_progress_to_the_end([&](const RunContext& run) { report(100'000, run); });
+}
+
+TEST_P(EveryAnalyzer, StopsWithinATenthOfASecond) {
+    expect_to_stop_at_once([&](const RunContext& run) { report(400'000, run); });
+}
+
+TEST_P(EveryAnalyzer, HasACompleteRecord) {
+    expect_complete_record(unit);
+    EXPECT_FALSE(unit.results.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryAnalyzer, ::testing::ValuesIn(names_of(analyzers::all())),
+                         case_name);
+
+}  // namespace

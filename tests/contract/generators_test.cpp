@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+//
+// What every registered generator promises.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "study/pipeline.hpp"
+#include "support/contract.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+class EveryGenerator : public ::testing::TestWithParam<std::string> {
+  protected:
+    const Generator& unit = find_generator(GetParam());
+    const std::size_t dimension =
+        std::clamp<std::size_t>(2, unit.traits.min_dimension, unit.traits.max_dimension);
+
+    PointSet make(std::uint64_t count, RunContext run = {}, std::uint64_t start = 0) const {
+        return stipple::testing::make(unit.name, points(count, dimension, start), {}, run);
+    }
+};
+
+// 400 = 20^2: a count that grids can make, too.
+TEST_P(EveryGenerator, StaysInTheHalfOpenCube) {
+    for (const std::uint64_t seed : {1, 2, 3})
+        for (const double x : make(400, {.seed = seed}).flat()) {
+            EXPECT_GE(x, 0);
+            EXPECT_LT(x, 1);
+        }
+}
+
+TEST_P(EveryGenerator, GivesAsManyPointsAsAskedFor) {
+    const PointSet set = make(400);
+    EXPECT_EQ(set.count(), 400U);
+    EXPECT_EQ(set.dimension(), dimension);
+}
+
+TEST_P(EveryGenerator, DependsOnTheSeedAloneNotOnThreads) {
+    const PointSet one = make(10'000, {.seed = 9, .threads = 1});
+    EXPECT_EQ(one, make(10'000, {.seed = 9, .threads = 2}));
+    EXPECT_EQ(one, make(10'000, {.seed = 9, .threads = 7}));
+    EXPECT_EQ(make(400, {.seed = 9}) != make(400, {.seed = 10}), unit.traits.seeded);
+}
+
+TEST_P(EveryGenerator, KeepsItsPrefixPromise) {
+    if (!unit.traits.prefix) GTEST_SKIP() << "its points depend on their number";
+    const PointSet whole = make(900);
+    const PointSet part = make(400);
+    EXPECT_TRUE(std::ranges::equal(part.flat(), whole.flat().first(part.flat().size())));
+}
+
+TEST_P(EveryGenerator, StartDropsThatManyPoints) {
+    if (!unit.traits.prefix) {
+        EXPECT_NE(error_of([&] { make(400, {}, 3); }).find("usage: --start"), std::string::npos);
+        return;
+    }
+    const PointSet whole = make(900);
+    const PointSet tail = make(500, {}, 400);
+    EXPECT_TRUE(std::ranges::equal(tail.flat(), whole.flat().last(tail.flat().size())));
+}
+
+// A sequence's blocks, asked for in any sizes, join to the same points.
+TEST_P(EveryGenerator, FillsAnyPiecesToTheSameWhole) {
+    if (!unit.traits.sequence) GTEST_SKIP() << "made as a whole";
+    const PointSet whole = make(400);
+    const Values options = unit.options.defaults();
+    const Plan plan = plan_for(unit, points(400, dimension), options);
+    const auto sequence = unit.sequence(plan, options);
+    for (const std::size_t piece : {1, 7, 64, 399}) {
+        std::vector<double> rows;
+        for (std::size_t i = 0; i < 400; i += piece) {
+            std::vector<double> part(std::min<std::size_t>(piece, 400 - i) * dimension);
+            sequence->fill(i, part);
+            rows.insert(rows.end(), part.begin(), part.end());
+        }
+        EXPECT_TRUE(std::ranges::equal(rows, whole.flat())) << "pieces of " << piece;
+    }
+}
+
+TEST_P(EveryGenerator, RefusesAnEmptySet) {
+    EXPECT_NE(error_of([&] { make(0); }).find("usage: --count: 0"), std::string::npos);
+}
+
+TEST_P(EveryGenerator, MakesOnePoint) { EXPECT_EQ(make(1).count(), 1U); }
+
+TEST_P(EveryGenerator, WorksInOneDimensionOrSaysThatItDoesNot) {
+    const auto one = [&] { return stipple::testing::make(unit.name, points(100, 1)); };
+    if (unit.traits.min_dimension > 1)
+        EXPECT_NE(error_of(one).find("usage: --dimension: 1 is outside"), std::string::npos);
+    else
+        EXPECT_EQ(one().dimension(), 1U);
+}
+
+TEST_P(EveryGenerator, RefusesDimensionsBeyondItsTraits) {
+    const std::size_t beyond = unit.traits.max_dimension + 1;
+    const auto error = error_of([&] { stipple::testing::make(unit.name, points(1, beyond)); });
+    EXPECT_NE(error.find("usage: --dimension"), std::string::npos) << error;
+}
+
+TEST_P(EveryGenerator, ProgressRisesToTheEnd) {
+    expect_progress_to_the_end([&](const RunContext& run) { make(10'000, run); });
+}
+
+TEST_P(EveryGenerator, StopsWithinATenthOfASecond) {
+    expect_to_stop_at_once([&](const RunContext& run) { make(1'000'000, run); });
+}
+
+TEST_P(EveryGenerator, RefusesWhatNeedsTooMuchMemory) {
+    const auto error = error_of([&] { make(1'000'000, {.max_memory = 100'000}); });
+    EXPECT_TRUE(error.starts_with("limit: ")) << error;
+}
+
+TEST_P(EveryGenerator, HasACompleteRecord) {
+    expect_complete_record(unit);
+    EXPECT_EQ(static_cast<bool>(unit.sequence), unit.traits.sequence);
+    EXPECT_EQ(static_cast<bool>(unit.set), !unit.traits.sequence);
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryGenerator, ::testing::ValuesIn(names_of(generators::all())),
+                         case_name);
+
+}  // namespace
+
+TEST(Registry, HoldsTheUnitsByTheirNamesInOrder) {
+    const auto list = names_of(generators::all());
+    EXPECT_TRUE(std::ranges::is_sorted(list));
+    for (const char* name : {"grid", "halton", "hammersley", "jittered", "poisson-disk", "random"})
+        EXPECT_EQ(std::ranges::count(list, name), 1) << name;
+}

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+//
+// What every registered warp promises, with its default options.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/rng.hpp"
+#include "study/chain.hpp"
+#include "study/pipeline.hpp"
+#include "support/contract.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+class EveryWarp : public ::testing::TestWithParam<std::string> {
+  protected:
+    const Warp& unit = find_warp(GetParam());
+    const std::unique_ptr<Mapping> mapping = unit.make(unit.options.defaults(), 2);
+    const std::size_t in = mapping->cube_dimension();
+    const std::size_t out = mapping->domain()->dimension();
+
+    /// Random points, and all combinations of the cube's edges.
+    std::vector<double> cube() const {
+        std::vector<double> rows(3000 * in);
+        Rng(5).fill(0, rows);
+        const std::vector<double> edges = {0, 0x1p-60, 0.25, 0.5, 0.75, one_minus_ulp};
+        std::vector<std::size_t> at(in, 0);
+        while (true) {
+            for (const std::size_t k : at) rows.push_back(edges[k]);
+            std::size_t k = 0;
+            while (k < in && ++at[k] == edges.size()) at[k++] = 0;
+            if (k == in) return rows;
+        }
+    }
+};
+
+TEST_P(EveryWarp, MapsTheWholeCubeIntoItsDomain) {
+    const auto rows = cube();
+    std::vector<double> image(rows.size() / in * out);
+    std::vector<std::uint8_t> keep(rows.size() / in, 1);
+    mapping->forward(rows, image, keep);
+    for (std::size_t i = 0; i < keep.size(); ++i) {
+        if (!keep[i]) continue;
+        const auto point = std::span<const double>(image).subspan(i * out, out);
+        EXPECT_TRUE(mapping->domain()->contains(point)) << "point " << i;
+        EXPECT_GT(mapping->density(point), 0) << "point " << i;
+    }
+}
+
+TEST_P(EveryWarp, ComesBackWithinRounding) {
+    if (!unit.traits.invertible) GTEST_SKIP();
+    const auto rows = cube();
+    std::vector<double> image(rows.size() / in * out);
+    std::vector<std::uint8_t> keep(rows.size() / in, 1);
+    mapping->forward(rows, image, keep);
+    std::vector<double> back(rows.size());
+    mapping->inverse(image, back);
+    std::vector<double> again(image.size());
+    for (const double x : back) EXPECT_TRUE(x >= 0 && x <= 1) << x;
+    mapping->forward(back, again, keep);
+    // Where an edge of the cube is one point of the domain the way back may differ; its image may
+    // not.
+    for (std::size_t k = 0; k < image.size(); ++k) EXPECT_NEAR(again[k], image[k], 1e-14) << k;
+}
+
+// The contract of parse_domain: a domain's spec is the domain.
+TEST_P(EveryWarp, DomainSpecParsesBack) {
+    const std::string spec = mapping->domain()->spec();
+    EXPECT_EQ(parse_domain(spec, out)->spec(), spec);
+}
+
+TEST_P(EveryWarp, CellsAreInTheCube) {
+    const auto rows = cube();
+    std::vector<double> image(rows.size() / in * out);
+    std::vector<std::uint8_t> keep(rows.size() / in, 1);
+    mapping->forward(rows, image, keep);
+    std::vector<double> coordinates(mapping->domain()->cube_dimension());
+    for (std::size_t i = 0; i < keep.size(); ++i) {
+        if (!keep[i]) continue;
+        mapping->domain()->to_cube(std::span<const double>(image).subspan(i * out, out),
+                                   coordinates);
+        for (const double u : coordinates) EXPECT_TRUE(u >= 0 && u <= 1) << u;
+    }
+    EXPECT_EQ(mapping->domain()->cube_axes().size(), coordinates.size());
+}
+
+TEST_P(EveryWarp, HasACompleteRecord) { expect_complete_record(unit); }
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryWarp, ::testing::ValuesIn(names_of(warps::all())),
+                         case_name);
+
+}  // namespace

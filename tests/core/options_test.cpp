@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "core/options.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/spec.hpp"
+#include "support/units.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+constexpr Param<std::int64_t> base{
+    .name = "base", .fallback = 2, .low = 2, .high = 10, .help = "h"};
+constexpr Param<double> radius{
+    .name = "radius", .low = 0, .low_open = true, .optional = true, .help = "h"};
+constexpr Param<bool> shift{.name = "shift", .help = "h"};
+constexpr Param<Choice> method{
+    .name = "method", .fallback = "polar", .choices = "polar|concentric", .help = "h"};
+constexpr Param<Numbers> center{{.name = "center", .fallback = "0,0", .unit = {}, .help = "h"}};
+constexpr Param<Points> vertices{
+    {.name = "vertices", .fallback = "0,0 1,0 0,1", .unit = {}, .help = "h"}};
+constexpr Param<Extents> shape{{.name = "shape", .fallback = {}, .unit = {}, .help = "h"}};
+
+const Schema schema(base, radius, shift, method, center, vertices, shape);
+
+Values with(const std::string& name, const std::string& text) {
+    Values values = schema.defaults();
+    schema.set(values, name, text);
+    return values;
+}
+
+std::string refusal(const std::string& name, const std::string& text) {
+    return error_of([&] { with(name, text); });
+}
+
+}  // namespace
+
+TEST(Options, DefaultsAreThoseOfTheRecord) {
+    const Values values = schema.defaults();
+    EXPECT_EQ(values[base], 2);
+    EXPECT_FALSE(values.given(radius));
+    EXPECT_FALSE(values[shift]);
+    EXPECT_EQ(values[method], "polar");
+    EXPECT_EQ(values[center], (std::vector<double>{0, 0}));
+    EXPECT_EQ(values[vertices], (Table{{0, 0}, {1, 0}, {0, 1}}));
+}
+
+TEST(Options, ValuesAreReadFromText) {
+    EXPECT_EQ(with("base", "3")[base], 3);
+    EXPECT_EQ(with("radius", "0.25")[radius], 0.25);
+    EXPECT_TRUE(with("radius", "0.25").given(radius));
+    EXPECT_TRUE(with("shift", "true")[shift]);
+    EXPECT_EQ(with("center", "1, -2.5")[center], (std::vector<double>{1, -2.5}));
+    EXPECT_EQ(with("vertices", "0,0  2,0 0,2")[vertices], (Table{{0, 0}, {2, 0}, {0, 2}}));
+    EXPECT_EQ(with("shape", "40x25")[shape], (std::vector<std::int64_t>{40, 25}));
+}
+
+TEST(Options, RefusalsSayTheValueAndWhatIsAllowed) {
+    EXPECT_EQ(refusal("base", "1"), "usage: --base: 1 is outside [2, 10]");
+    EXPECT_EQ(refusal("base", "1e30"), "usage: --base: 1e30 is outside [2, 10]");
+    EXPECT_EQ(refusal("base", "2.5"), "usage: --base: '2.5' is not a whole number");
+    EXPECT_EQ(refusal("radius", "0"), "usage: --radius: 0 is outside (0, inf)");
+    EXPECT_EQ(refusal("radius", "nan"), "usage: --radius: 'nan' is not a finite number");
+    EXPECT_EQ(refusal("method", "polr"),
+              "usage: --method: 'polr' is not one of polar, concentric | did you mean 'polar'?");
+    EXPECT_EQ(refusal("vertices", "0,0 1"),
+              "usage: --vertices: '0,0 1' is not a list of points of one dimension");
+    EXPECT_EQ(refusal("shape", "4x0"), "usage: --shape: '4x0' is not a shape such as 40x25");
+    EXPECT_EQ(refusal("bsae", "3"), "usage: unknown option 'bsae' | did you mean 'base'?");
+}
+
+TEST(Spec, NamesAUnitWithCoordinatesAndOptions) {
+    const Spec spec = parse_spec("disk@4,5:method=concentric,center=[1,-2],flag");
+    EXPECT_EQ(spec.name, "disk");
+    EXPECT_EQ(spec.coordinates, (std::vector<std::size_t>{3, 4}));
+    EXPECT_EQ(spec.settings, (std::vector<std::pair<std::string, std::string>>{
+                                 {"method", "concentric"}, {"center", "1,-2"}, {"flag", "true"}}));
+}
+
+TEST(Spec, SaysTheColumnWhereItStopsBeingOne) {
+    const auto error = [](const char* text) { return error_of([&] { parse_spec(text); }); };
+    EXPECT_EQ(error("disk:center=[1,2"),
+              "usage: spec 'disk:center=[1,2', column 17: ']' is missing");
+    EXPECT_EQ(error("disk:"), "usage: spec 'disk:', column 6: an option's name is expected");
+    EXPECT_EQ(error(""), "usage: spec '', column 1: a unit's name is expected");
+    EXPECT_NE(error("disk@0,1"), "");
+    EXPECT_NE(error("disk@2,2"), "");
+    EXPECT_NE(error("a:b=c]d"), "");
+}
+
+TEST(Spec, WritesWhatDiffersAndReadsItBack) {
+    EXPECT_EQ(format_spec("unit", schema.defaults(), schema), "unit");
+    Values values = schema.defaults();
+    schema.set(values, "center", "1,2");
+    schema.set(values, "radius", "0.5");
+    schema.set(values, "shift", "true");
+    const std::string text = format_spec("unit", values, schema);
+    EXPECT_EQ(text, "unit:radius=0.5,shift=true,center=[1,2]");
+    const Values back = parse_spec(text).values(schema);
+    EXPECT_EQ(back[center], values[center]);
+    EXPECT_EQ(back[radius], values[radius]);
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "core/text.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace stipple;
+
+TEST(Text, WholeNumbersInManyWays) {
+    EXPECT_EQ(parse_integer("1000"), 1000);
+    EXPECT_EQ(parse_integer("-7"), -7);
+    EXPECT_EQ(parse_integer("1e6"), 1'000'000);
+    EXPECT_EQ(parse_integer("1.5e3"), 1500);
+    EXPECT_EQ(parse_integer("2^20"), 1'048'576);
+    EXPECT_EQ(parse_integer("3^0"), 1);
+    EXPECT_EQ(parse_integer("64k"), 65'536);
+    EXPECT_EQ(parse_integer("2M"), 2'097'152);
+    EXPECT_EQ(parse_integer("0.5k"), 512);
+    EXPECT_EQ(parse_integer("9223372036854775807"), std::numeric_limits<std::int64_t>::max());
+}
+
+TEST(Text, RefusesWhatIsNoWholeNumberOrDoesNotFit) {
+    for (const char* text : {"", "x", "1.5", "1e", "2^", "^2", "2^-1", "2^64", "1e30", "k", "0.3k",
+                             "9223372036854775808", "1 ", " 1", "nan", "inf", "0x10"})
+        EXPECT_FALSE(parse_integer(text)) << text;
+}
+
+TEST(Text, SeedsUseAll64Bits) {
+    EXPECT_EQ(parse_unsigned("18446744073709551615"), ~std::uint64_t{0});
+    EXPECT_EQ(parse_unsigned("0xff"), 255U);
+    EXPECT_FALSE(parse_unsigned("-1"));
+    EXPECT_FALSE(parse_unsigned("18446744073709551616"));
+}
+
+TEST(Text, NumbersAreFiniteAndWhole) {
+    EXPECT_EQ(parse_number("-1.5e-3"), -0.0015);
+    EXPECT_EQ(parse_number("+2"), 2.0);
+    for (const char* text : {"", "nan", "inf", "1e999", "1,5", "1x", "--1"})
+        EXPECT_FALSE(parse_number(text)) << text;
+}
+
+TEST(Text, SizesInBytes) {
+    EXPECT_EQ(parse_bytes("500"), 500U);
+    EXPECT_EQ(parse_bytes("1.5k"), 1536U);
+    EXPECT_EQ(parse_bytes("2GiB"), 2'147'483'648U);
+    EXPECT_FALSE(parse_bytes("many"));
+    EXPECT_FALSE(parse_bytes("-1k"));
+    EXPECT_EQ(format_bytes(1536), "1.5 KiB");
+    EXPECT_EQ(format_bytes(100), "100 bytes");
+}
+
+TEST(Text, NearestWordIsOneThatCouldBeMeant) {
+    const std::vector<std::string> known = {"halton", "hammersley", "random"};
+    EXPECT_EQ(nearest_word("haltom", known), "halton");
+    EXPECT_EQ(nearest_word("hamm", known), "hammersley");
+    EXPECT_FALSE(nearest_word("xyz", known));
+    EXPECT_EQ(suggest("xyz", known), "known: halton, hammersley, random");
+}
+
+TEST(Text, SplitsKeepEmptyParts) {
+    EXPECT_EQ(split("a,b", ','), (std::vector<std::string_view>{"a", "b"}));
+    EXPECT_EQ(split("a,,", ','), (std::vector<std::string_view>{"a", "", ""}));
+    EXPECT_TRUE(split("", ',').empty());
+}

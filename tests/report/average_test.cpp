@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "report/average.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace stipple;
+
+namespace {
+
+Report sample(double x, std::int64_t n, const char* word) {
+    Report inner;
+    inner.add("curve", Report::Curve{x, 2 * x});
+    Report report;
+    report.add("value", x).add("count", n).add("word", word).add("exact", true).add("inner", inner);
+    report.add("grid", Grid{1, 2, {x, -x}});
+    return report;
+}
+
+}  // namespace
+
+TEST(ReportAverage, MeanAndStandardErrorByHand) {
+    ReportAverage average;
+    for (const double x : {1.0, 2.0, 6.0})
+        average.add(sample(x, static_cast<std::int64_t>(x), "same"));
+    const Report& mean = average.mean();
+    EXPECT_EQ(mean.number("value"), 3);
+    EXPECT_EQ(mean.number("count"), 3);
+    EXPECT_EQ(mean.text("word"), "same");
+    EXPECT_EQ(mean.curve("inner.curve"), (Report::Curve{3, 6}));
+    EXPECT_EQ(std::get<Grid>(*mean.find("grid")).values, (std::vector<double>{3, -3}));
+    // Deviations -2, -1, 3: sum of squares 14, over 3 * 2.
+    const Report error = average.standard_error();
+    EXPECT_NEAR(error.number("value"), std::sqrt(14.0 / 6), 1e-15);
+    EXPECT_NEAR(error.curve("inner.curve")[1], 2 * std::sqrt(14.0 / 6), 1e-15);
+    EXPECT_EQ(error.find("word"), nullptr);
+    EXPECT_EQ(error.find("grid"), nullptr);
+}
+
+TEST(ReportAverage, LeavesOutWhatReportsDisagreeOn) {
+    ReportAverage average;
+    average.add(sample(1, 1, "one"));
+    Report other = sample(2, 2, "two");
+    other.add("inner", Report().add("curve", Report::Curve{1, 2, 3}));
+    average.add(other);
+    EXPECT_EQ(average.mean().find("word"), nullptr);
+    EXPECT_EQ(average.mean().find("inner.curve"), nullptr);
+    EXPECT_NE(average.mean().find("exact"), nullptr);
+}
+
+TEST(ReportAverage, OneReportIsItsOwnMeanWithoutError) {
+    ReportAverage average;
+    average.add(sample(2, 5, "w"));
+    EXPECT_EQ(average.mean().number("value"), 2);
+    EXPECT_TRUE(average.standard_error().entries().empty());
+}

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "report/document.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "report/check.hpp"
+#include "support/units.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+Measurement sample() {
+    Measurement m;
+    m.analyzer = "unit";
+    m.source = "a,b.csv";
+    m.count = 3;
+    m.dimension = 2;
+    m.domain = "unit-cube";
+    m.options = {
+        {"flag", "true"}, {"count", "12"}, {"x", "0.5"}, {"word", "polar"}, {"list", "1,2"}};
+    m.results.add("value", 0.1, "cells").add("flag", true).add("word", "fine");
+    m.results.add("huge", std::numeric_limits<double>::infinity());
+    m.results.add("curves",
+                  Report().add("f", Report::Curve{1, 2}).add("n", Report::Integers{8, 16}));
+    m.results.add("grid", Grid{1, 1, {7}});
+    return m;
+}
+
+}  // namespace
+
+TEST(Document, JsonHasTypesAndNoGridsOrInfinities) {
+    const Measurement m = sample();
+    const auto json = nlohmann::json::parse(to_json({&m, 1}));
+    EXPECT_EQ(
+        json["options"],
+        nlohmann::json::parse(R"({"flag":true,"count":12,"x":0.5,"word":"polar","list":"1,2"})"));
+    EXPECT_EQ(json["results"]["value"], 0.1);
+    EXPECT_TRUE(json["results"]["huge"].is_null());
+    EXPECT_EQ(json["results"]["curves"]["n"], (std::vector<int>{8, 16}));
+    EXPECT_FALSE(json["results"].contains("grid"));
+    const std::vector<Measurement> two = {m, m};
+    EXPECT_EQ(nlohmann::json::parse(to_json(two)).size(), 2U);
+}
+
+TEST(Document, CsvIsATidyTableOfItsCurves) {
+    const Measurement m = sample();
+    EXPECT_EQ(to_csv({&m, 1}),
+              "analyzer,source,set,count,dimension,domain,value,flag,word,huge,curves.f,curves.n\n"
+              "unit,\"a,b.csv\",,3,2,unit-cube,0.1,true,fine,inf,1,8\n"
+              "unit,\"a,b.csv\",,3,2,unit-cube,0.1,true,fine,inf,2,16\n");
+}
+
+TEST(Document, TextNamesUnits) {
+    const Measurement m = sample();
+    const std::string text = to_text({&m, 1});
+    EXPECT_NE(text.find("  value     0.1 cells\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("  flag      yes\n"), std::string::npos) << text;
+}
+
+TEST(Check, ComparesNumbersWordsAndFlags) {
+    const Report report = sample().results;
+    for (const char* text : {"value<0.2", "value <= 0.1", "value==0.1", "value!=1", "value>-1",
+                             "flag==true", "word=fine", "word!=bad", "flag!=false"})
+        EXPECT_TRUE(parse_check(text).holds(report)) << text;
+    for (const char* text : {"value<0.1", "value>=0.2", "word==bad"})
+        EXPECT_FALSE(parse_check(text).holds(report)) << text;
+    for (const char* text : {"value", "value<", "<1", "value=<1", "value<<1"})
+        EXPECT_TRUE(error_of([&] { parse_check(text); }).starts_with("usage: --check")) << text;
+    for (const char* text : {"vlaue<1", "word<1", "value<one", "curves.f<1"})
+        EXPECT_TRUE(error_of([&] { (void)parse_check(text).holds(report); }).starts_with("usage: "))
+            << text;
+}

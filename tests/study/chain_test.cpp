@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include "study/chain.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/units.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+WarpChain chain(std::initializer_list<const char*> specs, std::size_t dimension) {
+    std::vector<Spec> parsed;
+    for (const char* text : specs) parsed.push_back(parse_spec(text));
+    return {parsed, dimension};
+}
+
+}  // namespace
+
+TEST(WarpChain, WarpsTheNamedCoordinatesAndLeavesTheOthers) {
+    const auto both = chain({"disk@4,2", "triangle@1,3"}, 5);
+    const auto disk = chain({"disk"}, 2);
+    const auto triangle = chain({"triangle"}, 2);
+    const std::vector<double> row = {0.1, 0.2, 0.3, 0.4, 0.5};
+    const auto out = both.forward(row);
+    const auto on_disk = disk.forward({0.4, 0.2});
+    const auto on_triangle = triangle.forward({0.1, 0.3});
+    EXPECT_EQ(out,
+              (std::vector<double>{on_triangle[0], on_disk[1], on_triangle[1], on_disk[0], 0.5}));
+    EXPECT_EQ(both.domain()->spec(), "disk@4,2 x triangle@1,3 x unit-cube@5");
+    EXPECT_NEAR(both.density(out)[0], 2 / 3.14159265358979, 1e-12);
+}
+
+// A triangle in space has three numbers for two; what stood behind moves up.
+TEST(WarpChain, ImagesOfMoreNumbersMakeRowsLonger) {
+    const auto longer = chain({"disk@3,4", "triangle@1,2:vertices=[0,0,1 1,0,1 0,1,1]"}, 4);
+    EXPECT_EQ(longer.dimension_out(), 5U);
+    const std::vector<double> row = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8};
+    const auto out = longer.forward(row);
+    ASSERT_EQ(out.size(), 10U);
+    EXPECT_EQ(out[2], 1);
+    EXPECT_EQ(out[7], 1);
+    const auto on_disk = chain({"disk"}, 2).forward({0.3, 0.4});
+    EXPECT_EQ(out[3], on_disk[0]);
+    EXPECT_EQ(out[4], on_disk[1]);
+    const auto back = longer.inverse(out);
+    for (std::size_t k = 0; k < row.size(); ++k) EXPECT_NEAR(back[k], row[k], 1e-14) << k;
+}
+
+TEST(WarpChain, DroppedPointsTakeTheirWholeRow) {
+    const auto rejection = chain({"disk@1,2:method=rejection"}, 3);
+    EXPECT_TRUE(rejection.drops());
+    const auto out = rejection.forward({0.5, 0.5, 0.1, 0.01, 0.01, 0.2, 0.75, 0.5, 0.3});
+    EXPECT_EQ(out, (std::vector<double>{0, 0, 0.1, 0.5, 0, 0.3}));
+}
+
+TEST(WarpChain, RefusesWhatDoesNotFit) {
+    EXPECT_TRUE(error_of([] { chain({"disk"}, 3); }).find("disk@1,2") != std::string::npos);
+    EXPECT_NE(error_of([] { chain({"disk@1,4"}, 3); }), "");
+    EXPECT_NE(error_of([] { chain({"disk@1,2", "disk@2,3"}, 3); }), "");
+}
+
+TEST(WarpChain, NothingLeavesTheCube) {
+    const auto nothing = chain({}, 3);
+    EXPECT_EQ(nothing.domain()->spec(), "unit-cube");
+    EXPECT_EQ(nothing.forward({0.1, 0.2, 0.3}), (std::vector<double>{0.1, 0.2, 0.3}));
+    EXPECT_EQ(nothing.density(std::vector<double>{0.1, 0.2, 0.3}), std::vector<double>{1});
+}
