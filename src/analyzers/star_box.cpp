@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "analyzers/star_box.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "math/radix_sort.hpp"
+
+namespace stipple::analyzers::star {
+namespace {
+
+using Integer = WorstBox::Integer;
+
+/// Sorts one axis: its distinct values with 1, and the place of every point.
+void index_axis(const PointSet& points, std::size_t axis, CornerGrid& grid, const RunContext& run) {
+    std::vector<Placed> items(points.count());
+    for (std::size_t i = 0; i < items.size(); ++i)
+        items[i] = {points[i][axis] + 0.0, static_cast<std::uint32_t>(i)};  // -0 becomes 0
+    radix_sort(items, run);
+    auto& values = grid.values[axis];
+    auto& ranks = grid.ranks[axis];
+    ranks.resize(items.size());
+    for (const auto& [value, place] : items) {
+        if (values.empty() || values.back() != value) values.push_back(value);
+        ranks[place] = static_cast<std::uint32_t>(values.size() - 1);
+    }
+    if (values.back() != 1) values.push_back(1);
+}
+
+/// A double in [0, 1] as mantissa * 2^-places, with an odd mantissa or 0.
+struct Dyadic {
+    std::uint64_t mantissa;
+    unsigned places;
+};
+
+Dyadic dyadic(double x) {
+    int exponent = 0;
+    const auto mantissa = static_cast<std::uint64_t>(std::ldexp(std::frexp(x, &exponent), 53));
+    if (mantissa == 0) return {0, 0};
+    const int zeros = std::countr_zero(mantissa);
+    return {mantissa >> zeros, static_cast<unsigned>(53 - exponent - zeros)};
+}
+
+unsigned places_of(const std::vector<double>& values) {
+    unsigned most = 0;
+    for (const double x : values) most = std::max(most, dyadic(x).places);
+    return most;
+}
+
+/// above / (below * 2^places), rounded to the nearest double, ties to even.
+double quotient(const Integer& above, std::uint64_t below, unsigned places) {
+    if (above == 0) return 0;
+    const unsigned shift = 128;  // so that the quotient has 64 bits and more
+    Integer rest = 0;
+    Integer whole = 0;
+    divide_qr(Integer(above << shift), Integer(below), whole, rest);
+    const auto spare = static_cast<unsigned>(msb(whole)) - 54;
+    const bool inexact = rest != 0 || lsb(whole) < spare;
+    // 55 bits: those of the double, the next one, and whether anything follows.
+    const auto top = static_cast<std::uint64_t>(Integer(whole >> spare)) | (inexact ? 1U : 0U);
+    return std::ldexp(static_cast<double>(top),
+                      static_cast<int>(spare) - static_cast<int>(shift + places));
+}
+
+}  // namespace
+
+CornerGrid corner_grid(const PointSet& points, const RunContext& run) {
+    CornerGrid grid{.count = points.count(), .values = {}, .ranks = {}};
+    grid.values.resize(points.dimension());
+    grid.ranks.resize(points.dimension());
+    for (std::size_t axis = 0; axis < points.dimension(); ++axis)
+        index_axis(points, axis, grid, run);
+    return grid;
+}
+
+WorstBox::WorstBox(const CornerGrid& grid)
+    : grid_(&grid),
+      rounding_(static_cast<double>(grid.dimension() + 4) * 0x1p-52),
+      corner_(grid.dimension()) {
+    for (const auto& values : grid.values) places_.push_back(places_of(values));
+    for (const unsigned places : places_) all_places_ += places;
+}
+
+double WorstBox::approximate(Side side, std::span<const std::uint32_t> corner,
+                             std::uint64_t points) const {
+    double volume = 1;
+    for (std::size_t k = 0; k < corner.size(); ++k) volume *= grid_->values[k][corner[k]];
+    const double share = static_cast<double>(points) / static_cast<double>(grid_->count);
+    return side == Side::open ? volume - share : share - volume;
+}
+
+Integer WorstBox::scaled_volume(std::span<const std::uint32_t> corner) const {
+    Integer volume = 1;
+    for (std::size_t k = 0; k < corner.size(); ++k) {
+        const auto [mantissa, places] = dyadic(grid_->values[k][corner[k]]);
+        volume *= mantissa;
+        volume <<= places_[k] - places;
+    }
+    return volume;
+}
+
+void WorstBox::offer(Side side, std::span<const std::uint32_t> corner, std::uint64_t points) {
+    if (approximate(side, corner, points) < threshold()) return;
+    const Integer share = Integer(points) << all_places_;
+    const Integer volume = scaled_volume(corner) * grid_->count;
+    Integer scaled = volume - share;
+    if (side == Side::closed) scaled = -scaled;
+    if (scaled <= scaled_value_) return;
+    value_ = quotient(scaled, grid_->count, all_places_);
+    scaled_value_ = std::move(scaled);
+    side_ = side;
+    corner_.assign(corner.begin(), corner.end());
+    points_ = points;
+}
+
+void WorstBox::offer(const WorstBox& other) {
+    if (other.scaled_value_ > scaled_value_) *this = other;
+}
+
+std::vector<double> WorstBox::corner() const {
+    std::vector<double> corner;
+    for (std::size_t k = 0; k < corner_.size(); ++k) corner.push_back(grid_->values[k][corner_[k]]);
+    return corner;
+}
+
+double WorstBox::volume() const { return quotient(scaled_volume(corner_), 1, all_places_); }
+
+}  // namespace stipple::analyzers::star

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+//
+// Star discrepancy of n points in the unit cube, exact:
+//
+//     D* = sup over c in [0,1]^d of  | #{points in [0,c)} / n  -  vol [0,c) |.
+//
+// It is reached or approached at corners c made of point coordinates and 1, once with the box open
+// (too few points inside) and once with it closed (too many), so both are counted:
+//
+//     D* = max over c of  max( vol(c) - #{x < c} / n,  #{x <= c} / n - vol(c) ).
+//
+// Shape   points n x d in [0, 1];  result in [1/(2n), 1], a pure number, smaller is more even.
+// Cost    d = 1: O(n log n). d = 2: O(n log^2 n) time, O(n) memory.
+//         d > 2: exponential in d at worst (the problem is NP-hard); branch and bound, which gives
+//         up after --max-work.
+// Promise exact: counts are integers, boxes are compared without rounding, and the value is the
+//         double nearest to that of the worst box. Never depends on the number of threads.
+// Beware  coordinates are taken as the doubles that they are: 0.1 is a little more than 1/10.
+// Source  C. Doerr, M. Gnewuch, M. Wahlstroem, "Calculation of discrepancy measures and
+//         applications", arXiv:1405.1653 (survey); M. Gnewuch, A. Srivastav, C. Winzen, J.
+//         Complexity 25 (2009) 115-127 (NP-hard).
+
+#include "analyzers/analyzer.hpp"
+#include "analyzers/star_search.hpp"
+#include "analyzers/star_sweep.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace stipple::analyzers {
+namespace {
+
+constexpr Param<std::int64_t> max_work{
+    .name = "max-work",
+    .fallback = 200'000'000'000,
+    .low = 1,
+    .unit = "comparisons",
+    .help =
+        "Give up when branch and bound (3 and more dimensions) has compared this many "
+        "coordinates; 10^9 take about a second"};
+
+/// More points than any machine's memory holds; counts of points stay far from 2^31.
+constexpr std::size_t max_count = std::size_t{1} << 29;
+
+Report report(const star::WorstBox& worst, const char* method) {
+    Report box;
+    box.add("corner", worst.corner());
+    box.add("closed", worst.side() == star::Side::closed);
+    box.add("points", worst.points());
+    box.add("volume", worst.volume());
+    Report results;
+    results.add("value", worst.value());
+    results.add("lower", worst.value());
+    results.add("upper", worst.value());
+    results.add("exact", true);
+    results.add("method", method);
+    results.add("worst_box", std::move(box));
+    return results;
+}
+
+Report search_for_it(const star::CornerGrid& grid, std::int64_t work, const RunContext& run) {
+    const star::SearchResult found = star::search(grid, static_cast<std::uint64_t>(work), run);
+    if (found.complete) return report(found.worst, "branch-and-bound");
+    fail_with_hint(ErrorKind::limit,
+                   "a larger --max-work, or fewer points, may give the exact value",
+                   "the star discrepancy of {} points in {} dimensions takes more than {} "
+                   "comparisons (--max-work); certain so far: it is between {} and {}",
+                   grid.count, grid.dimension(), work, format_number(found.worst.value()),
+                   format_number(found.upper));
+}
+
+Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
+    if (points.count() == 0) fail(ErrorKind::input, "star-discrepancy needs at least one point");
+    if (points.count() > max_count)
+        fail(ErrorKind::limit, "star-discrepancy takes up to {} points; these are {}", max_count,
+             points.count());
+    run.need_memory(static_cast<double>(points.count()) *
+                        (static_cast<double>(points.dimension() * star::axis_bytes) + 32),
+                    "the star discrepancy's grid of corners");
+    const star::CornerGrid grid = star::corner_grid(points, run);
+    if (grid.dimension() == 1) return report(star::sweep_1d(grid, run), "sweep-1d");
+    if (grid.dimension() == 2) return report(star::sweep_2d(grid, run), "sweep-2d");
+    return search_for_it(grid, options[max_work], run);
+}
+
+}  // namespace
+
+Analyzer star_discrepancy() {
+    return {.name = "star-discrepancy",
+            .summary = "Star discrepancy, exact, with the worst box",
+            .source = "Doerr, Gnewuch, Wahlstroem 2014, arXiv:1405.1653",
+            .traits = {},
+            .options = Schema(max_work),
+            .results = {{"value", "the star discrepancy"},
+                        {"lower", "it is at least this"},
+                        {"upper", "it is at most this"},
+                        {"exact", "whether the two bounds are the same"},
+                        {"method", "sweep-1d, sweep-2d or branch-and-bound"},
+                        {"worst_box.corner", "upper corner of the box where it is reached"},
+                        {"worst_box.closed", "whether points on the box's upper faces count"},
+                        {"worst_box.points", "points in that box"},
+                        {"worst_box.volume", "its volume"}},
+            .analyze = analyze};
+}
+
+}  // namespace stipple::analyzers

@@ -1,0 +1,371 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <thread>
+
+#include "analyzers/star_search.hpp"
+#include "analyzers/star_sweep.hpp"
+#include "core/rng.hpp"
+#include "support/units.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+using namespace stipple::analyzers;
+using boost::multiprecision::cpp_rational;
+
+namespace {
+
+Report star_report(const PointSet& points) { return analyze("star-discrepancy", points); }
+
+double star_of(const PointSet& points) { return star_report(points).number("value"); }
+
+star::WorstBox by_search(const PointSet& points) {
+    return star::search(star::corner_grid(points, {}), std::uint64_t{1} << 40, {}).worst;
+}
+
+/// Radical inverse, rounded once.
+double phi(std::uint64_t i, std::uint64_t base) {
+    std::uint64_t above = 0;
+    std::uint64_t below = 1;
+    for (; i > 0; i /= base, below *= base) above = above * base + i % base;
+    return static_cast<double>(above) / static_cast<double>(below);
+}
+
+PointSet halton(std::size_t n, std::size_t d, std::size_t start = 1) {
+    constexpr std::uint64_t primes[] = {2, 3, 5, 7, 11, 13, 17, 19};
+    PointSet p(n, d);
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t k = 0; k < d; ++k) p[i][k] = phi(start + i, primes[k]);
+    return p;
+}
+
+/// (i/n, phi_2(i)), i = 0 .. n - 1.
+PointSet hammersley(std::size_t n) {
+    PointSet p(n, 2);
+    for (std::size_t i = 0; i < n; ++i) {
+        p[i][0] = static_cast<double>(i) / static_cast<double>(n);
+        p[i][1] = phi(i, 2);
+    }
+    return p;
+}
+
+/// k^d points, on axis j at (place + offset) / k.
+PointSet grid(std::size_t k, std::size_t d, double offset) {
+    std::size_t n = 1;
+    for (std::size_t j = 0; j < d; ++j) n *= k;
+    PointSet p(n, d);
+    for (std::size_t i = 0; i < n; ++i) {
+        std::size_t rest = i;
+        for (std::size_t j = 0; j < d; ++j, rest /= k)
+            p[i][j] = (static_cast<double>(rest % k) + offset) / static_cast<double>(k);
+    }
+    return p;
+}
+
+/// Coordinates are multiples of 1/steps from 0 to 1: many ties, and points on both bounds.
+PointSet on_lattice(std::size_t n, std::size_t d, std::uint64_t steps, std::uint64_t seed) {
+    const Rng rng(seed, 17);
+    PointSet p(n, d);
+    for (std::size_t i = 0; i < n * d; ++i)
+        p.flat()[i] = static_cast<double>(rng.below(i, steps + 1)) / static_cast<double>(steps);
+    return p;
+}
+
+/// Calls visit(corner) for all corners made of coordinates and 1.
+void each_corner(const PointSet& p, const std::function<void(const std::vector<double>&)>& visit) {
+    std::vector<std::vector<double>> values(p.dimension(), {1.0});
+    for (std::size_t i = 0; i < p.count(); ++i)
+        for (std::size_t k = 0; k < p.dimension(); ++k) values[k].push_back(p[i][k]);
+    for (auto& axis : values) {
+        std::ranges::sort(axis);
+        axis.erase(std::unique(axis.begin(), axis.end()), axis.end());
+    }
+    std::vector<double> corner(p.dimension());
+    const std::function<void(std::size_t)> go = [&](std::size_t k) {
+        if (k == p.dimension()) return visit(corner);
+        for (const double x : values[k]) {
+            corner[k] = x;
+            go(k + 1);
+        }
+    };
+    go(0);
+}
+
+std::int64_t points_in(const PointSet& p, const std::vector<double>& corner, bool closed) {
+    std::int64_t inside = 0;
+    for (std::size_t i = 0; i < p.count(); ++i) {
+        bool in = true;
+        for (std::size_t k = 0; k < p.dimension(); ++k)
+            in = in && (closed ? p[i][k] <= corner[k] : p[i][k] < corner[k]);
+        inside += in;
+    }
+    return inside;
+}
+
+/// Oracle: the definition, corner by corner, in integers; for coordinates that are multiples of
+/// 1/steps. Exact where steps is a power of two and n * steps^d < 2^53. Slow, and too plain to be
+/// wrong.
+double by_definition(const PointSet& p, std::int64_t steps) {
+    std::int64_t cells = 1;
+    for (std::size_t k = 0; k < p.dimension(); ++k) cells *= steps;
+    const auto n = static_cast<std::int64_t>(p.count());
+    std::int64_t worst = 0;
+    each_corner(p, [&](const std::vector<double>& corner) {
+        std::int64_t volume = 1;
+        for (const double x : corner) volume *= std::llround(x * static_cast<double>(steps));
+        worst = std::max({worst, n * volume - cells * points_in(p, corner, false),
+                          cells * points_in(p, corner, true) - n * volume});
+    });
+    return static_cast<double>(worst) / static_cast<double>(n * cells);
+}
+
+/// Counts the worst box anew and works out its discrepancy in rational numbers: the value is the
+/// nearest double to it.
+void expect_box_holds(const PointSet& p, const Report& report) {
+    const auto corner = report.curve("worst_box.corner");
+    const bool closed = std::get<bool>(*report.find("worst_box.closed"));
+    const std::int64_t inside = points_in(p, corner, closed);
+    EXPECT_EQ(report.number("worst_box.points"), static_cast<double>(inside));
+
+    cpp_rational volume = 1;
+    for (const double x : corner) volume *= cpp_rational(x);
+    const cpp_rational share(inside, static_cast<std::int64_t>(p.count()));
+    const cpp_rational exact = closed ? cpp_rational(share - volume) : cpp_rational(volume - share);
+    const auto expect_nearest = [](double value, const cpp_rational& truth) {
+        const cpp_rational error = abs(cpp_rational(value) - truth);
+        EXPECT_LE(error, abs(cpp_rational(std::nextafter(value, 2)) - truth));
+        EXPECT_LE(error, abs(cpp_rational(std::nextafter(value, -1)) - truth));
+    };
+    expect_nearest(report.number("value"), exact);
+    expect_nearest(report.number("worst_box.volume"), volume);
+}
+
+std::string text_of(const PointSet& p) {
+    std::string text;
+    for (std::size_t i = 0; i < p.count(); ++i) text += fmt::format("({})", fmt::join(p[i], ","));
+    return text;
+}
+
+}  // namespace
+
+TEST(StarDiscrepancy, KnownByHand) {
+    EXPECT_EQ(star_of(points_of({{.5, .5}})), 3. / 4);
+    EXPECT_EQ(star_of(points_of({{0, 0}})), 1);
+    EXPECT_EQ(star_of(points_of({{1, 1}})), 1);
+    EXPECT_EQ(star_of(points_of({{.5, .5}, {.5, .5}})), 3. / 4);
+    EXPECT_EQ(star_of(points_of({{.25}})), 3. / 4);
+    EXPECT_EQ(star_of(points_of({{.25}, {.75}})), 1. / 4);
+    EXPECT_EQ(star_of(points_of({{.5, .5, .5}})), 7. / 8);
+    EXPECT_EQ(star_of(points_of({{0, 0, 0, 0, 0}})), 1);
+    EXPECT_EQ(star_of(points_of({{1, 1, 1, 1, 1}})), 1);
+}
+
+// Worked out in exact rationals by an independent program; the coordinates are rounded to doubles.
+TEST(StarDiscrepancy, KnownOfHundredPoints) {
+    EXPECT_NEAR(star_of(halton(100, 2)), 6511. / 129600, 2e-16);
+    EXPECT_NEAR(star_of(hammersley(100)), 121. / 3200, 2e-16);
+    EXPECT_NEAR(star_of(grid(10, 2, 0)), 19. / 100, 2e-16);
+    EXPECT_NEAR(star_of(grid(10, 2, 0.5)), 39. / 400, 2e-16);
+}
+
+// The box up to the last points holds them all: 1 - (1 - 1/k)^d, and with half the margin for
+// points in the middle of their cells.
+TEST(StarDiscrepancy, OfGridsHasAClosedForm) {
+    for (const auto& [k, d] :
+         {std::pair{7, 1}, {1, 2}, {8, 2}, {33, 2}, {5, 3}, {8, 3}, {4, 4}, {3, 5}}) {
+        const auto size = static_cast<std::size_t>(k);
+        const auto dim = static_cast<std::size_t>(d);
+        EXPECT_NEAR(star_of(grid(size, dim, 0)), 1 - std::pow(1 - 1. / k, d), 1e-15)
+            << k << "^" << d;
+        EXPECT_NEAR(star_of(grid(size, dim, 0.5)), 1 - std::pow(1 - .5 / k, d), 1e-15)
+            << k << "^" << d;
+    }
+}
+
+// Halton and Zaremba (1969): n D* = m/3 + 13/9 - (-1)^m 4/(9 2^m) for n = 2^m points (i/n,
+// phi_2(i)). For m = 1 the formula does not hold: the points (0,0), (1/2,1/2) have 3/4, by hand.
+TEST(StarDiscrepancy, OfHammersleyInBaseTwoHasAClosedForm) {
+    EXPECT_EQ(star_of(hammersley(2)), 3. / 4);
+    for (int m = 2; m <= 15; ++m) {
+        const double n = std::ldexp(1, m);
+        const double sign = m % 2 == 0 ? 1 : -1;
+        const double expected = (m / 3. + 13. / 9 - sign * 4 / (9 * n)) / n;
+        EXPECT_NEAR(star_of(hammersley(static_cast<std::size_t>(n))), expected, 1e-15) << "m " << m;
+    }
+}
+
+// Only open boxes see that all points are at 1, only closed ones that they are at 0, and only
+// boxes that end at 1 (closed there) hold (0, 1).
+TEST(StarDiscrepancy, CountsOpenAndClosedBoxes) {
+    EXPECT_EQ(star_of(points_of({{1, 1}, {1, 1}, {1, 1}})), 1);
+    EXPECT_EQ(star_of(points_of({{0, 0}, {0, 0}, {0, 0}})), 1);
+    EXPECT_EQ(star_of(points_of({{0, 1}, {0, .5}})), 1);  // half-open boxes alone give 1/2
+    EXPECT_EQ(star_of(points_of({{0, 1, 0}, {0, .5, 0}})), 1);
+    EXPECT_EQ(star_of(points_of({{1}, {.5}})), 1. / 2);
+    const Report open = star_report(points_of({{.75, .75}, {.75, 1}}));
+    EXPECT_EQ(open.number("value"), 3. / 4);  // nothing to the left of 3/4
+    EXPECT_FALSE(std::get<bool>(*open.find("worst_box.closed")));
+    EXPECT_EQ(open.curve("worst_box.corner"), (std::vector<double>{.75, 1}));
+    EXPECT_EQ(open.number("worst_box.points"), 0);
+    EXPECT_EQ(open.number("worst_box.volume"), .75);
+    const Report closed = star_report(points_of({{.25, .5}, {.25, .25}}));
+    EXPECT_EQ(closed.number("value"), 7. / 8);
+    EXPECT_TRUE(std::get<bool>(*closed.find("worst_box.closed")));
+    EXPECT_EQ(closed.curve("worst_box.corner"), (std::vector<double>{.25, .5}));
+    EXPECT_EQ(closed.number("worst_box.points"), 2);
+    EXPECT_EQ(closed.number("worst_box.volume"), .125);
+}
+
+// Exact to the last bit, with ties, duplicates, points on 0 and 1, and single points.
+TEST(StarDiscrepancy, IsTheDefinitionsToTheLastBit) {
+    constexpr std::size_t most[] = {0, 60, 30, 14, 9, 6};
+    for (std::size_t d = 1; d <= 5; ++d)
+        for (const std::int64_t steps : {2, 8, 256})
+            for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+                const std::size_t n = 1 + Rng(seed).below(d, most[d]);
+                const PointSet p = on_lattice(n, d, static_cast<std::uint64_t>(steps), seed);
+                const double expected = by_definition(p, steps);
+                const Report report = star_report(p);
+                ASSERT_EQ(report.number("value"), expected) << text_of(p);
+                EXPECT_EQ(by_search(p).value(), expected) << text_of(p);
+                expect_box_holds(p, report);
+            }
+}
+
+TEST(StarDiscrepancy, ReportsItsBoxAndBounds) {
+    for (const auto& p : {halton(50, 1), halton(50, 2), halton(50, 3), halton(30, 4),
+                          make("random", points(40, 2)), make("random", points(40, 3))}) {
+        const Report report = star_report(p);
+        expect_box_holds(p, report);
+        EXPECT_EQ(report.number("lower"), report.number("value"));
+        EXPECT_EQ(report.number("upper"), report.number("value"));
+        EXPECT_TRUE(std::get<bool>(*report.find("exact")));
+    }
+    EXPECT_EQ(star_report(halton(9, 1)).text("method"), "sweep-1d");
+    EXPECT_EQ(star_report(halton(9, 2)).text("method"), "sweep-2d");
+    EXPECT_EQ(star_report(halton(9, 3)).text("method"), "branch-and-bound");
+}
+
+// Two boxes 2^-52 apart, far below what sums of doubles tell apart, and nearer to 1.
+TEST(StarDiscrepancy, ComparesBoxesWithoutRounding) {
+    const double tiny = 0x1p-300;
+    const PointSet p = points_of({{tiny, tiny}, {tiny / 2, tiny}, {tiny, tiny / 4}});
+    const Report report = star_report(p);
+    EXPECT_EQ(report.number("value"), 1);
+    EXPECT_EQ(report.number("worst_box.volume"), tiny * tiny);
+    // Open box up to a half: 0.5 - 2^-54 and 0.5 - 2^-54 + tiny have the same double.
+    const double half = 0.5 - 0x1p-54;
+    const PointSet q = points_of({{half, 1}, {1, half}});
+    EXPECT_EQ(star_report(q).number("value"), by_search(q).value());
+    expect_box_holds(q, star_report(q));
+}
+
+TEST(StarDiscrepancy, SweepAndSearchAgree) {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+        const PointSet random = make("random", points(20 * seed, 2), {}, {.seed = seed});
+        EXPECT_EQ(star_of(random), by_search(random).value()) << "seed " << seed;
+        const PointSet line = make("random", points(20 * seed, 1), {}, {.seed = seed});
+        EXPECT_EQ(star_of(line), by_search(line).value()) << "seed " << seed;
+        const PointSet tied = on_lattice(300, 2, 16 * seed, seed);
+        EXPECT_EQ(star_of(tied), by_search(tied).value()) << "seed " << seed;
+    }
+    for (const std::size_t n : {777, 3000})
+        EXPECT_EQ(star_of(halton(n, 2)), by_search(halton(n, 2)).value()) << n;
+}
+
+TEST(StarDiscrepancy, DoesNotDependOnTheOrderOfTheAxes) {
+    for (std::size_t d = 2; d <= 5; ++d) {
+        const PointSet p = make("random", points(60, d), {}, {.seed = d});
+        const double value = star_of(p);
+        std::vector<std::size_t> axes(d);
+        std::iota(axes.begin(), axes.end(), std::size_t{0});
+        for (std::size_t turn = 1; turn < d; ++turn) {
+            std::ranges::rotate(axes, axes.begin() + 1);
+            PointSet q(p.count(), d);
+            for (std::size_t i = 0; i < p.count(); ++i)
+                for (std::size_t k = 0; k < d; ++k) q[i][k] = p[i][axes[k]];
+            EXPECT_EQ(star_of(q), value) << "d " << d << ", turned by " << turn;
+        }
+    }
+}
+
+// |k'/(n+1) - k/n| <= 1/(n+1) for k' = k or k + 1, in every box.
+TEST(StarDiscrepancy, ChangesLittleWithOnePointMore) {
+    for (std::size_t d = 1; d <= 3; ++d) {
+        double before = 1;
+        for (std::size_t n = 1; n <= 60; ++n) {
+            const double value = star_of(halton(n, d, 0));
+            EXPECT_LE(std::abs(value - before), 1. / static_cast<double>(n) + 1e-15)
+                << "n " << n << ", d " << d;
+            EXPECT_GE(value, .5 / static_cast<double>(n)) << "n " << n << ", d " << d;
+            before = value;
+        }
+    }
+}
+
+TEST(StarDiscrepancy, IsTheSameForAnyNumberOfThreads) {
+    for (const PointSet& p : {make("random", points(3000, 2)), make("random", points(200, 4)),
+                              on_lattice(200, 3, 8, 1)}) {
+        const Report one = analyze("star-discrepancy", p, {}, {.threads = 1});
+        EXPECT_EQ(one, analyze("star-discrepancy", p, {}, {.threads = 2}));
+        EXPECT_EQ(one, analyze("star-discrepancy", p, {}, {.threads = 7}));
+    }
+}
+
+TEST(StarDiscrepancy, GivesUpAtItsLimitAndSaysWhatIsCertain) {
+    const PointSet p = halton(120, 8);
+    const double value = star_of(p);
+    const star::SearchResult part = star::search(star::corner_grid(p, {}), 20'000'000, {});
+    EXPECT_FALSE(part.complete);
+    EXPECT_LE(part.worst.value(), value);
+    EXPECT_GE(part.upper, value);
+    EXPECT_LT(part.upper, 1);
+    const std::string message = error_of([&] {
+        analyze("star-discrepancy", p, {{"max-work", "20000000"}});
+    });
+    EXPECT_EQ(
+        message,
+        fmt::format("limit: the star discrepancy of 120 points in 8 dimensions takes more "
+                    "than 20000000 comparisons (--max-work); certain so far: it is between {} and "
+                    "{} | a larger --max-work, or fewer points, may give the exact value",
+                    part.worst.value(), part.upper));
+}
+
+TEST(StarDiscrepancy, StopsWhenAskedAndTellsItsProgress) {
+    for (const PointSet& p :
+         {make("random", points(100'000, 2)), make("random", points(2000, 6))}) {
+        std::stop_source source;
+        std::vector<double> seen;
+        RunContext run{.stop = source.get_token()};
+        run.progress = [&](double done) {
+            seen.push_back(done);
+            source.request_stop();
+        };
+        EXPECT_EQ(error_of([&] { analyze("star-discrepancy", p, {}, run); }),
+                  "cancelled: interrupted");
+        EXPECT_EQ(seen.size(), 1U);
+    }
+    for (const PointSet& p : {halton(20'000, 1), halton(20'000, 2), halton(300, 4)}) {
+        std::vector<double> seen;
+        RunContext run;
+        run.progress = [&](double done) { seen.push_back(done); };
+        analyze("star-discrepancy", p, {}, run);
+        EXPECT_TRUE(std::ranges::is_sorted(seen));
+        EXPECT_EQ(seen.back(), 1);
+    }
+}
+
+TEST(StarDiscrepancy, RefusesPointsOutsideTheCubeAndTooLittleMemory) {
+    EXPECT_NE(error_of([] { star_of(points_of({{.5, 1.5}})); }), "");
+    EXPECT_NE(error_of([] { star_of(points_of({{.5, std::nan("")}})); }), "");
+    RunContext run;
+    run.max_memory = 1000;
+    EXPECT_EQ(
+        error_of([&] { analyze("star-discrepancy", halton(1000, 2), {}, run); }).substr(0, 50),
+        "limit: the star discrepancy's grid of corners need");
+}
