@@ -208,7 +208,11 @@ double fourier_sums_size(std::size_t dimension, std::size_t max_frequency) {
     return power(2 * max_frequency + 1, dimension - 1) * static_cast<double>(max_frequency + 1);
 }
 
-double rounding_floor(std::size_t count) { return 2e-14 * std::sqrt(static_cast<double>(count)); }
+double rounding_floor(std::size_t count) {
+    const auto n = static_cast<double>(count);
+    // Measured below 7e-14 a point up to n = 10^6; beyond, the sums of ever more buffers of a tile.
+    return (1e-13 + n * 0x1p-62) * std::sqrt(n);
+}
 
 Nufft::Nufft(std::size_t count, std::size_t dimension, std::size_t max_frequency, double tolerance)
     : count_(count),
@@ -216,12 +220,13 @@ Nufft::Nufft(std::size_t count, std::size_t dimension, std::size_t max_frequency
       frequency_(max_frequency),
       window_(KaiserBessel::min_width, 0.25) {
     assert(dimension >= 1 && dimension <= 3 && max_frequency >= 1);
-    const double allowed =
-        tolerance / std::sqrt(static_cast<double>(count)) / static_cast<double>(dimension) / 1.1;
+    // Of each point, in each dimension; less than rounding errors would be of no use.
+    const double allowed = std::max(tolerance / std::sqrt(static_cast<double>(count)), 3e-14) /
+                           (1.1 * static_cast<double>(dimension));
     double cheapest = std::numeric_limits<double>::infinity();
-    // A finer grid takes a narrower window. A grid as coarse as 3/2 magnifies rounding errors.
+    // A finer grid takes a narrower window, and magnifies rounding errors less.
     for (const double finer : {1.5, 2.0, 2.5, 3.0, 4.0}) {
-        if (finer < 2 && allowed < 1e-10) continue;
+        if (allowed < (finer < 2 ? 1e-10 : finer < 2.5 ? 1e-13 : 0)) continue;
         const auto least =
             static_cast<std::size_t>(finer * static_cast<double>(2 * frequency_ + 1));
         const std::size_t side = quick_length(std::max(least, CellGrid::smallest_side));
@@ -305,9 +310,9 @@ class PhaseTables {
     PhaseTables(std::size_t dimension, std::size_t last)
         : dimension_(dimension), last_(last), table_(dimension * capacity * (last + 1)) {}
 
-    void fill(std::span<const double> rows) {
+    void fill(std::span<const double> rows, const RunContext& run) {
         count_ = rows.size() / dimension_;
-        for (std::size_t i = 0; i < count_; ++i)
+        for (std::size_t i = 0; i < count_; ++i, run.check_stop())
             for (std::size_t k = 0; k < dimension_; ++k)
                 phases(rows[i * dimension_ + k], last_, at(k, i));
     }
@@ -354,10 +359,9 @@ FourierSums fourier_sums_directly(std::span<const double> rows, std::size_t dime
     const std::size_t portion = PhaseTables::capacity * dimension;
     const auto last = static_cast<std::int64_t>(max_frequency);
     for (std::size_t at = 0; at < rows.size(); at += portion) {
-        tables.fill(rows.subspan(at, std::min(portion, rows.size() - at)));
-        const std::size_t size = std::max<std::size_t>(1, 4096 / width);
+        tables.fill(rows.subspan(at, std::min(portion, rows.size() - at)), run);
         for_each_block(
-            run, lines, size,
+            run, lines, std::max<std::size_t>(1, 4096 / width),
             [&](const Block& b) {
                 for (std::size_t i = b.first; i < b.last; ++i) {
                     // Sums of a portion first: rounding errors of long sums stay small.

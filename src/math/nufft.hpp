@@ -12,8 +12,8 @@
 // Cost    O(n w^d + M^d log M) time for windows w <= 16 cells wide; memory: bytes().
 // Promise |error| <= max(tolerance, floor) sqrt(n) at every f, for every set: the window's error is
 //         held below tolerance / sqrt(n) for each point, so that not even points in phase exceed
-//         it. floor = rounding_floor(n, d) is what float64 leaves when all n points are in phase;
-//         where they are not, smaller tolerances hold as well.
+//         it. floor = rounding_floor(n), about 1e-13 sqrt(n), is what float64 may leave when all n
+//         points are in phase; where they are not, smaller tolerances hold as well.
 //         The same bits for any number of threads.
 // Source  A. Dutt, V. Rokhlin, SIAM J. Sci. Comput. 14 (1993) 1368-1393, doi:10.1137/0914081;
 //         A. H. Barnett, J. Magland, L. af Klinteberg, SIAM J. Sci. Comput. 41 (2019) C479-C504,

@@ -294,6 +294,9 @@ void spread_colour(const Sorted& sorted, std::size_t colour, std::size_t dimensi
     static const AddPoints add = widest();
     const std::size_t tiles = tiling.count_of_colour();
     const std::size_t block = std::max<std::size_t>(1, tiles / 128);
+    // A buffer takes so many points: rounding errors of long sums stay small, and a stop is heeded
+    // where all points are in one tile.
+    const std::size_t portion = 512 * dimension;
     for_each_block(
         run, tiles, block,
         [&](const Block& b) {
@@ -304,15 +307,13 @@ void spread_colour(const Sorted& sorted, std::size_t colour, std::size_t dimensi
                 const std::size_t end = sorted.begins[number + 1];
                 if (begin == end) continue;
                 const Tile tile = tiling.describe(number);
-                buffer.assign(tiling.buffer_size(), 0.0);
-                // In portions, so that a stop is heeded where all points are in one tile.
-                const std::size_t portion = 4096 * dimension;
                 for (std::size_t at = begin; at < end; at += portion) {
                     run.check_stop();
+                    buffer.assign(tiling.buffer_size(), 0.0);
                     const std::span some(&sorted.rows[at], std::min(portion, end - at));
                     add(some, dimension, tile, buffer.data());
+                    tiling.add_back(tile, buffer.data());
                 }
-                tiling.add_back(tile, buffer.data());
             }
         },
         true);
@@ -321,10 +322,11 @@ void spread_colour(const Sorted& sorted, std::size_t colour, std::size_t dimensi
 }  // namespace
 
 std::size_t spreading_batch(std::size_t count, const CellGrid& grid) {
-    std::size_t cells = grid.side;
-    for (std::size_t k = 1; k < grid.dimension; ++k) cells *= grid.side;
+    constexpr std::size_t most = std::size_t{1} << 30;  // counters of 32 bits are enough for it
+    std::size_t cells = 1;
+    for (std::size_t k = 0; k < grid.dimension; ++k) cells = std::min(most, cells * grid.side);
     // Fewer points than cells would pass over the grid too often.
-    const std::size_t batch = std::clamp(cells, std::size_t{1} << 20, std::size_t{1} << 30);
+    const std::size_t batch = std::max(cells, std::size_t{1} << 20);
     return std::min(count, batch);
 }
 
