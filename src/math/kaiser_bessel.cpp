@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "math/kaiser_bessel.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace stipple {
+namespace {
+
+/// I0(2 sqrt(y)) by its series, all terms of which are positive for y >= 0.
+double bessel_i0(double y) {
+    double term = 1;
+    double sum = 1;
+    for (int k = 1; std::abs(term) > 1e-17 * sum; ++k) {
+        term *= y / (k * k);
+        sum += term;
+    }
+    return sum;
+}
+
+/// Coefficients c of sum_k c_k T_k(t) that agrees with `values` at the Chebyshev nodes.
+std::vector<double> chebyshev_coefficients(const std::vector<double>& values) {
+    const std::size_t n = values.size();
+    std::vector<double> c(n, 0.0);
+    for (std::size_t k = 0; k < n; ++k)
+        for (std::size_t j = 0; j < n; ++j)
+            c[k] += values[j] * (k == 0 ? 1 : 2) / static_cast<double>(n) *
+                    std::cos(std::numbers::pi * static_cast<double>(k) *
+                             (static_cast<double>(j) + 0.5) / static_cast<double>(n));
+    return c;
+}
+
+/// The same polynomial in powers of t, lowest first.
+std::vector<double> to_powers(const std::vector<double>& chebyshev) {
+    const std::size_t n = chebyshev.size();
+    std::vector<double> powers(n, 0.0);
+    std::vector<double> before(n, 0.0);
+    std::vector<double> current(n, 0.0);
+    current[0] = 1;  // T_0
+    for (std::size_t k = 0; k < n; ++k) {
+        for (std::size_t i = 0; i <= k; ++i) powers[i] += chebyshev[k] * current[i];
+        std::vector<double> next(n, 0.0);  // T_(k+1) = 2 t T_k - T_(k-1), and T_1 = t
+        for (std::size_t i = 0; i + 1 < n; ++i) next[i + 1] = (k == 0 ? 1 : 2) * current[i];
+        for (std::size_t i = 0; i < n; ++i) next[i] -= before[i];
+        before = std::move(current);
+        current = std::move(next);
+    }
+    return powers;
+}
+
+/// Degree at which the polynomials are as good as the window itself, found by trying.
+constexpr std::size_t degree_for(std::size_t width) { return width + 1; }
+
+}  // namespace
+
+KaiserBessel::KaiserBessel(std::size_t width, double band) : width_(width), band_(band) {
+    assert(width >= min_width && width <= max_width && band > 0 && band < 0.5);
+    // The window's transform ends where the nearest alias of the wanted band begins; a little less
+    // than that is best for narrow and wide windows alike.
+    beta_ = 0.985 * std::numbers::pi * static_cast<double>(width) * (1 - band);
+    scale_ = 1 / bessel_i0(beta_ * beta_ / 4);
+    fit(degree_for(width));
+}
+
+double KaiserBessel::operator()(double a) const {
+    const double z = 2 * a / static_cast<double>(width_);
+    if (std::abs(z) > 1) return 0;
+    return bessel_i0((1 - z) * (1 + z) * beta_ * beta_ / 4) * scale_;
+}
+
+double KaiserBessel::transform(double xi) const {
+    const double omega = std::numbers::pi * static_cast<double>(width_) * xi;
+    const double square = (beta_ - omega) * (beta_ + omega);
+    const double s = std::sqrt(std::abs(square));
+    const double shape = square > 0 ? std::sinh(s) / s : std::sin(s) / s;
+    return static_cast<double>(width_) * shape * scale_;
+}
+
+void KaiserBessel::fit(std::size_t degree) {
+    degree_ = degree;
+    const std::size_t row = padded_width();
+    coefficients_.assign((degree + 1) * row, 0.0);
+    std::vector<double> values(degree + 1);
+    for (std::size_t j = 0; j < width_; ++j) {
+        const double first = static_cast<double>(width_) / 2 - 1 - static_cast<double>(j);
+        for (std::size_t i = 0; i <= degree; ++i) {
+            const double t = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) /
+                                      static_cast<double>(degree + 1));
+            values[i] = (*this)((t + 1) / 2 + first);
+        }
+        const auto powers = to_powers(chebyshev_coefficients(values));
+        for (std::size_t k = 0; k <= degree; ++k) coefficients_[k * row + j] = powers[degree - k];
+    }
+}
+
+double KaiserBessel::error() const {
+    constexpr int places = 9;  // of the point between two grid points; the error is smooth there
+    const std::size_t row = padded_width();
+    double worst = 0;
+    for (int i = 0; i <= places; ++i) {
+        const double u = static_cast<double>(i) / places;
+        std::complex<double> high;  // the sums at the ends of the band
+        double low = 0;
+        for (std::size_t j = 0; j < width_; ++j) {
+            double value = 0;
+            for (std::size_t k = 0; k <= degree_; ++k)
+                value = value * (2 * u - 1) + coefficients_[k * row + j];
+            const double a = u + static_cast<double>(width_) / 2 - 1 - static_cast<double>(j);
+            high += value * std::polar(1.0, 2 * std::numbers::pi * band_ * a);
+            low += value;
+        }
+        worst = std::max(
+            {worst, std::abs(high / transform(band_) - 1.0), std::abs(low / transform(0) - 1.0)});
+    }
+    return worst;
+}
+
+KaiserBessel window_for(double tolerance, double band) {
+    // The error falls as exp(-pi w sqrt(1 - 2 band)), nearly.
+    const double guess = -std::log(tolerance) / (std::numbers::pi * std::sqrt(1 - 2 * band));
+    const double first = std::clamp(std::floor(guess), 2.0, 16.0);
+    auto width = static_cast<std::size_t>(first);
+    KaiserBessel window(width, band);
+    while (window.error() > tolerance && width < KaiserBessel::max_width)
+        window = KaiserBessel(++width, band);
+    return window;
+}
+
+}  // namespace stipple

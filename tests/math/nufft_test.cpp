@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+#include "math/nufft.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <thread>
+
+#include "core/error.hpp"
+#include "core/rng.hpp"
+#include "math/kaiser_bessel.hpp"
+
+using namespace stipple;
+
+namespace {
+
+using Rows = std::vector<double>;
+
+struct NamedRows {
+    std::string name;
+    Rows rows;
+};
+
+/// Sets from incoherent to all points in phase, with the ends of the cube and what is next to them.
+std::vector<NamedRows> sets(std::size_t count, std::size_t d) {
+    Rows random(count * d);
+    Rng(11).fill(0, random);
+    std::vector<NamedRows> all = {{"random", random}};
+    const auto add = [&](std::string name, auto&& coordinate) {
+        Rows rows = random;
+        for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = coordinate(i, random[i]);
+        all.push_back({std::move(name), std::move(rows)});
+    };
+    add("corner grid", [](std::size_t, double x) { return std::floor(x * 8) / 8; });
+    add("clustered", [](std::size_t, double x) { return 0.5 + 1e-4 * x * x; });
+    add("all at 0", [](std::size_t, double) { return 0.0; });
+    add("all at 1", [](std::size_t, double) { return 1.0; });
+    add("all next to 1", [](std::size_t, double) { return one_minus_ulp; });
+    add("all equal", [&](std::size_t i, double) { return random[i % d]; });
+    add("ends", [](std::size_t i, double) {
+        return i % 3 == 0 ? 0.0 : i % 3 == 1 ? 1.0 : one_minus_ulp;
+    });
+    add("tiny", [](std::size_t, double x) { return x * 1e-300; });
+    return all;
+}
+
+double largest_difference(const FourierSums& a, const FourierSums& b) {
+    EXPECT_EQ(a.values.size(), b.values.size());
+    double worst = 0;
+    for (std::size_t i = 0; i < a.values.size(); ++i)
+        worst = std::max(worst, std::abs(a.values[i] - b.values[i]));
+    return worst;
+}
+
+std::size_t frequency_for(std::size_t d) { return d == 1 ? 200 : d == 2 ? 24 : 7; }
+
+/// The definition, one frequency at a time, in extended precision: the oracle's own oracle.
+std::complex<double> by_definition(const Rows& rows, std::size_t d, std::array<std::int64_t, 3> f) {
+    std::complex<long double> sum;
+    for (std::size_t i = 0; i < rows.size(); i += d) {
+        long double turns = 0;
+        for (std::size_t k = 0; k < d; ++k)
+            turns += static_cast<long double>(f[k]) * static_cast<long double>(rows[i + k]);
+        sum += std::polar(1.0L, -2 * std::numbers::pi_v<long double> * turns);
+    }
+    return {static_cast<double>(sum.real()), static_cast<double>(sum.imag())};
+}
+
+}  // namespace
+
+// 0 and 1/2 are in phase at even frequencies and cancel at odd ones; 0 and 1/4 in the plane:
+// 1 + exp(-i pi f_1 / 2).
+TEST(FourierSums, DirectSumsByHand) {
+    const Rows halves = {0, 0.5};
+    const FourierSums line = fourier_sums_directly(halves, 1, 5, {});
+    for (std::int64_t f = -5; f <= 5; ++f)
+        EXPECT_NEAR(std::abs(line.at({f, 0, 0}) - (f % 2 == 0 ? 2.0 : 0.0)), 0, 1e-15) << f;
+
+    const Rows pair = {0, 0, 0, 0.25};
+    const FourierSums plane = fourier_sums_directly(pair, 2, 2, {});
+    using namespace std::complex_literals;
+    for (std::int64_t f0 = -2; f0 <= 2; ++f0) {
+        EXPECT_NEAR(std::abs(plane.at({f0, 0, 0}) - 2.0), 0, 1e-15);
+        EXPECT_NEAR(std::abs(plane.at({f0, 1, 0}) - (1.0 - 1i)), 0, 1e-15);
+        EXPECT_NEAR(std::abs(plane.at({f0, -1, 0}) - (1.0 + 1i)), 0, 1e-15);
+        EXPECT_NEAR(std::abs(plane.at({f0, 2, 0})), 0, 1e-15);
+    }
+}
+
+TEST(FourierSums, DirectSumsAgreeWithTheDefinition) {
+    for (std::size_t d = 1; d <= 3; ++d) {
+        Rows rows(40 * d);
+        Rng(5).fill(0, rows);
+        const auto last = static_cast<std::int64_t>(d == 1 ? 5000 : 6);
+        const FourierSums sums = fourier_sums_directly(rows, d, static_cast<std::size_t>(last), {});
+        for (std::uint64_t i = 0; i < 50; ++i) {
+            std::array<std::int64_t, 3> f{};
+            for (std::size_t k = 0; k < d; ++k)
+                f[k] = static_cast<std::int64_t>(
+                           Rng(6, k).below(i, static_cast<std::uint64_t>(2 * last + 1))) -
+                       last;
+            EXPECT_NEAR(std::abs(sums.at(f) - by_definition(rows, d, f)), 0, 1e-13)
+                << d << "-D, f = " << f[0] << ' ' << f[1] << ' ' << f[2];
+        }
+    }
+}
+
+// The header's promise: for every set, not only for those whose errors cancel.
+TEST(Nufft, MeetsEveryToleranceForEverySet) {
+    for (std::size_t d = 1; d <= 3; ++d)
+        for (const std::size_t n : {1U, 7U, 300U, 3000U})
+            for (const auto& [name, rows] : sets(n, d)) {
+                const std::size_t last = frequency_for(d);
+                const FourierSums truth = fourier_sums_directly(rows, d, last, {});
+                for (const double tolerance : {1e-1, 1e-3, 1e-6, 1e-9, 1e-11, 1e-13}) {
+                    const Nufft nufft(n, d, last, tolerance);
+                    const double error = largest_difference(nufft.transform(rows, {}), truth) /
+                                         std::sqrt(static_cast<double>(n));
+                    EXPECT_LE(error, std::max(tolerance, rounding_floor(n)))
+                        << name << ", " << d << "-D, n = " << n << ", tolerance " << tolerance;
+                }
+            }
+}
+
+// A wrong tolerance must show: the coarsest window is not accidentally exact.
+TEST(Nufft, ErrorFollowsTheTolerance) {
+    Rows rows(2 * 500);
+    Rng(3).fill(0, rows);
+    const FourierSums truth = fourier_sums_directly(rows, 2, 20, {});
+    const auto error = [&](double tolerance) {
+        return largest_difference(Nufft(500, 2, 20, tolerance).transform(rows, {}), truth);
+    };
+    EXPECT_GT(error(1e-1), 1e-5);
+    EXPECT_GT(error(1e-6), 1e-10);
+    EXPECT_LT(error(1e-12), 1e-11);
+}
+
+TEST(Nufft, SmallestAndLargeFrequencies) {
+    Rows rows(2 * 50);
+    Rng(8).fill(0, rows);
+    for (const std::size_t last : {1U, 2U, 3U, 111U}) {
+        const FourierSums truth = fourier_sums_directly(rows, 2, last, {});
+        const FourierSums sums = Nufft(50, 2, last, 1e-10).transform(rows, {});
+        EXPECT_LE(largest_difference(sums, truth), 1e-10 * std::sqrt(50)) << last;
+    }
+    Rows line(50);
+    Rng(9).fill(0, line);
+    const FourierSums truth = fourier_sums_directly(line, 1, 100'000, {});
+    const FourierSums sums = Nufft(50, 1, 100'000, 1e-11).transform(line, {});
+    EXPECT_LE(largest_difference(sums, truth), 1e-11 * std::sqrt(50));
+}
+
+// Several batches, many tiles, and one tile with all the points.
+TEST(Nufft, SameBitsForAnyNumberOfThreads) {
+    for (std::size_t d = 1; d <= 3; ++d)
+        for (const bool clustered : {false, true}) {
+            const std::size_t n = d == 1 ? 1'200'000 : 60'000;
+            Rows rows(n * d);
+            Rng(2).fill(0, rows);
+            if (clustered)
+                for (double& x : rows) x = 0.3 + 1e-3 * x;
+            const Nufft nufft(n, d, d == 3 ? 12 : 150, 1e-8);
+            const FourierSums one = nufft.transform(rows, {.threads = 1});
+            for (const unsigned threads : {2U, 7U})
+                EXPECT_EQ(nufft.transform(rows, {.threads = threads}).values, one.values)
+                    << d << "-D, " << threads << " threads";
+            Rows few(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(200 * d));
+            const FourierSums direct = fourier_sums_directly(few, d, 9, {.threads = 1});
+            EXPECT_EQ(fourier_sums_directly(few, d, 9, {.threads = 7}).values, direct.values);
+        }
+}
+
+TEST(Nufft, MirrorsHalfOfTheSums) {
+    Rows rows(2 * 30);
+    Rng(4).fill(0, rows);
+    const FourierSums sums = Nufft(30, 2, 10, 1e-10).transform(rows, {});
+    for (std::int64_t f0 = -10; f0 <= 10; ++f0)
+        for (std::int64_t f1 = -10; f1 <= 10; ++f1)
+            EXPECT_NEAR(std::abs(sums.at({f0, f1, 0}) - by_definition(rows, 2, {f0, f1, 0})), 0,
+                        1e-9)
+                << f0 << ' ' << f1;
+}
+
+TEST(Nufft, ProgressRisesToTheEndAndStopIsHeeded) {
+    Rows rows(2 * 200'000);
+    Rng(1).fill(0, rows);
+    const Nufft nufft(200'000, 2, 100, 1e-9);
+    double last = 0;
+    bool rising = true;
+    RunContext run{.threads = 2};
+    run.progress = [&](double done) {
+        rising = rising && done >= last;
+        last = done;
+    };
+    (void)nufft.transform(rows, run);
+    EXPECT_TRUE(rising);
+    EXPECT_EQ(last, 1);
+
+    std::stop_source source;
+    source.request_stop();
+    EXPECT_THROW((void)nufft.transform(rows, {.stop = source.get_token()}), Error);
+    EXPECT_THROW((void)fourier_sums_directly(rows, 2, 20, {.stop = source.get_token()}), Error);
+}
+
+// The closed form against the integral over the window, by the trapezoidal rule, which is exact to
+// the last digits but for the window's step at its ends.
+TEST(KaiserBessel, TransformIsTheIntegral) {
+    const KaiserBessel window(12, 0.25);
+    for (const double xi : {0.0, 0.1, 0.25}) {
+        const int steps = 20'000;
+        double sum = 0;
+        for (int i = 0; i <= steps; ++i) {
+            const double a = -6 + 12.0 * i / steps;
+            sum += window(a) * std::cos(2 * std::numbers::pi * xi * a) * (i % steps ? 1.0 : 0.5);
+        }
+        EXPECT_NEAR(sum * 12 / steps, window.transform(xi), 1e-12) << xi;
+    }
+}
+
+TEST(KaiserBessel, NarrowestWindowWithinTolerance) {
+    for (const double band : {1. / 3, 1. / 4, 1. / 8})
+        for (const double tolerance : {1e-2, 1e-5, 1e-8}) {
+            const KaiserBessel window = window_for(tolerance, band);
+            EXPECT_LE(window.error(), tolerance);
+            if (window.width() > KaiserBessel::min_width) {
+                EXPECT_GT(KaiserBessel(window.width() - 1, band).error(), tolerance);
+            }
+        }
+}
