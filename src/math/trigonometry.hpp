@@ -21,7 +21,9 @@
 //         compiled without contraction into fused multiply-adds.
 #pragma once
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 
 #include "core/rng.hpp"
@@ -111,24 +113,26 @@ inline double atan_turns(double q) {
 /// vector. Finite x and y, not both above 2^1022.
 inline double turns_of(double x, double y) {
     constexpr double tan_sixteenth = 0.41421356237309503;
-    const double ax = x < 0 ? -x : x;
-    const double ay = y < 0 ? -y : y;
-    const double small = ax < ay ? ax : ay;
-    const double big = ax < ay ? ay : ax;
-    if (big == 0) return 0;
-    // The angle is base + part, with base a whole number of eighths, so that one addition rounds.
-    const bool middle = small > tan_sixteenth * big;
-    const bool steep = ay > ax;
-    const bool left = x < 0;
-    const bool below = y < 0;
-    const double part =
-        detail::atan_turns((middle ? small - big : small) / (middle ? small + big : big));
-    double base = middle ? 0.125 : 0.0;
-    base = steep ? 0.25 - base : base;
-    base = left ? 0.5 - base : base;
-    base = below ? 1 - base : base;
-    const double angle = (steep != left) != below ? base - part : base + part;
-    return angle < 1 ? angle : one_minus_ulp;  // just below the axis rounds to a whole turn
+    const double ax = std::abs(x);
+    const double ay = std::abs(y);
+    const double small = std::min(ax, ay);
+    const double big = std::max(ax, ay);
+    // The angle is base + sign * part, with base a whole number of eighths, so that one addition
+    // rounds. Reflections are written as products since branches would be guessed wrong half of the
+    // time, and would keep loops from being vectorised.
+    const double null = big == 0;
+    const double middle = small > tan_sixteenth * big;
+    const double steep = ay > ax;
+    const double left = x < 0;
+    const double below = y < 0;
+    const double part = detail::atan_turns((small - middle * big) / (big + middle * small + null));
+    double base = 0.125 * middle;
+    base = 0.25 * steep + (1 - 2 * steep) * base;
+    base = 0.5 * left + (1 - 2 * left) * base;
+    base = below + (1 - 2 * below) * base;
+    const double sign = (1 - 2 * steep) * (1 - 2 * left) * (1 - 2 * below);
+    // Just below the axis the sum rounds to a whole turn.
+    return std::min(base + sign * part, one_minus_ulp);
 }
 
 }  // namespace stipple

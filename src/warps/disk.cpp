@@ -70,11 +70,13 @@ struct Pair {
     double y;
 };
 
-double clamp_unit(double x) { return std::clamp(x, 0.0, 1.0); }
-
 class DiskDomain final : public Domain {
   public:
-    DiskDomain(double r, Pair c) : radius_(r), center_(c) {}
+    DiskDomain(double r, Pair c) : radius_(r), center_(c) {
+        constexpr double epsilon = std::numeric_limits<double>::epsilon();
+        const double reach = r + 8 * epsilon * (r + std::abs(c.x) + std::abs(c.y));
+        reach_squared_ = reach * reach;
+    }
 
     std::string spec() const override {
         Values values = schema().defaults();
@@ -87,11 +89,9 @@ class DiskDomain final : public Domain {
 
     /// Up to 8 epsilon (R + |cx| + |cy|) beyond the rim: the rounding of a point that was made.
     bool contains(std::span<const double> point) const override {
-        constexpr double epsilon = std::numeric_limits<double>::epsilon();
-        const double scale = 1 + (std::abs(center_.x) + std::abs(center_.y)) / radius_;
-        const double reach = 1 + 8 * epsilon * scale;
-        const auto [x, y] = in_unit_disk(point);
-        return x * x + y * y <= reach * reach;
+        const double x = point[0] - center_.x;
+        const double y = point[1] - center_.y;
+        return x * x + y * y <= reach_squared_;
     }
 
     /// r^2 / R^2 and the angle in turns: equal areas however the points were made.
@@ -115,6 +115,7 @@ class DiskDomain final : public Domain {
   private:
     double radius_;
     Pair center_;
+    double reach_squared_;
 };
 
 // The methods on the unit disk: xi to point, point to xi, density from r^2 > 0.
@@ -145,8 +146,11 @@ struct Concentric {
         const bool wide = std::abs(a) > std::abs(b);
         const double r = wide ? a : b;
         const double across = wide ? b : a;
-        const auto [c, s] = cos_sin_eighth(0.125 * (across / (r == 0 ? 1 : r)));
-        return {r * (wide ? c : s), r * (wide ? s : c)};
+        const double null = r == 0;
+        const auto [c, s] = cos_sin_eighth(0.125 * (across / (r + null)));
+        const double rc = r * c;
+        const double rs = r * s;
+        return {wide ? rc : rs, wide ? rs : rc};
     }
     static Pair inverse(double x, double y) {
         const bool wide = std::abs(x) > std::abs(y);
@@ -199,10 +203,13 @@ class Disk final : public Mapping {
             if (!disk_->contains(point))
                 fail(ErrorKind::input, "the point ({}) is outside the {}", fmt::join(point, ", "),
                      disk_->spec());
-            const auto [x, y] = disk_->in_unit_disk(point);
-            const auto [u, v] = Method::inverse(x, y);
-            cube[i] = clamp_unit(u);
-            cube[i + 1] = clamp_unit(v);
+        }
+        const double r = disk_->size();
+        const auto [cx, cy] = disk_->middle();
+        for (std::size_t i = 0; i + 1 < image.size(); i += 2) {
+            const auto [u, v] = Method::inverse((image[i] - cx) / r, (image[i + 1] - cy) / r);
+            cube[i] = std::max(0.0, std::min(u, 1.0));
+            cube[i + 1] = std::max(0.0, std::min(v, 1.0));
         }
     }
 
