@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,46 +18,62 @@
 namespace stipple::io {
 
 /// The bytes of a file (mapped), or of standard input for "-".
+/// Beware: a mapped file that another program cuts short while it is read ends this one.
 class Input {
   public:
-    /// @throws Error(io): missing, a directory, unreadable; Error(cancelled).
+    /// Waits for a pipe's bytes as long as nobody asks to stop.
+    /// @throws Error(io): missing, a directory, unreadable; Error(cancelled); Error(limit).
     Input(const std::string& path, const RunContext& run);
     Input(const Input&) = delete;
     Input& operator=(const Input&) = delete;
     ~Input();
 
-    [[nodiscard]] std::string_view bytes() const { return bytes_; }
+    [[nodiscard]] std::string_view bytes() const { return {data_, size_}; }
 
   private:
-    std::string_view bytes_;
-    std::string owned_;
-    void* mapped_ = nullptr;
+    void read_all(int descriptor, const std::string& name, const RunContext& run);
+
+    char* data_ = nullptr;
+    std::size_t size_ = 0;
+    bool mapped_ = false;
 };
 
-/// A file that comes into being when it is whole, or standard output for "-".
+/// A file that comes into being when it is whole, or standard output for "-". Devices and pipes are
+/// written in place; a link's target is replaced, not the link.
 class Output {
   public:
+    /// A write that is interrupted by a signal (its handler installed without SA_RESTART) ends when
+    /// `stop` was requested.
     /// @throws Error(io) when the target cannot be made.
-    explicit Output(std::string path);
+    explicit Output(std::string path, std::stop_token stop = {});
     Output(const Output&) = delete;
     Output& operator=(const Output&) = delete;
     /// Removes what was not committed.
     ~Output();
 
-    /// Writes all bytes. False: the reader of the pipe went away, and nobody wants more.
-    /// @throws Error(io), naming the target and the reason.
+    /// Writes all bytes. False: the reader of the pipe went away, and nobody wants more (SIGPIPE
+    /// must be ignored).
+    /// @throws Error(io), naming the target and the reason; Error(cancelled).
     bool write(std::string_view bytes);
 
     /// Puts the file in its place. @throws Error(io)
     void commit();
 
   private:
-    std::string path_;
+    void open_beside(const std::string& target);
+    void open_in_place();
+
+    std::string path_;       ///< as messages name it
+    std::string target_;     ///< what is replaced
     std::string temporary_;  ///< empty: written in place (standard output, devices)
+    std::stop_token stop_;
     int descriptor_ = -1;
+    bool owned_ = false;   ///< the descriptor is ours to close
+    bool broken_ = false;  ///< the pipe has no reader
 };
 
-/// All sets of a file, in the named format or the one that its extension or its bytes tell.
+/// All sets of a file, in the named format or the one that its extension or its bytes tell. Where
+/// options.source is "-", messages name `path`.
 /// @throws Error(input), Error(io), Error(usage)
 std::vector<PointSet> read_points(const std::string& path, const ReadOptions& options,
                                   const RunContext& run, const Format* format = nullptr);

@@ -1,2 +1,102 @@
 // SPDX-License-Identifier: MIT
 #include "io/format.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace stipple {
+
+std::vector<std::string> coordinate_names(std::size_t dimension) {
+    if (dimension <= 3) {
+        const std::vector<std::string> xyz{"x", "y", "z"};
+        return {xyz.begin(), xyz.begin() + static_cast<std::ptrdiff_t>(dimension)};
+    }
+    std::vector<std::string> names;
+    for (std::size_t k = 1; k <= dimension; ++k) names.push_back(fmt::format("x{}", k));
+    return names;
+}
+
+std::vector<std::string> Layout::columns() const {
+    std::vector<std::string> names = coordinate_names(dimension);
+    names.insert(names.end(), extras.begin(), extras.end());
+    return names;
+}
+
+namespace io {
+namespace {
+
+std::string extension_of(std::string_view path) {
+    const auto slash = path.rfind('/');
+    if (slash != std::string_view::npos) path.remove_prefix(slash + 1);
+    const auto dot = path.rfind('.');
+    if (dot == std::string_view::npos || dot == 0) return {};
+    std::string extension(path.substr(dot));
+    std::ranges::transform(extension, extension.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+    return extension;
+}
+
+/// Whether the line is a whole JSON object: its braces are closed, and not before its end.
+bool is_whole_object(std::string_view line) {
+    std::size_t depth = 0;
+    bool in_string = false;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        const char c = line[i];
+        if (in_string && c == '\\')
+            ++i;
+        else if (c == '"')
+            in_string = !in_string;
+        else if (!in_string && (c == '{' || c == '['))
+            ++depth;
+        else if (!in_string && (c == '}' || c == ']') && --depth == 0)
+            return i + 1 == line.size();
+    }
+    return false;
+}
+
+/// Text that begins with { or [: a value a line, or one value?
+const char* json_or_lines(std::string_view text) {
+    const auto end = text.find('\n');
+    const std::string_view line = trim(text.substr(0, end));
+    if (line.front() == '[' && !trim(line.substr(1)).starts_with('[') && is_whole_object(line))
+        return "jsonl";
+    const bool more = end != std::string_view::npos && !trim(text.substr(end)).empty();
+    return more && is_whole_object(line) ? "jsonl" : "json";
+}
+
+}  // namespace
+
+const Format& format_named(std::string_view name) {
+    const auto it = std::ranges::find(all(), name, &Format::name);
+    if (it != all().end()) return *it;
+    std::vector<std::string> names;
+    for (const Format& format : all()) names.push_back(format.name);
+    fail_with_hint(ErrorKind::usage, suggest(name, names), "unknown format '{}'", name);
+}
+
+const Format* format_of_extension(std::string_view path) {
+    const std::string extension = extension_of(path);
+    const auto it = std::ranges::find_if(all(), [&](const Format& format) {
+        return std::ranges::find(format.extensions, extension) != format.extensions.end();
+    });
+    return it == all().end() ? nullptr : &*it;
+}
+
+bool extension_is_single(std::string_view path) { return extension_of(path) == ".f32"; }
+
+const Format& format_of_bytes(std::string_view bytes) {
+    if (bytes.starts_with("\x93NUMPY")) return format_named("npy");
+    if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
+    constexpr std::string_view blanks = " \t\r\n";
+    const auto first = bytes.find_first_not_of(blanks);
+    if (first == std::string_view::npos || (bytes[first] != '{' && bytes[first] != '['))
+        return format_named("csv");
+    return format_named(json_or_lines(bytes.substr(first)));
+}
+
+}  // namespace io
+}  // namespace stipple

@@ -30,11 +30,15 @@ struct Layout {
     bool single = false;                     ///< float32 in binary formats
     std::optional<int> precision = {};       ///< digits after the point
     Provenance provenance = {};
+    std::optional<Box> extent = {};  ///< what a picture shows; else the bounds, else the unit cube
 
     [[nodiscard]] std::size_t width() const { return dimension + extras.size(); }
     /// x / x,y / x,y,z / x1..xd, then the extras.
     [[nodiscard]] std::vector<std::string> columns() const;
 };
+
+/// Names of coordinates: x / x,y / x,y,z / x1..xd.
+std::vector<std::string> coordinate_names(std::size_t dimension);
 
 /// What a reader is told.
 struct ReadOptions {
@@ -47,6 +51,7 @@ struct ReadOptions {
 struct FormatTraits {
     bool binary = false;
     bool equal_sets = false;  ///< all sets must have as many points
+    bool many_sets = true;    ///< a file can hold more than one set
     std::size_t max_dimension = 1'000'000;
     std::size_t min_dimension = 1;
 };
@@ -70,7 +75,8 @@ struct Format {
     std::function<void(const Layout&, std::string& out)> tail = {};
 
     /// The sets in the bytes of a file. Empty: write only.
-    /// @throws Error(input) "FILE:LINE:COLUMN: what is wrong; what is expected"
+    /// @throws Error(input) "FILE:LINE:COLUMN: what is wrong; what is expected", or, for bytes that
+    /// are no text, "FILE: byte N: ..." with bytes counted from 0
     std::function<std::vector<PointSet>(std::string_view bytes, const ReadOptions&,
                                         const RunContext&)>
         read = {};
@@ -86,6 +92,9 @@ const Format& format_named(std::string_view name);
 
 /// The format that a file's extension means, if any.
 const Format* format_of_extension(std::string_view path);
+
+/// Whether a file's extension says float32: ".f32".
+bool extension_is_single(std::string_view path);
 
 /// The format that the first bytes tell: npy, json, jsonl; else csv (which reads all plain text).
 const Format& format_of_bytes(std::string_view bytes);

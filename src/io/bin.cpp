@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+//
+// Raw numbers, little-endian float64 (or float32), point after point and set after set, and nothing
+// else. The reader must be told the dimension, and takes all points as one set.
+//
+// Promise float32 is cut toward zero: what was below 1 stays below 1.
+#include "core/error.hpp"
+#include "io/binary.hpp"
+#include "io/columns.hpp"
+#include "io/format.hpp"
+#include "io/source_text.hpp"
+
+namespace stipple::io {
+namespace {
+
+void rows(const Layout& layout, std::size_t, std::uint64_t, std::span<const double> numbers,
+          std::string& out) {
+    append_raw(out, numbers, layout.single);
+}
+
+std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
+                           const RunContext& run) {
+    const std::string source = source_name(options.source);
+    if (!options.dimension)
+        fail(ErrorKind::usage, "{}: raw numbers do not tell their dimension; say it with -d",
+             source);
+    const std::size_t width = *options.dimension;
+    const std::size_t size = options.single ? 4 : 8;
+    if (bytes.empty()) fail(ErrorKind::input, "{}: the file is empty; expected raw points", source);
+    if (bytes.size() % (width * size) != 0)
+        fail(ErrorKind::input,
+             "{}: byte {}: the last point is cut off; expected a multiple of {} bytes ({} "
+             "coordinates of float{})",
+             source, bytes.size(), width * size, width, 8 * size);
+    run.need_memory(static_cast<double>(bytes.size() / size) * 8, "the points of " + source);
+    std::vector<double> table(bytes.size() / size);
+    take_raw(bytes, {.size = size}, table);
+    check_finite(table, {.source = source, .row = width, .size = size});
+    ReadOptions inner = options;
+    inner.dimension.reset();  // told the width of a row, not what picking leaves
+    const Columns columns = choose_columns({}, width, inner, source);
+    return cut_sets(keep_coordinates(std::move(table), columns), columns.dimension, {0}, {});
+}
+
+}  // namespace
+
+Format bin() {
+    return {.name = "bin",
+            .summary = "Raw little-endian numbers, point after point; needs -d to read",
+            .source = "none",
+            .extensions = {".bin", ".f64", ".f32"},
+            .traits = {.binary = true},
+            .rows = rows,
+            .read = read};
+}
+
+}  // namespace stipple::io

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+//
+// Numbers as they stand in binary files: the common part of bin, npy and ply.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stipple::io {
+
+/// Appends little-endian float64, or float32 cut toward zero.
+void append_raw(std::string& out, std::span<const double> numbers, bool single);
+
+/// How a number is stored.
+struct RawType {
+    enum Kind { floating, integer, natural };
+    Kind kind = floating;
+    std::size_t size = 8;  ///< bytes: 4 or 8; whole numbers also 1 or 2
+    bool big_endian = false;
+};
+
+/// Converts numbers.size() numbers from the front of `bytes`.
+void take_raw(std::string_view bytes, const RawType& type, std::span<double> numbers);
+
+/// Where numbers came from, for messages.
+struct RawPlace {
+    std::string source;
+    std::size_t row = 0;     ///< numbers of a point; 0 where they do not stand together
+    std::size_t size = 8;    ///< bytes of a number
+    std::size_t offset = 0;  ///< byte at which the first stands
+};
+
+/// @throws Error(input) naming the first number that is not finite, its byte and its point.
+void check_finite(std::span<const double> numbers, const RawPlace& place);
+
+}  // namespace stipple::io

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "io/columns.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace stipple::io {
+namespace {
+
+bool measures_points(const std::string& name) { return name == "pdf" || name == "weight"; }
+
+std::size_t find_column(const std::string& wanted, const std::vector<std::string>& names,
+                        const std::string& place) {
+    const auto it = std::ranges::find(names, wanted);
+    if (it != names.end()) return static_cast<std::size_t>(it - names.begin());
+    const auto number = parse_integer(wanted);
+    if (number && *number >= 1 && static_cast<std::size_t>(*number) <= names.size())
+        return static_cast<std::size_t>(*number) - 1;
+    fail_with_hint(ErrorKind::usage, suggest(wanted, names),
+                   "--column: {} has no column '{}'; its columns are 1 to {}", place, wanted,
+                   names.size());
+}
+
+void pick(Columns& columns, const std::vector<std::string>& names, const ReadOptions& options,
+          const std::string& place) {
+    for (const std::string& wanted : options.columns) {
+        std::size_t& role = columns.role[find_column(wanted, names, place)];
+        if (role < columns.dimension)
+            fail(ErrorKind::usage, "--column: '{}' is picked twice; pick each column once", wanted);
+        role = columns.dimension++;
+    }
+}
+
+}  // namespace
+
+bool Columns::plain() const { return dimension == width() && std::ranges::is_sorted(role); }
+
+bool Columns::has(std::size_t wanted) const {
+    return std::ranges::find(role, wanted) != role.end();
+}
+
+Columns choose_columns(std::vector<std::string> names, std::size_t width,
+                       const ReadOptions& options, const std::string& place) {
+    Columns columns{.role = std::vector<std::size_t>(width, Columns::skipped)};
+    if (names.empty()) names = coordinate_names(width);
+    if (names[0] == "set") columns.role[0] = Columns::set_number;
+    if (!options.columns.empty()) {
+        pick(columns, names, options, place);
+    } else {
+        for (std::size_t c = 0; c < width; ++c)
+            if (measures_points(names[c]))
+                columns.role[c] = Columns::checked;
+            else if (columns.role[c] != Columns::set_number)
+                columns.role[c] = columns.dimension++;
+    }
+    if (columns.dimension == 0)
+        fail_with_hint(ErrorKind::input, "--column picks columns by name or number",
+                       "{}: no column holds coordinates; the columns are {}", place,
+                       join(names, ", "));
+    if (options.dimension && *options.dimension != columns.dimension)
+        fail_with_hint(ErrorKind::input, "--column picks columns by name or number",
+                       "{}: points have {} coordinates; --dimension says {}", place,
+                       columns.dimension, *options.dimension);
+    return columns;
+}
+
+std::vector<double> keep_coordinates(std::vector<double> table, const Columns& columns) {
+    if (columns.plain()) return table;
+    const std::size_t count = table.size() / columns.width();
+    std::vector<double> row(columns.width());
+    for (std::size_t i = 0; i < count; ++i) {
+        std::copy_n(table.begin() + static_cast<std::ptrdiff_t>(i * row.size()), row.size(),
+                    row.begin());
+        for (std::size_t c = 0; c < row.size(); ++c)
+            if (columns.role[c] < columns.dimension)
+                table[i * columns.dimension + columns.role[c]] = row[c];
+    }
+    table.resize(count * columns.dimension);
+    return table;
+}
+
+std::vector<PointSet> cut_sets(std::vector<double> rows, std::size_t dimension,
+                               const std::vector<std::uint64_t>& starts,
+                               const Provenance& provenance) {
+    std::vector<PointSet> sets;
+    if (starts.size() <= 1) {
+        sets.emplace_back(std::move(rows), dimension);
+    } else {
+        for (std::size_t s = 0; s < starts.size(); ++s) {
+            const auto at = [&](std::uint64_t row) {
+                return rows.begin() + static_cast<std::ptrdiff_t>(row * dimension);
+            };
+            const auto last = s + 1 < starts.size() ? at(starts[s + 1]) : rows.end();
+            sets.emplace_back(std::vector<double>(at(starts[s]), last), dimension);
+        }
+    }
+    for (PointSet& set : sets) set.provenance = provenance;
+    return sets;
+}
+
+}  // namespace stipple::io

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+//
+// Which columns of a table are coordinates, and how a table becomes point sets.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/point_set.hpp"
+#include "io/format.hpp"
+
+namespace stipple::io {
+
+/// What each column is: the number of a coordinate, or one of the named values.
+struct Columns {
+    static constexpr std::size_t skipped = std::numeric_limits<std::size_t>::max();  ///< not read
+    static constexpr std::size_t checked = skipped - 1;     ///< a number that nobody wants
+    static constexpr std::size_t set_number = skipped - 2;  ///< tells the set
+
+    std::vector<std::size_t> role;
+    std::size_t dimension = 0;
+
+    [[nodiscard]] std::size_t width() const { return role.size(); }
+    /// Whether all columns are coordinates, in order.
+    [[nodiscard]] bool plain() const;
+    [[nodiscard]] bool has(std::size_t wanted) const;
+};
+
+/// Decides what the columns are. Without names they are called x, y, ... (see coordinate_names).
+/// Columns called pdf or weight are coordinates only when picked; a first column `set` tells the
+/// set. `place` begins the messages ("p.csv:3").
+/// @throws Error(usage) for a column that is not there; Error(input) for a wrong dimension.
+Columns choose_columns(std::vector<std::string> names, std::size_t width,
+                       const ReadOptions& options, const std::string& place);
+
+/// Keeps the coordinates of a table that holds all columns.
+std::vector<double> keep_coordinates(std::vector<double> table, const Columns& columns);
+
+/// Cuts rows into sets that begin at the rows `starts` (rising, the first is 0).
+std::vector<PointSet> cut_sets(std::vector<double> rows, std::size_t dimension,
+                               const std::vector<std::uint64_t>& starts,
+                               const Provenance& provenance);
+
+}  // namespace stipple::io

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+//
+// Rows of numbers in text, read on all cores: the common part of csv, txt, psa and jsonl.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/point_set.hpp"
+#include "core/run_context.hpp"
+#include "io/columns.hpp"
+#include "io/format.hpp"
+#include "io/source_text.hpp"
+
+namespace stipple::io {
+
+/// How a row is written.
+struct Dialect {
+    char separator = ' ';   ///< a blank stands for any run of blanks and tabs
+    bool brackets = false;  ///< a row is [x,y]; lines that begin with { stand between rows
+};
+
+/// A line between rows at which a new set may begin.
+struct Mark {
+    std::uint64_t row;  ///< the first row behind it
+    const char* at;
+    double number;  ///< of the set; NaN for a line `#`, or one that begins with {
+};
+
+struct Rows {
+    std::vector<double> numbers;  ///< columns.dimension of each row
+    std::vector<Mark> marks;
+};
+
+/// Reads rows from `body`, the start of a line, to the end of the text. `model` is the line that
+/// decided what the columns are, null where none did. Blank lines and comments are passed over.
+/// @throws Error(input), the first in the text whatever the threads; Error(limit),
+/// Error(cancelled).
+Rows read_rows(const SourceText& text, const char* body, const char* model, const Columns& columns,
+               const Dialect& dialect, const RunContext& run);
+
+/// Where sets begin: at the marks behind the first row.
+/// @throws Error(input) for a set without points.
+std::vector<std::uint64_t> set_starts(const SourceText& text, const Rows& rows,
+                                      std::size_t dimension);
+
+/// What stands above the first row, and what it tells.
+struct Top {
+    Provenance provenance;  ///< of `# key: value` lines
+    const char* first;      ///< the first line that is neither blank nor a comment
+    const char* next;       ///< the line below it
+};
+
+/// @throws Error(input) when nothing but comments is there.
+Top read_top(const SourceText& text);
+
+/// The line that begins there, without what ends it.
+std::string_view line_at(const SourceText& text, const char* begin);
+
+/// Reads csv, tsv and txt: whatever separates, with a header or without.
+std::vector<PointSet> read_delimited(std::string_view bytes, const ReadOptions& options,
+                                     const RunContext& run);
+
+}  // namespace stipple::io

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT
+#include "io/files.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <system_error>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "io/source_text.hpp"
+
+namespace stipple::io {
+namespace {
+
+/// A descriptor that is closed in the end.
+struct Closing {
+    int descriptor;
+    ~Closing() {
+        if (descriptor > STDERR_FILENO) ::close(descriptor);
+    }
+};
+
+[[noreturn]] void refuse(const std::string& name, int error) {
+    std::string reason = std::generic_category().message(error);
+    if (error == ENOENT) reason = "no such file";
+    if (error == EISDIR) reason = "is a folder, not a file";
+    if (error == EACCES || error == EPERM) reason = "permission denied";
+    if (error == ENOSPC) reason = "no space left on the device";
+    if (error == EROFS) reason = "the file system is read-only";
+    if (error == ENOTDIR) reason = "a part of its path is not a folder";
+    fail(ErrorKind::io, "{}: {}", name, reason);
+}
+
+/// Waits until bytes (or their end) are there.
+void wait_for_bytes(int descriptor, const RunContext& run) {
+    constexpr int patience = 50;  // milliseconds between two looks at the stop token
+    pollfd waiting{.fd = descriptor, .events = POLLIN, .revents = 0};
+    for (int ready = 0; ready == 0;) {
+        run.check_stop();
+        ready = ::poll(&waiting, 1, patience);
+        if (ready < 0 && errno == EINTR) ready = 0;
+    }
+}
+
+/// /dev/fd/3 -> 3; else nothing.
+std::optional<int> standard_descriptor(const std::string& path) {
+    if (path == "-" || path == "/dev/stdout" || path == "/dev/fd/1") return STDOUT_FILENO;
+    if (path == "/dev/stderr" || path == "/dev/fd/2") return STDERR_FILENO;
+    return std::nullopt;
+}
+
+/// What a chain of symbolic links ends in, whether it is there or not.
+std::string follow_links(std::string path) {
+    std::array<char, 4096> target;
+    for (int links = 0; links < 40; ++links) {
+        const auto size = ::readlink(path.c_str(), target.data(), target.size());
+        if (size < 0) break;
+        std::string next(target.data(), static_cast<std::size_t>(size));
+        const auto slash = path.rfind('/');
+        if (!next.starts_with('/') && slash != std::string::npos)
+            next.insert(0, path.substr(0, slash + 1));
+        path = std::move(next);
+    }
+    return path;
+}
+
+std::string folder_of(const std::string& path) {
+    const auto slash = path.rfind('/');
+    return slash == std::string::npos ? "." : path.substr(0, std::max<std::size_t>(slash, 1));
+}
+
+/// The format of text that no extension decides: bytes tell.
+const Format& format_for(const std::string& path, std::string_view bytes) {
+    const Format* named = format_of_extension(path);
+    if (named == nullptr || named->name == "csv" || named->name == "txt")
+        return format_of_bytes(bytes);
+    if (named->name == "json" || named->name == "jsonl") {
+        const Format& found = format_of_bytes(bytes);
+        if (found.name == "json" || found.name == "jsonl") return found;
+    }
+    return *named;
+}
+
+}  // namespace
+
+Input::Input(const std::string& path, const RunContext& run) {
+    const std::string name = source_name(path);
+    const bool standard = path == "-";
+    // Without O_NONBLOCK, opening a named pipe would wait where nobody can stop it.
+    const Closing file{standard ? STDIN_FILENO
+                                : ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
+    struct stat status {};
+    if (file.descriptor < 0 || ::fstat(file.descriptor, &status) != 0) refuse(name, errno);
+    if (S_ISDIR(status.st_mode)) refuse(name, EISDIR);
+    if (S_ISREG(status.st_mode) && status.st_size > 0 &&
+        ::lseek(file.descriptor, 0, SEEK_CUR) == 0) {
+        size_ = static_cast<std::size_t>(status.st_size);
+        void* const data =
+            ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE | MAP_POPULATE, file.descriptor, 0);
+        mapped_ = data != MAP_FAILED;
+        if (mapped_) {
+            data_ = static_cast<char*>(data);
+            return;
+        }
+        size_ = 0;
+    }
+    try {
+        read_all(file.descriptor, name, run);
+    } catch (...) {
+        std::free(data_);
+        throw;
+    }
+}
+
+void Input::read_all(int descriptor, const std::string& name, const RunContext& run) {
+    constexpr std::size_t first_room = std::size_t{1} << 16;
+    std::size_t room = 0;
+    for (;;) {
+        if (size_ == room) {
+            room = std::max(first_room, 2 * room);
+            run.need_memory(static_cast<double>(room), "the bytes of " + name);
+            // Unlike a string, this grows large blocks without a copy.
+            auto* const more = static_cast<char*>(std::realloc(data_, room));
+            if (more == nullptr) fail(ErrorKind::limit, "{}: no memory for its bytes", name);
+            data_ = more;
+        }
+        wait_for_bytes(descriptor, run);
+        const auto got = ::read(descriptor, data_ + size_, room - size_);
+        if (got == 0) return;
+        if (got > 0)
+            size_ += static_cast<std::size_t>(got);
+        else if (errno != EINTR && errno != EAGAIN)
+            refuse(name, errno);
+    }
+}
+
+Input::~Input() {
+    if (mapped_)
+        ::munmap(data_, size_);
+    else
+        std::free(data_);
+}
+
+Output::Output(std::string path, std::stop_token stop)
+    : path_(std::move(path)), stop_(std::move(stop)) {
+    if (const auto standard = standard_descriptor(path_)) {
+        descriptor_ = *standard;
+        if (path_ == "-") path_ = "stdout";
+        return;
+    }
+    if (path_.empty()) fail(ErrorKind::io, "the output's name is empty; expected a file's name");
+    target_ = follow_links(path_);
+    struct stat status {};
+    const bool there = ::stat(path_.c_str(), &status) == 0;
+    if (!there && errno != ENOENT) refuse(path_, errno);
+    if (there && S_ISDIR(status.st_mode)) refuse(path_, EISDIR);
+    if (there && !S_ISREG(status.st_mode)) {
+        open_in_place();
+        return;
+    }
+    // A file that nobody may write is meant to stay, even where the user could replace it.
+    const bool protected_file = (status.st_mode & 0222) == 0 || ::access(path_.c_str(), W_OK) != 0;
+    if (there && protected_file) fail(ErrorKind::io, "{}: the file is read-only", path_);
+    open_beside(target_);
+    if (!there) return;
+    // The owner stays where that is allowed; the mode comes second, for a change of owner cuts it.
+    if (::fchown(descriptor_, status.st_uid, status.st_gid) != 0) errno = 0;
+    ::fchmod(descriptor_, status.st_mode & 07777);
+}
+
+void Output::open_in_place() {
+    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+    if (descriptor_ < 0 && errno == EINTR) fail(ErrorKind::cancelled, "interrupted");
+    if (descriptor_ < 0) refuse(path_, errno);
+    owned_ = true;
+}
+
+void Output::open_beside(const std::string& target) {
+    const std::string folder = folder_of(target);
+    struct stat status {};
+    if (::stat(folder.c_str(), &status) != 0 && errno == ENOENT)
+        fail(ErrorKind::io, "{}: there is no folder {}", path_, shown(folder));
+    for (int attempt = 0; descriptor_ < 0; ++attempt) {
+        temporary_ = fmt::format("{}/.stipple-{}-{}.part", folder, ::getpid(), attempt);
+        descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor_ >= 0 || errno == EEXIST) continue;
+        temporary_.clear();
+        refuse(path_, errno);
+    }
+    owned_ = true;
+}
+
+Output::~Output() {
+    if (owned_ && descriptor_ >= 0) ::close(descriptor_);
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+bool Output::write(std::string_view bytes) {
+    while (!bytes.empty() && !broken_) {
+        const auto done = ::write(descriptor_, bytes.data(), bytes.size());
+        if (done >= 0) {
+            bytes.remove_prefix(static_cast<std::size_t>(done));
+        } else if (errno == EPIPE) {
+            broken_ = true;
+        } else if (errno == EAGAIN) {
+            pollfd waiting{.fd = descriptor_, .events = POLLOUT, .revents = 0};
+            ::poll(&waiting, 1, 50);
+        } else if (errno != EINTR) {
+            refuse(path_, errno);
+        }
+        if (stop_.stop_requested()) fail(ErrorKind::cancelled, "interrupted");
+    }
+    return !broken_;
+}
+
+void Output::commit() {
+    if (!owned_ || descriptor_ < 0) return;
+    const int closed = ::close(descriptor_);
+    descriptor_ = -1;
+    if (closed != 0) refuse(path_, errno);
+    if (temporary_.empty()) return;
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) refuse(path_, errno);
+    temporary_.clear();
+}
+
+std::vector<PointSet> read_points(const std::string& path, const ReadOptions& options,
+                                  const RunContext& run, const Format* format) {
+    const Input input(path, run);
+    ReadOptions inner = options;
+    if (inner.source == "-") inner.source = path;
+    inner.single = options.single || extension_is_single(path);
+    const Format& chosen = format != nullptr ? *format : format_for(path, input.bytes());
+    if (!chosen.read) {
+        std::vector<std::string> readable;
+        for (const Format& known : all())
+            if (known.read) readable.push_back(known.name);
+        fail(ErrorKind::usage, "{}: {} is only written; formats that are read: {}",
+             source_name(inner.source), chosen.name, join(readable, ", "));
+    }
+    return chosen.read(input.bytes(), inner, run);
+}
+
+}  // namespace stipple::io

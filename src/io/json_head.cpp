@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "io/json_head.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "io/provenance.hpp"
+
+namespace stipple::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<std::uint64_t> whole_numbers(const SourceText& text, const char* at,
+                                         const Json& value) {
+    std::vector<std::uint64_t> numbers;
+    for (const Json& number : value.is_array() ? value : Json::array({value})) {
+        if (!number.is_number_unsigned())
+            text.refuse(at, "the count is not a number of points such as 1024");
+        numbers.push_back(number.get<std::uint64_t>());
+    }
+    return numbers;
+}
+
+}  // namespace
+
+std::string json_head(const Layout& layout, const std::vector<std::uint64_t>& counts) {
+    Json head{{"format", "stipple.points"}, {"version", 1}};
+    head["meta"] = to_json(layout.provenance);
+    head["dimension"] = layout.dimension;
+    const bool equal =
+        std::ranges::adjacent_find(counts, std::ranges::not_equal_to{}) == counts.end();
+    if (equal && !counts.empty())
+        head["count"] = counts.front();
+    else
+        head["count"] = counts;
+    if (!layout.extras.empty()) head["columns"] = layout.columns();
+    std::string text = head.dump(-1, ' ', false, Json::error_handler_t::replace);
+    text.pop_back();
+    return text;
+}
+
+void take_key(const SourceText& text, const char* at, std::string_view key, const Json& value,
+              JsonHead& head) {
+    if (key == "format" && value != "stipple.points")
+        text.refuse(
+            at, "the format is " + value.dump().substr(0, 40) + "; expected \"stipple.points\"");
+    if (key == "version" && value != 1)
+        text.refuse(at, "version " + value.dump().substr(0, 40) + " of stipple.points; expected 1");
+    if (key == "meta") head.provenance = provenance_from(value);
+    if (key == "dimension") {
+        if (!value.is_number_unsigned() || value == 0)
+            text.refuse(at, "the dimension is not a number such as 2");
+        head.dimension = value.get<std::uint64_t>();
+        head.dimension_at = at;
+    }
+    if (key == "count") {
+        head.counts = whole_numbers(text, at, value);
+        head.counts_at = at;
+    }
+    if (key == "columns") {
+        if (!value.is_array() ||
+            !std::ranges::all_of(value, [](const Json& name) { return name.is_string(); }))
+            text.refuse(at, "the columns are not names such as [\"x\",\"y\"]");
+        head.columns = value.get<std::vector<std::string>>();
+    }
+}
+
+Json parse_json(const SourceText& text, std::string_view piece) {
+    try {
+        return Json::parse(piece);
+    } catch (const Json::parse_error& error) {
+        const std::size_t byte = std::clamp<std::size_t>(error.byte, 1, piece.size() + 1) - 1;
+        text.refuse(piece.data() + byte, "not JSON; expected a value such as 1, \"word\" or {}");
+    } catch (const Json::exception&) {
+        text.refuse(piece.data(), "a number beyond what a double holds");
+    }
+}
+
+Columns json_columns(const SourceText& text, const JsonHead& head, std::size_t width,
+                     const ReadOptions& options) {
+    if (!head.columns.empty() && head.columns.size() != width)
+        text.refuse_whole(fmt::format("{} columns are named; the points have {} numbers",
+                                      head.columns.size(), width));
+    ReadOptions inner = options;
+    if (head.dimension && options.columns.empty()) {
+        inner.dimension.reset();
+        const Columns columns = choose_columns(head.columns, width, inner, text.source());
+        if (columns.dimension != *head.dimension)
+            text.refuse(
+                head.dimension_at,
+                fmt::format("the dimension is said to be {}; the points have {} coordinates",
+                            *head.dimension, columns.dimension));
+    }
+    return choose_columns(head.columns, width, options, text.source());
+}
+
+void check_counts(const SourceText& text, const JsonHead& head,
+                  const std::vector<std::uint64_t>& found) {
+    if (head.counts.empty()) return;
+    if (head.counts.size() != 1 && head.counts.size() != found.size())
+        text.refuse(head.counts_at, fmt::format("the count is said of {} sets; {} follow",
+                                                head.counts.size(), found.size()));
+    for (std::size_t s = 0; s < found.size(); ++s) {
+        const std::uint64_t said = head.counts[head.counts.size() == 1 ? 0 : s];
+        if (said != found[s])
+            text.refuse(head.counts_at, fmt::format("the count is said to be {}; {} points follow",
+                                                    said, found[s]));
+    }
+}
+
+}  // namespace stipple::io

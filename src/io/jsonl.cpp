@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+//
+// JSON lines: an object about a set, then a point a line.
+//
+//     {"format":"stipple.points","version":1,"meta":{...},"dimension":2,"count":2}
+//     [0,0]
+//     [0.5,0.25]
+//
+// Several sets: each has such a line before its points, with its number under "set". The reader
+// also takes lines of points without any object, and objects without any of the keys.
+//
+// Source  https://jsonlines.org; the points are read like the rows of csv.
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "io/decimal.hpp"
+#include "io/delimited.hpp"
+#include "io/format.hpp"
+#include "io/json_head.hpp"
+
+namespace stipple::io {
+namespace {
+
+void begin_set(const Layout& layout, std::size_t set, std::string& out) {
+    out += json_head(layout, {layout.counts.at(set)});
+    if (layout.many_sets) out += fmt::format(",\"set\":{}", layout.first_set + set);
+    out += "}\n";
+}
+
+void rows(const Layout& layout, std::size_t, std::uint64_t, std::span<const double> numbers,
+          std::string& out) {
+    append_rows(out, numbers, layout.width(), {"[", ",", "]\n"}, layout.precision);
+}
+
+JsonHead head_at(const SourceText& text, const char* line) {
+    const std::string_view object = trim(line_at(text, line));
+    JsonHead head;
+    if (!object.starts_with('{')) return head;
+    const nlohmann::ordered_json keys = parse_json(text, object);
+    for (const auto& [key, value] : keys.items()) take_key(text, object.data(), key, value, head);
+    return head;
+}
+
+/// The first line from `line` on that is neither blank nor an object.
+const char* first_row(const SourceText& text, const char* line) {
+    while (line != text.end()) {
+        const std::string_view content = trim(line_at(text, line));
+        if (!content.empty() && content.front() != '{') return line;
+        const char* const end = std::find(line, text.end(), text.newline());
+        line = end == text.end() ? end : end + 1;
+    }
+    text.refuse_whole("the file holds no points; expected lines such as [0.1,0.2]");
+}
+
+std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
+                           const RunContext& run) {
+    const SourceText text(bytes, options.source);
+    const Top top = read_top(text);
+    const JsonHead head = head_at(text, top.first);
+    const char* const model = first_row(text, top.first);
+    const std::string_view row = line_at(text, model);
+    const auto width = static_cast<std::size_t>(std::ranges::count(row, ',')) + 1;
+    const Columns columns = json_columns(text, head, width, options);
+    Rows rows =
+        read_rows(text, top.first, model, columns, {.separator = ',', .brackets = true}, run);
+
+    const std::vector<std::uint64_t> starts = set_starts(text, rows, columns.dimension);
+    std::vector<PointSet> sets =
+        cut_sets(std::move(rows.numbers), columns.dimension, starts, head.provenance);
+    for (const Mark& mark : rows.marks) {
+        const auto set = std::ranges::find(starts, mark.row) - starts.begin();
+        check_counts(text, head_at(text, mark.at), {sets[static_cast<std::size_t>(set)].count()});
+    }
+    return sets;
+}
+
+}  // namespace
+
+Format jsonl() {
+    return {.name = "jsonl",
+            .summary = "A line of provenance, then a point [x,y] a line",
+            .source = "https://jsonlines.org",
+            .extensions = {".jsonl"},
+            .traits = {},
+            .begin_set = begin_set,
+            .rows = rows,
+            .read = read};
+}
+
+}  // namespace stipple::io

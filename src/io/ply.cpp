@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+//
+// Polygon file: the points as vertices x, y, z (0 where there is none), and no faces; binary, or
+// text where digits are asked for. With several sets, a vertex also has its set's number.
+//
+// Shape   1 to 3 dimensions, float64 or float32; extras are properties of their names. Write only.
+// Source  G. Turk, The PLY polygon file format, Stanford University, 1994.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "io/binary.hpp"
+#include "io/decimal.hpp"
+#include "io/format.hpp"
+#include "io/provenance.hpp"
+
+namespace stipple::io {
+namespace {
+
+void head(const Layout& layout, std::string& out) {
+    out += layout.precision ? "ply\nformat ascii 1.0\n" : "ply\nformat binary_little_endian 1.0\n";
+    if (layout.meta) {
+        const std::string lines = to_comment_lines(layout.provenance);
+        for (std::size_t at = 0; at < lines.size();) {
+            const auto end = lines.find('\n', at) + 1;
+            out += "comment";
+            out.append(lines, at + 1, end - at - 1);
+            at = end;
+        }
+    }
+    const auto count =
+        std::accumulate(layout.counts.begin(), layout.counts.end(), std::uint64_t{0});
+    out += "element vertex " + std::to_string(count) + "\n";
+    const std::string property = layout.single ? "property float " : "property double ";
+    for (const char* axis : {"x", "y", "z"}) out += property + axis + "\n";
+    for (const std::string& extra : layout.extras) out += property + extra + "\n";
+    if (layout.many_sets) out += "property int set\n";
+    out += "end_header\n";
+}
+
+void rows(const Layout& layout, std::size_t set, std::uint64_t, std::span<const double> numbers,
+          std::string& out) {
+    const std::size_t d = layout.dimension;
+    const auto number = static_cast<std::int32_t>(layout.first_set + set);
+    std::vector<double> vertex(3 + layout.extras.size());
+    const std::string close = layout.many_sets ? fmt::format(" {}\n", number) : "\n";
+    for (std::size_t i = 0; i < numbers.size(); i += layout.width()) {
+        const auto row = numbers.subspan(i, layout.width());
+        std::copy_n(row.begin(), d, vertex.begin());
+        std::copy(row.begin() + static_cast<std::ptrdiff_t>(d), row.end(), vertex.begin() + 3);
+        if (layout.precision) {
+            append_rows(out, vertex, vertex.size(), {"", " ", close}, layout.precision);
+            continue;
+        }
+        append_raw(out, vertex, layout.single);
+        if (layout.many_sets) out.append(reinterpret_cast<const char*>(&number), 4);
+    }
+}
+
+}  // namespace
+
+Format ply() {
+    return {.name = "ply",
+            .summary = "Polygon file with the points as vertices; write only",
+            .source = "Turk 1994, The PLY polygon file format",
+            .extensions = {".ply"},
+            .traits = {.binary = true, .max_dimension = 3},
+            .head = head,
+            .rows = rows};
+}
+
+}  // namespace stipple::io

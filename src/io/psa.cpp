@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+//
+// Point set analysis: the number of points on the first line, then `x y` a line.
+//
+// Shape   one set of 2-D points.
+// Beware  never detected: without its name, the first line would be a point with one coordinate.
+// Source  the text files of PSA, the program for point set analysis by T. Schloemer.
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "io/decimal.hpp"
+#include "io/delimited.hpp"
+#include "io/format.hpp"
+
+namespace stipple::io {
+namespace {
+
+void head(const Layout& layout, std::string& out) {
+    out += std::to_string(layout.counts.at(0)) + "\n";
+}
+
+void rows(const Layout& layout, std::size_t, std::uint64_t, std::span<const double> numbers,
+          std::string& out) {
+    append_rows(out, numbers, layout.width(), {"", " ", "\n"}, layout.precision);
+}
+
+std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
+                           const RunContext& run) {
+    const SourceText text(bytes, options.source);
+    const Top top = read_top(text);
+    const std::string_view line = trim(line_at(text, top.first));
+    const auto count = parse_unsigned(line);
+    if (!count)
+        text.refuse(line.data(), shown(line) + " is not a number of points; psa begins with one");
+    const Columns columns = choose_columns({}, 2, options, text.source());
+    Rows rows = read_rows(text, top.next, nullptr, columns, {.separator = ' '}, run);
+    const std::size_t found = rows.numbers.size() / columns.dimension;
+    if (!rows.marks.empty()) text.refuse(rows.marks[0].at, "'#' begins another set; psa holds one");
+    if (found != *count || found == 0)
+        text.refuse(line.data(), fmt::format("{} points are announced, {} follow; expected as many",
+                                             *count, found));
+    return cut_sets(std::move(rows.numbers), columns.dimension, {0}, top.provenance);
+}
+
+}  // namespace
+
+Format psa() {
+    return {.name = "psa",
+            .summary = "The number of points, then 'x y' a line",
+            .source = "PSA, the program by T. Schloemer",
+            .extensions = {},
+            .traits = {.many_sets = false, .max_dimension = 2, .min_dimension = 2},
+            .head = head,
+            .rows = rows,
+            .read = read};
+}
+
+}  // namespace stipple::io

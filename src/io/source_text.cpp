@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "io/source_text.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+
+namespace stipple::io {
+
+std::string source_name(std::string_view source) {
+    return std::string(source == "-" ? "stdin" : source);
+}
+
+SourceText::SourceText(std::string_view bytes, std::string_view source)
+    : bytes_(bytes), source_(source_name(source)) {
+    using namespace std::string_view_literals;
+    if (bytes.starts_with("\xFF\xFE"sv) || bytes.starts_with("\xFE\xFF"sv))
+        refuse_whole("the text is in UTF-16; expected ASCII or UTF-8",
+                     "iconv -f UTF-16 -t UTF-8 converts it");
+    if (bytes.starts_with("\x1F\x8B"sv))
+        refuse_whole("the file is compressed; expected plain points", "unpack it: gunzip, zcat");
+    if (bytes_.starts_with("\xEF\xBB\xBF"sv)) bytes_.remove_prefix(3);
+    if (bytes_.empty()) refuse_whole("the file is empty; expected points, one a line");
+    if (bytes_.find('\n') == std::string_view::npos) newline_ = '\r';
+}
+
+std::size_t SourceText::line_of(const char* at) const {
+    return 1 + static_cast<std::size_t>(std::count(begin(), at, newline_));
+}
+
+void SourceText::refuse(const char* at, const std::string& what, std::string hint) const {
+    const char* line = at;
+    while (line != begin() && line[-1] != newline_) --line;
+    throw Error(ErrorKind::input,
+                fmt::format("{}:{}:{}: {}", source_, line_of(at), at - line + 1, what),
+                std::move(hint));
+}
+
+void SourceText::refuse_whole(const std::string& what, std::string hint) const {
+    throw Error(ErrorKind::input, fmt::format("{}: {}", source_, what), std::move(hint));
+}
+
+std::string shown(std::string_view piece) {
+    constexpr std::size_t most = 32;
+    std::string text;
+    for (const char c : piece.substr(0, most))
+        text += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? '?' : c;
+    return "'" + text + (piece.size() > most ? "...'" : "'");
+}
+
+const char* first_control_byte(std::string_view line) {
+    const auto it = std::ranges::find_if(line, [](char c) {
+        return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F;
+    });
+    return it == line.end() ? nullptr : &*it;
+}
+
+}  // namespace stipple::io

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+//
+// Plain text: a point a line, its coordinates separated by one blank, no header; a line `#` between
+// two sets. The reader is that of csv.
+//
+// Promise what was written reads back to the same doubles.
+// Source  the format of UTK and other sampling programs; what gnuplot and numpy.loadtxt read.
+#include "io/decimal.hpp"
+#include "io/delimited.hpp"
+#include "io/format.hpp"
+#include "io/provenance.hpp"
+
+namespace stipple::io {
+namespace {
+
+void head(const Layout& layout, std::string& out) {
+    if (layout.meta) out += to_comment_lines(layout.provenance);
+}
+
+void begin_set(const Layout&, std::size_t set, std::string& out) {
+    if (set > 0) out += "#\n";
+}
+
+void rows(const Layout& layout, std::size_t, std::uint64_t, std::span<const double> numbers,
+          std::string& out) {
+    append_rows(out, numbers, layout.width(), {"", " ", "\n"}, layout.precision);
+}
+
+}  // namespace
+
+Format txt() {
+    return {.name = "txt",
+            .summary = "A point a line, coordinates separated by blanks, sets by a line '#'",
+            .source = "UTK, gnuplot, numpy.loadtxt",
+            .extensions = {".txt", ".dat"},
+            .traits = {},
+            .head = head,
+            .begin_set = begin_set,
+            .rows = rows,
+            .read = read_delimited};
+}
+
+}  // namespace stipple::io
