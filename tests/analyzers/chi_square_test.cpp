@@ -1,0 +1,389 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <stop_token>
+
+#include "support/warping.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+/// Oracle: the digits of i in base b, mirrored at the point.
+double radical_inverse(std::size_t i, std::size_t b) {
+    double value = 0;
+    double digit = 1;
+    for (; i > 0; i /= b) value += static_cast<double>(i % b) * (digit /= static_cast<double>(b));
+    return value;
+}
+
+PointSet halton(std::size_t first, std::size_t last) {
+    std::vector<double> flat;
+    for (std::size_t i = first; i <= last; ++i)
+        flat.insert(flat.end(), {radical_inverse(i, 2), radical_inverse(i, 3)});
+    return {std::move(flat), 2};
+}
+
+PointSet uniform(std::size_t n, std::uint64_t seed, std::size_t d = 2) {
+    return make("random", points(n, d), {}, {.seed = seed});
+}
+
+/// One random point in each of m x m strata.
+PointSet jittered(std::size_t m, std::uint64_t seed) {
+    PointSet set = uniform(m * m, seed);
+    for (std::size_t i = 0; i < set.count(); ++i) {
+        set[i][0] = (static_cast<double>(i % m) + set[i][0]) / static_cast<double>(m);
+        set[i][1] = (static_cast<double>(i / m) + set[i][1]) / static_cast<double>(m);
+    }
+    return set;
+}
+
+double p_value(const PointSet& points, const Settings& settings = {}) {
+    return measure("chi-square", "p_value", points, settings);
+}
+
+std::string verdict(const PointSet& points, const Settings& settings = {}) {
+    return analyze("chi-square", points, settings).text("verdict");
+}
+
+/// A domain's points replaced, its domain kept.
+PointSet on(DomainPtr domain, PointSet points) {
+    points.domain = std::move(domain);
+    return points;
+}
+
+/// Oracle: the statistic for groups of `size` cells of an a x b grid, by the definition.
+double statistic_by_definition(const PointSet& points, int a, int b, int size) {
+    std::map<int, double> observed, expected;
+    const int groups = a * b / size;
+    const auto group = [&](int cell) { return std::min(cell / size, groups - 1); };
+    for (int c = 0; c < a * b; ++c)
+        expected[group(c)] += static_cast<double>(points.count()) / (a * b);
+    for (std::size_t i = 0; i < points.count(); ++i) {
+        const int x = std::min(a - 1, static_cast<int>(std::floor(points[i][0] * a)));
+        const int y = std::min(b - 1, static_cast<int>(std::floor(points[i][1] * b)));
+        observed[group(x * b + y)] += 1;
+    }
+    double sum = 0;
+    for (const auto& [g, e] : expected) sum += (observed[g] - e) * (observed[g] - e) / e;
+    return sum;
+}
+
+}  // namespace
+
+// Known values: Halton sets on grids that nearly line up with their strata; tails of the chi-square
+// distribution by mpmath.
+TEST(ChiSquare, HaltonValuesAndTinyTails) {
+    const Report thousand = analyze("chi-square", halton(1, 1000), {{"cells", "10x10"}});
+    EXPECT_NEAR(thousand.number("statistic"), 20.0, 1e-12);
+    EXPECT_EQ(thousand.number("degrees_of_freedom"), 99);
+    EXPECT_NEAR(thousand.number("p_lower") / 4.16758081828653774e-19, 1, 1e-10);
+    EXPECT_NEAR(thousand.number("p_value") / 8.33516163657307548e-19, 1, 1e-10);
+    EXPECT_EQ(thousand.number("p_upper"), 1);
+    EXPECT_EQ(thousand.text("verdict"), "stratified");
+
+    const Report more = analyze("chi-square", halton(1, 4096), {{"cells", "16"}});
+    EXPECT_EQ(more.number("statistic"), 11.125);
+    EXPECT_EQ(more.number("degrees_of_freedom"), 255);
+    EXPECT_NEAR(more.number("p_lower") / 1.23949820842251157e-122, 1, 1e-9);
+}
+
+TEST(ChiSquare, JitterOnItsOwnStrataIsZero) {
+    const Report report = analyze("chi-square", jittered(10, 1), {{"cells", "10x5"}});
+    EXPECT_EQ(report.number("statistic"), 0);
+    EXPECT_EQ(report.number("p_lower"), 0);
+    EXPECT_EQ(report.number("p_upper"), 1);
+    EXPECT_EQ(report.text("verdict"), "stratified");
+    EXPECT_EQ(report.number("pooled_cells"), 50) << "2 points each";
+}
+
+// Two cells, counts 6 and 14: (16 + 16) / 10 = 3.2 with one degree of freedom, whose upper tail is
+// erfc(sqrt(1.6)).
+TEST(ChiSquare, TwoCellsByHand) {
+    std::vector<double> flat(6, 0.25);
+    flat.resize(20, 0.75);
+    const Report report = analyze("chi-square", PointSet(flat, 1), {{"cells", "2"}});
+    EXPECT_DOUBLE_EQ(report.number("statistic"), 3.2);
+    EXPECT_EQ(report.number("degrees_of_freedom"), 1);
+    EXPECT_NEAR(report.number("p_upper"), std::erfc(std::sqrt(1.6)), 1e-15);
+    EXPECT_NEAR(report.number("p_lower"), std::erf(std::sqrt(1.6)), 1e-15);
+    EXPECT_NEAR(report.number("p_value"), 2 * std::erfc(std::sqrt(1.6)), 1e-15);
+    EXPECT_EQ(report.text("verdict"), "uniform");
+}
+
+TEST(ChiSquare, EdgesBelongToTheCellAboveAndOneToTheLast) {
+    // Five points on each of 0, 1/4, 1/2, 3/4 fill the four cells evenly; those on 1 join the last.
+    std::vector<double> flat;
+    for (const double x : {0.0, 0.25, 0.5, 0.75})
+        for (int i = 0; i < 5; ++i) flat.push_back(x);
+    EXPECT_EQ(measure("chi-square", "statistic", PointSet(flat, 1), {{"cells", "4"}}), 0);
+    for (int i = 0; i < 4; ++i) flat.push_back(1);  // 5 5 5 9 of 6 each: (1 + 1 + 1 + 9) / 6
+    EXPECT_DOUBLE_EQ(measure("chi-square", "statistic", PointSet(flat, 1), {{"cells", "4"}}), 2);
+}
+
+TEST(ChiSquare, AgreesWithTheDefinitionPooledAndNot) {
+    const struct {
+        std::size_t n;
+        int a, b, size;
+    } cases[] = {{1000, 7, 11, 1}, {200, 5, 8, 1},    {199, 5, 8, 2}, {100, 10, 10, 5},
+                 {100, 7, 11, 4},  {1000, 37, 41, 8}, {37, 1, 9, 2},  {5000, 3, 1, 1}};
+    for (const auto& [n, a, b, size] : cases) {
+        const PointSet set = uniform(n, n);
+        const Report report =
+            analyze("chi-square", set, {{"cells", std::to_string(a) + "x" + std::to_string(b)}});
+        EXPECT_NEAR(report.number("statistic"), statistic_by_definition(set, a, b, size), 1e-9)
+            << n;
+        EXPECT_EQ(report.number("degrees_of_freedom"), a * b / size - 1) << n;
+        EXPECT_EQ(report.number("cells"), a * b) << n;
+        EXPECT_EQ(report.number("pooled_cells"), size > 1 ? a * b : 0) << n;
+    }
+}
+
+TEST(ChiSquare, DefaultGridIsOfOddPrimesAndNeverPooled) {
+    const auto grid_of = [](std::size_t n, std::size_t d) {
+        const Report report = analyze("chi-square", uniform(n, 1, d));
+        EXPECT_EQ(report.number("pooled_cells"), 0) << n;
+        EXPECT_LE(5 * report.number("cells"), static_cast<double>(n));
+        return std::get<Report::Integers>(*report.find("grid"));
+    };
+    using Grid = Report::Integers;
+    EXPECT_EQ(grid_of(15, 1), (Grid{3}));
+    EXPECT_EQ(grid_of(20, 2), (Grid{3, 1}));
+    EXPECT_EQ(grid_of(45, 2), (Grid{3, 3}));
+    EXPECT_EQ(grid_of(1024, 1), (Grid{31}));
+    EXPECT_EQ(grid_of(1024, 2), (Grid{5, 7}));
+    EXPECT_EQ(grid_of(100'000, 2), (Grid{13, 17}));
+    EXPECT_EQ(grid_of(1000, 5), (Grid{3, 3, 3, 1, 1}));
+    EXPECT_EQ(grid_of(20'000, 3), (Grid{5, 5, 5}));
+    for (std::size_t n = 15; n < 200; ++n)
+        for (const std::size_t d : {1U, 2U, 3U}) grid_of(n, d);
+}
+
+// 200 seeds at level 0.01: the number of false alarms is binomial(200, 0.01), above 10 with
+// probability 6e-6, if the p-values are right.
+TEST(ChiSquare, FalseAlarmsAreAsManyAsTheLevelSays) {
+    int alarms = 0;
+    int low = 0;
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+        const Report report = analyze("chi-square", uniform(2000, seed), {{"level", "0.01"}});
+        alarms += report.text("verdict") != "uniform";
+        low += report.number("p_value") < 0.5;
+    }
+    EXPECT_LE(alarms, 10);
+    EXPECT_NEAR(low, 100, 33);  // 4.7 standard deviations: 3e-6
+}
+
+// False alarm: 5 seeds x 5e-6. Power: a density 1 + t(1 - 2x) has noncentrality n t^2 / 3 = 300 at
+// t = 0.03, n = 1e6, against a threshold about 160 above the mean of 528.
+TEST(ChiSquare, AcceptsUniformRejectsThreePercentTilt) {
+    const double level = 5e-6;
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        PointSet points = uniform(1'000'000, seed);
+        EXPECT_GT(p_value(points), level) << "seed " << seed;
+
+        for (std::size_t i = 0; i < points.count(); ++i) points[i][0] *= 0.97 + 0.03 * points[i][0];
+        EXPECT_LT(p_value(points), level) << "blind, seed " << seed;
+        EXPECT_EQ(verdict(points), "non-uniform");
+    }
+}
+
+// Eight warps x 3 seeds at level 1e-6: false alarm 3e-5.
+TEST(ChiSquare, AcceptsWarpsThatAreRight) {
+    for (const char* spec :
+         {"disk", "disk:method=concentric", "disk:method=rejection", "disk:radius=2,center=[1,0]",
+          "triangle", "triangle:vertices=[0,0 2,0 0.3,1e-2]", "triangle:vertices=[5,1 -1,1 0,7]",
+          "triangle:vertices=[1,0,0 0,2,0 0,0,3]"})
+        for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+            const PointSet image = warped(*mapping(spec), uniform(50'000, seed));
+            EXPECT_EQ(verdict(image, {{"level", "1e-6"}}), "uniform") << spec << " seed " << seed;
+        }
+}
+
+TEST(ChiSquare, RejectsWarpsThatAreWrong) {
+    const Settings strict = {{"level", "1e-6"}};
+    const PointSet cube = uniform(20'000, 1);
+    const DomainPtr disk = mapping("disk")->domain();
+    const DomainPtr triangle = mapping("triangle")->domain();
+    EXPECT_EQ(verdict(warped(*mapping("disk:method=naive"), cube), strict), "non-uniform");
+
+    // A disk made of the square's diagonals: (u, v) -> (uv, u - uv), density 1 / u on the triangle.
+    PointSet wrong = cube;
+    for (std::size_t i = 0; i < cube.count(); ++i) {
+        wrong[i][0] = cube[i][0] * cube[i][1];
+        wrong[i][1] = cube[i][0] - wrong[i][0];
+    }
+    EXPECT_EQ(verdict(on(triangle, wrong), strict), "non-uniform") << "no square root";
+
+    // A disk of which a sliver is missing.
+    const PointSet round = warped(*mapping("disk"), cube);
+    std::vector<double> flat;
+    for (std::size_t i = 0; i < round.count(); ++i)
+        if (round[i][0] < 0.9) flat.insert(flat.end(), round[i].begin(), round[i].end());
+    EXPECT_EQ(verdict(on(disk, PointSet(flat, 2)), strict), "non-uniform") << "truncated";
+
+    // Radius and angle swapped.
+    PointSet swapped = cube;
+    for (std::size_t i = 0; i < cube.count(); ++i) std::swap(swapped[i][0], swapped[i][1]);
+    EXPECT_EQ(verdict(warped(*mapping("disk"), swapped), strict), "uniform") << "symmetric";
+    for (std::size_t i = 0; i < cube.count(); ++i) {
+        const double r = cube[i][0], angle = 6.283185307179586 * std::sqrt(cube[i][1]);
+        wrong[i][0] = r * std::cos(angle);
+        wrong[i][1] = r * std::sin(angle);
+    }
+    EXPECT_EQ(verdict(on(disk, wrong), strict), "non-uniform") << "root at the wrong one";
+}
+
+TEST(ChiSquare, SeesStrataThroughEveryWarp) {
+    for (const char* spec :
+         {"disk", "disk:method=concentric", "triangle", "triangle:vertices=[1,0,0 0,2,0 0,0,3]"})
+        EXPECT_EQ(verdict(warped(*mapping(spec), jittered(200, 1))), "stratified") << spec;
+    EXPECT_EQ(verdict(halton(1, 1000)), "stratified");
+    EXPECT_EQ(verdict(jittered(64, 3)), "stratified");
+}
+
+TEST(ChiSquare, ProductDomainsHaveTheAxesOfTheirFactors) {
+    const DomainPtr domain =
+        product_domain({{unit_cube(1), {0}}, {mapping("disk")->domain(), {1, 2}}});
+    const PointSet cube = uniform(30'000, 1, 3);
+    PointSet right(cube.count(), 3), wrong(cube.count(), 3);
+    for (std::size_t i = 0; i < cube.count(); ++i)
+        for (const auto& [spec, out] : {std::pair{"disk", &right}, {"disk:method=naive", &wrong}}) {
+            const auto map = mapping(spec);
+            (*out)[i][0] = cube[i][0];
+            map->forward(cube[i].subspan(1), (*out)[i].subspan(1), {});
+        }
+    EXPECT_EQ(verdict(on(domain, right)), "uniform");
+    EXPECT_EQ(verdict(on(domain, wrong)), "non-uniform");
+}
+
+TEST(ChiSquare, ExpectationsThatDoNotHoldAreSaid) {
+    const auto unmet = [](const PointSet& points, const char* wanted) {
+        return analyze("chi-square", points, {{"expect", wanted}, {"cells", "2"}}).unmet();
+    };
+    std::vector<double> flat(6, 0.25);
+    flat.resize(20, 0.75);
+    const PointSet some(flat, 1);
+    EXPECT_EQ(unmet(some, "uniform"), std::vector<std::string>{});
+    EXPECT_EQ(unmet(some, "stratified"),
+              std::vector<std::string>{"expected stratified, found uniform (p = 0.147)"});
+    const PointSet even(std::vector<double>{.1, .1, .2, .3, .4, .6, .7, .8, .9, 1}, 1);
+    EXPECT_EQ(unmet(even, "stratified"), std::vector<std::string>{});
+    EXPECT_EQ(unmet(even, "uniform"),
+              std::vector<std::string>{"expected uniform, found stratified (p = 0)"});
+    const PointSet clumped(std::vector<double>(30, 0.5), 1);
+    EXPECT_EQ(unmet(clumped, "uniform").size(), 1U);
+    EXPECT_TRUE(analyze("chi-square", clumped).unmet().empty());
+}
+
+TEST(ChiSquare, LevelDecidesTheVerdict) {
+    std::vector<double> flat(6, 0.25);
+    flat.resize(20, 0.75);  // p = 0.147
+    const PointSet some(flat, 1);
+    EXPECT_EQ(verdict(some, {{"cells", "2"}, {"level", "0.14"}}), "uniform");
+    EXPECT_EQ(verdict(some, {{"cells", "2"}, {"level", "0.15"}}), "non-uniform");
+}
+
+// Cells with probabilities (1 +- e) / 4, where e is the smallest detectable effect, are found in
+// about 90 of 100 sets: 300 sets give 270 with standard deviation 5.2; 6 of them are 31. Half the
+// effect is found in few.
+TEST(ChiSquare, SmallestDetectableEffectIsFoundNineTimesOfTen) {
+    const std::size_t n = 2000;
+    const Settings settings = {{"cells", "4"}, {"level", "0.01"}};
+    const double effect =
+        measure("chi-square", "smallest_detectable_effect", uniform(n, 1, 1), settings);
+    const auto found = [&](double e) {
+        int count = 0;
+        for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+            PointSet points = uniform(n, seed, 1);
+            for (double& x : points.flat()) {  // lower half of each half is taken with (1 + e) / 2
+                const double half = x < 0.5 ? 0 : 0.5;
+                const double u = 2 * (x - half), a = (1 + e) / 2;
+                x = half + 0.5 * (u < a ? 0.5 * u / a : 0.5 + 0.5 * (u - a) / (1 - a));
+            }
+            count += verdict(points, settings) == "non-uniform";
+        }
+        return count;
+    };
+    EXPECT_NEAR(found(effect), 270, 31);
+    EXPECT_LT(found(effect / 2), 150);
+}
+
+TEST(ChiSquare, ThreadsDoNotChangeAnything) {
+    const PointSet image = warped(*mapping("disk"), uniform(100'000, 1));
+    const Analyzer& unit = find_analyzer("chi-square");
+    const Report one = analyze(unit, image, unit.options.defaults(), {.threads = 1});
+    for (const unsigned threads : {2U, 7U})
+        EXPECT_EQ(analyze(unit, image, unit.options.defaults(), {.threads = threads}), one);
+}
+
+TEST(ChiSquare, ManySetsAreJudgedTogether) {
+    const Analyzer& unit = find_analyzer("chi-square");
+    Report mean;
+    mean.add("statistic", 30.0)
+        .add("degrees_of_freedom", 20.0)
+        .add("smallest_detectable_effect", 0.1);
+    unit.refine(mean, 10, unit.options.defaults());
+    EXPECT_NEAR(mean.number("p_upper"), 5.924540335484e-6, 1e-15);  // 300 at 200 degrees
+    EXPECT_EQ(mean.text("verdict"), "non-uniform");
+    EXPECT_LT(mean.number("smallest_detectable_effect"), 0.1);
+    EXPECT_GT(mean.number("smallest_detectable_effect"), 0.1 / std::sqrt(10));
+}
+
+TEST(ChiSquare, RefusesPointsOutsideTheirDomain) {
+    PointSet points = uniform(100, 1);
+    for (std::size_t i = 0; i < 100; ++i) points[i][0] *= 0.5, points[i][1] *= 0.5;
+    points[7][0] = 1.5;
+    points[7][1] = 0.25;
+    points[90][1] = std::nan("");
+    EXPECT_EQ(error_of([&] { analyze("chi-square", on(mapping("disk")->domain(), points)); }),
+              "input: 2 of 100 points are outside the domain disk; the first is point 7: "
+              "(1.5, 0.25) | --domain names what the points live on");
+    EXPECT_NE(error_of([&] { analyze("chi-square", points); }).find("domain unit-cube"),
+              std::string::npos);
+    EXPECT_EQ(
+        error_of([&] { analyze("chi-square", on(mapping("disk")->domain(), uniform(50, 1, 3))); }),
+        "input: points of the domain disk have dimension 2; these have 3");
+}
+
+TEST(ChiSquare, RefusesTooFewPointsAndSaysHowMany) {
+    const auto error = [](std::size_t n, std::size_t d, const Settings& settings = {}) {
+        return error_of([&] { analyze("chi-square", uniform(n, 1, d), settings); });
+    };
+    EXPECT_EQ(
+        error(14, 2),
+        "input: chi-square needs at least 15 points for its smallest grid, 3 cells; these are 14");
+    EXPECT_NE(error(1, 1), "");
+    EXPECT_EQ(error(15, 1), "");
+    EXPECT_EQ(error(12, 1, {{"cells", "5"}}),
+              "input: chi-square needs at least 13 points for 5 cells; these are 12");
+    EXPECT_EQ(error(13, 1, {{"cells", "5"}}), "");
+    EXPECT_EQ(error(10, 2, {{"cells", "2x1"}}), "");
+    EXPECT_EQ(error(9, 2, {{"cells", "1x2"}}),
+              "input: chi-square needs at least 10 points for 2 cells; these are 9");
+    EXPECT_EQ(error(100, 2, {{"cells", "1"}}),
+              "usage: --cells: 1 cells are outside [2, 100000000]");
+    EXPECT_EQ(error(100, 2, {{"cells", "2x3x5"}}),
+              "usage: --cells: 3 numbers for 2 axes; one for all, or one for each");
+    EXPECT_NE(error(100, 20, {{"cells", "10"}}), "");
+    EXPECT_NE(error(100, 2, {{"level", "0"}}), "");
+    EXPECT_NE(error(100, 2, {{"level", "0.6"}}), "");
+    EXPECT_NE(error(100, 2, {{"expect", "random"}}), "");
+}
+
+TEST(ChiSquare, HonoursLimitsStopsAndProgress) {
+    const PointSet set = uniform(100'000, 1);
+    const Analyzer& unit = find_analyzer("chi-square");
+    Values options = unit.options.defaults();
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_EQ(error_of([&] { analyze(unit, set, options, {.stop = stop.get_token()}); }),
+              "cancelled: interrupted");
+    double seen = 0;
+    analyze(unit, set, options, {.progress = [&](double done) { seen = done; }});
+    EXPECT_EQ(seen, 1);
+    unit.options.set(options, "cells", "1000x1000");
+    EXPECT_NE(error_of([&] { analyze(unit, set, options, {.max_memory = 1'000'000}); }), "");
+}
