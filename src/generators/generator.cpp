@@ -4,32 +4,10 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
+#include "math/powers.hpp"
 
 namespace stipple {
 namespace {
-
-/// base^exponent, or the largest 64-bit number when it does not fit.
-std::uint64_t saturating_power(std::uint64_t base, std::size_t exponent) {
-    std::uint64_t value = 1;
-    for (std::size_t i = 0; i < exponent; ++i)
-        if (__builtin_mul_overflow(value, base, &value))
-            return std::numeric_limits<std::uint64_t>::max();
-    return value;
-}
-
-/// The largest k with k^exponent <= value.
-std::uint64_t floor_root(std::uint64_t value, std::size_t exponent) {
-    std::uint64_t low = 1;
-    std::uint64_t high = value;
-    while (low < high) {
-        const std::uint64_t middle = low + (high - low + 1) / 2;
-        if (saturating_power(middle, exponent) <= value)
-            low = middle;
-        else
-            high = middle - 1;
-    }
-    return low;
-}
 
 void check_dimension(const Generator& generator, std::size_t dimension) {
     const auto& traits = generator.traits;
@@ -82,8 +60,12 @@ std::uint64_t exact_root(std::uint64_t count, std::size_t dimension, const std::
     const std::uint64_t k = floor_root(count, dimension);
     const std::uint64_t below = saturating_power(k, dimension);
     if (below == count) return k;
+    const std::uint64_t above = saturating_power(k + 1, dimension);
+    if (above > std::uint64_t{1} << 53)
+        fail(ErrorKind::usage, "--count: {} is not k^{}, as {} needs; {} is the nearest", count,
+             dimension, who, below);
     fail(ErrorKind::usage, "--count: {} is not k^{}, as {} needs; {} and {} are the nearest", count,
-         dimension, who, below, saturating_power(k + 1, dimension));
+         dimension, who, below, above);
 }
 
 }  // namespace stipple

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+//
+// Random number generators of old programs and libraries, to make their numbers again. Each is
+// built from its seed, and next() is its next number, a double in [0, 1).
+//
+// Beware  none of them can be trusted with new work: short periods, weak low bits, few seeds.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+
+#include "core/rng.hpp"
+
+namespace stipple {
+
+/// The C library's drand48: x <- (a x + c) mod 2^48 from x = seed * 2^16 + 0x330E; x / 2^48.
+class Drand48 {
+  public:
+    static constexpr std::uint64_t max_seed = 0xffff'ffff;
+
+    explicit Drand48(std::uint64_t seed) : state_(seed << 16 | 0x330E) {}
+    double next();
+
+    /// Leaves out `count` numbers; in O(log count) steps.
+    void discard(std::uint64_t count);
+
+  private:
+    std::uint64_t state_;
+};
+
+/// The C library's random(), additive feedback x_i = x_{i-3} + x_{i-31} mod 2^32; its upper 31 bits
+/// over 2^31.
+/// Beware  seeds 0 and 1 are the same to it.
+class AdditiveFeedback {
+  public:
+    static constexpr std::uint64_t max_seed = 0xffff'ffff;
+
+    explicit AdditiveFeedback(std::uint64_t seed);
+    double next();
+
+  private:
+    std::array<std::uint32_t, 31> state_{};
+    std::size_t front_ = 3;
+    std::size_t rear_ = 0;
+};
+
+/// RANMAR: a lagged Fibonacci generator (97, 33; minus) combined with an arithmetic sequence, in
+/// numbers of 24 bits.
+///
+/// Source  G. Marsaglia, A. Zaman, W. W. Tsang, Stat. Probab. Lett. 9 (1990) 35-39; as printed by
+///         F. James, Comput. Phys. Commun. 60 (1990) 329-344, doi:10.1016/0010-4655(90)90032-V.
+class Ranmar {
+  public:
+    static constexpr std::uint32_t seeds_of_kl = 30082;
+    static constexpr std::uint64_t max_seed = std::uint64_t{31329} * seeds_of_kl - 1;
+
+    explicit Ranmar(std::uint64_t seed)
+        : Ranmar(static_cast<std::uint32_t>(seed / seeds_of_kl),
+                 static_cast<std::uint32_t>(seed % seeds_of_kl)) {}
+
+    /// ij in [0, 31328], kl in [0, 30081].
+    Ranmar(std::uint32_t ij, std::uint32_t kl);
+    double next();
+
+  private:
+    std::array<std::uint32_t, 97> state_{};
+    std::size_t front_ = 96;
+    std::size_t rear_ = 32;
+    std::uint32_t arithmetic_ = 362436;
+};
+
+/// The standard library's engine of this name; 53 high bits.
+class MersenneTwister {
+  public:
+    static constexpr std::uint64_t max_seed = ~std::uint64_t{0};
+
+    explicit MersenneTwister(std::uint64_t seed) : engine_(seed) {}
+    double next() { return to_unit(engine_()); }
+
+  private:
+    std::mt19937_64 engine_;
+};
+
+/// The standard library's engine of this name; x / 2^48.
+/// Beware  seeds 0 and 19780503 are the same to it; from 2147483563 on seeds would come again.
+class Ranlux48 {
+  public:
+    static constexpr std::uint64_t max_seed = 2147483562;
+
+    explicit Ranlux48(std::uint64_t seed) : engine_(seed) {}
+    double next() { return static_cast<double>(engine_()) * 0x1p-48; }
+
+  private:
+    std::ranlux48 engine_;
+};
+
+}  // namespace stipple

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+//
+// The first 1000 primes: 2, 3, 5, ..., 7919.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace stipple {
+namespace detail {
+
+consteval std::array<std::uint32_t, 1000> first_primes() {
+    std::array<std::uint32_t, 1000> found{2};
+    std::size_t count = 1;
+    for (std::uint32_t candidate = 3; count < found.size(); candidate += 2) {
+        std::size_t k = 1;
+        while (k < count && found[k] * found[k] <= candidate && candidate % found[k] != 0) ++k;
+        if (k == count || found[k] * found[k] > candidate) found[count++] = candidate;
+    }
+    return found;
+}
+
+}  // namespace detail
+
+inline constexpr std::array<std::uint32_t, 1000> primes = detail::first_primes();
+
+}  // namespace stipple

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#include "math/stratum.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/rng.hpp"
+#include "support/exact.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+constexpr std::uint64_t most = std::uint64_t{1} << 53;
+
+double placed(const Strata& strata, double u) {
+    place_in_strata(strata, 1, &u, 1);
+    return u;
+}
+
+double middle(const Strata& strata) {
+    double x = -1;
+    place_in_middles(strata, 1, &x, 1);
+    return x;
+}
+
+void expect_inside(const Strata& s, double x) {
+    EXPECT_LT(x, 1);
+    const Fraction scaled = exactly(x) * s.parts;
+    EXPECT_TRUE(scaled >= s.low && scaled < s.low + s.width)
+        << x << " for " << s.low << " + " << s.width << " of " << s.parts;
+}
+
+}  // namespace
+
+TEST(Stratum, PlacesByTheFormula) {
+    EXPECT_EQ(placed({.low = 3, .width = 1, .step = 0, .parts = 8}, 0.5), 3.5 / 8);
+    EXPECT_EQ(placed({.low = 2, .width = 3, .step = 0, .parts = 8}, 0.25), 2.75 / 8);
+    std::vector<double> x = {0.5, -1, 0.25, -1, 0.75, -1};
+    place_in_strata({.low = 1, .width = 2, .step = 2, .parts = 8}, 3, x.data(), 2);
+    EXPECT_EQ(x, (std::vector<double>{2. / 8, -1, 3.5 / 8, -1, 6.5 / 8, -1}));
+    place_in_middles({.low = 1, .width = 2, .step = 2, .parts = 8}, 3, x.data(), 2);
+    EXPECT_EQ(x, (std::vector<double>{2. / 8, -1, 4. / 8, -1, 6. / 8, -1}));
+}
+
+// Also with the extreme random numbers, in the widest and in the narrowest strata there can be.
+TEST(Stratum, HoldsItsPointInExactArithmetic) {
+    const Rng rng(3);
+    std::uint64_t draw = 0;
+    for (const std::uint64_t parts :
+         {std::uint64_t{1}, std::uint64_t{3}, std::uint64_t{49}, std::uint64_t{1'000'003},
+          (std::uint64_t{1} << 50) + 1, (std::uint64_t{1} << 52) + 1, most - 1, most})
+        for (int i = 0; i < 300; ++i) {
+            const std::uint64_t low = i == 0   ? 0
+                                      : i == 1 ? parts - 1
+                                      : i == 2 ? parts / 2
+                                               : rng.below(draw++, parts);
+            const std::uint64_t width = 1 + (i % 2) * rng.below(draw++, parts - low);
+            const Strata strata{.low = low, .width = width, .step = 0, .parts = parts};
+            for (const double u : {0.0, 0x1p-53, rng.uniform(draw++), 1 - 0x1p-52, 1 - 0x1p-53})
+                expect_inside(strata, placed(strata, u));
+            expect_inside(strata, middle(strata));
+        }
+}
+
+// 1/49 is the first for which (1 / k) * k < 1.
+TEST(Stratum, HoldsItsPointAsAProgramFindsIt) {
+    for (std::uint64_t parts = 1; parts < 200; ++parts)
+        for (std::uint64_t low = 0; low < parts; ++low)
+            for (const double u : {0.0, 0x1p-53, 0.5, 1 - 0x1p-53}) {
+                const double x = placed({.low = low, .width = 1, .step = 0, .parts = parts}, u);
+                EXPECT_EQ(std::floor(x * static_cast<double>(parts)), static_cast<double>(low))
+                    << x << " in " << low << " of " << parts;
+            }
+}
