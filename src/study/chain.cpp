@@ -117,7 +117,7 @@ void WarpChain::add(const Spec& spec) {
             k = moved[static_cast<std::size_t>(std::ranges::find(rest, k) - rest.begin())];
     std::string text = format_spec(spec.name, values, warp.options);
     if (!spec.coordinates.empty())
-        text.insert(spec.name.size(), "@" + format_coordinates(spec.coordinates));
+        text.insert(spec.name.size(), fmt::format("@{}", format_coordinates(spec.coordinates)));
     specs_.push_back(std::move(text));
     dimension_out_ = step.width_out;
     steps_.push_back(std::move(step));

@@ -155,7 +155,7 @@ bool ship_file(const Shipment& shipment, std::size_t first, std::size_t last,
     const Format& format = *target.format;
     const Layout layout = layout_of(shipment, first, last, target);
     check_format(format, layout);
-    io::Output output(path);
+    io::Output output(path, run.stop);
     std::string bytes;
     if (format.head) format.head(layout, bytes);
     for (std::size_t set = first; set < last; ++set) {
