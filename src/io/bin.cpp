@@ -21,17 +21,16 @@ void rows(const Layout& layout, std::size_t, std::uint64_t, std::span<const doub
 std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
                            const RunContext& run) {
     const std::string source = source_name(options.source);
-    if (!options.dimension)
+    if (!options.dimension || *options.dimension == 0)
         fail(ErrorKind::usage, "{}: raw numbers do not tell their dimension; say it with -d",
              source);
     const std::size_t width = *options.dimension;
     const std::size_t size = options.single ? 4 : 8;
     if (bytes.empty()) fail(ErrorKind::input, "{}: the file is empty; expected raw points", source);
-    if (bytes.size() % (width * size) != 0)
+    if (bytes.size() % size != 0 || bytes.size() / size % width != 0)
         fail(ErrorKind::input,
-             "{}: byte {}: the last point is cut off; expected a multiple of {} bytes ({} "
-             "coordinates of float{})",
-             source, bytes.size(), width * size, width, 8 * size);
+             "{}: byte {}: the last point is cut off; expected whole points, {} float{} each",
+             source, bytes.size(), width, 8 * size);
     run.need_memory(static_cast<double>(bytes.size() / size) * 8, "the points of " + source);
     std::vector<double> table(bytes.size() / size);
     take_raw(bytes, {.size = size}, table);

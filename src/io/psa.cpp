@@ -36,7 +36,8 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
     const std::size_t found = rows.numbers.size() / columns.dimension;
     if (!rows.marks.empty()) text.refuse(rows.marks[0].at, "'#' begins another set; psa holds one");
     if (found != *count || found == 0)
-        text.refuse(line.data(), fmt::format("{} points are announced, {} follow; expected as many",
+        text.refuse(line.data(), fmt::format("the first line says {}, and points follow: {}; "
+                                             "expected as many, at least one",
                                              *count, found));
     return cut_sets(std::move(rows.numbers), columns.dimension, {0}, top.provenance);
 }

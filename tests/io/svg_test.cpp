@@ -1,1 +1,50 @@
 // SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "io/io_support.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+// The unit square is 1000 units wide in a margin of 20, and y points up.
+TEST(Svg, PointsStandWhereTheyAre) {
+    const std::string text = written("svg", {points_of({{0, 0}, {1, 0.25}})});
+    EXPECT_NE(text.find("viewBox=\"0 0 1040 1040\""), std::string::npos) << text;
+    EXPECT_NE(text.find("<title>2 points</title>"), std::string::npos);
+    EXPECT_NE(text.find("<circle cx=\"20.0\" cy=\"1020.0\" r=\"10.00\"/>\n"
+                        "<circle cx=\"1020.0\" cy=\"770.0\" r=\"10.00\"/>\n</g>\n</svg>\n"),
+              std::string::npos)
+        << text;
+}
+
+TEST(Svg, ViewFollowsTheExtentAndElseTheBounds) {
+    Layout layout;
+    layout.provenance.bounds = "0..4,0..2";
+    EXPECT_NE(written("svg", {points_of({{4, 2}})}, layout).find("viewBox=\"0 0 1040 540\""),
+              std::string::npos);
+    layout.extent = Box{{-1, -1}, {1, 1}};
+    EXPECT_NE(written("svg", {points_of({{0, 0}})}, layout).find("cx=\"520.0\" cy=\"520.0\""),
+              std::string::npos);
+}
+
+// 0.15 sqrt(10^6 / 10^4) = 1.5
+TEST(Svg, DisksShrinkWithTheirNumber) {
+    const std::string text = written("svg", {random_points(10'000, 2)});
+    EXPECT_NE(text.find(" r=\"1.50\"/>"), std::string::npos);
+    EXPECT_EQ(text.find(" r=\"10.00\"/>"), std::string::npos);
+}
+
+TEST(Svg, ExtrasAreLeftOutAndTitlesAreSafe) {
+    Layout layout{.extras = {"pdf"}};
+    layout.provenance.generator = "a<b&c";
+    const std::string text = written("svg", {points_of({{0.5, 0.5, 9}})}, layout);
+    EXPECT_NE(text.find("<title>abc, 1 points</title>"), std::string::npos) << text;
+    EXPECT_NE(text.find("cx=\"520.0\" cy=\"520.0\""), std::string::npos);
+}
+
+TEST(Svg, IsWriteOnlyAndFlat) {
+    const Format& format = io::format_named("svg");
+    EXPECT_FALSE(format.read);
+    EXPECT_EQ(format.traits.min_dimension, 2U);
+    EXPECT_EQ(format.traits.max_dimension, 2U);
+}

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "io/provenance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "io/io_support.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+TEST(ProvenanceJson, HasTheKeysOfTheContract) {
+    const auto meta = io::to_json(some_provenance());
+    std::vector<std::string> keys;
+    for (const auto& [key, value] : meta.items()) keys.push_back(key);
+    EXPECT_EQ(keys, (std::vector<std::string>{"tool", "version", "generator", "options", "seed",
+                                              "count", "dimension", "start", "warps", "domain",
+                                              "bounds", "shard", "command"}));
+    EXPECT_EQ(meta["tool"], "stipple");
+    const auto bare = io::to_json({});
+    EXPECT_FALSE(bare.contains("bounds"));
+    EXPECT_FALSE(bare.contains("shard"));
+    EXPECT_EQ(bare["options"], nlohmann::ordered_json::object());
+}
+
+TEST(ProvenanceJson, OptionsHaveTheTypeThatTheyLookLike) {
+    const auto options = io::to_json(some_provenance())["options"];
+    EXPECT_TRUE(options["base"].is_number_integer());
+    EXPECT_TRUE(options["radius"].is_number_float());
+    EXPECT_TRUE(options["toroidal"].is_boolean());
+    EXPECT_EQ(options["method"], "polar");
+    EXPECT_EQ(options["like-a-number"], "007");
+    EXPECT_EQ(options["vertices"], "0,0 1,0 0,1");
+}
+
+TEST(ProvenanceJson, ReadsBack) {
+    for (const char* text :
+         {"1", "-5", "0.1", "1e-05", "1e+20", "1.0", "1e3", "9223372036854775807",
+          "18446744073709551615", "nan", "true", "True", "", "0,5", "\xC3\xA4"}) {
+        Provenance provenance = some_provenance();
+        provenance.options = {{"a", text}};
+        const std::string dumped = io::to_json(provenance).dump();
+        EXPECT_EQ(io::provenance_from(nlohmann::ordered_json::parse(dumped)), provenance) << text;
+    }
+}
+
+TEST(ProvenanceJson, IgnoresWhatItDoesNotUnderstand) {
+    using Json = nlohmann::ordered_json;
+    EXPECT_EQ(io::provenance_from(Json::parse("[1]")), Provenance{});
+    EXPECT_EQ(io::provenance_from(Json::parse(
+                  R"({"seed":-1,"count":"many","generator":7,"warps":{},"options":[],"new":1})")),
+              Provenance{});
+    const auto one =
+        io::provenance_from(Json::parse(R"({"seed":3,"options":{"a":[1]},"warps":[1]})"));
+    EXPECT_EQ(one.seed, 3U);
+    EXPECT_TRUE(one.options.empty());
+}
+
+TEST(ProvenanceLines, ReadBack) {
+    const std::string lines = io::to_comment_lines(some_provenance());
+    Provenance back;
+    for (std::size_t at = 0; at < lines.size();) {
+        const auto end = lines.find('\n', at);
+        const std::string line = lines.substr(at, end - at);
+        ASSERT_TRUE(line.starts_with("# ")) << line;
+        EXPECT_TRUE(io::take_comment_line(std::string_view(line).substr(2), back)) << line;
+        at = end + 1;
+    }
+    EXPECT_EQ(back, some_provenance());
+}
+
+TEST(ProvenanceLines, OtherLinesAreLeftAlone) {
+    Provenance provenance;
+    for (const char* line : {"", "seed", "seed: ", "seed: x y", "colour: 3", "seed:3", ": 1"})
+        EXPECT_FALSE(io::take_comment_line(line, provenance)) << line;
+    EXPECT_EQ(provenance, Provenance{});
+}
+
+TEST(ProvenanceLines, BytesThatAreNoTextDoNoHarm) {
+    Provenance provenance;
+    provenance.command = "stipple -o \xFF.csv\n# seed: 1";
+    const std::string lines = io::to_comment_lines(provenance);
+    EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 11);
+    EXPECT_NE(lines.find("\\n# seed: 1"), std::string::npos) << lines;
+}
