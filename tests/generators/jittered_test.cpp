@@ -101,9 +101,11 @@ TEST(Jittered, StaysInItsCellAtTheLargestCounts) {
         for (const std::size_t d : {1, 2})
             for (const char* where : {"random", "center"}) {
                 const auto sequence = sequence_of("jittered", points(n, d), {{"cell", where}});
-                for (const std::uint64_t first : {std::uint64_t{0}, n / 2, n - 100})
-                    for (const double x : stretch(*sequence, d, first, 100).flat())
+                for (const std::uint64_t first : {std::uint64_t{0}, n / 2, n - 100}) {
+                    const PointSet part = stretch(*sequence, d, first, 100);
+                    for (const double x : part.flat())
                         EXPECT_TRUE(x >= 0 && x < 1) << n << " " << d << " " << where;
+                }
             }
 }
 
