@@ -18,11 +18,11 @@
 namespace stipple {
 namespace {
 
-/// The smallest even product of 2, 3, 5 and 7 that is at least `least`: what FFTW is quick at.
+/// The smallest even product of 2, 3 and 5 that is at least `least`: what FFTW is quick at.
 std::size_t quick_length(std::size_t least) {
     for (std::size_t length = least + least % 2;; length += 2) {
         std::size_t rest = length;
-        for (const std::size_t prime : {2U, 3U, 5U, 7U})
+        for (const std::size_t prime : {2U, 3U, 5U})
             while (rest % prime == 0) rest /= prime;
         if (rest == 1) return length;
     }

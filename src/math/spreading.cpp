@@ -51,16 +51,22 @@ inline __attribute__((always_inline)) Place locate(double x, const Tile& tile) {
     return {first, between};
 }
 
-/// The window's values at its grid points, Padded of them, by Horner's rule.
-template <std::size_t Padded>
-inline __attribute__((always_inline)) void evaluate(double between, const Tile& tile,
-                                                    Vector* values) {
+/// The window's values at its grid points along each axis, Padded of them, by Horner's rule; for
+/// all axes at once, since one alone would wait for each step's result.
+template <std::size_t Dimension, std::size_t Padded>
+inline __attribute__((always_inline)) void evaluate(
+    const std::array<double, Dimension>& between, const Tile& tile,
+    std::array<std::array<Vector, Padded / 4>, Dimension>& values) {
     constexpr std::size_t vectors = Padded / 4;
-    const double t = 2 * between - 1;
     const auto* rows = reinterpret_cast<const LooseVector*>(tile.coefficients);
-    for (std::size_t v = 0; v < vectors; ++v) values[v] = rows[v];
-    for (std::size_t k = 1; k <= tile.degree; ++k)
-        for (std::size_t v = 0; v < vectors; ++v) values[v] = values[v] * t + rows[k * vectors + v];
+    for (std::size_t k = 0; k < Dimension; ++k)
+        for (std::size_t v = 0; v < vectors; ++v) values[k][v] = rows[v];
+    for (std::size_t power = 1; power <= tile.degree; ++power) {
+        rows += vectors;
+        for (std::size_t v = 0; v < vectors; ++v)
+            for (std::size_t k = 0; k < Dimension; ++k)
+                values[k][v] = values[k][v] * (2 * between[k] - 1) + rows[v];
+    }
 }
 
 /// Adds weight * values to a row of the buffer.
@@ -75,14 +81,16 @@ template <std::size_t Dimension, std::size_t Padded>
 inline __attribute__((always_inline)) void add_point(const double* point, const Tile& tile,
                                                      double* buffer) {
     alignas(32) std::array<std::array<Vector, Padded / 4>, Dimension> values;
+    std::array<double, Dimension> between;
     double* corner = buffer;
     std::size_t step = 1;
     for (std::size_t k = 0; k < Dimension; ++k) {
         const Place place = locate(point[k], tile);
         corner += static_cast<std::size_t>(place.first - tile.start[k]) * step;
         step *= tile.extent;
-        evaluate<Padded>(place.between, tile, values[k].data());
+        between[k] = place.between;
     }
+    evaluate<Dimension, Padded>(between, tile, values);
     const auto value = [&](std::size_t k, std::size_t j) { return values[k][j / 4][j % 4]; };
     const Vector* along = values[0].data();
     if constexpr (Dimension == 1) add_row<Padded>(corner, 1, along);
@@ -280,9 +288,10 @@ Sorted sort_into_tiles(std::span<const double> rows, std::size_t dimension, cons
         run, count, block,
         [&](const Block& b) {
             std::uint32_t* places = next.data() + b.index * tiles;
-            for (std::size_t i = b.first; i < b.last; ++i)
-                std::copy_n(&rows[i * dimension], dimension,
-                            &sorted.rows[places[tile_of[i]]++ * dimension]);
+            for (std::size_t i = b.first; i < b.last; ++i) {
+                double* to = &sorted.rows[places[tile_of[i]]++ * dimension];
+                for (std::size_t k = 0; k < dimension; ++k) to[k] = rows[i * dimension + k];
+            }
         },
         true);
     return sorted;
