@@ -145,7 +145,9 @@ struct Outside {
 
 [[noreturn]] void refuse(const Outside& outside, const PointSet& points) {
     const std::string domain = points.domain->spec();
-    fail_with_hint(ErrorKind::input, "--domain names what the points live on",
+    std::string hint = "--domain names what the points live on";
+    if (domain == "unit-cube") hint += "; --rescale or --bounds lo..hi moves them into the cube";
+    fail_with_hint(ErrorKind::input, std::move(hint),
                    "{} of {} points are outside the domain {}; the first is point {}: ({})",
                    outside.count, points.count(), domain, outside.first,
                    fmt::join(points[outside.first], ", "));

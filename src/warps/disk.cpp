@@ -15,7 +15,7 @@
 //         (concentric, rejection). xi1 turns from the x axis towards the y axis (polar, naive).
 //         polar makes rings of sectors of strata, concentric keeps neighbours neighbours, rejection
 //         keeps the strata as they are and loses those outside.
-// Cost    O(1) a point; about 12 ns forward, 25 ns back on one core.
+// Cost    O(1) a point; about 9 ns forward (polar), 30 ns back on one core.
 // Promise density 1 / (pi R^2) for all but naive: 1 / (2 pi R r), infinite at the centre. Points
 // lie
 //         in the closed disk up to the rounding stated at contains(). Forward and back again is the
@@ -36,6 +36,7 @@
 
 #include "core/error.hpp"
 #include "core/spec.hpp"
+#include "core/wide.hpp"
 #include "math/trigonometry.hpp"
 #include "warps/warp.hpp"
 
@@ -171,6 +172,26 @@ struct Rejection {
 };
 
 template <class Method>
+STIPPLE_WIDE void map_rows(std::span<const double> cube, std::span<double> image, double r,
+                           Pair c) {
+    for (std::size_t i = 0; i + 1 < cube.size(); i += 2) {
+        const auto [x, y] = Method::forward(cube[i], cube[i + 1]);
+        image[i] = c.x + r * x;
+        image[i + 1] = c.y + r * y;
+    }
+}
+
+template <class Method>
+STIPPLE_WIDE void unmap_rows(std::span<const double> image, std::span<double> cube, double r,
+                             Pair c) {
+    for (std::size_t i = 0; i + 1 < image.size(); i += 2) {
+        const auto [u, v] = Method::inverse((image[i] - c.x) / r, (image[i + 1] - c.y) / r);
+        cube[i] = std::max(0.0, std::min(u, 1.0));
+        cube[i + 1] = std::max(0.0, std::min(v, 1.0));
+    }
+}
+
+template <class Method>
 class Disk final : public Mapping {
   public:
     Disk(double r, Pair c) : disk_(std::make_shared<DiskDomain>(r, c)) {}
@@ -180,13 +201,7 @@ class Disk final : public Mapping {
 
     void forward(std::span<const double> cube, std::span<double> image,
                  std::span<std::uint8_t> keep) const override {
-        const double r = disk_->size();
-        const auto [cx, cy] = disk_->middle();
-        for (std::size_t i = 0; i + 1 < cube.size(); i += 2) {
-            const auto [x, y] = Method::forward(cube[i], cube[i + 1]);
-            image[i] = cx + r * x;
-            image[i + 1] = cy + r * y;
-        }
+        map_rows<Method>(cube, image, disk_->size(), disk_->middle());
         if constexpr (std::is_same_v<Method, Rejection>) {
             for (std::size_t i = 0; i < keep.size(); ++i) {
                 const auto [x, y] = Method::forward(cube[2 * i], cube[2 * i + 1]);
@@ -204,13 +219,7 @@ class Disk final : public Mapping {
                 fail(ErrorKind::input, "the point ({}) is outside the {}", fmt::join(point, ", "),
                      disk_->spec());
         }
-        const double r = disk_->size();
-        const auto [cx, cy] = disk_->middle();
-        for (std::size_t i = 0; i + 1 < image.size(); i += 2) {
-            const auto [u, v] = Method::inverse((image[i] - cx) / r, (image[i + 1] - cy) / r);
-            cube[i] = std::max(0.0, std::min(u, 1.0));
-            cube[i + 1] = std::max(0.0, std::min(v, 1.0));
-        }
+        unmap_rows<Method>(image, cube, disk_->size(), disk_->middle());
     }
 
     double density(std::span<const double> point) const override {

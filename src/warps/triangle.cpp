@@ -30,6 +30,7 @@
 
 #include "core/error.hpp"
 #include "core/spec.hpp"
+#include "core/wide.hpp"
 #include "warps/warp.hpp"
 
 namespace stipple::warps {
@@ -158,6 +159,19 @@ class TriangleDomain final : public Domain {
     double slack_ = 0;
 };
 
+template <std::size_t d>
+STIPPLE_WIDE void map_rows(std::span<const double> cube, std::span<double> image,
+                           const std::array<Vector, 3>& vertex) {
+    const auto [v0, v1, v2] = vertex;
+    for (std::size_t i = 0; i < cube.size() / 2; ++i) {
+        const double root = std::sqrt(cube[2 * i]);
+        const double l0 = 1 - root;
+        const double l1 = root * cube[2 * i + 1];
+        const double l2 = root * (1 - cube[2 * i + 1]);
+        for (std::size_t k = 0; k < d; ++k) image[d * i + k] = l0 * v0[k] + l1 * v1[k] + l2 * v2[k];
+    }
+}
+
 class Triangle final : public Mapping {
   public:
     explicit Triangle(const Table& corners)
@@ -169,9 +183,9 @@ class Triangle final : public Mapping {
     void forward(std::span<const double> cube, std::span<double> image,
                  std::span<std::uint8_t> /*keep*/) const override {
         if (triangle_->dimension() == 2)
-            map<2>(cube, image);
+            map_rows<2>(cube, image, triangle_->corners());
         else
-            map<3>(cube, image);
+            map_rows<3>(cube, image, triangle_->corners());
     }
 
     void inverse(std::span<const double> image, std::span<double> cube) const override {
@@ -195,19 +209,6 @@ class Triangle final : public Mapping {
     }
 
   private:
-    template <std::size_t d>
-    void map(std::span<const double> cube, std::span<double> image) const {
-        const auto [v0, v1, v2] = triangle_->corners();
-        for (std::size_t i = 0; i < cube.size() / 2; ++i) {
-            const double root = std::sqrt(cube[2 * i]);
-            const double l0 = 1 - root;
-            const double l1 = root * cube[2 * i + 1];
-            const double l2 = root * (1 - cube[2 * i + 1]);
-            for (std::size_t k = 0; k < d; ++k)
-                image[d * i + k] = l0 * v0[k] + l1 * v1[k] + l2 * v2[k];
-        }
-    }
-
     std::shared_ptr<const TriangleDomain> triangle_;
 };
 
