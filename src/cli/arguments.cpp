@@ -42,59 +42,85 @@ std::vector<std::string> known_options(Verb verb, const UnitInfo* unit) {
     return names;
 }
 
-/// The parser of one command line: CLI11 splits it up, and what is typed is kept as text.
+const VerbInfo* find_verb(std::string_view name) {
+    const auto it =
+        std::ranges::find_if(verbs(), [&](const VerbInfo& info) { return name == info.name; });
+    return it == verbs().end() ? nullptr : &*it;
+}
+
+[[noreturn]] void complain(std::string_view what, const std::string& word,
+                           const std::vector<std::string>& known) {
+    const auto meant = nearest_word(word, known);
+    std::string hint = meant            ? fmt::format("did you mean {}?", *meant)
+                       : what == "verb" ? "known: " + join(known, ", ")
+                                        : "--help lists the options";
+    fail_with_hint(ErrorKind::usage, hint, "unknown {} '{}'", what, word);
+}
+
+/// `warp disk@4,5` means `warp disk --coordinates 4,5`.
+void split_coordinates(std::vector<std::string>& words, const Kind& kind) {
+    for (auto word = words.begin(); word != words.end(); ++word) {
+        const auto at = word->find('@');
+        if (at == std::string::npos) continue;
+        const std::string name = word->substr(0, at);
+        if (std::ranges::find(kind.units, name, &UnitInfo::name) == kind.units.end()) continue;
+        const std::string coordinates = word->substr(at + 1);
+        *word = name;
+        words.insert(word + 1, {"--coordinates", coordinates});
+        return;
+    }
+}
+
+/// The parser of one verb's words: CLI11 splits them up, and what is typed is kept as text. Only
+/// the unit that the words name is a subcommand, so that a file may be called like another.
 class Parser {
   public:
-    explicit Parser(const std::vector<Kind>& kinds) : kinds_(kinds) {
+    Parser(const VerbInfo& verb, const Kind* kind, const std::vector<std::string>& words)
+        : verb_(verb), kind_(kind) {
+        arguments_.verb = verb.verb;
         app_.set_help_flag();
         app_.allow_extras();
-        add_flag(app_, "-h,--help", help_);
-        add_flag(app_, "--version", version_);
-        for (const VerbInfo& info : verbs()) add_verb(info);
+        add_help(app_);
+        for (const auto& option : common_options())
+            if (takes(option, verb.verb)) add_common(option);
+        if (kind == nullptr) {
+            add_inputs(app_);
+            return;
+        }
+        for (const std::string& word : words) {
+            const auto unit = std::ranges::find(kind->units, word, &UnitInfo::name);
+            if (unit == kind->units.end()) continue;
+            unit_ = &*unit;
+            return add_unit(*unit);
+        }
     }
 
     Arguments parse(std::vector<std::string> words) {
-        split_coordinates(words);
         std::ranges::reverse(words);
         try {
             app_.parse(std::move(words));
         } catch (const CLI::ParseError& e) {
             fail(ErrorKind::usage, "{}", e.what());
         }
-        arguments_.help = help_;
-        arguments_.version = version_;
-        find_verb();
-        check_remaining();
+        if (!app_.get_subcommands().empty()) arguments_.unit = unit_->name;
+        if (!arguments_.help) check_remaining();
         return std::move(arguments_);
     }
 
   private:
-    static void add_flag(CLI::App& app, const std::string& names, bool& flag) {
-        app.add_flag_callback(names, [&flag] { flag = true; });
+    void add_help(CLI::App& app) {
+        app.add_flag_callback("-h,--help", [this] { arguments_.help = true; });
     }
 
-    void add_verb(const VerbInfo& info) {
-        CLI::App* verb = app_.add_subcommand(info.name);
-        verb->set_help_flag();
-        verb->allow_extras();
-        add_flag(*verb, "-h,--help", help_);
-        for (const auto& option : common_options())
-            if (takes(option, info.verb)) add_common(*verb, option);
-        const auto kind = std::ranges::find(kinds_, info.name, &Kind::verb);
-        if (kind != kinds_.end())
-            for (const UnitInfo& unit : kind->units) add_unit(*verb, info.verb, unit);
-        if (info.verb == Verb::convert || info.verb == Verb::list) add_inputs(*verb);
-    }
-
-    void add_common(CLI::App& app, const CommonOption& option) {
+    void add_common(const CommonOption& option) {
         const std::string name = long_name(option.names);
         auto& common = arguments_.common;
         if (*option.value == '\0') {
-            app.add_flag_callback(option.names,
-                                  [&common, name] { common.emplace_back(name, "true"); });
+            app_.add_flag_callback(option.names,
+                                   [&common, name] { common.emplace_back(name, "true"); });
             return;
         }
-        auto* added = app.add_option_function<std::vector<std::string>>(
+        auto* added = app_.add_option_function<std::vector<std::string>>(
             option.names, [&common, name](const std::vector<std::string>& texts) {
                 for (const auto& text : texts) common.emplace_back(name, text);
             });
@@ -102,25 +128,25 @@ class Parser {
         if (option.repeatable) added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     }
 
-    void add_unit(CLI::App& verb, Verb which, const UnitInfo& unit) {
-        CLI::App* app = verb.add_subcommand(unit.name);
-        app->set_help_flag();
-        app->fallthrough();
-        app->allow_extras();
-        add_flag(*app, "-h,--help", help_);
+    void add_unit(const UnitInfo& unit) {
+        CLI::App& app = *app_.add_subcommand(unit.name);
+        app.set_help_flag();
+        app.fallthrough();
+        app.allow_extras();
+        add_help(app);
         auto& settings = arguments_.settings;
         for (const Option& option : unit.options) {
             const std::string name = option.name;
             if (option.type == "flag")
-                app->add_flag_callback("--" + name,
-                                       [&settings, name] { settings.emplace_back(name, "true"); });
+                app.add_flag_callback("--" + name,
+                                      [&settings, name] { settings.emplace_back(name, "true"); });
             else
-                app->add_option_function<std::string>("--" + name,
-                                                      [&settings, name](const std::string& text) {
-                                                          settings.emplace_back(name, text);
-                                                      });
+                app.add_option_function<std::string>("--" + name,
+                                                     [&settings, name](const std::string& text) {
+                                                         settings.emplace_back(name, text);
+                                                     });
         }
-        if (which != Verb::generate) add_inputs(*app);
+        if (verb_.verb != Verb::generate) add_inputs(app);
     }
 
     void add_inputs(CLI::App& app) {
@@ -128,71 +154,39 @@ class Parser {
             "INPUT", [this](const std::vector<std::string>& files) { arguments_.inputs = files; });
     }
 
-    /// `warp disk@4,5` means `warp disk --coordinates 4,5`.
-    void split_coordinates(std::vector<std::string>& words) const {
-        const auto verb = std::ranges::find(words, "warp");
-        if (verb == words.end()) return;
-        const auto kind = std::ranges::find(kinds_, "warp", &Kind::verb);
-        for (auto word = verb + 1; word != words.end(); ++word) {
-            const auto at = word->find('@');
-            if (at == std::string::npos) continue;
-            const std::string name = word->substr(0, at);
-            if (std::ranges::find(kind->units, name, &UnitInfo::name) == kind->units.end())
-                continue;
-            const std::string coordinates = word->substr(at + 1);
-            *word = name;
-            words.insert(word + 1, {"--coordinates", coordinates});
-            return;
-        }
-    }
-
-    void find_verb() {
-        for (const CLI::App* verb : app_.get_subcommands()) {
-            const auto it = std::ranges::find_if(
-                verbs(), [&](const VerbInfo& info) { return verb->get_name() == info.name; });
-            arguments_.verb = it->verb;
-            for (const CLI::App* unit : verb->get_subcommands()) arguments_.unit = unit->get_name();
-        }
-    }
-
     void check_remaining() const {
         const auto rest = app_.remaining(true);
         if (rest.empty()) return;
-        const auto option = std::ranges::find_if(
-            rest, [](const std::string& s) { return s.size() > 1 && s[0] == '-'; });
-        if (!arguments_.verb) {
-            if (option == rest.begin()) complain("option", *option, {"--help", "--version"});
-            std::vector<std::string> names;
-            for (const VerbInfo& info : verbs()) names.emplace_back(info.name);
-            complain("verb", rest.front(), names);
-        }
-        const auto& info = *std::ranges::find(verbs(), *arguments_.verb, &VerbInfo::verb);
-        const auto kind = std::ranges::find(kinds_, info.name, &Kind::verb);
-        const bool wants_unit = kind != kinds_.end() && arguments_.unit.empty();
-        if (wants_unit && rest.front()[0] != '-') unit_of(kinds_, info.name, rest.front());
-        const UnitInfo* unit =
-            arguments_.unit.empty() ? nullptr : &unit_of(kinds_, info.name, arguments_.unit);
-        if (option != rest.end())
-            complain("option", option->substr(0, option->find('=')),
-                     known_options(info.verb, unit));
+        // A misspelt unit is the likelier reason for whatever else was not understood.
+        if (kind_ && arguments_.unit.empty() && rest.front()[0] != '-')
+            unit_of({*kind_}, verb_.name, rest.front());
+        for (const std::string& word : rest)
+            if (word.size() > 1 && word[0] == '-')
+                complain("option", word.substr(0, word.find('=')),
+                         known_options(verb_.verb, unit_));
         fail(ErrorKind::usage, "unexpected argument '{}'", rest.front());
     }
 
-    [[noreturn]] static void complain(std::string_view what, const std::string& word,
-                                      const std::vector<std::string>& known) {
-        const auto meant = nearest_word(word, known);
-        std::string hint = meant            ? fmt::format("did you mean {}?", *meant)
-                           : what == "verb" ? "known: " + join(known, ", ")
-                                            : "--help lists the options";
-        fail_with_hint(ErrorKind::usage, hint, "unknown {} '{}'", what, word);
-    }
-
-    const std::vector<Kind>& kinds_;
+    const VerbInfo& verb_;
+    const Kind* kind_;
+    const UnitInfo* unit_ = nullptr;
     CLI::App app_{"stipple"};
     Arguments arguments_;
-    bool help_ = false;
-    bool version_ = false;
 };
+
+/// What stands before a verb, or in place of one.
+Arguments parse_without_verb(const std::vector<std::string>& words) {
+    Arguments arguments;
+    if (words.empty()) return arguments;
+    const std::string& word = words.front();
+    arguments.help = word == "-h" || word == "--help" || word == "help";
+    arguments.version = word == "--version";
+    if (arguments.help || arguments.version) return arguments;
+    if (word.starts_with('-')) complain("option", word, {"--help", "--version"});
+    std::vector<std::string> names;
+    for (const VerbInfo& info : verbs()) names.emplace_back(info.name);
+    complain("verb", word, names);
+}
 
 }  // namespace
 
@@ -322,8 +316,13 @@ std::optional<std::uint64_t> Arguments::integer(std::string_view name, std::uint
 }
 
 Arguments parse_arguments(int argc, const char* const* argv, const std::vector<Kind>& kinds) {
-    Parser parser(kinds);
-    return parser.parse({argv + 1, argv + argc});
+    std::vector<std::string> words(argv + 1, argv + argc);
+    const VerbInfo* verb = words.empty() ? nullptr : find_verb(words.front());
+    if (verb == nullptr) return parse_without_verb(words);
+    words.erase(words.begin());
+    const auto kind = std::ranges::find(kinds, verb->name, &Kind::verb);
+    if (verb->verb == Verb::warp) split_coordinates(words, *kind);
+    return Parser(*verb, kind == kinds.end() ? nullptr : &*kind, words).parse(words);
 }
 
 }  // namespace stipple::cli

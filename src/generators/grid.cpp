@@ -107,7 +107,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options) {
 Generator grid() {
     return {.name = "grid",
             .summary = "Regular grid of k^d points, or of any shape",
-            .source = "",
+            .source = "Standard construction",
             .traits = {.prefix = false, .seeded = false},
             .options = Schema(shape, cell),
             .plan = plan,

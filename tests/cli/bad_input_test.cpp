@@ -50,7 +50,7 @@ TEST(BadInput, NoSuchFile) {
 
 TEST(BadInput, ADirectory) {
     const Sandbox box;
-    expect_refusal(box.run({"analyze", "star-discrepancy", "."}), 4, "directory");
+    expect_refusal(box.run({"analyze", "star-discrepancy", "."}), 4, "folder");
 }
 
 TEST(BadInput, EmptyFiles) {
@@ -61,7 +61,7 @@ TEST(BadInput, EmptyFiles) {
     expect_refusal(judge("p.json", ""), 3, "p.json");
     expect_refusal(judge("p.npy", ""), 3, "p.npy");
     const Sandbox box;
-    expect_refusal(box.run({"analyze", "star-discrepancy"}, ""), 3, "standard input");
+    expect_refusal(box.run({"analyze", "star-discrepancy"}, ""), 3, "stdin");
 }
 
 TEST(BadInput, NumbersThatAreNone) {
@@ -165,8 +165,8 @@ TEST(BadInput, TargetsThatCannotBeWritten) {
     const Sandbox box;
     expect_refusal(box.run({"generate", "halton", "-o", "missing/p.csv"}), 4, "missing/p.csv");
     expect_refusal(box.run({"generate", "halton", "-o", "/dev/full"}), 4, "/dev/full");
-    expect_refusal(box.shell("stipple generate halton > /dev/full"), 4, "standard output");
-    expect_refusal(box.shell("stipple list > /dev/full"), 4, "standard output");
+    expect_refusal(box.shell("stipple generate halton > /dev/full"), 4, "stdout");
+    expect_refusal(box.shell("stipple list > /dev/full"), 4, "stdout");
     std::filesystem::create_directory(box.path() / "folder");
     expect_refusal(box.run({"generate", "halton", "-o", "folder"}), 4, "folder");
     EXPECT_EQ(box.files(), std::vector<std::string>{"folder"});

@@ -30,18 +30,20 @@ Outcome execute(const std::vector<std::string>& words, const std::filesystem::pa
     for (const auto& word : words) argv.push_back(const_cast<char*>(word.c_str()));
     argv.push_back(nullptr);
 
+    const int in = open(stdin_file.c_str(), O_RDONLY | O_CLOEXEC);
+    std::filesystem::remove(stdin_file);
     const pid_t child = fork();
     if (child == 0) {
-        dup2(open(stdin_file.c_str(), O_RDONLY), STDIN_FILENO);
+        dup2(in, STDIN_FILENO);
         dup2(out[1], STDOUT_FILENO);
         dup2(err[1], STDERR_FILENO);
         if (chdir(directory.c_str()) != 0) _exit(126);
         execv(argv[0], argv.data());
         _exit(127);
     }
+    close(in);
     close(out[1]);
     close(err[1]);
-    std::filesystem::remove(stdin_file);
 
     Outcome outcome;
     std::array<pollfd, 2> open_ends = {{{out[0], POLLIN, 0}, {err[0], POLLIN, 0}}};
