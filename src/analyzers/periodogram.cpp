@@ -216,7 +216,7 @@ FourierSums sums_of(const PointSet& points, std::size_t frequency, const Values&
     const std::string what = fmt::format("--max-frequency {}", frequency);
     const double half = fourier_sums_size(d, frequency);
     if (options[method] == "direct") {
-        run.need_memory(half * 32 + 1024 * static_cast<double>(d * (frequency + 1)), what);
+        run.need_memory(half * 32, what);
         return fourier_sums_directly(points.flat(), d, frequency, run);
     }
     const Nufft nufft(points.count(), d, frequency, options[tolerance]);

@@ -302,13 +302,17 @@ void phases(double x, std::size_t last, std::complex<double>* out) {
     }
 }
 
-/// Points whose phases are tabulated at a time, for each axis: [axis][point][0..F].
+/// Phases of a few points at a time, for each axis: [axis][point][0..F].
 class PhaseTables {
   public:
-    static constexpr std::size_t capacity = 64;
-
     PhaseTables(std::size_t dimension, std::size_t last)
-        : dimension_(dimension), last_(last), table_(dimension * capacity * (last + 1)) {}
+        : dimension_(dimension),
+          last_(last),
+          capacity_(std::clamp<std::size_t>((std::size_t{1} << 20) / (last + 1), 1, 64)),
+          table_(dimension * capacity_ * (last + 1)) {}
+
+    /// Points that fit.
+    [[nodiscard]] std::size_t capacity() const { return capacity_; }
 
     void fill(std::span<const double> rows, const RunContext& run) {
         count_ = rows.size() / dimension_;
@@ -333,7 +337,7 @@ class PhaseTables {
 
   private:
     std::complex<double>* at(std::size_t k, std::size_t i) {
-        return table_.data() + (k * capacity + i) * (last_ + 1);
+        return table_.data() + (k * capacity_ + i) * (last_ + 1);
     }
     std::complex<double> value(std::size_t k, std::size_t i, std::int64_t f) {
         if (k >= dimension_) return 1;
@@ -343,6 +347,7 @@ class PhaseTables {
 
     std::size_t dimension_;
     std::size_t last_;
+    std::size_t capacity_;
     std::size_t count_ = 0;
     std::vector<std::complex<double>> table_;
 };
@@ -356,7 +361,7 @@ FourierSums fourier_sums_directly(std::span<const double> rows, std::size_t dime
     const std::size_t lines = dimension == 3 ? span * span : dimension == 2 ? span : 1;
     FourierSums sums{dimension, max_frequency, std::vector<std::complex<double>>(lines * width)};
     PhaseTables tables(dimension, max_frequency);
-    const std::size_t portion = PhaseTables::capacity * dimension;
+    const std::size_t portion = tables.capacity() * dimension;
     const auto last = static_cast<std::int64_t>(max_frequency);
     for (std::size_t at = 0; at < rows.size(); at += portion) {
         tables.fill(rows.subspan(at, std::min(portion, rows.size() - at)), run);

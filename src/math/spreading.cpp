@@ -6,6 +6,7 @@
 #include <bit>
 #include <cassert>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/parallel.hpp"
@@ -254,6 +255,21 @@ struct Sorted {
     std::vector<std::size_t> begins;  ///< of each tile's numbers, and the end
 };
 
+/// Turns the counts of each tile in each block, [block][tile], into the places where its points go.
+/// Returns where each tile's numbers begin, and the end.
+std::vector<std::size_t> counts_to_places(std::vector<std::uint32_t>& counts, std::size_t tiles,
+                                          std::size_t dimension) {
+    std::vector<std::size_t> begins;
+    std::uint32_t total = 0;
+    for (std::size_t t = 0; t < tiles; ++t) {
+        begins.push_back(total * dimension);
+        for (std::size_t i = t; i < counts.size(); i += tiles)
+            total += std::exchange(counts[i], total);
+    }
+    begins.push_back(total * dimension);
+    return begins;
+}
+
 Sorted sort_into_tiles(std::span<const double> rows, std::size_t dimension, const Tiling& tiling,
                        const RunContext& run) {
     const std::size_t count = rows.size() / dimension;
@@ -273,17 +289,8 @@ Sorted sort_into_tiles(std::span<const double> rows, std::size_t dimension, cons
             }
         },
         true);
-    Sorted sorted{.rows = std::vector<double>(rows.size()), .begins = {}};
-    std::uint32_t total = 0;
-    for (std::size_t t = 0; t < tiles; ++t) {
-        sorted.begins.push_back(total * dimension);
-        for (std::size_t b = 0; b < blocks; ++b) {
-            const std::uint32_t here = next[b * tiles + t];
-            next[b * tiles + t] = total;
-            total += here;
-        }
-    }
-    sorted.begins.push_back(total * dimension);
+    Sorted sorted{.rows = std::vector<double>(rows.size()),
+                  .begins = counts_to_places(next, tiles, dimension)};
     for_each_block(
         run, count, block,
         [&](const Block& b) {
