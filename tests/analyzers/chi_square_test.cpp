@@ -209,7 +209,7 @@ TEST(ChiSquare, RejectsWarpsThatAreWrong) {
     const DomainPtr triangle = mapping("triangle")->domain();
     EXPECT_EQ(verdict(warped(*mapping("disk:method=naive"), cube), strict), "non-uniform");
 
-    // A disk made of the square's diagonals: (u, v) -> (uv, u - uv), density 1 / u on the triangle.
+    // A triangle without the square root: (u, v) -> (u v, u - u v), density 1 / (x + y).
     PointSet wrong = cube;
     for (std::size_t i = 0; i < cube.count(); ++i) {
         wrong[i][0] = cube[i][0] * cube[i][1];
@@ -224,7 +224,7 @@ TEST(ChiSquare, RejectsWarpsThatAreWrong) {
         if (round[i][0] < 0.9) flat.insert(flat.end(), round[i].begin(), round[i].end());
     EXPECT_EQ(verdict(on(disk, PointSet(flat, 2)), strict), "non-uniform") << "truncated";
 
-    // Radius and angle swapped.
+    // Swapping the unit coordinates is right; taking the root of the other one is not.
     PointSet swapped = cube;
     for (std::size_t i = 0; i < cube.count(); ++i) std::swap(swapped[i][0], swapped[i][1]);
     EXPECT_EQ(verdict(warped(*mapping("disk"), swapped), strict), "uniform") << "symmetric";
