@@ -91,7 +91,8 @@ class Parser {
             const auto unit = std::ranges::find(kind->units, word, &UnitInfo::name);
             if (unit == kind->units.end()) continue;
             unit_ = &*unit;
-            return add_unit(*unit);
+            add_unit(*unit);
+            break;
         }
     }
 

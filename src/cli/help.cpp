@@ -53,13 +53,18 @@ std::string help_program() {
     return text;
 }
 
+std::string capitalised(std::string text) {
+    if (!text.empty())
+        text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+    return text;
+}
+
 std::string help_verb(const VerbInfo& info, const std::vector<Kind>& kinds) {
     std::string text = fmt::format("stipple {}: {}\n\nUsage: {}\n\n{}\n", info.name, info.summary,
                                    info.usage, info.text);
     const auto kind = std::ranges::find(kinds, info.name, &Kind::verb);
     if (kind != kinds.end()) {
-        text += fmt::format("\n{}{}:\n", static_cast<char>(std::toupper(kind->name[0])),
-                            kind->name.substr(1));
+        text += fmt::format("\n{}:\n", capitalised(kind->name));
         for (const UnitInfo& unit : kind->units)
             text += fmt::format("  {:<18} {}\n", unit.name, unit.summary);
         text += fmt::format("'stipple {} UNIT --help' shows a unit's own options.\n", info.name);
@@ -73,8 +78,9 @@ std::string help_unit(const VerbInfo& info, const UnitInfo& unit) {
     const auto word = usage.find(' ', sizeof "stipple");
     const auto end = usage.find(' ', word + 1);
     usage.replace(word + 1, end - word - 1, unit.name);
-    std::string text = fmt::format("{}: {}\n\nUsage: {}\n\nSource: {}\n{}.\n", unit.name,
-                                   unit.summary, usage, unit.source, join(unit.remarks, "; "));
+    std::string text =
+        fmt::format("{}: {}\n\nUsage: {}\n\nSource: {}\n{}.\n", unit.name, unit.summary, usage,
+                    unit.source, capitalised(join(unit.remarks, "; ")));
     if (!unit.options.empty()) {
         text += fmt::format("\nOptions of {}:\n", unit.name);
         for (const Option& option : unit.options)

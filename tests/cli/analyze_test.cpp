@@ -173,7 +173,7 @@ TEST(Analyze, BoundsAndRescaleMapToTheCube) {
               0.75);
     EXPECT_EQ(good(box.run({"analyze", "star-discrepancy", "--rescale"},
                            "2,20\n4,40\n"))["results"]["value"],
-              1);
+              0.5);
     EXPECT_EQ(box.run({"analyze", "star-discrepancy", "--bounds", "0..1"}, points).code, 3);
 }
 
