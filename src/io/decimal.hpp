@@ -26,7 +26,7 @@ void append_rows(std::string& out, std::span<const double> rows, std::size_t wid
                  const RowStyle& style, std::optional<int> precision = std::nullopt);
 
 /// Reads the decimal number (or nan, inf, infinity) that begins at `first`, rounded to the nearest
-/// double; what is too large gives an infinity, what is too small a zero.
+/// double; what is too large gives an infinity, what is too small a subnormal number or zero.
 /// Returns its end, or null where no number begins.
 const char* read_number(const char* first, const char* last, double& value);
 

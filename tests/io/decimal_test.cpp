@@ -50,7 +50,7 @@ constexpr int rounds = 200'000;
 
 TEST(Decimal, ByHand) {
     EXPECT_EQ(text(0), "0");
-    EXPECT_EQ(text(-0.0), "-0.0");
+    EXPECT_EQ(text(-0.0), "-0");
     EXPECT_EQ(text(1), "1");
     EXPECT_EQ(text(0.1), "0.1");
     EXPECT_EQ(text(1.0 / 3), "0.3333333333333333");
