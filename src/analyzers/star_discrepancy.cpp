@@ -31,12 +31,12 @@ namespace {
 
 constexpr Param<std::int64_t> max_work{
     .name = "max-work",
-    .fallback = 200'000'000'000,
+    .fallback = 100'000'000'000,
     .low = 1,
     .unit = "comparisons",
     .help =
         "Give up when branch and bound (3 and more dimensions) has compared this many "
-        "coordinates; 10^9 take about a second"};
+        "coordinates; 10^9 take about two seconds on one core"};
 
 /// More points than any machine's memory holds; counts of points stay far from 2^31.
 constexpr std::size_t max_count = std::size_t{1} << 29;
@@ -88,7 +88,7 @@ Analyzer star_discrepancy() {
     return {.name = "star-discrepancy",
             .summary = "Star discrepancy, exact, with the worst box",
             .source = "Doerr, Gnewuch, Wahlstroem 2014, arXiv:1405.1653",
-            .traits = {},
+            .traits = {.max_dimension = 10'000},
             .options = Schema(max_work),
             .results = {{"value", "the star discrepancy"},
                         {"lower", "it is at least this"},

@@ -37,7 +37,7 @@ double phi(std::uint64_t i, std::uint64_t base) {
 }
 
 PointSet halton(std::size_t n, std::size_t d, std::size_t start = 1) {
-    constexpr std::uint64_t primes[] = {2, 3, 5, 7, 11, 13, 17, 19};
+    constexpr std::uint64_t primes[] = {2, 3, 5, 7, 11, 13, 17, 19, 23, 29};
     PointSet p(n, d);
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t k = 0; k < d; ++k) p[i][k] = phi(start + i, primes[k]);
@@ -223,9 +223,9 @@ TEST(StarDiscrepancy, CountsOpenAndClosedBoxes) {
 
 // Exact to the last bit, with ties, duplicates, points on 0 and 1, and single points.
 TEST(StarDiscrepancy, IsTheDefinitionsToTheLastBit) {
-    constexpr std::size_t most[] = {0, 60, 30, 14, 9, 6};
-    for (std::size_t d = 1; d <= 5; ++d)
-        for (const std::int64_t steps : {2, 8, 256})
+    constexpr std::size_t most[] = {0, 60, 30, 18, 9, 6, 5, 4, 4};
+    for (std::size_t d = 1; d <= 8; ++d)
+        for (const std::int64_t steps : {2, 8, d > 5 ? 32 : 256})
             for (std::uint64_t seed = 1; seed <= 12; ++seed) {
                 const std::size_t n = 1 + Rng(seed).below(d, most[d]);
                 const PointSet p = on_lattice(n, d, static_cast<std::uint64_t>(steps), seed);
@@ -235,6 +235,18 @@ TEST(StarDiscrepancy, IsTheDefinitionsToTheLastBit) {
                 EXPECT_EQ(by_search(p).value(), expected) << text_of(p);
                 expect_box_holds(p, report);
             }
+}
+
+// As above, with enough points for the search to have to shrink and split its cells.
+TEST(StarDiscrepancy, IsTheDefinitionsForLargerSets) {
+    for (const auto& [n, d] : {std::pair{120, 2}, {36, 3}, {16, 4}})
+        for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+            const PointSet p =
+                on_lattice(static_cast<std::size_t>(n), static_cast<std::size_t>(d), 256, seed);
+            const double expected = by_definition(p, 256);
+            EXPECT_EQ(star_of(p), expected) << text_of(p);
+            EXPECT_EQ(by_search(p).value(), expected) << text_of(p);
+        }
 }
 
 TEST(StarDiscrepancy, ReportsItsBoxAndBounds) {
@@ -318,7 +330,7 @@ TEST(StarDiscrepancy, IsTheSameForAnyNumberOfThreads) {
 }
 
 TEST(StarDiscrepancy, GivesUpAtItsLimitAndSaysWhatIsCertain) {
-    const PointSet p = halton(120, 8);
+    const PointSet p = halton(150, 10);
     const double value = star_of(p);
     const star::SearchResult part = star::search(star::corner_grid(p, {}), 20'000'000, {});
     EXPECT_FALSE(part.complete);
@@ -330,7 +342,7 @@ TEST(StarDiscrepancy, GivesUpAtItsLimitAndSaysWhatIsCertain) {
     });
     EXPECT_EQ(
         message,
-        fmt::format("limit: the star discrepancy of 120 points in 8 dimensions takes more "
+        fmt::format("limit: the star discrepancy of 150 points in 10 dimensions takes more "
                     "than 20000000 comparisons (--max-work); certain so far: it is between {} and "
                     "{} | a larger --max-work, or fewer points, may give the exact value",
                     part.worst.value(), part.upper));
