@@ -21,6 +21,7 @@
 //         Complexity 25 (2009) 115-127 (NP-hard).
 
 #include "analyzers/analyzer.hpp"
+#include "analyzers/star_ascent.hpp"
 #include "analyzers/star_search.hpp"
 #include "analyzers/star_sweep.hpp"
 #include "core/error.hpp"
@@ -58,7 +59,8 @@ Report report(const star::WorstBox& worst, const char* method) {
 }
 
 Report search_for_it(const star::CornerGrid& grid, std::int64_t work, const RunContext& run) {
-    const star::SearchResult found = star::search(grid, static_cast<std::uint64_t>(work), run);
+    const star::SearchResult found =
+        star::search(grid, star::ascend(grid, run), static_cast<std::uint64_t>(work), run);
     if (found.complete) return report(found.worst, "branch-and-bound");
     fail_with_hint(ErrorKind::limit,
                    "a larger --max-work, or fewer points, may give the exact value",

@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <queue>
 
-#include "analyzers/star_ascent.hpp"
 #include "analyzers/star_cell.hpp"
 #include "core/parallel.hpp"
 
@@ -91,12 +90,12 @@ void report_gap(double lower, double upper, const RunContext& run) {
 
 }  // namespace
 
-SearchResult search(const CornerGrid& grid, std::uint64_t max_work, const RunContext& run) {
+SearchResult search(const CornerGrid& grid, WorstBox worst, std::uint64_t max_work,
+                    const RunContext& run) {
     constexpr std::size_t together = 16;
     const std::uint64_t size = grid.count * grid.dimension();
     const std::uint64_t budget = std::max(std::uint64_t{1} << 22, 16 * size);
     const Logs logs = logarithms(grid);
-    WorstBox worst = ascend(grid, std::clamp<std::uint64_t>((1U << 24) / size, 8, 200), run);
     std::priority_queue<Cell, std::vector<Cell>, LowerBound> cells;
     cells.push(whole_cell(grid, Side::open));
     cells.push(whole_cell(grid, Side::closed));
