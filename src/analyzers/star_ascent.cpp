@@ -109,7 +109,10 @@ Corner random_corner(const CornerGrid& grid, std::uint64_t stream) {
 
 }  // namespace
 
-WorstBox ascend(const CornerGrid& grid, std::size_t starts, const RunContext& run) {
+WorstBox ascend(const CornerGrid& grid, const RunContext& run) {
+    constexpr std::uint64_t effort = 1U << 24;  // a fraction of a second
+    const std::uint64_t starts =
+        std::clamp<std::uint64_t>(effort / (grid.count * grid.dimension()), 8, 200);
     constexpr std::size_t together = 8;  // starts in one block
     std::vector<WorstBox> found(block_count(starts, together), WorstBox(grid));
     constexpr bool silent = true;

@@ -8,8 +8,9 @@
 
 namespace stipple::analyzers::star {
 
-/// The worst box that `starts` ascents on each side reach; every ascent takes the best place on one
-/// axis with the others fixed, until none helps. Deterministic.
-WorstBox ascend(const CornerGrid& grid, std::size_t starts, const RunContext& run);
+/// The worst box that ascents from up to 200 corners on each side reach, fewer for large sets;
+/// every ascent takes the best place on one axis with the others fixed, until none helps.
+/// Deterministic.
+WorstBox ascend(const CornerGrid& grid, const RunContext& run);
 
 }  // namespace stipple::analyzers::star

@@ -14,8 +14,10 @@ struct SearchResult {
     bool complete;  ///< the worst box is the worst of all
 };
 
-/// Stops, incomplete, after about `max_work` tests of a point against a side of a cell. The result
-/// does not depend on the number of threads.
-SearchResult search(const CornerGrid& grid, std::uint64_t max_work, const RunContext& run);
+/// Looks for a box worse than `worst`; the worse that is, the less is left to look at. Stops,
+/// incomplete, after about `max_work` comparisons of coordinates. The result does not depend on the
+/// number of threads.
+SearchResult search(const CornerGrid& grid, WorstBox worst, std::uint64_t max_work,
+                    const RunContext& run);
 
 }  // namespace stipple::analyzers::star
