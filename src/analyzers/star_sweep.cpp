@@ -21,7 +21,7 @@
 namespace stipple::analyzers::star {
 namespace {
 
-constexpr std::size_t ticks_apart = 4096;  // points between two looks at the stop token
+constexpr std::size_t ticks_apart = 256;  // points between two looks at the stop token
 
 /// The points in order of their first coordinate: those with place a on the first axis have, on
 /// the second, the places second[starts[a]], ..., second[starts[a + 1] - 1].
@@ -52,6 +52,8 @@ class SharedProgress {
         run_.tick(done_, total_);
     }
 
+    [[nodiscard]] const RunContext& run() const { return run_; }
+
   private:
     const RunContext& run_;
     std::mutex mutex_;
@@ -65,7 +67,7 @@ void sweep_side(const CornerGrid& grid, const ByFirst& order, WorstBox& worst,
                 SharedProgress& progress) {
     constexpr auto steep = side == Side::open ? SteepWins::late : SteepWins::early;
     constexpr std::size_t shift = side == Side::open ? 1 : 0;  // an open box has no points on it
-    KineticTree<steep> lines(grid.values[1], static_cast<double>(grid.count));
+    KineticTree<steep> lines(grid.values[1], static_cast<double>(grid.count), progress.run());
 
     const auto query = [&](std::uint32_t a, double x) {
         lines.advance(x);

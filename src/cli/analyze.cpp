@@ -123,7 +123,6 @@ class Analysis {
             measurements_.push_back(std::move(m));
             return;
         }
-        unmet_.insert(unmet_.end(), m.results.unmet().begin(), m.results.unmet().end());
         average_.add(m.results);
         if (average_.count() == 1) {
             measurements_.push_back(std::move(m));

@@ -26,6 +26,8 @@
 #include <span>
 #include <vector>
 
+#include "core/run_context.hpp"
+
 namespace stipple {
 
 enum class SteepWins { late, early };
@@ -40,11 +42,18 @@ class KineticTree {
     static constexpr double tolerance = 0x1p-44;
 
     /// All counts start at 0, and x at 0. @param slopes ascending, kept by reference.
-    KineticTree(std::span<const double> slopes, double n)
+    /// @throws Error(cancelled)
+    KineticTree(std::span<const double> slopes, double n, const RunContext& run)
         : slopes_(slopes), inverse_(1 / n), leaves_(std::bit_ceil(slopes.size())) {
+        constexpr std::size_t checks_apart = 1 << 16;
         nodes_.resize(2 * leaves_);
-        for (std::size_t j = 0; j < leaves_; ++j) nodes_[leaves_ + j] = leaf(j);
-        for (std::size_t u = leaves_; --u > 0;) pull(u, 0);
+        for (std::size_t u = 2 * leaves_; --u > 0;) {
+            if (u % checks_apart == 0) run.check_stop();
+            if (u >= leaves_)
+                nodes_[u] = leaf(u - leaves_);
+            else
+                pull(u, 0);
+        }
     }
 
     /// Bytes for `lines` lines.

@@ -47,7 +47,7 @@ void expect_as_plain(std::size_t lines, std::uint64_t seed) {
     plain.counts.resize(plain.slopes.size());
     constexpr std::uint64_t steps = 300;
     plain.n = steps;
-    KineticTree<steep> tree(plain.slopes, plain.n);
+    KineticTree<steep> tree(plain.slopes, plain.n, {});
     double x = 0;
     for (std::uint64_t step = 0; step < steps; ++step) {
         const std::size_t first = rng.below(1000 + step, plain.slopes.size() + 1);
