@@ -23,13 +23,9 @@ namespace stipple::cli {
 namespace {
 
 /// The box of the points' extremes, with a direction that has no extent made as wide as 1.
-Box bounding_box(const PointSet& points) {
-    Box box{{points[0].begin(), points[0].end()}, {points[0].begin(), points[0].end()}};
-    for (std::size_t i = 0; i < points.count(); ++i)
-        for (std::size_t k = 0; k < points.dimension(); ++k) {
-            box.low[k] = std::min(box.low[k], points[i][k]);
-            box.high[k] = std::max(box.high[k], points[i][k]);
-        }
+Box box_around(const PointSet& points) {
+    const std::vector<double> first(points[0].begin(), points[0].end());
+    Box box = bounding_box(points.flat(), {first, first});
     for (std::size_t k = 0; k < box.dimension(); ++k)
         if (!(box.high[k] > box.low[k])) box.high[k] = box.low[k] + 1;
     return box;
@@ -54,7 +50,7 @@ PointSet prepared(PointSet points, const Arguments& arguments) {
     if (const auto domain = arguments.get("domain"))
         points.domain = parse_domain(*domain, points.dimension());
     if (bounds) return to_unit_cube(points, parse_box(*bounds, points.dimension()));
-    if (arguments.has("rescale")) return to_unit_cube(points, bounding_box(points));
+    if (arguments.has("rescale")) return to_unit_cube(points, box_around(points));
     return points;
 }
 
@@ -96,7 +92,7 @@ class Analysis {
         for (const std::string& input : inputs) {
             auto sets = read_input(input, arguments_, session_.run());
             for (std::size_t set = 0; set < sets.size(); ++set)
-                add(prepared(std::move(sets[set]), arguments_), input, set, sets.size());
+                add_naming_source(std::move(sets[set]), input, set, sets.size());
         }
         if (averaged_) finish_average();
         const bool fine = verdict();
@@ -106,6 +102,18 @@ class Analysis {
 
   private:
     using Clock = std::chrono::steady_clock;
+
+    /// What is wrong with a set's points is said with the file that they are from.
+    void add_naming_source(PointSet points, const std::string& input, std::size_t set,
+                           std::size_t sets) {
+        try {
+            add(prepared(std::move(points), arguments_), input, set, sets);
+        } catch (const Error& e) {
+            if (e.kind() != ErrorKind::input) throw;
+            throw Error(e.kind(), fmt::format("{}: {}", input == "-" ? "stdin" : input, e.what()),
+                        e.hint());
+        }
+    }
 
     void add(const PointSet& points, const std::string& input, std::size_t set, std::size_t sets) {
         const auto start = Clock::now();

@@ -28,6 +28,9 @@ class UnitCube final : public Domain {
     bool contains(std::span<const double> point) const override {
         return std::ranges::all_of(point, [](double x) { return x >= 0 && x <= 1; });
     }
+    Box bounding_box() const override {
+        return {std::vector<double>(dimension_, 0), std::vector<double>(dimension_, 1)};
+    }
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         std::ranges::copy(point, cube.begin());
     }
@@ -52,6 +55,7 @@ class BoxDomain final : public Domain {
             if (!(point[k] >= box_.low[k] && point[k] <= box_.high[k])) return false;
         return true;
     }
+    Box bounding_box() const override { return box_; }
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         for (std::size_t k = 0; k < dimension(); ++k)
             cube[k] = std::clamp((point[k] - box_.low[k]) / box_.extent(k), 0.0, 1.0);
@@ -94,6 +98,17 @@ class ProductDomain final : public Domain {
         return std::ranges::all_of(factors_, [&](const Factor& factor) {
             return factor.domain->contains(part(factor, point));
         });
+    }
+    Box bounding_box() const override {
+        Box box{std::vector<double>(dimension()), std::vector<double>(dimension())};
+        for (const auto& [domain, coordinates] : factors_) {
+            const Box part = domain->bounding_box();
+            for (std::size_t k = 0; k < coordinates.size(); ++k) {
+                box.low[coordinates[k]] = part.low[k];
+                box.high[coordinates[k]] = part.high[k];
+            }
+        }
+        return box;
     }
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         for (const auto& factor : factors_) {
@@ -157,6 +172,16 @@ std::string format_box(const Box& box) {
     for (std::size_t k = 0; k < box.dimension(); ++k)
         parts.push_back(fmt::format("{}..{}", box.low[k], box.high[k]));
     return join(parts, ",");
+}
+
+Box bounding_box(std::span<const double> rows, const Box& around) {
+    Box box = around;
+    const std::size_t d = box.dimension();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        box.low[i % d] = std::min(box.low[i % d], rows[i]);
+        box.high[i % d] = std::max(box.high[i % d], rows[i]);
+    }
+    return box;
 }
 
 void scale_into(const Box& box, std::span<double> rows) {

@@ -46,6 +46,9 @@ class Domain {
     /// has.
     [[nodiscard]] virtual bool contains(std::span<const double> point) const = 0;
 
+    /// The smallest axis-parallel box around it.
+    [[nodiscard]] virtual Box bounding_box() const = 0;
+
     /// Numbers that to_cube gives.
     [[nodiscard]] virtual std::size_t cube_dimension() const { return dimension(); }
 
@@ -71,6 +74,9 @@ DomainPtr product_domain(std::vector<Factor> factors);
 /// Parses "lo..hi" (for all coordinates) or "lo..hi,lo..hi,...". @throws Error(usage)
 Box parse_box(std::string_view text, std::size_t dimension);
 std::string format_box(const Box& box);
+
+/// The smallest box around rows of numbers and around `around`; it may be flat.
+Box bounding_box(std::span<const double> rows, const Box& around);
 
 /// Moves points of the unit cube into the box, in place; half-open stays half-open.
 void scale_into(const Box& box, std::span<double> rows);

@@ -127,6 +127,10 @@ void check_format(const Format& format, const Layout& layout) {
     if (d < traits.min_dimension || d > traits.max_dimension)
         fail(ErrorKind::usage, "--format: {} holds points of dimension {} to {}; these have {}",
              format.name, traits.min_dimension, traits.max_dimension, d);
+    if (!traits.many_sets && layout.counts.size() > 1)
+        fail_with_hint(ErrorKind::usage, "write a file for each set: -o 'NAME_{set}...'",
+                       "--format: {} holds one set; there are {}", format.name,
+                       layout.counts.size());
     const bool equal = std::ranges::all_of(
         layout.counts, [&](auto count) { return count == layout.counts.front(); });
     if (traits.equal_sets && !equal)
@@ -143,7 +147,8 @@ Layout layout_of(const Shipment& shipment, std::size_t first, std::size_t last,
                   .meta = target.meta,
                   .single = target.single,
                   .precision = target.precision,
-                  .provenance = shipment.provenance(first)};
+                  .provenance = shipment.provenance(first),
+                  .extent = shipment.extent(first)};
     if (target.with_pdf) layout.extras = {"pdf"};
     for (std::size_t set = first; set < last; ++set) layout.counts.push_back(shipment.counts[set]);
     return layout;

@@ -38,6 +38,7 @@ struct Shipment {
     std::size_t all_sets = 1;   ///< that the user asked for, in this shipment or others
     std::function<Source(std::size_t set)> source;
     std::function<Provenance(std::size_t set)> provenance;
+    std::function<Box(std::size_t set)> extent;  ///< what a picture of the set shows
     std::vector<std::uint64_t> counts;
     Route route;
 };

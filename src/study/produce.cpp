@@ -58,7 +58,6 @@ PointSet image_of(const PointSet& points, const WarpChain& chain, bool inverse,
 /// Writes sets as they are; `chain` is what gave them, for their density.
 void ship_images(const std::vector<PointSet>& images, const WarpChain& chain, std::size_t first_set,
                  std::size_t all_sets, const Target& target, const RunContext& run) {
-    Target plain = target;
     const std::size_t d = images.front().dimension();
     const WarpChain nothing({}, d);
     Shipment shipment{.sets = images.size(),
@@ -66,6 +65,11 @@ void ship_images(const std::vector<PointSet>& images, const WarpChain& chain, st
                       .all_sets = all_sets,
                       .source = [&](std::size_t set) { return source_of(images[set]); },
                       .provenance = [&](std::size_t set) { return images[set].provenance; },
+                      .extent =
+                          [&](std::size_t set) {
+                              return bounding_box(images[set].flat(),
+                                                  images[set].domain->bounding_box());
+                          },
                       .counts = {},
                       .route = {.chain = &nothing}};
     for (const PointSet& set : images) shipment.counts.push_back(set.count());
@@ -75,7 +79,7 @@ void ship_images(const std::vector<PointSet>& images, const WarpChain& chain, st
             wide = PointSet(with_density(images[set].flat(), chain), d + 1);
             return source_of(wide);
         };
-    ship(shipment, plain, run);
+    ship(shipment, target, run);
 }
 
 /// Numbers of a row that the warp makes into one of `after` numbers.
@@ -129,6 +133,11 @@ class Producer {
                                   generator_.name, job_.sets));
     }
 
+    /// What the points are on in the end.
+    [[nodiscard]] DomainPtr domain() const {
+        return job_.request.bounds ? box_domain(*job_.request.bounds) : chain_.domain();
+    }
+
     /// The shard's rows [first, last) of `count`.
     [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> part(std::uint64_t count) const {
         const auto cut = [&](std::uint64_t index) {
@@ -163,6 +172,7 @@ class Producer {
               .all_sets = job_.sets,
               .source = source,
               .provenance = meta,
+              .extent = [this](std::size_t) { return domain()->bounding_box(); },
               .counts = std::vector<std::uint64_t>(job_.sets, count),
               .route = {&chain_, bounds_, target_.with_pdf}},
              target_, run_);
@@ -183,6 +193,7 @@ class Producer {
             const auto rows = points.flat().subspan(first * d, (last - first) * d);
             points = PointSet(std::vector<double>(rows.begin(), rows.end()), d);
         }
+        points.domain = domain();
         points.provenance = provenance(set, points.count());
         if (!options.empty()) points.provenance.options = std::move(options);
         return points;
@@ -197,7 +208,7 @@ class Producer {
                         .dimension = chain_.dimension_out(),
                         .start = job_.request.start,
                         .warps = chain_.specs(),
-                        .domain = chain_.domain()->spec(),
+                        .domain = domain()->spec(),
                         .bounds = {},
                         .shard = {},
                         .command = job_.command};
@@ -206,10 +217,7 @@ class Producer {
             if (!option.optional || item.given)
                 meta.options.emplace_back(option.name, format_value(item.value));
         }
-        if (job_.request.bounds) {
-            meta.bounds = format_box(*job_.request.bounds);
-            meta.domain = box_domain(*job_.request.bounds)->spec();
-        }
+        if (job_.request.bounds) meta.bounds = format_box(*job_.request.bounds);
         if (job_.shard.of > 1) meta.shard = fmt::format("{}/{}", job_.shard.index, job_.shard.of);
         return meta;
     }

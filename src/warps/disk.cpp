@@ -95,6 +95,11 @@ class DiskDomain final : public Domain {
         return x * x + y * y <= reach_squared_;
     }
 
+    Box bounding_box() const override {
+        return {{center_.x - radius_, center_.y - radius_},
+                {center_.x + radius_, center_.y + radius_}};
+    }
+
     /// r^2 / R^2 and the angle in turns: equal areas however the points were made.
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         const auto [x, y] = in_unit_disk(point);

@@ -101,6 +101,12 @@ class TriangleDomain final : public Domain {
                std::abs(dot(normal_, minus(vector_of(point), vertices_[0]))) <= slack_;
     }
 
+    Box bounding_box() const override {
+        Box box{corners_[0], corners_[0]};
+        for (const auto& corner : corners_) box = stipple::bounding_box(corner, box);
+        return box;
+    }
+
     /// Area left between v1 and the line through the point parallel to the edge v0 v2, and the
     /// place on that line. From v1, where the warp starts from v0, so that equal areas are known
     /// without it, and cells do not line up with its strata.

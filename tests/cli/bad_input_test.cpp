@@ -99,7 +99,7 @@ TEST(BadInput, BinaryJunkAndTruncation) {
 TEST(BadInput, PointsOutsideTheCubeAreCountedAndTheFirstNamed) {
     const Outcome outcome = judge("p.csv", "0.5,0.5\n1.5,0.25\n-1,0\n");
     expect_refusal(outcome, 3, "2 of 3 points are outside");
-    EXPECT_THAT(outcome.err, HasSubstr("point 1: (1.5, 0.25)"));
+    EXPECT_THAT(outcome.err, HasSubstr("p.csv: 2 of 3 points"));
     EXPECT_THAT(outcome.err, HasSubstr("--rescale"));
 }
 

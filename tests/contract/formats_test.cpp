@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+//
+// What every registered file format promises.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "io/format.hpp"
+#include "support/contract.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+class EveryFormat : public ::testing::TestWithParam<std::string> {
+  protected:
+    const Format& unit = io::format_named(GetParam());
+
+    /// The bytes of a file with these sets, rows formatted in blocks of `block`.
+    std::string written(const std::vector<PointSet>& sets, std::size_t block = 7) const {
+        Layout layout{.dimension = sets.front().dimension(), .many_sets = sets.size() > 1};
+        for (const PointSet& set : sets) layout.counts.push_back(set.count());
+        layout.provenance.domain = "unit-cube";
+        std::string bytes;
+        if (unit.head) unit.head(layout, bytes);
+        for (std::size_t s = 0; s < sets.size(); ++s) {
+            if (unit.begin_set) unit.begin_set(layout, s, bytes);
+            const auto flat = sets[s].flat();
+            const std::size_t step = block * layout.dimension;
+            for (std::size_t i = 0; i < flat.size(); i += step)
+                unit.rows(layout, s, i / layout.dimension,
+                          flat.subspan(i, std::min(step, flat.size() - i)), bytes);
+        }
+        if (unit.tail) unit.tail(layout, bytes);
+        return bytes;
+    }
+
+    std::vector<PointSet> read(const std::string& bytes, std::size_t dimension) const {
+        ReadOptions options{.source = "file"};
+        if (unit.name == "bin") options.dimension = dimension;
+        return unit.read(bytes, options, {});
+    }
+
+    std::vector<std::size_t> dimensions() const {
+        std::vector<std::size_t> list;
+        for (const std::size_t d : {1, 2, 3, 5})
+            if (d >= unit.traits.min_dimension && d <= unit.traits.max_dimension) list.push_back(d);
+        return list;
+    }
+};
+
+TEST_P(EveryFormat, GivesBackEveryBitThatItWasGiven) {
+    if (!unit.read) GTEST_SKIP() << "write only";
+    for (const std::size_t d : dimensions())
+        for (const std::size_t n : {1, 2, 100}) {
+            const PointSet set = make("random", points(n, d));
+            const auto back = read(written({set}), d);
+            ASSERT_EQ(back.size(), 1U) << n << ' ' << d;
+            EXPECT_EQ(back[0], set) << n << ' ' << d;
+        }
+}
+
+// Blocks are formatted by different threads and joined.
+TEST_P(EveryFormat, BytesDoNotDependOnTheBlocks) {
+    const std::size_t d = dimensions().front();
+    const PointSet set = make("random", points(100, d));
+    EXPECT_EQ(written({set}, 1), written({set}, 100));
+}
+
+TEST_P(EveryFormat, TruncationIsRefusedOrGivesWholePoints) {
+    if (!unit.read) GTEST_SKIP() << "write only";
+    const std::size_t d = dimensions().back();
+    const PointSet set = make("random", points(20, d));
+    const std::string bytes = written({set});
+    for (std::size_t size = 0; size < bytes.size(); ++size) try {
+            for (const PointSet& part : read(bytes.substr(0, size), d)) {
+                EXPECT_EQ(part.dimension(), d);
+                EXPECT_LE(part.count(), 20U);
+            }
+        } catch (const Error& e) {
+            EXPECT_EQ(e.kind(), ErrorKind::input) << e.what();
+        }
+}
+
+TEST_P(EveryFormat, HasACompleteRecord) {
+    EXPECT_FALSE(unit.summary.empty());
+    EXPECT_FALSE(unit.source.empty());
+    EXPECT_NE(unit.rows, nullptr);
+    for (const std::string& extension : unit.extensions)
+        EXPECT_EQ(io::format_of_extension("p" + extension)->name, unit.name) << extension;
+}
+
+INSTANTIATE_TEST_SUITE_P(Registry, EveryFormat, ::testing::ValuesIn(names_of(io::all())),
+                         case_name);
+
+}  // namespace
