@@ -1,0 +1,200 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Draws a power spectrum: radial power, anisotropy and, with --grid, the power in the plane.
+
+Reads the report of `stipple analyze periodogram` (JSON or CSV). Dashed lines are what white noise
+has: power 1, and anisotropy -10 log10(sets) dB for a mean of so many sets. The grey band holds 95 %
+of the ring means of white noise.
+"""
+
+import numpy as np
+
+import stipple_io as io
+
+EXAMPLES = """\
+  stipple generate halton -n 4096 | stipple analyze periodogram | plot_spectrum.py -o halton.png
+  stipple generate poisson-disk -n 4096 -m 10 |
+      stipple analyze periodogram --average --grid power.npy -o spectrum.json
+  plot_spectrum.py spectrum.json --grid power.npy -o spectrum.pdf
+"""
+
+LOG_ABOVE = 12  # radial power; a higher peak gets a logarithmic axis
+
+
+def arguments():
+    parser = io.Parser(__doc__, EXAMPLES)
+    parser.add_argument("--grid", metavar="FILE.npy", help="2-D power, as `--grid` of the analyzer saves it")
+    parser.add_argument(
+        "--sets", type=int, metavar="R", help="sets averaged (default: as the report says; a CSV does not)"
+    )
+    parser.add_argument(
+        "--set", type=int, metavar="K", help="which of several reports, from 0, where they are not averaged"
+    )
+    return parser.parse_args()
+
+
+def chosen_report(options):
+    """The one report to draw."""
+    reports = io.read_reports(options.input)
+    name = io.name_of(options.input)
+    if options.set is not None and not 0 <= options.set < len(reports):
+        raise io.Refusal(io.USAGE, f"--set: {options.set} is outside 0..{len(reports) - 1}")
+    if options.set is None and len(reports) > 1:
+        raise io.Refusal(
+            io.INPUT, f"{name}: holds {len(reports)} reports; analyze with --average, or pick one by --set"
+        )
+    report = reports[options.set or 0]
+    if report.analyzer != "periodogram":
+        raise io.Refusal(io.INPUT, f"{name}: is a report of {report.analyzer}; expected periodogram")
+    return report
+
+
+def curves(report, name):
+    """Frequency, power, anisotropy and cells of the rings."""
+    found = [report.curve(f"radial.{key}") for key in ("frequency", "power", "anisotropy_db", "cells")]
+    for key, curve in zip(("frequency", "power", "anisotropy_db", "cells"), found):
+        if curve is None or len(curve) == 0 or len(curve) != len(found[0]):
+            raise io.Refusal(io.INPUT, f"{name}: has no whole curve radial.{key}")
+    if not (np.isfinite(found[0]).all() and np.isfinite(found[1]).any()):
+        raise io.Refusal(io.INPUT, f"{name}: has gaps in radial.frequency or no radial.power")
+    return found
+
+
+def read_grid(path):
+    """The 2-D power, without f = 0, and its largest frequency."""
+    power = io.read_npy(io.read_bytes(path), io.name_of(path))
+    if power.ndim != 2 or power.shape[0] != power.shape[1] or power.shape[0] % 2 == 0:
+        raise io.Refusal(io.INPUT, f"{path}: has shape {power.shape}; expected (2F + 1, 2F + 1)")
+    if not np.isfinite(power).all() or power.min() < 0:
+        raise io.Refusal(io.INPUT, f"{path}: holds a power that is negative or not finite")
+    last = power.shape[0] // 2
+    power[last, last] = np.nan
+    return power, last
+
+
+def white_noise_band(cells, sets):
+    """2.5 and 97.5 % points of the mean power of a ring.
+
+    Half of a ring's frequencies are free (P(-f) = P(f)) and each power is nearly exponential, so
+    the mean is chi-square with as many degrees of freedom as cells x sets, over that number; points
+    by Wilson and Hilferty's cube (1931).
+    """
+    spread = 2 / (9 * np.maximum(cells * sets, 1))
+    return [(1 - spread + z * np.sqrt(spread)).clip(0) ** 3 for z in (-1.96, 1.96)]
+
+
+def title_of(report, sets):
+    """'Power spectrum of halton.csv, n = 1024, mean of 10 sets'."""
+    source = "" if report.source == "-" else f" of {report.source.rpartition('/')[2]}"
+    mean = f", mean of {sets} sets" if sets > 1 else ""
+    which = f", set {report.number}" if report.number is not None else ""
+    return f"Power spectrum{source}, n = {report.count}{mean}{which}"
+
+
+# ---------------------------------------------------------------- drawing
+
+
+def draw_grid(figure, axes, power, last):
+    """Grey is P / (1 + P), so white noise is middle grey and no peak is cut off."""
+    edge = last + 0.5
+    shown = np.ma.masked_invalid(power / (1 + power))
+    cmap = __import__("matplotlib").colormaps["gray"].with_extremes(bad="black")
+    image = axes.imshow(
+        shown,
+        cmap=cmap,
+        vmin=0,
+        vmax=1,
+        origin="lower",
+        extent=(-edge, edge, -edge, edge),
+        interpolation="nearest" if last < 300 else "antialiased",
+    )
+    axes.set_xlabel("frequency $f_x$")
+    axes.set_ylabel("frequency $f_y$", labelpad=0)
+    axes.set_title("power P")
+    marks = (0, 0.25, 1, 4, np.inf)
+    bar = figure.colorbar(image, ax=axes, fraction=0.046, pad=0.03)
+    bar.set_ticks([1.0 if mark == np.inf else mark / (1 + mark) for mark in marks])
+    bar.set_ticklabels(["0", "1/4", "1", "4", "∞"])
+    bar.outline.set_visible(False)
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(True)
+
+
+def draw_power(axes, frequency, power, cells, sets, error):
+    low, high = white_noise_band(cells, sets)
+    axes.fill_between(frequency, low, high, color="0.88", linewidth=0, label="white noise, 95 %")
+    axes.axhline(1, color=io.GREY, linestyle=(0, (5, 3)), linewidth=0.9)
+    axes.plot(frequency, power, color=io.COLOURS[0], label="radial mean")
+    if error is not None and len(error) == len(power):
+        axes.fill_between(
+            frequency,
+            power - error,
+            power + error,
+            color=io.COLOURS[0],
+            alpha=0.3,
+            linewidth=0,
+            label="± standard error",
+        )
+    if np.nanmax(power) > LOG_ABOVE and np.nanmin(power) > 0:
+        axes.set_yscale("log")
+    else:
+        axes.set_ylim(0, max(1.6, 1.08 * np.nanmax(power)))
+    axes.set_ylabel("radial power")
+    axes.legend(loc="best", ncol=3, handlelength=1.4, columnspacing=1.2)
+
+
+def draw_anisotropy(axes, frequency, anisotropy, sets):
+    expected = -10 * np.log10(sets)
+    axes.axhline(expected, color=io.GREY, linestyle=(0, (5, 3)), linewidth=0.9)
+    axes.plot(frequency, anisotropy, color=io.COLOURS[1])
+    middle = np.nanpercentile(anisotropy, [2, 98]) if np.isfinite(anisotropy).any() else [0, 0]
+    axes.set_ylim(min(expected, middle[0]) - 5, max(expected, middle[1]) + 5)
+    axes.set_ylabel("anisotropy [dB]")
+    axes.set_xlabel("frequency |f| [cycles per unit length]")
+    axes.annotate(
+        "white noise" if sets == 1 else f"white noise, {sets} sets: {expected:.1f} dB",
+        (1, expected),
+        xycoords=("axes fraction", "data"),
+        xytext=(-3, 3),
+        textcoords="offset points",
+        ha="right",
+        color=io.GREY,
+        fontsize=8,
+    )
+
+
+def draw(report, rings, grid, sets):
+    plt = io.canvas()
+    if grid is None:
+        figure, (upper, lower) = plt.subplots(2, 1, figsize=(4.8, 4.2), sharex=True, layout="constrained")
+    else:
+        figure = plt.figure(figsize=(7.6, 3.5), layout="constrained")
+        left, right = figure.subfigures(1, 2, width_ratios=(1, 1.12))
+        draw_grid(left, left.subplots(), *grid)
+        upper, lower = right.subplots(2, 1, sharex=True)
+    frequency, power, anisotropy, cells = rings
+    draw_power(upper, frequency, power, cells, sets, report.curve("radial.power", errors=True))
+    draw_anisotropy(lower, frequency, anisotropy, sets)
+    lower.set_xlim(0, frequency[-1] + 0.5)
+    return figure
+
+
+def main():
+    options = arguments()
+    target, kind = io.target_of(options, options.input)
+    if options.sets is not None and options.sets < 1:
+        raise io.Refusal(io.USAGE, f"--sets: {options.sets} is below 1")
+    if options.grid == "-" and options.input == "-":
+        raise io.Refusal(io.USAGE, "--grid: standard input is the report already")
+    report = chosen_report(options)
+    rings = curves(report, io.name_of(options.input))
+    grid = read_grid(options.grid) if options.grid else None
+    sets = options.sets or report.sets
+    figure = draw(report, rings, grid, sets)
+    title = title_of(report, sets) if options.title is None else options.title
+    figure.suptitle(io.plain(title), fontsize=10)
+    io.write_bytes(target, io.render(figure, kind))
+
+
+if __name__ == "__main__":
+    io.run(main)
