@@ -20,8 +20,8 @@ EXAMPLES = """\
 """
 
 NAMES = {
-    "star-discrepancy": "star discrepancy $D^*_n$",
-    "l2-discrepancy": "$L_2$ discrepancy",
+    "star-discrepancy": ("Star discrepancy", "star discrepancy $D^*_n$"),
+    "l2-discrepancy": ("$L_2$ discrepancy", "$L_2$ discrepancy"),
 }
 # What ends a file's stem and is not the generator: _1024, -n1024, _2^10, _64k, _s3, _seed7, _set0.
 SUFFIX = re.compile(r"(?:[_.-](?:n|s|seed|set)?\d+(?:\^\d+)?[kM]?)+$")
@@ -130,11 +130,23 @@ def draw_slopes(axes, curves):
         )
 
 
+def scale_counts(plt, axes, counts):
+    """A logarithmic axis; where all counts are powers of two, its ticks are too."""
+    if not all(n == 2 ** round(np.log2(n)) for n in counts):
+        axes.set_xscale("log")
+        return
+    axes.set_xscale("log", base=2)
+    axes.xaxis.set_major_locator(plt.LogLocator(2, numticks=9))
+    axes.xaxis.set_minor_locator(plt.NullLocator())
+    if counts.max() < 1e5:
+        axes.xaxis.set_major_formatter(lambda n, _: f"{n:g}")
+
+
 def draw(curves, ylabel):
     plt = io.canvas()
     figure, axes = plt.subplots(figsize=(4.8, 3.8))
-    axes.set_xscale("log")
     axes.set_yscale("log")
+    scale_counts(plt, axes, np.concatenate([n for n, _, _ in curves.values()]))
     by_size = sorted(curves, key=lambda label: -curves[label][1][-1])
     for k, label in enumerate(curves):
         n, mean, error = curves[label]
@@ -156,7 +168,12 @@ def draw(curves, ylabel):
     axes.grid(True, which="major", color="0.9", linewidth=0.6)
     axes.set_axisbelow(True)
     handles = dict(zip(curves, axes.get_legend_handles_labels()[0]))
-    axes.legend([handles[label] for label in by_size], [io.plain(label) for label in by_size], loc="best")
+    axes.legend(
+        [handles[label] for label in by_size],
+        [io.plain(label) for label in by_size],
+        title="mean ± standard error" if any(error.any() for _, _, error in curves.values()) else None,
+        title_fontsize=8.5,
+    )
     return figure, axes
 
 
@@ -166,12 +183,11 @@ def main():
     pairs = read_all(options)
     key = options.key or key_for(pairs[0][1])
     curves = curves_of(pairs, key)
-    analyzer = pairs[0][1].analyzer
-    name = NAMES.get(analyzer, io.plain(analyzer))
-    ylabel = name if key == "value" else f"{name}: {io.plain(key.removesuffix('.value'))}"
-    figure, axes = draw(curves, ylabel)
-    title = f"{analyzer} of {', '.join(curves)}" if options.title is None else options.title
-    axes.set_title(io.plain(title), wrap=True)
+    words, name = NAMES.get(pairs[0][1].analyzer, [io.plain(pairs[0][1].analyzer)] * 2)
+    what = "" if key == "value" else f", {io.plain(key.removesuffix('.value'))}"
+    figure, axes = draw(curves, name + what)
+    one = f" of {io.plain(next(iter(curves)))}" if len(curves) == 1 and pairs[0][1].source != "-" else ""
+    axes.set_title(words + what + one if options.title is None else io.plain(options.title))
     io.write_bytes(target, io.render(figure, kind))
 
 

@@ -19,6 +19,8 @@ EXAMPLES = """\
 """
 
 LOG_ABOVE = 12  # radial power; a higher peak gets a logarithmic axis
+LOG_FLOOR = 1e-4  # of that axis: what is lower, as between a grid's peaks, is rounding
+DASHES = (0, (5, 3))
 
 
 def arguments():
@@ -94,14 +96,12 @@ def title_of(report, sets):
 # ---------------------------------------------------------------- drawing
 
 
-def draw_grid(figure, axes, power, last):
+def draw_grid(plt, figure, axes, power, last):
     """Grey is P / (1 + P), so white noise is middle grey and no peak is cut off."""
     edge = last + 0.5
-    shown = np.ma.masked_invalid(power / (1 + power))
-    cmap = __import__("matplotlib").colormaps["gray"].with_extremes(bad="black")
     image = axes.imshow(
-        shown,
-        cmap=cmap,
+        np.ma.masked_invalid(power / (1 + power)),
+        cmap=plt.get_cmap("gray").with_extremes(bad="black"),
         vmin=0,
         vmax=1,
         origin="lower",
@@ -110,11 +110,11 @@ def draw_grid(figure, axes, power, last):
     )
     axes.set_xlabel("frequency $f_x$")
     axes.set_ylabel("frequency $f_y$", labelpad=0)
-    axes.set_title("power P")
-    marks = (0, 0.25, 1, 4, np.inf)
-    bar = figure.colorbar(image, ax=axes, fraction=0.046, pad=0.03)
-    bar.set_ticks([1.0 if mark == np.inf else mark / (1 + mark) for mark in marks])
-    bar.set_ticklabels(["0", "1/4", "1", "4", "∞"])
+    axes.xaxis.set_major_locator(plt.MaxNLocator(4, integer=True))
+    axes.yaxis.set_major_locator(plt.MaxNLocator(4, integer=True))
+    bar = figure.colorbar(image, cax=axes.inset_axes([1.04, 0, 0.045, 1]))
+    bar.set_ticks([0, 0.2, 0.5, 0.8, 1], labels=["0", "1/4", "1", "4", "∞"])
+    bar.ax.set_title("power", fontsize=9)
     bar.outline.set_visible(False)
     for side in ("top", "right"):
         axes.spines[side].set_visible(True)
@@ -123,44 +123,32 @@ def draw_grid(figure, axes, power, last):
 def draw_power(axes, frequency, power, cells, sets, error):
     low, high = white_noise_band(cells, sets)
     axes.fill_between(frequency, low, high, color="0.88", linewidth=0, label="white noise, 95 %")
-    axes.axhline(1, color=io.GREY, linestyle=(0, (5, 3)), linewidth=0.9)
-    axes.plot(frequency, power, color=io.COLOURS[0], label="radial mean")
+    axes.axhline(1, color=io.GREY, linestyle=DASHES, linewidth=0.9)
+    axes.plot(frequency, power, color=io.COLOURS[0], label="mean over the ring")
     if error is not None and len(error) == len(power):
-        axes.fill_between(
-            frequency,
-            power - error,
-            power + error,
-            color=io.COLOURS[0],
-            alpha=0.3,
-            linewidth=0,
-            label="± standard error",
-        )
-    if np.nanmax(power) > LOG_ABOVE and np.nanmin(power) > 0:
-        axes.set_yscale("log")
+        span = (power - error, power + error)
+        axes.fill_between(frequency, *span, color=io.COLOURS[5], alpha=0.6, linewidth=0, label="± standard error")
+    top = np.nanmax(power)
+    if top > LOG_ABOVE:
+        axes.set_yscale("log", nonpositive="clip")
+        axes.set_ylim(max(0.7 * np.nanmin(power), LOG_FLOOR), 1.5 * top)
     else:
-        axes.set_ylim(0, max(1.6, 1.08 * np.nanmax(power)))
+        axes.set_ylim(0, max(1.8, 1.25 * top))
     axes.set_ylabel("radial power")
-    axes.legend(loc="best", ncol=3, handlelength=1.4, columnspacing=1.2)
+    axes.legend(loc="best", handlelength=1.4, labelspacing=0.25)
 
 
 def draw_anisotropy(axes, frequency, anisotropy, sets):
-    expected = -10 * np.log10(sets)
-    axes.axhline(expected, color=io.GREY, linestyle=(0, (5, 3)), linewidth=0.9)
+    expected = -10 * np.log10(sets) + 0.0
+    word = f"white noise: {expected:.3g} dB".replace("-", "\u2212")
+    axes.axhline(expected, color=io.GREY, linestyle=DASHES, linewidth=0.9, label=word)
     axes.plot(frequency, anisotropy, color=io.COLOURS[1])
-    middle = np.nanpercentile(anisotropy, [2, 98]) if np.isfinite(anisotropy).any() else [0, 0]
-    axes.set_ylim(min(expected, middle[0]) - 5, max(expected, middle[1]) + 5)
+    # A ring of equal powers has -100 dB; it must not flatten all others.
+    usual = np.nanpercentile(anisotropy, [5, 100]) if np.isfinite(anisotropy).any() else [0, 0]
+    axes.set_ylim(min(expected, usual[0]) - 5, max(expected, usual[1]) + 5)
     axes.set_ylabel("anisotropy [dB]")
     axes.set_xlabel("frequency |f| [cycles per unit length]")
-    axes.annotate(
-        "white noise" if sets == 1 else f"white noise, {sets} sets: {expected:.1f} dB",
-        (1, expected),
-        xycoords=("axes fraction", "data"),
-        xytext=(-3, 3),
-        textcoords="offset points",
-        ha="right",
-        color=io.GREY,
-        fontsize=8,
-    )
+    axes.legend(loc="best", handlelength=2.4)
 
 
 def draw(report, rings, grid, sets):
@@ -168,9 +156,9 @@ def draw(report, rings, grid, sets):
     if grid is None:
         figure, (upper, lower) = plt.subplots(2, 1, figsize=(4.8, 4.2), sharex=True, layout="constrained")
     else:
-        figure = plt.figure(figsize=(7.6, 3.5), layout="constrained")
-        left, right = figure.subfigures(1, 2, width_ratios=(1, 1.12))
-        draw_grid(left, left.subplots(), *grid)
+        figure = plt.figure(figsize=(7.8, 3.5), layout="constrained")
+        left, right = figure.subfigures(1, 2, width_ratios=(1, 1.05))
+        draw_grid(plt, left, left.subplots(), *grid)
         upper, lower = right.subplots(2, 1, sharex=True)
     frequency, power, anisotropy, cells = rings
     draw_power(upper, frequency, power, cells, sets, report.curve("radial.power", errors=True))
