@@ -6,7 +6,6 @@ Halton points, the same points on a disk, their power spectrum and its radial me
 analyzers say about them.
 """
 
-import argparse
 import json
 import subprocess
 import tempfile
@@ -16,8 +15,13 @@ import numpy as np
 
 import stipple_io as io
 
+EXAMPLES = """\
+  PATH=build/release/src:$PATH scripts/overview.py
+  scripts/overview.py -o overview.pdf
+"""
+
 COUNT = 1024
-FREQUENCY = 64
+FREQUENCY = 46  # 93 cells a side are three pixels each
 DOTS_PER_INCH = 140
 
 
@@ -26,9 +30,9 @@ def stipple(folder, *words):
     try:
         done = subprocess.run(["stipple", *words], cwd=folder, capture_output=True, text=True)
     except OSError as error:
-        raise io.Refusal(io.IO, f"stipple: {error.strerror}; put its folder on the PATH") from None
+        raise io.file_error(f"stipple: {error.strerror}; put its folder on the PATH") from None
     if done.returncode != 0:
-        raise io.Refusal(io.IO, f"'stipple {' '.join(words)}' failed: {done.stderr}")
+        raise io.file_error(f"'stipple {' '.join(words)}' failed: {done.stderr}")
     return done.stdout
 
 
@@ -52,9 +56,9 @@ def sentence(star, chi):
         "non-uniform": "not uniform",
     }[chi["verdict"]]
     return (
-        f"star discrepancy  {star['value']:.6f} ({how})      "
-        f"chi-square on the disk  {chi['statistic']:.1f} with {chi['degrees_of_freedom']:.0f} degrees of freedom, "
-        f"p = {chi['p_value']:.1g}: {meaning}"
+        f"star discrepancy {star['value']:.6f} ({how})     $\\bullet$     "
+        f"chi-square on the disk {chi['statistic']:.1f} with {chi['degrees_of_freedom']:.0f} "
+        f"degrees of freedom, p = {chi['p_value']:.1g}: {meaning}"
     )
 
 
@@ -63,49 +67,58 @@ def draw_points(axes, points, frame, title):
     axes.scatter(*points.T, s=2.6, linewidths=0, color=io.COLOURS[0], clip_on=False)
     axes.set_aspect("equal")
     axes.set_axis_off()
-    axes.margins(0.01)
+    axes.margins(0)
     axes.set_title(title)
 
 
 def draw(halton, disk, power, star, spectrum, chi):
     plt = io.canvas()
-    figure = plt.figure(figsize=(10.6, 2.95))
-    panels = figure.subplots(
-        1, 4, gridspec_kw={"width_ratios": (1, 1, 1, 1.25), "left": 0.01, "right": 0.99, "bottom": 0.23, "top": 0.89, "wspace": 0.14}
-    )
+    width, height, side = 10.4, 2.9, 2.0  # inches
+    figure = plt.figure(figsize=(width, height))
+
+    def panel(left, wide=side):
+        return figure.add_axes((left / width, 0.62 / height, wide / width, side / height))
+
     turn = np.linspace(0, 2 * np.pi, 361)
-    draw_points(panels[0], halton, ([0, 1, 1, 0, 0], [0, 0, 1, 1, 0]), f"{COUNT} Halton points")
-    draw_points(panels[1], disk, (np.cos(turn), np.sin(turn)), "on the disk")
-
-    power[FREQUENCY, FREQUENCY] = 0
-    edge = FREQUENCY + 0.5
-    panels[2].imshow(power / (1 + power), cmap="gray", vmin=0, vmax=1, origin="lower", extent=(-edge, edge) * 2)
-    panels[2].set_axis_off()
-    panels[2].set_title("power spectrum")
-
-    radial = spectrum["radial"]
-    panels[3].axhline(1, color=io.GREY, linewidth=0.9, linestyle=(0, (5, 3)))
-    panels[3].plot(radial["frequency"], radial["power"], color=io.COLOURS[1])
-    panels[3].annotate("white noise", (2, 1), xytext=(0, 3), textcoords="offset points", color=io.GREY, fontsize=8)
-    panels[3].set_xlim(0, FREQUENCY)
-    panels[3].set_ylim(0)
-    panels[3].set_title("radial power")
-    panels[3].set_xlabel("frequency", labelpad=1)
-
-    figure.text(0.5, 0.03, sentence(star, chi), ha="center", fontsize=9.5)
+    square = ([0, 1, 1, 0, 0], [0, 0, 1, 1, 0])
+    draw_points(panel(0.1), halton, square, f"{COUNT} Halton points")
+    draw_points(panel(2.4), disk, (np.cos(turn), np.sin(turn)), "the same on a disk")
+    draw_spectrum(panel(4.7), power)
+    draw_radial(panel(7.2, 3.1), spectrum["radial"])
+    figure.text(0.5, 0.02, sentence(star, chi), ha="center", fontsize=9.5)
     return figure
 
 
+def draw_spectrum(axes, power):
+    power[FREQUENCY, FREQUENCY] = 0  # f = 0 has n, and tells nothing
+    grey = power / (1 + power)
+    axes.imshow(grey, cmap="gray", vmin=0, vmax=1, origin="lower", interpolation="nearest")
+    axes.set_axis_off()
+    axes.set_title("their power spectrum")
+
+
+def draw_radial(axes, radial):
+    axes.axhline(1, color=io.GREY, linewidth=0.9, linestyle=(0, (5, 3)))
+    axes.plot(radial["frequency"], radial["power"], color=io.COLOURS[1])
+    axes.text(1, 1.03, "white noise", color=io.GREY, fontsize=8)
+    axes.set_xlim(0, FREQUENCY)
+    axes.set_ylim(0)
+    axes.set_title("and its radial mean")
+    axes.set_xlabel("frequency", labelpad=1)
+
+
+def arguments():
+    parser = io.Parser(__doc__, EXAMPLES, inputs=None)
+    parser.set_defaults(output=str(Path(__file__).resolve().parent.parent / "data/overview.png"))
+    return parser.parse_args()
+
+
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    default = Path(__file__).resolve().parent.parent / "data" / "overview.png"
-    parser.add_argument("-o", "--output", default=str(default), help="a .png, .svg or .pdf file (default: data/overview.png)")
-    options = parser.parse_args()
+    options = arguments()
     target, kind = io.target_of(options, None)
     with tempfile.TemporaryDirectory() as folder:
         figure = draw(*measure(folder))
-    figure.set_dpi(DOTS_PER_INCH)
-    io.write_bytes(target, io.render(figure, kind))
+    io.write_bytes(target, io.render(figure, kind, DOTS_PER_INCH))
 
 
 if __name__ == "__main__":

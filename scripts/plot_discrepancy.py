@@ -3,8 +3,8 @@
 """Draws discrepancy against the number of points, log-log, a curve for each generator.
 
 Reads reports of `stipple analyze` (JSON, also many end to end, or CSV). A curve's name is the part
-of the measured file's name before the number: halton_1024.csv belongs to 'halton'. Several values at
-one n are drawn as their mean with its standard error.
+of the measured file's name before the number: halton_1024.csv belongs to 'halton'. Several values
+at one n are drawn as their mean with its standard error.
 """
 
 import re
@@ -23,34 +23,33 @@ NAMES = {
     "star-discrepancy": ("Star discrepancy", "star discrepancy $D^*_n$"),
     "l2-discrepancy": ("$L_2$ discrepancy", "$L_2$ discrepancy"),
 }
+NAMELESS = "standard input"
 # What ends a file's stem and is not the generator: _1024, -n1024, _2^10, _64k, _s3, _seed7, _set0.
 SUFFIX = re.compile(r"(?:[_.-](?:n|s|seed|set)?\d+(?:\^\d+)?[kM]?)+$")
 
 
 def arguments():
-    parser = io.Parser(__doc__, EXAMPLES, several=True)
+    parser = io.Parser(__doc__, EXAMPLES, inputs="*")
     parser.add_argument(
         "--label",
         metavar="NAME",
         action="append",
-        help="name of a curve; once for all, or once for each FILE (default: from the measured files)",
+        help="name of a curve; once, or once for each FILE (default: from the measured files)",
     )
     parser.add_argument("--key", help="which result (default: value, else the first KIND.value)")
     options = parser.parse_args()
-    options.input = options.input or ["-"]
     if options.label and len(options.label) not in (1, len(options.input)):
-        raise io.Refusal(
-            io.USAGE, f"--label: {len(options.label)} for {len(options.input)} files; give one, or one for each"
-        )
+        labels, files = len(options.label), len(options.input)
+        raise io.usage_error(f"--label: {labels} for {files} files; give one, or one for each")
     if options.input.count("-") > 1:
-        raise io.Refusal(io.USAGE, "'-': standard input can be read only once")
+        raise io.usage_error("'-': standard input can be read only once")
     return options
 
 
 def label_of(source):
     """'halton' from 'sets/halton_1024.csv'; of a mean over files, from the first."""
     if source == "-":
-        return "standard input"
+        return NAMELESS
     stem = source.partition(", ")[0].rpartition("/")[2]
     stem = re.sub(r"\.[A-Za-z]\w*$", "", stem)
     return SUFFIX.sub("", stem) or stem
@@ -65,7 +64,7 @@ def read_all(options):
         pairs += [(given or label_of(report.source), report) for report in io.read_reports(path)]
     analyzers = list(dict.fromkeys(report.analyzer for _, report in pairs))
     if len(analyzers) > 1:
-        raise io.Refusal(io.INPUT, f"reports of {' and '.join(analyzers)}; expected those of one analyzer")
+        raise io.input_error(f"reports of {' and '.join(analyzers)}; expected one analyzer's")
     return pairs
 
 
@@ -77,7 +76,7 @@ def key_for(report):
         key = kind if kind.endswith(".value") else f"{kind}.value"
         if report.value(key) is not None:
             return key
-    raise io.Refusal(io.INPUT, f"{io.name_of(report.file)}: has no 'value'; name a result with --key")
+    raise io.input_error(f"{io.name_of(report.file)}: has no 'value'; name one with --key")
 
 
 def curves_of(pairs, key):
@@ -87,9 +86,9 @@ def curves_of(pairs, key):
         value = report.value(key)
         where = f"{io.name_of(report.file)}: {report.source}, n = {report.count}"
         if value is None:
-            raise io.Refusal(io.INPUT, f"{where}: has no number '{key}'")
+            raise io.input_error(f"{where}: has no number '{key}'")
         if value <= 0 or report.count < 1:
-            raise io.Refusal(io.INPUT, f"{where}: {key} is {value:g}; a logarithmic axis needs more than 0")
+            raise io.input_error(f"{where}: {key} is {value:g}; expected more than 0")
         error = report.value(key, errors=True) or 0.0
         values.setdefault(label, {}).setdefault(report.count, []).append((value, error))
     return {label: curve_of(by_count) for label, by_count in values.items()}
@@ -167,11 +166,12 @@ def draw(curves, ylabel):
     axes.set_ylabel(ylabel)
     axes.grid(True, which="major", color="0.9", linewidth=0.6)
     axes.set_axisbelow(True)
+    barred = any(error.any() for _, _, error in curves.values())
     handles = dict(zip(curves, axes.get_legend_handles_labels()[0]))
     axes.legend(
         [handles[label] for label in by_size],
         [io.plain(label) for label in by_size],
-        title="mean ± standard error" if any(error.any() for _, _, error in curves.values()) else None,
+        title="mean ± standard error" if barred else None,
         title_fontsize=8.5,
     )
     return figure, axes
@@ -186,8 +186,10 @@ def main():
     words, name = NAMES.get(pairs[0][1].analyzer, [io.plain(pairs[0][1].analyzer)] * 2)
     what = "" if key == "value" else f", {io.plain(key.removesuffix('.value'))}"
     figure, axes = draw(curves, name + what)
-    one = f" of {io.plain(next(iter(curves)))}" if len(curves) == 1 and pairs[0][1].source != "-" else ""
-    axes.set_title(words + what + one if options.title is None else io.plain(options.title))
+    # A single curve is named in the title; the name of standard input says nothing.
+    label = next(iter(curves))
+    of = f" of {io.plain(label)}" if len(curves) == 1 and label != NAMELESS else ""
+    axes.set_title(words + what + of if options.title is None else io.plain(options.title))
     io.write_bytes(target, io.render(figure, kind))
 
 

@@ -23,9 +23,11 @@ NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 def arguments():
     parser = io.Parser(__doc__, EXAMPLES)
     parser.add_argument(
-        "--axes", metavar="I,J[,K]", help="coordinates to draw, from 1 (default: the first two; in 3-D all)"
+        "--axes",
+        metavar="I,J[,K]",
+        help="coordinates to draw, numbered from 1 (default: the first two; in 3-D all)",
     )
-    parser.add_argument("--set", type=int, default=0, metavar="K", help="which set of the file, from 0")
+    parser.add_argument("--set", type=int, default=0, metavar="K", help="set of the file, from 0")
     parser.add_argument(
         "--domain",
         metavar="SPEC",
@@ -42,9 +44,9 @@ def chosen_axes(text, dimension):
     words = text.split(",")
     axes = [int(word) - 1 for word in words if word.strip().isdigit()]
     if len(axes) != len(words) or not 1 <= len(axes) <= 3 or len(set(axes)) < len(axes):
-        raise io.Refusal(io.USAGE, f"--axes: '{text}' is not one to three different numbers, such as 1,2")
+        raise io.usage_error(f"--axes: '{text}' is not up to three different numbers such as 1,2")
     if not all(0 <= axis < dimension for axis in axes):
-        raise io.Refusal(io.USAGE, f"--axes: '{text}' is outside 1..{dimension}, the coordinates there are")
+        raise io.usage_error(f"--axes: '{text}' is outside 1..{dimension}, the coordinates")
     return axes
 
 
@@ -88,21 +90,22 @@ def box(low, high):
 
 
 def outline(spec, axes):
-    """Lines around the domain, as arrays of points on the axes; none where it has no known shape."""
+    """Lines around the domain, as arrays of points on the axes; none for an unknown shape."""
     spec, axes = domain_on(spec, axes)
     name = spec.partition(":")[0]
     size = len(axes)
     if name == "unit-cube":
         return box([0.0] * size, [1.0] * size)
     if name == "box":
-        ranges = [numbers(part.replace("..", " ")) for part in (option_of(spec, "bounds") or "").split(",")]
+        parts = (option_of(spec, "bounds") or "").split(",")
+        ranges = [numbers(part.replace("..", " ")) for part in parts]
         if max(axes) < len(ranges) and all(len(pair) == 2 for pair in ranges):
             return box([ranges[k][0] for k in axes], [ranges[k][1] for k in axes])
     if name == "disk" and sorted(axes) == [0, 1]:
         radius = (numbers(option_of(spec, "radius")) or [1.0])[0]
         center = numbers(option_of(spec, "center")) or [0.0, 0.0]
         turn = np.linspace(0, 2 * np.pi, 721)
-        rim = np.column_stack([center[0] + radius * np.cos(turn), center[1] + radius * np.sin(turn)])
+        rim = np.column_stack([np.cos(turn), np.sin(turn)]) * radius + center
         return [rim[:, axes]]
     if name == "triangle":
         text = option_of(spec, "vertices")
@@ -113,7 +116,7 @@ def outline(spec, axes):
 
 
 def domain_of(point_set, given, shown):
-    """The domain's spec: as given, else as in the file, else the unit cube if nothing speaks against it."""
+    """The domain's spec: as given, else as in the file, else the unit cube if all are in it."""
     if given is not None:
         return given
     spec = point_set.meta.get("domain")
@@ -177,7 +180,7 @@ def draw_plane(plt, points, lines, labels):
 
 
 def draw_density(plt, points, lines, labels):
-    """Too many points to tell apart: how many fall into each cell, 1 being the mean over the frame."""
+    """How many points fall into each cell, for more than can be told apart; the mean is 1."""
     figure, axes = plt.subplots(figsize=(4.7, 4))
     everything = np.vstack([points, *lines])
     edges = [np.linspace(low, high, 129) for low, high in zip(everything.min(0), everything.max(0))]
@@ -233,7 +236,7 @@ def draw_space(plt, points, lines, labels):
     axes.set_box_aspect(np.where(high > low, high - low, 1))
     for name, a, b, label in zip("xyz", low, high, labels):
         getattr(axes, f"set_{name}lim")(a, b if b > a else a + 1)
-        getattr(axes, f"set_{name}label")(label)
+        getattr(axes, f"set_{name}label")(label, labelpad=0)
         axis = getattr(axes, f"{name}axis")
         axis.pane.set_visible(False)
         axis.line.set_visible(not lines)
@@ -248,7 +251,7 @@ def main():
     target, kind = io.target_of(options, options.input)
     sets = io.read_points(options.input)
     if not 0 <= options.set < len(sets):
-        raise io.Refusal(io.USAGE, f"--set: {options.set} is outside 0..{len(sets) - 1}, the sets there are")
+        raise io.usage_error(f"--set: {options.set} is outside 0..{len(sets) - 1}, the sets")
     point_set = sets[options.set]
     axes = chosen_axes(options.axes, point_set.dimension)
     shown = point_set.points[:, axes]

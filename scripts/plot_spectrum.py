@@ -25,13 +25,11 @@ DASHES = (0, (5, 3))
 
 def arguments():
     parser = io.Parser(__doc__, EXAMPLES)
-    parser.add_argument("--grid", metavar="FILE.npy", help="2-D power, as `--grid` of the analyzer saves it")
+    parser.add_argument("--grid", metavar="FILE.npy", help="2-D power, from the analyzer's --grid")
     parser.add_argument(
-        "--sets", type=int, metavar="R", help="sets averaged (default: as the report says; a CSV does not)"
+        "--sets", type=int, metavar="R", help="sets averaged (default: what the report says)"
     )
-    parser.add_argument(
-        "--set", type=int, metavar="K", help="which of several reports, from 0, where they are not averaged"
-    )
+    parser.add_argument("--set", type=int, metavar="K", help="which of several reports, from 0")
     return parser.parse_args()
 
 
@@ -40,25 +38,26 @@ def chosen_report(options):
     reports = io.read_reports(options.input)
     name = io.name_of(options.input)
     if options.set is not None and not 0 <= options.set < len(reports):
-        raise io.Refusal(io.USAGE, f"--set: {options.set} is outside 0..{len(reports) - 1}")
+        raise io.usage_error(f"--set: {options.set} is outside 0..{len(reports) - 1}")
     if options.set is None and len(reports) > 1:
-        raise io.Refusal(
-            io.INPUT, f"{name}: holds {len(reports)} reports; analyze with --average, or pick one by --set"
+        raise io.input_error(
+            f"{name}: holds {len(reports)} reports; analyze with --average, or pick one by --set"
         )
     report = reports[options.set or 0]
     if report.analyzer != "periodogram":
-        raise io.Refusal(io.INPUT, f"{name}: is a report of {report.analyzer}; expected periodogram")
+        raise io.input_error(f"{name}: is of {report.analyzer}; expected a report of periodogram")
     return report
 
 
 def curves(report, name):
     """Frequency, power, anisotropy and cells of the rings."""
-    found = [report.curve(f"radial.{key}") for key in ("frequency", "power", "anisotropy_db", "cells")]
-    for key, curve in zip(("frequency", "power", "anisotropy_db", "cells"), found):
+    keys = ("frequency", "power", "anisotropy_db", "cells")
+    found = [report.curve(f"radial.{key}") for key in keys]
+    for key, curve in zip(keys, found):
         if curve is None or len(curve) == 0 or len(curve) != len(found[0]):
-            raise io.Refusal(io.INPUT, f"{name}: has no whole curve radial.{key}")
+            raise io.input_error(f"{name}: has no whole curve radial.{key}")
     if not (np.isfinite(found[0]).all() and np.isfinite(found[1]).any()):
-        raise io.Refusal(io.INPUT, f"{name}: has gaps in radial.frequency or no radial.power")
+        raise io.input_error(f"{name}: has gaps in radial.frequency or no radial.power")
     return found
 
 
@@ -66,9 +65,9 @@ def read_grid(path):
     """The 2-D power, without f = 0, and its largest frequency."""
     power = io.read_npy(io.read_bytes(path), io.name_of(path))
     if power.ndim != 2 or power.shape[0] != power.shape[1] or power.shape[0] % 2 == 0:
-        raise io.Refusal(io.INPUT, f"{path}: has shape {power.shape}; expected (2F + 1, 2F + 1)")
+        raise io.input_error(f"{path}: has shape {power.shape}; expected (2F + 1, 2F + 1)")
     if not np.isfinite(power).all() or power.min() < 0:
-        raise io.Refusal(io.INPUT, f"{path}: holds a power that is negative or not finite")
+        raise io.input_error(f"{path}: holds a power that is negative or not finite")
     last = power.shape[0] // 2
     power[last, last] = np.nan
     return power, last
@@ -126,8 +125,15 @@ def draw_power(axes, frequency, power, cells, sets, error):
     axes.axhline(1, color=io.GREY, linestyle=DASHES, linewidth=0.9)
     axes.plot(frequency, power, color=io.COLOURS[0], label="mean over the ring")
     if error is not None and len(error) == len(power):
-        span = (power - error, power + error)
-        axes.fill_between(frequency, *span, color=io.COLOURS[5], alpha=0.6, linewidth=0, label="± standard error")
+        axes.fill_between(
+            frequency,
+            power - error,
+            power + error,
+            color=io.COLOURS[5],
+            alpha=0.6,
+            linewidth=0,
+            label="± standard error",
+        )
     top = np.nanmax(power)
     if top > LOG_ABOVE:
         axes.set_yscale("log", nonpositive="clip")
@@ -154,7 +160,8 @@ def draw_anisotropy(axes, frequency, anisotropy, sets):
 def draw(report, rings, grid, sets):
     plt = io.canvas()
     if grid is None:
-        figure, (upper, lower) = plt.subplots(2, 1, figsize=(4.8, 4.2), sharex=True, layout="constrained")
+        figure = plt.figure(figsize=(4.8, 4.2), layout="constrained")
+        upper, lower = figure.subplots(2, 1, sharex=True)
     else:
         figure = plt.figure(figsize=(7.8, 3.5), layout="constrained")
         left, right = figure.subfigures(1, 2, width_ratios=(1, 1.05))
@@ -171,9 +178,9 @@ def main():
     options = arguments()
     target, kind = io.target_of(options, options.input)
     if options.sets is not None and options.sets < 1:
-        raise io.Refusal(io.USAGE, f"--sets: {options.sets} is below 1")
+        raise io.usage_error(f"--sets: {options.sets} is below 1")
     if options.grid == "-" and options.input == "-":
-        raise io.Refusal(io.USAGE, "--grid: standard input is the report already")
+        raise io.usage_error("--grid: standard input is the report already")
     report = chosen_report(options)
     rings = curves(report, io.name_of(options.input))
     grid = read_grid(options.grid) if options.grid else None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the plotting scripts share: stipple's files in, pictures out, errors as the program has them.
+"""What the plotting scripts share: stipple's files in, pictures out, errors as the program does.
 
     read_points(path)   -> [PointSet]  from CSV, TXT, JSON, JSONL, NPY
     read_reports(path)  -> [Report]    from `stipple analyze` as JSON (also many, end to end) or CSV
@@ -24,6 +24,7 @@ from pathlib import Path
 
 import numpy as np
 
+WANTED = "expected the JSON or CSV of 'stipple analyze'"
 USAGE, INPUT, IO, LIMIT, INTERRUPTED = 2, 3, 4, 5, 130
 
 # Okabe and Ito's colours: told apart by colour-blind readers, and dark enough for thin lines.
@@ -41,6 +42,18 @@ class Refusal(Exception):
         self.code = code
 
 
+def usage_error(message):
+    return Refusal(USAGE, message)
+
+
+def input_error(message):
+    return Refusal(INPUT, message)
+
+
+def file_error(message):
+    return Refusal(IO, message)
+
+
 # ---------------------------------------------------------------- reading
 
 
@@ -54,28 +67,28 @@ def read_bytes(path):
         if path != "-":
             return Path(path).read_bytes()
         if sys.stdin is None:
-            raise Refusal(IO, "standard input: is closed")
+            raise file_error("standard input: is closed")
         return sys.stdin.buffer.read()
     except (OSError, ValueError) as error:  # ValueError: a path with a zero byte
         reason = getattr(error, "strerror", None) or error
-        raise Refusal(IO, f"{name_of(path)}: {reason}") from None
+        raise file_error(f"{name_of(path)}: {reason}") from None
 
 
 def decode(data, name):
     """The text of bytes, without a byte-order mark."""
     if b"\0" in data:
-        raise Refusal(INPUT, f"{name}: is binary; expected text, JSON or npy ('stipple convert' makes those)")
+        raise input_error(f"{name}: is binary; expected text, JSON or npy (see 'stipple convert')")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise Refusal(INPUT, f"{name}: byte {error.start} is not UTF-8 text") from None
+        raise input_error(f"{name}: byte {error.start} is not UTF-8 text") from None
 
 
 def json_documents(text, name):
     """All JSON documents that stand one after the other in a text."""
 
     def refuse(word):
-        raise Refusal(INPUT, f"{name}: holds {word}; numbers must be finite")
+        raise input_error(f"{name}: holds {word}; numbers must be finite")
 
     decoder = json.JSONDecoder(parse_constant=refuse)
     documents, at = [], 0
@@ -88,9 +101,9 @@ def json_documents(text, name):
             documents.append(document)
     except json.JSONDecodeError as error:
         where = f"{name}:{error.lineno}:{error.colno}"
-        raise Refusal(INPUT, f"{where}: is not whole JSON ({error.msg})") from None
+        raise input_error(f"{where}: is not whole JSON ({error.msg})") from None
     except RecursionError:
-        raise Refusal(INPUT, f"{name}: is JSON too deeply nested") from None
+        raise input_error(f"{name}: is JSON too deeply nested") from None
     return documents
 
 
@@ -124,11 +137,11 @@ def read_points(path):
     else:
         arrays, meta = text_sets(decode(data, name), name)
     if not arrays or any(len(points) == 0 for points in arrays):
-        raise Refusal(INPUT, f"{name}: holds no points")
+        raise input_error(f"{name}: holds no points")
     for points in arrays:
         if not np.isfinite(points).all():
             row = int(np.argmin(np.isfinite(points).all(axis=1)))
-            raise Refusal(INPUT, f"{name}: point {row} has a coordinate that is not finite")
+            raise input_error(f"{name}: point {row} has a coordinate that is not finite")
     sets = len(arrays)
     return [PointSet(points, path, meta, k, sets) for k, points in enumerate(arrays)]
 
@@ -138,9 +151,9 @@ def read_npy(data, name):
     try:
         values = np.load(io.BytesIO(data), allow_pickle=False)
     except (ValueError, EOFError, OSError, SyntaxError, OverflowError) as error:
-        raise Refusal(INPUT, f"{name}: is not a whole npy file ({error})") from None
+        raise input_error(f"{name}: is not a whole npy file ({error})") from None
     if not isinstance(values, np.ndarray) or values.dtype.kind not in "fiu":
-        raise Refusal(INPUT, f"{name}: is not an npy array of real numbers")
+        raise input_error(f"{name}: is not an npy array of real numbers")
     return values.astype(float)
 
 
@@ -148,7 +161,7 @@ def npy_sets(data, name):
     values = read_npy(data, name)
     if values.ndim not in (2, 3) or 0 in values.shape:
         shape = values.shape
-        raise Refusal(INPUT, f"{name}: has shape {shape}; expected (n, d) or (sets, n, d), not empty")
+        raise input_error(f"{name}: has shape {shape}; expected (n, d) or (sets, n, d)")
     return [values] if values.ndim == 2 else list(values)
 
 
@@ -157,16 +170,15 @@ def json_sets(documents, name):
     first = documents[0]
     head = first if isinstance(first, dict) else {}
     if is_report(first):
-        raise Refusal(INPUT, f"{name}: is a report; expected points")
+        raise input_error(f"{name}: is a report; expected points")
     if len(documents) > 1:
         sets = jsonl_sets(documents)
     elif isinstance(first, list):
-        deep = bool(first) and isinstance(first[0], list) and first[0] and isinstance(first[0][0], list)
-        sets = first if deep else [first]
+        sets = first if nested(first, 3) else [first]
     else:
         sets = head["sets"] if "sets" in head else [head.get("points")]
     if not isinstance(sets, list):
-        raise Refusal(INPUT, f"{name}: has \"sets\" that are no list")
+        raise input_error(f"{name}: has \"sets\" that are no list")
     columns = head.get("columns")
     names = [str(word) for word in columns] if isinstance(columns, list) else []
     tables = [json_rows(rows, name) for rows in sets]
@@ -182,6 +194,15 @@ def is_report(document):
     return isinstance(first, dict) and first.get("format") == "stipple.report"
 
 
+def nested(value, depth):
+    """Whether it is a list of lists ..., so deep."""
+    for _ in range(depth):
+        if not isinstance(value, list) or not value:
+            return False
+        value = value[0]
+    return True
+
+
 def jsonl_sets(documents):
     """Rows, of which an object before them starts a set."""
     sets = [[]]
@@ -195,17 +216,17 @@ def jsonl_sets(documents):
 
 def json_rows(rows, name):
     if not isinstance(rows, list) or not rows:
-        raise Refusal(INPUT, f"{name}: holds no points")
+        raise input_error(f"{name}: holds no points")
     width = len(rows[0]) if isinstance(rows[0], list) else 0
     for i, row in enumerate(rows):
         if not isinstance(row, list) or not row or len(row) != width:
-            raise Refusal(INPUT, f"{name}: point {i} is not a list of {width or 'some'} numbers")
+            raise input_error(f"{name}: point {i} is not a list of {width or 'some'} numbers")
         if any(isinstance(x, bool) or not isinstance(x, (int, float)) for x in row):
-            raise Refusal(INPUT, f"{name}: point {i} holds something that is not a number")
+            raise input_error(f"{name}: point {i} holds something that is not a number")
     try:
         return np.array(rows, dtype=float)
     except OverflowError:
-        raise Refusal(INPUT, f"{name}: holds a number beyond float64") from None
+        raise input_error(f"{name}: holds a number beyond float64") from None
 
 
 def number(word):
@@ -235,11 +256,12 @@ def text_sets(text, name):
             continue
         width = width or len(fields)
         if len(fields) != width:
-            raise Refusal(INPUT, f"{name}:{at}: has {len(fields)} columns; expected {width}")
+            raise input_error(f"{name}:{at}: has {len(fields)} columns; expected {width}")
         for column, value in enumerate(values, 1):
             if value is None or not np.isfinite(value):
                 word = fields[column - 1][:40]
-                raise Refusal(INPUT, f"{name}:{at}: column {column}, '{word}', is not a finite number")
+                where = f"{name}:{at}: column {column}"
+                raise input_error(f"{where}, '{word}', is not a finite number")
         rows.extend(values)
         keys.append(separators)
     if not rows:
@@ -334,14 +356,14 @@ def read_reports(path):
     else:
         reports = csv_reports(text, path)
     if not reports:
-        raise Refusal(INPUT, f"{name}: holds no report")
+        raise input_error(f"{name}: holds no report")
     return reports
 
 
 def json_report(document, path):
     name = name_of(path)
     if not isinstance(document, dict) or document.get("format") != "stipple.report":
-        raise Refusal(INPUT, f"{name}: is not a report; expected the JSON or CSV of 'stipple analyze'")
+        raise input_error(f"{name}: is not a report; {WANTED}")
     try:
         given = document["input"]
         return Report(
@@ -355,7 +377,7 @@ def json_report(document, path):
             number=given.get("set"),
         )
     except (KeyError, TypeError, ValueError, AttributeError) as error:
-        raise Refusal(INPUT, f"{name}: is a report in which {error} is missing or wrong") from None
+        raise input_error(f"{name}: is a report in which {error} is missing or wrong") from None
 
 
 def csv_reports(text, path):
@@ -368,11 +390,11 @@ def csv_reports(text, path):
             header, key = row, None
             continue
         if header is None or header[:4] != ["analyzer", "source", "set", "count"]:
-            raise Refusal(INPUT, f"{name}: is not a report; expected the JSON or CSV of 'stipple analyze'")
+            raise input_error(f"{name}: is not a report; {WANTED}")
         if len(row) != len(header):
-            raise Refusal(INPUT, f"{name}:{at}: has {len(row)} columns; expected {len(header)}")
+            raise input_error(f"{name}:{at}: has {len(row)} columns; expected {len(header)}")
         if not row[3].isdigit():
-            raise Refusal(INPUT, f"{name}:{at}: '{row[3]}' is not a count")
+            raise input_error(f"{name}:{at}: '{row[3]}' is not a count")
         if row[:4] != key:
             key = row[:4]
             columns = {word: [] for word in header[6:]}
@@ -418,7 +440,6 @@ def canvas():
             "legend.frameon": False,
             "legend.fontsize": 8.5,
             "figure.dpi": 100,
-            "savefig.dpi": 200,
             "svg.fonttype": "none",  # text stays text
             "svg.hashsalt": "stipple",  # the same bytes every time
             "pdf.fonttype": 42,
@@ -427,16 +448,24 @@ def canvas():
     return plt
 
 
-def render(figure, kind):
+def render(figure, kind, dpi=200):
     """The bytes of a figure; the same figure gives the same bytes."""
     metadata = {
         "png": {"Software": "stipple"},
         "svg": {"Date": None, "Creator": "stipple"},
         "pdf": {"CreationDate": None, "Creator": "stipple", "Producer": "matplotlib"},
     }
+    shown = figure.get_default_bbox_extra_artists()  # the label of a third axis is not among them
+    shown += [axes.zaxis.label for axes in figure.axes if hasattr(axes, "zaxis")]
     buffer = io.BytesIO()
     figure.savefig(
-        buffer, format=kind, bbox_inches="tight", pad_inches=0.06, metadata=metadata[kind]
+        buffer,
+        format=kind,
+        dpi=dpi,
+        bbox_inches="tight",
+        bbox_extra_artists=shown,
+        pad_inches=0.06,
+        metadata=metadata[kind],
     )
     return buffer.getvalue()
 
@@ -455,7 +484,7 @@ def write_bytes(path, data):
     except BrokenPipeError:  # nobody wants more; also not at the flush on exit
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except OSError as error:
-        raise Refusal(IO, f"{path}: {error.strerror or error}") from None
+        raise file_error(f"{path}: {error.strerror or error}") from None
 
 
 def replace_file(path, data):
@@ -480,43 +509,47 @@ def replace_file(path, data):
 class Parser(argparse.ArgumentParser):
     """Errors in one line; exit code 2 is argparse's own."""
 
-    def __init__(self, description, examples, several=False):
+    def __init__(self, description, examples, inputs="?"):
         super().__init__(
             description=description,
             epilog="examples:\n" + examples,
             formatter_class=argparse.RawDescriptionHelpFormatter,
             allow_abbrev=False,
         )
-        what = "'-' or nothing is standard input"
-        if several:
-            self.add_argument("input", metavar="FILE", nargs="*", help=what)
-        else:
-            self.add_argument("input", metavar="FILE", nargs="?", default="-", help=what)
+        default = "data/overview.png"
+        if inputs:
+            default = "FILE's name with .png; for standard input there is none"
+            self.add_argument(
+                "input",
+                metavar="FILE",
+                nargs=inputs,
+                default="-" if inputs == "?" else ["-"],
+                help="'-' or nothing is standard input",
+            )
+            self.add_argument("--title", help="in place of the title from the data; '' for none")
         self.add_argument(
             "-o",
             "--output",
             metavar="PICTURE",
-            help="a .png, .svg or .pdf file (default: FILE's name with .png; "
-            "needed for standard input)",
+            help=f"a .png, .svg or .pdf file, or '-' (PNG) (default: {default})",
         )
-        self.add_argument("--title", help="in place of the title from the data; '' for none")
 
     def error(self, message):
         message = message.replace("argument ", "", 1)
-        raise Refusal(USAGE, f"{message}; see {self.prog} --help")
+        raise usage_error(f"{message}; see {self.prog} --help")
 
 
 def target_of(options, source):
     """Where the picture goes, and its format."""
     if options.output is None:
         if source is None or source == "-":
-            raise Refusal(USAGE, "-o: is needed here; give a .png, .svg or .pdf file")
+            raise usage_error("-o: is needed here; give a .png, .svg or .pdf file")
         return str(Path(source).with_suffix(".png")), "png"
     if options.output == "-":
         return "-", "png"
     kind = EXTENSIONS.get(Path(options.output).suffix.lower())
     if kind is None:
-        raise Refusal(USAGE, f"-o: '{options.output}' does not end in .png, .svg or .pdf")
+        raise usage_error(f"-o: '{options.output}' does not end in .png, .svg or .pdf")
     return options.output, kind
 
 
