@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+//
+// The plotting scripts: real output of the program in, from files and pipes; pictures out.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <regex>
+
+#include "support/program.hpp"
+
+using namespace stipple::testing;
+using ::testing::HasSubstr;
+
+namespace {
+
+/// A line of bash with the scripts, too, on the PATH.
+Outcome run(const Sandbox& box, const std::string& line, const std::string& input = {}) {
+    return box.shell("PATH=" STIPPLE_SOURCE_DIR "/scripts:$PATH; " + line, input);
+}
+
+void expect_quiet(const Outcome& outcome) {
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+}
+
+/// A file that starts as its format does and is longer than an empty picture.
+void expect_picture(const Sandbox& box, const std::string& name) {
+    const std::string bytes = box.read(name);
+    const std::string extension = name.substr(name.rfind('.'));
+    if (extension == ".png") EXPECT_TRUE(bytes.starts_with("\x89PNG\r\n\x1a\n")) << name;
+    if (extension == ".pdf") EXPECT_TRUE(bytes.starts_with("%PDF-1.")) << name;
+    if (extension == ".svg") {
+        EXPECT_TRUE(bytes.starts_with("<?xml")) << name;
+        EXPECT_TRUE(bytes.ends_with("</svg>\n")) << name;
+    }
+    EXPECT_GT(bytes.size(), 5000U) << name;
+}
+
+/// Texts of an SVG picture, a line each, without the markup inside.
+std::string texts(const std::string& svg) {
+    static const std::regex text("<text[^>]*>([^]*?)</text>");
+    static const std::regex markup("<[^>]*>|\n *");
+    std::string found;
+    for (std::sregex_iterator it(svg.begin(), svg.end(), text), end; it != end; ++it)
+        found += std::regex_replace((*it)[1].str(), markup, "") + "\n";
+    return found;
+}
+
+void expect_refusal(const Outcome& outcome, int code, const std::string& script,
+                    const std::string& words) {
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_TRUE(outcome.err.starts_with(script + ": ")) << outcome.err;
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(words));
+}
+
+}  // namespace
+
+TEST(PlotPoints, DrawsEveryFormatFromAFileAndAPipe) {
+    const Sandbox box;
+    for (const std::string format : {"csv", "txt", "json", "jsonl", "npy"}) {
+        const std::string make = "stipple generate halton -n 200 -m 2 --quiet -f " + format;
+        expect_quiet(run(box, make + " -o p." + format + " && plot_points.py p." + format));
+        expect_picture(box, "p.png");
+        expect_quiet(run(box, make + " | plot_points.py --set 1 -o piped.png"));
+        // Both sets of a sequence without a seed are the same, but their titles are not.
+        expect_quiet(run(box, make + " | plot_points.py --title '' -o a.png; plot_points.py p." +
+                                  format + " --title '' --set 1 -o b.png"));
+        EXPECT_EQ(box.read("a.png"), box.read("b.png")) << format;
+    }
+}
+
+TEST(PlotPoints, WritesPngSvgAndPdfTheSameEveryTime) {
+    const Sandbox box;
+    const std::string make = "stipple generate random -n 500 -s 7 -w disk --meta";
+    expect_quiet(run(box, make + " -o disk.csv"));
+    for (const std::string extension : {".png", ".svg", ".pdf"}) {
+        expect_quiet(run(box, "plot_points.py disk.csv -o a" + extension));
+        expect_quiet(run(box, make + " | plot_points.py - -o b" + extension));
+        expect_picture(box, "a" + extension);
+        EXPECT_EQ(box.read("a" + extension), box.read("b" + extension));
+    }
+    EXPECT_THAT(texts(box.read("a.svg")), HasSubstr("random, n = 500, seed 7, warped by disk\n"));
+    expect_quiet(run(box, "plot_points.py disk.csv -o - > c.png"));
+    EXPECT_EQ(box.read("a.png"), box.read("c.png"));
+}
+
+TEST(PlotPoints, TakesDimensionsAxesDomainsAndADensityColumn) {
+    const Sandbox box;
+    for (const std::string d : {"1", "3", "6"})
+        expect_quiet(run(box, "stipple generate halton -d " + d + " -n 100 -f json -o p" + d +
+                                  ".json && plot_points.py p" + d + ".json"));
+    for (const std::string axes : {"2", "6,2", "1,4,5"})
+        expect_quiet(run(box, "plot_points.py p6.json --axes " + axes + " -o p6.svg"));
+    EXPECT_EQ(box.files().size(), 7U);
+    for (const std::string warp : {"triangle", "disk:radius=2,center=[3,1]", "disk@4,5"}) {
+        const std::string d = warp == "disk@4,5" ? "5" : "2";
+        expect_quiet(run(box, "stipple generate halton -n 100 --meta -d " + d + " -w '" + warp +
+                                  "' -o p.csv && plot_points.py p.csv && plot_points.py p.csv "
+                                  "--axes 2,1 --domain none"));
+    }
+    expect_quiet(run(box,
+                     "stipple warp disk p1.json -o x.csv 2> /dev/null; stipple generate "
+                     "halton -n 9 -w disk --with-pdf -f json | plot_points.py -o 3.svg"));
+    EXPECT_THAT(texts(box.read("3.svg")), Not(HasSubstr("z\n")));
+}
+
+TEST(PlotPoints, RefusesBadInputInOneLine) {
+    const Sandbox box;
+    const auto refuse = [&](int code, const std::string& bytes, const std::string& words,
+                            const std::string& more = "") {
+        box.write("p.csv", bytes);
+        expect_refusal(run(box, "plot_points.py p.csv " + more), code, "plot_points.py", words);
+        EXPECT_FALSE(box.exists("p.png"));
+    };
+    refuse(3, "", "p.csv: holds no points");
+    refuse(3, "# only\n", "p.csv: holds no points");
+    refuse(3, "x,y\n0.1,0.2\n0.3\n", "p.csv:3: has 1 columns; expected 2");
+    refuse(3, "0.1,0.2\n0.3,nan\n", "p.csv:2: column 2, 'nan', is not a finite number");
+    refuse(3, "0.1,1e999\n", "p.csv:1: column 2");
+    refuse(3, "0.1 0.2\nhello 0.4\n", "p.csv:2: column 1, 'hello'");
+    refuse(3, "0.1,0.2\n0.3,\n", "p.csv:2: column 2");
+    refuse(3, std::string("\0\1\2\3", 4), "binary");
+    refuse(3, "{\"format\":\"stipple.points\",\"points\":[[0.1,0.2],[0", "p.csv:1:");
+    refuse(3, "{\"points\":[[0.1,NaN]]}", "NaN");
+    refuse(3, "{\"points\":[[0.1,0.2],[0.1]]}", "point 1");
+    refuse(3, "{\"format\":\"stipple.report\"}", "is a report");
+    refuse(3, "\x93NUMPY\x01", "npy");
+    refuse(2, "0.1,0.2\n", "--axes", "--axes 1,3");
+    refuse(2, "0.1,0.2\n", "--axes", "--axes x");
+    refuse(2, "0.1,0.2\n", "--set", "--set 1");
+    refuse(2, "0.1,0.2\n", ".png, .svg or .pdf", "-o p.gif");
+    refuse(2, "0.1,0.2\n", "--colour", "--colour red");
+    refuse(4, "0.1,0.2\n", "none/p.svg: No such file", "-o none/p.svg");
+    EXPECT_EQ(box.files(), std::vector<std::string>{"p.csv"});
+    expect_refusal(run(box, "plot_points.py none.csv"), 4, "plot_points.py", "none.csv: No such");
+    expect_refusal(run(box, "plot_points.py ."), 4, "plot_points.py", "directory");
+    expect_refusal(run(box, "plot_points.py", "0.1,0.2\n"), 2, "plot_points.py", "-o");
+    expect_refusal(run(box, "ln -s /dev/full f.png; plot_points.py p.csv -o f.png"), 4,
+                   "plot_points.py", "No space left");
+}
+
+TEST(PlotSpectrum, DrawsReportsFromAFileAndAPipe) {
+    const Sandbox box;
+    const std::string make = "stipple generate jittered -n 400 -m 10 -o j.csv";
+    const std::string judge =
+        " && stipple analyze periodogram j.csv --average --max-frequency 40 --grid g.npy -o s";
+    expect_quiet(run(box, make + judge + ".json" + judge + ".csv"));
+    expect_quiet(run(box, "plot_spectrum.py s.json"));
+    expect_picture(box, "s.png");
+    for (const std::string extension : {".png", ".svg", ".pdf"}) {
+        expect_quiet(run(box, "plot_spectrum.py s.json --grid g.npy -o a" + extension));
+        expect_quiet(run(box, "cat s.json | plot_spectrum.py --grid g.npy -o b" + extension));
+        expect_picture(box, "a" + extension);
+        EXPECT_EQ(box.read("a" + extension), box.read("b" + extension));
+    }
+    const std::string words = texts(box.read("a.svg"));
+    EXPECT_THAT(words, HasSubstr("Power spectrum of j.csv, n = 400, mean of 10 sets\n"));
+    EXPECT_THAT(words, HasSubstr("white noise: \u221210 dB\n"));
+    EXPECT_THAT(words, HasSubstr("standard error"));
+    // A table does not say of how many sets it is the mean.
+    expect_quiet(run(box, "plot_spectrum.py s.csv --sets 10 -o c.svg"));
+    EXPECT_THAT(texts(box.read("c.svg")), HasSubstr("white noise: \u221210 dB\n"));
+}
+
+TEST(PlotSpectrum, RefusesBadInputInOneLine) {
+    const Sandbox box;
+    const std::string make = "stipple generate random -n 50 -m 2 -o p.csv && stipple analyze ";
+    expect_quiet(run(box, make + "star-discrepancy p.csv -o star.json && stipple analyze "
+                                 "periodogram p.csv --max-frequency 9 -o two.json"));
+    const auto refuse = [&](int code, const std::string& words, const std::string& line) {
+        expect_refusal(run(box, "plot_spectrum.py " + line), code, "plot_spectrum.py", words);
+    };
+    refuse(3, "holds 2 reports", "two.json");
+    refuse(3, "expected periodogram", "star.json --set 0");
+    refuse(3, "is not a report", "p.csv");
+    refuse(2, "--set: 2", "two.json --set 2");
+    refuse(2, "--sets: 0", "two.json --set 0 --sets 0");
+    refuse(3, "p.csv: is not a whole npy file", "two.json --set 0 --grid p.csv");
+    refuse(4, "none.npy", "two.json --set 0 --grid none.npy");
+    refuse(4, "none.json", "none.json");
+    EXPECT_EQ(box.files(), (std::vector<std::string>{"p.csv", "star.json", "two.json"}));
+    expect_quiet(run(box, "plot_spectrum.py two.json --set 1"));
+}
+
+TEST(PlotDiscrepancy, DrawsACurveForEachGenerator) {
+    const Sandbox box;
+    expect_quiet(run(box,
+                     "for n in 16 64 256; do stipple generate halton -n $n -o halton_$n.csv && "
+                     "stipple generate random -n $n -m 3 -o random_$n.csv; done; "
+                     "for g in halton random; do stipple analyze star-discrepancy "
+                     "${g}_*.csv -o $g.json && stipple analyze star-discrepancy ${g}_*.csv -o "
+                     "$g.csv; done"));
+    for (const std::string extension : {".png", ".svg", ".pdf"}) {
+        expect_quiet(run(box, "plot_discrepancy.py halton.json random.json -o a" + extension));
+        expect_quiet(run(box, "cat halton.csv random.csv | plot_discrepancy.py -o b" + extension));
+        expect_quiet(run(box,
+                         "stipple analyze star-discrepancy halton_*.csv random_*.csv | "
+                         "plot_discrepancy.py - -o c" +
+                             extension));
+        expect_picture(box, "a" + extension);
+        EXPECT_EQ(box.read("a" + extension), box.read("b" + extension));
+        EXPECT_EQ(box.read("a" + extension), box.read("c" + extension));
+    }
+    const std::string words = texts(box.read("a.svg"));
+    for (const char* word : {"Star discrepancy\n", "halton\n", "random\n", "number of points"})
+        EXPECT_THAT(words, HasSubstr(word));
+    expect_quiet(run(box,
+                     "for n in 8 32; do stipple generate grid -n $((n * n)) | stipple analyze "
+                     "star-discrepancy; done | plot_discrepancy.py --label 'a $ grid' --title "
+                     "'$x & y$' -o d.svg"));
+    EXPECT_THAT(texts(box.read("d.svg")), HasSubstr("$x &amp; y$\n"));
+    expect_quiet(run(box, "plot_discrepancy.py halton.json"));
+    expect_picture(box, "halton.png");
+}
+
+TEST(PlotDiscrepancy, RefusesBadInputInOneLine) {
+    const Sandbox box;
+    expect_quiet(run(box,
+                     "stipple generate random -n 50 -o p.csv && stipple analyze "
+                     "star-discrepancy p.csv -o a.json && stipple analyze chi-square p.csv -o "
+                     "b.json"));
+    const auto refuse = [&](int code, const std::string& words, const std::string& line) {
+        expect_refusal(run(box, "plot_discrepancy.py " + line), code, "plot_discrepancy.py", words);
+    };
+    refuse(2, "-o: is needed", "a.json a.json");
+    refuse(2, "--label: 2 for 1 files", "a.json --label x --label y");
+    refuse(2, "once", "- - -o d.png");
+    refuse(3, "star-discrepancy and chi-square", "a.json b.json -o d.png");
+    refuse(3, "has no 'value'", "b.json");
+    refuse(3, "has no number 'valeu'", "a.json --key valeu");
+    refuse(3, "is not a report", "p.csv");
+    refuse(4, "none.json", "none.json");
+    EXPECT_EQ(box.files(), (std::vector<std::string>{"a.json", "b.json", "p.csv"}));
+}
+
+TEST(Overview, IsDrawnFromTheProgram) {
+    const Sandbox box;
+    expect_quiet(run(box, "overview.py -o overview.png && overview.py -o overview.svg"));
+    expect_picture(box, "overview.png");
+    EXPECT_LT(box.read("overview.png").size(), 150'000U);
+    EXPECT_THAT(texts(box.read("overview.svg")), HasSubstr("stratified, more even than random"));
+    expect_refusal(run(box, "PATH=/usr/bin:" STIPPLE_SOURCE_DIR "/scripts overview.py -o no.png"),
+                   4, "overview.py", "PATH");
+    EXPECT_FALSE(box.exists("no.png"));
+}
+
+TEST(Scripts, ExplainThemselves) {
+    const Sandbox box;
+    for (const char* name :
+         {"plot_points.py", "plot_spectrum.py", "plot_discrepancy.py", "overview.py"}) {
+        const Outcome outcome = run(box, std::string(name) + " --help");
+        expect_quiet(outcome);
+        EXPECT_THAT(outcome.out, HasSubstr("usage: " + std::string(name)));
+        EXPECT_THAT(outcome.out, HasSubstr("--output"));
+    }
+    // Importing draws nothing and reads nothing.
+    expect_quiet(run(box, "PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=" STIPPLE_SOURCE_DIR
+                          "/scripts /usr/bin/python3 -c 'import plot_points, plot_spectrum, "
+                          "plot_discrepancy, overview'"));
+    EXPECT_EQ(box.files(), std::vector<std::string>{});
+}
