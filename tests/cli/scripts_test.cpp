@@ -28,12 +28,11 @@ void expect_quiet(const Outcome& outcome) {
 void expect_picture(const Sandbox& box, const std::string& name) {
     const std::string bytes = box.read(name);
     const std::string extension = name.substr(name.rfind('.'));
-    if (extension == ".png") EXPECT_TRUE(bytes.starts_with("\x89PNG\r\n\x1a\n")) << name;
-    if (extension == ".pdf") EXPECT_TRUE(bytes.starts_with("%PDF-1.")) << name;
-    if (extension == ".svg") {
-        EXPECT_TRUE(bytes.starts_with("<?xml")) << name;
-        EXPECT_TRUE(bytes.ends_with("</svg>\n")) << name;
-    }
+    const std::string magic = extension == ".png"   ? "\x89PNG\r\n\x1a\n"
+                              : extension == ".pdf" ? "%PDF-1."
+                                                    : "<?xml";
+    EXPECT_TRUE(bytes.starts_with(magic)) << name;
+    EXPECT_TRUE(extension != ".svg" || bytes.ends_with("</svg>\n")) << name;
     EXPECT_GT(bytes.size(), 5000U) << name;
 }
 
