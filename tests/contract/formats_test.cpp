@@ -37,9 +37,7 @@ class EveryFormat : public ::testing::TestWithParam<std::string> {
     }
 
     std::vector<PointSet> read(const std::string& bytes, std::size_t dimension) const {
-        ReadOptions options{.source = "file"};
-        if (unit.name == "bin") options.dimension = dimension;
-        return unit.read(bytes, options, {});
+        return unit.read(bytes, {.source = "file", .dimension = dimension}, {});
     }
 
     std::vector<std::size_t> dimensions() const {
