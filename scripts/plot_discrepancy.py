@@ -130,12 +130,13 @@ def draw_slopes(axes, curves):
 
 
 def scale_counts(plt, axes, counts):
-    """A logarithmic axis; where all counts are powers of two, its ticks are too."""
+    """A logarithmic axis; where all counts are powers of two, its ticks are some of them."""
+    counts = np.unique(counts)
     if not all(n == 2 ** round(np.log2(n)) for n in counts):
         axes.set_xscale("log")
         return
     axes.set_xscale("log", base=2)
-    axes.xaxis.set_major_locator(plt.LogLocator(2, numticks=9))
+    axes.xaxis.set_major_locator(plt.FixedLocator(counts[:: -(-len(counts) // 8)]))
     axes.xaxis.set_minor_locator(plt.NullLocator())
     if counts.max() < 1e5:
         axes.xaxis.set_major_formatter(lambda n, _: f"{n:g}")

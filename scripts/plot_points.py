@@ -174,7 +174,7 @@ def draw_plane(plt, points, lines, labels):
     for spine in axes.spines.values():
         spine.set_visible(not lines)
     axes.set_xlabel(labels[0])
-    axes.set_ylabel(labels[1], rotation=0, labelpad=4)
+    axes.set_ylabel(labels[1], rotation=0, ha="right", va="center", labelpad=4)
     axes.locator_params(nbins=5)
     return figure, axes
 
@@ -194,7 +194,7 @@ def draw_density(plt, points, lines, labels):
     for spine in axes.spines.values():
         spine.set_visible(False)
     axes.set_xlabel(labels[0])
-    axes.set_ylabel(labels[1], rotation=0, labelpad=4)
+    axes.set_ylabel(labels[1], rotation=0, ha="right", va="center", labelpad=4)
     axes.locator_params(nbins=5)
     bar = figure.colorbar(image, ax=axes, fraction=0.046, pad=0.04)
     bar.set_label("points in a cell / mean")
@@ -239,7 +239,7 @@ def draw_space(plt, points, lines, labels):
         getattr(axes, f"set_{name}label")(label, labelpad=0)
         axis = getattr(axes, f"{name}axis")
         axis.pane.set_visible(False)
-        axis.line.set_visible(not lines)
+        axis.line.set_visible(len(lines) < 12)  # the edges of a box say as much
         axis.set_rotate_label(False)
         axis.set_major_locator(plt.MaxNLocator(2))
     axes.grid(False)

@@ -139,7 +139,7 @@ def draw_power(axes, frequency, power, cells, sets, error):
         axes.set_yscale("log", nonpositive="clip")
         axes.set_ylim(max(0.7 * np.nanmin(power), LOG_FLOOR), 1.5 * top)
     else:
-        axes.set_ylim(0, max(1.8, 1.25 * top))
+        axes.set_ylim(0, max(2, 1.3 * top))
     axes.set_ylabel("radial power")
     axes.legend(loc="best", handlelength=1.4, labelspacing=0.25)
 
