@@ -544,7 +544,8 @@ def target_of(options, source):
     if options.output is None:
         if source is None or source == "-":
             raise usage_error("-o: is needed here; give a .png, .svg or .pdf file")
-        return str(Path(source).with_suffix(".png")), "png"
+        # A path without a name, such as a folder's, is refused when it is read.
+        return (str(Path(source).with_suffix(".png")) if Path(source).name else "-"), "png"
     if options.output == "-":
         return "-", "png"
     kind = EXTENSIONS.get(Path(options.output).suffix.lower())

@@ -40,10 +40,11 @@ void expect_picture(const Sandbox& box, const std::string& name) {
 std::string texts(const std::string& svg) {
     static const std::regex text("<text[^>]*>([^]*?)</text>");
     static const std::regex markup("<[^>]*>|\n *");
+    static const std::regex no_break_space("\xC2\xA0");
     std::string found;
     for (std::sregex_iterator it(svg.begin(), svg.end(), text), end; it != end; ++it)
         found += std::regex_replace((*it)[1].str(), markup, "") + "\n";
-    return found;
+    return std::regex_replace(found, no_break_space, " ");
 }
 
 void expect_refusal(const Outcome& outcome, int code, const std::string& script,
@@ -173,7 +174,7 @@ TEST(PlotSpectrum, RefusesBadInputInOneLine) {
         expect_refusal(run(box, "plot_spectrum.py " + line), code, "plot_spectrum.py", words);
     };
     refuse(3, "holds 2 reports", "two.json");
-    refuse(3, "expected periodogram", "star.json --set 0");
+    refuse(3, "expected a report of periodogram", "star.json --set 0");
     refuse(3, "is not a report", "p.csv");
     refuse(2, "--set: 2", "two.json --set 2");
     refuse(2, "--sets: 0", "two.json --set 0 --sets 0");
