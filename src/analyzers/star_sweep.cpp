@@ -71,8 +71,8 @@ void sweep_side(const CornerGrid& grid, const ByFirst& order, WorstBox& worst,
 
     const auto query = [&](std::uint32_t a, double x) {
         lines.advance(x);
-        if (lines.highest(x) < worst.threshold() - lines.tolerance) return;
-        lines.visit_above(worst.threshold(), x, [&](std::size_t j, std::int32_t count) {
+        const auto level = [&worst] { return worst.threshold(); };
+        lines.visit_above(level, x, [&](std::size_t j, std::int32_t count) {
             worst.offer(side, std::array{a, static_cast<std::uint32_t>(j)},
                         static_cast<std::uint64_t>(count));
         });

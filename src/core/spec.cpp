@@ -46,7 +46,8 @@ class SpecParser {
 
     std::vector<std::size_t> coordinates() {
         std::vector<std::size_t> list;
-        for (const auto part : split(take_until(":"), ',')) {
+        const std::string text = take_until(":");
+        for (const auto part : split(text, ',')) {
             const auto k = parse_integer(part);
             if (!k || *k < 1 || *k > 1'000'000) complain("coordinates such as 1,2 are expected");
             const auto index = static_cast<std::size_t>(*k - 1);

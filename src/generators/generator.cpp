@@ -26,7 +26,7 @@ void check_indices(const Generator& generator, const Request& request, std::uint
              generator.name);
     if (request.start > traits.max_index || count > traits.max_index - request.start)
         fail(ErrorKind::usage, "--start {} and {} points go beyond index {}, the last of {}",
-             request.start, count, traits.max_index, generator.name);
+             request.start, count, traits.max_index - 1, generator.name);
     const auto numbers =
         static_cast<double>(request.start + count) * static_cast<double>(dimension);
     if (numbers >= 0x1p63)

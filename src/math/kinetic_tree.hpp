@@ -83,10 +83,11 @@ class KineticTree {
     /// The maximum at x, after advance(x).
     [[nodiscard]] double highest(double x) const { return value(nodes_[1], 0, x); }
 
-    /// Calls visit(j, count) for every line that is at least `level` high at x, after advance(x).
-    template <class Visit>
-    void visit_above(double level, double x, Visit&& visit) const {
-        descend(1, 0, level - tolerance, x, visit);
+    /// Calls visit(j, count) for every line that is at least level() high at x, after advance(x);
+    /// the highest comes first, so that a level that rises with what is visited ends it early.
+    template <class Level, class Visit>
+    void visit_above(const Level& level, double x, Visit&& visit) const {
+        descend(1, 0, level, x, visit);
     }
 
   private:
@@ -132,16 +133,19 @@ class KineticTree {
         pull(u, x);
     }
 
-    template <class Visit>
-    void descend(std::size_t u, std::int32_t above, double level, double x, Visit& visit) const {
+    template <class Level, class Visit>
+    void descend(std::size_t u, std::int32_t above, const Level& level, double x,
+                 Visit& visit) const {
         const Node& node = nodes_[u];
-        if (value(node, above, x) < level) return;
+        if (value(node, above, x) < level() - tolerance) return;
         if (u >= leaves_) {
             visit(u - leaves_, node.count + above);
             return;
         }
-        descend(2 * u, above + node.added, level, x, visit);
-        descend(2 * u + 1, above + node.added, level, x, visit);
+        above += node.added;
+        const bool right = value(nodes_[2 * u + 1], above, x) > value(nodes_[2 * u], above, x);
+        descend(2 * u + (right ? 1 : 0), above, level, x, visit);
+        descend(2 * u + (right ? 0 : 1), above, level, x, visit);
     }
 
     std::span<const double> slopes_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <memory>
+#include <mutex>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -52,16 +53,28 @@ class Conveyor {
     }
 
   private:
-    using Ptr = std::shared_ptr<Parcel>;
-
-    Ptr next() {
+    /// The next block in a free parcel; nullptr at the end. Called by one thread at a time.
+    Parcel* next() {
         if (closed_ || at_ == source_.count) return nullptr;
         run_.check_stop();
-        auto parcel = std::make_shared<Parcel>();
-        parcel->first = at_;
-        parcel->last = at_ = at_ + std::min(source_.count - at_, block_);
-        if (source_.in_order) fill(*parcel);
-        return parcel;
+        Parcel& parcel = take();
+        parcel.first = at_;
+        parcel.last = at_ = at_ + std::min(source_.count - at_, block_);
+        parcel.bytes.clear();
+        if (source_.in_order) fill(parcel);
+        return &parcel;
+    }
+
+    /// Parcels are owned here and used again: a pipeline that is stopped drops what it holds.
+    Parcel& take() {
+        const std::lock_guard lock(mutex_);
+        if (free_.empty()) {
+            parcels_.push_back(std::make_unique<Parcel>());
+            return *parcels_.back();
+        }
+        Parcel* parcel = free_.back();
+        free_.pop_back();
+        return *parcel;
     }
 
     void fill(Parcel& parcel) const {
@@ -75,31 +88,34 @@ class Conveyor {
         format_.rows(layout_, set_, parcel.first, parcel.rows, parcel.bytes);
     }
 
-    void deliver(const Parcel& parcel) {
+    void deliver(Parcel& parcel) {
         if (!closed_ && !output_.write(parcel.bytes)) closed_ = true;
         run_.tick(parcel.last, source_.count);
+        const std::lock_guard lock(mutex_);
+        free_.push_back(&parcel);
     }
 
     void go_alone() {
-        while (const auto parcel = next()) {
+        while (Parcel* parcel = next()) {
             work(*parcel);
             deliver(*parcel);
         }
     }
 
     void go_parallel() {
-        const auto first = tbb::make_filter<void, Ptr>(tbb::filter_mode::serial_in_order,
-                                                       [this](tbb::flow_control& control) {
-                                                           auto parcel = next();
-                                                           if (!parcel) control.stop();
-                                                           return parcel;
-                                                       });
-        const auto middle = tbb::make_filter<Ptr, Ptr>(tbb::filter_mode::parallel, [this](Ptr p) {
-            work(*p);
-            return p;
-        });
-        const auto last = tbb::make_filter<Ptr, void>(tbb::filter_mode::serial_in_order,
-                                                      [this](const Ptr& p) { deliver(*p); });
+        const auto first = tbb::make_filter<void, Parcel*>(tbb::filter_mode::serial_in_order,
+                                                           [this](tbb::flow_control& control) {
+                                                               Parcel* parcel = next();
+                                                               if (!parcel) control.stop();
+                                                               return parcel;
+                                                           });
+        const auto middle =
+            tbb::make_filter<Parcel*, Parcel*>(tbb::filter_mode::parallel, [this](Parcel* parcel) {
+                work(*parcel);
+                return parcel;
+            });
+        const auto last = tbb::make_filter<Parcel*, void>(
+            tbb::filter_mode::serial_in_order, [this](Parcel* parcel) { deliver(*parcel); });
         tbb::parallel_pipeline(4 * static_cast<std::size_t>(run_.thread_count()),
                                first & middle & last);
     }
@@ -114,6 +130,9 @@ class Conveyor {
     std::uint64_t block_;
     std::uint64_t at_ = 0;
     std::atomic<bool> closed_ = false;
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<Parcel>> parcels_;
+    std::vector<Parcel*> free_;
 };
 
 void replace_all(std::string& text, std::string_view from, const std::string& to) {

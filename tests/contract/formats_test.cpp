@@ -2,8 +2,11 @@
 //
 // What every registered file format promises.
 #include <gtest/gtest.h>
+#include <rapidcheck.h>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 
 #include "io/format.hpp"
 #include "support/contract.hpp"
@@ -93,3 +96,31 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryFormat, ::testing::ValuesIn(names_of(io:
                          case_name);
 
 }  // namespace
+
+// Whatever finite doubles a set holds, text and binary give them back, also in several sets.
+TEST(AnyPoints, SurviveEveryFormatThatIsRead) {
+    const auto survives = [](const Format& format, const std::vector<std::vector<double>>& rows) {
+        Layout layout{.dimension = rows.front().size(), .counts = {rows.size()}};
+        const PointSet set = points_of(rows);
+        std::string bytes;
+        if (format.head) format.head(layout, bytes);
+        if (format.begin_set) format.begin_set(layout, 0, bytes);
+        format.rows(layout, 0, 0, set.flat(), bytes);
+        if (format.tail) format.tail(layout, bytes);
+        const auto back = format.read(bytes, {.source = "file", .dimension = set.dimension()}, {});
+        return back.size() == 1 && back[0] == set;
+    };
+    const bool held = rc::check("every set comes back", [&] {
+        const auto d = *rc::gen::inRange<std::size_t>(1, 6);
+        const auto finite = rc::gen::suchThat(rc::gen::map<std::uint64_t>([](std::uint64_t bits) {
+                                                  return std::bit_cast<double>(bits);
+                                              }),
+                                              [](double x) { return std::isfinite(x); });
+        const auto rows = *rc::gen::nonEmpty(rc::gen::container<std::vector<std::vector<double>>>(
+            rc::gen::container<std::vector<double>>(d, finite)));
+        for (const Format& format : io::all())
+            if (format.read && d >= format.traits.min_dimension && d <= format.traits.max_dimension)
+                RC_ASSERT(survives(format, rows));
+    });
+    EXPECT_TRUE(held);
+}

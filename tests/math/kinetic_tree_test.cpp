@@ -58,10 +58,11 @@ void expect_as_plain(std::size_t lines, std::uint64_t seed) {
         const double highest = plain.highest(x);
         ASSERT_NEAR(tree.highest(x), highest, tree.tolerance) << "step " << step;
         std::set<std::size_t> seen;
-        tree.visit_above(highest - .01, x, [&](std::size_t j, std::int32_t count) {
-            seen.insert(j);
-            EXPECT_EQ(count, plain.counts[j]);
-        });
+        tree.visit_above([&] { return highest - .01; }, x,
+                         [&](std::size_t j, std::int32_t count) {
+                             seen.insert(j);
+                             EXPECT_EQ(count, plain.counts[j]);
+                         });
         for (const std::size_t j : plain.above(highest - .01, x))
             EXPECT_TRUE(seen.contains(j)) << "line " << j << ", step " << step;
     }
