@@ -8,16 +8,14 @@
 namespace stipple {
 namespace {
 
-/// The middle of [low / parts, high / parts) if its double is inside, else the lowest double there.
-/// Strata are at least 2^-53 wide, so that each holds one.
+/// The double nearest to the middle of [low / parts, high / parts). Strata are at least 2^-53 wide,
+/// which is how far apart doubles are at most, so that it is inside; but for 2^53 parts the middle
+/// is a tie and may go to the upper edge, and there the lower one is a double.
 double safe_point(std::uint64_t low, std::uint64_t high, std::uint64_t parts) {
     const auto n = static_cast<double>(parts);
     const double middle = ratio(Wide{low} + high, Wide{parts} * 2);
-    if (std::fma(middle, n, -static_cast<double>(low)) >= 0 &&
-        std::fma(middle, n, -static_cast<double>(high)) < 0)
-        return middle;
-    const double edge = static_cast<double>(low) / n;
-    return std::fma(edge, n, -static_cast<double>(low)) < 0 ? std::nextafter(edge, 1.0) : edge;
+    const bool below_edge = std::fma(middle, n, -static_cast<double>(high)) < 0;
+    return below_edge ? middle : static_cast<double>(low) / n;
 }
 
 }  // namespace

@@ -94,6 +94,19 @@ TEST(SpacedPoints, AgreesWithAllPairsOnTheSmallestGrids) {
         }
 }
 
+// A side just above 5 r / sqrt(3) has six cells of 0.481 r, so that a distance of 2.001 cells,
+// below r, can lead to the third cell from here.
+TEST(SpacedPoints, LooksAsFarAsARadiusCanLead) {
+    const Box box{{0, 0, 0}, {2.8868, 2.8868, 2.8868}};
+    EXPECT_EQ(cells_along(box, 1), (std::vector<double>{6, 6, 6}));
+    const double cell = 2.8868 / 6;
+    for (const bool torus : {true, false}) {
+        SpacedPoints<3> points(box, torus, 1, {});
+        points.add({cell * 0.9995, 1, 1});
+        EXPECT_FALSE(points.fits({cell * 3.0005, 1, 1}));
+    }
+}
+
 TEST(SpacedPoints, CellsHaveADiagonalBelowTheRadius) {
     for (const double radius : {0.1, 0.3, 1.0, 2.5, 1e-3}) {
         const std::vector<double> cells = cells_along({{0, 0, 0}, {1, 2, 0.3}}, radius);
