@@ -32,6 +32,7 @@ PointSet fill_all(Sequence& sequence, const Plan& plan, std::uint64_t start,
     run.need_memory(static_cast<double>(plan.count) * static_cast<double>(plan.dimension) * 8,
                     "the point set");
     PointSet points(plan.count, plan.dimension);
+    walk_to(sequence, start, plan.dimension, run);
     RunContext lane = run;
     if (!sequence.random_access()) lane.threads = 1;
     const std::size_t block = std::max<std::size_t>(1, 8192 / plan.dimension);
@@ -50,6 +51,17 @@ const Generator& find_generator(std::string_view name) {
 const Warp& find_warp(std::string_view name) { return find_unit("warp", warps::all(), name); }
 const Analyzer& find_analyzer(std::string_view name) {
     return find_unit("analyzer", analyzers::all(), name);
+}
+
+void walk_to(Sequence& sequence, std::uint64_t start, std::size_t dimension,
+             const RunContext& run) {
+    if (sequence.random_access()) return;
+    const std::uint64_t step = 1 + 1'000'000 / dimension;
+    std::vector<double> row(dimension);
+    for (std::uint64_t i = step; i < start; i += step) {
+        run.check_stop();
+        sequence.fill(i, row);
+    }
 }
 
 PointSet generate(const Generator& generator, const Request& request, const Values& options,

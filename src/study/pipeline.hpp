@@ -24,6 +24,10 @@ const Analyzer& find_analyzer(std::string_view name);
 /// Options as text: {{"base", "3"}}.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
+/// Takes a sequential engine to point `start`, in steps between which it may be told to stop; a
+/// sequence with random access needs no walk.
+void walk_to(Sequence& sequence, std::uint64_t start, std::size_t dimension, const RunContext& run);
+
 /// All points of a request, in memory. The seed is the request's.
 PointSet generate(const Generator& generator, const Request& request, const Values& options,
                   const RunContext& run);

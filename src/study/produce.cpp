@@ -160,9 +160,11 @@ class Producer {
             Plan plan = plan_;
             plan.seed += set;
             std::shared_ptr<Sequence> sequence = generator_.sequence(plan, job_.options);
+            const std::uint64_t start = job_.request.start + from;
+            walk_to(*sequence, start, plan.dimension, run_);
             return Source{.count = count,
                           .dimension = plan.dimension,
-                          .fill = [sequence, start = job_.request.start + from](
+                          .fill = [sequence, start](
                                       std::uint64_t at,
                                       std::span<double> rows) { sequence->fill(start + at, rows); },
                           .in_order = !sequence->random_access()};

@@ -201,6 +201,9 @@ TEST(BadInput, CtrlCLeavesNothingBehind) {
         box.shell("stipple generate random -n 1e10 -o p.csv & sleep 0.5; kill -INT $!; wait $!");
     expect_refusal(outcome, 130, "interrupted");
     EXPECT_EQ(box.files(), std::vector<std::string>{});
+    const Outcome walking = box.shell(
+        "timeout -k 9 -s INT 0.5 stipple generate random --rng ranlux48 --start 1e15 -n 1; exit 0");
+    EXPECT_THAT(walking.err, HasSubstr("stipple: interrupted"));
     const Outcome waiting = box.shell(
         "sleep 5 | (trap 'exit' TERM; exec timeout -s INT 0.5 stipple analyze chi-square); exit 0");
     EXPECT_THAT(waiting.err, HasSubstr("stipple: interrupted"));
