@@ -56,7 +56,7 @@ def sentence(star, chi):
         "non-uniform": "not uniform",
     }[chi["verdict"]]
     return (
-        f"star discrepancy {star['value']:.6f} ({how})     $\\bullet$     "
+        f"star discrepancy {star['value']:.6f} ({how})     •     "
         f"chi-square on the disk {chi['statistic']:.1f} with {chi['degrees_of_freedom']:.0f} "
         f"degrees of freedom, p = {chi['p_value']:.1g}: {meaning}"
     )

@@ -20,8 +20,8 @@ EXAMPLES = """\
 """
 
 NAMES = {
-    "star-discrepancy": ("Star discrepancy", "star discrepancy $D^*_n$"),
-    "l2-discrepancy": ("$L_2$ discrepancy", "$L_2$ discrepancy"),
+    "star-discrepancy": ("Star discrepancy", "star discrepancy D*"),
+    "l2-discrepancy": ("L2 discrepancy", "L2 discrepancy"),
 }
 NAMELESS = "standard input"
 # What ends a file's stem and is not the generator: _1024, -n1024, _2^10, _64k, _s3, _seed7, _set0.
@@ -163,7 +163,7 @@ def draw(curves, ylabel):
             label=io.plain(label),
         )
     draw_slopes(axes, curves)
-    axes.set_xlabel("number of points $n$")
+    axes.set_xlabel("number of points n")
     axes.set_ylabel(ylabel)
     axes.grid(True, which="major", color="0.9", linewidth=0.6)
     axes.set_axisbelow(True)

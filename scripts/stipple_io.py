@@ -158,7 +158,9 @@ def read_npy(data, name):
 
 
 def npy_sets(data, name):
+    """Sets from an array; a list of n numbers is n points on a line."""
     values = read_npy(data, name)
+    values = values.reshape(-1, 1) if values.ndim == 1 else values
     if values.ndim not in (2, 3) or 0 in values.shape:
         shape = values.shape
         raise input_error(f"{name}: has shape {shape}; expected (n, d) or (sets, n, d)")
@@ -484,7 +486,8 @@ def write_bytes(path, data):
     except BrokenPipeError:  # nobody wants more; also not at the flush on exit
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except OSError as error:
-        raise file_error(f"{path}: {error.strerror or error}") from None
+        name = "standard output" if path == "-" else path
+        raise file_error(f"{name}: {error.strerror or error}") from None
 
 
 def replace_file(path, data):
@@ -544,8 +547,7 @@ def target_of(options, source):
     if options.output is None:
         if source is None or source == "-":
             raise usage_error("-o: is needed here; give a .png, .svg or .pdf file")
-        # A path without a name, such as a folder's, is refused when it is read.
-        return (str(Path(source).with_suffix(".png")) if Path(source).name else "-"), "png"
+        return os.path.splitext(source)[0] + ".png", "png"
     if options.output == "-":
         return "-", "png"
     kind = EXTENSIONS.get(Path(options.output).suffix.lower())
