@@ -280,10 +280,12 @@ TEST(StarDiscrepancy, ComparesBoxesWithoutRounding) {
     expect_box_holds(q, star_report(q));
 }
 
-// The climbs find the worst box themselves here; nothing the search does may depend on that.
+// The climbs find most worst boxes by themselves; what the search excludes must not depend on them.
+// Among these are sets on which ends of cells judged by the bound of another cell go wrong.
 TEST(StarDiscrepancy, SearchFindsFromNothingWhatItFindsFromAGoodStart) {
-    for (const auto& [n, d] : {std::pair{150, 3}, {80, 5}, {60, 7}, {40, 9}, {25, 12}})
-        for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    for (const auto& [n, d] :
+         {std::pair{150, 3}, {64, 4}, {100, 4}, {16, 6}, {16, 7}, {64, 8}, {25, 12}})
+        for (std::uint64_t seed = 1; seed <= 4; ++seed) {
             const auto dim = static_cast<std::size_t>(d);
             const PointSet p =
                 make("random", points(static_cast<std::uint64_t>(n), dim), {}, {.seed = seed});
