@@ -21,7 +21,9 @@ void index_axis(const PointSet& points, std::size_t axis, CornerGrid& grid, cons
     auto& values = grid.values[axis];
     auto& ranks = grid.ranks[axis];
     ranks.resize(items.size());
+    std::size_t seen = 0;
     for (const auto& [value, place] : items) {
+        if (++seen % 65536 == 0) run.check_stop();
         if (values.empty() || values.back() != value) values.push_back(value);
         ranks[place] = static_cast<std::uint32_t>(values.size() - 1);
     }
