@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+//
+// Measuring point sets on one core: time a set, and how it grows with the number of points.
+#include <benchmark/benchmark.h>
+
+#include "study/pipeline.hpp"
+
+namespace {
+
+using namespace stipple;
+
+void measure(benchmark::State& state, const char* analyzer, const char* generator,
+             const Settings& settings = {}) {
+    const auto count = static_cast<std::uint64_t>(state.range(0));
+    const auto dimension = static_cast<std::size_t>(state.range(1));
+    const PointSet points = generate(generator, {.count = count, .dimension = dimension});
+    for (auto _ : state)
+        benchmark::DoNotOptimize(analyze(analyzer, points, settings, {.threads = 1}));
+    state.SetItemsProcessed(static_cast<std::int64_t>(count) * state.iterations());
+}
+
+void star_discrepancy_random(benchmark::State& state) {
+    measure(state, "star-discrepancy", "random");
+}
+void star_discrepancy_halton(benchmark::State& state) {
+    measure(state, "star-discrepancy", "halton");
+}
+void periodogram(benchmark::State& state) {
+    measure(state, "periodogram", "random", {{"max-frequency", "512"}});
+}
+void periodogram_direct(benchmark::State& state) {
+    measure(state, "periodogram", "random", {{"max-frequency", "32"}, {"method", "direct"}});
+}
+void periodogram_beside_direct(benchmark::State& state) {
+    measure(state, "periodogram", "random", {{"max-frequency", "32"}});
+}
+void chi_square(benchmark::State& state) { measure(state, "chi-square", "random"); }
+
+}  // namespace
+
+BENCHMARK(star_discrepancy_random)
+    ->Args({10'000, 2})
+    ->Args({100'000, 2})
+    ->Args({1'000'000, 2})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(star_discrepancy_halton)
+    ->Args({65'536, 2})
+    ->Args({4096, 3})
+    ->Args({1000, 4})
+    ->Args({1000, 5})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(periodogram)->Args({4096, 2})->Args({1'000'000, 2})->Unit(benchmark::kMillisecond);
+BENCHMARK(periodogram_direct)->Args({4096, 2})->Unit(benchmark::kMillisecond);
+BENCHMARK(periodogram_beside_direct)->Args({4096, 2})->Unit(benchmark::kMillisecond);
+BENCHMARK(chi_square)->Args({1'000'000, 2})->Unit(benchmark::kMillisecond);
