@@ -38,7 +38,7 @@
 #include <limits>
 #include <numeric>
 
-#include "math/wide.hpp"
+#include "core/wide.hpp"
 
 namespace stipple::analyzers::star {
 namespace {
