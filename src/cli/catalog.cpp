@@ -27,10 +27,23 @@ std::string dimensions(std::size_t low, std::size_t high) {
     return fmt::format("dimensions {} to {}", low, high);
 }
 
+std::string seed_use(const Generator& unit) {
+    if (uses_seed(unit, unit.options.defaults())) return "uses the seed";
+    return unit.traits.seeded ? "uses the seed when scrambled" : "does not use the seed";
+}
+
+/// What the records of all kinds have, as far as this one has it.
+template <class Unit>
+UnitInfo base_info(const Unit& unit) {
+    UnitInfo out{.name = unit.name, .summary = unit.summary, .source = unit.source};
+    if constexpr (requires { unit.aliases; }) out.aliases = unit.aliases;
+    if constexpr (requires { unit.options; }) out.options = unit.options.options();
+    return out;
+}
+
 UnitInfo info(const Generator& unit) {
     const auto& t = unit.traits;
-    UnitInfo out{unit.name, unit.aliases, unit.summary,           unit.source,
-                 {},        {},           unit.options.options(), {}};
+    UnitInfo out = base_info(unit);
     out.traits = {{"min_dimension", t.min_dimension},
                   {"max_dimension", t.max_dimension},
                   {"sequence", t.sequence},
@@ -41,13 +54,12 @@ UnitInfo info(const Generator& unit) {
                    t.sequence ? "streams in constant memory" : "made as a whole, in memory",
                    t.prefix ? "any prefix of a longer set is the shorter set; --start and --shard"
                             : "the points depend on their number; --shard",
-                   t.seeded ? "uses the seed" : "does not use the seed"};
+                   seed_use(unit)};
     return out;
 }
 
 UnitInfo info(const Scramble& unit) {
-    UnitInfo out{unit.name, unit.aliases, unit.summary,           unit.source,
-                 {},        {},           unit.options.options(), {}};
+    UnitInfo out = base_info(unit);
     out.traits = {{"min_dimension", 1}, {"max_dimension", any_dimension}, {"seeded", true}};
     out.remarks = {"any dimension", "uses the seed"};
     return out;
@@ -55,7 +67,7 @@ UnitInfo info(const Scramble& unit) {
 
 UnitInfo info(const Warp& unit) {
     const auto& t = unit.traits;
-    UnitInfo out{unit.name, {}, unit.summary, unit.source, {}, {}, unit.options.options(), {}};
+    UnitInfo out = base_info(unit);
     out.traits = {{"invertible", t.invertible}, {"drops", t.drops}, {"biased", t.biased}};
     out.remarks = {t.invertible ? "has an inverse" : "has no inverse"};
     if (t.drops) out.remarks.emplace_back("can drop points");
@@ -65,7 +77,7 @@ UnitInfo info(const Warp& unit) {
 
 UnitInfo info(const Analyzer& unit) {
     const auto& t = unit.traits;
-    UnitInfo out{unit.name, {}, unit.summary, unit.source, {}, {}, unit.options.options(), {}};
+    UnitInfo out = base_info(unit);
     out.traits = {{"min_dimension", t.min_dimension},
                   {"max_dimension", t.max_dimension},
                   {"unit_cube", t.unit_cube}};
@@ -76,7 +88,7 @@ UnitInfo info(const Analyzer& unit) {
 }
 
 UnitInfo info(const Format& unit) {
-    UnitInfo out{unit.name, {}, unit.summary, unit.source, {}, {}, {}, {}};
+    UnitInfo out = base_info(unit);
     const bool reads = static_cast<bool>(unit.read);
     out.traits = {{"extensions", unit.extensions},
                   {"reads", reads},

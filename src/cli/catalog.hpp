@@ -16,13 +16,13 @@ namespace stipple::cli {
 
 struct UnitInfo {
     std::string name;
-    std::vector<std::string> aliases;
     std::string summary;
     std::string source;
-    nlohmann::ordered_json traits;
-    std::vector<std::string> remarks;  ///< the traits in words
-    std::vector<Option> options;
-    std::vector<std::pair<std::string, std::string>> results;  ///< key, help; of analyzers
+    std::vector<std::string> aliases = {};
+    nlohmann::ordered_json traits = {};
+    std::vector<std::string> remarks = {};  ///< the traits in words
+    std::vector<Option> options = {};
+    std::vector<std::pair<std::string, std::string>> results = {};  ///< key, help; of analyzers
 };
 
 struct Kind {
