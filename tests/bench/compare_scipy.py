@@ -1,0 +1,68 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: MIT
+"""Compares generators with SciPy's and NumPy's: whole arrays of 2^20 points, on one core.
+
+Usage: compare_scipy.py build/release/tests/bench/stipple_bench
+
+Prints millions of points a second of both, medians of several runs that take turns, and the ratio.
+"""
+
+import json
+import os
+import statistics
+import subprocess
+import sys
+import time
+
+for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
+    os.environ[variable] = "1"
+
+import numpy
+from scipy.stats import qmc
+
+COUNT = 2**20
+ROUNDS = 5
+
+PEERS = {
+    "sobol/none": lambda d: qmc.Sobol(d, scramble=False).random(COUNT),
+    "sobol/owen": lambda d: qmc.Sobol(d, scramble=True, seed=1).random(COUNT),
+    "halton/none": lambda d: qmc.Halton(d, scramble=False).random(COUNT),
+    "halton/permutation": lambda d: qmc.Halton(d, scramble=True, seed=1).random(COUNT),
+    "latin-hypercube": lambda d: qmc.LatinHypercube(d, seed=1).random(COUNT),
+    "random": lambda d: numpy.random.default_rng(1).random((COUNT, d)),
+}
+
+
+def seconds_of_peer(name, dimension):
+    begin = time.process_time()
+    PEERS[name](dimension)
+    return time.process_time() - begin
+
+
+def seconds_of_ours(bench, name, dimension):
+    """Processor time of one array, by the benchmark of the same name."""
+    report = subprocess.run(
+        [bench, f"--benchmark_filter=^array/{name}/{dimension}d$", "--benchmark_format=json",
+         "--benchmark_min_time=0.2"],
+        check=True, capture_output=True, text=True)
+    run = json.loads(report.stdout)["benchmarks"][0]
+    return COUNT / run["items_per_second"]
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__.split("\n\n")[1])
+    print(f"{'set':<22}{'d':>4}{'stipple':>10}{'peer':>10}{'ratio':>8}   million points a second")
+    for name in PEERS:
+        for dimension in (2, 20):
+            ours, theirs = [], []
+            for _ in range(ROUNDS):
+                ours.append(seconds_of_ours(sys.argv[1], name, dimension))
+                theirs.append(seconds_of_peer(name, dimension))
+            rate = COUNT / statistics.median(ours) / 1e6
+            peer = COUNT / statistics.median(theirs) / 1e6
+            print(f"{name:<22}{dimension:>4}{rate:>10.1f}{peer:>10.2f}{rate / peer:>8.1f}")
+
+
+if __name__ == "__main__":
+    main()
