@@ -54,7 +54,7 @@ std::vector<std::int32_t> steps_of(const Net& net) {
 /// Whether each point is its predecessor in the lowest digit of the index, with that digit's step.
 bool is_linear(const Net& net, std::span<const std::int32_t> steps, const RunContext& run) {
     for (std::size_t i = 1; i < net.count; ++i) {
-        if (i % 4096 == 0) run.check_stop();
+        if (i % (1 + 65536 / net.dimension) == 0) run.check_stop();
         std::size_t j = 0;
         std::size_t unit = 1;
         for (; i / unit % net.base == 0; unit *= net.base) ++j;
@@ -131,7 +131,7 @@ class CountingProbe final : public Probe {
 /// Rows in echelon form, the pivot of each being 1.
 class RankProbe final : public Probe {
   public:
-    explicit RankProbe(const Matrices& matrices) : matrices_(matrices) {}
+    RankProbe(const Matrices& matrices, const RunContext& run) : matrices_(matrices), run_(run) {}
 
     void cut(std::size_t depth, std::size_t coordinate, std::size_t digits) override {
         equal(depth, coordinate, digits);
@@ -139,6 +139,7 @@ class RankProbe final : public Probe {
     }
 
     bool equal(std::size_t depth, std::size_t coordinate, std::size_t digits) override {
+        run_.check_stop();
         ends_.resize(depth);
         pivots_.resize(depth == 0 ? 0 : ends_.back());
         for (std::size_t l = 0; l < digits; ++l)
@@ -190,6 +191,7 @@ class RankProbe final : public Probe {
     }
 
     const Matrices& matrices_;
+    const RunContext& run_;
     std::vector<std::uint32_t> rows_;
     std::vector<std::size_t> pivots_;
     std::vector<std::size_t> ends_;  ///< rows after each cut
@@ -230,8 +232,8 @@ std::unique_ptr<Probe> counting_probe(const Net& net, const RunContext& run) {
     return std::make_unique<CountingProbe>(net, run);
 }
 
-std::unique_ptr<Probe> rank_probe(const Matrices& matrices) {
-    return std::make_unique<RankProbe>(matrices);
+std::unique_ptr<Probe> rank_probe(const Matrices& matrices, const RunContext& run) {
+    return std::make_unique<RankProbe>(matrices, run);
 }
 
 }  // namespace stipple::equidistribution

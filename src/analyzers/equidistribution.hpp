@@ -72,6 +72,6 @@ class Probe {
 };
 
 std::unique_ptr<Probe> counting_probe(const Net& net, const RunContext& run);
-std::unique_ptr<Probe> rank_probe(const Matrices& matrices);
+std::unique_ptr<Probe> rank_probe(const Matrices& matrices, const RunContext& run);
 
 }  // namespace stipple::equidistribution
