@@ -37,7 +37,9 @@ void for_each_block(const RunContext& run, std::uint64_t count, std::uint64_t si
     }
     std::mutex reporting;
     std::size_t done = 0;
-    within_threads(run, [&] {
+    RunContext needed = run;
+    needed.threads = static_cast<unsigned>(std::min<std::size_t>(run.thread_count(), blocks));
+    within_threads(needed, [&] {
         tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
             run.check_stop();
             body(block(b));
