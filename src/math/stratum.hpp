@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace stipple {
 
@@ -23,10 +24,15 @@ struct Strata {
     std::uint64_t parts;  ///< low + width <= parts <= 2^53
 };
 
-/// Moves x[0], x[stride], ... from [0, 1) into strata: the j-th number into the j-th stratum.
-void place_in_strata(const Strata& strata, std::size_t count, double* x, std::size_t stride);
+/// Moves points of two coordinates from the unit square into strata: those of the j-th row into the
+/// j-th of each.
+void place_pairs_in_strata(const Strata& first, const Strata& second, std::size_t count,
+                           double* rows);
 
-/// Puts the middles of the strata there.
+/// Moves x[i] from [0, 1) into [cells[i] / parts, (cells[i] + 1) / parts).
+void place_in_cells(std::span<const double> cells, std::uint64_t parts, std::span<double> x);
+
+/// Puts the middles of the strata at x[0], x[stride], ...
 void place_in_middles(const Strata& strata, std::size_t count, double* x, std::size_t stride);
 
 }  // namespace stipple

@@ -13,9 +13,17 @@ namespace {
 
 constexpr std::uint64_t most = std::uint64_t{1} << 53;
 
+/// The one stratum's point, by all ways to place it.
 double placed(const Strata& strata, double u) {
-    place_in_strata(strata, 1, &u, 1);
-    return u;
+    double pair[] = {u, u};
+    place_pairs_in_strata(strata, strata, 1, pair);
+    EXPECT_EQ(pair[0], pair[1]);
+    if (strata.width == 1) {
+        const auto cell = static_cast<double>(strata.low);
+        place_in_cells({&cell, 1}, strata.parts, {&u, 1});
+        EXPECT_EQ(u, pair[0]);
+    }
+    return pair[0];
 }
 
 double middle(const Strata& strata) {
@@ -36,11 +44,42 @@ void expect_inside(const Strata& s, double x) {
 TEST(Stratum, PlacesByTheFormula) {
     EXPECT_EQ(placed({.low = 3, .width = 1, .step = 0, .parts = 8}, 0.5), 3.5 / 8);
     EXPECT_EQ(placed({.low = 2, .width = 3, .step = 0, .parts = 8}, 0.25), 2.75 / 8);
-    std::vector<double> x = {0.5, -1, 0.25, -1, 0.75, -1};
-    place_in_strata({.low = 1, .width = 2, .step = 2, .parts = 8}, 3, x.data(), 2);
-    EXPECT_EQ(x, (std::vector<double>{2. / 8, -1, 3.5 / 8, -1, 6.5 / 8, -1}));
-    place_in_middles({.low = 1, .width = 2, .step = 2, .parts = 8}, 3, x.data(), 2);
+    std::vector<double> x = {0.5, 0.5, 0.25, 0.25, 0.75, 0.75};
+    const Strata strata{.low = 1, .width = 2, .step = 2, .parts = 8};
+    place_pairs_in_strata(strata, {.low = 1, .width = 1, .step = 0, .parts = 2}, 3, x.data());
+    EXPECT_EQ(x, (std::vector<double>{2. / 8, 1.5 / 2, 3.5 / 8, 1.25 / 2, 6.5 / 8, 1.75 / 2}));
+    x = {0.5, 0.25, 0.75};
+    place_in_cells(std::vector<double>{3, 0, 7}, 8, x);
+    EXPECT_EQ(x, (std::vector<double>{3.5 / 8, 0.25 / 8, 7.75 / 8}));
+    x = {-1, -1, -1, -1, -1, -1};
+    place_in_middles(strata, 3, x.data(), 2);
     EXPECT_EQ(x, (std::vector<double>{2. / 8, -1, 4. / 8, -1, 6. / 8, -1}));
+}
+
+// Many at once are placed as one by one, those among them too that rounding brings to an edge.
+TEST(Stratum, ManyAreAsEachAlone) {
+    constexpr std::size_t count = 3000;
+    for (const std::uint64_t parts : {std::uint64_t{3001}, (std::uint64_t{1} << 52) + 1}) {
+        const Strata strata{.low = parts - count, .width = 1, .step = 1, .parts = parts};
+        const Strata across{.low = 5, .width = 7, .step = 0, .parts = parts};
+        std::vector<double> rows(2 * count);
+        Rng(2).fill(0, rows);
+        std::vector<double> cells;
+        std::vector<double> in_cells;
+        std::vector<double> expected;
+        for (std::size_t j = 0; j < count; ++j) {
+            rows[2 * j] = j % 3 == 0 ? one_minus_ulp : rows[2 * j];
+            cells.push_back(static_cast<double>(strata.low + j));
+            in_cells.push_back(rows[2 * j]);
+            const Strata alone{.low = strata.low + j, .width = 1, .step = 0, .parts = parts};
+            expected.push_back(placed(alone, rows[2 * j]));
+            expected.push_back(placed(across, rows[2 * j + 1]));
+        }
+        place_pairs_in_strata(strata, across, count, rows.data());
+        EXPECT_EQ(rows, expected);
+        place_in_cells(cells, parts, in_cells);
+        for (std::size_t j = 0; j < count; ++j) EXPECT_EQ(in_cells[j], expected[2 * j]);
+    }
 }
 
 // Also with the extreme random numbers, in the widest and in the narrowest strata there can be.
