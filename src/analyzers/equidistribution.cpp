@@ -204,7 +204,8 @@ Net net_of(const PointSet& points, std::uint32_t base, std::size_t digits, const
     const std::size_t d = points.dimension();
     Net net{.base = base, .digits = digits, .count = n, .dimension = d};
     net.cells.resize(n * d);
-    for_each_block(run, n, 1 + 16384 / d, [&](const Block& block) {
+    const RunContext part = worth_threads(run, 1e-8 * static_cast<double>(n * d));
+    for_each_block(part, n, 1 + 16384 / d, [&](const Block& block) {
         for (std::size_t i = block.first; i < block.last; ++i)
             for (std::size_t k = 0; k < d; ++k)
                 net.cells[k * n + i] = cell_of(points[i][k], static_cast<double>(n));

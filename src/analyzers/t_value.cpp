@@ -209,7 +209,9 @@ class Search {
     void for_each(std::size_t size, std::size_t ways, const RunContext& run,
                   const Body& body) const {
         const std::uint64_t count = binomial(net_.dimension, size) * ways;
-        for_each_block(run, count, 1 + count / 256, [&](const Block& block) {
+        const double each = matrices_ ? 1e-5 : 5e-8 * static_cast<double>(net_.count);  // seconds
+        const RunContext part = worth_threads(run, each * static_cast<double>(count));
+        for_each_block(part, count, 1 + count / 256, [&](const Block& block) {
             const auto probe = matrices_ ? equidistribution::rank_probe(*matrices_, run)
                                          : equidistribution::counting_probe(net_, run);
             Combination along = combination(block.first / ways, size);

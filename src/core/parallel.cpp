@@ -11,6 +11,13 @@
 
 namespace stipple {
 
+RunContext worth_threads(const RunContext& run, double seconds) {
+    constexpr double waking = 1e-3;  // on a busy machine; a quarter of that on an idle one
+    RunContext fit = run;
+    if (seconds < 2 * waking) fit.threads = 1;
+    return fit;
+}
+
 void within_threads(const RunContext& run, const std::function<void()>& work) {
     const unsigned threads = run.thread_count();
     // More threads than cores are only had by raising the library's own bound.
