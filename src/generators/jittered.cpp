@@ -99,18 +99,9 @@ class JitteredCubes final : public Jittered {
             const auto some = rows.subspan(at, std::min(portion * dimension_, rows.size() - at));
             cells.resize(some.size());
             find_cells(first + at / dimension_, cells);
-            place(cells, some);
+            centered_ ? place_in_middles(cells, shape_[0], some.data(), 1)
+                      : place_in_strata(cells, shape_[0], some.data(), 1);
         }
-    }
-
-    void place(std::span<const double> cells, std::span<double> numbers) const {
-        if (!centered_) return place_in_cells(cells, shape_[0], numbers);
-        for (std::size_t i = 0; i < numbers.size(); ++i)
-            place_in_middles({.low = static_cast<std::uint64_t>(cells[i]),
-                              .width = 1,
-                              .step = 0,
-                              .parts = shape_[0]},
-                             1, &numbers[i], 1);
     }
 
     /// The cells of points first, first + 1...

@@ -59,15 +59,25 @@ STIPPLE_WIDE bool place(Placing placing, std::int32_t count, double* x) {
     return outside == 0;
 }
 
-/// Places each number in a cell of its own; whether all are inside.
-STIPPLE_WIDE bool place_each(const double* cells, double parts, std::size_t count, double* x) {
+/// Places each number in a stratum of its own, one part wide; whether all are inside.
+STIPPLE_WIDE bool place_each(const double* low, double parts, std::size_t count, double* x) {
     std::int64_t outside = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        x[i] = (cells[i] + x[i]) / parts;
-        const double scaled = x[i] * parts;
-        outside += (scaled > cells[i]) & (scaled < cells[i] + 1) ? 0 : 1;
+    for (std::size_t j = 0; j < count; ++j) {
+        x[j] = (low[j] + x[j]) / parts;
+        const double scaled = x[j] * parts;
+        outside += (scaled > low[j]) & (scaled < low[j] + 1) ? 0 : 1;
     }
     return outside == 0;
+}
+
+void place_each_in_strata(std::span<const double> low, std::uint64_t parts, double* x) {
+    const auto n = static_cast<double>(parts);
+    if (place_each(low.data(), n, low.size(), x)) return;
+    for (std::size_t j = 0; j < low.size(); ++j) {
+        if (x[j] * n > low[j] && x[j] * n < low[j] + 1) continue;
+        const auto first = static_cast<std::uint64_t>(low[j]);
+        x[j] = safe_point(first, first + 1, parts);
+    }
 }
 
 /// Places numbers side by side, the j-th in the (first + j)-th stratum.
@@ -82,6 +92,29 @@ void place_in_strata(const Strata& strata, std::size_t first, std::span<double> 
 }
 
 }  // namespace
+
+void place_in_strata(const Strata& strata, std::size_t count, double* x, std::size_t stride) {
+    std::array<double, portion> some;
+    for (std::size_t at = 0; at < count; at += portion, x += portion * stride) {
+        const std::size_t size = std::min(portion, count - at);
+        for (std::size_t j = 0; j < size; ++j) some[j] = x[j * stride];
+        place_in_strata(strata, at, std::span(some).first(size));
+        for (std::size_t j = 0; j < size; ++j) x[j * stride] = some[j];
+    }
+}
+
+void place_in_strata(std::span<const double> low, std::uint64_t parts, double* x,
+                     std::size_t stride) {
+    if (stride == 1) return place_each_in_strata(low, parts, x);
+    std::array<double, portion> some;
+    for (; !low.empty(); x += portion * stride) {
+        const auto part = low.first(std::min(portion, low.size()));
+        for (std::size_t j = 0; j < part.size(); ++j) some[j] = x[j * stride];
+        place_each_in_strata(part, parts, some.data());
+        for (std::size_t j = 0; j < part.size(); ++j) x[j * stride] = some[j];
+        low = low.subspan(part.size());
+    }
+}
 
 void place_pairs_in_strata(const Strata& first, const Strata& second, std::size_t count,
                            double* rows) {
@@ -102,16 +135,6 @@ void place_pairs_in_strata(const Strata& first, const Strata& second, std::size_
     }
 }
 
-void place_in_cells(std::span<const double> cells, std::uint64_t parts, std::span<double> x) {
-    const auto n = static_cast<double>(parts);
-    if (place_each(cells.data(), n, x.size(), x.data())) return;
-    for (std::size_t i = 0; i < x.size(); ++i) {
-        if (x[i] * n > cells[i] && x[i] * n < cells[i] + 1) continue;
-        const auto low = static_cast<std::uint64_t>(cells[i]);
-        x[i] = safe_point(low, low + 1, parts);
-    }
-}
-
 void place_in_middles(const Strata& strata, std::size_t count, double* x, std::size_t stride) {
     // Half a stratum is more than all rounding, unless there are very many.
     const bool roomy = strata.parts <= std::uint64_t{1} << 50;
@@ -119,6 +142,16 @@ void place_in_middles(const Strata& strata, std::size_t count, double* x, std::s
         const std::uint64_t low = strata.low + strata.step * j;
         x[j * stride] = roomy ? ratio(2 * low + strata.width, 2 * strata.parts)
                               : safe_point(low, low + strata.width, strata.parts);
+    }
+}
+
+void place_in_middles(std::span<const double> low, std::uint64_t parts, double* x,
+                      std::size_t stride) {
+    const bool roomy = parts <= std::uint64_t{1} << 50;
+    const auto whole = static_cast<double>(parts);
+    for (std::size_t j = 0; j < low.size(); ++j) {
+        const auto first = static_cast<std::uint64_t>(low[j]);
+        x[j * stride] = roomy ? (low[j] + 0.5) / whole : safe_point(first, first + 1, parts);
     }
 }
 

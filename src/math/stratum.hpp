@@ -24,15 +24,23 @@ struct Strata {
     std::uint64_t parts;  ///< low + width <= parts <= 2^53
 };
 
-/// Moves points of two coordinates from the unit square into strata: those of the j-th row into the
-/// j-th of each.
+/// Moves x[0], x[stride], ... from [0, 1) into strata: the j-th number into the j-th stratum.
+void place_in_strata(const Strata& strata, std::size_t count, double* x, std::size_t stride);
+
+/// The same for points of two coordinates, side by side, and faster.
 void place_pairs_in_strata(const Strata& first, const Strata& second, std::size_t count,
                            double* rows);
 
-/// Moves x[i] from [0, 1) into [cells[i] / parts, (cells[i] + 1) / parts).
-void place_in_cells(std::span<const double> cells, std::uint64_t parts, std::span<double> x);
-
-/// Puts the middles of the strata at x[0], x[stride], ...
+/// Puts the middles of the strata there.
 void place_in_middles(const Strata& strata, std::size_t count, double* x, std::size_t stride);
+
+/// Moves x[0], x[stride], ... from [0, 1) into strata one part wide: the j-th into the one that
+/// begins at low[j] / parts, low[j] a whole number.
+void place_in_strata(std::span<const double> low, std::uint64_t parts, double* x,
+                     std::size_t stride);
+
+/// Puts the middles of those strata there.
+void place_in_middles(std::span<const double> low, std::uint64_t parts, double* x,
+                      std::size_t stride);
 
 }  // namespace stipple

@@ -17,18 +17,27 @@ constexpr std::uint64_t most = std::uint64_t{1} << 53;
 double placed(const Strata& strata, double u) {
     double pair[] = {u, u};
     place_pairs_in_strata(strata, strata, 1, pair);
-    EXPECT_EQ(pair[0], pair[1]);
+    double alone = u;
+    place_in_strata(strata, 1, &alone, 1);
+    EXPECT_EQ(pair[0], alone);
+    EXPECT_EQ(pair[1], alone);
     if (strata.width == 1) {
-        const auto cell = static_cast<double>(strata.low);
-        place_in_cells({&cell, 1}, strata.parts, {&u, 1});
-        EXPECT_EQ(u, pair[0]);
+        const auto low = static_cast<double>(strata.low);
+        place_in_strata({&low, 1}, strata.parts, &u, 1);
+        EXPECT_EQ(u, alone);
     }
-    return pair[0];
+    return alone;
 }
 
 double middle(const Strata& strata) {
     double x = -1;
     place_in_middles(strata, 1, &x, 1);
+    if (strata.width == 1) {
+        const auto low = static_cast<double>(strata.low);
+        double other = -1;
+        place_in_middles({&low, 1}, strata.parts, &other, 1);
+        EXPECT_EQ(other, x);
+    }
     return x;
 }
 
@@ -48,12 +57,17 @@ TEST(Stratum, PlacesByTheFormula) {
     const Strata strata{.low = 1, .width = 2, .step = 2, .parts = 8};
     place_pairs_in_strata(strata, {.low = 1, .width = 1, .step = 0, .parts = 2}, 3, x.data());
     EXPECT_EQ(x, (std::vector<double>{2. / 8, 1.5 / 2, 3.5 / 8, 1.25 / 2, 6.5 / 8, 1.75 / 2}));
-    x = {0.5, 0.25, 0.75};
-    place_in_cells(std::vector<double>{3, 0, 7}, 8, x);
-    EXPECT_EQ(x, (std::vector<double>{3.5 / 8, 0.25 / 8, 7.75 / 8}));
-    x = {-1, -1, -1, -1, -1, -1};
+    x = {0.5, -1, 0.25, -1, 0.75, -1};
+    place_in_strata(strata, 3, x.data(), 2);
+    EXPECT_EQ(x, (std::vector<double>{2. / 8, -1, 3.5 / 8, -1, 6.5 / 8, -1}));
     place_in_middles(strata, 3, x.data(), 2);
     EXPECT_EQ(x, (std::vector<double>{2. / 8, -1, 4. / 8, -1, 6. / 8, -1}));
+    const std::vector<double> low = {3, 0, 7};
+    x = {0.5, -1, 0.25, -1, 0.75, -1};
+    place_in_strata(low, 8, x.data(), 2);
+    EXPECT_EQ(x, (std::vector<double>{3.5 / 8, -1, 0.25 / 8, -1, 7.75 / 8, -1}));
+    place_in_middles(low, 8, x.data(), 2);
+    EXPECT_EQ(x, (std::vector<double>{3.5 / 8, -1, 0.5 / 8, -1, 7.5 / 8, -1}));
 }
 
 // Many at once are placed as one by one, those among them too that rounding brings to an edge.
@@ -64,21 +78,25 @@ TEST(Stratum, ManyAreAsEachAlone) {
         const Strata across{.low = 5, .width = 7, .step = 0, .parts = parts};
         std::vector<double> rows(2 * count);
         Rng(2).fill(0, rows);
-        std::vector<double> cells;
-        std::vector<double> in_cells;
+        std::vector<double> low;
         std::vector<double> expected;
         for (std::size_t j = 0; j < count; ++j) {
-            rows[2 * j] = j % 3 == 0 ? one_minus_ulp : rows[2 * j];
-            cells.push_back(static_cast<double>(strata.low + j));
-            in_cells.push_back(rows[2 * j]);
+            if (j % 3 == 0) rows[2 * j] = one_minus_ulp;
+            low.push_back(static_cast<double>(strata.low + j));
             const Strata alone{.low = strata.low + j, .width = 1, .step = 0, .parts = parts};
             expected.push_back(placed(alone, rows[2 * j]));
             expected.push_back(placed(across, rows[2 * j + 1]));
         }
+        std::vector<double> apart = rows;
+        place_in_strata(strata, count, apart.data(), 2);
+        place_in_strata(across, count, apart.data() + 1, 2);
+        EXPECT_EQ(apart, expected);
+        apart = rows;
+        place_in_strata(low, parts, apart.data(), 2);
+        place_in_strata(across, count, apart.data() + 1, 2);
+        EXPECT_EQ(apart, expected);
         place_pairs_in_strata(strata, across, count, rows.data());
         EXPECT_EQ(rows, expected);
-        place_in_cells(cells, parts, in_cells);
-        for (std::size_t j = 0; j < count; ++j) EXPECT_EQ(in_cells[j], expected[2 * j]);
     }
 }
 
