@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numeric>
 
 #include "core/rng.hpp"
 #include "support/contract.hpp"
+#include "support/nets.hpp"
+#include "support/scrambling.hpp"
 #include "support/units.hpp"
 
 using namespace stipple;
@@ -37,43 +37,9 @@ PointSet projected(const PointSet& points, const std::vector<std::size_t>& coord
     return out;
 }
 
-/// Deals `digits` to all coordinates, in every way.
-void deal(std::size_t coordinates, int digits, std::vector<int>& dealt,
-          const std::function<void()>& visit) {
-    if (dealt.size() + 1 == coordinates) {
-        dealt.push_back(digits);
-        visit();
-        dealt.pop_back();
-        return;
-    }
-    for (int q = 0; q <= digits; ++q) {
-        dealt.push_back(q);
-        deal(coordinates, digits - q, dealt, visit);
-        dealt.pop_back();
-    }
-}
-
-/// Oracle: the definition, t after t, interval after interval, for coordinates that are multiples
-/// of base^-m up to rounding.
+/// Oracle: the definition, t after t, interval after interval.
 std::int64_t t_by_definition(const PointSet& points, int base) {
-    const auto m = std::lround(std::log(points.count()) / std::log(base));
-    for (long t = 0;; ++t) {
-        const auto share = static_cast<int>(std::lround(std::pow(base, t)));
-        bool holds = true;
-        std::vector<int> dealt;
-        deal(points.dimension(), static_cast<int>(m - t), dealt, [&] {
-            std::map<std::vector<int>, int> boxes;
-            for (std::size_t i = 0; i < points.count(); ++i) {
-                std::vector<int> box;
-                for (std::size_t k = 0; k < points.dimension(); ++k)
-                    box.push_back(static_cast<int>(points[i][k] * std::pow(base, dealt[k]) + 1e-9));
-                ++boxes[box];
-            }
-            // As many points as boxes would hold: all full means that none is fuller.
-            for (const auto& [box, count] : boxes) holds &= count == share;
-        });
-        if (holds) return t;
-    }
+    return static_cast<std::int64_t>(exact_t(points, static_cast<std::uint64_t>(base)));
 }
 
 /// Point i of a digital net is the sum of the columns that the digits of i choose.
@@ -135,6 +101,21 @@ TEST(TValue, HammersleyIsAZeroNetInItsBase) {
     const PointSet three = make("hammersley", points(729, 3));
     EXPECT_EQ(t_of(projected(three, {0, 2}), 3), 0);
     EXPECT_EQ(t_value(projected(three, {0, 2}), 3).text("method"), "rank");
+}
+
+// Nested scrambling keeps every elementary box as full as it was, but leaves no matrices to find; a
+// digital shift leaves them.
+TEST(TValue, ScramblingChangesNoT) {
+    const PointSet plane = make("hammersley", points(4096, 2));
+    const PointSet owen = scrambled(plane, "owen");
+    EXPECT_EQ(t_of(owen), 0);
+    EXPECT_EQ(t_value(owen).text("method"), "counting");
+    const PointSet shifted = scrambled(plane, "digital-shift");
+    EXPECT_EQ(t_of(shifted), 0);
+    EXPECT_EQ(t_value(shifted).text("method"), "rank");
+    const PointSet three = projected(make("hammersley", points(729, 3)), {0, 2});
+    EXPECT_EQ(t_of(scrambled(three, "owen:base=3"), 3), 0);
+    EXPECT_EQ(t_of(scrambled(three, "digital-shift:base=3"), 3), 0);
 }
 
 TEST(TValue, RandomPointsAreFarFromEven) {
