@@ -116,7 +116,7 @@ WorstBox sweep_2d(const CornerGrid& grid, const RunContext& run) {
     std::array worst{WorstBox(grid), WorstBox(grid)};
     constexpr bool silent = true;
     for_each_block(
-        run, 2, 1,
+        worth_threads(run, 1e-6 * static_cast<double>(grid.count)), 2, 1,
         [&](const Block& block) {
             if (block.index == 0)
                 sweep_side<Side::open>(grid, order, worst[0], progress);

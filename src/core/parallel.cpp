@@ -11,6 +11,13 @@
 
 namespace stipple {
 
+RunContext worth_threads(const RunContext& run, double seconds) {
+    constexpr double waking = 1e-3;  // on a busy machine; a quarter of that on an idle one
+    RunContext fit = run;
+    if (seconds < 2 * waking) fit.threads = 1;
+    return fit;
+}
+
 void within_threads(const RunContext& run, const std::function<void()>& work) {
     const unsigned threads = run.thread_count();
     // More threads than cores are only had by raising the library's own bound.
@@ -37,7 +44,9 @@ void for_each_block(const RunContext& run, std::uint64_t count, std::uint64_t si
     }
     std::mutex reporting;
     std::size_t done = 0;
-    within_threads(run, [&] {
+    RunContext needed = run;
+    needed.threads = static_cast<unsigned>(std::min<std::size_t>(run.thread_count(), blocks));
+    within_threads(needed, [&] {
         tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
             run.check_stop();
             body(block(b));

@@ -30,6 +30,10 @@ constexpr std::size_t block_count(std::uint64_t count, std::uint64_t size) {
 void for_each_block(const RunContext& run, std::uint64_t count, std::uint64_t size,
                     const std::function<void(const Block&)>& body, bool silent = false);
 
+/// The run for work that takes one core about so many seconds: as it is, or of one thread, where to
+/// wake others takes longer than they would save.
+RunContext worth_threads(const RunContext& run, double seconds);
+
 /// Runs `work` in an arena of run.threads threads: what oneTBB does inside stays within them.
 void within_threads(const RunContext& run, const std::function<void()>& work);
 

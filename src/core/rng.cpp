@@ -3,6 +3,8 @@
 
 #include <Random123/philox.h>
 
+#include "core/philox_avx2.hpp"
+
 namespace stipple {
 namespace {
 
@@ -38,6 +40,11 @@ std::uint64_t Rng::below(std::uint64_t i, std::uint64_t n) const {
 void Rng::fill(std::uint64_t first, std::span<double> out) const {
     std::size_t k = 0;
     if (first % 2 == 1 && !out.empty()) out[k++] = uniform(first);
+    if (has_philox_avx2()) {
+        const std::size_t many = (out.size() - k) / philox_avx2_step * philox_avx2_step;
+        fill_philox_avx2(seed_, stream_, (first + k) / 2, out.data() + k, many);
+        k += many;
+    }
     for (; k + 1 < out.size(); k += 2) {
         const auto pair = block(seed_, stream_, (first + k) / 2);
         out[k] = to_unit(pair[0]);

@@ -31,7 +31,7 @@ constexpr Param<Choice> cell{.name = "cell",
 class Jittered : public Sequence {
   public:
     Jittered(const Plan& plan, bool centered)
-        : count_(plan.count), dimension_(plan.dimension), rng_(plan.seed), centered_(centered) {}
+        : count_(plan.count), dimension_(plan.dimension), centered_(centered), rng_(plan.seed) {}
 
     void fill(std::uint64_t first, std::span<double> rows) override {
         if (!centered_) rng_.fill(first * dimension_, rows);
@@ -42,18 +42,12 @@ class Jittered : public Sequence {
     /// Brings all coordinates from [0, 1) into their cells, or to the middles.
     virtual void place_all(std::uint64_t first, std::span<double> rows) const = 0;
 
-    /// One coordinate of `length` points.
-    void place(const Strata& strata, std::size_t length, double* x) const {
-        centered_ ? place_in_middles(strata, length, x, dimension_)
-                  : place_in_strata(strata, length, x, dimension_);
-    }
-
     std::uint64_t count_;
     std::size_t dimension_;
+    bool centered_;
 
   private:
     Rng rng_;
-    bool centered_;
 };
 
 class JitteredRows final : public Jittered {
@@ -70,12 +64,18 @@ class JitteredRows final : public Jittered {
             const std::uint64_t cells = row_begin(row + 1) - begin;
             const std::uint64_t column = first - begin;
             const auto length = std::min<std::size_t>((rows.size() - offset) / 2, cells - column);
-            double* x = rows.data() + offset;
-            place({.low = column, .width = 1, .step = 1, .parts = cells}, length, x);
-            place({.low = begin, .width = cells, .step = 0, .parts = count_}, length, x + 1);
+            place({.low = column, .width = 1, .step = 1, .parts = cells},
+                  {.low = begin, .width = cells, .step = 0, .parts = count_}, length,
+                  rows.data() + offset);
             first += length;
             offset += 2 * length;
         }
+    }
+
+    void place(const Strata& x, const Strata& y, std::size_t length, double* points) const {
+        if (!centered_) return place_pairs_in_strata(x, y, length, points);
+        place_in_middles(x, length, points, 2);
+        place_in_middles(y, length, points + 1, 2);
     }
 
     [[nodiscard]] std::uint64_t row_begin(std::uint64_t row) const {
@@ -93,14 +93,28 @@ class JitteredCubes final : public Jittered {
 
   private:
     void place_all(std::uint64_t first, std::span<double> rows) const override {
-        const std::uint64_t k = shape_[0];
-        const auto place_row = [&](auto start, std::size_t offset, std::size_t length) {
-            double* x = rows.data() + offset * dimension_;
-            place({.low = start[0], .width = 1, .step = 1, .parts = k}, length, x);
-            for (std::size_t c = 1; c < dimension_; ++c)
-                place({.low = start[c], .width = 1, .step = 0, .parts = k}, length, x + c);
+        const std::size_t portion = 1 + 4096 / dimension_;
+        std::vector<double> cells;
+        for (std::size_t at = 0; at < rows.size(); at += portion * dimension_) {
+            const auto some = rows.subspan(at, std::min(portion * dimension_, rows.size() - at));
+            cells.resize(some.size());
+            find_cells(first + at / dimension_, cells);
+            centered_ ? place_in_middles(cells, shape_[0], some.data(), 1)
+                      : place_in_strata(cells, shape_[0], some.data(), 1);
+        }
+    }
+
+    /// The cells of points first, first + 1...
+    void find_cells(std::uint64_t first, std::span<double> cells) const {
+        const auto find_row = [&](auto start, std::size_t offset, std::size_t length) {
+            double* const first_cell = cells.data() + offset * dimension_;
+            for (std::size_t i = 0; i < length; ++i) {
+                for (std::size_t c = 0; c < dimension_; ++c)
+                    first_cell[i * dimension_ + c] = static_cast<double>(start[c]);
+                first_cell[i * dimension_] += static_cast<double>(i);
+            }
         };
-        for_each_lattice_row(shape_, first, rows.size() / dimension_, place_row);
+        for_each_lattice_row(shape_, first, cells.size() / dimension_, find_row);
     }
 
     std::vector<std::uint64_t> shape_;

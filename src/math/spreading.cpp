@@ -309,7 +309,9 @@ void spread_colour(const Sorted& sorted, std::size_t colour, std::size_t dimensi
                    const Tiling& tiling, const RunContext& run) {
     static const AddPoints add = widest();
     const std::size_t tiles = tiling.count_of_colour();
-    const std::size_t block = std::max<std::size_t>(1, tiles / 128);
+    // Enough blocks for all threads, but none with less work than handing it over is.
+    const std::size_t points = 1 + sorted.rows.size() / dimension;
+    const std::size_t block = std::max(1 + tiles / 128, 1024 * tiling.count() / points);
     // A buffer takes so many points: rounding errors of long sums stay small, and a stop is heeded
     // where all points are in one tile.
     const std::size_t portion = 512 * dimension;

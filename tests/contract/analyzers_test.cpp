@@ -19,6 +19,7 @@ class EveryAnalyzer : public ::testing::TestWithParam<std::string> {
     const std::size_t dimension =
         std::clamp<std::size_t>(2, unit.traits.min_dimension, unit.traits.max_dimension);
 
+    /// Counts are powers of two, which every analyzer takes.
     Report report(std::uint64_t count, const RunContext& run = {}) const {
         return analyze(unit, make("random", points(count, dimension)), unit.options.defaults(),
                        run);
@@ -26,13 +27,13 @@ class EveryAnalyzer : public ::testing::TestWithParam<std::string> {
 };
 
 TEST_P(EveryAnalyzer, GivesTheSameForAnyNumberOfThreads) {
-    const Report one = report(5000, {.threads = 1});
-    EXPECT_EQ(one, report(5000, {.threads = 2}));
-    EXPECT_EQ(one, report(5000, {.threads = 7}));
+    const Report one = report(4096, {.threads = 1});
+    EXPECT_EQ(one, report(4096, {.threads = 2}));
+    EXPECT_EQ(one, report(4096, {.threads = 7}));
 }
 
 TEST_P(EveryAnalyzer, GivesTheKeysOfItsRecord) {
-    const Report found = report(500);
+    const Report found = report(512);
     for (const auto& [key, help] : unit.results) {
         EXPECT_NE(found.find(key), nullptr) << key;
         EXPECT_FALSE(help.empty()) << key;
@@ -61,18 +62,18 @@ TEST_P(EveryAnalyzer, RefusesPointsOutsideItsDomainCountingThem) {
 }
 
 TEST_P(EveryAnalyzer, TakesPointsOnTheClosedCube) {
-    PointSet set = make("random", points(1000, dimension));
+    PointSet set = make("random", points(1024, dimension));
     set[7][0] = 1;
     set[9][0] = 0;
     EXPECT_EQ(error_of([&] { analyze(unit, set, unit.options.defaults(), {}); }), "");
 }
 
 TEST_P(EveryAnalyzer, ProgressRisesToTheEnd) {
-    expect_progress_to_the_end([&](const RunContext& run) { report(100'000, run); });
+    expect_progress_to_the_end([&](const RunContext& run) { report(1 << 17, run); });
 }
 
 TEST_P(EveryAnalyzer, StopsWithinATenthOfASecond) {
-    expect_to_stop_at_once([&](const RunContext& run) { report(400'000, run); });
+    expect_to_stop_at_once([&](const RunContext& run) { report(1 << 19, run); });
 }
 
 TEST_P(EveryAnalyzer, HasACompleteRecord) {

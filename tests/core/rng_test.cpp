@@ -37,14 +37,29 @@ TEST(Rng, NumberIsHalfABlockOfSeedStreamAndIndex) {
     EXPECT_EQ(rng.bits(2 * pair + 1), block[2] | static_cast<std::uint64_t>(block[3]) << 32);
 }
 
+// Many numbers are made together, a few at the ends one by one: every length and start of a
+// stretch, where the counter's low word overflows inside of it, and with key and stream of 64 bits.
 TEST(Rng, FillGivesTheNumbersOneByOne) {
-    const Rng rng(7, 3);
-    for (const std::uint64_t first : {0, 1, 6, 11})
-        for (const std::size_t size : {0, 1, 2, 3, 8}) {
-            std::vector<double> filled(size);
-            rng.fill(first, filled);
-            for (std::size_t k = 0; k < size; ++k) EXPECT_EQ(filled[k], rng.uniform(first + k));
-        }
+    constexpr std::uint64_t overflow = std::uint64_t{1} << 33;  // two numbers a count
+    for (const Rng& rng : {Rng(7, 3), Rng(0xfedcba9876543210, 0xf123456789abcdef)})
+        for (const std::uint64_t start : {std::uint64_t{0}, overflow - 40, 3 * overflow - 64})
+            for (std::uint64_t first = start; first < start + 18; ++first)
+                for (std::size_t size = 0; size < 70; ++size) {
+                    std::vector<double> filled(size + 1, -1);
+                    rng.fill(first, std::span(filled).first(size));
+                    for (std::size_t k = 0; k < size; ++k)
+                        ASSERT_EQ(filled[k], rng.uniform(first + k)) << first << " + " << k;
+                    ASSERT_EQ(filled[size], -1) << "wrote beyond " << size;
+                }
+}
+
+TEST(Rng, FillTakesAnyAlignment) {
+    const Rng rng(11);
+    std::vector<double> room(64);
+    for (std::size_t at = 0; at < 8; ++at) {
+        rng.fill(2, std::span(room).subspan(at, 50));
+        for (std::size_t k = 0; k < 50; ++k) ASSERT_EQ(room[at + k], rng.uniform(2 + k)) << at;
+    }
 }
 
 TEST(Rng, UnitTakesTheHighBitsAndStaysBelowOne) {

@@ -179,6 +179,16 @@ TEST(Csv, BlocksWithoutRowsAreNoTrouble) {
     EXPECT_EQ(csv(written("csv", {wide})).at(0), wide);
 }
 
+// The shortest rows there are fill the room of their block to the last.
+TEST(Csv, BlocksOfShortRowsHaveRoom) {
+    std::string text;
+    while (text.size() < 2'500'000) text += "1\n";
+    EXPECT_EQ(csv(text).at(0), PointSet(std::vector<double>(text.size() / 2, 1.0), 1));
+    for (std::size_t i = 1; i < text.size(); i += 4) text[i] = ' ';
+    text.pop_back();
+    EXPECT_EQ(csv(text).at(0), PointSet(std::vector<double>((text.size() + 1) / 2, 1.0), 2));
+}
+
 // The quick way and the careful way read the same.
 TEST(Csv, QuotesAndBlanksDoNotMatter) {
     const PointSet points = random_points(1000, 3);

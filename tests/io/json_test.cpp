@@ -104,6 +104,8 @@ TEST(Json, RefusesWhatIsNoPoint) {
     EXPECT_EQ(refused("[[]]"), "input: p:1:3: found ']'; expected a finite number");
     EXPECT_EQ(refused("[[0 1]]"), "input: p:1:5: found '1'; expected ',' or ']'");
     EXPECT_EQ(refused("[[0,1],2]"), "input: p:1:8: found '2'; expected a point such as [0.1,0.2]");
+    EXPECT_EQ(refused("[[0,0.5],\n[0.25,1,2]]"),
+              "input: p:2:1: the point has 3 coordinates; expected 2, as the first has");
     EXPECT_EQ(refused("[[0,0.5],\n[0.25]]"),
               "input: p:2:1: the point has 1 coordinate; expected 2, as the first has");
 }
@@ -125,6 +127,8 @@ TEST(Json, RefusesWhatIsNoFileOfPoints) {
               "input: p:1:12: version 2 of stipple.points; expected 1");
     EXPECT_EQ(refused(with("\"count\":3,")),
               "input: p:1:10: the count is said to be 3; 2 points follow");
+    EXPECT_EQ(refused(with("\"count\":1,")),
+              "input: p:1:10: the count is said to be 1; 2 points follow");
     EXPECT_EQ(refused(with("\"count\":[2,2],")),
               "input: p:1:10: the count is said of 2 sets; 1 follow");
     EXPECT_EQ(refused(with("\"count\":-1,")),

@@ -13,14 +13,31 @@ namespace {
 
 constexpr std::uint64_t most = std::uint64_t{1} << 53;
 
+/// The one stratum's point, by all ways to place it.
 double placed(const Strata& strata, double u) {
-    place_in_strata(strata, 1, &u, 1);
-    return u;
+    double pair[] = {u, u};
+    place_pairs_in_strata(strata, strata, 1, pair);
+    double alone = u;
+    place_in_strata(strata, 1, &alone, 1);
+    EXPECT_EQ(pair[0], alone);
+    EXPECT_EQ(pair[1], alone);
+    if (strata.width == 1) {
+        const auto low = static_cast<double>(strata.low);
+        place_in_strata({&low, 1}, strata.parts, &u, 1);
+        EXPECT_EQ(u, alone);
+    }
+    return alone;
 }
 
 double middle(const Strata& strata) {
     double x = -1;
     place_in_middles(strata, 1, &x, 1);
+    if (strata.width == 1) {
+        const auto low = static_cast<double>(strata.low);
+        double other = -1;
+        place_in_middles({&low, 1}, strata.parts, &other, 1);
+        EXPECT_EQ(other, x);
+    }
     return x;
 }
 
@@ -36,11 +53,51 @@ void expect_inside(const Strata& s, double x) {
 TEST(Stratum, PlacesByTheFormula) {
     EXPECT_EQ(placed({.low = 3, .width = 1, .step = 0, .parts = 8}, 0.5), 3.5 / 8);
     EXPECT_EQ(placed({.low = 2, .width = 3, .step = 0, .parts = 8}, 0.25), 2.75 / 8);
-    std::vector<double> x = {0.5, -1, 0.25, -1, 0.75, -1};
-    place_in_strata({.low = 1, .width = 2, .step = 2, .parts = 8}, 3, x.data(), 2);
+    std::vector<double> x = {0.5, 0.5, 0.25, 0.25, 0.75, 0.75};
+    const Strata strata{.low = 1, .width = 2, .step = 2, .parts = 8};
+    place_pairs_in_strata(strata, {.low = 1, .width = 1, .step = 0, .parts = 2}, 3, x.data());
+    EXPECT_EQ(x, (std::vector<double>{2. / 8, 1.5 / 2, 3.5 / 8, 1.25 / 2, 6.5 / 8, 1.75 / 2}));
+    x = {0.5, -1, 0.25, -1, 0.75, -1};
+    place_in_strata(strata, 3, x.data(), 2);
     EXPECT_EQ(x, (std::vector<double>{2. / 8, -1, 3.5 / 8, -1, 6.5 / 8, -1}));
-    place_in_middles({.low = 1, .width = 2, .step = 2, .parts = 8}, 3, x.data(), 2);
+    place_in_middles(strata, 3, x.data(), 2);
     EXPECT_EQ(x, (std::vector<double>{2. / 8, -1, 4. / 8, -1, 6. / 8, -1}));
+    const std::vector<double> low = {3, 0, 7};
+    x = {0.5, -1, 0.25, -1, 0.75, -1};
+    place_in_strata(low, 8, x.data(), 2);
+    EXPECT_EQ(x, (std::vector<double>{3.5 / 8, -1, 0.25 / 8, -1, 7.75 / 8, -1}));
+    place_in_middles(low, 8, x.data(), 2);
+    EXPECT_EQ(x, (std::vector<double>{3.5 / 8, -1, 0.5 / 8, -1, 7.5 / 8, -1}));
+}
+
+// Many at once are placed as one by one, those among them too that rounding brings to an edge.
+TEST(Stratum, ManyAreAsEachAlone) {
+    constexpr std::size_t count = 3000;
+    for (const std::uint64_t parts : {std::uint64_t{3001}, (std::uint64_t{1} << 52) + 1}) {
+        const Strata strata{.low = parts - count, .width = 1, .step = 1, .parts = parts};
+        const Strata across{.low = 5, .width = 7, .step = 0, .parts = parts};
+        std::vector<double> rows(2 * count);
+        Rng(2).fill(0, rows);
+        std::vector<double> low;
+        std::vector<double> expected;
+        for (std::size_t j = 0; j < count; ++j) {
+            if (j % 3 == 0) rows[2 * j] = one_minus_ulp;
+            low.push_back(static_cast<double>(strata.low + j));
+            const Strata alone{.low = strata.low + j, .width = 1, .step = 0, .parts = parts};
+            expected.push_back(placed(alone, rows[2 * j]));
+            expected.push_back(placed(across, rows[2 * j + 1]));
+        }
+        std::vector<double> apart = rows;
+        place_in_strata(strata, count, apart.data(), 2);
+        place_in_strata(across, count, apart.data() + 1, 2);
+        EXPECT_EQ(apart, expected);
+        apart = rows;
+        place_in_strata(low, parts, apart.data(), 2);
+        place_in_strata(across, count, apart.data() + 1, 2);
+        EXPECT_EQ(apart, expected);
+        place_pairs_in_strata(strata, across, count, rows.data());
+        EXPECT_EQ(rows, expected);
+    }
 }
 
 // Also with the extreme random numbers, in the widest and in the narrowest strata there can be.
