@@ -3,6 +3,7 @@
 // Points a second, on one core. Sequences fill cache-sized blocks, one after the other, with points
 // of two (20) dimensions; a set is made as a whole.
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 
 #include "study/pipeline.hpp"
 
@@ -48,6 +49,11 @@ const bool registered = [] {
     for (const char* name : {"random", "grid", "jittered", "halton", "hammersley"})
         // 2^40 = 4^20 points: a power of two in 20 dimensions as well.
         add(std::string(name) + "/20d", name, {}, 20);
+    for (const char* scramble : {"none", "digital-shift", "matrix", "owen"})
+        for (const std::size_t dimension : {std::size_t{2}, std::size_t{20}})
+            add(fmt::format("sobol/{}/{}d", scramble, dimension), "sobol", {{"scramble", scramble}},
+                dimension);
+    add("sobol/gray/2d", "sobol", {{"order", "gray"}});
 
     const auto set = [](const char* label, const Request& request, const Settings& settings) {
         benchmark::RegisterBenchmark(label, [=](auto& state) {
