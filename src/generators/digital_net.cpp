@@ -11,8 +11,8 @@
 // Shape   n x d for s >= alpha d matrices of m columns; i < b^m and i < 2^53. The layouts of files
 //         are described in matrix_file.hpp.
 // Cost    O(n d); base 2: half a nanosecond a coordinate; others: up to fifteen.
-// Promise every coordinate is correctly rounded from the digits that b^r <= 2^53 leaves (in base 2,
-//         53), and below 1.
+// Promise every coordinate is correctly rounded from its first r digits, b^r <= 2^50 or, in base 2,
+//         r = 53; and below 1.
 // Source  H. Niederreiter, Random Number Generation and Quasi-Monte Carlo Methods, SIAM 1992,
 //         section 4.3, doi:10.1137/1.9781611970081; interlacing: J. Dick, SIAM J. Numer. Anal. 46
 //         (2008) 1519-1553, doi:10.1137/060666639.
@@ -95,7 +95,8 @@ std::unique_ptr<Sequence> make(const Plan& decided, const Values& options) {
     MatrixFile file = read(options);
     const auto alpha = static_cast<std::size_t>(options[interlacing]);
     file.matrices.resize(decided.dimension * alpha);
-    return net_sequence(file.base, alpha == 1 ? file.matrices : interlace(file.matrices, alpha));
+    if (alpha > 1) file.matrices = interlace(file.matrices, alpha);
+    return net_sequence(file.base, std::move(file.matrices), decided, options);
 }
 
 }  // namespace
@@ -106,10 +107,11 @@ Generator digital_net() {
             .source =
                 "Niederreiter 1992, doi:10.1137/1.9781611970081; "
                 "Dick 2008, doi:10.1137/060666639",
-            .traits = {.seeded = false},
-            .options = Schema(matrices_option, layout, base_option, interlacing),
+            .traits = {},
+            .options = Schema(matrices_option, layout, base_option, interlacing, binary_scramble),
             .plan = plan,
-            .sequence = make};
+            .sequence = make,
+            .uses_seed = binary_uses_seed};
 }
 
 }  // namespace stipple::generators

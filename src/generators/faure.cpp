@@ -8,7 +8,7 @@
 // the radical inverse after k multiplications of the digits by Pascal's triangle modulo b.
 //
 // Shape   n x d; b is the smallest prime >= d, or a larger one; indices below the largest power of
-//         b up to 2^53.
+//         b up to 2^50, and in base 2 below 2^52.
 // Cost    O(n d): five nanoseconds a coordinate.
 // Promise every coordinate is correctly rounded, and below 1. A (0, d)-sequence in base b: any b^m
 //         points from an index that b^m divides are a (0, m, d)-net, which meets every box of b^m
@@ -20,7 +20,7 @@
 
 #include "core/error.hpp"
 #include "generators/generator.hpp"
-#include "math/base_net.hpp"
+#include "generators/net_sequence.hpp"
 #include "math/powers.hpp"
 #include "math/primes.hpp"
 
@@ -54,7 +54,7 @@ std::uint32_t base_for(std::size_t dimension, const Values& options) {
 Plan plan(const Request& request, const Values& options) {
     const Plan decided = default_plan(request);
     const std::uint32_t base = base_for(decided.dimension, options);
-    const std::uint64_t end = saturating_power(base, exact_digits(base));
+    const std::uint64_t end = saturating_power(base, net_digits(base));
     if (request.start > end || decided.count > end - request.start)
         fail(ErrorKind::usage,
              "--start {} and {} points go beyond index {}, the last of faure in base {}",
@@ -75,21 +75,12 @@ DigitMatrix pascal_power(std::uint32_t base, std::size_t size, std::uint64_t k) 
     return matrix;
 }
 
-class Faure final : public Sequence {
-  public:
-    Faure(std::uint32_t base, std::size_t dimension)
-        : net_(base, exact_digits(base), exact_digits(base)) {
-        for (std::size_t k = 0; k < dimension; ++k)
-            net_.append(pascal_power(base, exact_digits(base), k));
-    }
-    void fill(std::uint64_t first, std::span<double> rows) override { net_.fill(first, rows); }
-
-  private:
-    BaseNet net_;
-};
-
 std::unique_ptr<Sequence> make(const Plan& decided, const Values& options) {
-    return std::make_unique<Faure>(base_for(decided.dimension, options), decided.dimension);
+    const std::uint32_t base = base_for(decided.dimension, options);
+    std::vector<DigitMatrix> matrices;
+    for (std::size_t k = 0; k < decided.dimension; ++k)
+        matrices.push_back(pascal_power(base, net_digits(base), k));
+    return net_sequence(base, std::move(matrices), decided, options);
 }
 
 }  // namespace
@@ -98,10 +89,11 @@ Generator faure() {
     return {.name = "faure",
             .summary = "Faure sequence: a (0, d)-sequence in the smallest prime base from d on",
             .source = "Faure 1982, doi:10.4064/aa-41-4-337-351",
-            .traits = {.max_dimension = BaseNet::largest_base, .seeded = false},
-            .options = Schema(base_option),
+            .traits = {.max_dimension = BaseNet::largest_base},
+            .options = Schema(base_option, binary_scramble),
             .plan = plan,
-            .sequence = make};
+            .sequence = make,
+            .uses_seed = binary_uses_seed};
 }
 
 }  // namespace stipple::generators

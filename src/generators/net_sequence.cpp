@@ -1,25 +1,110 @@
 // SPDX-License-Identifier: MIT
 #include "generators/net_sequence.hpp"
 
+#include <algorithm>
+
+#include "math/base_scramble.hpp"
+
 namespace stipple {
 namespace {
 
-class BaseNetSequence final : public Sequence {
+BinaryMatrices binary(const std::vector<DigitMatrix>& matrices) {
+    const std::size_t d = matrices.size();
+    const std::size_t rows = std::min<std::size_t>(matrices.front().rows, 64);
+    BinaryMatrices packed{d, std::vector<std::uint64_t>(d * matrices.front().columns)};
+    for (std::size_t k = 0; k < d; ++k)
+        for (std::size_t c = 0; c < matrices[k].columns; ++c)
+            for (std::size_t r = 0; r < rows; ++r)
+                packed.columns[c * d + k] |= std::uint64_t{matrices[k].at(r, c)} << (63 - r);
+    return packed;
+}
+
+class Plain final : public Sequence {
   public:
-    explicit BaseNetSequence(BaseNet net) : net_(std::move(net)) {}
+    explicit Plain(BaseNet net) : net_(std::move(net)) {}
     void fill(std::uint64_t first, std::span<double> rows) override { net_.fill(first, rows); }
 
   private:
     BaseNet net_;
 };
 
+class Nested final : public Sequence {
+  public:
+    Nested(BaseNet net, std::uint32_t base, std::uint64_t seed)
+        : net_(std::move(net)), base_(base) {
+        for (std::size_t k = 0; k < net_.dimension(); ++k) scrambles_.emplace_back(seed, k, base);
+    }
+    void fill(std::uint64_t first, std::span<double> rows) override {
+        net_.fill(first, rows);
+        for (std::size_t k = 0; k < scrambles_.size(); ++k)
+            for (std::size_t at = k; at < rows.size(); at += scrambles_.size())
+                rows[at] = scrambles_[k].of(mirrored_digits(rows[at], base_));
+    }
+
+  private:
+    BaseNet net_;
+    std::uint32_t base_;
+    std::vector<BaseOwen> scrambles_;
+};
+
+/// With zeros below, or without the rows below.
+DigitMatrix resized(DigitMatrix matrix, std::size_t rows) {
+    matrix.rows = rows;
+    matrix.digits.resize(rows * matrix.columns);
+    return matrix;
+}
+
+/// The scramble's matrix times the coordinate's, modulo the base.
+DigitMatrix product(const BaseMatrix& left, const DigitMatrix& right, std::uint32_t base) {
+    DigitMatrix result(right.rows, right.columns);
+    for (std::size_t r = 0; r < right.rows; ++r)
+        for (std::size_t c = 0; c < right.columns; ++c) {
+            std::uint64_t sum = 0;
+            for (std::size_t j = 0; j <= r; ++j)
+                sum = (sum + std::uint64_t{left.entry(r, j)} * right.at(j, c)) % base;
+            result.at(r, c) = static_cast<std::uint32_t>(sum);
+        }
+    return result;
+}
+
+/// The digits that a shift adds, since it is the image of 0.
+std::vector<std::uint32_t> shift_digits(const BaseShift& shift, std::uint32_t base) {
+    std::vector<std::uint32_t> digits;
+    std::uint64_t rest = mirrored_digits(shift.of(0), base);
+    for (std::size_t j = 0; j < digits_of(base); ++j, rest /= base)
+        digits.push_back(static_cast<std::uint32_t>(rest % base));
+    return digits;
+}
+
 }  // namespace
 
-std::unique_ptr<Sequence> net_sequence(std::uint32_t base,
-                                       const std::vector<DigitMatrix>& matrices) {
-    BaseNet net(base, matrices.front().rows, matrices.front().columns);
-    for (const DigitMatrix& matrix : matrices) net.append(matrix);
-    return std::make_unique<BaseNetSequence>(std::move(net));
+std::size_t net_digits(std::uint32_t base) { return base == 2 ? binary_digits : digits_of(base); }
+
+std::unique_ptr<Sequence> net_sequence(std::uint32_t base, std::vector<DigitMatrix> matrices,
+                                       const Plan& plan, const Values& options) {
+    if (base == 2) {
+        Values all = options;  // in the order of the indices, unless the unit has that option
+        if (all.try_find(binary_order.name) == nullptr)
+            all.put(binary_order.name, std::string(binary_order.fallback), false);
+        return binary_sequence(binary(matrices), plan, all);
+    }
+    const std::string scramble = options[binary_scramble];
+    const bool linear = scramble == "digital-shift" || scramble == "matrix";
+    const std::size_t rows = linear ? digits_of(base) : matrices.front().rows;
+    BaseNet net(base, rows, matrices.front().columns);
+    for (std::size_t k = 0; k < matrices.size(); ++k) {
+        if (linear) matrices[k] = resized(std::move(matrices[k]), rows);
+        if (scramble == "matrix") {
+            const BaseMatrix matrix(plan.seed, k, base);
+            net.append(product(matrix, matrices[k], base), matrix.shift());
+        } else if (linear) {
+            net.append(matrices[k], shift_digits(BaseShift(plan.seed, k, base), base));
+        } else {
+            net.append(matrices[k]);
+        }
+    }
+    if (scramble == "owen") return std::make_unique<Nested>(std::move(net), base, plan.seed);
+    return std::make_unique<Plain>(std::move(net));
 }
 
 }  // namespace stipple

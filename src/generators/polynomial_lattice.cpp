@@ -13,7 +13,8 @@
 // Shape   n x d; without a modulus, p is the smallest irreducible one with 2^m >= n. n <= 2^52, and
 //         n <= 2^22 where the vector is searched.
 // Cost    O(n d), half a nanosecond a coordinate. cbc: 16 s at n = 2^20, d = 100.
-// Promise coordinates are exact multiples of 2^-m. All 2^m points are closed under XOR of their
+// Promise unscrambled coordinates are exact multiples of 2^-m. All 2^m points are closed under XOR
+// of their
 //         digits; with p irreducible each of their coordinates takes every value once. The search
 //         gives the same vector on every machine.
 // Source  H. Niederreiter, Random Number Generation and Quasi-Monte Carlo Methods, SIAM 1992,
@@ -168,7 +169,7 @@ std::unique_ptr<Sequence> make(const Plan& decided, const Values& options) {
                           : given_vector(options, decided.dimension, gf2::degree(modulus));
     std::vector<DigitMatrix> matrices;
     for (const std::uint64_t q : vector) matrices.push_back(hankel(q, modulus));
-    return net_sequence(2, matrices);
+    return net_sequence(2, std::move(matrices), decided, options);
 }
 
 }  // namespace
@@ -179,10 +180,12 @@ Generator polynomial_lattice() {
             .source =
                 "Niederreiter 1992, doi:10.1137/1.9781611970081; "
                 "Baldeaux et al. 2012, doi:10.1007/s11075-011-9497-y",
-            .traits = {.prefix = false, .seeded = false},
-            .options = Schema(rule, modulus_option, vector_option, weights, decay),
+            .traits = {.prefix = false},
+            .options = Schema(rule, modulus_option, vector_option, weights, decay, binary_scramble),
             .plan = plan,
-            .sequence = make};
+            .sequence = make,
+            .uses_seed = binary_uses_seed,
+            .notes = binary_notes};
 }
 
 }  // namespace stipple::generators

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "math/base_scramble.hpp"
 #include "math/powers.hpp"
-#include "math/ratio.hpp"
 
 namespace stipple {
 namespace {
@@ -85,14 +85,8 @@ void walk(const F& fields, const Walk& w, BaseNet::Words state, std::size_t coun
 
 }  // namespace
 
-std::size_t exact_digits(std::uint32_t base) {
-    std::size_t count = 0;
-    for (std::uint64_t power = base; power <= exact_limit; power *= base) ++count;
-    return count;
-}
-
 BaseNet::BaseNet(std::uint32_t base, std::size_t rows, std::size_t columns)
-    : base_(base), rows_(std::min(rows, exact_digits(base))), columns_(columns) {
+    : base_(base), rows_(std::min(rows, digits_of(base))), columns_(columns) {
     assert(base >= 2 && base <= largest_base && rows >= 1 && columns >= 1);
     while (base > std::uint64_t{1} << (width_ - 1)) width_ *= 2;
     const std::size_t fields = 64 / width_;
@@ -110,15 +104,15 @@ BaseNet::BaseNet(std::uint32_t base, std::size_t rows, std::size_t columns)
         for (std::uint64_t i = power; i < block_; i += power) ++ruler_[i - 1];
 }
 
-/// The digits of a column; those of the last word end at its highest field.
-BaseNet::Words BaseNet::pack(const DigitMatrix& matrix, std::size_t column) const {
+/// Digits that are `stride` apart; those of the last word end at its highest field.
+BaseNet::Words BaseNet::pack(std::span<const std::uint32_t> digits, std::size_t stride) const {
     const std::size_t fields = 64 / width_;
     const std::size_t unused = words_ * fields - rows_;
     Words packed{};
     for (std::size_t row = 0; row < rows_; ++row) {
         const std::size_t word = row / fields;
         const std::size_t field = row % fields + (word + 1 == words_ ? unused : 0);
-        packed[word] |= std::uint64_t{matrix.at(row, column)} << (field * width_);
+        packed[word] |= std::uint64_t{digits[row * stride]} << (field * width_);
     }
     return packed;
 }
@@ -130,12 +124,14 @@ void BaseNet::add(Words& sum, const Words& term) const {
     });
 }
 
-void BaseNet::append(const DigitMatrix& matrix) {
+void BaseNet::append(const DigitMatrix& matrix, std::span<const std::uint32_t> shift) {
     assert(matrix.rows >= rows_ && matrix.columns == columns_);
+    assert(shift.empty() || shift.size() >= rows_);
     Coordinate& coordinate = coordinates_.emplace_back();
+    if (!shift.empty()) coordinate.origin = pack(shift, 1);
     Words step{};
     for (std::size_t column = 0; column < columns_; ++column) {
-        const Words packed = pack(matrix, column);
+        const Words packed = pack(std::span(matrix.digits).subspan(column), columns_);
         add(step, packed);
         coordinate.columns.push_back(packed);
         coordinate.steps.push_back(step);
@@ -148,7 +144,7 @@ void BaseNet::append(const DigitMatrix& matrix) {
 }
 
 BaseNet::Words BaseNet::at(const Coordinate& coordinate, std::uint64_t index) const {
-    Words sum{};
+    Words sum = coordinate.origin;
     for (std::size_t column = 0; index > 0; ++column, index /= base_) {
         Words multiple = coordinate.columns[column];
         for (std::uint64_t digit = index % base_; digit > 0; digit /= 2) {

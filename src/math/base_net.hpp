@@ -10,8 +10,8 @@
 // Digits are packed into words, four bits or more to each, so that all digits of a word are added
 // and reduced at once; the word becomes a number by joining neighbours, pairs of pairs, and so on.
 //
-// Shape    prime b <= 65521; indices below b^columns and 2^53; rows beyond b^rows = 2^53 are left
-//          out.
+// Shape    prime b <= 65521; indices below b^columns; the first digits_of(b) rows, the digits that
+//          scrambles find again in a double.
 // Cost     one word a coordinate and point for upper triangular matrices, up to four for others;
 //          about four nanoseconds a word. Memory: a few columns a coordinate.
 // Promise  y is exact, and x its nearest double; never 1.
@@ -47,9 +47,6 @@ struct DigitMatrix {
     bool operator==(const DigitMatrix&) const = default;
 };
 
-/// The largest k with base^k <= 2^53: digits of which a double holds every combination.
-std::size_t exact_digits(std::uint32_t base);
-
 class BaseNet {
   public:
     static constexpr std::uint32_t largest_base = 65521;
@@ -59,8 +56,8 @@ class BaseNet {
     /// @param rows,columns of every matrix; at least 1.
     BaseNet(std::uint32_t base, std::size_t rows, std::size_t columns);
 
-    /// Adds a coordinate.
-    void append(const DigitMatrix& matrix);
+    /// Adds a coordinate, `shift` being added to all its points digit by digit; empty: none.
+    void append(const DigitMatrix& matrix, std::span<const std::uint32_t> shift = {});
 
     [[nodiscard]] std::size_t dimension() const { return coordinates_.size(); }
 
@@ -69,12 +66,13 @@ class BaseNet {
 
   private:
     struct Coordinate {
+        Words origin{};  ///< point 0
         std::vector<Words> columns;
         std::vector<Words> steps;  ///< steps[t] = columns 0 + ... + t
         std::size_t active = 1;    ///< words that change within a block
     };
 
-    [[nodiscard]] Words pack(const DigitMatrix& matrix, std::size_t column) const;
+    [[nodiscard]] Words pack(std::span<const std::uint32_t> digits, std::size_t stride) const;
     void add(Words& sum, const Words& term) const;
     [[nodiscard]] Words at(const Coordinate& coordinate, std::uint64_t index) const;
     void stretch(const Coordinate& coordinate, std::uint64_t first, std::size_t count, double* out,

@@ -6,6 +6,7 @@
 
 #include "support/exact.hpp"
 #include "support/nets.hpp"
+#include "support/scrambling.hpp"
 #include "support/sequences.hpp"
 
 using namespace stipple;
@@ -175,6 +176,30 @@ TEST(DigitalNet, InterlacedNetsIntegrateSmoothFunctionsToHigherOrder) {
     };
     EXPECT_GT(error(1024, "1"), 1e-4);
     EXPECT_LT(error(1024, "2"), 2e-6);
+}
+
+TEST(DigitalNet, WithSobolsMatricesIsSobolScrambledOrNot) {
+    for (const char* scramble : {"none", "digital-shift", "matrix", "owen"})
+        EXPECT_EQ(make("digital-net", points(3000, 4, 77),
+                       {{"matrices", sobol_file}, {"scramble", scramble}}, {.seed = 5}),
+                  make("sobol", points(3000, 4, 77), {{"scramble", scramble}}, {.seed = 5}))
+            << scramble;
+}
+
+// Matrices of fewer rows than digits are filled up by scrambling.
+TEST(DigitalNet, ScrambledPointsAreItsPointsScrambled) {
+    const Matrices file("# digits\n3 2 3 4\n1 2 0\n0 1 1\n2 2 2\n1 0 0\n" +
+                        std::string("1 1 1\n2 1 0\n2 0 1\n0 0 2\n"));
+    const Matrices long_file("# dnetup\n5 1 2 27\n7450580596923828124 3\n", "long.txt");
+    for (const char* scramble : {"digital-shift", "matrix", "owen"}) {
+        const Settings settings = {{"scramble", scramble}};
+        EXPECT_EQ(net(file, {.count = 27, .seed = 1}, settings),
+                  scrambled(net(file, {.count = 27}), scramble, 3, 1))
+            << scramble;
+        EXPECT_EQ(net(long_file, {.count = 25}, settings),
+                  scrambled(net(long_file, {.count = 25}), scramble, 5, 1))
+            << scramble;
+    }
 }
 
 TEST(DigitalNet, AnyStretchIsThatOfTheWhole) {

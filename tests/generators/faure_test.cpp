@@ -4,6 +4,7 @@
 #include "math/powers.hpp"
 #include "support/exact.hpp"
 #include "support/nets.hpp"
+#include "support/scrambling.hpp"
 #include "support/sequences.hpp"
 
 using namespace stipple;
@@ -106,6 +107,25 @@ TEST(Faure, EveryAlignedBlockIsANetOfQualityZero) {
     }
 }
 
+TEST(Faure, ScrambledPointsAreItsPointsScrambledAndStillANet) {
+    using Case = std::tuple<std::size_t, std::uint32_t, std::size_t>;
+    for (const char* scramble : {"digital-shift", "matrix", "owen"})
+        for (const auto& [d, base, m] : {Case{1, 2, 7}, {2, 2, 8}, {3, 3, 5}, {5, 5, 3}, {7, 7, 3}})
+            for (const std::uint64_t seed : {1, 17}) {
+                const std::uint64_t n = whole_power(base, m);
+                const PointSet set =
+                    make("faure", points(n, d, 2 * n), {{"scramble", scramble}}, {.seed = seed});
+                EXPECT_EQ(set, scrambled(make("faure", points(n, d, 2 * n)), scramble, base, seed))
+                    << scramble << " in base " << base;
+                EXPECT_TRUE(is_net(set, base, 0)) << scramble << " in base " << base;
+            }
+    const Settings owen = {{"scramble", "owen"}};
+    EXPECT_NE(make("faure", points(9, 3), owen, {.seed = 1}),
+              make("faure", points(9, 3), owen, {.seed = 2}));
+    EXPECT_TRUE(stretches_agree("faure", points(500, 3), owen));
+    EXPECT_TRUE(stretches_agree("faure", points(500, 3), {{"scramble", "matrix"}}));
+}
+
 TEST(Faure, AnyStretchIsThatOfTheWhole) {
     EXPECT_TRUE(stretches_agree("faure", points(50, 3)));
     EXPECT_TRUE(stretches_agree("faure", points(5000, 2)));
@@ -118,12 +138,12 @@ TEST(Faure, ThreadsChangeNothing) {
 }
 
 TEST(Faure, ReachesItsLastIndexAndDimension) {
-    const std::uint64_t end = saturating_power(3, 33);
+    const std::uint64_t end = saturating_power(3, 31);
     const PointSet last = make("faure", points(1, 3, end - 1));
     EXPECT_TRUE(is_nearest_double(last[0][0], Fraction(end - 1, end)));
     EXPECT_EQ(make("faure", points(2, 65521))[1][65520], 1. / 65521);
     EXPECT_EQ(error_of([&] { make("faure", points(2, 3, end - 1)); }),
-              "usage: --start 5559060566555522 and 2 points go beyond index 5559060566555522, the "
+              "usage: --start 617673396283946 and 2 points go beyond index 617673396283946, the "
               "last of faure in base 3");
     EXPECT_EQ(error_of([] { make("faure", points(1, 65522)); }),
               "usage: --dimension: 65522 is outside [1, 65521], what faure can make");

@@ -8,6 +8,7 @@
 #include "generators/polynomial_search.hpp"
 #include "math/gf2.hpp"
 #include "support/nets.hpp"
+#include "support/scrambling.hpp"
 #include "support/sequences.hpp"
 
 using namespace stipple;
@@ -218,6 +219,17 @@ TEST(PolynomialLattice, ReachesItsLargestCount) {
     const auto sequence = sequence_of("polynomial-lattice", points(n, 2), {{"vector", "1,5"}});
     const PointSet last = stretch(*sequence, 2, n - 3, 3);
     for (const double x : last.flat()) EXPECT_TRUE(x >= 0 && x < 1) << x;
+}
+
+TEST(PolynomialLattice, ScrambledPointsAreItsPointsScrambledAndAsGoodANet) {
+    const PointSet plain = make("polynomial-lattice", points(256, 3));
+    for (const char* scramble : {"digital-shift", "matrix", "owen"})
+        for (const std::uint64_t seed : {1, 17}) {
+            const PointSet set = make("polynomial-lattice", points(256, 3),
+                                      {{"scramble", scramble}}, {.seed = seed});
+            EXPECT_EQ(set, scrambled(plain, scramble, 2, seed)) << scramble;
+            EXPECT_EQ(exact_t(set, 2), exact_t(plain, 2)) << scramble;
+        }
 }
 
 TEST(PolynomialLattice, WeightsAndDecaySteerTheSearch) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/rng.hpp"
+#include "math/base_scramble.hpp"
 #include "math/powers.hpp"
 #include "support/exact.hpp"
 
@@ -25,7 +26,7 @@ DigitMatrix random_matrix(std::uint32_t base, std::size_t rows, std::size_t colu
 Fraction by_definition(const DigitMatrix& matrix, std::uint32_t base, std::uint64_t index) {
     Fraction sum = 0;
     Fraction weight(1, base);
-    for (std::size_t r = 0; r < std::min(matrix.rows, exact_digits(base)); ++r, weight /= base) {
+    for (std::size_t r = 0; r < std::min(matrix.rows, digits_of(base)); ++r, weight /= base) {
         std::uint64_t digit = 0;
         std::uint64_t rest = index;
         for (std::size_t c = 0; rest > 0; ++c, rest /= base)
@@ -53,16 +54,9 @@ const std::vector<std::uint32_t> bases = {2,   3,   5,   7,    11,   13,    31, 
 
 }  // namespace
 
-TEST(BaseNet, CountsTheDigitsThatADoubleHolds) {
-    EXPECT_EQ(exact_digits(2), 53U);
-    EXPECT_EQ(exact_digits(3), 33U);  // 3^33 = 5.56e15 < 2^53 = 9.01e15
-    EXPECT_EQ(exact_digits(5), 22U);
-    EXPECT_EQ(exact_digits(65521), 3U);
-}
-
 TEST(BaseNet, IsTheNearestDoubleToItsDefinition) {
     for (const std::uint32_t base : bases) {
-        const std::size_t columns = exact_digits(base);
+        const std::size_t columns = digits_of(base);
         const std::vector<DigitMatrix> matrices = {random_matrix(base, columns, columns, 1),
                                                    random_matrix(base, columns + 9, columns, 2),
                                                    random_matrix(base, columns, columns, 3)};
@@ -91,7 +85,7 @@ TEST(BaseNet, TakesMatricesOfAnyShape) {
 // Blocks end within the stretches, so that their joints are met.
 TEST(BaseNet, AnyStretchIsThatOfTheWhole) {
     for (const std::uint32_t base : bases) {
-        const std::size_t columns = exact_digits(base);
+        const std::size_t columns = digits_of(base);
         BaseNet net(base, columns, columns);
         for (std::uint64_t k = 0; k < 2; ++k) net.append(random_matrix(base, columns, columns, k));
         std::vector<double> whole(2 * 70000);
@@ -107,7 +101,7 @@ TEST(BaseNet, AnyStretchIsThatOfTheWhole) {
 
 TEST(BaseNet, NeverReachesOne) {
     for (const std::uint32_t base : bases) {
-        const std::size_t digits = exact_digits(base);
+        const std::size_t digits = digits_of(base);
         DigitMatrix all(digits, 1);
         for (std::uint32_t& digit : all.digits) digit = 1;
         BaseNet net(base, digits, 1);
@@ -115,6 +109,6 @@ TEST(BaseNet, NeverReachesOne) {
         std::vector<double> last(1);
         net.fill(base - 1, last);
         EXPECT_LT(last[0], 1) << base;
-        EXPECT_GE(last[0], 1 - 3e-14) << base;
+        EXPECT_GE(last[0], 1 - 2e-12) << base;
     }
 }
