@@ -126,6 +126,21 @@ TEST(Faure, ScrambledPointsAreItsPointsScrambledAndStillANet) {
     EXPECT_TRUE(stretches_agree("faure", points(500, 3), {{"scramble", "matrix"}}));
 }
 
+// Whole blocks of low digits are scrambled at once; here they are whole, cut at either end, or few.
+TEST(Faure, NestedScramblingIsThatOfItsPointsInStretchesOfAnySize) {
+    for (const auto& [d, base] :
+         {std::pair<std::size_t, std::uint32_t>{3, 3}, {6, 7}, {20, 23}, {2, 1009}, {2, 1031}})
+        for (const auto& [start, count] : {std::pair<std::uint64_t, std::uint64_t>{0, 3500},
+                                           {700, 1500},
+                                           {1'000'000'000'000, 2200}}) {
+            const Settings settings = {{"base", std::to_string(base)}};
+            const PointSet plain = make("faure", points(count, d, start), settings);
+            const PointSet set = make("faure", points(count, d, start),
+                                      {settings[0], {"scramble", "owen"}}, {.seed = 3});
+            EXPECT_EQ(set, scrambled(plain, "owen", base, 3)) << base << " from " << start;
+        }
+}
+
 TEST(Faure, AnyStretchIsThatOfTheWhole) {
     EXPECT_TRUE(stretches_agree("faure", points(50, 3)));
     EXPECT_TRUE(stretches_agree("faure", points(5000, 2)));
