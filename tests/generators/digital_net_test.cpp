@@ -194,10 +194,10 @@ TEST(DigitalNet, ScrambledPointsAreItsPointsScrambled) {
     for (const char* scramble : {"digital-shift", "matrix", "owen"}) {
         const Settings settings = {{"scramble", scramble}};
         EXPECT_EQ(net(file, {.count = 27, .seed = 1}, settings),
-                  scrambled(net(file, {.count = 27}), scramble, 3, 1))
+                  scrambled(net(file, {.count = 27}), scramble + std::string(":base=3"), 1))
             << scramble;
         EXPECT_EQ(net(long_file, {.count = 25}, settings),
-                  scrambled(net(long_file, {.count = 25}), scramble, 5, 1))
+                  scrambled(net(long_file, {.count = 25}), scramble + std::string(":base=5"), 1))
             << scramble;
     }
 }

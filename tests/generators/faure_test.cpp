@@ -115,7 +115,8 @@ TEST(Faure, ScrambledPointsAreItsPointsScrambledAndStillANet) {
                 const std::uint64_t n = whole_power(base, m);
                 const PointSet set =
                     make("faure", points(n, d, 2 * n), {{"scramble", scramble}}, {.seed = seed});
-                EXPECT_EQ(set, scrambled(make("faure", points(n, d, 2 * n)), scramble, base, seed))
+                EXPECT_EQ(set, scrambled(make("faure", points(n, d, 2 * n)),
+                                         scramble + (":base=" + std::to_string(base)), seed))
                     << scramble << " in base " << base;
                 EXPECT_TRUE(is_net(set, base, 0)) << scramble << " in base " << base;
             }
@@ -137,7 +138,8 @@ TEST(Faure, NestedScramblingIsThatOfItsPointsInStretchesOfAnySize) {
             const PointSet plain = make("faure", points(count, d, start), settings);
             const PointSet set = make("faure", points(count, d, start),
                                       {settings[0], {"scramble", "owen"}}, {.seed = 3});
-            EXPECT_EQ(set, scrambled(plain, "owen", base, 3)) << base << " from " << start;
+            EXPECT_EQ(set, scrambled(plain, "owen:base=" + std::to_string(base), 3))
+                << base << " from " << start;
         }
 }
 

@@ -227,7 +227,7 @@ TEST(PolynomialLattice, ScrambledPointsAreItsPointsScrambledAndAsGoodANet) {
         for (const std::uint64_t seed : {1, 17}) {
             const PointSet set = make("polynomial-lattice", points(256, 3),
                                       {{"scramble", scramble}}, {.seed = seed});
-            EXPECT_EQ(set, scrambled(plain, scramble, 2, seed)) << scramble;
+            EXPECT_EQ(set, scrambled(plain, scramble, seed)) << scramble;
             EXPECT_EQ(exact_t(set, 2), exact_t(plain, 2)) << scramble;
         }
 }
