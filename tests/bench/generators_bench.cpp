@@ -37,6 +37,15 @@ void make_set(benchmark::State& state, const Request& request, const Settings& s
     state.SetItemsProcessed(static_cast<std::int64_t>(made));
 }
 
+/// A whole array, as a peer gives it: with the time that its memory takes.
+void make_array(benchmark::State& state, const std::string& name, const Settings& settings,
+                std::size_t dimension) {
+    const Request request{.count = std::uint64_t{1} << 20, .dimension = dimension};
+    std::size_t made = 0;
+    for (auto _ : state) made += generate(name, request, settings, {.threads = 1}).count();
+    state.SetItemsProcessed(static_cast<std::int64_t>(made));
+}
+
 const bool registered = [] {
     const auto add = [](const std::string& label, const std::string& name,
                         const Settings& settings = {}, std::size_t dimension = 2) {
@@ -54,6 +63,14 @@ const bool registered = [] {
             add(fmt::format("sobol/{}/{}d", scramble, dimension), "sobol", {{"scramble", scramble}},
                 dimension);
     add("sobol/gray/2d", "sobol", {{"order", "gray"}});
+    for (const char* scramble : {"none", "owen"})
+        for (const std::size_t dimension : {std::size_t{2}, std::size_t{20}}) {
+            const Settings settings{{"scramble", scramble}};
+            benchmark::RegisterBenchmark(
+                fmt::format("array/sobol/{}/{}d", scramble, dimension).c_str(),
+                [=](auto& state) { make_array(state, "sobol", settings, dimension); })
+                ->Unit(benchmark::kMillisecond);
+        }
 
     const auto set = [](const char* label, const Request& request, const Settings& settings) {
         benchmark::RegisterBenchmark(label, [=](auto& state) {
