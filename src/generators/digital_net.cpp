@@ -10,7 +10,8 @@
 //
 // Shape   n x d for s >= alpha d matrices of m columns; i < b^m and i < 2^53. The layouts of files
 //         are described in matrix_file.hpp.
-// Cost    O(n d); base 2: half a nanosecond a coordinate; others: up to fifteen.
+// Cost    O(n d); base 2: half a nanosecond a coordinate; others: five to ten. Scrambled nested in
+//         other bases, up to two microseconds where matrices are not triangular.
 // Promise every coordinate is correctly rounded from its first r digits, b^r <= 2^50 or, in base 2,
 //         r = 53; and below 1.
 // Source  H. Niederreiter, Random Number Generation and Quasi-Monte Carlo Methods, SIAM 1992,
@@ -31,7 +32,8 @@ namespace stipple::generators {
 namespace {
 
 constexpr Param<Path> matrices_option{
-    {.name = "matrices", .help = "File of the generating matrices; needed"}};
+    {.name = "matrices",
+     .help = "File of the generating matrices; needed, and gives the dimension"}};
 constexpr Param<Choice> layout{
     .name = "layout",
     .fallback = "auto",

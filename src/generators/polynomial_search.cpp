@@ -11,8 +11,8 @@
 //
 // Cost     O(d n log n) time, 60 n bytes.
 // Promise  the same vector on every machine: transforms, which round differently on different ones,
-//          only nominate; what is within their rounding of the best is compared by plain sums in a
-//          fixed order.
+//          only nominate; what is within their rounding of the best (of more than 64 such, the
+//          smallest 64) is compared by plain sums in a fixed order.
 // Source   J. Baldeaux, J. Dick, G. Leobacher, D. Nuyens, F. Pillichshammer, Numer. Algorithms 59
 //          (2012) 403-431, doi:10.1007/s11075-011-9497-y; D. Nuyens, R. Cools, Math. Comp. 75
 //          (2006) 903-920, doi:10.1090/S0025-5718-06-01785-6 (for lattices).
