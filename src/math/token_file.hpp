@@ -43,6 +43,11 @@ class TokenFile {
     /// Whether no token is left on the line of the last one taken; true at the front of the file.
     [[nodiscard]] bool at_line_end() const { return at_end() || line_ != last_line_; }
 
+    /// The whole first line, where formats put a comment that names them.
+    [[nodiscard]] std::string_view first_line() const {
+        return std::string_view(bytes_).substr(0, bytes_.find_first_of("\r\n"));
+    }
+
     /// The next token, which stays where it is; its text is empty at the end of the file.
     [[nodiscard]] Token peek() const;
 

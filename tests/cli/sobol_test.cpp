@@ -78,6 +78,16 @@ TEST(Sobol, ShardsOfScrambledPointsJoinToTheWhole) {
         "done; done"));
 }
 
+TEST(Sobol, IsScrambledInItsMakingAsAfterIt) {
+    const Sandbox box;
+    good(
+        box.shell("for scramble in digital-shift matrix owen; do\n"
+                  "s='stipple generate sobol -n 4096 -d 5 -f bin'\n"
+                  "$s --scramble $scramble > made && $s -w $scramble > warped &&\n"
+                  "cmp made warped && test -s made || exit 1\n"
+                  "done"));
+}
+
 TEST(Sobol, SaysWhereADirectionFileIsWrong) {
     const Sandbox box;
     box.write("bad.txt", "d s a m_i\n2 1 0 1\n3 2 1 1 4\n");

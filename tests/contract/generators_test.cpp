@@ -13,6 +13,12 @@ using namespace stipple::testing;
 
 namespace {
 
+/// What a unit cannot do without.
+Settings needed(const std::string& name) {
+    if (name == "digital-net") return {{"matrices", STIPPLE_SOURCE_DIR "/data/sobol_4d.txt"}};
+    return {};
+}
+
 class EveryGenerator : public ::testing::TestWithParam<std::string> {
   protected:
     const Generator& unit = find_generator(GetParam());
@@ -20,7 +26,8 @@ class EveryGenerator : public ::testing::TestWithParam<std::string> {
         std::clamp<std::size_t>(2, unit.traits.min_dimension, unit.traits.max_dimension);
 
     PointSet make(std::uint64_t count, RunContext run = {}, std::uint64_t start = 0) const {
-        return stipple::testing::make(unit.name, points(count, dimension, start), {}, run);
+        return stipple::testing::make(unit.name, points(count, dimension, start), needed(unit.name),
+                                      run);
     }
 };
 
@@ -67,7 +74,8 @@ TEST_P(EveryGenerator, StartDropsThatManyPoints) {
 TEST_P(EveryGenerator, FillsAnyPiecesToTheSameWhole) {
     if (!unit.traits.sequence) GTEST_SKIP() << "made as a whole";
     const PointSet whole = make(400);
-    const Values options = unit.options.defaults();
+    Values options = unit.options.defaults();
+    for (const auto& [option, value] : needed(unit.name)) unit.options.set(options, option, value);
     const Plan plan = plan_for(unit, points(400, dimension), options);
     const auto sequence = unit.sequence(plan, options);
     for (const std::size_t piece : {1, 7, 64, 399}) {
@@ -88,7 +96,9 @@ TEST_P(EveryGenerator, RefusesAnEmptySet) {
 TEST_P(EveryGenerator, MakesOnePoint) { EXPECT_EQ(make(1).count(), 1U); }
 
 TEST_P(EveryGenerator, WorksInOneDimensionOrSaysThatItDoesNot) {
-    const auto one = [&] { return stipple::testing::make(unit.name, points(100, 1)); };
+    const auto one = [&] {
+        return stipple::testing::make(unit.name, points(100, 1), needed(unit.name));
+    };
     if (unit.traits.min_dimension > 1)
         EXPECT_NE(error_of(one).find("usage: --dimension: 1 is outside"), std::string::npos);
     else
@@ -97,7 +107,8 @@ TEST_P(EveryGenerator, WorksInOneDimensionOrSaysThatItDoesNot) {
 
 TEST_P(EveryGenerator, RefusesDimensionsBeyondItsTraits) {
     const std::size_t beyond = unit.traits.max_dimension + 1;
-    const auto error = error_of([&] { stipple::testing::make(unit.name, points(1, beyond)); });
+    const auto error =
+        error_of([&] { stipple::testing::make(unit.name, points(1, beyond), needed(unit.name)); });
     EXPECT_NE(error.find("usage: --dimension"), std::string::npos) << error;
 }
 

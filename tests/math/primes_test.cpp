@@ -17,3 +17,15 @@ TEST(Primes, AreAllPrimesUpTo7919) {
     }
     EXPECT_EQ(next, primes.size());
 }
+
+TEST(Primes, KnowsThemAndTheSmallestFactorOfOthers) {
+    std::size_t next = 0;
+    for (std::uint64_t n = 0; n < 7920; ++n) {
+        const bool listed = next < primes.size() && primes[next] == n;
+        EXPECT_EQ(is_prime(n), listed) << n;
+        next += listed;
+    }
+    EXPECT_EQ(smallest_factor(9), 3U);
+    EXPECT_EQ(smallest_factor(65521), 65521U);
+    EXPECT_EQ(smallest_factor(65521ULL * 7919), 7919U);
+}
