@@ -17,7 +17,7 @@ using namespace stipple::testing;
 
 namespace {
 
-constexpr const char* scrambles[] = {"none", "digital-shift", "matrix", "owen"};
+constexpr const char* scramblings[] = {"none", "digital-shift", "matrix", "owen"};
 
 /// Degrees of the polynomials of the first coordinates, as published; the bound on t adds them up.
 constexpr std::size_t degrees[] = {1, 1, 2, 3, 3, 4, 4, 5, 5, 5, 5};
@@ -93,7 +93,7 @@ TEST(Sobol, FirstPointsByHand) {
 // The theorem, for blocks anywhere, up to the last one there is.
 TEST(Sobol, EveryAlignedBlockIsANet) {
     for (const char* order : {"natural", "gray"})
-        for (const char* scramble : scrambles)
+        for (const char* scramble : scramblings)
             for (const std::size_t d : {1U, 2U, 3U, 5U})
                 for (const std::size_t m : {1U, 4U, 8U}) {
                     const std::uint64_t n = std::uint64_t{1} << m;
@@ -113,7 +113,7 @@ TEST(Sobol, EveryAlignedBlockIsANet) {
 TEST(Sobol, ScramblingKeepsTheExactT) {
     for (const std::size_t d : {2U, 4U, 6U}) {
         const std::size_t t = exact_t(make("sobol", points(256, d)), 2);
-        for (const char* scramble : scrambles)
+        for (const char* scramble : scramblings)
             for (const std::uint64_t seed : {1U, 2U, 3U}) {
                 const PointSet set =
                     make("sobol", points(256, d), {{"scramble", scramble}}, {.seed = seed});
@@ -182,7 +182,7 @@ TEST(Sobol, PointsUpToTheLastAreMultiplesOfTheLastDigit) {
 
 TEST(Sobol, AnyStretchIsThatOfTheWhole) {
     for (const char* order : {"natural", "gray"})
-        for (const char* scramble : scrambles) {
+        for (const char* scramble : scramblings) {
             const Settings settings{{"order", order}, {"scramble", scramble}};
             EXPECT_TRUE(stretches_agree("sobol", points(50, 3), settings));
             EXPECT_TRUE(stretches_agree("sobol", points(5000, 2), settings));
@@ -192,7 +192,7 @@ TEST(Sobol, AnyStretchIsThatOfTheWhole) {
 
 TEST(Sobol, TheSeedCountsWithScramblingsOnly) {
     const Generator& unit = find_generator("sobol");
-    for (const std::string scramble : scrambles) {
+    for (const std::string scramble : scramblings) {
         const auto of_seed = [&](std::uint64_t seed) {
             return make("sobol", points(64, 3), {{"scramble", scramble}}, {.seed = seed});
         };
