@@ -63,6 +63,7 @@ const bool registered = [] {
             add(fmt::format("sobol/{}/{}d", scramble, dimension), "sobol", {{"scramble", scramble}},
                 dimension);
     add("sobol/gray/2d", "sobol", {{"order", "gray"}});
+    add("niederreiter/2d", "niederreiter");
     for (const char* scramble : {"none", "owen"})
         for (const std::size_t dimension : {std::size_t{2}, std::size_t{20}}) {
             const Settings settings{{"scramble", scramble}};
