@@ -36,6 +36,15 @@ void make_set(benchmark::State& state, const Request& request, const Settings& s
     state.SetItemsProcessed(static_cast<std::int64_t>(made));
 }
 
+void search_vector(benchmark::State& state, const Request& request, const Settings& settings) {
+    const Generator& generator = find_generator("rank1-lattice");
+    Values values = generator.options.defaults();
+    for (const auto& [option, text] : settings) generator.options.set(values, option, text);
+    for (auto _ : state)
+        benchmark::DoNotOptimize(
+            generator.sequence(plan_for(generator, request, values), values).get());
+}
+
 const bool registered = [] {
     const auto add = [](const std::string& label, const std::string& name,
                         const Settings& settings = {}, std::size_t dimension = 2) {
@@ -48,6 +57,17 @@ const bool registered = [] {
     for (const char* name : {"random", "grid", "jittered", "halton", "hammersley"})
         // 2^40 = 4^20 points: a power of two in 20 dimensions as well.
         add(std::string(name) + "/20d", name, {}, 20);
+
+    const Settings korobov = {{"rule", "korobov"}, {"multiplier", "364981"}};
+    add("rank1-lattice", "rank1-lattice", korobov);
+    add("rank1-lattice/20d", "rank1-lattice", korobov, 20);
+    for (const std::uint64_t n : {std::uint64_t{1} << 20, std::uint64_t{1'048'573}})
+        benchmark::RegisterBenchmark(
+            ("rank1-lattice/cbc/" + std::to_string(n) + "x100").c_str(),
+            [n](auto& state) {
+                search_vector(state, {.count = n, .dimension = 100}, {{"rule", "cbc"}});
+            })
+            ->Unit(benchmark::kMillisecond);
 
     const auto set = [](const char* label, const Request& request, const Settings& settings) {
         benchmark::RegisterBenchmark(label, [=](auto& state) {
