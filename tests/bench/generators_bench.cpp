@@ -53,11 +53,14 @@ const bool registered = [] {
     };
     for (const char* rng : {"philox", "mt19937-64", "drand48", "ranlux48", "ranmar", "random"})
         add(std::string("random/") + rng, "random", {{"rng", rng}});
-    for (const char* name : {"grid", "jittered", "halton", "hammersley"}) add(name, name);
-    for (const char* name : {"random", "grid", "jittered", "halton", "hammersley"})
+    for (const char* name : {"grid", "jittered", "halton", "hammersley", "kronecker"})
+        add(name, name);
+    for (const char* name : {"random", "grid", "jittered", "halton", "hammersley", "kronecker"})
         // 2^40 = 4^20 points: a power of two in 20 dimensions as well.
         add(std::string(name) + "/20d", name, {}, 20);
 
+    add("van-der-corput/base_2", "van-der-corput", {}, 1);
+    add("van-der-corput/base_10", "van-der-corput", {{"base", "10"}}, 1);
     const Settings korobov = {{"rule", "korobov"}, {"multiplier", "364981"}};
     add("rank1-lattice", "rank1-lattice", korobov);
     add("rank1-lattice/20d", "rank1-lattice", korobov, 20);
