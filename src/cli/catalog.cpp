@@ -26,6 +26,11 @@ std::string dimensions(std::size_t low, std::size_t high) {
     return fmt::format("dimensions {} to {}", low, high);
 }
 
+std::string seed_use(const Generator& unit) {
+    if (uses_seed(unit, unit.options.defaults())) return "uses the seed";
+    return unit.traits.seeded ? "uses the seed when scrambled" : "does not use the seed";
+}
+
 UnitInfo info(const Generator& unit) {
     const auto& t = unit.traits;
     UnitInfo out{unit.name, unit.summary, unit.source, {}, {}, unit.options.options(), {}};
@@ -39,7 +44,7 @@ UnitInfo info(const Generator& unit) {
                    t.sequence ? "streams in constant memory" : "made as a whole, in memory",
                    t.prefix ? "any prefix of a longer set is the shorter set; --start and --shard"
                             : "the points depend on their number; --shard",
-                   t.seeded ? "uses the seed" : "does not use the seed"};
+                   seed_use(unit)};
     return out;
 }
 

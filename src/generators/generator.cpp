@@ -56,6 +56,10 @@ Plan plan_for(const Generator& generator, const Request& request, const Values& 
     return plan;
 }
 
+bool uses_seed(const Generator& generator, const Values& options) {
+    return generator.uses_seed ? generator.uses_seed(options) : generator.traits.seeded;
+}
+
 std::uint64_t exact_root(std::uint64_t count, std::size_t dimension, const std::string& who) {
     const std::uint64_t k = floor_root(count, dimension);
     const std::uint64_t below = saturating_power(k, dimension);

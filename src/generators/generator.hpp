@@ -57,7 +57,7 @@ struct GeneratorTraits {
     std::size_t max_dimension = 1'000'000;
     bool sequence = true;  ///< streams in constant memory, shards
     bool prefix = true;    ///< point i does not depend on the count; --start works
-    bool seeded = true;    ///< uses the seed
+    bool seeded = true;    ///< uses the seed, at least under some options
     bool boxed = false;    ///< takes the bounds itself, since its distances hold in them
     std::uint64_t max_index = std::uint64_t{1} << 53;  ///< start + count is at most this
 };
@@ -78,6 +78,12 @@ struct Generator {
     /// A set may put what it worked out (a radius) into its provenance's options.
     std::function<PointSet(const Plan&, const Values&, const RunContext&)> set = {};
 
+    /// Whether the points depend on the seed under these options; empty: as traits.seeded says.
+    std::function<bool(const Values&)> uses_seed = {};
+
+    /// What the user should know about such a request, in sentences; it is no mistake.
+    std::function<std::vector<std::string>(const Request&, const Plan&, const Values&)> notes = {};
+
     /// Largest seed, where an engine's own seeding takes fewer than 64 bits.
     std::function<std::uint64_t(const Values&)> max_seed = {};
 };
@@ -85,6 +91,9 @@ struct Generator {
 /// The request completed with the defaults and checked against the generator's traits.
 /// @throws Error(usage)
 Plan plan_for(const Generator& generator, const Request& request, const Values& options);
+
+/// Whether sets of different seeds differ.
+bool uses_seed(const Generator& generator, const Values& options);
 
 /// What generator.plan does where it is empty.
 Plan default_plan(const Request& request, std::uint64_t count = 1024, std::size_t dimension = 2);

@@ -64,11 +64,25 @@ void walk_to(Sequence& sequence, std::uint64_t start, std::size_t dimension,
     }
 }
 
-PointSet generate(const Generator& generator, const Request& request, const Values& options,
-                  const RunContext& run) {
+void tell_notes(const Generator& generator, const Request& request, const Values& options,
+                const RunContext& run) {
+    if (!generator.notes) return;
+    for (const auto& note :
+         generator.notes(request, plan_for(generator, request, options), options))
+        run.tell(note);
+}
+
+PointSet make_points(const Generator& generator, const Request& request, const Values& options,
+                     const RunContext& run) {
     const Plan plan = plan_for(generator, request, options);
     if (!generator.traits.sequence) return generator.set(plan, options, run);
     return fill_all(*generator.sequence(plan, options), plan, request.start, run);
+}
+
+PointSet generate(const Generator& generator, const Request& request, const Values& options,
+                  const RunContext& run) {
+    tell_notes(generator, request, options, run);
+    return make_points(generator, request, options, run);
 }
 
 PointSet generate(std::string_view name, const Request& request, const Settings& settings,

@@ -28,7 +28,15 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 /// sequence with random access needs no walk.
 void walk_to(Sequence& sequence, std::uint64_t start, std::size_t dimension, const RunContext& run);
 
-/// All points of a request, in memory. The seed is the request's.
+/// Tells the user what the generator has to say about the request.
+void tell_notes(const Generator& generator, const Request& request, const Values& options,
+                const RunContext& run);
+
+/// All points of a request, in memory, without notes. The seed is the request's.
+PointSet make_points(const Generator& generator, const Request& request, const Values& options,
+                     const RunContext& run);
+
+/// The same, with notes.
 PointSet generate(const Generator& generator, const Request& request, const Values& options,
                   const RunContext& run);
 PointSet generate(std::string_view generator, const Request& request, const Settings& settings = {},

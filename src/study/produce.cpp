@@ -128,9 +128,10 @@ class Producer {
         if (job_.sets - 1 > ~plan_.seed)
             fail(ErrorKind::usage, "--seed: {} and {} sets go beyond the 64 bits of a seed",
                  plan_.seed, job_.sets);
-        if (job_.sets > 1 && !generator_.traits.seeded)
+        if (job_.sets > 1 && !uses_seed(generator_, job_.options))
             run_.tell(fmt::format("{} does not use the seed: all {} sets are the same",
                                   generator_.name, job_.sets));
+        if (job_.shard.index == 0) tell_notes(generator_, job_.request, job_.options, run_);
     }
 
     /// What the points are on in the end.
@@ -185,7 +186,7 @@ class Producer {
         const RunContext part_of_run = lane(run_, set, job_.sets);
         Request request = job_.request;
         request.seed += set;
-        PointSet points = generate(generator_, request, job_.options, part_of_run);
+        PointSet points = make_points(generator_, request, job_.options, part_of_run);
         auto options = std::move(points.provenance.options);
         if (bounds_) scale_into(*bounds_, points.flat());
         if (!chain_.empty()) points = image_of(points, chain_, false, run_);

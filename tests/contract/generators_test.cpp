@@ -42,7 +42,8 @@ TEST_P(EveryGenerator, DependsOnTheSeedAloneNotOnThreads) {
     const PointSet one = make(10'000, {.seed = 9, .threads = 1});
     EXPECT_EQ(one, make(10'000, {.seed = 9, .threads = 2}));
     EXPECT_EQ(one, make(10'000, {.seed = 9, .threads = 7}));
-    EXPECT_EQ(make(400, {.seed = 9}) != make(400, {.seed = 10}), unit.traits.seeded);
+    EXPECT_EQ(make(400, {.seed = 9}) != make(400, {.seed = 10}),
+              uses_seed(unit, unit.options.defaults()));
 }
 
 TEST_P(EveryGenerator, KeepsItsPrefixPromise) {
@@ -117,6 +118,7 @@ TEST_P(EveryGenerator, HasACompleteRecord) {
     expect_complete_record(unit);
     EXPECT_EQ(static_cast<bool>(unit.sequence), unit.traits.sequence);
     EXPECT_EQ(static_cast<bool>(unit.set), !unit.traits.sequence);
+    EXPECT_TRUE(unit.traits.seeded || !unit.uses_seed);
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryGenerator, ::testing::ValuesIn(names_of(generators::all())),
