@@ -61,6 +61,10 @@ const bool registered = [] {
 
     add("van-der-corput/base_2", "van-der-corput", {}, 1);
     add("van-der-corput/base_10", "van-der-corput", {{"base", "10"}}, 1);
+    for (const char* scramble : {"faure", "permutation", "owen"})
+        for (const std::size_t d : {2U, 20U})
+            add("halton/" + std::string(scramble) + (d == 2 ? "" : "/20d"), "halton",
+                {{"scramble", scramble}}, d);
     const Settings korobov = {{"rule", "korobov"}, {"multiplier", "364981"}};
     add("rank1-lattice", "rank1-lattice", korobov);
     add("rank1-lattice/20d", "rank1-lattice", korobov, 20);
