@@ -11,6 +11,7 @@
 
 #include "core/domain.hpp"
 #include "core/options.hpp"
+#include "core/zeros.hpp"
 
 namespace stipple {
 
@@ -36,7 +37,7 @@ class PointSet {
   public:
     PointSet() = default;
     PointSet(std::size_t count, std::size_t dimension)
-        : PointSet(std::vector<double>(count * dimension), dimension) {}
+        : PointSet(zeros(count * dimension), dimension) {}
 
     /// Takes rows of `dimension` numbers.
     PointSet(std::vector<double> rows, std::size_t dimension)

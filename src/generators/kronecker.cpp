@@ -11,7 +11,7 @@
 // Cost    O(n d): five additions and shifts a coordinate.
 // Promise all arithmetic is in whole numbers of 127 bits, modulo 1: a coordinate is the first 53
 //         bits of frac(offset + i alpha_k), at any index. A given alpha is the double that it reads
-//         as. Those of R_d are within d 2^-124, so that a point i is within i d 2^-124 + 2^-53.
+//         as. Those of R_d are within d 2^-126, so that a point i is within i d 2^-126 + 2^-53.
 // Beware  R_d is a conjecture beyond d = 1; no bound of its discrepancy is known. M. Roberts adds
 //         the offset 0.5 and begins with i = 1.
 // Source  M. Roberts, "The unreasonable effectiveness of quasirandom sequences" (2018),
