@@ -38,7 +38,7 @@ std::vector<std::string> known_options(Verb verb, const UnitInfo* unit) {
     for (const auto& option : common_options())
         if (takes(option, verb)) names.push_back("--" + long_name(option.names));
     if (unit)
-        for (const auto& option : unit->options) names.push_back("--" + option.name);
+        for (const auto& option : own_options(verb, *unit)) names.push_back("--" + option.name);
     return names;
 }
 
@@ -63,7 +63,7 @@ void split_coordinates(std::vector<std::string>& words, const Kind& kind) {
         const auto at = word->find('@');
         if (at == std::string::npos) continue;
         const std::string name = word->substr(0, at);
-        if (std::ranges::find(kind.units, name, &UnitInfo::name) == kind.units.end()) continue;
+        if (find_unit(kind, name) == nullptr) continue;
         const std::string coordinates = word->substr(at + 1);
         *word = name;
         words.insert(word + 1, {"--coordinates", coordinates});
@@ -88,10 +88,9 @@ class Parser {
             return;
         }
         for (const std::string& word : words) {
-            const auto unit = std::ranges::find(kind->units, word, &UnitInfo::name);
-            if (unit == kind->units.end()) continue;
-            unit_ = &*unit;
-            add_unit(*unit);
+            unit_ = find_unit(*kind, word);
+            if (unit_ == nullptr) continue;
+            add_unit(*unit_);
             break;
         }
     }
@@ -131,12 +130,13 @@ class Parser {
 
     void add_unit(const UnitInfo& unit) {
         CLI::App& app = *app_.add_subcommand(unit.name);
+        for (const std::string& alias : unit.aliases) app.alias(alias);
         app.set_help_flag();
         app.fallthrough();
         app.allow_extras();
         add_help(app);
         auto& settings = arguments_.settings;
-        for (const Option& option : unit.options) {
+        for (const Option& option : own_options(verb_.verb, unit)) {
             const std::string name = option.name;
             if (option.type == "flag")
                 app.add_flag_callback("--" + name,
@@ -202,11 +202,14 @@ const std::vector<VerbInfo>& verbs() {
          "  stipple generate jittered -m 10 -o 'set{set}.csv'\n"
          "  stipple generate poisson-disk -n 2000 --bounds 0..40,0..30\n"},
         {Verb::warp, "warp", "stipple warp WARP [INPUT] [OPTIONS]",
-         "moves points of the unit cube onto another domain, or back",
+         "moves points of the unit cube onto another domain, or back, or scrambles them",
          "INPUT is a file of points; standard input by default. WARP@I,J warps coordinates I and J "
          "and\n"
-         "leaves the others. Deterministic: the image depends on the points and the options alone.",
+         "leaves the others. Deterministic: the image depends on the points, the options and, for "
+         "a\n"
+         "scramble, the seed alone.",
          "  stipple warp disk points.csv -o disk.csv\n"
+         "  stipple warp owen points.csv --seed 7 -m 10 -o 'owen{set}.csv'\n"
          "  stipple warp triangle --vertices '0,0 2,0 0,1' points.csv\n"
          "  stipple warp disk --inverse disk.csv\n"},
         {Verb::analyze, "analyze", "stipple analyze ANALYZER [INPUT...] [OPTIONS]",
@@ -228,7 +231,7 @@ const std::vector<VerbInfo>& verbs() {
          "  stipple convert points.bin -d 3 -o points.json\n"
          "  stipple convert table.csv --column 3,1 -o points.csv\n"},
         {Verb::list, "list", "stipple list [KIND] [OPTIONS]", "every unit with its options",
-         "KIND is generators, warps, analyzers or formats; all of them by default.",
+         "KIND is generators, scrambles, warps, analyzers or formats; all of them by default.",
          "  stipple list generators\n"
          "  stipple list --json\n"}};
     return table;
@@ -241,7 +244,10 @@ const std::vector<CommonOption>& common_options() {
         {"-d,--dimension", "D", "2", "dimension", generate},
         {"-d,--dimension", "D", "", "numbers of a point; needed to read raw binary", readers},
         {"-s,--seed", "S", "1", "64-bit seed; 'random' draws one and says so", generate},
+        {"-s,--seed", "S", "1", "64-bit seed of a scramble; 'random' draws one and says so", warp},
         {"-m,--sets", "R", "1", "independent realizations, with seeds S, S + 1, ...", generate},
+        {"-m,--sets", "R", "1", "independent replications by a scramble, with seeds S, S + 1, ...",
+         warp},
         {"--start", "I", "0", "index of a sequence's first point", generate},
         {"--shard", "I/K", "0/1",
          "the I-th of K (from 0) contiguous parts; together they are the whole, byte for byte",
@@ -249,8 +255,8 @@ const std::vector<CommonOption>& common_options() {
         {"--bounds", "LO..HI,...", "",
          "scale to a box: one range for all coordinates, or one for each", generate},
         {"--bounds", "LO..HI,...", "", "the box that is mapped to the unit cube before", analyze},
-        {"-w,--warp", "NAME[:OPT=V,...]", "", "warp on the way out; NAME@I,J warps two coordinates",
-         generate, true},
+        {"-w,--warp", "NAME[:OPT=V,...]", "",
+         "warp or scramble on the way out; NAME@I,J takes two coordinates", generate, true},
         {"--with-pdf", "", "", "add a column with the density of each point", generate | warp},
         {"--inverse", "", "", "the way back, to the unit cube", warp},
         {"--coordinates", "I,J,...", "", "coordinates to warp, from 1; the same as WARP@I,J", warp},
@@ -289,6 +295,16 @@ const std::vector<CommonOption>& common_options() {
     return table;
 }
 
+std::vector<Option> own_options(Verb verb, const UnitInfo& unit) {
+    std::vector<Option> own = unit.options;
+    std::erase_if(own, [&](const Option& option) {
+        return std::ranges::any_of(common_options(), [&](const CommonOption& common) {
+            return takes(common, verb) && long_name(common.names) == option.name;
+        });
+    });
+    return own;
+}
+
 bool Arguments::has(std::string_view name) const { return get(name).has_value(); }
 
 std::optional<std::string> Arguments::get(std::string_view name) const {
@@ -321,9 +337,9 @@ Arguments parse_arguments(int argc, const char* const* argv, const std::vector<K
     const VerbInfo* verb = words.empty() ? nullptr : find_verb(words.front());
     if (verb == nullptr) return parse_without_verb(words);
     words.erase(words.begin());
-    const auto kind = std::ranges::find(kinds, verb->name, &Kind::verb);
+    const auto kind = units_for(kinds, verb->name);
     if (verb->verb == Verb::warp) split_coordinates(words, *kind);
-    return Parser(*verb, kind == kinds.end() ? nullptr : &*kind, words).parse(words);
+    return Parser(*verb, kind ? &*kind : nullptr, words).parse(words);
 }
 
 }  // namespace stipple::cli

@@ -38,6 +38,9 @@ struct CommonOption {
 
 const std::vector<CommonOption>& common_options();
 
+/// A unit's options less those that the verb takes for all units.
+std::vector<Option> own_options(Verb verb, const UnitInfo& unit);
+
 /// What was typed.
 struct Arguments {
     std::optional<Verb> verb;

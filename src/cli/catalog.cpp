@@ -10,6 +10,7 @@
 #include "core/text.hpp"
 #include "generators/generator.hpp"
 #include "io/format.hpp"
+#include "scrambles/scramble.hpp"
 #include "warps/warp.hpp"
 
 namespace stipple::cli {
@@ -31,9 +32,18 @@ std::string seed_use(const Generator& unit) {
     return unit.traits.seeded ? "uses the seed when scrambled" : "does not use the seed";
 }
 
+/// What the records of all kinds have, as far as this one has it.
+template <class Unit>
+UnitInfo base_info(const Unit& unit) {
+    UnitInfo out{.name = unit.name, .summary = unit.summary, .source = unit.source};
+    if constexpr (requires { unit.aliases; }) out.aliases = unit.aliases;
+    if constexpr (requires { unit.options; }) out.options = unit.options.options();
+    return out;
+}
+
 UnitInfo info(const Generator& unit) {
     const auto& t = unit.traits;
-    UnitInfo out{unit.name, unit.summary, unit.source, {}, {}, unit.options.options(), {}};
+    UnitInfo out = base_info(unit);
     out.traits = {{"min_dimension", t.min_dimension},
                   {"max_dimension", t.max_dimension},
                   {"sequence", t.sequence},
@@ -48,9 +58,16 @@ UnitInfo info(const Generator& unit) {
     return out;
 }
 
+UnitInfo info(const Scramble& unit) {
+    UnitInfo out = base_info(unit);
+    out.traits = {{"min_dimension", 1}, {"max_dimension", any_dimension}, {"seeded", true}};
+    out.remarks = {"any dimension", "uses the seed"};
+    return out;
+}
+
 UnitInfo info(const Warp& unit) {
     const auto& t = unit.traits;
-    UnitInfo out{unit.name, unit.summary, unit.source, {}, {}, unit.options.options(), {}};
+    UnitInfo out = base_info(unit);
     out.traits = {{"invertible", t.invertible}, {"drops", t.drops}, {"biased", t.biased}};
     out.remarks = {t.invertible ? "has an inverse" : "has no inverse"};
     if (t.drops) out.remarks.emplace_back("can drop points");
@@ -60,7 +77,7 @@ UnitInfo info(const Warp& unit) {
 
 UnitInfo info(const Analyzer& unit) {
     const auto& t = unit.traits;
-    UnitInfo out{unit.name, unit.summary, unit.source, {}, {}, unit.options.options(), {}};
+    UnitInfo out = base_info(unit);
     out.traits = {{"min_dimension", t.min_dimension},
                   {"max_dimension", t.max_dimension},
                   {"unit_cube", t.unit_cube}};
@@ -71,7 +88,7 @@ UnitInfo info(const Analyzer& unit) {
 }
 
 UnitInfo info(const Format& unit) {
-    UnitInfo out{unit.name, unit.summary, unit.source, {}, {}, {}, {}};
+    UnitInfo out = base_info(unit);
     const bool reads = static_cast<bool>(unit.read);
     out.traits = {{"extensions", unit.extensions},
                   {"reads", reads},
@@ -107,11 +124,8 @@ Json option_json(const Option& option) {
 }
 
 Json unit_json(const UnitInfo& unit, std::string_view kind) {
-    Json out = {{"name", unit.name},
-                {"summary", unit.summary},
-                {"source", unit.source},
-                {"traits", unit.traits},
-                {"options", Json::array()}};
+    Json out = {{"name", unit.name},     {"aliases", unit.aliases}, {"summary", unit.summary},
+                {"source", unit.source}, {"traits", unit.traits},   {"options", Json::array()}};
     for (const Option& option : unit.options) out["options"].push_back(option_json(option));
     if (kind == "analyzers") {
         out["results"] = Json::array();
@@ -125,15 +139,35 @@ Json unit_json(const UnitInfo& unit, std::string_view kind) {
 
 std::vector<Kind> catalog() {
     return {kind_of("generators", "generate", generators::all()),
-            kind_of("warps", "warp", warps::all()),
+            kind_of("scrambles", "warp", scrambles::all()), kind_of("warps", "warp", warps::all()),
             kind_of("analyzers", "analyze", analyzers::all()), kind_of("formats", "", io::all())};
+}
+
+std::optional<Kind> units_for(const std::vector<Kind>& kinds, std::string_view verb) {
+    std::optional<Kind> found;
+    for (const Kind& kind : kinds) {
+        if (kind.verb != verb) continue;
+        if (!found) found.emplace();
+        found->name = kind.name;
+        found->verb = kind.verb;
+        found->units.insert(found->units.end(), kind.units.begin(), kind.units.end());
+    }
+    return found;
+}
+
+const UnitInfo* find_unit(const Kind& kind, std::string_view name) {
+    for (const UnitInfo& unit : kind.units)
+        if (unit.name == name || std::ranges::find(unit.aliases, name) != unit.aliases.end())
+            return &unit;
+    return nullptr;
 }
 
 const UnitInfo& unit_of(const std::vector<Kind>& kinds, std::string_view verb,
                         std::string_view name) {
-    const auto kind = std::ranges::find(kinds, verb, &Kind::verb);
-    const auto unit = std::ranges::find(kind->units, name, &UnitInfo::name);
-    if (unit != kind->units.end()) return *unit;
+    const auto kind = units_for(kinds, verb);
+    for (const Kind& each : kinds)
+        if (const UnitInfo* unit = each.verb == verb ? find_unit(each, name) : nullptr)
+            return *unit;
     std::vector<std::string> names;
     for (const auto& known : kind->units) names.push_back(known.name);
     const std::string singular = kind->name.substr(0, kind->name.size() - 1);
@@ -170,6 +204,8 @@ std::string list_text(const std::vector<Kind>& kinds) {
         for (const UnitInfo& unit : kind.units) {
             text += fmt::format("  {:<18} {}\n", unit.name, unit.summary);
             text += fmt::format("  {:<18} [{}]\n", "", join(unit.remarks, "; "));
+            if (!unit.aliases.empty())
+                text += fmt::format("  {:<18} also called {}\n", "", join(unit.aliases, ", "));
             for (const Option& option : unit.options)
                 text += fmt::format("  {:<18} {:<22} {}{}\n", "", option_usage(option), option.help,
                                     option_notes(option));
@@ -196,7 +232,9 @@ std::string list_markdown(const std::vector<Kind>& kinds) {
         for (const UnitInfo& unit : kind.units) {
             std::vector<std::string> options;
             for (const Option& option : unit.options) options.push_back("`--" + option.name + "`");
-            text += fmt::format("| `{}` | {} ({}) | {} |\n", unit.name, unit.summary,
+            std::vector<std::string> names = {"`" + unit.name + "`"};
+            for (const std::string& alias : unit.aliases) names.push_back("`" + alias + "`");
+            text += fmt::format("| {} | {} ({}) | {} |\n", join(names, ", "), unit.summary,
                                 join(unit.remarks, "; "), join(options, " "));
         }
     }

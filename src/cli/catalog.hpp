@@ -18,10 +18,11 @@ struct UnitInfo {
     std::string name;
     std::string summary;
     std::string source;
-    nlohmann::ordered_json traits;
-    std::vector<std::string> remarks;  ///< the traits in words
-    std::vector<Option> options;
-    std::vector<std::pair<std::string, std::string>> results;  ///< key, help; of analyzers
+    std::vector<std::string> aliases = {};
+    nlohmann::ordered_json traits = {};
+    std::vector<std::string> remarks = {};  ///< the traits in words
+    std::vector<Option> options = {};
+    std::vector<std::pair<std::string, std::string>> results = {};  ///< key, help; of analyzers
 };
 
 struct Kind {
@@ -30,8 +31,15 @@ struct Kind {
     std::vector<UnitInfo> units;
 };
 
-/// Generators, warps, analyzers, formats.
+/// Generators, scrambles, warps, analyzers, formats.
 std::vector<Kind> catalog();
+
+/// All units that a verb takes, under the name of the last of their kinds; nothing if it takes
+/// none.
+std::optional<Kind> units_for(const std::vector<Kind>& kinds, std::string_view verb);
+
+/// The unit of that name or alias; nullptr if there is none.
+const UnitInfo* find_unit(const Kind& kind, std::string_view name);
 
 /// The unit of a verb. @throws Error(usage)
 const UnitInfo& unit_of(const std::vector<Kind>& kinds, std::string_view verb,

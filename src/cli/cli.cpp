@@ -37,8 +37,8 @@ int exit_code(ErrorKind kind) {
 /// The verb's unit must be named; the hint lists what there is.
 void require_unit(const Arguments& arguments, const std::vector<Kind>& kinds) {
     const auto& info = *std::ranges::find(verbs(), *arguments.verb, &VerbInfo::verb);
-    const auto kind = std::ranges::find(kinds, info.name, &Kind::verb);
-    if (kind == kinds.end() || !arguments.unit.empty()) return;
+    const auto kind = units_for(kinds, info.name);
+    if (!kind || !arguments.unit.empty()) return;
     std::vector<std::string> names;
     for (const UnitInfo& unit : kind->units) names.push_back(unit.name);
     fail_with_hint(ErrorKind::usage, "known: " + join(names, ", "), "{}: name one of the {}",
@@ -94,7 +94,8 @@ int list(const Arguments& arguments, const std::vector<Kind>& all) {
             return kind.name != wanted && kind.name != wanted + "s";
         });
         if (kinds.empty())
-            fail_with_hint(ErrorKind::usage, "known: generators, warps, analyzers, formats",
+            fail_with_hint(ErrorKind::usage,
+                           "known: generators, scrambles, warps, analyzers, formats",
                            "unknown kind '{}'", wanted);
     }
     write_text(arguments.get("output").value_or("-"), arguments.has("json") ? list_json(kinds)

@@ -62,13 +62,14 @@ std::string capitalised(std::string text) {
 std::string help_verb(const VerbInfo& info, const std::vector<Kind>& kinds) {
     std::string text = fmt::format("stipple {}: {}\n\nUsage: {}\n\n{}\n", info.name, info.summary,
                                    info.usage, info.text);
-    const auto kind = std::ranges::find(kinds, info.name, &Kind::verb);
-    if (kind != kinds.end()) {
-        text += fmt::format("\n{}:\n", capitalised(kind->name));
-        for (const UnitInfo& unit : kind->units)
+    for (const Kind& kind : kinds) {
+        if (kind.verb != info.name) continue;
+        text += fmt::format("\n{}:\n", capitalised(kind.name));
+        for (const UnitInfo& unit : kind.units)
             text += fmt::format("  {:<18} {}\n", unit.name, unit.summary);
-        text += fmt::format("'stipple {} UNIT --help' shows a unit's own options.\n", info.name);
     }
+    if (units_for(kinds, info.name))
+        text += fmt::format("'stipple {} UNIT --help' shows a unit's own options.\n", info.name);
     text += "\nOptions:\n" + common_lines(info.verb);
     return text + "\nExamples:\n" + info.examples;
 }
@@ -81,9 +82,11 @@ std::string help_unit(const VerbInfo& info, const UnitInfo& unit) {
     std::string text =
         fmt::format("{}: {}\n\nUsage: {}\n\nSource: {}\n{}.\n", unit.name, unit.summary, usage,
                     unit.source, capitalised(join(unit.remarks, "; ")));
-    if (!unit.options.empty()) {
+    if (!unit.aliases.empty()) text += fmt::format("Also called {}.\n", join(unit.aliases, ", "));
+    const auto own = own_options(info.verb, unit);
+    if (!own.empty()) {
         text += fmt::format("\nOptions of {}:\n", unit.name);
-        for (const Option& option : unit.options)
+        for (const Option& option : own)
             text += line("    " + option_usage(option), option.help + option_notes(option));
     }
     if (!unit.results.empty()) {

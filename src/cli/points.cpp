@@ -51,13 +51,10 @@ std::uint64_t drawn_seed(std::uint64_t largest) {
     return bits % (std::min(largest, most_points - 1) + 1);
 }
 
-std::uint64_t seed_of(const Arguments& arguments, const Generator& generator, const Values& options,
-                      Session& session) {
+std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session& session) {
     const auto text = arguments.get("seed");
     if (!text) return 1;
     if (*text == "random") {
-        const std::uint64_t largest =
-            generator.max_seed ? generator.max_seed(options) : ~std::uint64_t{0};
         const std::uint64_t seed = drawn_seed(largest);
         session.warn(fmt::format("--seed {}", seed));
         return seed;
@@ -165,7 +162,9 @@ int generate(const Arguments& arguments, Session& session) {
     job.generator = &find_generator(arguments.unit);
     job.options = settings_of(job.generator->options, arguments);
     job.request = request_of(arguments);
-    job.request.seed = seed_of(arguments, *job.generator, job.options, session);
+    const auto& max_seed = job.generator->max_seed;
+    job.request.seed =
+        seed_of(arguments, max_seed ? max_seed(job.options) : ~std::uint64_t{0}, session);
     job.sets = arguments.integer("sets", 1, 1'000'000'000).value_or(1);
     job.shard = parse_shard(arguments).value_or(Shard{});
     for (const auto& spec : arguments.all("warp")) job.warps.push_back(parse_spec(spec));
@@ -179,18 +178,41 @@ int generate(const Arguments& arguments, Session& session) {
     return 0;
 }
 
+namespace {
+
+/// Replications of the input by a scramble.
+int scramble(const Arguments& arguments, const Spec& spec, const std::vector<PointSet>& sets,
+             const Target& target, Session& session) {
+    for (const char* option : {"inverse", "with-pdf"})
+        if (arguments.has(option))
+            fail(ErrorKind::usage, "--{}: {} is a scramble, random and of density 1", option,
+                 spec.name);
+    const std::uint64_t seed = seed_of(arguments, ~std::uint64_t{0}, session);
+    const auto replications = arguments.integer("sets", 1, 1'000'000'000).value_or(1);
+    write_scrambled(sets, spec, seed, replications, target, session.run());
+    return 0;
+}
+
+}  // namespace
+
 int warp(const Arguments& arguments, Session& session) {
-    const Warp& unit = find_warp(arguments.unit);
-    settings_of(unit.options, arguments);
-    Spec spec{.name = unit.name, .coordinates = {}, .settings = arguments.settings};
+    const bool scrambles = scramble_named(arguments.unit) != nullptr;
+    settings_of(
+        scrambles ? scramble_named(arguments.unit)->options : find_warp(arguments.unit).options,
+        arguments);
+    Spec spec{.name = arguments.unit, .coordinates = {}, .settings = arguments.settings};
     if (const auto coordinates = arguments.get("coordinates"))
-        spec.coordinates = parse_spec(unit.name + "@" + *coordinates).coordinates;
+        spec.coordinates = parse_spec(spec.name + "@" + *coordinates).coordinates;
+    for (const char* option : {"seed", "sets"})
+        if (!scrambles && arguments.has(option))
+            fail(ErrorKind::usage, "--{}: {} is a warp, which is not random", option, spec.name);
     const Target target = target_of(arguments);
     if (arguments.inputs.size() > 1)
         fail(ErrorKind::usage, "warp takes one INPUT; {} are given", arguments.inputs.size());
     const std::string path = arguments.inputs.empty() ? "-" : arguments.inputs[0];
-    write_warped(read_input(path, arguments, session.run()), spec, arguments.has("inverse"), target,
-                 session.run());
+    auto sets = read_input(path, arguments, session.run());
+    if (scrambles) return scramble(arguments, spec, sets, target, session);
+    write_warped(std::move(sets), spec, arguments.has("inverse"), target, session.run());
     return 0;
 }
 

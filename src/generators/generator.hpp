@@ -68,6 +68,7 @@ struct Generator {
     std::string source;
     GeneratorTraits traits;
     Schema options;
+    std::vector<std::string> aliases = {};  ///< other names that users of the field would type
 
     /// Decides count and dimension. Empty: 1024 points, 2 dimensions unless asked otherwise.
     /// @throws Error(usage) for counts and dimensions it cannot make, naming what it can.

@@ -180,6 +180,7 @@ Generator kronecker() {
         .source = "Roberts 2018, extremelearning.com.au; Kuipers & Niederreiter 1974",
         .traits = {.seeded = false},
         .options = Schema(alpha, offset),
+        .aliases = {"additive-recurrence", "r2", "rd", "weyl"},
         .plan = plan,
         .sequence = make};
 }

@@ -270,6 +270,7 @@ Generator rank1_lattice() {
             .source = "Nuyens & Cools 2006, doi:10.1090/S0025-5718-06-01785-6; Sloan & Joe 1994",
             .traits = {.prefix = false, .seeded = false},
             .options = Schema(rule, multiplier, vector, vector_file, weights, decay),
+            .aliases = {"lattice", "rank-1-lattice"},
             .plan = plan,
             .sequence = make};
 }

@@ -48,6 +48,7 @@ Generator van_der_corput() {
             .source = "van der Corput 1935; Halton 1960, doi:10.1007/BF01386213",
             .traits = {.max_dimension = 1, .seeded = false},
             .options = Schema(base),
+            .aliases = {"radical-inverse", "vdc"},
             .plan = plan,
             .sequence = make};
 }

@@ -26,8 +26,7 @@ std::string read_file(const std::string& path) {
     constexpr std::size_t step = std::size_t{1} << 16;
     for (std::size_t got = step; got == step;) {
         const std::size_t before = bytes.size();
-        if (before > most_bytes)
-            fail(ErrorKind::io, "{}: the file is larger than 1 GiB", path);
+        if (before > most_bytes) fail(ErrorKind::io, "{}: the file is larger than 1 GiB", path);
         bytes.resize(before + step);
         got = std::fread(bytes.data() + before, 1, step, file.get());
         bytes.resize(before + got);

@@ -76,21 +76,26 @@ std::vector<std::size_t> all_of(std::size_t dimension) {
 
 }  // namespace
 
-WarpChain::WarpChain(std::span<const Spec> specs, std::size_t dimension)
+WarpChain::WarpChain(std::span<const Spec> specs, std::size_t dimension, const ChainSet& set)
     : dimension_in_(dimension), dimension_out_(dimension) {
-    for (const Spec& spec : specs) add(spec);
+    for (const Spec& spec : specs) add(spec, set);
     find_domain();
 }
 
-void WarpChain::add(const Spec& spec) {
-    const Warp& warp = find_warp(spec.name);
-    const Values values = spec.values(warp.options);
-    Step step{.coordinates = spec.coordinates.empty() ? all_of(dimension_out_) : spec.coordinates,
-              .width_in = dimension_out_};
-    for (const std::size_t k : step.coordinates) {
+void WarpChain::add(const Spec& spec, const ChainSet& set) {
+    if (const Scramble* scramble = scramble_named(spec.name))
+        add_scramble(*scramble, spec, set);
+    else
+        add_warp(find_warp(spec.name), spec);
+}
+
+/// The coordinates that a spec names, or all. They must be there, and still be uniform.
+std::vector<std::size_t> WarpChain::coordinates_of(const Spec& spec) const {
+    const auto named = spec.coordinates.empty() ? all_of(dimension_out_) : spec.coordinates;
+    for (const std::size_t k : named) {
         if (k >= dimension_out_)
             fail(ErrorKind::usage, "{}@{}: the points have coordinates 1 to {}", spec.name,
-                 format_coordinates(step.coordinates), dimension_out_);
+                 format_coordinates(named), dimension_out_);
         for (const Step& earlier : steps_)
             if (std::ranges::find(earlier.image, k) != earlier.image.end())
                 fail(ErrorKind::usage,
@@ -98,6 +103,41 @@ void WarpChain::add(const Spec& spec) {
                      "the unit cube",
                      spec.name, k + 1);
     }
+    return named;
+}
+
+template <class Unit>
+void WarpChain::remember(const Unit& unit, const Spec& spec, const Values& values) {
+    std::string text = format_spec(unit.name, values, unit.options);
+    if (!spec.coordinates.empty())
+        text.insert(unit.name.size(), fmt::format("@{}", format_coordinates(spec.coordinates)));
+    specs_.push_back(std::move(text));
+}
+
+void WarpChain::add_scramble(const Scramble& scramble, const Spec& spec, const ChainSet& set) {
+    const Values values = spec.values(scramble.options);
+    Step step{.coordinates = coordinates_of(spec),
+              .width_in = dimension_out_,
+              .width_out = dimension_out_};
+    std::uint64_t seed = set.seed;
+    if (values.given(scramble_seed)) {
+        const auto own = parse_unsigned(values[scramble_seed]);
+        if (!own)
+            fail(ErrorKind::usage, "{}: seed '{}' is not a whole number in [0, 2^64)", spec.name,
+                 values[scramble_seed]);
+        seed = *own;
+    } else {
+        seeded_ = true;
+    }
+    step.randomization =
+        scramble.make(values, {.coordinates = step.coordinates, .seed = seed, .count = set.count});
+    remember(scramble, spec, values);
+    steps_.push_back(std::move(step));
+}
+
+void WarpChain::add_warp(const Warp& warp, const Spec& spec) {
+    const Values values = spec.values(warp.options);
+    Step step{.coordinates = coordinates_of(spec), .width_in = dimension_out_};
     step.mapping = warp.make(values, step.coordinates.size());
     const std::size_t takes = step.mapping->cube_dimension();
     if (takes != step.coordinates.size())
@@ -115,10 +155,7 @@ void WarpChain::add(const Spec& spec) {
     for (Step& earlier : steps_)
         for (std::size_t& k : earlier.image)
             k = moved[static_cast<std::size_t>(std::ranges::find(rest, k) - rest.begin())];
-    std::string text = format_spec(spec.name, values, warp.options);
-    if (!spec.coordinates.empty())
-        text.insert(spec.name.size(), fmt::format("@{}", format_coordinates(spec.coordinates)));
-    specs_.push_back(std::move(text));
+    remember(warp, spec, values);
     dimension_out_ = step.width_out;
     steps_.push_back(std::move(step));
 }
@@ -127,6 +164,7 @@ void WarpChain::find_domain() {
     std::vector<Factor> factors;
     std::vector<std::size_t> warped;
     for (const Step& step : steps_) {
+        if (!step.mapping) continue;
         factors.push_back({step.mapping->domain(), step.image});
         warped.insert(warped.end(), step.image.begin(), step.image.end());
     }
@@ -138,18 +176,23 @@ void WarpChain::find_domain() {
 
 bool WarpChain::drops() const { return std::ranges::any_of(steps_, &Step::drops); }
 
-std::vector<double> WarpChain::forward(std::vector<double> rows) const {
+std::vector<double> WarpChain::forward(std::vector<double> rows, std::uint64_t first) const {
     for (const Step& step : steps_) {
         const std::size_t count = rows.size() / step.width_in;
-        const std::size_t gives = step.image.size();
         const bool whole = step.coordinates == all_of(step.width_in);
-        std::vector<double> image(count * gives);
+        auto part = whole ? std::move(rows) : gather(rows, step.width_in, step.coordinates);
         std::vector<std::uint8_t> keep(step.drops ? count : 0, 1);
-        step.mapping->forward(
-            whole ? std::move(rows) : gather(rows, step.width_in, step.coordinates), image, keep);
-        rows = whole ? std::move(image)
+        if (step.mapping) {
+            std::vector<double> image(count * step.image.size());
+            step.mapping->forward(part, image, keep);
+            part = std::move(image);
+        } else {
+            step.randomization->apply(first, part);
+        }
+        const std::size_t gives = step.mapping ? step.image.size() : step.coordinates.size();
+        rows = whole ? std::move(part)
                      : interleave(rows, step.width_in, others(step.width_in, step.coordinates),
-                                  image, places(step.coordinates, gives));
+                                  part, places(step.coordinates, gives));
         if (step.drops) keep_rows(rows, step.width_out, keep);
     }
     return rows;
@@ -157,6 +200,8 @@ std::vector<double> WarpChain::forward(std::vector<double> rows) const {
 
 std::vector<double> WarpChain::inverse(std::vector<double> rows) const {
     for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
+        if (!step->mapping)
+            fail(ErrorKind::usage, "--inverse: a scramble is random and has no inverse");
         const std::size_t count = rows.size() / step->width_out;
         const auto at = places(step->coordinates, step->image.size());
         std::vector<double> cube(count * step->coordinates.size());
@@ -171,7 +216,7 @@ std::vector<double> WarpChain::density(std::span<const double> rows) const {
     std::vector<double> density(rows.size() / dimension_out_, 1.0);
     std::vector<double> point;
     for (const Step& step : steps_)
-        for (std::size_t i = 0; i < density.size(); ++i) {
+        for (std::size_t i = 0; step.mapping && i < density.size(); ++i) {
             point.clear();
             for (const std::size_t k : step.image) point.push_back(rows[i * dimension_out_ + k]);
             density[i] *= step.mapping->density(point);

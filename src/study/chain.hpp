@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Warps one after the other, each on the coordinates that its spec names: disk@4,5.
+// Warps and scrambles one after the other, each on the coordinates that its spec names: disk@4,5.
 //
 // Shape  rows of the unit cube in, rows of chain.domain() out. A warp whose image has more or fewer
 //        numbers than it takes puts them where its first coordinate stood; later specs count the
@@ -16,14 +16,21 @@
 
 #include "core/point_set.hpp"
 #include "core/spec.hpp"
+#include "scrambles/scramble.hpp"
 #include "warps/warp.hpp"
 
 namespace stipple {
 
+/// The set whose points go through a chain, as far as scrambles depend on it.
+struct ChainSet {
+    std::uint64_t seed = 1;
+    std::uint64_t count = 1;  ///< points of the whole set
+};
+
 class WarpChain {
   public:
     /// @throws Error(usage): unknown warps, coordinates that are not there or no longer uniform.
-    WarpChain(std::span<const Spec> specs, std::size_t dimension);
+    WarpChain(std::span<const Spec> specs, std::size_t dimension, const ChainSet& set = {});
 
     [[nodiscard]] bool empty() const { return steps_.empty(); }
     [[nodiscard]] std::size_t dimension_in() const { return dimension_in_; }
@@ -36,8 +43,13 @@ class WarpChain {
     /// Whether some points may have no image.
     [[nodiscard]] bool drops() const;
 
-    /// Images of rows; with drops(), fewer rows may come out than went in.
-    [[nodiscard]] std::vector<double> forward(std::vector<double> rows) const;
+    /// Whether the images depend on the set's seed.
+    [[nodiscard]] bool seeded() const { return seeded_; }
+
+    /// Images of rows first, first + 1, ... of the set; with drops(), fewer rows may come out than
+    /// went in.
+    [[nodiscard]] std::vector<double> forward(std::vector<double> rows,
+                                              std::uint64_t first = 0) const;
 
     /// Back to the unit cube. @throws Error(usage) where a warp has no inverse, Error(input) for
     /// points off the domain.
@@ -47,8 +59,10 @@ class WarpChain {
     [[nodiscard]] std::vector<double> density(std::span<const double> rows) const;
 
   private:
+    /// Either a mapping or a randomization.
     struct Step {
         std::unique_ptr<Mapping> mapping = {};
+        std::unique_ptr<Randomization> randomization = {};
         std::vector<std::size_t> coordinates = {};  ///< taken from the row before
         std::vector<std::size_t> image = {};        ///< where its numbers stand in the last row
         std::size_t width_in = 0;                   ///< numbers of the row before
@@ -56,11 +70,17 @@ class WarpChain {
         bool drops = false;
     };
 
-    void add(const Spec& spec);
+    void add(const Spec& spec, const ChainSet& set);
+    void add_scramble(const Scramble& scramble, const Spec& spec, const ChainSet& set);
+    void add_warp(const Warp& warp, const Spec& spec);
+    template <class Unit>
+    void remember(const Unit& unit, const Spec& spec, const Values& values);
+    [[nodiscard]] std::vector<std::size_t> coordinates_of(const Spec& spec) const;
     void find_domain();
 
     std::vector<Step> steps_;
     std::vector<std::string> specs_;
+    bool seeded_ = false;
     std::size_t dimension_in_;
     std::size_t dimension_out_;
     DomainPtr domain_;

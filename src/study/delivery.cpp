@@ -15,10 +15,11 @@
 namespace stipple {
 namespace {
 
-std::vector<double> travel(std::vector<double> rows, const Route& route) {
+std::vector<double> travel(std::vector<double> rows, const WarpChain& chain, std::uint64_t first,
+                           const Route& route) {
     if (route.bounds) scale_into(*route.bounds, rows);
-    rows = route.chain->forward(std::move(rows));
-    return route.with_pdf ? with_density(rows, *route.chain) : std::move(rows);
+    rows = chain.forward(std::move(rows), first);
+    return route.with_pdf ? with_density(rows, chain) : std::move(rows);
 }
 
 /// A block of rows and, later, of bytes.
@@ -84,7 +85,8 @@ class Conveyor {
 
     void work(Parcel& parcel) const {
         if (!source_.in_order) fill(parcel);
-        parcel.rows = travel(std::move(parcel.rows), route_);
+        parcel.rows =
+            travel(std::move(parcel.rows), *source_.chain, source_.first + parcel.first, route_);
         format_.rows(layout_, set_, parcel.first, parcel.rows, parcel.bytes);
     }
 
@@ -159,7 +161,7 @@ void check_format(const Format& format, const Layout& layout) {
 
 Layout layout_of(const Shipment& shipment, std::size_t first, std::size_t last,
                  const Target& target) {
-    Layout layout{.dimension = shipment.route.chain->dimension_out(),
+    Layout layout{.dimension = shipment.dimension,
                   .first_set = shipment.first_set + first,
                   .many_sets = shipment.all_sets > 1,
                   .header = target.header,

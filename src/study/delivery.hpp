@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -21,12 +22,13 @@ struct Source {
     std::size_t dimension = 0;  ///< numbers of a row that `fill` gives
     /// Gives rows [first, first + k) where `rows` holds k of them.
     std::function<void(std::uint64_t first, std::span<double> rows)> fill;
-    bool in_order = false;  ///< fill must be called for one block after the other
+    bool in_order = false;                   ///< fill must be called for one block after the other
+    std::shared_ptr<const WarpChain> chain;  ///< that the rows go through
+    std::uint64_t first = 0;                 ///< index of the first row in the whole set
 };
 
-/// What happens to rows between source and format.
+/// What happens to rows before and after their warps.
 struct Route {
-    const WarpChain* chain = nullptr;
     std::optional<Box> bounds = {};  ///< scales the unit cube to this box first
     bool with_pdf = false;           ///< adds the density as a last number
 };
@@ -40,6 +42,7 @@ struct Shipment {
     std::function<Provenance(std::size_t set)> provenance;
     std::function<Box(std::size_t set)> extent;  ///< what a picture of the set shows
     std::vector<std::uint64_t> counts;
+    std::size_t dimension = 0;  ///< numbers of a row that is written, less the density
     Route route;
 };
 

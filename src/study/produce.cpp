@@ -16,19 +16,19 @@ namespace {
 
 /// The rows of a set that is in memory.
 Source source_of(const PointSet& points) {
+    const std::size_t d = points.dimension();
     return {.count = points.count(),
-            .dimension = points.dimension(),
+            .dimension = d,
             .fill =
-                [&points](std::uint64_t first, std::span<double> rows) {
-                    std::ranges::copy(
-                        points.flat().subspan(first * points.dimension(), rows.size()),
-                        rows.begin());
+                [&points, d](std::uint64_t first, std::span<double> rows) {
+                    std::ranges::copy(points.flat().subspan(first * d, rows.size()), rows.begin());
                 },
-            .in_order = false};
+            .chain = std::make_shared<WarpChain>(std::span<const Spec>(), d)};
 }
 
-/// The image of a set, block by block on all threads; tells the user how many points have none.
-PointSet image_of(const PointSet& points, const WarpChain& chain, bool inverse,
+/// The image of a set whose first point has the index `start`, block by block on all threads; tells
+/// the user how many points have none.
+PointSet image_of(const PointSet& points, const WarpChain& chain, bool inverse, std::uint64_t start,
                   const RunContext& run) {
     const std::size_t d = points.dimension();
     constexpr std::size_t block = 1 << 14;
@@ -36,7 +36,8 @@ PointSet image_of(const PointSet& points, const WarpChain& chain, bool inverse,
     for_each_block(run, points.count(), block, [&](const Block& b) {
         const auto rows = points.flat().subspan(b.first * d, (b.last - b.first) * d);
         std::vector<double> copy(rows.begin(), rows.end());
-        parts[b.index] = inverse ? chain.inverse(std::move(copy)) : chain.forward(std::move(copy));
+        parts[b.index] = inverse ? chain.inverse(std::move(copy))
+                                 : chain.forward(std::move(copy), start + b.first);
     });
     std::vector<double> rows;
     for (const auto& part : parts) rows.insert(rows.end(), part.begin(), part.end());
@@ -59,7 +60,6 @@ PointSet image_of(const PointSet& points, const WarpChain& chain, bool inverse,
 void ship_images(const std::vector<PointSet>& images, const WarpChain& chain, std::size_t first_set,
                  std::size_t all_sets, const Target& target, const RunContext& run) {
     const std::size_t d = images.front().dimension();
-    const WarpChain nothing({}, d);
     Shipment shipment{.sets = images.size(),
                       .first_set = first_set,
                       .all_sets = all_sets,
@@ -71,7 +71,8 @@ void ship_images(const std::vector<PointSet>& images, const WarpChain& chain, st
                                                   images[set].domain->bounding_box());
                           },
                       .counts = {},
-                      .route = {.chain = &nothing}};
+                      .dimension = d,
+                      .route = {}};
     for (const PointSet& set : images) shipment.counts.push_back(set.count());
     PointSet wide;
     if (target.with_pdf)
@@ -80,6 +81,15 @@ void ship_images(const std::vector<PointSet>& images, const WarpChain& chain, st
             return source_of(wide);
         };
     ship(shipment, target, run);
+}
+
+/// Writes down that the set went through a warp.
+void record_warp(PointSet& set, std::string warp) {
+    Provenance& meta = set.provenance;
+    meta.dimension = set.dimension();
+    meta.count = set.count();
+    meta.domain = set.domain->spec();
+    meta.warps.push_back(std::move(warp));
 }
 
 /// Numbers of a row that the warp makes into one of `after` numbers.
@@ -103,18 +113,18 @@ class Producer {
           target_(target),
           run_(run),
           plan_(plan_for(generator_, job.request, job.options)),
-          chain_(job.warps, plan_.dimension) {
+          chain_(std::make_shared<WarpChain>(job.warps, plan_.dimension)) {
         if (!generator_.traits.boxed) bounds_ = job.request.bounds;
         check();
     }
 
     void go() {
-        if (generator_.traits.sequence && !chain_.drops()) return stream();
+        if (generator_.traits.sequence && !chain_->drops()) return stream();
         const std::size_t batch = file_per_set(target_.path) ? 1 : job_.sets;
         for (std::size_t first = 0; first < job_.sets; first += batch) {
             std::vector<PointSet> images;
             for (std::size_t set = first; set < first + batch; ++set) images.push_back(made(set));
-            ship_images(images, chain_, first, job_.sets, target_, lane(run_, first, job_.sets));
+            ship_images(images, *chain_, first, job_.sets, target_, lane(run_, first, job_.sets));
         }
     }
 
@@ -122,21 +132,29 @@ class Producer {
     void check() const {
         if (job_.shard.of > 1 && job_.sets > 1)
             fail(ErrorKind::usage, "--shard and --sets: parts are of one set; choose it by --seed");
-        if (job_.request.bounds && !chain_.empty())
+        if (job_.request.bounds && !chain_->empty())
             fail(ErrorKind::usage,
                  "--bounds and --warp: a warp takes points of the unit cube, which a box is not");
         if (job_.sets - 1 > ~plan_.seed)
             fail(ErrorKind::usage, "--seed: {} and {} sets go beyond the 64 bits of a seed",
                  plan_.seed, job_.sets);
-        if (job_.sets > 1 && !uses_seed(generator_, job_.options))
+        if (job_.sets > 1 && !uses_seed(generator_, job_.options) && !chain_->seeded())
             run_.tell(fmt::format("{} does not use the seed: all {} sets are the same",
                                   generator_.name, job_.sets));
         if (job_.shard.index == 0) tell_notes(generator_, job_.request, job_.options, run_);
     }
 
+    /// The warps with the random choices of one set.
+    [[nodiscard]] std::shared_ptr<const WarpChain> chain_for(std::size_t set) const {
+        if (!chain_->seeded()) return chain_;
+        return std::make_shared<WarpChain>(
+            job_.warps, plan_.dimension,
+            ChainSet{.seed = plan_.seed + set, .count = job_.request.start + plan_.count});
+    }
+
     /// What the points are on in the end.
     [[nodiscard]] DomainPtr domain() const {
-        return job_.request.bounds ? box_domain(*job_.request.bounds) : chain_.domain();
+        return job_.request.bounds ? box_domain(*job_.request.bounds) : chain_->domain();
     }
 
     /// The shard's rows [first, last) of `count`.
@@ -168,7 +186,9 @@ class Producer {
                           .fill = [sequence, start](
                                       std::uint64_t at,
                                       std::span<double> rows) { sequence->fill(start + at, rows); },
-                          .in_order = !sequence->random_access()};
+                          .in_order = !sequence->random_access(),
+                          .chain = chain_for(set),
+                          .first = start};
         };
         const auto meta = [&](std::size_t set) { return provenance(set, count); };
         ship({.sets = job_.sets,
@@ -177,7 +197,8 @@ class Producer {
               .provenance = meta,
               .extent = [this](std::size_t) { return domain()->bounding_box(); },
               .counts = std::vector<std::uint64_t>(job_.sets, count),
-              .route = {&chain_, bounds_, target_.with_pdf}},
+              .dimension = chain_->dimension_out(),
+              .route = {bounds_, target_.with_pdf}},
              target_, run_);
     }
 
@@ -189,7 +210,8 @@ class Producer {
         PointSet points = make_points(generator_, request, job_.options, part_of_run);
         auto options = std::move(points.provenance.options);
         if (bounds_) scale_into(*bounds_, points.flat());
-        if (!chain_.empty()) points = image_of(points, chain_, false, run_);
+        if (!chain_->empty())
+            points = image_of(points, *chain_for(set), false, job_.request.start, run_);
         const auto [first, last] = part(points.count());
         if (job_.shard.of > 1) {
             const std::size_t d = points.dimension();
@@ -208,9 +230,9 @@ class Producer {
                         .options = {},
                         .seed = plan_.seed + set,
                         .count = count,
-                        .dimension = chain_.dimension_out(),
+                        .dimension = chain_->dimension_out(),
                         .start = job_.request.start,
-                        .warps = chain_.specs(),
+                        .warps = chain_->specs(),
                         .domain = domain()->spec(),
                         .bounds = {},
                         .shard = {},
@@ -230,7 +252,7 @@ class Producer {
     const Target& target_;
     const RunContext& run_;
     Plan plan_;
-    WarpChain chain_;
+    std::shared_ptr<const WarpChain> chain_;
     std::optional<Box> bounds_;
 };
 
@@ -252,14 +274,30 @@ void write_warped(std::vector<PointSet> sets, const Spec& warp, bool inverse, co
         fail(ErrorKind::usage, "--with-pdf: the inverse gives points of the unit cube, density 1");
     for (PointSet& set : sets) {
         if (!inverse) require_unit_cube(set);
-        set = image_of(set, chain, inverse, run);
-        Provenance& meta = set.provenance;
-        meta.dimension = set.dimension();
-        meta.count = set.count();
-        meta.domain = set.domain->spec();
-        meta.warps.push_back((inverse ? "inverse " : "") + chain.specs().front());
+        set = image_of(set, chain, inverse, 0, run);
+        record_warp(set, (inverse ? "inverse " : "") + chain.specs().front());
     }
     ship_images(sets, chain, 0, sets.size(), target, run);
+}
+
+void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, std::uint64_t seed,
+                     std::uint64_t replications, const Target& target, const RunContext& run) {
+    if (replications * sets.size() - 1 > ~seed)
+        fail(ErrorKind::usage, "--seed: {} and {} sets go beyond the 64 bits of a seed", seed,
+             replications * sets.size());
+    std::vector<PointSet> images;
+    for (const PointSet& set : sets) {
+        require_unit_cube(set);
+        for (std::uint64_t r = 0; r < replications; ++r) {
+            Spec spec = scramble;
+            spec.settings.emplace_back(scramble_seed.name, std::to_string(seed + images.size()));
+            const WarpChain chain({&spec, 1}, set.dimension(), {.count = set.count()});
+            images.push_back(image_of(set, chain, false, 0, run));
+            record_warp(images.back(), chain.specs().front());
+        }
+    }
+    const WarpChain nothing({}, images.front().dimension());
+    ship_images(images, nothing, 0, images.size(), target, run);
 }
 
 }  // namespace stipple

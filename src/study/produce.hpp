@@ -56,4 +56,9 @@ void write_sets(std::vector<PointSet> sets, const Target& target, const RunConte
 void write_warped(std::vector<PointSet> sets, const Spec& warp, bool inverse, const Target& target,
                   const RunContext& run);
 
+/// Writes `replications` of each set, independently scrambled with the seeds seed, seed + 1, ...
+/// @throws Error(input) for points outside the unit cube
+void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, std::uint64_t seed,
+                     std::uint64_t replications, const Target& target, const RunContext& run);
+
 }  // namespace stipple

@@ -3,6 +3,7 @@
 // Points a second, on one core. Sequences fill cache-sized blocks, one after the other, with points
 // of two (20) dimensions; a set is made as a whole.
 #include <benchmark/benchmark.h>
+#include <fmt/format.h>
 
 #include "study/pipeline.hpp"
 
@@ -45,6 +46,15 @@ void search_vector(benchmark::State& state, const Request& request, const Settin
             generator.sequence(plan_for(generator, request, values), values).get());
 }
 
+/// A whole array, as a peer gives it: with the time that its memory takes.
+void make_array(benchmark::State& state, const std::string& name, const Settings& settings,
+                std::size_t dimension) {
+    const Request request{.count = std::uint64_t{1} << 20, .dimension = dimension};
+    std::size_t made = 0;
+    for (auto _ : state) made += generate(name, request, settings, {.threads = 1}).count();
+    state.SetItemsProcessed(static_cast<std::int64_t>(made));
+}
+
 const bool registered = [] {
     const auto add = [](const std::string& label, const std::string& name,
                         const Settings& settings = {}, std::size_t dimension = 2) {
@@ -58,6 +68,27 @@ const bool registered = [] {
     for (const char* name : {"random", "grid", "jittered", "halton", "hammersley", "kronecker"})
         // 2^40 = 4^20 points: a power of two in 20 dimensions as well.
         add(std::string(name) + "/20d", name, {}, 20);
+    for (const char* scramble : {"none", "digital-shift", "matrix", "owen"})
+        for (const std::size_t dimension : {std::size_t{2}, std::size_t{20}})
+            add(fmt::format("sobol/{}/{}d", scramble, dimension), "sobol", {{"scramble", scramble}},
+                dimension);
+    add("sobol/gray/2d", "sobol", {{"order", "gray"}});
+    for (const char* scramble : {"none", "owen"})
+        for (const std::size_t dimension : {std::size_t{2}, std::size_t{20}}) {
+            const Settings settings{{"scramble", scramble}};
+            benchmark::RegisterBenchmark(
+                fmt::format("array/sobol/{}/{}d", scramble, dimension).c_str(),
+                [=](auto& state) { make_array(state, "sobol", settings, dimension); })
+                ->Unit(benchmark::kMillisecond);
+        }
+    for (const char* scramble : {"none", "permutation", "owen"})
+        for (const std::size_t dimension : {std::size_t{2}, std::size_t{20}}) {
+            const Settings settings{{"scramble", scramble}};
+            benchmark::RegisterBenchmark(
+                fmt::format("array/halton/{}/{}d", scramble, dimension).c_str(),
+                [=](auto& state) { make_array(state, "halton", settings, dimension); })
+                ->Unit(benchmark::kMillisecond);
+        }
 
     add("van-der-corput/base_2", "van-der-corput", {}, 1);
     add("van-der-corput/base_10", "van-der-corput", {{"base", "10"}}, 1);

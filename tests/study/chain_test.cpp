@@ -67,3 +67,42 @@ TEST(WarpChain, NothingLeavesTheCube) {
     EXPECT_EQ(nothing.forward({0.1, 0.2, 0.3}), (std::vector<double>{0.1, 0.2, 0.3}));
     EXPECT_EQ(nothing.density(std::vector<double>{0.1, 0.2, 0.3}), std::vector<double>{1});
 }
+
+TEST(WarpChain, ScramblesKeepCoordinatesInTheCubeForWhatFollows) {
+    const std::vector<double> rows = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
+    const auto alone = chain({"owen"}, 3);
+    EXPECT_TRUE(alone.seeded());
+    EXPECT_EQ(alone.domain()->spec(), "unit-cube");
+    const auto owen = alone.forward(rows);
+    const auto both = chain({"owen", "disk@1,2", "digital-shift@3:seed=5"}, 3);
+    EXPECT_EQ(both.domain()->spec(), "disk@1,2 x unit-cube@3");
+    const auto out = both.forward(rows);
+    const auto disk = chain({"disk"}, 2).forward({owen[0], owen[1], owen[3], owen[4]});
+    EXPECT_EQ(out[0], disk[0]);
+    EXPECT_EQ(out[4], disk[3]);
+    EXPECT_EQ(out[2], chain({"digital-shift@3:seed=5"}, 3).forward({0, 0, owen[2]})[2]);
+    EXPECT_EQ(both.density(out).size(), 2U);
+}
+
+TEST(WarpChain, ScramblesGoByTheSetsSeedOrTheirOwn) {
+    const std::vector<double> rows = {0.1, 0.2};
+    const Spec plain = parse_spec("owen");
+    const Spec own = parse_spec("owen:seed=18446744073709551615");
+    const auto image = [&](const Spec& spec, std::uint64_t seed) {
+        return WarpChain({&spec, 1}, 2, {.seed = seed, .count = 1}).forward(rows);
+    };
+    EXPECT_NE(image(plain, 1), image(plain, 2));
+    EXPECT_EQ(image(own, 1), image(own, 2));
+    EXPECT_EQ(image(own, 1), image(plain, ~std::uint64_t{0}));
+    EXPECT_FALSE(WarpChain({&own, 1}, 2).seeded());
+    EXPECT_EQ(error_of([] { chain({"owen:seed=-1"}, 2); }),
+              "usage: owen: seed '-1' is not a whole number in [0, 2^64)");
+    EXPECT_EQ(error_of([&] { static_cast<void>(chain({"owen"}, 2).inverse(rows)); }),
+              "usage: --inverse: a scramble is random and has no inverse");
+    EXPECT_EQ(
+        error_of([] {
+            chain({"disk", "owen@1"}, 2);
+        }),
+        "usage: warp owen: coordinate 1 is already on another domain; it takes coordinates of "
+        "the unit cube");
+}

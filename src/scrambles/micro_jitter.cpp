@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+//
+// Micro-jitter: every coordinate goes to a random place in its interval of length 1 / N.
+//
+//     y = (floor(x N) + u) / N,    u uniform in [0, 1), another for each coordinate of each point.
+//
+// Cost     O(n d).
+// Promise  which interval [k / N, (k + 1) / N) a coordinate is in stays, by exact arithmetic: with
+//          N = n the Latin property, and with N = b^m the net property of a (t,m,s)-net in base b.
+//          A coordinate is taken to be on an interval's lower edge when it is its rounded value.
+// Beware   depends on the points' order: the numbers u belong to the place in the file.
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/scramble_stream.hpp"
+#include "math/stratum.hpp"
+#include "scrambles/scramble.hpp"
+
+namespace stipple::scrambles {
+namespace {
+
+constexpr Param<std::int64_t> cells{.name = "cells",
+                                    .low = 1,
+                                    .high = std::int64_t{1} << 53,
+                                    .optional = true,
+                                    .help = "Number N of intervals; else the number of points"};
+
+/// The interval of x: that of the nearest edge if x is its rounded value, else the one x is in.
+std::uint64_t interval_of(double x, std::uint64_t count) {
+    const double scaled = x * static_cast<double>(count);
+    const double edge = std::round(scaled);
+    const bool on_edge = edge / static_cast<double>(count) == x;
+    const auto k = static_cast<std::uint64_t>(on_edge ? edge : std::floor(scaled));
+    return std::min(k, count - 1);
+}
+
+class MicroJitter final : public Randomization {
+  public:
+    MicroJitter(const ScrambleRequest& request, std::uint64_t count)
+        : coordinates_(request.coordinates),
+          rng_(scramble_numbers(request.seed, ScrambleStream::micro_jitter)),
+          count_(count) {}
+
+    void apply(std::uint64_t first, std::span<double> rows) const override {
+        // A stride that depends on nothing but the coordinate keeps one choice for one coordinate.
+        constexpr std::uint64_t stride = std::uint64_t{1} << 20;
+        const std::size_t d = coordinates_.size();
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const std::uint64_t low = interval_of(rows[i], count_);
+            rows[i] = rng_.uniform((first + i / d) * stride + coordinates_[i % d]);
+            place_in_strata({.low = low, .width = 1, .step = 0, .parts = count_}, 1, &rows[i], 1);
+        }
+    }
+
+  private:
+    std::vector<std::size_t> coordinates_;
+    Rng rng_;
+    std::uint64_t count_;
+};
+
+}  // namespace
+
+Scramble micro_jitter() {
+    return {.name = "micro-jitter",
+            .summary = "Every coordinate to a random place in its interval of length 1 / N",
+            .source = "Standard construction",
+            .options = Schema(cells, scramble_seed),
+            .make = [](const Values& options,
+                       const ScrambleRequest& request) -> std::unique_ptr<Randomization> {
+                const auto count = options.given(cells) ? static_cast<std::uint64_t>(options[cells])
+                                                        : request.count;
+                return std::make_unique<MicroJitter>(request, count);
+            }};
+}
+
+}  // namespace stipple::scrambles

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+//
+// What a scramble is: its record, and the randomization it makes for given options. A scramble
+// moves points within the unit cube, at random, so that each is uniform and together they stay as
+// even.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/options.hpp"
+
+namespace stipple {
+
+/// An option of every scramble, which is resolved before it is made.
+inline constexpr Param<Text> scramble_seed{
+    {.name = "seed", .help = "64-bit seed of its own; else the set's"}};
+
+/// What is to be scrambled.
+struct ScrambleRequest {
+    std::vector<std::size_t> coordinates = {};  ///< numbers of a row that it moves, from 0
+    std::uint64_t seed = 1;
+    std::uint64_t count = 1;  ///< points of the whole set
+};
+
+/// One random choice of a scramble; safe to use from several threads.
+class Randomization {
+  public:
+    Randomization() = default;
+    Randomization(const Randomization&) = delete;
+    Randomization& operator=(const Randomization&) = delete;
+    virtual ~Randomization() = default;
+
+    /// Moves points first, first + 1, ... of the set. `rows` holds their coordinates that are
+    /// scrambled, in [0, 1] before and in [0, 1) after.
+    virtual void apply(std::uint64_t first, std::span<double> rows) const = 0;
+};
+
+struct Scramble {
+    std::string name;
+    std::string summary;
+    std::string source;
+    Schema options;
+    std::vector<std::string> aliases = {};  ///< other names that users of the field would type
+
+    /// @throws Error(usage)
+    std::function<std::unique_ptr<Randomization>(const Values&, const ScrambleRequest&)> make;
+};
+
+/// The bases that `--base` gives to the coordinates: one number for all, or one for each.
+/// @throws Error(usage) for numbers that are no bases, or no primes where they must be
+std::vector<std::uint32_t> bases_for(const std::vector<double>& given, std::size_t coordinates,
+                                     bool prime);
+
+/// A randomization that moves every coordinate by a function of its own.
+class CoordinateWise : public Randomization {
+  public:
+    void apply(std::uint64_t first, std::span<double> rows) const final;
+
+  protected:
+    /// At most so many points are moved at a time.
+    static constexpr std::size_t longest = 512;
+
+    explicit CoordinateWise(std::size_t dimension) : dimension_(dimension) {}
+
+    /// Moves the k-th coordinate of consecutive points.
+    virtual void move(std::size_t k, std::span<double> x) const = 0;
+
+  private:
+    std::size_t dimension_;
+};
+
+namespace scrambles {
+/// All scrambles, in alphabetical order.
+const std::vector<Scramble>& all();
+}  // namespace scrambles
+
+}  // namespace stipple

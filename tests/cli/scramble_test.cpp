@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/program.hpp"
+
+using namespace stipple::testing;
+using ::testing::HasSubstr;
+
+namespace {
+
+void good(const Outcome& outcome) { EXPECT_EQ(outcome.code, 0) << outcome.err; }
+
+}  // namespace
+
+TEST(Scramble, OnTheWayOutOrFromAFileIsTheSame) {
+    const Sandbox box;
+    good(
+        box.shell("stipple generate halton -n 3000 -s 5 -w owen:base=[2,3] -o a.csv &&"
+                  "stipple generate halton -n 3000 | stipple warp owen --base 2,3 -s 5 -o b.csv "
+                  "&& cmp a.csv b.csv"));
+}
+
+TEST(Scramble, ReplicationsAreIndependentAndHaveTheirSeeds) {
+    const Sandbox box;
+    good(box.run({"generate", "halton", "-n", "50", "-o", "h.csv"}));
+    good(box.run({"warp", "digital-shift", "h.csv", "-m", "3", "-s", "7", "-o", "all.csv"}));
+    good(box.run({"warp", "digital-shift", "h.csv", "-m", "3", "-s", "7", "-o", "r{set}.csv"}));
+    good(box.run({"warp", "digital-shift", "h.csv", "-s", "8", "-o", "one.csv", "--meta"}));
+    EXPECT_THAT(box.read("one.csv"), HasSubstr("# warps: [\"digital-shift:seed=8\"]"));
+    good(
+        box.shell("stipple convert r1.csv -o - | tail -n +2 > r1 &&"
+                  "stipple convert one.csv -o - | tail -n +2 > one && cmp r1 one &&"
+                  "! cmp -s r0.csv r1.csv &&"
+                  "grep '^1,' all.csv | cut -d, -f2- | cmp - r1"));
+}
+
+TEST(Scramble, SetsOfAGeneratorThatUsesNoSeedDifferByTheirScramble) {
+    const Sandbox box;
+    const Outcome both = box.run({"generate", "halton", "-n", "4", "-m", "2", "-w", "rotation"});
+    good(both);
+    EXPECT_EQ(both.err, "");
+    good(
+        box.shell("stipple generate halton -n 4 -m 2 -w rotation -o 's{seed}.csv' &&"
+                  "! cmp -s s1.csv s2.csv"));
+}
+
+TEST(Scramble, ThreadsAndShardsChangeNothing) {
+    const Sandbox box;
+    for (const char* name : {"owen", "micro-jitter", "matrix"})
+        good(box.shell(std::string("G='stipple generate halton -n 40000 -f bin -w ") + name + "';" +
+                       "eval $G --threads 1 > one; eval $G --threads 3 > three; cmp one three &&"
+                       "for i in 0 1 2; do eval $G --shard $i/3; done | cmp - one"));
+}
+
+TEST(Scramble, SaysWhatItCannotDo) {
+    const Sandbox box;
+    const auto error = [&](std::vector<std::string> words) {
+        const Outcome outcome = box.run(std::move(words), "0.5,0.5\n");
+        EXPECT_EQ(outcome.code, 2);
+        return outcome.err;
+    };
+    EXPECT_EQ(error({"warp", "owen", "--inverse"}),
+              "stipple: --inverse: owen is a scramble, random and of density 1\n");
+    EXPECT_EQ(error({"warp", "disk", "-s", "3"}),
+              "stipple: --seed: disk is a warp, which is not random\n");
+    EXPECT_EQ(error({"warp", "owne"}), "stipple: unknown warp 'owne'; did you mean 'owen'?\n");
+    EXPECT_EQ(error({"warp", "owen", "--base", "1"}),
+              "stipple: --base: 1 is not a whole number in [2, 65536]\n");
+    EXPECT_EQ(error({"warp", "owen", "-s", "-3"}),
+              "stipple: --seed: '-3' is not a whole number in [0, 2^64) or 'random'\n");
+    EXPECT_EQ(box.run({"warp", "owen"}, "0.5,1.5\n").code, 3);
+}
+
+TEST(Scramble, IsAKindOfItsOwnInTheList) {
+    const Sandbox box;
+    const Outcome list = box.run({"list", "scrambles", "--json"});
+    good(list);
+    for (const char* name :
+         {"cranley-patterson", "digital-shift", "matrix", "micro-jitter", "owen"})
+        EXPECT_THAT(list.out, HasSubstr(std::string("\"name\": \"") + name + "\""));
+    EXPECT_THAT(box.run({"warp", "--help"}).out, HasSubstr("Scrambles:"));
+    EXPECT_THAT(box.run({"warp", "rotation", "--help"}).out, HasSubstr("cranley-patterson"));
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/scrambling.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+TEST(CranleyPatterson, AddsOneVectorToAllModuloOne) {
+    const PointSet plain = make("halton", points(500, 3));
+    const PointSet moved = scrambled(plain, "cranley-patterson", 4);
+    for (std::size_t i = 0; i < plain.count(); ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double turns = moved[i][k] - plain[i][k] - moved[0][k];  // plain[0] is the origin
+            EXPECT_NEAR(turns, std::round(turns), 1e-15);
+        }
+}
+
+TEST(CranleyPatterson, TakesOneForZero) {
+    const PointSet moved = scrambled(points_of({{0, 0}, {1, 1}}), "cranley-patterson");
+    EXPECT_NEAR(moved[0][0], moved[1][0], 1e-15);
+    EXPECT_NEAR(moved[0][1], moved[1][1], 1e-15);
+}
+
+TEST(CranleyPatterson, GoesByItsOtherNames) {
+    EXPECT_EQ(scramble_named("rotation"), scramble_named("cranley-patterson"));
+    EXPECT_EQ(scramble_named("rotations"), nullptr);
+}

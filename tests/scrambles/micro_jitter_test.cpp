@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "support/nets.hpp"
+#include "support/scrambling.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+TEST(MicroJitter, KeepsEveryIntervalOfTheSet) {
+    for (const std::uint64_t n : {1, 7, 49, 97, 256, 1000}) {
+        const PointSet plain = make("hammersley", points(n, 1));  // i / n, rounded
+        const PointSet moved = scrambled(plain, "micro-jitter", 2);
+        for (std::size_t i = 0; i < n; ++i) {
+            EXPECT_EQ(cell_of(moved[i][0], n), i);
+            EXPECT_NE(moved[i][0], plain[i][0]);
+        }
+    }
+}
+
+TEST(MicroJitter, KeepsTheNetProperty) {
+    const PointSet plain = make("hammersley", points(256, 2));
+    for (const std::uint64_t seed : {1, 2, 3})
+        EXPECT_TRUE(is_net(scrambled(plain, "micro-jitter", seed), 2, 0));
+}
+
+TEST(MicroJitter, CellsAreAsManyAsAskedFor) {
+    const PointSet moved = scrambled(points_of({{0.0}, {0.5}, {0.99}}), "micro-jitter:cells=2");
+    EXPECT_LT(moved[0][0], 0.5);
+    EXPECT_GE(moved[1][0], 0.5);
+    EXPECT_NE(moved[1][0], moved[2][0]);
+    EXPECT_GE(moved[2][0], 0.5);
+}
+
+// The random numbers belong to a point's place: a stretch of a set moves as in the whole.
+TEST(MicroJitter, GoesOnWhereAStretchBegins) {
+    const PointSet plain = make("halton", points(100, 2));
+    const PointSet whole = scrambled(plain, "micro-jitter:cells=100");
+    const PointSet tail =
+        scrambled(make("halton", points(40, 2, 60)), "micro-jitter:cells=100", 1, 60);
+    for (std::size_t i = 0; i < 40; ++i) EXPECT_EQ(tail[i][0], whole[60 + i][0]);
+}
