@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/domain.hpp"
-#include "core/large_memory.hpp"
 #include "core/options.hpp"
+#include "core/zeros.hpp"
 
 namespace stipple {
 

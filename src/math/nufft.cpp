@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "math/nufft.hpp"
 
-#include <fftw3.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <mutex>
-#include <new>
 #include <numbers>
 
 #include "core/parallel.hpp"
+#include "math/fftw.hpp"
 #include "math/spreading.hpp"
 
 namespace stipple {
@@ -32,26 +28,6 @@ double power(std::size_t base, std::size_t exponent) {
     return std::pow(static_cast<double>(base), static_cast<double>(exponent));
 }
 
-struct FreeBuffer {
-    void operator()(void* p) const { fftw_free(p); }
-};
-using Reals = std::unique_ptr<double[], FreeBuffer>;
-
-/// Uninitialised numbers, aligned as FFTW likes them.
-Reals allocate(std::size_t count) {
-    Reals numbers(fftw_alloc_real(count));
-    if (!numbers) throw std::bad_alloc();
-    return numbers;
-}
-
-fftw_complex* as_fftw(double* p) { return reinterpret_cast<fftw_complex*>(p); }
-
-/// FFTW's planner takes one thread at a time.
-std::mutex& planner() {
-    static std::mutex mutex;
-    return mutex;
-}
-
 /// A transform of one length, in place, that any number of threads may execute; planned by
 /// estimate, for measured plans differ from run to run.
 class LineTransform {
@@ -60,9 +36,9 @@ class LineTransform {
 
     LineTransform(Kind kind, std::size_t length) : kind_(kind) {
         const auto n = static_cast<int>(length);
-        const Reals line = allocate(2 * length + 2);
+        const FftwReals line = fftw_reals(2 * length + 2);
         double* p = line.get();
-        const std::lock_guard lock(planner());
+        const std::lock_guard lock(fftw_planner());
         plan_ = kind == Kind::real
                     ? fftw_plan_dft_r2c_1d(n, p, as_fftw(p), FFTW_ESTIMATE)
                     : fftw_plan_dft_1d(n, as_fftw(p), as_fftw(p), FFTW_FORWARD, FFTW_ESTIMATE);
@@ -71,11 +47,11 @@ class LineTransform {
     LineTransform(const LineTransform&) = delete;
     LineTransform& operator=(const LineTransform&) = delete;
     ~LineTransform() {
-        const std::lock_guard lock(planner());
+        const std::lock_guard lock(fftw_planner());
         fftw_destroy_plan(plan_);
     }
 
-    /// @param line aligned as allocate() does, or a multiple of 8 numbers behind.
+    /// @param line aligned as fftw_reals() does, or a multiple of 8 numbers behind.
     void execute(double* line) const {
         if (kind_ == Kind::real)
             fftw_execute_dft_r2c(plan_, line, as_fftw(line));
@@ -166,7 +142,7 @@ std::vector<std::complex<double>> transform_columns(const Columns& in,
     };
     const std::size_t size = std::max<std::size_t>(1, lines_at_a_time(in.side) / together);
     for_each_block(run, in.planes * groups, size, [&](const Block& b) {
-        const Reals buffer = allocate(together * spacing);
+        const FftwReals buffer = fftw_reals(together * spacing);
         for (std::size_t i = b.first; i < b.last; ++i)
             transform_group(i / groups, i % groups * together, buffer.get());
     });
@@ -255,7 +231,7 @@ double Nufft::bytes() const {
 FourierSums Nufft::transform(std::span<const double> rows, const RunContext& run) const {
     const std::size_t lines = dimension_ == 3 ? side_ * side_ : dimension_ == 2 ? side_ : 1;
     const std::size_t stride = stride_of(side_);
-    Reals cells = allocate(lines * stride);
+    FftwReals cells = fftw_reals(lines * stride);
     clear(cells.get(), lines * stride, run);
     const CellGrid grid{
         .dimension = dimension_, .side = side_, .stride = stride, .cells = cells.get()};

@@ -2,6 +2,8 @@
 #include "math/radical_inverse.hpp"
 
 #include <algorithm>
+#include <span>
+#include <utility>
 
 #include "math/ratio.hpp"
 
@@ -16,10 +18,12 @@ struct Mirror {
     Wide power = 1;
 };
 
-Mirror mirror(std::uint64_t index, std::uint64_t base) {
+Mirror mirror(std::uint64_t index, std::uint64_t base,
+              std::span<const std::uint32_t> permutation = {}) {
     Mirror out;
     for (; index > 0; index /= base) {
-        out.digits = out.digits * base + index % base;
+        const std::uint64_t digit = index % base;
+        out.digits = out.digits * base + (permutation.empty() ? digit : permutation[digit]);
         out.power *= base;
     }
     return out;
@@ -51,13 +55,22 @@ double radical_inverse(std::uint64_t index, std::uint32_t base) {
     return ratio(all.digits, all.power);
 }
 
-RadicalInverse::RadicalInverse(std::uint32_t base) : base_(base), block_(base) {
+RadicalInverse::RadicalInverse(std::uint32_t base) : RadicalInverse(base, {}) {}
+
+RadicalInverse::RadicalInverse(std::uint32_t base, std::vector<std::uint32_t> permutation)
+    : base_(base), block_(base), permutation_(std::move(permutation)) {
     while (block_ * base <= largest_table) block_ *= base;
-    if (block_ == base) return;
+    if (block_ == base && permutation_.empty()) return;
     for (std::uint64_t i = 0; i < block_; ++i) {
-        const Mirror low = mirror(i + block_, base);  // the digit above stands in for leading zeros
+        // The digit above stands in for leading zeros.
+        const Mirror low = mirror(i + block_, base, permutation_);
         reversed_.push_back(static_cast<double>(static_cast<std::uint64_t>(low.digits / base)));
     }
+}
+
+double RadicalInverse::of(std::uint64_t index) const {
+    const Mirror all = mirror(index, base_, permutation_);
+    return ratio(all.digits, all.power);
 }
 
 void RadicalInverse::fill(std::uint64_t first, std::size_t count, double* out,
@@ -65,7 +78,7 @@ void RadicalInverse::fill(std::uint64_t first, std::size_t count, double* out,
     while (count > 0) {
         const std::uint64_t start = first % block_;
         const auto run = std::min<std::size_t>(count, block_ - start);
-        const Mirror high = mirror(first / block_, base_);
+        const Mirror high = mirror(first / block_, base_, permutation_);
         if (reversed_.empty()) {
             const auto low = [begin = static_cast<double>(start)](std::size_t j) {
                 return begin + static_cast<double>(static_cast<std::int32_t>(j));

@@ -27,6 +27,11 @@ class RadicalInverse {
   public:
     explicit RadicalInverse(std::uint32_t base);
 
+    /// Every digit goes through the permutation, of which 0 is a fixed point, first.
+    RadicalInverse(std::uint32_t base, std::vector<std::uint32_t> permutation);
+
+    [[nodiscard]] double of(std::uint64_t index) const;
+
     /// out[j * stride] = phi_base(first + j) for j < count.
     void fill(std::uint64_t first, std::size_t count, double* out, std::size_t stride) const;
 
@@ -34,6 +39,7 @@ class RadicalInverse {
     std::uint64_t base_;
     std::uint64_t block_;           ///< b^t, the number of values that the t low digits have
     std::vector<double> reversed_;  ///< of the low digits; empty for t = 1, where nothing turns
+    std::vector<std::uint32_t> permutation_;  ///< of the digits; empty: none
 };
 
 }  // namespace stipple

@@ -21,6 +21,34 @@ TEST(Hammersley, FirstPointsByHand) {
     EXPECT_EQ(make("hammersley", points(1, 2)), points_of({{0, 0}}));
 }
 
+TEST(Hammersley, SweepIsWhereAndStartsWhereItIsAskedTo) {
+    EXPECT_EQ(make("hammersley", points(3, 3), {{"sweep", "last"}}),
+              points_of({{0, 0, 0}, {1. / 2, 1. / 3, 1. / 3}, {1. / 4, 2. / 3, 2. / 3}}));
+    EXPECT_EQ(make("hammersley", points(3, 2), {{"offset", "half"}}),
+              points_of({{1. / 6, 0}, {3. / 6, 1. / 2}, {5. / 6, 1. / 4}}));
+    EXPECT_EQ(make("hammersley", points(2, 2), {{"sweep", "last"}, {"offset", "half"}}),
+              points_of({{0, 1. / 4}, {1. / 2, 3. / 4}}));
+    EXPECT_EQ(make("hammersley", points(2, 1), {{"sweep", "last"}}), points_of({{0}, {.5}}));
+}
+
+TEST(Hammersley, HalfOffsetsAreCorrectlyRoundedUpToTheLargestCount) {
+    for (const std::uint64_t n : {std::uint64_t{1} << 53, (std::uint64_t{1} << 53) - 1,
+                                  std::uint64_t{1} << 52, std::uint64_t{49}}) {
+        const auto sequence =
+            sequence_of("hammersley", points(n, 2), {{"sweep", "last"}, {"offset", "half"}});
+        for (const std::uint64_t first : {std::uint64_t{0}, n / 3, n - 9}) {
+            const PointSet set = stretch(*sequence, 2, first, 9);
+            for (std::size_t i = 0; i < 9; ++i) {
+                const double x = set[i][1];
+                ASSERT_LT(x, 1);
+                ASSERT_TRUE(x == 1 - 0x1p-53 ||
+                            is_nearest_double(x, Fraction(2 * (first + i) + 1, 2 * n)))
+                    << first + i << " of " << n;
+            }
+        }
+    }
+}
+
 TEST(Hammersley, IsHaltonBehindTheSweep) {
     const PointSet set = make("hammersley", points(1000, 1001));
     const PointSet halton = make("halton", points(1000, 1000));
@@ -45,6 +73,8 @@ TEST(Hammersley, MeetsEachElementaryBoxOnce) {
 TEST(Hammersley, AnyStretchIsThatOfTheWhole) {
     EXPECT_TRUE(stretches_agree("hammersley", points(50, 3)));
     EXPECT_TRUE(stretches_agree("hammersley", points(3000, 1)));
+    EXPECT_TRUE(
+        stretches_agree("hammersley", points(3000, 4), {{"sweep", "last"}, {"offset", "half"}}));
 }
 
 TEST(Hammersley, StaysBelowOneAtTheLargestCount) {

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+//
+// How good a rank-1 lattice is, and the search for good ones.
+//
+// The lattice of n points with vector z integrates functions of the weighted Korobov space of
+// smoothness 2 with a worst-case error whose square is
+//
+//     e^2(z) = -1 + 1/n sum_i prod_k (1 + weight_k omega(i z_k / n)),
+//     omega(x) = 2 pi^2 (x^2 - x + 1/6) = 2 pi^2 B_2(x)    for x in [0, 1).
+//
+// Shape    n in [1, 2^24].
+// Beware   weights above 6 / pi^2 make factors negative. With many of those the products of some
+//          points become the more negative the worse they are spread, and the least e^2 is found
+//          by repeating a component; weights that decay, or up to 0.6, do not let it come so far.
+// Units    with all weights 1, e^2 is the figure of merit P_2 of the lattice.
+// Source   I. H. Sloan, S. Joe, Lattice Methods for Multiple Integration, Oxford 1994 (P_alpha).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/run_context.hpp"
+
+namespace stipple {
+
+inline constexpr std::uint64_t largest_searched_lattice = std::uint64_t{1} << 24;
+
+/// e^2 of the lattice; more than any double for a lattice so bad that its products overflow.
+double squared_lattice_error(std::uint64_t n, std::span<const std::uint64_t> vector,
+                             std::span<const double> weights);
+
+/// The vector that grows from z_1 = 1 by the component, prime to n and at most n / 2, with the
+/// least e^2; the smallest of those that are equally good. One component a weight.
+std::vector<std::uint64_t> component_by_component(std::uint64_t n, std::span<const double> weights,
+                                                  const RunContext& run);
+
+/// The multiplier a, prime to n and at most n / 2, of the Korobov lattice z_k = a^k with the least
+/// e^2, among all or, beyond korobov_work / (n d) of them, that many spread over the range.
+/// @throws Error(usage) where not even a few can be tried.
+std::uint64_t korobov_multiplier(std::uint64_t n, std::span<const double> weights);
+inline constexpr std::uint64_t korobov_work = std::uint64_t{1} << 29;
+
+/// (1, a, a^2, ...) modulo n.
+std::vector<std::uint64_t> powers_modulo(std::uint64_t a, std::size_t count, std::uint64_t n);
+
+}  // namespace stipple
