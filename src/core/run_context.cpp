@@ -2,6 +2,7 @@
 #include "core/run_context.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <thread>
 
 #include "core/error.hpp"
@@ -21,6 +22,15 @@ void RunContext::tick(std::uint64_t done, std::uint64_t total) const {
     check_stop();
     if (progress && total > 0)
         progress(std::min(1.0, static_cast<double>(done) / static_cast<double>(total)));
+}
+
+RunContext RunContext::rising() const {
+    RunContext steady = *this;
+    if (progress)
+        steady.progress = [report = progress, shown = std::make_shared<double>(0)](double done) {
+            if (done > *shown) report(*shown = done);
+        };
+    return steady;
 }
 
 void RunContext::tell(const std::string& sentence) const {

@@ -38,6 +38,9 @@ struct RunContext {
     /// Reports progress and checks for a stop; call it every few milliseconds from one thread.
     void tick(std::uint64_t done, std::uint64_t total) const;
 
+    /// The same, its progress never falling: stages may each report from 0 on.
+    [[nodiscard]] RunContext rising() const;
+
     /// Tells the user `sentence`, if anybody listens.
     void tell(const std::string& sentence) const;
 

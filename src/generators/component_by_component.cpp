@@ -28,6 +28,7 @@
 
 #include "core/error.hpp"
 #include "core/wide.hpp"
+#include "generators/search_progress.hpp"
 #include "math/fftw.hpp"
 #include "math/ratio.hpp"
 
@@ -238,9 +239,13 @@ class Correlation {
 /// The products p_i and the choice of the next component.
 class Construction {
   public:
-    explicit Construction(std::uint64_t n) : n_(n), omega_{static_cast<double>(n)}, p_(n, 1.0) {
-        for (std::uint64_t e = 2; e <= n; ++e)
-            if (n % e == 0) parts_.push_back(std::make_unique<Correlation>(n, e));
+    Construction(std::uint64_t n, const RunContext& run)
+        : run_(run), n_(n), omega_{static_cast<double>(n)}, p_(n, 1.0) {
+        for (std::uint64_t e = 2; e <= n; ++e) {
+            if (n % e != 0) continue;
+            run_.check_stop();
+            parts_.push_back(std::make_unique<Correlation>(n, e));
+        }
         for (std::uint64_t i = 1; i < n; ++i) {
             const double w = omega_(static_cast<double>(i), 1);
             kernel_square_ += w * w;
@@ -263,7 +268,10 @@ class Construction {
 
     [[nodiscard]] std::uint64_t next() {
         std::vector<double> error(n_ / 2 + 1, 0.0);
-        for (const auto& part : parts_) part->add(p_, error);
+        for (const auto& part : parts_) {
+            run_.check_stop();
+            part->add(p_, error);
+        }
         double least = std::numeric_limits<double>::infinity();
         for (std::uint64_t z = 1; z < error.size(); ++z)
             if (std::gcd(z, n_) == 1) least = std::min(least, error[z]);
@@ -288,8 +296,10 @@ class Construction {
     [[nodiscard]] std::uint64_t first_of_best(const std::vector<std::uint64_t>& nominees,
                                               double mean, double margin) const {
         std::vector<double> errors;
-        for (const std::uint64_t z : nominees)
+        for (const std::uint64_t z : nominees) {
+            run_.check_stop();
             errors.push_back(error_by_sum(static_cast<double>(z), mean));
+        }
         const double least = std::ranges::min(errors);
         const auto first =
             std::ranges::find_if(errors, [&](double error) { return error <= least + margin; });
@@ -308,6 +318,7 @@ class Construction {
         return sum;
     }
 
+    const RunContext& run_;
     std::uint64_t n_;
     Omega omega_;
     double kernel_square_ = 0;
@@ -339,9 +350,10 @@ std::vector<std::uint64_t> component_by_component(std::uint64_t n, std::span<con
                                                   const RunContext& run) {
     std::vector<std::uint64_t> vector{1};
     if (n < 4 || weights.size() == 1) return std::vector<std::uint64_t>(weights.size(), 1);
-    Construction construction(n);
+    run.need_memory(60 * static_cast<double>(n), "the search for a vector");
+    Construction construction(n, run);
     for (std::size_t k = 1; k < weights.size(); ++k) {
-        run.check_stop();
+        search_tick(run, k, weights.size());
         construction.multiply_by(vector.back(), weights[k - 1]);
         vector.push_back(construction.next());
     }
@@ -355,7 +367,8 @@ std::vector<std::uint64_t> powers_modulo(std::uint64_t a, std::size_t count, std
     return powers;
 }
 
-std::uint64_t korobov_multiplier(std::uint64_t n, std::span<const double> weights) {
+std::uint64_t korobov_multiplier(std::uint64_t n, std::span<const double> weights,
+                                 const RunContext& run) {
     const std::uint64_t most = korobov_work / (n * weights.size());
     if (most < 8)
         fail(ErrorKind::usage,
@@ -367,6 +380,7 @@ std::uint64_t korobov_multiplier(std::uint64_t n, std::span<const double> weight
     std::uint64_t best = 1;
     double least = std::numeric_limits<double>::infinity();
     for (std::uint64_t t = 0; t < tries; ++t) {
+        search_tick(run, t, tries);
         // Multiples of the golden ratio spread over the range; every number, where there is time.
         const std::uint64_t turn = t * 0x9E3779B97F4A7C15;
         std::uint64_t a =

@@ -39,7 +39,8 @@ std::vector<std::uint64_t> component_by_component(std::uint64_t n, std::span<con
 /// The multiplier a, prime to n and at most n / 2, of the Korobov lattice z_k = a^k with the least
 /// e^2, among all or, beyond korobov_work / (n d) of them, that many spread over the range.
 /// @throws Error(usage) where not even a few can be tried.
-std::uint64_t korobov_multiplier(std::uint64_t n, std::span<const double> weights);
+std::uint64_t korobov_multiplier(std::uint64_t n, std::span<const double> weights,
+                                 const RunContext& run);
 inline constexpr std::uint64_t korobov_work = std::uint64_t{1} << 29;
 
 /// (1, a, a^2, ...) modulo n.

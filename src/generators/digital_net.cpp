@@ -93,7 +93,7 @@ Plan plan(const Request& request, const Values& options) {
     return decided;
 }
 
-std::unique_ptr<Sequence> make(const Plan& decided, const Values& options) {
+std::unique_ptr<Sequence> make(const Plan& decided, const Values& options, const RunContext&) {
     MatrixFile file = read(options);
     const auto alpha = static_cast<std::size_t>(options[interlacing]);
     file.matrices.resize(decided.dimension * alpha);

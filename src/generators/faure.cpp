@@ -75,7 +75,7 @@ DigitMatrix pascal_power(std::uint32_t base, std::size_t size, std::uint64_t k) 
     return matrix;
 }
 
-std::unique_ptr<Sequence> make(const Plan& decided, const Values& options) {
+std::unique_ptr<Sequence> make(const Plan& decided, const Values& options, const RunContext&) {
     const std::uint32_t base = base_for(decided.dimension, options);
     std::vector<DigitMatrix> matrices;
     for (std::size_t k = 0; k < decided.dimension; ++k)

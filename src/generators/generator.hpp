@@ -74,8 +74,10 @@ struct Generator {
     /// @throws Error(usage) for counts and dimensions it cannot make, naming what it can.
     std::function<Plan(const Request&, const Values&)> plan = {};
 
-    /// Exactly one of these two, as traits.sequence says.
-    std::function<std::unique_ptr<Sequence>(const Plan&, const Values&)> sequence = {};
+    /// Exactly one of these two, as traits.sequence says. A sequence whose making takes long
+    /// reports its progress, up to 0.99, and can be stopped.
+    std::function<std::unique_ptr<Sequence>(const Plan&, const Values&, const RunContext&)>
+        sequence = {};
     /// A set may put what it worked out (a radius) into its provenance's options.
     std::function<PointSet(const Plan&, const Values&, const RunContext&)> set = {};
 

@@ -93,7 +93,7 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-std::unique_ptr<Sequence> make(const Plan& plan, const Values& options) {
+std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
     std::vector<std::uint64_t> sides;
     if (options.given(shape))
         for (const std::int64_t k : options[shape]) sides.push_back(static_cast<std::uint64_t>(k));

@@ -125,7 +125,7 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-std::unique_ptr<Sequence> make(const Plan& plan, const Values& options) {
+std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
     return std::make_unique<Halton>(plan, options);
 }
 

@@ -73,7 +73,7 @@ class Hammersley final : public Sequence {
     std::vector<RadicalInverse> inverses_;
 };
 
-std::unique_ptr<Sequence> make(const Plan& plan, const Values& options) {
+std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
     return std::make_unique<Hammersley>(plan, options);
 }
 

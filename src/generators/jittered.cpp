@@ -128,7 +128,7 @@ Plan plan(const Request& request, const Values&) {
     return plan;
 }
 
-std::unique_ptr<Sequence> make(const Plan& plan, const Values& options) {
+std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
     const bool centered = options[cell] == "center";
     if (plan.dimension == 2) return std::make_unique<JitteredRows>(plan, centered);
     return std::make_unique<JitteredCubes>(plan, centered);

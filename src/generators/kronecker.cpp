@@ -162,7 +162,7 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-std::unique_ptr<Sequence> make(const Plan& plan, const Values& options) {
+std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
     std::vector<Wide> steps;
     const std::vector<double> given = options[alpha];
     const Wide g = options.given(alpha) ? 0 : golden(plan.dimension);

@@ -21,6 +21,7 @@
 #include <bit>
 
 #include "generators/binary_sequence.hpp"
+#include "math/gf2.hpp"
 
 namespace stipple::generators {
 namespace {
@@ -28,27 +29,11 @@ namespace {
 /// Digits of a fraction.
 constexpr std::size_t rows = 64;
 
-/// Whether one polynomial over GF(2), a bit a power, divides another.
-bool divides(std::uint64_t divisor, std::uint64_t dividend) {
-    while (std::bit_width(dividend) >= std::bit_width(divisor))
-        dividend ^= divisor << (std::bit_width(dividend) - std::bit_width(divisor));
-    return dividend == 0;
-}
-
-/// Whether no polynomial of lower degree divides p; `smaller` has all irreducible ones of those.
-bool is_irreducible(std::uint64_t p, const std::vector<std::uint64_t>& smaller) {
-    for (const std::uint64_t q : smaller) {
-        if (2 * (std::bit_width(q) - 1) > std::bit_width(p) - 1) break;
-        if (divides(q, p)) return false;
-    }
-    return true;
-}
-
 /// The first irreducible polynomials, in the order of the numbers that their bits make.
 std::vector<std::uint64_t> irreducible_polynomials(std::size_t count) {
     std::vector<std::uint64_t> found;
     for (std::uint64_t p = 2; found.size() < count; ++p)
-        if (is_irreducible(p, found)) found.push_back(p);
+        if (gf2::is_irreducible(p)) found.push_back(p);
     return found;
 }
 
@@ -89,7 +74,7 @@ void set_matrix(std::uint64_t p, std::size_t k, BinaryMatrices& matrices) {
     }
 }
 
-std::unique_ptr<Sequence> make(const Plan& plan, const Values& options) {
+std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
     BinaryMatrices matrices{plan.dimension,
                             std::vector<std::uint64_t>(plan.dimension * binary_digits)};
     const auto polynomials = irreducible_polynomials(plan.dimension);

@@ -15,9 +15,8 @@
 // Cost    O(n d), half a nanosecond a coordinate. cbc: 6 s at n = 2^20, d = 100, and up to five
 //         times as long a point where 2^m - 1 is a prime, as for m = 13, 17, 19.
 // Promise unscrambled coordinates are exact multiples of 2^-m. All 2^m points are closed under XOR
-// of their
-//         digits; with p irreducible each of their coordinates takes every value once. The search
-//         gives the same vector on every machine.
+//         of their digits; with p irreducible each of their coordinates takes every value once. The
+//         search gives the same vector on every machine.
 // Source  H. Niederreiter, Random Number Generation and Quasi-Monte Carlo Methods, SIAM 1992,
 //         section 4.4, doi:10.1137/1.9781611970081; cbc: J. Baldeaux et al., Numer. Algorithms 59
 //         (2012) 403-431, doi:10.1007/s11075-011-9497-y.
@@ -30,6 +29,7 @@
 #include "generators/generator.hpp"
 #include "generators/net_sequence.hpp"
 #include "generators/polynomial_search.hpp"
+#include "generators/product_weights.hpp"
 #include "math/gf2.hpp"
 
 namespace stipple::generators {
@@ -54,16 +54,6 @@ constexpr Param<Numbers> vector_option{
     {.name = "vector",
      .help = "Generating vector, polynomials as such numbers; gives the dimension, or more numbers "
              "than that"}};
-constexpr Param<Numbers> weights{{.name = "weights",
-                                  .help = "Weights of the coordinates in what cbc makes least, a "
-                                          "positive number each"}};
-constexpr Param<std::int64_t> decay{.name = "decay",
-                                    .fallback = 2,
-                                    .low = 0,
-                                    .high = 20,
-                                    .help =
-                                        "Without weights: coordinate j has the weight "
-                                        "j^-decay"};
 
 bool searches(const Values& options) {
     return options[rule] == "cbc" && !options.given(vector_option);
@@ -74,12 +64,7 @@ void refuse_contradictions(const Values& options) {
         fail(ErrorKind::usage, "--rule: vector needs its --vector");
     if (options.given(rule) && options[rule] == "cbc" && options.given(vector_option))
         fail(ErrorKind::usage, "--vector: is of the rule vector; the rule here is cbc");
-    for (const auto& [name, given] : {std::pair{weights.name, options.given(weights)},
-                                      std::pair{decay.name, options.given(decay)}})
-        if (given && !searches(options))
-            fail(ErrorKind::usage, "--{}: is of the rule cbc; the rule here is vector", name);
-    if (options.given(weights) && options.given(decay))
-        fail(ErrorKind::usage, "--weights and --decay: either gives the weights; leave one out");
+    check_weights(options, searches(options), "the rule cbc", "vector");
 }
 
 std::uint64_t modulus_for(std::uint64_t count, const Values& options) {
@@ -118,22 +103,6 @@ Plan plan(const Request& request, const Values& options) {
     return decided;
 }
 
-std::vector<double> weights_of(const Values& options, std::size_t dimension) {
-    std::vector<double> found = options[weights];
-    for (std::size_t j = 1; !options.given(weights) && j <= dimension; ++j) {
-        found.push_back(1);
-        for (std::int64_t e = 0; e < options[decay]; ++e) found.back() /= static_cast<double>(j);
-    }
-    if (found.size() < dimension)
-        fail(ErrorKind::usage, "--weights: {} numbers for {} coordinates; give one for each",
-             found.size(), dimension);
-    for (const double weight : found)
-        if (!(weight > 0 && weight <= 1e6))
-            fail(ErrorKind::usage, "--weights: {} is outside (0, 1000000]", weight);
-    found.resize(dimension);
-    return found;
-}
-
 std::vector<std::uint64_t> given_vector(const Values& options, std::size_t dimension, int m) {
     std::vector<std::uint64_t> vector;
     for (const double q : options[vector_option]) {
@@ -163,11 +132,12 @@ DigitMatrix hankel(std::uint64_t q, std::uint64_t modulus) {
     return matrix;
 }
 
-std::unique_ptr<Sequence> make(const Plan& decided, const Values& options) {
+std::unique_ptr<Sequence> make(const Plan& decided, const Values& options, const RunContext& run) {
     const std::uint64_t modulus = modulus_for(decided.count, options);
     const std::vector<std::uint64_t> vector =
-        searches(options) ? polynomial_components(modulus, weights_of(options, decided.dimension))
-                          : given_vector(options, decided.dimension, gf2::degree(modulus));
+        searches(options)
+            ? polynomial_components(modulus, weights_of(options, decided.dimension), run)
+            : given_vector(options, decided.dimension, gf2::degree(modulus));
     std::vector<DigitMatrix> matrices;
     for (const std::uint64_t q : vector) matrices.push_back(hankel(q, modulus));
     return net_sequence(2, std::move(matrices), decided, options);
@@ -182,7 +152,8 @@ Generator polynomial_lattice() {
                 "Niederreiter 1992, doi:10.1137/1.9781611970081; "
                 "Baldeaux et al. 2012, doi:10.1007/s11075-011-9497-y",
             .traits = {.prefix = false},
-            .options = Schema(rule, modulus_option, vector_option, weights, decay, binary_scramble),
+            .options = Schema(rule, modulus_option, vector_option, product_weights, weight_decay,
+                              binary_scramble),
             .plan = plan,
             .sequence = make,
             .uses_seed = binary_uses_seed,

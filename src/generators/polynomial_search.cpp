@@ -24,6 +24,7 @@
 #include <limits>
 #include <numeric>
 
+#include "generators/search_progress.hpp"
 #include "math/fftw.hpp"
 #include "math/gf2.hpp"
 
@@ -37,8 +38,9 @@ double omega(std::uint64_t f, int m) {
 
 class Search {
   public:
-    explicit Search(std::uint64_t modulus)
-        : units_(gf2::units(static_cast<std::uint32_t>(modulus))),
+    Search(std::uint64_t modulus, const RunContext& run)
+        : run_(run),
+          units_(gf2::units(static_cast<std::uint32_t>(modulus))),
           exponents_(units_.size() + 1),
           halves_(units_.size() / 2 + 1),
           line_(fftw_reals(units_.size())),
@@ -129,6 +131,7 @@ class Search {
         if (nominees.size() == 1) return nominees.front();
         std::vector<double> errors;
         for (const std::uint64_t q : nominees) {
+            run_.check_stop();
             const double* kernel = kernel_from(q);
             double sum = 0;
             for (std::size_t a = 0; a < products_.size(); ++a)
@@ -140,6 +143,7 @@ class Search {
         return nominees[static_cast<std::size_t>(first - errors.begin())];
     }
 
+    const RunContext& run_;
     std::vector<std::uint32_t> units_;      ///< powers of a generator
     std::vector<std::uint32_t> exponents_;  ///< of every unit
     std::size_t halves_;                    ///< complex numbers of a real function's spectrum
@@ -174,12 +178,15 @@ double squared_shift_error(std::uint64_t modulus, std::span<const std::uint64_t>
 }
 
 std::vector<std::uint64_t> polynomial_components(std::uint64_t modulus,
-                                                 std::span<const double> weights) {
+                                                 std::span<const double> weights,
+                                                 const RunContext& run) {
     assert(gf2::is_irreducible(modulus) && gf2::degree(modulus) <= largest_searched_degree);
     std::vector<std::uint64_t> vector{1};
     if (weights.size() == 1) return vector;
-    Search search(modulus);
+    run.need_memory(60 * std::ldexp(1, gf2::degree(modulus)), "the search for a vector");
+    Search search(modulus, run);
     for (std::size_t k = 1; k < weights.size(); ++k) {
+        search_tick(run, k, weights.size());
         search.multiply_by(vector.back(), weights[k - 1]);
         vector.push_back(search.next());
     }

@@ -20,6 +20,8 @@
 #include <span>
 #include <vector>
 
+#include "core/run_context.hpp"
+
 namespace stipple {
 
 /// Degree of the modulus up to which vectors are searched.
@@ -36,6 +38,7 @@ double squared_shift_error(std::uint64_t modulus, std::span<const std::uint64_t>
 /// but for rounding, by the smallest number. One component a weight. The modulus is irreducible, of
 /// degree 1 to largest_searched_degree.
 std::vector<std::uint64_t> polynomial_components(std::uint64_t modulus,
-                                                 std::span<const double> weights);
+                                                 std::span<const double> weights,
+                                                 const RunContext& run);
 
 }  // namespace stipple

@@ -83,7 +83,7 @@ class Sequential final : public Sequence {
     std::size_t dimension_;
 };
 
-std::unique_ptr<Sequence> make(const Plan& plan, const Values& options) {
+std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
     const std::string name = options[engine];
     if (name == "mt19937-64") return std::make_unique<Sequential<MersenneTwister>>(plan);
     if (name == "drand48") return std::make_unique<Congruential>(plan);

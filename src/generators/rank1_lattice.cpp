@@ -31,6 +31,7 @@
 #include "core/wide.hpp"
 #include "generators/component_by_component.hpp"
 #include "generators/generator.hpp"
+#include "generators/product_weights.hpp"
 #include "math/ratio.hpp"
 #include "math/token_file.hpp"
 
@@ -56,16 +57,6 @@ constexpr Param<Numbers> vector{{.name = "vector",
 constexpr Param<Path> vector_file{{.name = "vector-file",
                                    .help = "File of a generating vector: a line a coordinate, "
                                            "with its value, or its number from 1 and its value"}};
-constexpr Param<Numbers> weights{{.name = "weights",
-                                  .help = "Weights of the coordinates in what cbc and korobov make "
-                                          "least, a positive number each"}};
-constexpr Param<std::int64_t> decay{.name = "decay",
-                                    .fallback = 2,
-                                    .low = 0,
-                                    .high = 20,
-                                    .help =
-                                        "Without weights: coordinate j has the weight "
-                                        "j^-decay"};
 
 constexpr std::size_t table_numbers = 2048;  // 16 KiB: half of a first-level cache
 constexpr std::size_t chunk_numbers = 64;
@@ -140,10 +131,7 @@ void refuse_contradictions(const Values& options, const std::string& chosen) {
     only_for("multiplier", options.given(multiplier), chosen == "korobov", "the rule korobov");
     only_for("vector", options.given(vector), chosen == "vector", "the rule vector");
     only_for("vector-file", options.given(vector_file), chosen == "vector", "the rule vector");
-    only_for("weights", options.given(weights), searches, "the searches cbc and korobov");
-    only_for("decay", options.given(decay), searches, "the searches cbc and korobov");
-    if (options.given(weights) && options.given(decay))
-        fail(ErrorKind::usage, "--weights and --decay: either gives the weights; leave one out");
+    check_weights(options, searches, "the searches cbc and korobov", chosen);
     if (chosen == "vector" && options.given(vector) == options.given(vector_file))
         fail(ErrorKind::usage,
              "--rule: vector needs its vector, by one of --vector and --vector-file");
@@ -179,24 +167,6 @@ Plan plan(const Request& request, const Values& options) {
                        "--count: {} is outside [1, {}], where a vector can be searched", plan.count,
                        largest_searched_lattice);
     return plan;
-}
-
-std::vector<double> weights_of(const Values& options, std::size_t dimension) {
-    std::vector<double> found = options[weights];
-    if (!options.given(weights))
-        for (std::size_t j = 1; j <= dimension; ++j) {
-            found.push_back(1);
-            for (std::int64_t e = 0; e < options[decay]; ++e)
-                found.back() /= static_cast<double>(j);
-        }
-    if (found.size() < dimension)
-        fail(ErrorKind::usage, "--weights: {} numbers for {} coordinates; give one for each",
-             found.size(), dimension);
-    for (const double weight : found)
-        if (!(weight > 0 && weight <= 1e6))
-            fail(ErrorKind::usage, "--weights: {} is outside (0, 1000000]", weight);
-    found.resize(dimension);
-    return found;
 }
 
 /// Numbers of a file, one a line, or each behind its number from 1.
@@ -239,7 +209,8 @@ std::vector<std::uint64_t> given_vector(const Values& options, std::size_t dimen
     return numbers;
 }
 
-std::vector<std::uint64_t> vector_of(const Plan& plan, const Values& options) {
+std::vector<std::uint64_t> vector_of(const Plan& plan, const Values& options,
+                                     const RunContext& run) {
     const std::string chosen = rule_of(options);
     const std::size_t d = plan.dimension;
     if (chosen == "vector") return given_vector(options, d);
@@ -252,12 +223,12 @@ std::vector<std::uint64_t> vector_of(const Plan& plan, const Values& options) {
         return powers_modulo(static_cast<std::uint64_t>(options[multiplier]), d, plan.count);
     const std::vector<double> weight = weights_of(options, d);
     if (chosen == "korobov")
-        return powers_modulo(korobov_multiplier(plan.count, weight), d, plan.count);
-    return component_by_component(plan.count, weight, RunContext{});
+        return powers_modulo(korobov_multiplier(plan.count, weight, run), d, plan.count);
+    return component_by_component(plan.count, weight, run);
 }
 
-std::unique_ptr<Sequence> make(const Plan& plan, const Values& options) {
-    return std::make_unique<Rank1Lattice>(plan.count, vector_of(plan, options));
+std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext& run) {
+    return std::make_unique<Rank1Lattice>(plan.count, vector_of(plan, options, run));
 }
 
 }  // namespace
@@ -269,7 +240,7 @@ Generator rank1_lattice() {
                 "component by component, or given",
             .source = "Nuyens & Cools 2006, doi:10.1090/S0025-5718-06-01785-6; Sloan & Joe 1994",
             .traits = {.prefix = false, .seeded = false},
-            .options = Schema(rule, multiplier, vector, vector_file, weights, decay),
+            .options = Schema(rule, multiplier, vector, vector_file, product_weights, weight_decay),
             .aliases = {"lattice", "rank-1-lattice"},
             .plan = plan,
             .sequence = make};

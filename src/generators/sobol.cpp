@@ -39,7 +39,7 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-std::unique_ptr<Sequence> make(const Plan& plan, const Values& options) {
+std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
     auto matrices = options.given(directions)
                         ? sobol_matrices(plan.dimension, binary_digits, options[directions])
                         : sobol_matrices(plan.dimension, binary_digits);

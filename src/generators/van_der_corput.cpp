@@ -36,7 +36,7 @@ class VanDerCorput final : public Sequence {
 
 Plan plan(const Request& request, const Values&) { return default_plan(request, 1024, 1); }
 
-std::unique_ptr<Sequence> make(const Plan&, const Values& options) {
+std::unique_ptr<Sequence> make(const Plan&, const Values& options, const RunContext&) {
     return std::make_unique<VanDerCorput>(static_cast<std::uint32_t>(options[base]));
 }
 

@@ -188,8 +188,8 @@ bool ship_file(const Shipment& shipment, std::size_t first, std::size_t last,
         if (format.begin_set) format.begin_set(layout, set - first, bytes);
         if (!output.write(bytes)) return false;
         bytes.clear();
-        const RunContext part = lane(run, set, shipment.sets);
-        const Source source = shipment.source(set);
+        const RunContext part = lane(run, set, shipment.sets).rising();
+        const Source source = shipment.source(set, part);
         Conveyor conveyor(source, shipment.route, layout, format, set - first, output, part);
         if (!conveyor.go()) return false;
     }

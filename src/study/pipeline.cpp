@@ -93,7 +93,8 @@ PointSet make_points(const Generator& generator, const Request& request, const V
                      const RunContext& run) {
     const Plan plan = plan_for(generator, request, options);
     if (!generator.traits.sequence) return generator.set(plan, options, run);
-    return fill_all(*generator.sequence(plan, options), plan, request.start, run);
+    const RunContext steady = run.rising();
+    return fill_all(*generator.sequence(plan, options, steady), plan, request.start, steady);
 }
 
 PointSet generate(const Generator& generator, const Request& request, const Values& options,

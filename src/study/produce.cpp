@@ -60,23 +60,23 @@ PointSet image_of(const PointSet& points, const WarpChain& chain, bool inverse, 
 void ship_images(const std::vector<PointSet>& images, const WarpChain& chain, std::size_t first_set,
                  std::size_t all_sets, const Target& target, const RunContext& run) {
     const std::size_t d = images.front().dimension();
-    Shipment shipment{.sets = images.size(),
-                      .first_set = first_set,
-                      .all_sets = all_sets,
-                      .source = [&](std::size_t set) { return source_of(images[set]); },
-                      .provenance = [&](std::size_t set) { return images[set].provenance; },
-                      .extent =
-                          [&](std::size_t set) {
-                              return bounding_box(images[set].flat(),
-                                                  images[set].domain->bounding_box());
-                          },
-                      .counts = {},
-                      .dimension = d,
-                      .route = {}};
+    Shipment shipment{
+        .sets = images.size(),
+        .first_set = first_set,
+        .all_sets = all_sets,
+        .source = [&](std::size_t set, const RunContext&) { return source_of(images[set]); },
+        .provenance = [&](std::size_t set) { return images[set].provenance; },
+        .extent =
+            [&](std::size_t set) {
+                return bounding_box(images[set].flat(), images[set].domain->bounding_box());
+            },
+        .counts = {},
+        .dimension = d,
+        .route = {}};
     for (const PointSet& set : images) shipment.counts.push_back(set.count());
     PointSet wide;
     if (target.with_pdf)
-        shipment.source = [&](std::size_t set) {
+        shipment.source = [&](std::size_t set, const RunContext&) {
             wide = PointSet(with_density(images[set].flat(), chain), d + 1);
             return source_of(wide);
         };
@@ -175,15 +175,17 @@ class Producer {
         const auto [first, last] = part(plan_.count);
         const std::uint64_t from = first;
         const std::uint64_t count = last - first;
-        const auto source = [&](std::size_t set) {
+        const bool seeded = uses_seed(generator_, job_.options);
+        std::shared_ptr<Sequence> sequence;
+        const auto source = [&](std::size_t set, const RunContext& run) {
             Plan plan = plan_;
             plan.seed += set;
-            std::shared_ptr<Sequence> sequence = generator_.sequence(plan, job_.options);
+            if (seeded || !sequence) sequence = generator_.sequence(plan, job_.options, run);
             const std::uint64_t start = job_.request.start + from;
-            walk_to(*sequence, start, plan.dimension, run_);
+            walk_to(*sequence, start, plan.dimension, run);
             return Source{.count = count,
                           .dimension = plan.dimension,
-                          .fill = [sequence, start](
+                          .fill = [sequence = sequence, start](
                                       std::uint64_t at,
                                       std::span<double> rows) { sequence->fill(start + at, rows); },
                           .in_order = !sequence->random_access(),

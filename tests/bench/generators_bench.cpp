@@ -16,7 +16,7 @@ void fill_blocks(benchmark::State& state, const std::string& name, const Setting
     Values values = generator.options.defaults();
     for (const auto& [option, text] : settings) generator.options.set(values, option, text);
     const Request request{.count = std::uint64_t{1} << 40, .dimension = dimension};
-    const auto sequence = generator.sequence(plan_for(generator, request, values), values);
+    const auto sequence = generator.sequence(plan_for(generator, request, values), values, {});
 
     std::vector<double> rows(8192 / dimension * dimension);
     const std::size_t block = rows.size() / dimension;
@@ -43,7 +43,7 @@ void search_vector(benchmark::State& state, const Request& request, const Settin
     for (const auto& [option, text] : settings) generator.options.set(values, option, text);
     for (auto _ : state)
         benchmark::DoNotOptimize(
-            generator.sequence(plan_for(generator, request, values), values).get());
+            generator.sequence(plan_for(generator, request, values), values, {}).get());
 }
 
 /// A whole array, as a peer gives it: with the time that its memory takes.

@@ -77,7 +77,7 @@ TEST_P(EveryGenerator, FillsAnyPiecesToTheSameWhole) {
     Values options = unit.options.defaults();
     for (const auto& [option, value] : needed(unit.name)) unit.options.set(options, option, value);
     const Plan plan = plan_for(unit, points(400, dimension), options);
-    const auto sequence = unit.sequence(plan, options);
+    const auto sequence = unit.sequence(plan, options, {});
     for (const std::size_t piece : {1, 7, 64, 399}) {
         std::vector<double> rows;
         for (std::size_t i = 0; i < 400; i += piece) {

@@ -161,12 +161,12 @@ TEST(PolynomialLattice, EveryCoordinateOfASearchedOneTakesEveryValueOnce) {
 TEST(PolynomialLattice, ComponentByComponentIsTheBestOfEachComponent) {
     const std::vector<double> square = {1, 1. / 4, 1. / 9, 1. / 16, 1. / 25};
     for (const std::uint64_t p : {2ULL, 7ULL, 11ULL, 19ULL, 37ULL, 61ULL, 67ULL, 131ULL})
-        EXPECT_EQ(polynomial_components(p, square), by_trying_all(p, square)) << p;
+        EXPECT_EQ(polynomial_components(p, square, {}), by_trying_all(p, square)) << p;
     const std::vector<double> equal(4, 1.0);
     for (const std::uint64_t p : {19ULL, 37ULL, 283ULL})
-        EXPECT_EQ(polynomial_components(p, equal), by_trying_all(p, equal)) << p;
+        EXPECT_EQ(polynomial_components(p, equal, {}), by_trying_all(p, equal)) << p;
     const std::vector<double> rising = {0.1, 2, 30};
-    EXPECT_EQ(polynomial_components(67, rising), by_trying_all(67, rising));
+    EXPECT_EQ(polynomial_components(67, rising, {}), by_trying_all(67, rising));
 }
 
 TEST(PolynomialLattice, ErrorIsThatOfThePoints) {
@@ -197,8 +197,8 @@ TEST(PolynomialLattice, KernelIsTheMeanOverShiftsOfTheSobolevSpaces) {
 
 // Here products reach 2^3000 without their common factor taken out.
 TEST(PolynomialLattice, SearchesInManyDimensionsWithoutOverflow) {
-    const auto vector = polynomial_components(1033, std::vector<double>(3000, 6.0));
-    const auto front = polynomial_components(1033, std::vector<double>(30, 6.0));
+    const auto vector = polynomial_components(1033, std::vector<double>(3000, 6.0), {});
+    const auto front = polynomial_components(1033, std::vector<double>(30, 6.0), {});
     EXPECT_EQ(vector.size(), 3000U);
     EXPECT_TRUE(std::ranges::equal(front, std::span(vector).first(30)));
     EXPECT_GT(std::set<std::uint64_t>(vector.end() - 100, vector.end()).size(), 1U);
@@ -278,4 +278,15 @@ TEST(PolynomialLattice, RefusesWhatItCannotMake) {
     EXPECT_EQ(refusal(points((std::uint64_t{1} << 52) + 1, 2), {}),
               "usage: --count: 4503599627370497 is outside [1, 2^52], what polynomial-lattice can "
               "make");
+}
+
+TEST(PolynomialLattice, ASearchCanBeStoppedShowsItsProgressAndKeepsToItsMemory) {
+    const auto search = [&](const RunContext& run) {
+        make("polynomial-lattice", points(1 << 14, 20), {}, run);
+    };
+    expect_to_stop_at_once(search);
+    expect_progress_to_the_end(search);
+    const auto error = error_of(
+        [] { make("polynomial-lattice", points(1 << 16, 2), {}, {.max_memory = 2'000'000}); });
+    EXPECT_TRUE(error.starts_with("limit: the search for a vector")) << error;
 }

@@ -220,7 +220,7 @@ TEST(KorobovSearch, FindsTheBestOfAllWhereThereIsTime) {
         for (std::uint64_t a = 1; a <= n; ++a)
             if (std::gcd(a, n) == 1)
                 least = std::min(least, by_definition(n, {1, a, a * a}, weights));
-        const std::uint64_t a = korobov_multiplier(n, weights);
+        const std::uint64_t a = korobov_multiplier(n, weights, {});
         EXPECT_NEAR(by_definition(n, powers_modulo(a, 3, n), weights), least,
                     1e-11 * std::abs(least))
             << n;
@@ -230,7 +230,7 @@ TEST(KorobovSearch, FindsTheBestOfAllWhereThereIsTime) {
 TEST(KorobovSearch, IsMuchBetterThanTheMiddleOfAllAlsoWhereItTriesFew) {
     const std::uint64_t n = 1 << 19;
     const auto weights = decaying(40, 2);
-    const std::uint64_t a = korobov_multiplier(n, weights);  // 25 of 131072
+    const std::uint64_t a = korobov_multiplier(n, weights, {});  // 25 of 131072
     const auto error = [&](std::uint64_t b) {
         return squared_lattice_error(n, powers_modulo(b, 40, n), weights);
     };
@@ -309,4 +309,17 @@ TEST(Rank1Lattice, RefusesWhatItCannotMake) {
     EXPECT_EQ(error(1 << 24, 9, {{"rule", "korobov"}}),
               "usage: --rule: korobov's search takes at most 67108864 coordinates of points; "
               "16777216 points of dimension 9 are more. Give its --multiplier");
+}
+
+TEST(Rank1Lattice, ASearchCanBeStoppedShowsItsProgressAndKeepsToItsMemory) {
+    for (const Settings& settings : {Settings{}, Settings{{"rule", "korobov"}}}) {
+        const auto search = [&](const RunContext& run) {
+            make("rank1-lattice", points(1 << 14, 20), settings, run);
+        };
+        expect_to_stop_at_once(search);
+        expect_progress_to_the_end(search);
+    }
+    const auto error =
+        error_of([] { make("rank1-lattice", points(1 << 16, 2), {}, {.max_memory = 2'000'000}); });
+    EXPECT_TRUE(error.starts_with("limit: the search for a vector")) << error;
 }

@@ -17,7 +17,7 @@ inline std::unique_ptr<Sequence> sequence_of(std::string_view name, const Reques
     const Generator& generator = find_generator(name);
     Values values = generator.options.defaults();
     for (const auto& [option, text] : settings) generator.options.set(values, option, text);
-    return generator.sequence(plan_for(generator, request, values), values);
+    return generator.sequence(plan_for(generator, request, values), values, {});
 }
 
 /// Points first ... first + count - 1 of a sequence.
