@@ -7,6 +7,7 @@
 #include "core/text.hpp"
 #include "generators/polynomial_search.hpp"
 #include "math/gf2.hpp"
+#include "support/contract.hpp"
 #include "support/nets.hpp"
 #include "support/scrambling.hpp"
 #include "support/sequences.hpp"

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "generators/component_by_component.hpp"
+#include "support/contract.hpp"
 #include "support/exact.hpp"
 #include "support/sequences.hpp"
 
