@@ -110,6 +110,7 @@ Generator grid() {
             .source = "Standard construction",
             .traits = {.prefix = false, .seeded = false},
             .options = Schema(shape, cell),
+            .aliases = {"regular", "regular-grid"},
             .plan = plan,
             .sequence = make};
 }

@@ -142,6 +142,7 @@ Generator jittered() {
             .source = "Cook 1986, doi:10.1145/7529.8927",
             .traits = {.prefix = false},
             .options = Schema(cell),
+            .aliases = {"stratified"},
             .plan = plan,
             .sequence = make};
 }

@@ -217,6 +217,7 @@ Generator poisson_disk() {
                        .prefix = false,
                        .boxed = true},
             .options = Schema(radius, attempts, torus, bounded),
+            .aliases = {"poisson", "poisson-disc"},
             .plan = plan,
             .set = make};
 }

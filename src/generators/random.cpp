@@ -110,6 +110,7 @@ Generator random() {
             .source = "Salmon et al. 2011, doi:10.1145/2063384.2063405",
             .traits = {},
             .options = Schema(engine),
+            .aliases = {"uniform", "independent", "white-noise"},
             .sequence = make,
             .max_seed = max_seed};
 }

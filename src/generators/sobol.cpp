@@ -56,6 +56,7 @@ Generator sobol() {
                 "doi:10.1137/070709359",
             .traits = {.max_dimension = 21'201, .max_index = std::uint64_t{1} << binary_digits},
             .options = Schema(binary_order, binary_scramble, directions),
+            .aliases = {"lp-tau"},
             .plan = plan,
             .sequence = make,
             .uses_seed = binary_uses_seed,

@@ -244,3 +244,12 @@ TEST(Generate, StreamsInLittleMemory) {
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_LT(std::stol(outcome.out), 60'000) << "KiB";
 }
+
+TEST(Generate, TakesTheOtherNamesOfAUnit) {
+    const Sandbox box;
+    const Outcome alias = box.run({"generate", "regular", "--cell", "corner", "-n", "9", "--meta"});
+    EXPECT_EQ(alias.code, 0) << alias.err;
+    EXPECT_THAT(alias.out, HasSubstr("# generator: \"grid\""));
+    EXPECT_THAT(box.run({"generate", "regular", "--help"}).out, HasSubstr("Also called regular"));
+    EXPECT_THAT(box.run({"list", "generators"}).out, HasSubstr("also called regular"));
+}

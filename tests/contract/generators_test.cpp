@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "study/pipeline.hpp"
 #include "support/contract.hpp"
@@ -142,4 +143,26 @@ TEST(Registry, HoldsTheUnitsByTheirNamesInOrder) {
     EXPECT_TRUE(std::ranges::is_sorted(list));
     for (const char* name : {"grid", "halton", "hammersley", "jittered", "poisson-disk", "random"})
         EXPECT_EQ(std::ranges::count(list, name), 1) << name;
+}
+
+// A name means one unit, among generators and among what `warp` takes.
+TEST(Registry, EveryNameMeansOneUnit) {
+    std::set<std::string> names;
+    for (const Generator& unit : generators::all()) {
+        EXPECT_TRUE(names.insert(unit.name).second) << unit.name;
+        for (const std::string& alias : unit.aliases) {
+            EXPECT_TRUE(names.insert(alias).second) << alias;
+            EXPECT_EQ(&find_generator(alias), &unit);
+        }
+    }
+    EXPECT_TRUE(names.contains("regular"));
+    names.clear();
+    for (const Warp& unit : warps::all()) EXPECT_TRUE(names.insert(unit.name).second) << unit.name;
+    for (const Scramble& unit : scrambles::all()) {
+        EXPECT_TRUE(names.insert(unit.name).second) << unit.name;
+        for (const std::string& alias : unit.aliases) {
+            EXPECT_TRUE(names.insert(alias).second) << alias;
+            EXPECT_EQ(scramble_named(alias), &unit);
+        }
+    }
 }
