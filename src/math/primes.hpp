@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The first 1000 primes: 2, 3, 5, ..., 7919.
+// The first 1000 primes: 2, 3, 5, ..., 7919, and whether a number is one.
 #pragma once
 
 #include <array>
@@ -24,5 +24,14 @@ consteval std::array<std::uint32_t, 1000> first_primes() {
 }  // namespace detail
 
 inline constexpr std::array<std::uint32_t, 1000> primes = detail::first_primes();
+
+/// The smallest factor of n >= 2 that is not 1; n itself for a prime. O(sqrt(n)).
+constexpr std::uint64_t smallest_factor(std::uint64_t n) {
+    for (std::uint64_t factor = 2; factor * factor <= n; ++factor)
+        if (n % factor == 0) return factor;
+    return n;
+}
+
+constexpr bool is_prime(std::uint64_t n) { return n >= 2 && smallest_factor(n) == n; }
 
 }  // namespace stipple

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "math/stratum.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "core/wide.hpp"
 #include "math/ratio.hpp"
 
 namespace stipple {
@@ -16,6 +19,18 @@ double safe_point(std::uint64_t low, std::uint64_t high, std::uint64_t parts) {
     const double middle = ratio(Wide{low} + high, Wide{parts} * 2);
     const bool below_edge = std::fma(middle, n, -static_cast<double>(high)) < 0;
     return below_edge ? middle : static_cast<double>(low) / n;
+}
+
+/// x[j] = (low[j] + x[j]) / parts; whether all are strictly between the edges after rounding.
+STIPPLE_WIDE bool move_inside(const double* low, double parts, std::size_t count, double* x) {
+    std::int64_t outside = 0;
+    for (std::size_t j = 0; j < count; ++j) {
+        const double value = (low[j] + x[j]) / parts;
+        const double scaled = value * parts;
+        outside += scaled > low[j] && scaled < low[j] + 1 ? 0 : 1;
+        x[j] = value;
+    }
+    return outside == 0;
 }
 
 }  // namespace
@@ -52,6 +67,35 @@ void place_in_middles(const Strata& strata, std::size_t count, double* x, std::s
         const std::uint64_t low = strata.low + strata.step * j;
         x[j * stride] = roomy ? ratio(2 * low + strata.width, 2 * strata.parts)
                               : safe_point(low, low + strata.width, strata.parts);
+    }
+}
+
+void place_in_strata(std::span<const double> low, std::uint64_t parts, double* x,
+                     std::size_t stride) {
+    constexpr std::size_t most = 256;
+    std::array<double, most> value;
+    for (std::size_t begin = 0; begin < low.size(); begin += most) {
+        const auto part = low.subspan(begin, std::min(most, low.size() - begin));
+        double* to = x + begin * stride;
+        for (std::size_t j = 0; j < part.size(); ++j) value[j] = to[j * stride];
+        if (!move_inside(part.data(), static_cast<double>(parts), part.size(), value.data()))
+            for (std::size_t j = 0; j < part.size(); ++j) {
+                const auto first = static_cast<std::uint64_t>(part[j]);
+                const double scaled = value[j] * static_cast<double>(parts);
+                if (!(scaled > part[j] && scaled < part[j] + 1))
+                    value[j] = safe_point(first, first + 1, parts);
+            }
+        for (std::size_t j = 0; j < part.size(); ++j) to[j * stride] = value[j];
+    }
+}
+
+void place_in_middles(std::span<const double> low, std::uint64_t parts, double* x,
+                      std::size_t stride) {
+    const bool roomy = parts <= std::uint64_t{1} << 50;
+    const auto whole = static_cast<double>(parts);
+    for (std::size_t j = 0; j < low.size(); ++j) {
+        const auto first = static_cast<std::uint64_t>(low[j]);
+        x[j * stride] = roomy ? (low[j] + 0.5) / whole : safe_point(first, first + 1, parts);
     }
 }
 

@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace stipple {
 
@@ -28,5 +29,14 @@ void place_in_strata(const Strata& strata, std::size_t count, double* x, std::si
 
 /// Puts the middles of the strata there.
 void place_in_middles(const Strata& strata, std::size_t count, double* x, std::size_t stride);
+
+/// Moves x[0], x[stride], ... from [0, 1) into strata one part wide: the j-th into the one that
+/// begins at low[j] / parts, low[j] a whole number.
+void place_in_strata(std::span<const double> low, std::uint64_t parts, double* x,
+                     std::size_t stride);
+
+/// Puts the middles of those strata there.
+void place_in_middles(std::span<const double> low, std::uint64_t parts, double* x,
+                      std::size_t stride);
 
 }  // namespace stipple
