@@ -15,8 +15,8 @@
 //
 // Shape   2 dimensions, indices below 2^53.
 // Cost    O(n), no memory.
-// Promise the above, for every seed. The points are those that
-//         sobol with nested uniform scrambling gives for the same seed, up to the order of columns.
+// Promise the above, for every seed. The points are those of sobol with nested uniform scrambling,
+//         to the bit.
 // Source  P. Christensen, A. Kensler, C. Kilpatrick, Comput. Graph. Forum 37 (4) (2018) 21-33,
 //         doi:10.1111/cgf.13472 (what the points are); A. B. Owen 1995,
 //         doi:10.1007/978-1-4612-2552-2_19 (scrambling); A. Helmer, P. Christensen, A. Kensler,

@@ -82,9 +82,10 @@ TEST(LatinHypercube, ReachesToTheLargestCounts) {
         for (const char* centered : {"false", "true"}) {
             const auto sequence =
                 sequence_of("latin-hypercube", points(n, 2), {{"centered", centered}});
-            for (const std::uint64_t first : {std::uint64_t{0}, n - 300})
-                for (const double x : stretch(*sequence, 2, first, 300).flat())
-                    EXPECT_TRUE(x >= 0 && x < 1);
+            for (const std::uint64_t first : {std::uint64_t{0}, n - 300}) {
+                const PointSet part = stretch(*sequence, 2, first, 300);
+                for (const double x : part.flat()) EXPECT_TRUE(x >= 0 && x < 1);
+            }
         }
 }
 
