@@ -130,3 +130,30 @@ TEST(Stratum, HoldsItsPointAsAProgramFindsIt) {
                     << x << " in " << low << " of " << parts;
             }
 }
+
+TEST(Stratum, ListedStrataHoldTheirPointsToo) {
+    const Rng rng(4);
+    for (const std::uint64_t parts :
+         {std::uint64_t{1}, std::uint64_t{49}, (std::uint64_t{1} << 52) + 1, most - 1, most}) {
+        std::vector<double> low(600);
+        std::vector<double> x(1200, -1);
+        for (std::size_t j = 0; j < low.size(); ++j) {
+            low[j] = static_cast<double>(j < 2 ? j * (parts - 1) : rng.below(j, parts));
+            x[2 * j] = j % 3 == 0 ? 0 : j % 3 == 1 ? 1 - 0x1p-53 : rng.uniform(1000 + j);
+        }
+        for (const bool centered : {false, true}) {
+            centered ? place_in_middles(low, parts, x.data(), 2)
+                     : place_in_strata(low, parts, x.data(), 2);
+            for (std::size_t j = 0; j < low.size(); ++j) {
+                const auto first = static_cast<std::uint64_t>(low[j]);
+                expect_inside({.low = first, .width = 1, .step = 0, .parts = parts}, x[2 * j]);
+                EXPECT_EQ(x[2 * j + 1], -1);
+            }
+        }
+    }
+    std::vector<double> x = {0.5, 0.25};
+    place_in_strata(std::vector<double>{3, 5}, 8, x.data(), 1);
+    EXPECT_EQ(x, (std::vector<double>{3.5 / 8, 5.25 / 8}));
+    place_in_middles(std::vector<double>{1, 7}, 8, x.data(), 1);
+    EXPECT_EQ(x, (std::vector<double>{1.5 / 8, 7.5 / 8}));
+}

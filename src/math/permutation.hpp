@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+//
+// A random permutation of {0, ..., n - 1}, chosen by a key and evaluated at any index.
+//
+//     n <= 64   shuffled (Fisher, Yates): all n! come, each with the same chance
+//     n > 64    a cipher of w = ceil(log2 n) bits, twelve rounds of
+//
+//                   x <- (x xor k_t) m_t mod 2^w,      x <- x xor floor(x / 2^ceil(w/2))
+//
+//               with random k_t and odd m_t. A result of n or more goes through it again until it
+//               is one below n, which walks along the cipher's cycles and so remains a bijection.
+//
+// Shape   n in [1, 2^53].
+// Cost    1 to 4 ns an image in stretches, 30 to 60 ns one by one, 20 to 100 ns a key. No memory
+//         beyond the object, of 300 bytes.
+// Promise a bijection for every key. Single images, differences and pairs of images, each over 10^6
+//         keys, pass chi-square at sizes from 65 to 1024; six rounds do not.
+// Beware  keys have 64 bits, so that of the n! permutations for n > 20 most never come.
+// Source  J. Black, P. Rogaway, "Ciphers with arbitrary finite domains", CT-RSA (2002), 114-130,
+//         doi:10.1007/3-540-45760-7_9.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace stipple {
+
+class Permutation {
+  public:
+    Permutation(std::uint64_t size, std::uint64_t key);
+
+    /// The image of i < size.
+    [[nodiscard]] std::uint64_t operator()(std::uint64_t i) const;
+
+    /// out[j] = image of first + j, as a double.
+    void fill(std::uint64_t first, std::span<double> out) const;
+
+    static constexpr std::size_t rounds = 12;
+
+    /// The keys of the rounds, of `width` bits.
+    struct Cipher {
+        int width;
+        std::array<std::uint64_t, rounds> flips;
+        std::array<std::uint64_t, rounds> factors;
+    };
+
+  private:
+    static constexpr std::uint64_t small = 64;
+
+    std::uint64_t size_;
+    Cipher cipher_;                          ///< where size_ > small
+    std::array<std::uint8_t, small> table_;  ///< the images, where size_ <= small
+};
+
+}  // namespace stipple
