@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <limits>
 
@@ -24,8 +26,25 @@ std::stop_source& interrupts() {
 
 pthread_t main_thread;  // NOLINT: read by the signal handler
 
-/// Lock-free as far as it goes: nobody registers callbacks at this stop source.
+volatile std::sig_atomic_t interrupted_at = 0;  ///< milliseconds on the clock, of the first signal
+
+std::sig_atomic_t milliseconds() {
+    timespec now{};
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return static_cast<std::sig_atomic_t>(
+        (now.tv_sec * 1000 + now.tv_nsec / 1'000'000) % 1'000'000'000 + 1);
+}
+
+/// Lock-free as far as it goes: nobody registers callbacks at this stop source. A later second
+/// signal is final; one that comes at once is the first, sent to the process and its group.
 extern "C" void on_interrupt(int signal) {
+    constexpr std::sig_atomic_t at_once = 200;
+    if (interrupted_at == 0) {
+        interrupted_at = milliseconds();
+    } else if (std::abs(milliseconds() - interrupted_at) > at_once) {
+        std::signal(signal, SIG_DFL);
+        std::raise(signal);  // delivered on return
+    }
     interrupts().request_stop();
     // Only a blocked call of the main thread must be woken.
     if (!pthread_equal(pthread_self(), main_thread)) pthread_kill(main_thread, signal);
@@ -118,8 +137,7 @@ void catch_interrupts() {
     interrupts();
     struct sigaction action = {};
     action.sa_handler = on_interrupt;
-    // No SA_RESTART: a blocked read or write must come back. The second signal is final.
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    action.sa_flags = 0;  // no SA_RESTART: a blocked read or write must come back
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
     std::signal(SIGPIPE, SIG_IGN);
