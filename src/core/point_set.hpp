@@ -3,6 +3,7 @@
 // Points with where they come from: a plain value.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -11,7 +12,7 @@
 
 #include "core/domain.hpp"
 #include "core/options.hpp"
-#include "core/zeros.hpp"
+#include "core/rows.hpp"
 
 namespace stipple {
 
@@ -36,36 +37,41 @@ struct Provenance {
 class PointSet {
   public:
     PointSet() = default;
+
+    /// All coordinates 0.
     PointSet(std::size_t count, std::size_t dimension)
-        : PointSet(zeros(count * dimension), dimension) {}
+        : PointSet(std::vector<double>(count * dimension), dimension) {}
 
     /// Takes rows of `dimension` numbers.
     PointSet(std::vector<double> rows, std::size_t dimension)
+        : PointSet(Rows(std::move(rows)), dimension) {}
+
+    PointSet(Rows rows, std::size_t dimension)
         : domain(unit_cube(dimension)), rows_(std::move(rows)), dimension_(dimension) {}
 
-    [[nodiscard]] std::size_t count() const { return dimension_ ? rows_.size() / dimension_ : 0; }
+    [[nodiscard]] std::size_t count() const { return dimension_ ? flat().size() / dimension_ : 0; }
     [[nodiscard]] std::size_t dimension() const { return dimension_; }
 
     [[nodiscard]] std::span<double> operator[](std::size_t i) {
-        return std::span(rows_).subspan(i * dimension_, dimension_);
+        return flat().subspan(i * dimension_, dimension_);
     }
     [[nodiscard]] std::span<const double> operator[](std::size_t i) const {
-        return std::span(rows_).subspan(i * dimension_, dimension_);
+        return flat().subspan(i * dimension_, dimension_);
     }
 
-    [[nodiscard]] std::span<double> flat() { return rows_; }
-    [[nodiscard]] std::span<const double> flat() const { return rows_; }
+    [[nodiscard]] std::span<double> flat() { return rows_.numbers(); }
+    [[nodiscard]] std::span<const double> flat() const { return rows_.numbers(); }
 
     /// The same numbers, wherever they come from.
     bool operator==(const PointSet& other) const {
-        return dimension_ == other.dimension_ && rows_ == other.rows_;
+        return dimension_ == other.dimension_ && std::ranges::equal(flat(), other.flat());
     }
 
     DomainPtr domain;       ///< what the points live on; the unit cube unless set
     Provenance provenance;  ///< empty unless known
 
   private:
-    std::vector<double> rows_;
+    Rows rows_;
     std::size_t dimension_ = 0;
 };
 

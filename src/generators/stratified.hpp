@@ -19,7 +19,11 @@
 namespace stipple::generators {
 
 /// Streams of random numbers within a generator's seed.
-enum class StratifiedStream : std::uint64_t { offsets, order, first_of_unit };
+enum class StratifiedStream : std::uint64_t {
+    order,
+    first_of_unit,
+    first_of_offsets = std::uint64_t{1} << 31  ///< one a coordinate
+};
 
 inline constexpr Param<bool> centered_option{
     .name = "centered", .help = "Puts points into the middles of their strata, not anywhere"};
@@ -54,6 +58,10 @@ class StratifiedSequence : public Sequence {
     Plan plan_;
 
   private:
+    /// Coordinates of points first, first + 1, ... in the strata that are `low`.
+    void place(std::size_t coordinate, std::uint64_t first, std::span<const double> low,
+               std::span<double> x) const;
+
     bool centered_;
     std::optional<Permutation> order_;
 };

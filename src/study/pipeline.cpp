@@ -47,7 +47,7 @@ PointSet fill_all(Sequence& sequence, const Plan& plan, std::uint64_t start,
                   const RunContext& run) {
     run.need_memory(static_cast<double>(plan.count) * static_cast<double>(plan.dimension) * 8,
                     "the point set");
-    PointSet points(plan.count, plan.dimension);
+    PointSet points(Rows::unwritten(plan.count * plan.dimension), plan.dimension);
     walk_to(sequence, start, plan.dimension, run);
     RunContext lane = run;
     if (!sequence.random_access()) lane.threads = 1;

@@ -25,7 +25,8 @@ ROUNDS = 5
 
 PEERS = {
     "sobol/none": lambda d: qmc.Sobol(d, scramble=False).random(COUNT),
-    "sobol/owen": lambda d: qmc.Sobol(d, scramble=True, seed=1).random(COUNT),
+    # SciPy's scrambling is a random matrix and a digital shift, too.
+    "sobol/matrix": lambda d: qmc.Sobol(d, scramble=True, seed=1).random(COUNT),
     "halton/none": lambda d: qmc.Halton(d, scramble=False).random(COUNT),
     "halton/permutation": lambda d: qmc.Halton(d, scramble=True, seed=1).random(COUNT),
     "latin-hypercube": lambda d: qmc.LatinHypercube(d, seed=1).random(COUNT),

@@ -15,7 +15,9 @@ void fill_blocks(benchmark::State& state, const std::string& name, const Setting
     const Generator& generator = find_generator(name);
     Values values = generator.options.defaults();
     for (const auto& [option, text] : settings) generator.options.set(values, option, text);
-    const Request request{.count = std::uint64_t{1} << 40, .dimension = dimension};
+    const bool square = name == "orthogonal-array";  // of a prime
+    const std::uint64_t count = square ? 1'048'573ULL * 1'048'573 : std::uint64_t{1} << 40;
+    const Request request{.count = count, .dimension = dimension};
     const auto sequence = generator.sequence(plan_for(generator, request, values), values, {});
 
     std::vector<double> rows(8192 / dimension * dimension);
@@ -37,8 +39,9 @@ void make_set(benchmark::State& state, const Request& request, const Settings& s
     state.SetItemsProcessed(static_cast<std::int64_t>(made));
 }
 
-void search_vector(benchmark::State& state, const Request& request, const Settings& settings) {
-    const Generator& generator = find_generator("rank1-lattice");
+void search_vector(benchmark::State& state, const std::string& name, const Request& request,
+                   const Settings& settings) {
+    const Generator& generator = find_generator(name);
     Values values = generator.options.defaults();
     for (const auto& [option, text] : settings) generator.options.set(values, option, text);
     for (auto _ : state)
@@ -55,67 +58,82 @@ void make_array(benchmark::State& state, const std::string& name, const Settings
     state.SetItemsProcessed(static_cast<std::int64_t>(made));
 }
 
-const bool registered = [] {
-    const auto add = [](const std::string& label, const std::string& name,
-                        const Settings& settings = {}, std::size_t dimension = 2) {
-        benchmark::RegisterBenchmark(
-            label.c_str(), [=](auto& state) { fill_blocks(state, name, settings, dimension); });
-    };
-    for (const char* rng : {"philox", "mt19937-64", "drand48", "ranlux48", "ranmar", "random"})
-        add(std::string("random/") + rng, "random", {{"rng", rng}});
-    for (const char* name : {"grid", "jittered", "halton", "hammersley", "kronecker"})
-        add(name, name);
-    for (const char* name : {"random", "grid", "jittered", "halton", "hammersley", "kronecker"})
-        // 2^40 = 4^20 points: a power of two in 20 dimensions as well.
-        add(std::string(name) + "/20d", name, {}, 20);
-    for (const char* scramble : {"none", "digital-shift", "matrix", "owen"})
-        for (const std::size_t dimension : {std::size_t{2}, std::size_t{20}})
-            add(fmt::format("sobol/{}/{}d", scramble, dimension), "sobol", {{"scramble", scramble}},
-                dimension);
-    add("sobol/gray/2d", "sobol", {{"order", "gray"}});
-    add("niederreiter/2d", "niederreiter");
-    for (const char* scramble : {"none", "owen"})
-        for (const std::size_t dimension : {std::size_t{2}, std::size_t{20}}) {
-            const Settings settings{{"scramble", scramble}};
-            benchmark::RegisterBenchmark(
-                fmt::format("array/sobol/{}/{}d", scramble, dimension).c_str(),
-                [=](auto& state) { make_array(state, "sobol", settings, dimension); })
-                ->Unit(benchmark::kMillisecond);
-        }
-    for (const char* scramble : {"none", "permutation", "owen"})
-        for (const std::size_t dimension : {std::size_t{2}, std::size_t{20}}) {
-            const Settings settings{{"scramble", scramble}};
-            benchmark::RegisterBenchmark(
-                fmt::format("array/halton/{}/{}d", scramble, dimension).c_str(),
-                [=](auto& state) { make_array(state, "halton", settings, dimension); })
-                ->Unit(benchmark::kMillisecond);
-        }
+std::string label_of(const std::string& name, const Settings& settings, std::size_t dimension) {
+    std::string label = name;
+    for (const auto& [option, text] : settings) label += "/" + text;
+    return fmt::format("{}/{}d", label, dimension);
+}
 
-    add("van-der-corput/base_2", "van-der-corput", {}, 1);
-    add("van-der-corput/base_10", "van-der-corput", {{"base", "10"}}, 1);
-    for (const char* scramble : {"faure", "permutation", "owen"})
-        for (const std::size_t d : {2U, 20U})
-            add("halton/" + std::string(scramble) + (d == 2 ? "" : "/20d"), "halton",
-                {{"scramble", scramble}}, d);
-    const Settings korobov = {{"rule", "korobov"}, {"multiplier", "364981"}};
-    add("rank1-lattice", "rank1-lattice", korobov);
-    add("rank1-lattice/20d", "rank1-lattice", korobov, 20);
-    for (const std::uint64_t n : {std::uint64_t{1} << 20, std::uint64_t{1'048'573}})
-        benchmark::RegisterBenchmark(
-            ("rank1-lattice/cbc/" + std::to_string(n) + "x100").c_str(),
-            [n](auto& state) {
-                search_vector(state, {.count = n, .dimension = 100}, {{"rule", "cbc"}});
-            })
+/// In blocks that fit the cache.
+void add_blocks(const std::string& name, const std::vector<std::size_t>& dimensions,
+                const Settings& settings = {}) {
+    for (const std::size_t d : dimensions)
+        benchmark::RegisterBenchmark(label_of(name, settings, d).c_str(),
+                                     [=](auto& state) { fill_blocks(state, name, settings, d); });
+}
+
+/// As whole arrays; compare_scipy.py goes by these names.
+void add_arrays(const std::string& name, const Settings& settings = {}) {
+    for (const std::size_t d : {2U, 20U})
+        benchmark::RegisterBenchmark(("array/" + label_of(name, settings, d)).c_str(),
+                                     [=](auto& state) { make_array(state, name, settings, d); })
             ->Unit(benchmark::kMillisecond);
+}
 
-    const auto set = [](const char* label, const Request& request, const Settings& settings) {
+void add_sequences() {
+    for (const char* rng : {"philox", "mt19937-64", "drand48", "ranlux48", "ranmar", "random"})
+        add_blocks("random", {2}, {{"rng", rng}});
+    // 2^40 = 4^20 points: a power of two in 20 dimensions as well.
+    for (const char* name : {"random", "grid", "jittered", "hammersley", "kronecker", "faure",
+                             "niederreiter", "latin-hypercube"})
+        add_blocks(name, {2, 20});
+    for (const char* scramble : {"none", "digital-shift", "matrix", "owen"})
+        add_blocks("sobol", {2, 20}, {{"scramble", scramble}});
+    add_blocks("sobol", {2}, {{"order", "gray"}});
+    for (const char* scramble : {"none", "faure", "permutation", "owen"})
+        add_blocks("halton", {2, 20}, {{"scramble", scramble}});
+    for (const char* scramble : {"digital-shift", "matrix", "owen"})
+        add_blocks("faure", {3, 20}, {{"scramble", scramble}});
+    for (const char* base : {"2", "10"}) add_blocks("van-der-corput", {1}, {{"base", base}});
+    add_blocks("rank1-lattice", {2, 20}, {{"rule", "korobov"}, {"multiplier", "364981"}});
+    for (const char* name : {"multi-jittered", "correlated-multi-jittered", "pmj", "pmj02"})
+        add_blocks(name, {2});
+    for (const char* construction : {"bose", "cmj"})
+        add_blocks("orthogonal-array", {4}, {{"construction", construction}});
+}
+
+void add_searches() {
+    const auto add = [](const std::string& name, std::uint64_t n) {
+        benchmark::RegisterBenchmark(fmt::format("{}/cbc/{}x100", name, n).c_str(), [=](auto&
+                                                                                            state) {
+            search_vector(state, name, {.count = n, .dimension = 100}, {{"rule", "cbc"}});
+        })->Unit(benchmark::kMillisecond);
+    };
+    for (const std::uint64_t n : {1'048'576U, 1'048'573U}) add("rank1-lattice", n);
+    add("polynomial-lattice", 1'048'576);
+}
+
+void add_sets() {
+    const auto add = [](const char* label, const Request& request, const Settings& settings) {
         benchmark::RegisterBenchmark(label, [=](auto& state) {
             make_set(state, request, settings);
         })->Unit(benchmark::kMillisecond);
     };
-    set("poisson-disk/1e5", {}, {{"radius", "0.00248"}});
-    set("poisson-disk/1e5_exactly", {.count = 100'000}, {});
-    set("poisson-disk/3d", {.dimension = 3}, {{"radius", "0.0179"}});
+    add("poisson-disk/1e5", {}, {{"radius", "0.00248"}});
+    add("poisson-disk/1e5_exactly", {.count = 100'000}, {});
+    add("poisson-disk/3d", {.dimension = 3}, {{"radius", "0.0179"}});
+}
+
+const bool registered = [] {
+    add_sequences();
+    for (const char* scramble : {"none", "matrix", "owen"})
+        add_arrays("sobol", {{"scramble", scramble}});
+    for (const char* scramble : {"none", "permutation", "owen"})
+        add_arrays("halton", {{"scramble", scramble}});
+    add_arrays("latin-hypercube");
+    add_arrays("random");
+    add_searches();
+    add_sets();
     return true;
 }();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/zeros.hpp"
+#include "core/rows.hpp"
 
 #ifdef __linux__
 #include <sys/mman.h>
@@ -26,13 +26,13 @@ void ask_for_large_pages([[maybe_unused]] double* room, [[maybe_unused]] std::si
 
 }  // namespace
 
-std::vector<double> zeros(std::size_t count) {
-    std::vector<double> numbers;
-    numbers.reserve(count);
+Rows Rows::unwritten(std::size_t count) {
+    Rows rows;
+    rows.fresh_ = std::make_unique_for_overwrite<double[]>(count);
+    rows.view_ = {rows.fresh_.get(), count};
     if (count * sizeof(double) >= large)
-        ask_for_large_pages(numbers.data(), count * sizeof(double));
-    numbers.resize(count);
-    return numbers;
+        ask_for_large_pages(rows.fresh_.get(), count * sizeof(double));
+    return rows;
 }
 
 }  // namespace stipple
