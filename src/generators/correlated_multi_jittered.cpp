@@ -77,6 +77,7 @@ Generator correlated_multi_jittered() {
                        .prefix = false,
                        .max_index = std::uint64_t{1} << 52},
             .options = Schema(shape_option, centered_option, order_option),
+            .aliases = {"cmj"},
             .plan = plan_jitter_grid,
             .sequence = make};
 }

@@ -75,6 +75,7 @@ Generator latin_hypercube() {
                 "2: Tang 1993, doi:10.1080/01621459.1993.10476423",
             .traits = {.prefix = false},
             .options = Schema(centered_option, strength),
+            .aliases = {"lhs", "n-rooks", "nrooks"},
             .plan = plan,
             .sequence = make};
 }

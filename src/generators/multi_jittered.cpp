@@ -117,6 +117,7 @@ Generator multi_jittered() {
                 "grid's: stipple's own",
             .traits = {.min_dimension = 2, .max_dimension = 2, .prefix = false},
             .options = Schema(shape_option, centered_option, order_option),
+            .aliases = {"mj"},
             .plan = plan_jitter_grid,
             .sequence = make};
 }

@@ -94,6 +94,7 @@ Generator orthogonal_array() {
                 "doi:10.1214/aoms/1177729387",
             .traits = {.prefix = false},
             .options = Schema(construction, strength, substrata, centered_option, order_option),
+            .aliases = {"oa"},
             .plan = plan,
             .sequence = make};
 }

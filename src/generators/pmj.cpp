@@ -80,6 +80,7 @@ Generator pmj() {
                 "construction by random matrices is stipple's",
             .traits = {.min_dimension = 2, .max_dimension = 2},
             .options = Schema(),
+            .aliases = {"progressive-multi-jittered"},
             .sequence = make};
 }
 
