@@ -253,3 +253,14 @@ TEST(Generate, TakesTheOtherNamesOfAUnit) {
     EXPECT_THAT(box.run({"generate", "regular", "--help"}).out, HasSubstr("Also called regular"));
     EXPECT_THAT(box.run({"list", "generators"}).out, HasSubstr("also called regular"));
 }
+
+// SciPy adds up digits over powers of the base, and so is off by rounding; ours are the nearest
+// doubles. Two of those errors are 2^-53 each.
+TEST(Generate, HaltonAgreesWithSciPyToItsRounding) {
+    const Sandbox box;
+    good(box.run({"generate", "halton", "-n", "65536", "-d", "20", "-o", "a.npy"}));
+    good(box.shell(
+        "/usr/bin/python3 -c 'import numpy as np; from scipy.stats import qmc;"
+        " a = np.load(\"a.npy\"); b = qmc.Halton(20, scramble=False).random(65536);"
+        " assert a.shape == b.shape and abs(a - b).max() < 4e-16 and (a == b).mean() > 0.5'"));
+}

@@ -49,6 +49,50 @@ TEST_P(EveryScramble, DependsOnTheSeedAndTheCoordinate) {
     EXPECT_NE(diagonal[1][0], diagonal[1][1]);
 }
 
+namespace {
+
+/// Kolmogorov's distance of a coordinate from uniformity, and chi-square in 31 cells.
+struct Marginal {
+    double distance = 0;
+    double statistic = 0;
+};
+
+Marginal marginal(const PointSet& set, std::size_t k) {
+    std::vector<double> x;
+    for (std::size_t i = 0; i < set.count(); ++i) x.push_back(set[i][k]);
+    std::ranges::sort(x);
+    const auto n = static_cast<double>(x.size());
+    Marginal found;
+    std::vector<double> held(31);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const auto below = static_cast<double>(i);
+        found.distance = std::max({found.distance, x[i] - below / n, (below + 1) / n - x[i]});
+        held[static_cast<std::size_t>(x[i] * 31)] += 1;
+    }
+    for (const double h : held) found.statistic += (h - n / 31) * (h - n / 31) / (n / 31);
+    return found;
+}
+
+/// At a level of 1e-7 each; 400 of both kinds make a false alarm of 1e-4 for random points.
+bool is_uniform(const Marginal& found, std::size_t count) {
+    return found.distance < 2.9 / std::sqrt(static_cast<double>(count)) && found.statistic < 88;
+}
+
+}  // namespace
+
+TEST_P(EveryScramble, EveryReplicationHasUniformMarginals) {
+    for (const char* generator : {"halton", "sobol", "random"})
+        for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+            PointSet set =
+                scrambled(make(generator, points(1024, 3), {}, {.seed = 99}), unit.name, seed);
+            for (std::size_t k = 0; k < 3; ++k)
+                EXPECT_TRUE(is_uniform(marginal(set, k), 1024))
+                    << generator << ", seed " << seed << ", axis " << k;
+            for (std::size_t i = 0; i < 1024; ++i) set[i][0] *= 0.4 + 0.6 * set[i][0];
+            EXPECT_FALSE(is_uniform(marginal(set, 0), 1024)) << "blind";
+        }
+}
+
 // A point's image over many seeds is uniform in the cube. (The set has one point, so that to
 // micro-jitter the whole cube is one cell.) Chi-square with 48 degrees of freedom, level 1e-6.
 TEST_P(EveryScramble, ImagesOfOnePointAreUniform) {

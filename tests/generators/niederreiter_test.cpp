@@ -85,3 +85,40 @@ TEST(Niederreiter, MakesAllItsDimensionsAndNoMore) {
     EXPECT_EQ(error_of([] { make("niederreiter", points(1, 1001)); }),
               "usage: --dimension: 1001 is outside [1, 1000], what niederreiter can make");
 }
+
+// Over GF(3): x, x + 1, x + 2, then three polynomials of degree 2; over GF(5) five of degree 1.
+TEST(Niederreiter, IsANetInOtherPrimeBases) {
+    constexpr std::size_t degrees_three[] = {1, 1, 1, 2, 2, 2};
+    for (const char* scramble : {"none", "digital-shift", "matrix", "owen"})
+        for (std::size_t d = 1; d <= 5; ++d) {
+            std::size_t t = 0;
+            for (std::size_t k = 0; k < d; ++k) t += degrees_three[k] - 1;
+            for (const std::uint64_t block : {0U, 5U, 12'345U}) {
+                const PointSet set = make("niederreiter", points(243, d, block * 243),
+                                          {{"base", "3"}, {"scramble", scramble}});
+                EXPECT_TRUE(is_net(set, 3, t)) << scramble << ", d = " << d << ", block " << block;
+            }
+        }
+    EXPECT_TRUE(is_net(make("niederreiter", points(625, 5), {{"base", "5"}}), 5, 0));
+    EXPECT_FALSE(is_net(make("niederreiter", points(625, 6), {{"base", "5"}}), 5, 0));
+}
+
+// With linear polynomials alone, x - c, the entries are binomials times powers of c, as Faure's:
+// v_r of (x - c)^(Q+1) from Q zeros and a one is C(r, Q) c^(r-Q).
+TEST(Niederreiter, EqualsFaureInTheSameBaseUpToTheOrderOfCoordinates) {
+    const PointSet own = make("niederreiter", points(500, 5), {{"base", "5"}});
+    const PointSet faure = make("faure", points(500, 5), {{"base", "5"}});
+    for (std::size_t i = 0; i < 500; ++i)
+        for (std::size_t k = 0; k < 5; ++k) EXPECT_EQ(own[i][k], faure[i][(5 - k) % 5]) << i;
+}
+
+TEST(Niederreiter, RefusesWhatItsBaseDoesNotAllow) {
+    const auto error = [](const Settings& settings, std::uint64_t count) {
+        return error_of([&] { make("niederreiter", points(count, 2), settings); });
+    };
+    EXPECT_EQ(error({{"base", "6"}}, 10), "usage: --base: 6 is not a prime, 2 divides it");
+    EXPECT_EQ(error({{"base", "3"}, {"order", "gray"}}, 10),
+              "usage: --order: gray is for base 2; the base here is 3");
+    EXPECT_EQ(error({{"base", "65521"}}, std::uint64_t{1} << 52).substr(0, 27),
+              "usage: --start 0 and 450359");
+}
