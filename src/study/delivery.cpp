@@ -181,15 +181,20 @@ bool ship_file(const Shipment& shipment, std::size_t first, std::size_t last,
     const Format& format = *target.format;
     const Layout layout = layout_of(shipment, first, last, target);
     check_format(format, layout);
+    // What is wrong with the first source shall be known before anything is written.
+    RunContext part = lane(run, first, shipment.sets).rising();
+    Source source = shipment.source(first, part);
     io::Output output(path, run.stop);
     std::string bytes;
     if (format.head) format.head(layout, bytes);
     for (std::size_t set = first; set < last; ++set) {
+        if (set > first) {
+            part = lane(run, set, shipment.sets).rising();
+            source = shipment.source(set, part);
+        }
         if (format.begin_set) format.begin_set(layout, set - first, bytes);
         if (!output.write(bytes)) return false;
         bytes.clear();
-        const RunContext part = lane(run, set, shipment.sets).rising();
-        const Source source = shipment.source(set, part);
         Conveyor conveyor(source, shipment.route, layout, format, set - first, output, part);
         if (!conveyor.go()) return false;
     }

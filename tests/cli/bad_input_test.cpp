@@ -215,3 +215,20 @@ TEST(BadInput, TooMuchMemoryIsRefusedBeforeStarting) {
         box.run({"generate", "poisson-disk", "--radius", "1e-6", "--max-memory", "100M"});
     expect_refusal(outcome, 5, "of memory; the limit is 100 MiB");
 }
+
+TEST(BadInput, TablesOfGeneratorsAreReadBeforeAnythingIsWritten) {
+    const Sandbox box;
+    box.write("bad.txt", "d s a m_i\n2 1 0 1\n3 2 1 1 x\n");
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"generate", "sobol", "-d", "3", "--directions", "bad.txt"},
+          {"generate", "digital-net", "--matrices", "bad.txt"},
+          {"generate", "rank1-lattice", "-n", "16", "--vector-file", "bad.txt"}}) {
+        const Outcome outcome = box.run(words);
+        EXPECT_EQ(outcome.code, 3) << words[1];
+        EXPECT_EQ(outcome.out, "") << words[1];
+        EXPECT_THAT(outcome.err, HasSubstr("stipple: bad.txt:")) << words[1];
+    }
+    const Outcome missing = box.run({"generate", "sobol", "--directions", "missing.txt"});
+    EXPECT_EQ(missing.code, 4);
+    EXPECT_EQ(missing.out + missing.err, "stipple: missing.txt: No such file or directory\n");
+}
