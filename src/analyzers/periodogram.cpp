@@ -248,7 +248,12 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
 }
 
 void refine(Report& mean, std::size_t, const Values&) {
-    const auto* power = std::get_if<Grid>(mean.find("grid"));
+    const auto* grid = mean.find("grid");
+    if (grid == nullptr)
+        fail_with_hint(ErrorKind::usage, "give them one --max-frequency",
+                       "--average: the spectra have different frequencies, as the sets have "
+                       "different numbers of points");
+    const auto* power = std::get_if<Grid>(grid);
     summarize(mean, *power, mean.number("regular_nyquist"), {});
 }
 

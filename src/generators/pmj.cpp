@@ -35,7 +35,7 @@ namespace {
 constexpr std::uint64_t top = std::uint64_t{1} << 63;
 
 /// Whether the rows 1..r of columns last-r+1..last (counted from 0) are a regular block.
-bool is_regular(DigitMatrix matrix, std::size_t r, std::size_t last) {
+bool is_regular(ColumnMatrix matrix, std::size_t r, std::size_t last) {
     for (std::size_t row = 0; row < r; ++row) {
         const std::uint64_t digit = top >> row;
         const std::size_t begin = last + 1 - r + row;
@@ -50,15 +50,15 @@ bool is_regular(DigitMatrix matrix, std::size_t r, std::size_t last) {
 }
 
 /// Whether 2^m points keep their promises, given that 2^(m-1) do.
-bool is_good(const DigitMatrix& matrix, std::size_t m) {
+bool is_good(const ColumnMatrix& matrix, std::size_t m) {
     return is_regular(matrix, m, m - 1) && is_regular(matrix, m / 2, m - 1) &&
            is_regular(matrix, (m + 1) / 2, m - 1);
 }
 
 /// Digits of column j below the j-th stay 0: scrambling makes them random.
-DigitMatrix random_matrix(std::uint64_t seed) {
+ColumnMatrix random_matrix(std::uint64_t seed) {
     const Rng rng(seed, 0);
-    DigitMatrix matrix{};
+    ColumnMatrix matrix{};
     std::uint64_t draw = 0;
     for (std::size_t j = 0; j < matrix.size(); ++j) do
             matrix[j] = rng.bits(draw++) & ~((top >> j) - 1);

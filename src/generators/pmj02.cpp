@@ -28,8 +28,8 @@ namespace stipple::generators {
 namespace {
 
 /// Column j holds C(j, k) mod 2 as digit k, which is 1 where the bits of k are among those of j.
-DigitMatrix pascal() {
-    DigitMatrix matrix{};
+ColumnMatrix pascal() {
+    ColumnMatrix matrix{};
     for (std::size_t j = 0; j < matrix.size(); ++j)
         for (std::size_t k = 0; k <= j; ++k)
             if ((k & ~j) == 0) matrix[j] |= std::uint64_t{1} << (63 - k);

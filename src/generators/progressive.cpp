@@ -3,20 +3,15 @@
 
 #include <algorithm>
 
+#include "math/bits.hpp"
+
 namespace stipple::generators {
 namespace {
 
 constexpr std::size_t lanes = 256;
 
-std::uint64_t mirrored(std::uint64_t i) {
-    i = (i >> 1 & 0x5555555555555555U) | (i & 0x5555555555555555U) << 1;
-    i = (i >> 2 & 0x3333333333333333U) | (i & 0x3333333333333333U) << 2;
-    i = (i >> 4 & 0x0f0f0f0f0f0f0f0fU) | (i & 0x0f0f0f0f0f0f0f0fU) << 4;
-    return __builtin_bswap64(i);
-}
-
 /// Matrix times the digits of i.
-std::uint64_t image(const DigitMatrix& matrix, std::uint64_t i) {
+std::uint64_t image(const ColumnMatrix& matrix, std::uint64_t i) {
     std::uint64_t sum = 0;
     for (std::size_t j = 0; i != 0; ++j, i >>= 1) sum ^= (i & 1) != 0 ? matrix[j] : 0;
     return sum;
@@ -24,7 +19,7 @@ std::uint64_t image(const DigitMatrix& matrix, std::uint64_t i) {
 
 }  // namespace
 
-Progressive::Progressive(const Plan& plan, const DigitMatrix& matrix)
+Progressive::Progressive(const Plan& plan, const ColumnMatrix& matrix)
     : matrix_(matrix), first_(plan.seed, 0), second_(plan.seed, 1) {
     for (std::size_t i = 0; i < low_.size(); ++i) low_[i] = image(matrix, i);
 }
@@ -35,10 +30,10 @@ void Progressive::fill(std::uint64_t first, std::span<double> rows) {
     while (!rows.empty()) {
         // Up to the next multiple of 256, only the low digits of the index change.
         const std::size_t count = std::min<std::size_t>(rows.size() / 2, lanes - first % lanes);
-        const std::uint64_t high_x = mirrored(first - first % lanes);
+        const std::uint64_t high_x = reversed_bits(first - first % lanes);
         const std::uint64_t high_y = image(matrix_, first - first % lanes);
         for (std::size_t j = 0; j < count; ++j) {
-            x[j] = high_x | mirrored(first % lanes + j);
+            x[j] = high_x | reversed_bits(first % lanes + j);
             y[j] = high_y ^ low_[first % lanes + j];
         }
         first_.apply({x.data(), count});

@@ -18,16 +18,16 @@ namespace stipple::generators {
 
 /// A matrix by its columns: the j-th is what bit j of the index adds to the digits of the second
 /// coordinate, whose first digit is bit 63.
-using DigitMatrix = std::array<std::uint64_t, 53>;
+using ColumnMatrix = std::array<std::uint64_t, 53>;
 
 class Progressive final : public Sequence {
   public:
-    Progressive(const Plan& plan, const DigitMatrix& matrix);
+    Progressive(const Plan& plan, const ColumnMatrix& matrix);
 
     void fill(std::uint64_t first, std::span<double> rows) override;
 
   private:
-    DigitMatrix matrix_;
+    ColumnMatrix matrix_;
     std::array<std::uint64_t, 256> low_;  ///< images of the indices below 256
     BinaryOwen first_;
     BinaryOwen second_;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/wide.hpp"
+#include "math/bits.hpp"
 #include "math/ratio.hpp"
 #include "math/scramble_stream.hpp"
 
@@ -112,14 +113,6 @@ Wide power(std::uint64_t base, std::size_t exponent) {
     Wide out = 1;
     for (; exponent > 0; --exponent) out *= base;
     return out;
-}
-
-/// The 64 bits from last to first.
-inline std::uint64_t reversed_bits(std::uint64_t x) {
-    x = ((x >> 1) & 0x5555555555555555U) | ((x & 0x5555555555555555U) << 1);
-    x = ((x >> 2) & 0x3333333333333333U) | ((x & 0x3333333333333333U) << 2);
-    x = ((x >> 4) & 0x0f0f0f0f0f0f0f0fU) | ((x & 0x0f0f0f0f0f0f0f0fU) << 4);
-    return __builtin_bswap64(x);
 }
 
 using Digits = std::array<std::uint64_t, 64>;

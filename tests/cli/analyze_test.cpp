@@ -12,7 +12,7 @@ using ::testing::HasSubstr;
 
 namespace {
 
-json good(const Outcome& outcome) {
+json report_of(const Outcome& outcome) {
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     return json::parse(outcome.out);
 }
@@ -30,7 +30,7 @@ std::string grid(double offset) {
 
 TEST(Analyze, GivesTheContractsDocument) {
     const Sandbox box;
-    const auto out = good(
+    const auto out = report_of(
         box.shell("stipple generate halton -n 100 --start 1 | stipple analyze star-discrepancy"));
     EXPECT_EQ(out["format"], "stipple.report");
     EXPECT_EQ(out["version"], 1);
@@ -50,7 +50,7 @@ TEST(Analyze, GivesTheContractsDocument) {
 TEST(Analyze, KnownDiscrepanciesComeOut) {
     const Sandbox box;
     const auto value = [&](const std::string& points) {
-        return good(box.run({"analyze", "star-discrepancy"}, points))["results"]["value"]
+        return report_of(box.run({"analyze", "star-discrepancy"}, points))["results"]["value"]
             .get<double>();
     };
     EXPECT_EQ(value("0.5,0.5\n"), 0.75);
@@ -65,7 +65,7 @@ TEST(Analyze, KnownDiscrepanciesComeOut) {
 
 TEST(Analyze, SpectrumKeysAndFiles) {
     const Sandbox box;
-    const auto out = good(box.shell(
+    const auto out = report_of(box.shell(
         "stipple generate random -n 1000 | stipple analyze periodogram --max-frequency 20 "
         "--grid g.npy --image g.png"));
     const auto& results = out["results"];
@@ -84,7 +84,7 @@ TEST(Analyze, ChiSquareKnowsTheDisk) {
     const Sandbox box;
     const std::string judge = " | stipple analyze chi-square --domain disk";
     const auto verdict = [&](const std::string& make) {
-        return good(box.shell(make + judge))["results"]["verdict"].get<std::string>();
+        return report_of(box.shell(make + judge))["results"]["verdict"].get<std::string>();
     };
     EXPECT_EQ(verdict("stipple generate random -n 1e5 -w disk"), "uniform");
     EXPECT_EQ(verdict("stipple generate random -n 1e5 -w disk:method=concentric"), "uniform");
@@ -119,11 +119,12 @@ TEST(Analyze, SeveralInputsAndSetsAreAnArrayOrAMean) {
     const Sandbox box;
     box.write("a.csv", box.run({"generate", "random", "-n", "200", "-m", "3"}).out);
     box.write("b.txt", box.run({"generate", "random", "-n", "200", "-s", "4", "-f", "txt"}).out);
-    const auto all = good(box.run({"analyze", "star-discrepancy", "a.csv", "b.txt"}));
+    const auto all = report_of(box.run({"analyze", "star-discrepancy", "a.csv", "b.txt"}));
     ASSERT_EQ(all.size(), 4U);
     EXPECT_EQ(all[1]["input"]["set"], 1);
     EXPECT_FALSE(all[3]["input"].contains("set"));
-    const auto mean = good(box.run({"analyze", "star-discrepancy", "a.csv", "b.txt", "--average"}));
+    const auto mean =
+        report_of(box.run({"analyze", "star-discrepancy", "a.csv", "b.txt", "--average"}));
     double sum = 0;
     for (const auto& one : all) sum += one["results"]["value"].get<double>();
     EXPECT_NEAR(mean["results"]["value"].get<double>(), sum / 4, 1e-15);
@@ -137,7 +138,7 @@ TEST(Analyze, SeveralInputsAndSetsAreAnArrayOrAMean) {
 // The anisotropy of a mean spectrum is not the mean of anisotropies: it falls by 10 log10(sets).
 TEST(Analyze, AnAverageSpectrumHasItsOwnAnisotropy) {
     const Sandbox box;
-    const auto out = good(box.shell(
+    const auto out = report_of(box.shell(
         "stipple generate random -n 500 -m 100 | stipple analyze periodogram --max-frequency 30 "
         "--average"));
     const auto& radial = out["results"]["radial"];
@@ -168,11 +169,11 @@ TEST(Analyze, PrintsTextAndTables) {
 TEST(Analyze, BoundsAndRescaleMapToTheCube) {
     const Sandbox box;
     const std::string points = "2,20\n";
-    EXPECT_EQ(good(box.run({"analyze", "star-discrepancy", "--bounds", "0..4,0..40"},
-                           points))["results"]["value"],
+    EXPECT_EQ(report_of(box.run({"analyze", "star-discrepancy", "--bounds", "0..4,0..40"},
+                                points))["results"]["value"],
               0.75);
-    EXPECT_EQ(good(box.run({"analyze", "star-discrepancy", "--rescale"},
-                           "2,20\n4,40\n"))["results"]["value"],
+    EXPECT_EQ(report_of(box.run({"analyze", "star-discrepancy", "--rescale"},
+                                "2,20\n4,40\n"))["results"]["value"],
               0.5);
     EXPECT_EQ(box.run({"analyze", "star-discrepancy", "--bounds", "0..1"}, points).code, 3);
 }
@@ -181,8 +182,8 @@ TEST(Analyze, PicksColumns) {
     const Sandbox box;
     const std::string table = "name_a,b,c\n0.1,0.5,0.5\n";
     for (const char* columns : {"b,c", "2,3"})
-        EXPECT_EQ(good(box.run({"analyze", "star-discrepancy", "--column", columns},
-                               table))["results"]["value"],
+        EXPECT_EQ(report_of(box.run({"analyze", "star-discrepancy", "--column", columns},
+                                    table))["results"]["value"],
                   0.75);
     EXPECT_EQ(box.run({"analyze", "star-discrepancy", "--column", "b,d"}, table).code, 2);
 }
@@ -190,10 +191,32 @@ TEST(Analyze, PicksColumns) {
 TEST(Analyze, TheInverseOfAWarpGivesTheSetBack) {
     const Sandbox box;
     const auto plain =
-        good(box.shell("stipple generate halton -n 500 | stipple analyze star-discrepancy"));
-    const auto back =
-        good(box.shell("stipple generate halton -n 500 -w disk | stipple warp disk --inverse | "
-                       "stipple analyze star-discrepancy"));
+        report_of(box.shell("stipple generate halton -n 500 | stipple analyze star-discrepancy"));
+    const auto back = report_of(
+        box.shell("stipple generate halton -n 500 -w disk | stipple warp disk --inverse | "
+                  "stipple analyze star-discrepancy"));
     EXPECT_NEAR(back["results"]["value"].get<double>(), plain["results"]["value"].get<double>(),
                 1e-13);
+}
+
+TEST(Analyze, AveragesSetsOfDifferentSizesWhereThatMeansSomething) {
+    const Sandbox box;
+    good(box.run({"generate", "sobol", "-n", "128", "-o", "a.csv"}));
+    good(box.run({"generate", "sobol", "-n", "1024", "-o", "b.csv"}));
+    const Outcome spectra = box.run({"analyze", "periodogram", "a.csv", "b.csv", "--average"});
+    EXPECT_EQ(spectra.code, 2);
+    EXPECT_EQ(spectra.err,
+              "stipple: --average: the spectra have different frequencies, as the sets have "
+              "different numbers of points; give them one --max-frequency\n");
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{"periodogram", "--max-frequency", "20"},
+          {"chi-square"},
+          {"star-discrepancy"},
+          {"t-value"}}) {
+        std::vector<std::string> words{"analyze", "a.csv", "b.csv", "--average"};
+        words.insert(words.begin() + 1, more.begin(), more.end());
+        const Outcome outcome = box.run(words);
+        EXPECT_EQ(outcome.code, 0) << more[0] << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr("differ in their number of points")) << more[0];
+    }
 }

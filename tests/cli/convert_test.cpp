@@ -7,12 +7,6 @@
 using namespace stipple::testing;
 using ::testing::HasSubstr;
 
-namespace {
-
-void good(const Outcome& outcome) { EXPECT_EQ(outcome.code, 0) << outcome.err; }
-
-}  // namespace
-
 // Shortest digits and float64 binaries lose nothing, so the way round all formats ends where it
 // began.
 TEST(Convert, AWayRoundAllFormatsLosesNothing) {

@@ -10,16 +10,6 @@ using namespace stipple::testing;
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-namespace {
-
-std::string good(const Outcome& outcome) {
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_EQ(outcome.err, "");
-    return outcome.out;
-}
-
-}  // namespace
-
 TEST(Generate, HaltonIsTheTextbookSet) {
     const Sandbox box;
     EXPECT_EQ(good(box.run({"generate", "halton", "--start", "1", "-n", "5", "-d", "1"})),

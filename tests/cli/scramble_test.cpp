@@ -7,12 +7,6 @@
 using namespace stipple::testing;
 using ::testing::HasSubstr;
 
-namespace {
-
-void good(const Outcome& outcome) { EXPECT_EQ(outcome.code, 0) << outcome.err; }
-
-}  // namespace
-
 TEST(Scramble, OnTheWayOutOrFromAFileIsTheSame) {
     const Sandbox box;
     good(

@@ -9,16 +9,6 @@
 using namespace stipple::testing;
 using ::testing::HasSubstr;
 
-namespace {
-
-std::string good(const Outcome& outcome) {
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-    EXPECT_EQ(outcome.err, "");
-    return outcome.out;
-}
-
-}  // namespace
-
 // SciPy's numbers have 30 binary digits, more than 2^16 points need; the last set reaches every
 // dimension of the table.
 TEST(Sobol, AgreesWithSciPyToTheLastBit) {

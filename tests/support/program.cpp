@@ -2,6 +2,7 @@
 #include "support/program.hpp"
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -112,6 +113,12 @@ std::vector<std::string> Sandbox::files() const {
         names.push_back(entry.path().filename().string());
     std::ranges::sort(names);
     return names;
+}
+
+std::string good(const Outcome& outcome) {
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    return outcome.out;
 }
 
 }  // namespace stipple::testing

@@ -43,4 +43,7 @@ class Sandbox {
     std::filesystem::path path_;
 };
 
+/// The standard output of a run that must go well, and say nothing besides.
+std::string good(const Outcome& outcome);
+
 }  // namespace stipple::testing
