@@ -78,7 +78,7 @@ TEST(PermutedInverse, PermutesTheDigitsOfEachPosition) {
 // Digits that no index has anything in are zeros, which random permutations move, too: the first
 // point differs from seed to seed in all its bits.
 TEST(PermutedInverse, LeadingZerosArePermutedWithoutEnd) {
-    for (const std::uint32_t b : {2U, 3U, 7919U, 65536U}) {
+    for (const std::uint32_t b : {2U, 3U, 7919U}) {
         double sum = 0;
         std::set<std::uint64_t> ends;
         for (std::uint64_t seed = 0; seed < 400; ++seed) {
