@@ -8,6 +8,7 @@
 #include "core/parallel.hpp"
 #include "core/wide.hpp"
 #include "math/powers.hpp"
+#include "math/primes.hpp"
 
 namespace stipple::equidistribution {
 namespace {
@@ -20,12 +21,6 @@ std::int32_t cell_of(double x, double parts) {
     else if ((cell + 1) / parts <= x)
         ++cell;
     return static_cast<std::int32_t>(std::min(cell, parts - 1));
-}
-
-bool is_prime(std::uint32_t n) {
-    for (std::uint32_t k = 2; k * k <= n; ++k)
-        if (n % k == 0) return false;
-    return true;
 }
 
 /// a + f c, digit by digit modulo the base.

@@ -25,7 +25,6 @@
 #include "generators/matrix_file.hpp"
 #include "generators/net_sequence.hpp"
 #include "math/powers.hpp"
-#include "math/primes.hpp"
 #include "math/ratio.hpp"
 
 namespace stipple::generators {
@@ -62,13 +61,9 @@ MatrixFile read(const Values& options) {
     if (!options.given(matrices_option))
         fail(ErrorKind::usage, "--matrices: digital-net needs a file of generating matrices");
     const bool rows = options[layout] == "rows";
-    const auto base =
-        static_cast<std::uint32_t>(options.given(base_option) ? options[base_option] : 2);
     if (options.given(base_option) && !rows)
         fail(ErrorKind::usage, "--base: only the layout rows does not say or fix its base");
-    if (!is_prime(base))
-        fail(ErrorKind::usage, "--base: {} is not a prime, {} divides it", base,
-             smallest_factor(base));
+    const std::uint32_t base = prime_base(options.given(base_option) ? options[base_option] : 2);
     TokenFile file(options[matrices_option]);
     return read_matrices(file, options[layout], base);
 }

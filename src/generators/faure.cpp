@@ -21,7 +21,6 @@
 #include "core/error.hpp"
 #include "generators/generator.hpp"
 #include "generators/net_sequence.hpp"
-#include "math/powers.hpp"
 #include "math/primes.hpp"
 
 namespace stipple::generators {
@@ -40,10 +39,7 @@ std::uint32_t base_for(std::size_t dimension, const Values& options) {
         while (!is_prime(base)) ++base;
         return base;
     }
-    const auto base = static_cast<std::uint32_t>(options[base_option]);
-    if (!is_prime(base))
-        fail(ErrorKind::usage, "--base: {} is not a prime, {} divides it", base,
-             smallest_factor(base));
+    const std::uint32_t base = prime_base(options[base_option]);
     if (base < dimension)
         fail(ErrorKind::usage,
              "--base: {} is below the dimension {}; faure needs a prime not below", base,
@@ -53,12 +49,7 @@ std::uint32_t base_for(std::size_t dimension, const Values& options) {
 
 Plan plan(const Request& request, const Values& options) {
     const Plan decided = default_plan(request);
-    const std::uint32_t base = base_for(decided.dimension, options);
-    const std::uint64_t end = saturating_power(base, net_digits(base));
-    if (request.start > end || decided.count > end - request.start)
-        fail(ErrorKind::usage,
-             "--start {} and {} points go beyond index {}, the last of faure in base {}",
-             request.start, decided.count, end - 1, base);
+    check_net_end(request, decided, base_for(decided.dimension, options), "faure");
     return decided;
 }
 

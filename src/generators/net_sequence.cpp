@@ -3,7 +3,10 @@
 
 #include <algorithm>
 
+#include "core/error.hpp"
 #include "math/base_scramble.hpp"
+#include "math/powers.hpp"
+#include "math/primes.hpp"
 
 namespace stipple {
 namespace {
@@ -135,6 +138,23 @@ std::vector<std::uint32_t> shift_digits(const BaseShift& shift, std::uint32_t ba
 }  // namespace
 
 std::size_t net_digits(std::uint32_t base) { return base == 2 ? binary_digits : digits_of(base); }
+
+std::uint32_t prime_base(std::int64_t base) {
+    const auto number = static_cast<std::uint32_t>(base);
+    if (!is_prime(number))
+        fail(ErrorKind::usage, "--base: {} is not a prime, {} divides it", number,
+             smallest_factor(number));
+    return number;
+}
+
+void check_net_end(const Request& request, const Plan& plan, std::uint32_t base,
+                   std::string_view who) {
+    const std::uint64_t end = saturating_power(base, net_digits(base));
+    if (request.start > end || plan.count > end - request.start)
+        fail(ErrorKind::usage,
+             "--start {} and {} points go beyond index {}, the last of {} in base {}",
+             request.start, plan.count, end - 1, who, base);
+}
 
 std::unique_ptr<Sequence> net_sequence(std::uint32_t base, std::vector<DigitMatrix> matrices,
                                        const Plan& plan, const Values& options) {

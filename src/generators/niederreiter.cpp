@@ -23,7 +23,6 @@
 #include "core/error.hpp"
 #include "generators/net_sequence.hpp"
 #include "math/powers.hpp"
-#include "math/primes.hpp"
 
 namespace stipple::generators {
 namespace {
@@ -124,18 +123,11 @@ DigitMatrix matrix_of(const Polynomial& p, std::uint32_t base) {
 
 Plan plan(const Request& request, const Values& options) {
     const Plan decided = default_plan(request);
-    const auto base = static_cast<std::uint32_t>(options[base_option]);
-    if (!is_prime(base))
-        fail(ErrorKind::usage, "--base: {} is not a prime, {} divides it", base,
-             smallest_factor(base));
+    const std::uint32_t base = prime_base(options[base_option]);
     if (base != 2 && options[binary_order] != binary_order.fallback)
         fail(ErrorKind::usage, "--order: {} is for base 2; the base here is {}",
              options[binary_order], base);
-    const std::uint64_t end = saturating_power(base, net_digits(base));
-    if (request.start > end || decided.count > end - request.start)
-        fail(ErrorKind::usage,
-             "--start {} and {} points go beyond index {}, the last of niederreiter in base {}",
-             request.start, decided.count, end - 1, base);
+    check_net_end(request, decided, base, "niederreiter");
     return decided;
 }
 

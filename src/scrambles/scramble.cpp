@@ -7,18 +7,12 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "math/primes.hpp"
 
 namespace stipple {
 namespace {
 
 constexpr std::uint32_t largest_base = 65536;
-
-bool is_prime(std::uint32_t number) {
-    if (number < 2) return false;
-    for (std::uint32_t k = 2; k * k <= number; ++k)
-        if (number % k == 0) return false;
-    return true;
-}
 
 std::uint32_t base_of(double number, bool prime) {
     const bool whole = number >= 2 && number <= largest_base && number == std::floor(number);
