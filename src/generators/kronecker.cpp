@@ -25,6 +25,7 @@
 #include "core/rng.hpp"
 #include "core/wide.hpp"
 #include "generators/generator.hpp"
+#include "math/bits.hpp"
 #include "math/ratio.hpp"
 
 namespace stipple::generators {
@@ -56,15 +57,6 @@ struct Fractions {
     [[nodiscard]] std::size_t size() const { return high.size(); }
 };
 
-/// The 53 high bits as a number in [0, 1). Each part becomes the mantissa of a double by its bits,
-/// for vectors have no conversion of 64-bit integers.
-double unit(std::uint64_t bits) {
-    constexpr double above = 0x1p84 + 0x1p52;
-    const auto high = std::bit_cast<double>(bits >> 43 | 0x4530000000000000);
-    const auto low = std::bit_cast<double>((bits >> 11 & 0xFFFFFFFF) | 0x4330000000000000);
-    return ((high - above) + low) * 0x1p-53;
-}
-
 /// out = frac(base + step), where `base` repeats.
 STIPPLE_WIDE void add(const std::uint64_t* base_high, const std::uint64_t* base_low,
                       std::size_t width, const std::uint64_t* step_high,
@@ -73,7 +65,7 @@ STIPPLE_WIDE void add(const std::uint64_t* base_high, const std::uint64_t* base_
         const std::size_t length = std::min(width, count - first);
         for (std::size_t m = 0; m < length; ++m) {
             const std::uint64_t carry = (base_low[m] + step_low[first + m]) >> 63;
-            out[first + m] = unit(base_high[m] + step_high[first + m] + carry);
+            out[first + m] = fraction_to_unit(base_high[m] + step_high[first + m] + carry);
         }
     }
 }

@@ -6,6 +6,7 @@
 #include <cassert>
 
 #include "core/wide.hpp"
+#include "math/bits.hpp"
 
 namespace stipple {
 namespace {
@@ -16,24 +17,12 @@ constexpr std::size_t table_words = 2048;
 /// Words in a row of vectors without remainder, or nearly so.
 constexpr std::size_t run_words = 64;
 
-/// There is no vector instruction from 64-bit whole numbers to doubles, but every double in
-/// [2^20, 2^21) holds 32 digits behind the point in its low bits, and every one in [1/2, 1) the 21
-/// digits after those. All three operations are exact.
-inline double converted(std::uint64_t fraction) {
-    constexpr auto above = std::bit_cast<std::uint64_t>(0x1p20);
-    constexpr auto below = std::bit_cast<std::uint64_t>(0.5);
-    constexpr std::uint64_t mask = (std::uint64_t{1} << 21) - 1;
-    const auto high = std::bit_cast<double>((fraction >> 32) | above);
-    const auto low = std::bit_cast<double>(((fraction >> 11) & mask) | below);
-    return (high - (0x1p20 + 0.5)) + low;
-}
-
 /// out[j] = low[j] + high[j mod period]
 STIPPLE_WIDE void add_high(const std::uint64_t* low, const std::uint64_t* high, std::size_t period,
                            std::size_t words, double* out) {
     for (std::size_t base = 0; base < words; base += period)
         for (std::size_t j = 0; j < std::min(period, words - base); ++j)
-            out[base + j] = converted(low[base + j] ^ high[j]);
+            out[base + j] = fraction_to_unit(low[base + j] ^ high[j]);
 }
 
 STIPPLE_WIDE void add_high(const std::uint64_t* low, const std::uint64_t* high, std::size_t period,

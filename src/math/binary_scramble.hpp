@@ -24,12 +24,9 @@
 #include <cstdint>
 #include <span>
 
-namespace stipple {
+#include "math/bits.hpp"
 
-/// The fraction as a double in [0, 1): its 53 upper bits.
-constexpr double fraction_to_unit(std::uint64_t fraction) {
-    return static_cast<double>(fraction >> 11) * 0x1p-53;
-}
+namespace stipple {
 
 /// x in [0, 1] as a fraction; 1 is the largest of 53 digits.
 std::uint64_t unit_to_fraction(double x);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
+//
+// 64-bit fractions: numbers in [0, 1) whose first binary digit is the top bit.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 namespace stipple {
@@ -11,6 +14,18 @@ constexpr std::uint64_t reversed_bits(std::uint64_t x) {
     x = ((x >> 2) & 0x3333333333333333U) | ((x & 0x3333333333333333U) << 2);
     x = ((x >> 4) & 0x0f0f0f0f0f0f0f0fU) | ((x & 0x0f0f0f0f0f0f0f0fU) << 4);
     return __builtin_bswap64(x);
+}
+
+/// The fraction as a double in [0, 1): its 53 upper bits, exactly. There is no vector instruction
+/// from 64-bit whole numbers to doubles, but every double in [2^20, 2^21) holds 32 digits behind
+/// the point in its low bits, and every one in [1/2, 1) the 21 digits after those.
+constexpr double fraction_to_unit(std::uint64_t fraction) {
+    constexpr auto above = std::bit_cast<std::uint64_t>(0x1p20);
+    constexpr auto below = std::bit_cast<std::uint64_t>(0.5);
+    constexpr std::uint64_t mask = (std::uint64_t{1} << 21) - 1;
+    const auto high = std::bit_cast<double>((fraction >> 32) | above);
+    const auto low = std::bit_cast<double>(((fraction >> 11) & mask) | below);
+    return (high - (0x1p20 + 0.5)) + low;
 }
 
 }  // namespace stipple
