@@ -89,14 +89,6 @@ struct Worst {
     std::vector<Combination> along = {};
 };
 
-/// The part of a run's progress between two fractions.
-RunContext stage(const RunContext& run, double from, double to) {
-    RunContext part = run;
-    if (run.progress)
-        part.progress = [&run, from, to](double done) { run.progress(from + (to - from) * done); };
-    return part;
-}
-
 class Search {
   public:
     Search(const Net& net, const std::optional<Matrices>& matrices)
@@ -113,7 +105,7 @@ class Search {
         for (std::size_t size = 1; size <= largest; ++size) {
             const double from = done;
             done += choices(size);
-            found.push_back(next(found.back(), size, stage(run, from / total, done / total)));
+            found.push_back(next(found.back(), size, run.stage(from / total, done / total)));
         }
         return found;
     }
@@ -128,7 +120,7 @@ class Search {
         for (const Level& level : levels) {
             const double from = done;
             done += work(level);
-            Worst found = unequal(level, stage(run, from / total, done / total));
+            Worst found = unequal(level, run.stage(from / total, done / total));
             if (!found.along.empty()) return found;
         }
         return small;
@@ -271,12 +263,12 @@ Report projection_report(const std::vector<Unequal>& known, const Worst& worst, 
 }
 
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
-    const Net net = checked_net(points, options[base], stage(run, 0, 0.1));
+    const Net net = checked_net(points, options[base], run.stage(0, 0.1));
     const auto matrices = equidistribution::matrices_of(net, run);
     const Search search(net, matrices);
     const auto largest = std::min(static_cast<std::size_t>(options[projections]), net.dimension);
-    const auto known = search.projections(largest, stage(run, 0.1, 0.5));
-    const Worst worst = search.worst(known, stage(run, 0.5, 1));
+    const auto known = search.projections(largest, run.stage(0.1, 0.5));
+    const Worst worst = search.worst(known, run.stage(0.5, 1));
     run.tick(1, 1);
     Report results;
     results.add("t", std::uint64_t{net.digits + 1 - worst.unequal});

@@ -33,6 +33,15 @@ RunContext RunContext::rising() const {
     return steady;
 }
 
+RunContext RunContext::stage(double from, double to) const {
+    RunContext part = *this;
+    if (progress)
+        part.progress = [report = progress, from, to](double done) {
+            report(std::min(to, from + (to - from) * done));
+        };
+    return part;
+}
+
 void RunContext::tell(const std::string& sentence) const {
     if (warn) warn(sentence);
 }

@@ -41,6 +41,9 @@ struct RunContext {
     /// The same, its progress never falling: stages may each report from 0 on.
     [[nodiscard]] RunContext rising() const;
 
+    /// The part of a run whose progress is what lies between two fractions of the whole.
+    [[nodiscard]] RunContext stage(double from, double to) const;
+
     /// Tells the user `sentence`, if anybody listens.
     void tell(const std::string& sentence) const;
 

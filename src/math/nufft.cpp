@@ -64,14 +64,6 @@ class LineTransform {
     fftw_plan plan_ = nullptr;
 };
 
-/// The part [from, to] of a run, for its progress.
-RunContext part(const RunContext& run, double from, double to) {
-    RunContext stage = run;
-    if (run.progress)
-        stage.progress = [&run, from, to](double done) { run.progress(from + (to - from) * done); };
-    return stage;
-}
-
 /// Numbers from one row of the grid to the next: room for the transform of a row in place, and no
 /// power of two, which would put a column into few lines of the cache.
 std::size_t stride_of(std::size_t side) { return side / 8 * 8 + 16; }
@@ -237,29 +229,29 @@ FourierSums Nufft::transform(std::span<const double> rows, const RunContext& run
         .dimension = dimension_, .side = side_, .stride = stride, .cells = cells.get()};
     const Cost cost = cost_of(count_, dimension_, side_, window_);
     const double spreading = cost.spreading / cost.total();
-    spread(rows, window_, grid, part(run, 0, spreading));
+    spread(rows, window_, grid, run.stage(0, spreading));
 
     std::vector<double> factors;
     for (std::size_t f = 0; f <= frequency_; ++f)
         factors.push_back(1 /
                           window_.transform(static_cast<double>(f) / static_cast<double>(side_)));
     const double middle = (1 + spreading) / 2;
-    transform_rows(grid, factors, part(run, spreading, middle));
+    transform_rows(grid, factors, run.stage(spreading, middle));
 
     FourierSums sums{.dimension = dimension_, .max_frequency = frequency_, .values = {}};
     const auto* transformed = reinterpret_cast<const std::complex<double>*>(cells.get());
     Columns columns{transformed, 1, side_, stride / 2, frequency_ + 1};
-    const RunContext rest = part(run, middle, 1);
+    const RunContext rest = run.stage(middle, 1);
     if (dimension_ == 1) sums.values.assign(transformed, transformed + frequency_ + 1);
     if (dimension_ == 2) sums.values = transform_columns(columns, factors, rest);
     if (dimension_ == 3) {
         columns.planes = side_;
         const auto between =
-            transform_columns(columns, factors, part(run, middle, (middle + 1) / 2));
+            transform_columns(columns, factors, run.stage(middle, (middle + 1) / 2));
         cells.reset();
         const std::size_t width = (2 * frequency_ + 1) * (frequency_ + 1);
         sums.values = transform_columns({between.data(), 1, side_, width, width}, factors,
-                                        part(run, (middle + 1) / 2, 1));
+                                        run.stage((middle + 1) / 2, 1));
     }
     return sums;
 }

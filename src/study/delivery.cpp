@@ -223,12 +223,8 @@ bool ship(const Shipment& shipment, const Target& target, const RunContext& run)
 }
 
 RunContext lane(const RunContext& run, std::size_t set, std::size_t sets) {
-    RunContext part = run;
-    if (run.progress)
-        part.progress = [&run, set, sets](double done) {
-            run.progress((static_cast<double>(set) + done) / static_cast<double>(sets));
-        };
-    return part;
+    const auto all = static_cast<double>(sets);
+    return run.stage(static_cast<double>(set) / all, static_cast<double>(set + 1) / all);
 }
 
 std::vector<double> with_density(std::span<const double> rows, const WarpChain& chain) {

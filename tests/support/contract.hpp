@@ -50,6 +50,7 @@ inline void expect_progress_to_the_end(const std::function<void(const RunContext
 }
 
 /// Asked to stop at its first sign of life, the work ends within 100 ms of each of its two threads.
+/// Twice that is let pass for a machine that is busy, ten times for one that sanitizers make slow.
 inline void expect_to_stop_at_once(const std::function<void(const RunContext&)>& work) {
     std::stop_source source;
     RunContext run{.threads = 2, .stop = source.get_token()};
@@ -62,7 +63,11 @@ inline void expect_to_stop_at_once(const std::function<void(const RunContext&)>&
     const auto error = error_of([&] { work(run); });
     const double took = cpu_seconds() - stopped_at;
     EXPECT_EQ(error, "cancelled: interrupted");
-    EXPECT_LT(took, 0.2);
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    EXPECT_LT(took, 2.0);
+#else
+    EXPECT_LT(took, 0.4);
+#endif
 }
 
 /// The record says what it is, where it is from, and what its options do.
