@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+//
+// Balanced k-d tree of n points in d dimensions: finds the nearest of them to a place.
+//
+//     distance^2 = sum_k d_k^2,    d_k = |p_k - q_k|,  on the torus min(d_k, side_k - d_k).
+//
+// Every node has the tightest box around its points, and their lowest index. Halves are split
+// across the longest side of that box, so that clusters cost no more than even points do.
+//
+// Shape    n < 2^32 points, d >= 1 (1 to 4 are fastest; in hundreds of dimensions little can be
+//          left out, and a question costs O(n d)). On the torus, points and places are in one box
+//          of these sides, its upper faces too.
+// Cost     O(n log n (log n + d)) to make; O(log n) a question in few dimensions. For 10^6 points
+//          in 2-D on one core: 0.5 s to make, 0.4 s for the nearest neighbours of all; 32 bytes a
+//          point to keep, 24 more while it is made.
+// Promise  exact to the last pair: what is found is what comparing with all points, by the formula
+//          above in float64 and its sum in the order of k, would find. Of equally near points those
+//          of lowest index. The same for any number of threads. All that is const may be called
+//          from many threads.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/run_context.hpp"
+
+namespace stipple {
+
+/// A point of the set, and its squared distance from a place.
+struct Neighbor {
+    double squared;
+    std::size_t index;
+
+    auto operator<=>(const Neighbor&) const = default;
+
+    /// Nearer, or as near and of lower index; the same as the default, in fewer steps.
+    friend bool operator<(const Neighbor& a, const Neighbor& b) {
+        return a.squared < b.squared || (a.squared == b.squared && a.index < b.index);
+    }
+};
+
+class KdTree {
+  public:
+    static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+    /// Copies the rows of `dimension` numbers. `sides` are those of the box whose opposite faces
+    /// are joined (torus); none for Euclidean distances.
+    /// @throws Error(limit, cancelled)
+    KdTree(std::span<const double> rows, std::size_t dimension, std::vector<double> sides,
+           const RunContext& run);
+
+    [[nodiscard]] std::size_t count() const { return indices_.size(); }
+    [[nodiscard]] std::size_t dimension() const { return dimension_; }
+    [[nodiscard]] bool torus() const { return !sides_.empty(); }
+
+    /// The point nearest to the place, other than point `except`; index `none` and an infinite
+    /// distance if there is no point.
+    [[nodiscard]] Neighbor nearest(std::span<const double> place, std::size_t except = none) const;
+
+    /// The up to k nearest points, from the nearest on.
+    [[nodiscard]] std::vector<Neighbor> nearest_several(std::span<const double> place,
+                                                        std::size_t k,
+                                                        std::size_t except = none) const;
+
+    /// Appends all points with distance^2 <= squared, in an order of the tree's own.
+    void within(std::span<const double> place, double squared, std::vector<Neighbor>& found) const;
+
+    /// Number of points with distance^2 < squared; whole nodes are counted at once.
+    [[nodiscard]] std::size_t count_nearer(std::span<const double> place, double squared) const;
+
+    /// Every point's nearest other one, in parallel.
+    [[nodiscard]] std::vector<Neighbor> all_nearest(const RunContext& run) const;
+
+    /// Goes through the tree by a rule of the caller's own, Euclidean and nearest to `place` first:
+    /// enter(box) says whether to go into a node whose points are in box[0..d) to box[d..2d);
+    /// visit(index, row) is called for its points.
+    template <class Enter, class Visit>
+    void walk(const double* place, const Enter& enter, const Visit& visit) const;
+
+  private:
+    struct Range {
+        std::size_t first;
+        std::size_t last;
+    };
+
+    /// Nodes are numbered as in a heap: the root is 1, the halves of i are 2 i and 2 i + 1, and
+    /// leaves are leaves_ to 2 leaves_ - 1.
+    [[nodiscard]] Range range_of(std::size_t node) const {
+        const auto level = static_cast<unsigned>(std::bit_width(node)) - 1;
+        const std::size_t place = node - (std::size_t{1} << level);
+        return {count() * place >> level, count() * (place + 1) >> level};
+    }
+    [[nodiscard]] const double* box_of(std::size_t node) const {
+        return boxes_.data() + node * 2 * dimension_;
+    }
+    [[nodiscard]] const double* row(std::size_t place) const {
+        return rows_.data() + place * dimension_;
+    }
+
+    class Builder;
+    template <class Work>
+    auto with_metric(const Work& work) const;
+    template <class Query>
+    void search(Query& query) const;
+    template <class Metric>
+    std::size_t count_nearer(const Metric& metric, const double* place, double squared,
+                             std::size_t node) const;
+
+    template <class Metric>
+    struct Nearest;
+    template <class Metric>
+    struct Several;
+    template <class Metric>
+    struct Within;
+    template <class Metric>
+    struct NearestOfLeaf;
+
+    std::size_t dimension_;
+    std::vector<double> sides_;
+    std::size_t leaves_ = 1;              ///< a power of 2
+    std::vector<double> rows_;            ///< in the order of the leaves
+    std::vector<std::uint32_t> indices_;  ///< of those rows in the set
+    std::vector<double> boxes_;           ///< per node, low then high
+    std::vector<std::uint32_t> lowest_;   ///< per node
+};
+
+template <class Enter, class Visit>
+void KdTree::walk(const double* place, const Enter& enter, const Visit& visit) const {
+    const auto gap = [&](std::size_t node) {
+        const double* box = box_of(node);
+        double sum = 0;
+        for (std::size_t k = 0; k < dimension_; ++k) {
+            const double d = std::max({box[k] - place[k], place[k] - box[dimension_ + k], 0.0});
+            sum += d * d;
+        }
+        return sum;
+    };
+    std::array<std::size_t, 66> stack;
+    std::size_t size = 0;
+    stack[size++] = 1;
+    while (size > 0) {
+        const std::size_t node = stack[--size];
+        if (!enter(box_of(node))) continue;
+        if (node >= leaves_) {
+            const auto [first, last] = range_of(node);
+            for (std::size_t i = first; i < last; ++i) visit(indices_[i], row(i));
+            continue;
+        }
+        const bool left_first = gap(2 * node) <= gap(2 * node + 1);
+        stack[size++] = 2 * node + (left_first ? 1 : 0);
+        stack[size++] = 2 * node + (left_first ? 0 : 1);
+    }
+}
+
+}  // namespace stipple
