@@ -97,11 +97,10 @@ class KdTree::Builder {
         std::vector<std::uint32_t> order(n);
         std::iota(order.begin(), order.end(), 0U);
         keys_.resize(n);
-        const RunContext top = run.stage(0, 0.5);
         std::size_t roots = 1;  // of subtrees
         while (roots < tree_.leaves_ && n / roots > subtree_size) {
             for_each_block(
-                top, roots, 1, [&](const Block& b) { split(rows_, order, roots + b.first, 0); },
+                run, roots, 1, [&](const Block& b) { split(rows_, order, roots + b.first, 0); },
                 true);
             roots *= 2;
         }

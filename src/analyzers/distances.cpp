@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "analyzers/distances.hpp"
+
+#include <fmt/ranges.h>
+
+#include "core/error.hpp"
+
+namespace stipple::analyzers {
+namespace {
+
+/// Points that the domain does not contain.
+struct Outside {
+    std::size_t count = 0;
+    std::size_t first = 0;
+};
+
+Outside outside_of(const PointSet& points) {
+    Outside outside;
+    for (std::size_t i = points.count(); i-- > 0;) {
+        if (points.domain->contains(points[i])) continue;
+        ++outside.count;
+        outside.first = i;
+    }
+    return outside;
+}
+
+[[noreturn]] void refuse(const PointSet& points, const Outside& outside, const char* hint) {
+    fail_with_hint(ErrorKind::input, hint,
+                   "{} of {} points are outside the domain {}; the first is point {}: ({})",
+                   outside.count, points.count(), points.domain->spec(), outside.first,
+                   fmt::join(points[outside.first], ", "));
+}
+
+/// The domain as the box that it is.
+std::optional<Box> box_of(const Domain& domain) {
+    const std::string spec = domain.spec();
+    if (spec != "unit-cube" && !spec.starts_with("box:")) return std::nullopt;
+    return domain.bounding_box();
+}
+
+}  // namespace
+
+std::vector<double> Distances::sides() const {
+    std::vector<double> sides;
+    for (std::size_t k = 0; torus && k < box->dimension(); ++k) sides.push_back(box->extent(k));
+    return sides;
+}
+
+Distances distances_of(const PointSet& points, const std::string& asked) {
+    Distances distances{.torus = asked != "euclidean", .box = box_of(*points.domain)};
+    if (!distances.box) {
+        if (asked == "torus")
+            fail(ErrorKind::usage,
+                 "--metric: a torus joins the faces of a unit cube or a box; the points live on {}",
+                 points.domain->spec());
+        distances.torus = false;
+        return distances;
+    }
+    const Outside outside = outside_of(points);
+    if (outside.count == 0) return distances;
+    if (distances.torus)
+        refuse(points, outside,
+               "--domain names what the points live on; --metric euclidean takes points anywhere");
+    distances.box.reset();
+    return distances;
+}
+
+Distances distances_in_box(const PointSet& points, const std::string& asked, const char* analyzer) {
+    const Distances distances = distances_of(points, asked);
+    if (distances.box) return distances;
+    if (box_of(*points.domain))
+        refuse(points, outside_of(points), "--domain 'box:bounds=[lo..hi,...]' names another box");
+    fail(ErrorKind::input, "{} takes points of the unit cube or a box; these live on {}", analyzer,
+         points.domain->spec());
+}
+
+}  // namespace stipple::analyzers

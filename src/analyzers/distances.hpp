@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+//
+// How the distances between a set's points are measured: in the box that they live on with its
+// opposite faces joined (torus), or straight (Euclidean).
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/domain.hpp"
+#include "core/options.hpp"
+#include "core/point_set.hpp"
+
+namespace stipple::analyzers {
+
+inline constexpr Param<Choice> metric{
+    .name = "metric",
+    .choices = "torus|euclidean",
+    .help =
+        "Across opposite faces of the unit cube or box that the points live on, or straight; "
+        "default: torus, and euclidean on domains without faces"};
+
+struct Distances {
+    bool torus;
+    std::optional<Box> box;  ///< where all points are; none if they are in no box that is known
+
+    [[nodiscard]] const char* name() const { return torus ? "torus" : "euclidean"; }
+
+    /// As a search tree takes them: none for Euclidean distances.
+    [[nodiscard]] std::vector<double> sides() const;
+};
+
+/// What `asked` (torus, euclidean, or nothing) means for the points.
+/// @throws Error(usage) for a torus of what is no box
+/// @throws Error(input) for points outside the domain, unless they were said to be Euclidean
+Distances distances_of(const PointSet& points, const std::string& asked);
+
+/// The same for measures that need to know the box. @throws Error(input) as well without one
+Distances distances_in_box(const PointSet& points, const std::string& asked, const char* analyzer);
+
+}  // namespace stipple::analyzers
