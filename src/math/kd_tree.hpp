@@ -59,6 +59,12 @@ class KdTree {
     [[nodiscard]] std::size_t dimension() const { return dimension_; }
     [[nodiscard]] bool torus() const { return !sides_.empty(); }
 
+    /// The points again, and which they are, in an order in which neighbours are near.
+    [[nodiscard]] const double* row(std::size_t place) const {
+        return rows_.data() + place * dimension_;
+    }
+    [[nodiscard]] std::size_t index(std::size_t place) const { return indices_[place]; }
+
     /// The point nearest to the place, other than point `except`; index `none` and an infinite
     /// distance if there is no point.
     [[nodiscard]] Neighbor nearest(std::span<const double> place, std::size_t except = none) const;
@@ -99,10 +105,6 @@ class KdTree {
     [[nodiscard]] const double* box_of(std::size_t node) const {
         return boxes_.data() + node * 2 * dimension_;
     }
-    [[nodiscard]] const double* row(std::size_t place) const {
-        return rows_.data() + place * dimension_;
-    }
-
     class Builder;
     template <class Work>
     auto with_metric(const Work& work) const;
