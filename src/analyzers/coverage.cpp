@@ -26,13 +26,11 @@
 // Source  H. Niederreiter, "Random Number Generation and Quasi-Monte Carlo Methods", SIAM 1992,
 //         chapter 6 (there, with the maximum norm too: dispersion).
 
-#include <algorithm>
 #include <cmath>
 
 #include "analyzers/analyzer.hpp"
 #include "analyzers/distances.hpp"
 #include "analyzers/empty_ball.hpp"
-#include "math/kd_tree.hpp"
 
 namespace stipple::analyzers {
 namespace {
@@ -53,15 +51,6 @@ constexpr Param<std::int64_t> max_boxes{
         "Give up when branch and bound (3 and more dimensions) has looked at so many; 10^6 "
         "take some 10 seconds on one core"};
 
-/// The smallest distance of two points; 0 if there is none.
-double smallest_distance(const PointSet& points, const Distances& distances,
-                         const RunContext& run) {
-    if (points.count() == 1) return distances.torus ? std::ranges::min(distances.sides()) : 0;
-    const KdTree tree(points.flat(), points.dimension(), distances.sides(), run.stage(0, 0.5));
-    const auto neighbors = tree.all_nearest(run.stage(0.5, 1));
-    return std::sqrt(std::ranges::min_element(neighbors)->squared);
-}
-
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
     const Distances distances = distances_in_box(points, options[metric], "coverage");
     run.need_memory(
@@ -72,15 +61,15 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
                            {.tolerance = options[tolerance],
                             .max_boxes = static_cast<std::uint64_t>(options[max_boxes])},
                            run.stage(0, 0.8));
-    const double minimum = smallest_distance(points, distances, run.stage(0.8, 1));
-    run.tick(1, 1);
+    const auto neighbors = nearest_neighbors(points, distances, run.stage(0.8, 1));
+    const double minimum = std::sqrt(closest_pair(neighbors).second.squared);
     Report results;
     results.add("radius", ball.radius);
     results.add("center", ball.center);
     results.add("lower", ball.radius);
     results.add("upper", ball.upper);
     results.add("exact", points.dimension() <= 2);
-    if (minimum > 0) results.add("mesh_ratio", 2 * ball.radius / minimum);
+    if (minimum > 0 && std::isfinite(minimum)) results.add("mesh_ratio", 2 * ball.radius / minimum);
     results.add("metric", distances.name());
     return results;
 }

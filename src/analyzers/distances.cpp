@@ -3,6 +3,9 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <limits>
+
 #include "core/error.hpp"
 
 namespace stipple::analyzers {
@@ -72,6 +75,26 @@ Distances distances_in_box(const PointSet& points, const std::string& asked, con
         refuse(points, outside_of(points), "--domain 'box:bounds=[lo..hi,...]' names another box");
     fail(ErrorKind::input, "{} takes points of the unit cube or a box; these live on {}", analyzer,
          points.domain->spec());
+}
+
+std::vector<Neighbor> nearest_neighbors(const PointSet& points, const Distances& distances,
+                                        const RunContext& run) {
+    if (points.count() == 1) {
+        run.tick(1, 1);
+        if (!distances.torus) return {{std::numeric_limits<double>::infinity(), KdTree::none}};
+        const double side = std::ranges::min(distances.sides());
+        return {{side * side, 0}};
+    }
+    run.need_memory(
+        static_cast<double>(points.count()) * (48 + 10 * static_cast<double>(points.dimension())),
+        "the search for nearest neighbours");
+    const KdTree tree(points.flat(), points.dimension(), distances.sides(), run.stage(0, 0.5));
+    return tree.all_nearest(run.stage(0.5, 1));
+}
+
+ClosestPair closest_pair(const std::vector<Neighbor>& neighbors) {
+    const auto first = std::ranges::min_element(neighbors, {}, &Neighbor::squared);
+    return {static_cast<std::size_t>(first - neighbors.begin()), *first};
 }
 
 }  // namespace stipple::analyzers

@@ -5,11 +5,14 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/domain.hpp"
 #include "core/options.hpp"
 #include "core/point_set.hpp"
+#include "core/run_context.hpp"
+#include "math/kd_tree.hpp"
 
 namespace stipple::analyzers {
 
@@ -37,5 +40,18 @@ Distances distances_of(const PointSet& points, const std::string& asked);
 
 /// The same for measures that need to know the box. @throws Error(input) as well without one
 Distances distances_in_box(const PointSet& points, const std::string& asked, const char* analyzer);
+
+/// Every point's nearest other one. A single point is its own neighbour on the torus, across the
+/// shortest side; elsewhere it has none, at an infinite distance. @throws Error(limit, cancelled)
+std::vector<Neighbor> nearest_neighbors(const PointSet& points, const Distances& distances,
+                                        const RunContext& run);
+
+/// Two points that have the smallest distance, those of lowest indices.
+struct ClosestPair {
+    std::size_t first;
+    Neighbor second;
+};
+
+ClosestPair closest_pair(const std::vector<Neighbor>& neighbors);
 
 }  // namespace stipple::analyzers

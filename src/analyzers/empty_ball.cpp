@@ -103,7 +103,8 @@ class Search {
 
     /// A box without a larger ball is done.
     [[nodiscard]] double good_enough() const {
-        return std::max(best_.radius * (1 + search_.tolerance), search_.enough);
+        const bool more = best_.radius > search_.enough;
+        return more ? best_.radius * (1 + search_.tolerance) : search_.enough;
     }
 
     /// Offsets from the box's centre to the points near it, in the copies that are nearest.

@@ -48,7 +48,7 @@ struct EmptyBall {
 /// When d >= 3 takes work to bound.
 struct BallSearch {
     double tolerance = 1e-6;
-    double enough = 0;  ///< boxes without a larger ball need no better bound
+    double enough = 0;  ///< while no ball is larger, nothing but that is made certain
     std::uint64_t max_boxes = 100'000'000;
 };
 

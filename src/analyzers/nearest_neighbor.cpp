@@ -35,7 +35,6 @@
 #include "analyzers/distances.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "math/kd_tree.hpp"
 
 namespace stipple::analyzers {
 namespace {
@@ -55,7 +54,6 @@ double packing_distance(const Box& box, double n) {
 struct Sums {
     double distance = 0;
     double deviation = 0;  ///< squared, from the mean
-    Neighbor nearest{std::numeric_limits<double>::infinity(), KdTree::none};  ///< index: of i
     double farthest = 0;
     std::uint64_t duplicates = 0;
 };
@@ -72,7 +70,6 @@ Sums sum_up(const std::vector<Neighbor>& neighbors, double mean, const RunContex
                 const double distance = std::sqrt(squared);
                 part.distance += distance;
                 part.deviation += (distance - mean) * (distance - mean);
-                part.nearest = std::min(part.nearest, {squared, i});
                 part.farthest = std::max(part.farthest, squared);
                 part.duplicates += squared == 0 ? 1 : 0;
             }
@@ -82,43 +79,22 @@ Sums sum_up(const std::vector<Neighbor>& neighbors, double mean, const RunContex
     for (const Sums& part : parts) {
         all.distance += part.distance;
         all.deviation += part.deviation;
-        all.nearest = std::min(all.nearest, part.nearest);
         all.farthest = std::max(all.farthest, part.farthest);
         all.duplicates += part.duplicates;
     }
     return all;
 }
 
-/// A single point's neighbour: itself, across the shortest side.
-std::vector<Neighbor> alone(const Distances& distances) {
-    if (!distances.torus)
-        fail(ErrorKind::input, "nearest-neighbor needs at least two points; this one has none");
-    const double side = std::ranges::min(distances.sides());
-    return {{side * side, 0}};
-}
-
-std::vector<Neighbor> find_neighbors(const PointSet& points, const Distances& distances,
-                                     const RunContext& run) {
-    if (points.count() == 1) {
-        auto itself = alone(distances);
-        run.tick(1, 1);
-        return itself;
-    }
-    run.need_memory(
-        static_cast<double>(points.count()) * (32 + 10 * static_cast<double>(points.dimension())),
-        "the search for nearest neighbours");
-    const KdTree tree(points.flat(), points.dimension(), distances.sides(), run.stage(0, 0.5));
-    return tree.all_nearest(run.stage(0.5, 1));
-}
-
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
     const Distances distances = distances_of(points, options[metric]);
-    const auto neighbors = find_neighbors(points, distances, run);
+    if (points.count() == 1 && !distances.torus)
+        fail(ErrorKind::input, "nearest-neighbor needs at least two points; this one has none");
+    const auto neighbors = nearest_neighbors(points, distances, run);
+    const ClosestPair closest = closest_pair(neighbors);
     const auto n = static_cast<double>(points.count());
     const double mean = sum_up(neighbors, 0, run).distance / n;
     const Sums sums = sum_up(neighbors, mean, run);
-    const double minimum = std::sqrt(sums.nearest.squared);
-    const std::size_t first = sums.nearest.index;
+    const double minimum = std::sqrt(closest.second.squared);
     Report results;
     results.add("minimum", minimum);
     results.add("mean", mean);
@@ -126,8 +102,8 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     results.add("standard_deviation", std::sqrt(sums.deviation / n));
     if (distances.box && points.dimension() <= packing.size())
         results.add("relative_radius", minimum / packing_distance(*distances.box, n));
-    results.add("pair", Report::Integers{static_cast<std::int64_t>(first),
-                                         static_cast<std::int64_t>(neighbors[first].index)});
+    results.add("pair", Report::Integers{static_cast<std::int64_t>(closest.first),
+                                         static_cast<std::int64_t>(closest.second.index)});
     results.add("duplicates", sums.duplicates);
     results.add("metric", distances.name());
     return results;

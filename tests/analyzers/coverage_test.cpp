@@ -253,10 +253,10 @@ TEST(Coverage, MeshRatioIsCoveringOverPackingRadius) {
 TEST(Coverage, GivesUpAfterSoManyBoxes) {
     EXPECT_TRUE(
         error_of([] {
-            analyze(unit, make("random", points(100, 6)), {{"max-boxes", "100"}});
+            analyze(unit, make("random", points(300, 6)), {{"max-boxes", "10000"}});
         })
-            .starts_with("limit: the largest empty ball of 100 points in 6 dimensions takes "
-                         "more than 100 boxes (--max-boxes); certain so far: its radius is "
+            .starts_with("limit: the largest empty ball of 300 points in 6 dimensions takes "
+                         "more than 10000 boxes (--max-boxes); certain so far: its radius is "
                          "at least 0."));
 }
 
