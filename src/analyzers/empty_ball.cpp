@@ -11,16 +11,28 @@
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "math/kd_tree.hpp"
+#include "math/radix_sort.hpp"
 
 namespace stipple::analyzers {
 namespace {
+
+/// Coordinates in order, which never takes long to stop.
+std::vector<double> sorted(const PointSet& points, double low, const RunContext& run) {
+    std::vector<Placed> items(points.count());
+    for (std::size_t i = 0; i < items.size(); ++i)
+        items[i] = {points[i][0] - low, static_cast<std::uint32_t>(i)};
+    radix_sort(items, run);
+    std::vector<double> x(items.size());
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = points[items[i].place][0];
+    return x;
+}
 
 /// d = 1: between neighbours, and from the walls.
 EmptyBall widest_gap(const PointSet& points, const Distances& distances, const RunContext& run) {
     const double low = distances.box->low[0];
     const double high = distances.box->high[0];
-    std::vector<double> x(points.flat().begin(), points.flat().end());
-    std::ranges::sort(x);
+    run.need_memory(40 * static_cast<double>(points.count()), "sorting the points");
+    const std::vector<double> x = sorted(points, low, run);
     EmptyBall best{x.front() - low, 0, {low}};
     if (high - x.back() > best.radius) best = {high - x.back(), 0, {high}};
     if (distances.torus) {

@@ -23,8 +23,11 @@
 //         a box's size. A box is done when its bound is at most (1 + tolerance) times the largest
 //         distance found so far; others are halved.
 //
-// Cost    d = 2: O(n log n) for even sets; 10^6 points take 2 s on one core. d >= 3: grows with the
-//         number of places that are nearly as empty as the emptiest, and exponentially with d.
+// Cost    d = 2: O(n log n) for even sets; 10^6 points take 2.5 s on one core. d >= 3: grows with
+// the
+//         number of places that are nearly as empty as the emptiest, and exponentially with d. That
+//         a Poisson-disk set is maximal takes 0.06 ms a point in 3-D to verify, 0.5 ms in 4-D, 2 ms
+//         in 5-D, 4 ms in 6-D.
 // Promise the radius is the distance, in float64, of the centre to its nearest point. For d <= 2 it
 //         is the maximum but for the rounding of the centre's coordinates. For d >= 3 the maximum
 //         is in [radius, upper]. The same for any number of threads.

@@ -35,6 +35,8 @@ void periodogram_beside_direct(benchmark::State& state) {
     measure(state, "periodogram", "random", {{"max-frequency", "32"}});
 }
 void chi_square(benchmark::State& state) { measure(state, "chi-square", "random"); }
+void nearest_neighbor(benchmark::State& state) { measure(state, "nearest-neighbor", "random"); }
+void coverage(benchmark::State& state) { measure(state, "coverage", "random"); }
 void t_value_of_a_net(benchmark::State& state) { measure(state, "t-value", "hammersley"); }
 void t_value_of_halton(benchmark::State& state) { measure(state, "t-value", "halton"); }
 
@@ -55,5 +57,16 @@ BENCHMARK(periodogram)->Args({4096, 2})->Args({1'000'000, 2})->Unit(benchmark::k
 BENCHMARK(periodogram_direct)->Args({4096, 2})->Unit(benchmark::kMillisecond);
 BENCHMARK(periodogram_beside_direct)->Args({4096, 2})->Unit(benchmark::kMillisecond);
 BENCHMARK(chi_square)->Args({1'000'000, 2})->Unit(benchmark::kMillisecond);
+BENCHMARK(nearest_neighbor)
+    ->Args({100'000, 2})
+    ->Args({1'000'000, 2})
+    ->Args({100'000, 6})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(coverage)
+    ->Args({100'000, 2})
+    ->Args({1'000'000, 2})
+    ->Args({10'000, 3})
+    ->Args({300, 6})
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(t_value_of_a_net)->Args({16'384, 2})->Args({1 << 20, 2})->Unit(benchmark::kMillisecond);
 BENCHMARK(t_value_of_halton)->Args({16'384, 2})->Args({16'384, 10})->Unit(benchmark::kMillisecond);
