@@ -40,7 +40,8 @@ Plan default_plan(const Request& request, std::uint64_t count, std::size_t dimen
     return {.count = request.count.value_or(count),
             .dimension = request.dimension.value_or(dimension),
             .seed = request.seed,
-            .bounds = request.bounds};
+            .bounds = request.bounds,
+            .start = request.start};
 }
 
 Plan plan_for(const Generator& generator, const Request& request, const Values& options) {

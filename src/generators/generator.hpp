@@ -34,6 +34,7 @@ struct Plan {
     std::size_t dimension = 0;
     std::uint64_t seed = 1;
     std::optional<Box> bounds = {};
+    std::uint64_t start = 0;  ///< index of the first point; above 0 only with traits.prefix
 };
 
 /// Point i as a function of i alone (given plan and options).

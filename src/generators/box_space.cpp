@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "generators/box_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stipple {
+
+double BoxSpace::largest_distance() const {
+    double squared = 0;
+    for (std::size_t k = 0; k < box.dimension(); ++k) {
+        const double across = torus ? box.extent(k) / 2 : box.extent(k);
+        squared += across * across;
+    }
+    return std::sqrt(squared);
+}
+
+double BoxSpace::measure() const {
+    double product = 1;
+    for (std::size_t k = 0; k < box.dimension(); ++k) product *= box.extent(k);
+    return product;
+}
+
+BoxSpace space_of(const Plan& plan, bool torus) {
+    if (plan.bounds) return {*plan.bounds, torus};
+    return {{std::vector<double>(plan.dimension, 0.0), std::vector<double>(plan.dimension, 1.0)},
+            torus};
+}
+
+Plan plan_in_box(const Request& request, const Values& options) {
+    if (options[torus_option] && options[bounded_option])
+        fail(ErrorKind::usage, "--torus contradicts --bounded; give one of them");
+    const Plan plan = default_plan(request, 1024, request.bounds ? request.bounds->dimension() : 2);
+    const BoxSpace space = space_of(plan, false);
+    if (space.box.dimension() != plan.dimension)
+        fail(ErrorKind::usage, "--bounds: {} ranges for {} coordinates", space.box.dimension(),
+             plan.dimension);
+    const double most = space.largest_distance();
+    if (!(most > 1e-140 && most < 1e150))
+        fail(ErrorKind::usage, "--bounds: {} has no distances that float64 can square",
+             format_box(space.box));
+    return plan;
+}
+
+PointSet set_in_box(std::vector<double> rows, const Plan& plan) {
+    const std::size_t dropped = plan.start * plan.dimension;
+    rows.erase(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(dropped));
+    PointSet points(std::move(rows), plan.dimension);
+    if (plan.bounds) points.domain = box_domain(*plan.bounds);
+    return points;
+}
+
+}  // namespace stipple

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+//
+// What generators of sets with distances in a box share: the box, closed to a torus or not, the
+// options that say so, and the step from a dimension to code compiled for it.
+#pragma once
+
+#include <cstddef>
+
+#include "core/domain.hpp"
+#include "core/error.hpp"
+#include "core/options.hpp"
+#include "generators/generator.hpp"
+
+namespace stipple {
+
+inline constexpr Param<bool> torus_option{
+    .name = "torus", .help = "Distances go across opposite faces (so they do by default)"};
+inline constexpr Param<bool> bounded_option{.name = "bounded",
+                                            .help = "Distances end at the faces"};
+
+/// A box with distances; they go across opposite faces on the torus.
+struct BoxSpace {
+    Box box;
+    bool torus = true;
+
+    /// The least number that no distance in it is above.
+    [[nodiscard]] double largest_distance() const;
+
+    /// Length, area, volume...
+    [[nodiscard]] double measure() const;
+};
+
+/// The plan's box, or the unit cube.
+BoxSpace space_of(const Plan& plan, bool torus);
+
+/// The plan for a request whose box may say the dimension.
+/// @throws Error(usage): --torus and --bounded, a box of another dimension, or one whose distances
+/// cannot be squared.
+Plan plan_in_box(const Request& request, const Values& options);
+
+/// The points, on their box, from index plan.start on.
+PointSet set_in_box(std::vector<double> rows, const Plan& plan);
+
+/// Largest dimension that with_dimension takes.
+inline constexpr std::size_t most_directions = 6;
+
+/// work.template operator()<D>() for D == dimension in 1, ..., most_directions.
+template <std::size_t D = 1, class Work>
+auto with_dimension(std::size_t dimension, Work&& work) {
+    if constexpr (D < most_directions)
+        if (dimension > D) return with_dimension<D + 1>(dimension, work);
+    return work.template operator()<D>();
+}
+
+}  // namespace stipple

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+//
+// Weighted sample elimination: of M points, always the one with the greatest weight goes, until N
+// are left.
+//
+//     w_i = sum over j != i of  (1 - max(d_ij, 2 r_min) / (2 r_max))^8    where d_ij < 2 r_max,
+//     r_min = 0.65 r_max (1 - (N / M)^1.5).
+//
+// Each term is rounded down to a multiple of 2^-40, so that sums are exact, in whatever order they
+// are taken, and stay so when terms are taken off them. Of equal weights the point of lowest index
+// goes.
+//
+// A point's weight only falls. The heap keeps weights that it once had; a point on top whose weight
+// has fallen since is put back, and one whose weight has not is the heaviest of all.
+//
+// Shape   D directions; M < 2^32; r_max > 0.
+// Cost    O(M k) time, k points within 2 r_max; 8 D + 40 bytes a point.
+// Source  C. Yuksel, Comput. Graph. Forum 34 (2015) 25-32, doi:10.1111/cgf.12538.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/run_context.hpp"
+#include "generators/box_space.hpp"
+
+namespace stipple {
+
+/// Half the distance of neighbours in the densest packing of `count` points on so many dimensions
+/// with that measure; for four dimensions and more a bound that none reaches.
+double packing_radius(double count, std::size_t dimension, double measure);
+
+/// The numbers of the points in the order in which they go: the first `count` - `kept` that do.
+/// @param rows points of the space, one after the other.
+std::vector<std::uint32_t> eliminate(std::span<const double> rows, const BoxSpace& space,
+                                     double r_max, std::uint64_t kept, const RunContext& run);
+
+/// Bytes that it takes.
+double elimination_memory(double points, std::size_t dimension);
+
+}  // namespace stipple

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "core/rng.hpp"
+#include "support/spacing.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+const Space square{{{0, 0}, {1, 1}}, true};
+
+}  // namespace
+
+TEST(DartThrowing, RelaxedRadiusHoldsForEveryPairInAnyBox) {
+    for (const Space& space : some_spaces())
+        for (const std::uint64_t n : {1, 2, 3, 7, 200}) {
+            const PointSet set = make_in("dart-throwing", space, n);
+            EXPECT_EQ(set.count(), n) << space.name();
+            EXPECT_GT(noted(set, "radius"), 0);
+            EXPECT_GE(smallest_distance(set, space), noted(set, "radius")) << space.name();
+            expect_inside(set, space);
+        }
+}
+
+TEST(DartThrowing, FixedRadiusHoldsForEveryPairInAnyBox) {
+    for (const Space& space : some_spaces()) {
+        double r = 0;
+        for (std::size_t k = 0; k < space.box.dimension(); ++k)
+            r = std::max(r, space.box.extent(k) / 12);
+        const PointSet set = make_in("dart-throwing", space, {}, {{"radius", format_number(r)}});
+        EXPECT_GT(set.count(), 4U) << space.name();
+        EXPECT_GE(smallest_distance(set, space), r) << space.name();
+        expect_inside(set, space);
+    }
+}
+
+// The first two points in [0, 1) keep less than half of it, and of a square half the diagonal.
+TEST(DartThrowing, TwoPointsStartAsFarApartAsDartsReach) {
+    const Space line{{{0}, {1}}, true};
+    EXPECT_GT(smallest_distance(make_in("dart-throwing", line, 2), line), 0.45);
+    EXPECT_GT(smallest_distance(make_in("dart-throwing", square, 2), square), 0.6);
+}
+
+// What a fixed radius makes is the plain process: the first point that fits, dart by dart.
+TEST(DartThrowing, FixedRadiusIsThePlainProcess) {
+    const PointSet set = make("dart-throwing", {}, {{"radius", "0.07"}}, {.seed = 5});
+    const Rng rng(5);
+    std::vector<std::vector<double>> kept;
+    for (std::uint64_t dart = 0, misses = 0; misses < 200; ++dart) {
+        const std::vector<double> p{rng.uniform(2 * dart), rng.uniform(2 * dart + 1)};
+        const bool fits = std::ranges::all_of(
+            kept, [&](const auto& q) { return distance(p, q, square) >= 0.07; });
+        if (fits) kept.push_back(p);
+        misses = fits ? 0 : misses + 1;
+    }
+    EXPECT_EQ(set, points_of(kept));
+}
+
+// Jamming densities of random sequential addition: Renyi's constant 0.7476 for cars on a line, and
+// n r^2 = 0.6966 in the plane (A. M. Feder, J. Theor. Biol. 87 (1980): coverage 0.547), which is
+// approached as slowly as darts^(-1/2).
+TEST(DartThrowing, ManyMissesComeNearTheJammingDensity) {
+    const auto packed = [](std::size_t d, const char* r, const char* misses) {
+        return static_cast<double>(
+            make("dart-throwing", {.dimension = d}, {{"radius", r}, {"misses", misses}}).count());
+    };
+    EXPECT_NEAR(packed(1, "0.0002", "20000") * 0.0002, 0.7476, 0.008);
+    EXPECT_NEAR(packed(2, "0.02", "20000") * 0.0004, 0.675, 0.015);
+    EXPECT_LT(packed(2, "0.02", "1") * 0.0004, 0.4);
+}
+
+// Point i does not depend on n, and keeps the radius of its own time: the prefixes are spread.
+TEST(DartThrowing, EveryPrefixIsTheSetOfItsCount) {
+    const PointSet whole = make("dart-throwing", points(500, 2));
+    double last = 1;
+    for (const std::uint64_t n : {1, 2, 10, 100, 499}) {
+        const PointSet part = make("dart-throwing", points(n, 2));
+        EXPECT_TRUE(std::ranges::equal(part.flat(), whole.flat().first(2 * n)));
+        const double r = noted(part, "radius");
+        EXPECT_LE(r, last);
+        EXPECT_GE(smallest_distance(part, square), r);
+        EXPECT_GT(r * r * static_cast<double>(n), n > 2 ? 0.5 : 0.1) << n;
+        last = r;
+    }
+}
+
+TEST(DartThrowing, PatiencePacksCloser) {
+    const auto radius = [](const char* misses) {
+        double sum = 0;
+        for (std::uint64_t seed = 1; seed <= 5; ++seed)
+            sum +=
+                noted(make("dart-throwing", points(300, 2), {{"misses", misses}}, {.seed = seed}),
+                      "radius");
+        return sum;
+    };
+    EXPECT_GT(radius("2000"), 1.01 * radius("20"));
+}
+
+TEST(DartThrowing, RadiusShrinksByTheFactorAsked) {
+    double r = noted(make("dart-throwing", points(300, 2), {{"shrink", "0.5"}}), "radius");
+    EXPECT_LT(r, 0.05);
+    while (r < 0.7) r *= 2;
+    EXPECT_EQ(r, std::sqrt(0.5));
+}
+
+TEST(DartThrowing, RefusesWhatContradictsItselfOrFindsNoPlace) {
+    const auto refusal = [](const Request& request, const Settings& settings) {
+        return error_of([&] { make("dart-throwing", request, settings, {.max_memory = 1 << 26}); });
+    };
+    EXPECT_EQ(refusal({}, {{"torus", "true"}, {"bounded", "true"}}),
+              "usage: --torus contradicts --bounded; give one of them");
+    EXPECT_EQ(refusal({}, {{"radius", "0.1"}, {"shrink", "0.9"}}),
+              "usage: --shrink: a radius given by --radius stays; give one of them");
+    EXPECT_EQ(refusal({}, {{"radius", "0.8"}}),
+              "usage: --radius: 0.8 is outside (0, 0.7071067811865476]; no two points of the box "
+              "are farther apart");
+    const std::string few = refusal(points(1000, 2), {{"radius", "0.1"}});
+    EXPECT_TRUE(few.starts_with("limit: only ")) << few;
+    EXPECT_NE(few.find(" points keep a radius of 0.1 before 200 darts in a row have missed; 1000 "
+                       "were asked for"),
+              std::string::npos)
+        << few;
+    EXPECT_EQ(refusal({}, {{"radius", "1e-6"}}).substr(0, 6), "limit:");
+    EXPECT_EQ(refusal(points(100'000'000, 2), {}).substr(0, 6), "limit:");
+    EXPECT_EQ(refusal({.dimension = 3, .bounds = Box{{0, 0}, {1, 1}}}, {}),
+              "usage: --bounds: 2 ranges for 3 coordinates");
+    EXPECT_NE(refusal({.bounds = Box{{0, 0}, {1e-200, 1e-200}}}, {}), "");
+    EXPECT_EQ(make("dart-throwing", points(50, 2), {{"radius", "0.1"}}).count(), 50U);
+}
