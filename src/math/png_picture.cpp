@@ -133,4 +133,25 @@ PngPicture read_png(std::string_view bytes, const std::string& source, const Run
     return picture;
 }
 
+std::string png_of_grey(std::size_t width, std::size_t height,
+                        std::span<const std::uint16_t> samples) {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = static_cast<png_uint_32>(width);
+    image.height = static_cast<png_uint_32>(height);
+    image.format = PNG_FORMAT_LINEAR_Y;
+    png_alloc_size_t size = 0;
+    std::string bytes;
+    // The first call tells the size, the second writes.
+    bool done =
+        png_image_write_to_memory(&image, nullptr, &size, 0, samples.data(), 0, nullptr) != 0;
+    bytes.resize(size);
+    done = done && png_image_write_to_memory(&image, bytes.data(), &size, 0, samples.data(), 0,
+                                             nullptr) != 0;
+    if (!done)
+        fail(ErrorKind::limit, "a PNG picture of {} x {} pixels: {}", width, height, image.message);
+    bytes.resize(size);
+    return bytes;
+}
+
 }  // namespace stipple

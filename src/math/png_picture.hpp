@@ -13,6 +13,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,5 +35,10 @@ inline constexpr std::string_view png_magic = "\x89PNG\r\n\x1a\n";
 /// @throws Error(input) "SOURCE: what is wrong" for bytes that are no whole PNG picture,
 /// Error(limit)
 PngPicture read_png(std::string_view bytes, const std::string& source, const RunContext& run);
+
+/// A picture of 16 bits of grey, taken as linear; samples row after row from the top.
+/// @throws Error(limit) for a picture too large for PNG.
+std::string png_of_grey(std::size_t width, std::size_t height,
+                        std::span<const std::uint16_t> samples);
 
 }  // namespace stipple
