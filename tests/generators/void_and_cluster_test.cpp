@@ -100,9 +100,10 @@ TEST(VoidAndCluster, FollowsADensity) {
     std::vector<double> ramp(64);
     for (std::size_t i = 0; i < 64; ++i) ramp[i] = static_cast<double>(i) + 0.5;
     const TemporaryFile file(npy_of<double>("<f8", "(1, 64)", ramp));
-    const PointSet set = make(name, points(1000, 2), {{"density", file.path()}});
-    const PointSet inverse =
-        make(name, points(1000, 2), {{"density", file.path()}, {"invert", "true"}});
+    const PointSet set =
+        make(name, points(1000, 2), {{"density", file.path()}, {"size", "128x128"}});
+    const PointSet inverse = make(
+        name, points(1000, 2), {{"density", file.path()}, {"invert", "true"}, {"size", "128x128"}});
     std::size_t right = 0;
     std::size_t left = 0;
     for (std::size_t i = 0; i < 1000; ++i) {
