@@ -6,6 +6,7 @@
 #include <complex>
 
 #include "core/rng.hpp"
+#include "support/pictures.hpp"
 #include "support/units.hpp"
 
 using namespace stipple;
@@ -108,4 +109,31 @@ TEST(GaussianBlueNoise, MakesVeryFewPoints) {
     // Two points are best a diagonal apart, where both coordinates differ by a half.
     const PointSet two = make(name, points(2, 2));
     for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(std::abs(two[0][k] - two[1][k]), 0.5, 1e-3);
+}
+
+// Ink: the left half is black, the right white.
+TEST(GaussianBlueNoise, FollowsADensity) {
+    const TemporaryFile file(png_of(2, 1, {0, 255}));
+    const Settings settings{{"density", file.path()}, {"iterations", "5"}};
+    for (const double x : {0.0, 0.5}) {
+        Settings all = settings;
+        if (x == 0) all.emplace_back("invert", "true");
+        const PointSet set = make(name, points(200, 2), all);
+        for (std::size_t i = 0; i < 200; ++i) EXPECT_TRUE(set[i][0] >= x && set[i][0] < x + 0.5);
+    }
+}
+
+TEST(GaussianBlueNoise, RefusesWrongOptionsInOneLine) {
+    EXPECT_EQ(error_of([] {
+                  make(name, points(9, 2), {{"invert", "true"}});
+              }),
+              "usage: --invert: there is no --density to invert");
+    EXPECT_EQ(error_of([] {
+                  make(name, points(9, 3), {{"density", "d.png"}});
+              }),
+              "usage: --dimension: 3 is not 2, the dimension of a --density");
+    EXPECT_EQ(error_of([] {
+                  make(name, points(9, 2), {{"density", "/nowhere.png"}});
+              }),
+              "io: /nowhere.png: No such file or directory");
 }
