@@ -34,6 +34,12 @@ struct Provenance {
     bool operator==(const Provenance&) const = default;
 };
 
+/// A file that a generator was asked to write beside the points.
+struct SideFile {
+    std::string path;
+    std::string bytes;
+};
+
 class PointSet {
   public:
     PointSet() = default;
@@ -69,6 +75,8 @@ class PointSet {
 
     DomainPtr domain;       ///< what the points live on; the unit cube unless set
     Provenance provenance;  ///< empty unless known
+
+    std::vector<SideFile> side_files;  ///< for whoever writes the points to write, too
 
   private:
     Rows rows_;

@@ -14,9 +14,11 @@ using namespace stipple::testing;
 
 namespace {
 
-/// What a unit cannot do without.
+/// What a unit cannot do without, or would take too long without.
 Settings needed(const std::string& name) {
     if (name == "digital-net") return {{"matrices", STIPPLE_SOURCE_DIR "/data/sobol_4d.txt"}};
+    if (name == "gaussian-blue-noise") return {{"iterations", "20"}};
+    if (name == "tiled") return {{"tile-points", "500"}, {"iterations", "20"}};
     return {};
 }
 

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+//
+// Points on the first cells that void-and-cluster fills, on a torus of W x H cells:
+//
+//     point i = (c_i + 1/2) / (W, H),    c_i the cell of rank i    (math/void_and_cluster.hpp)
+//
+// --density    the picture as the ranks dither it: the n cells with the smallest
+//              (rank + 1/2) / density(centre of the cell), in that order.
+// --mask-image the ranks as a dither mask, 16 bits of grey: floor((rank + 1/2) 65536 / (W H)). A
+//              pixel of a picture, its grey in [0, 65536), is white where it is above the mask.
+//
+// Shape   2-D, n <= W H. Without --size: the smallest square of a power of two with at least 16
+//         cells a point, or a point of the largest density.
+// Promise point i does not depend on n when --size is given and --density is not.
+// Beware  points lie on cells: their spectrum repeats with periods W and H. --cell random mends
+//         that, and costs some evenness. Where n density(c) > W H no further point fits.
+// Source  R. Ulichney, "The void-and-cluster method for dither array generation", Proc. SPIE 1913
+//         (1993) 332-343, doi:10.1117/12.152707.
+
+#include "math/void_and_cluster.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/rng.hpp"
+#include "generators/generator.hpp"
+#include "math/density_map.hpp"
+#include "math/png_picture.hpp"
+
+namespace stipple::generators {
+namespace {
+
+constexpr Param<Extents> size{{.name = "size",
+                               .unit = "cells",
+                               .help = "Cells of the torus, such as 256x256; without it 16 or more "
+                                       "a point"}};
+constexpr Param<Choice> cell{.name = "cell",
+                             .fallback = "center",
+                             .choices = "center|random",
+                             .help = "Where in its cell a point is"};
+constexpr Param<Path> density{{.name = "density",
+                               .help = "PNG picture or 2-D NPY array: points in proportion to its "
+                                       "values"}};
+constexpr Param<bool> invert{.name = "invert", .help = "Dark is dense, as ink is"};
+constexpr Param<Path> mask_image{
+    {.name = "mask-image", .help = "Also writes the ranks of all cells as a PNG dither mask"}};
+
+struct Torus {
+    std::size_t width;
+    std::size_t height;
+    [[nodiscard]] std::size_t cells() const { return width * height; }
+};
+
+constexpr double most_cells = 0x1p31;
+
+/// @throws Error(usage)
+Torus torus_of(const std::vector<std::int64_t>& extents, const std::string& text) {
+    if (extents.size() != 2)
+        fail(ErrorKind::usage, "--size: {} has {} extents; expected two, such as 64x64", text,
+             extents.size());
+    const auto whole = static_cast<double>(extents[0]) * static_cast<double>(extents[1]);
+    if (whole >= most_cells)
+        fail(ErrorKind::usage, "--size: {} is outside 1x1 to 2^31 cells", text);
+    return {static_cast<std::size_t>(extents[0]), static_cast<std::size_t>(extents[1])};
+}
+
+/// 16 cells for each of `points`. @throws Error(limit)
+Torus torus_for(double points) {
+    std::size_t side = 4;
+    while (static_cast<double>(side * side) < 16 * points && side < 32768) side *= 2;
+    if (static_cast<double>(side * side) < points)
+        fail(ErrorKind::limit, "void-and-cluster makes at most 2^30 points; {:.0f} are too many",
+             points);
+    return {side, side};
+}
+
+Plan plan(const Request& request, const Values& options) {
+    Plan plan = default_plan(request);
+    if (options[invert] && !options.given(density))
+        fail(ErrorKind::usage, "--invert: there is no --density to invert");
+    if (!options.given(size)) return plan;
+    const std::string text = format_value(options.find(size.name).value);
+    const Torus torus = torus_of(options[size], text);
+    if (!request.count) plan.count = std::min<std::uint64_t>(plan.count, torus.cells());
+    if (plan.count > torus.cells())
+        fail(ErrorKind::usage, "--size: {} has {} cells, too few for {} points", text,
+             torus.cells(), plan.count);
+    return plan;
+}
+
+/// 16 bits of a rank, the top row first.
+std::string mask_png(const Torus& torus, const std::vector<std::uint32_t>& order) {
+    std::vector<std::uint16_t> samples(order.size());
+    for (std::size_t rank = 0; rank < order.size(); ++rank) {
+        const std::size_t y = torus.height - 1 - order[rank] / torus.width;
+        samples[y * torus.width + order[rank] % torus.width] =
+            static_cast<std::uint16_t>((2 * rank + 1) * 32768 / order.size());
+    }
+    return png_of_grey(torus.width, torus.height, samples);
+}
+
+/// The `count` cells that dithering fills first.
+std::vector<std::uint32_t> dithered(const Torus& torus, const std::vector<std::uint32_t>& order,
+                                    const DensityMap& map, std::size_t count,
+                                    const std::string& file) {
+    struct Scored {
+        double score;
+        std::uint32_t rank;
+        auto operator<=>(const Scored&) const = default;
+    };
+    std::vector<Scored> scored;
+    for (std::uint32_t rank = 0; rank < order.size(); ++rank) {
+        const auto x = static_cast<double>(order[rank] % torus.width) + 0.5;
+        const auto y = static_cast<double>(order[rank] / torus.width) + 0.5;
+        const double value =
+            map.at(x / static_cast<double>(torus.width), y / static_cast<double>(torus.height));
+        if (value > 0) scored.push_back({(rank + 0.5) / value, rank});
+    }
+    if (scored.size() < count)
+        fail(ErrorKind::input,
+             "{}: only {} of {} x {} cells have a density above 0; {} points "
+             "need a larger --size",
+             file, scored.size(), torus.width, torus.height, count);
+    std::ranges::sort(scored);
+    std::vector<std::uint32_t> chosen(count);
+    for (std::size_t i = 0; i < count; ++i) chosen[i] = order[scored[i].rank];
+    return chosen;
+}
+
+PointSet place(const Torus& torus, const std::vector<std::uint32_t>& cells, std::size_t count,
+               bool centered, std::uint64_t seed) {
+    PointSet points(count, 2);
+    const Rng rng(seed, 2);
+    const auto inside = [&](std::uint64_t number) { return centered ? 0.5 : rng.uniform(number); };
+    const auto below_one = [](double x) { return std::min(x, one_minus_ulp); };
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto x = static_cast<double>(cells[i] % torus.width) + inside(2 * i);
+        const auto y = static_cast<double>(cells[i] / torus.width) + inside(2 * i + 1);
+        points[i][0] = below_one(x / static_cast<double>(torus.width));
+        points[i][1] = below_one(y / static_cast<double>(torus.height));
+    }
+    return points;
+}
+
+PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
+    std::optional<DensityMap> map;
+    if (options.given(density)) map = read_density(options[density], options[invert], run);
+    const auto wanted = static_cast<double>(plan.count);
+    const Torus torus = options.given(size) ? torus_of(options[size], {})
+                                            : torus_for(wanted * (map ? map->largest() : 1));
+    const bool all = map || options.given(mask_image);
+    const std::size_t count = plan.count;
+    const std::vector<std::uint32_t> order = void_and_cluster_order(
+        torus.width, torus.height, all ? torus.cells() : count, plan.seed, run.stage(0, 0.99));
+
+    const bool centered = options[cell] == "center";
+    PointSet points =
+        place(torus, map ? dithered(torus, order, *map, count, options[density]) : order, count,
+              centered, plan.seed);
+    const Value extents = std::vector<std::int64_t>{static_cast<std::int64_t>(torus.width),
+                                                    static_cast<std::int64_t>(torus.height)};
+    points.provenance.options = {{"size", format_value(extents)}, {"cell", options[cell]}};
+    if (map) points.provenance.options.emplace_back("density", options[density]);
+    if (options[invert]) points.provenance.options.emplace_back("invert", "true");
+    if (options.given(mask_image))
+        points.side_files.push_back({options[mask_image], mask_png(torus, order)});
+    run.tick(1, 1);
+    return points;
+}
+
+}  // namespace
+
+Generator void_and_cluster() {
+    return {.name = "void-and-cluster",
+            .summary = "Cells of a torus in the order of void and cluster, and its dither mask",
+            .source = "Ulichney 1993, doi:10.1117/12.152707",
+            .traits = {.min_dimension = 2, .max_dimension = 2, .sequence = false, .prefix = false},
+            .options = Schema(size, cell, density, invert, mask_image),
+            .aliases = {"dither"},
+            .plan = plan,
+            .set = make};
+}
+
+}  // namespace stipple::generators

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: MIT
+#include "math/gaussian_relaxation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "core/rng.hpp"
+#include "core/wide.hpp"
+#include "math/exponential.hpp"
+
+namespace stipple {
+namespace {
+
+constexpr double reach = 6;         // exp(-18) = 1.5e-8
+constexpr double cell_side = 1.75;  // about; the fastest
+constexpr std::size_t lanes = 8;    // sums run side by side, the same on every machine
+constexpr double nowhere = 1e6;
+
+/// count^(1/dimension) by Newton's method, from above.
+double side_length(double count, std::size_t dimension) {
+    const auto d = static_cast<double>(dimension);
+    double side = count;
+    for (int i = 0; i < 2000; ++i) {
+        double power = 1;
+        for (std::size_t k = 1; k < dimension; ++k) power *= side;
+        const double next = ((d - 1) * side + count / power) / d;
+        if (!(next < side)) break;
+        side = next;
+    }
+    return side;
+}
+
+/// Places that may be near to the points of a cell, by coordinate, padded with places that are not.
+struct Candidates {
+    std::array<std::vector<double>, relaxation_dimensions> places = {};
+    std::vector<double> weights = {};
+
+    [[nodiscard]] std::size_t size() const { return places[0].size(); }
+};
+
+double sum_of(const double* parts) {
+    return ((parts[0] + parts[4]) + (parts[1] + parts[5])) +
+           ((parts[2] + parts[6]) + (parts[3] + parts[7]));
+}
+
+/// weights[j] += (x - places[j])^2
+STIPPLE_WIDE void add_squares(const double* places, double x, double* weights, std::size_t count) {
+    for (std::size_t j = 0; j < count; ++j) {
+        const double t = places[j] - x;
+        weights[j] += t * t;
+    }
+}
+
+/// Squared distances become kernels; returns their sum.
+STIPPLE_WIDE double to_kernels(double* weights, std::size_t count) {
+    for (std::size_t j = 0; j < count; ++j) {
+        const double kernel = exponential(-0.5 * weights[j]);
+        weights[j] = weights[j] < reach * reach ? kernel : 0;
+    }
+    double parts[lanes] = {};
+    for (std::size_t j = 0; j < count; j += lanes)
+        for (std::size_t l = 0; l < lanes; ++l) parts[l] += weights[j + l];
+    return sum_of(parts);
+}
+
+/// sum over j of (x - places[j]) weights[j]
+STIPPLE_WIDE double pull(const double* places, double x, const double* weights, std::size_t count) {
+    double parts[lanes] = {};
+    for (std::size_t j = 0; j < count; j += lanes)
+        for (std::size_t l = 0; l < lanes; ++l) parts[l] += (x - places[j + l]) * weights[j + l];
+    return sum_of(parts);
+}
+
+/// Points in [0, side)^d, sorted into cells.
+class Kernels {
+  public:
+    Kernels(std::span<const double> rows, std::size_t dimension)
+        : d_(dimension),
+          n_(rows.size() / dimension),
+          side_(side_length(static_cast<double>(n_), dimension)),
+          along_(std::max<std::size_t>(1, static_cast<std::size_t>(side_ / cell_side))),
+          width_(side_ / static_cast<double>(along_)),
+          places_(rows.begin(), rows.end()),
+          cell_of_(n_),
+          sorted_(n_) {
+        for (double& x : places_) x *= side_;
+        std::size_t cells = 1;
+        for (std::size_t k = 0; k < d_; ++k) cells *= along_;
+        starts_.resize(cells + 1);
+    }
+
+    [[nodiscard]] double side() const { return side_; }
+    [[nodiscard]] std::span<double> places() { return places_; }
+    [[nodiscard]] std::size_t cells() const { return starts_.size() - 1; }
+
+    void sort() {
+        std::ranges::fill(starts_, 0U);
+        for (std::size_t i = 0; i < n_; ++i) {
+            std::size_t cell = 0;
+            for (std::size_t k = d_; k-- > 0;) {
+                const auto c = static_cast<std::size_t>(places_[i * d_ + k] / width_);
+                cell = cell * along_ + std::min(c, along_ - 1);
+            }
+            cell_of_[i] = static_cast<std::uint32_t>(cell);
+            ++starts_[cell + 1];
+        }
+        for (std::size_t c = 0; c < cells(); ++c) starts_[c + 1] += starts_[c];
+        for (std::size_t i = n_; i-- > 0;)
+            sorted_[--end_of(cell_of_[i])] = static_cast<std::uint32_t>(i);
+        // Filling from behind has left each start one cell too far; they are put back.
+        for (std::size_t c = 0; c < cells(); ++c) starts_[c] = starts_[c + 1];
+        starts_[cells()] = static_cast<std::uint32_t>(n_);
+        for (std::size_t k = 0; k < d_; ++k) {
+            by_cell_[k].resize(n_);
+            for (std::size_t s = 0; s < n_; ++s) by_cell_[k][s] = places_[sorted_[s] * d_ + k];
+        }
+    }
+
+    /// Forces on the points of a cell; returns the sum of kernels over their pairs, each counted
+    /// from both sides.
+    double forces_in(std::size_t cell, Candidates& near, std::span<double> forces) const {
+        if (starts_[cell] == starts_[cell + 1]) return 0;
+        gather(cell, near);
+        const std::size_t count = near.size();
+        double sum = 0;
+        for (std::uint32_t s = starts_[cell]; s < starts_[cell + 1]; ++s) {
+            std::fill_n(near.weights.data(), count, 0.0);
+            for (std::size_t k = 0; k < d_; ++k)
+                add_squares(near.places[k].data(), by_cell_[k][s], near.weights.data(), count);
+            sum += to_kernels(near.weights.data(), count) - 1;  // its own is 1
+            for (std::size_t k = 0; k < d_; ++k)
+                forces[sorted_[s] * d_ + k] =
+                    pull(near.places[k].data(), by_cell_[k][s], near.weights.data(), count);
+        }
+        return sum;
+    }
+
+  private:
+    using Offsets = std::array<std::int64_t, relaxation_dimensions>;
+
+    /// Collects the points of all cells that come within reach of this one, on all images.
+    void gather(std::size_t cell, Candidates& near) const {
+        for (auto& places : near.places) places.clear();
+        Offsets center{};
+        for (std::size_t k = 0; k < d_; ++k, cell /= along_)
+            center[k] = static_cast<std::int64_t>(cell % along_);
+        const auto most = static_cast<std::int64_t>(reach / width_) + 1;
+        Offsets offset;
+        offset.fill(-most);
+        for (;;) {
+            add_row(center, offset, most, near);
+            std::size_t k = 1;
+            while (k < d_ && offset[k] == most) offset[k++] = -most;
+            if (k >= d_) break;
+            ++offset[k];
+        }
+        while (near.size() % lanes != 0)
+            for (std::size_t k = 0; k < d_; ++k) near.places[k].push_back(nowhere);
+        if (near.weights.size() < near.size()) near.weights.resize(near.size());
+    }
+
+    /// Collects the row of cells along the first coordinate at the offsets in the others.
+    void add_row(const Offsets& center, const Offsets& offset, std::int64_t most,
+                 Candidates& near) const {
+        const auto period = static_cast<std::int64_t>(along_);
+        double left = reach * reach;
+        std::size_t base = 0;
+        std::array<double, relaxation_dimensions> shift{};
+        for (std::size_t k = d_; k-- > 1;) {
+            const double gap =
+                width_ * static_cast<double>(std::max<std::int64_t>(0, std::abs(offset[k]) - 1));
+            left -= gap * gap;
+            const std::int64_t at = center[k] + offset[k];
+            const std::int64_t turns = floor_quotient(at, period);
+            shift[k] = side_ * static_cast<double>(turns);
+            base = (base + static_cast<std::size_t>(at - turns * period)) * along_;
+        }
+        if (left <= 0) return;
+        while (most > 1 && static_cast<double>((most - 1) * (most - 1)) * width_ * width_ >= left)
+            --most;
+        for (std::int64_t at = center[0] - most; at <= center[0] + most;) {
+            const std::int64_t turns = floor_quotient(at, period);
+            const std::int64_t first = at - turns * period;
+            const std::int64_t run = std::min(center[0] + most - at + 1, period - first);
+            shift[0] = side_ * static_cast<double>(turns);
+            const std::size_t begin = base + static_cast<std::size_t>(first);
+            for (std::size_t k = 0; k < d_; ++k)
+                for (std::uint32_t s = starts_[begin];
+                     s < starts_[begin + static_cast<std::size_t>(run)]; ++s)
+                    near.places[k].push_back(by_cell_[k][s] + shift[k]);
+            at += run;
+        }
+    }
+
+    static std::int64_t floor_quotient(std::int64_t a, std::int64_t b) {
+        return a >= 0 ? a / b : -((b - 1 - a) / b);
+    }
+
+    std::uint32_t& end_of(std::size_t cell) { return starts_[cell + 1]; }
+
+    std::size_t d_;
+    std::size_t n_;
+    double side_;
+    std::size_t along_;
+    double width_;
+    std::vector<double> places_;
+    std::array<std::vector<double>, relaxation_dimensions> by_cell_;  ///< coordinates, sorted
+    std::vector<std::uint32_t> cell_of_;
+    std::vector<std::uint32_t> sorted_;
+    std::vector<std::uint32_t> starts_;
+};
+
+/// Forces on all points; returns E.
+double all_forces(Kernels& kernels, std::span<double> forces, const RunContext& run) {
+    kernels.sort();
+    constexpr std::uint64_t size = 64;  // cells
+    const std::uint64_t cells = kernels.cells();
+    std::vector<double> sums(block_count(cells, size));
+    for_each_block(
+        run, cells, size,
+        [&](const Block& block) {
+            Candidates near;
+            for (std::uint64_t c = block.first; c < block.last; ++c)
+                sums[block.index] += kernels.forces_in(c, near, forces);
+        },
+        true);
+    double total = 0;
+    for (const double sum : sums) total += sum;
+    return total / 2;
+}
+
+/// The run for one step.
+RunContext for_step(const RunContext& run, std::size_t count, std::size_t dimension) {
+    constexpr double seconds[] = {1e-7, 5e-7, 1e-5, 1e-4};
+    return worth_threads(run, static_cast<double>(count) * seconds[dimension - 1]);
+}
+
+}  // namespace
+
+double relaxation_bytes(std::uint64_t count, std::size_t dimension) {
+    return static_cast<double>(count) * static_cast<double>(40 * dimension + 12);
+}
+
+void relax_gaussian(std::span<double> rows, std::size_t dimension, std::uint64_t steps,
+                    const RunContext& run) {
+    const std::size_t n = rows.size() / dimension;
+    const RunContext part = for_step(run, n, dimension);
+    Kernels kernels(rows, dimension);
+    constexpr double stable[] = {0.6266570686577501, 0.25, 0.09973557010035818,
+                                 0.039788735772973836};
+    const double length = stable[dimension - 1];
+    const std::span<double> places = kernels.places();
+    std::vector<double> forces(rows.size());
+    std::vector<double> speeds(rows.size());
+    double k = 1;
+    for (std::uint64_t step = 0; step < steps; ++step) {
+        run.tick(step, steps);
+        all_forces(kernels, forces, part);
+        double along = 0;
+        for (std::size_t i = 0; i < speeds.size(); ++i) along += forces[i] * speeds[i];
+        k = along < 0 ? 1 : k + 1;
+        const double kept = k > 1 ? 1 - 3 / (k + 2) : 0;
+        for (std::size_t i = 0; i < speeds.size(); ++i) {
+            speeds[i] = length * forces[i] + kept * speeds[i];
+            double x = places[i] + speeds[i];
+            if (x < 0) x += kernels.side();
+            if (x >= kernels.side()) x -= kernels.side();
+            places[i] = x;
+        }
+    }
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        rows[i] = std::min(places[i] / kernels.side(), one_minus_ulp);
+    run.tick(1, 1);
+}
+
+double gaussian_energy(std::span<const double> rows, std::size_t dimension, const RunContext& run) {
+    Kernels kernels(rows, dimension);
+    std::vector<double> forces(rows.size());
+    return all_forces(kernels, forces, for_step(run, rows.size() / dimension, dimension));
+}
+
+}  // namespace stipple
