@@ -9,21 +9,12 @@
 #include <string_view>
 #include <vector>
 
+#include "core/raw_numbers.hpp"
+
 namespace stipple::io {
 
 /// Appends little-endian float64, or float32 cut toward zero.
 void append_raw(std::string& out, std::span<const double> numbers, bool single);
-
-/// How a number is stored.
-struct RawType {
-    enum Kind { floating, integer, natural };
-    Kind kind = floating;
-    std::size_t size = 8;  ///< bytes: 4 or 8; whole numbers also 1 or 2
-    bool big_endian = false;
-};
-
-/// Converts numbers.size() numbers from the front of `bytes`.
-void take_raw(std::string_view bytes, const RawType& type, std::span<double> numbers);
 
 /// Where numbers came from, for messages.
 struct RawPlace {

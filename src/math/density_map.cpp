@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "math/density_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/file_bytes.hpp"
+#include "core/npy_header.hpp"
+#include "core/rng.hpp"
+#include "core/text.hpp"
+#include "math/png_picture.hpp"
+
+namespace stipple {
+namespace {
+
+/// Values as they stand in a file, row after row from y = 0.
+struct Cells {
+    std::size_t width = 0;
+    std::size_t height = 0;
+    std::vector<double> values = {};
+};
+
+Cells cells_of_png(std::string_view bytes, const std::string& path, bool invert,
+                   const RunContext& run) {
+    PngPicture picture = read_png(bytes, path, run);
+    std::vector<double>& values = picture.grey;
+    if (invert)
+        for (double& value : values) value = 1 - value;
+    for (std::size_t i = 0; i < picture.opacity.size(); ++i) values[i] *= picture.opacity[i];
+    for (std::size_t j = 0; j < picture.height / 2; ++j) {
+        const auto row = [&](std::size_t k) {
+            return values.begin() + static_cast<std::ptrdiff_t>(k * picture.width);
+        };
+        std::swap_ranges(row(j), row(j + 1), row(picture.height - 1 - j));
+    }
+    return {picture.width, picture.height, std::move(values)};
+}
+
+/// @throws Error(input) naming the first value that no density has
+void check_values(const Cells& cells, const std::string& path) {
+    const auto bad = std::ranges::find_if(
+        cells.values, [](double value) { return !(value >= 0 && std::isfinite(value)); });
+    if (bad == cells.values.end()) return;
+    const auto index = static_cast<std::size_t>(bad - cells.values.begin());
+    fail(ErrorKind::input,
+         "{}: value {} in row {}, column {}; expected finite densities, none below 0", path,
+         format_number(*bad), index / cells.width, index % cells.width);
+}
+
+Cells cells_of_npy(std::string_view bytes, const std::string& path, bool invert,
+                   const RunContext& run) {
+    const NpyHeader header = read_npy_header(bytes, path);
+    if (header.shape.size() != 2)
+        fail(ErrorKind::input, "{}: an array of shape {}; expected (rows, columns)", path,
+             header.shown_shape);
+    if (header.empty())
+        fail(ErrorKind::input, "{}: an array of shape {} is empty", path, header.shown_shape);
+    const std::size_t count = npy_numbers(header, bytes.size());
+    run.need_memory(static_cast<double>(count) * 24, "the density " + path);
+    Cells cells{header.shape[1], header.shape[0], std::vector<double>(count)};
+    take_raw(bytes.substr(header.size), header.type, cells.values);
+    if (header.columns_first) {
+        const std::vector<double> stored = cells.values;
+        for (std::size_t i = 0; i < count; ++i)
+            cells.values[i] = stored[i / cells.width + i % cells.width * cells.height];
+    }
+    check_values(cells, path);
+    if (invert) {
+        const double top = std::ranges::max(cells.values);
+        for (double& value : cells.values) value = top - value;
+    }
+    return cells;
+}
+
+Cells read_cells(const std::string& path, bool invert, const RunContext& run) {
+    const std::string bytes = read_file(path);
+    if (bytes.empty())
+        fail(ErrorKind::input, "{}: the file is empty; expected a PNG picture or an NPY array",
+             path);
+    const bool png = bytes.starts_with(png_magic);
+    if (!png && !bytes.starts_with(npy_magic))
+        fail(ErrorKind::input, "{}: neither a PNG picture nor an NPY array", path);
+    Cells cells =
+        png ? cells_of_png(bytes, path, invert, run) : cells_of_npy(bytes, path, invert, run);
+    if (std::ranges::all_of(cells.values, [](double value) { return value == 0; }))
+        fail(ErrorKind::input, "{}: all densities are 0{}; there is no place for a point", path,
+             invert ? " when inverted" : "");
+    return cells;
+}
+
+/// Where `mass` falls among sums: the cell, and the fraction of it that lies before, below 1.
+std::pair<std::size_t, double> locate(std::span<const double> sums, double mass) {
+    const double most = std::nextafter(sums.back(), 0.0);  // a product may round up to the total
+    const double wanted = std::min(mass, most);
+    const auto above = std::ranges::upper_bound(sums, wanted);
+    const auto cell = static_cast<std::size_t>(above - sums.begin());
+    const double before = cell == 0 ? 0 : sums[cell - 1];
+    return {cell, std::min((wanted - before) / (*above - before), one_minus_ulp)};
+}
+
+/// (cell + fraction) / cells, kept in that cell when rounding would leave it.
+double coordinate(std::size_t cell, double fraction, std::size_t cells) {
+    const auto count = static_cast<double>(cells);
+    const auto floor = static_cast<double>(cell);
+    double x = (floor + fraction) / count;
+    while (x * count >= floor + 1) x = std::nextafter(x, 0.0);
+    while (x * count < floor) x = std::nextafter(x, 1.0);
+    return x;
+}
+
+DensityLevel level_above(const DensityLevel& fine) {
+    DensityLevel level{(fine.width + 1) / 2, (fine.height + 1) / 2, {}, {}};
+    level.largest.resize(level.width * level.height);
+    level.mass.resize(level.width * level.height);
+    for (std::size_t j = 0; j < fine.height; ++j)
+        for (std::size_t i = 0; i < fine.width; ++i) {
+            const std::size_t from = j * fine.width + i;
+            const std::size_t to = j / 2 * level.width + i / 2;
+            level.largest[to] = std::max(level.largest[to], fine.largest[from]);
+            level.mass[to] += fine.mass[from];
+        }
+    return level;
+}
+
+}  // namespace
+
+DensityMap::DensityMap(std::size_t width, std::size_t height, std::vector<double> values)
+    : width_(width), height_(height), values_(std::move(values)), row_sums_(width * height) {
+    // First to a largest value of 1, so that no sum is too large for a double.
+    const double top = std::ranges::max(values_);
+    double sum = 0;
+    for (double& value : values_) sum += value /= top;
+    const double mean = sum / static_cast<double>(values_.size());
+    double total = 0;
+    for (std::size_t j = 0; j < height_; ++j) {
+        double row = 0;
+        for (std::size_t k = j * width_; k < (j + 1) * width_; ++k) {
+            values_[k] /= mean;
+            row_sums_[k] = row += values_[k];
+        }
+        column_.push_back(total += row);
+    }
+    largest_ = std::ranges::max(values_);
+}
+
+std::array<double, 2> DensityMap::place(double u, double v) const {
+    const auto [j, above] = locate(column_, v * column_.back());
+    const auto row = std::span(row_sums_).subspan(j * width_, width_);
+    const auto [i, right] = locate(row, u * row.back());
+    return {coordinate(i, right, width_), coordinate(j, above, height_)};
+}
+
+std::vector<DensityLevel> DensityMap::pyramid() const {
+    std::vector<DensityLevel> levels{{width_, height_, values_, values_}};
+    const auto cells = static_cast<double>(values_.size());
+    for (double& mass : levels[0].mass) mass /= cells;
+    while (levels.back().largest.size() > 1) levels.push_back(level_above(levels.back()));
+    return levels;
+}
+
+DensityMap read_density(const std::string& path, bool invert, const RunContext& run) {
+    Cells cells = read_cells(path, invert, run);
+    return {cells.width, cells.height, std::move(cells.values)};
+}
+
+DensityMap read_mask(const std::string& path, bool invert, const RunContext& run) {
+    Cells cells = read_cells(path, invert, run);
+    for (double& value : cells.values) value = value != 0;
+    return {cells.width, cells.height, std::move(cells.values)};
+}
+
+}  // namespace stipple

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+//
+// A density on the unit square, constant on each cell of a W x H grid, read from a picture or an
+// array:
+//
+//     cell (i, j) = [i/W, (i+1)/W) x [j/H, (j+1)/H),    mean over the square = 1.
+//
+// PNG     value = luminance x alpha (math/png_picture.hpp), samples taken as linear; the top row of
+//         the picture is the top of the square, y near 1. Inverted, for ink on paper:
+//         (1 - luminance) x alpha. What is transparent gets no points either way.
+// NPY     shape (H, W), row 0 at y = 0; any real type. Inverted: largest value - value.
+//
+// Shape   W, H >= 1; values finite, none negative, not all 0.
+// Cost    16 bytes a cell; at() is O(1), place() O(log W + log H).
+// Promise at(place(u, v)) > 0.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/run_context.hpp"
+
+namespace stipple {
+
+/// One level of a pyramid: cell (i, j) covers cells 2i, 2i + 1 and 2j, 2j + 1 of the level before,
+/// as far as these are there.
+struct DensityLevel {
+    std::size_t width;
+    std::size_t height;
+    std::vector<double> largest;  ///< row after row
+    std::vector<double> mass;     ///< of the cell; all of a level sum to 1
+};
+
+class DensityMap {
+  public:
+    /// Values row after row from y = 0, not all 0; scales them to a mean of 1.
+    DensityMap(std::size_t width, std::size_t height, std::vector<double> values);
+
+    [[nodiscard]] std::size_t width() const { return width_; }
+    [[nodiscard]] std::size_t height() const { return height_; }
+
+    /// Row after row from y = 0; their mean is 1.
+    [[nodiscard]] std::span<const double> values() const { return values_; }
+
+    /// Density at a point of the closed unit square.
+    [[nodiscard]] double at(double x, double y) const {
+        return values_[cell_of(y, height_) * width_ + cell_of(x, width_)];
+    }
+
+    [[nodiscard]] double largest() const { return largest_; }
+
+    /// Image of a point of [0, 1)^2 under the map that takes the uniform density to this one,
+    /// rising in v along y, and in u along x.
+    [[nodiscard]] std::array<double, 2> place(double u, double v) const;
+
+    /// From the cells themselves up to one cell that covers the square.
+    [[nodiscard]] std::vector<DensityLevel> pyramid() const;
+
+  private:
+    static std::size_t cell_of(double x, std::size_t cells) {
+        const auto i = static_cast<std::size_t>(x * static_cast<double>(cells));
+        return i < cells ? i : cells - 1;
+    }
+
+    std::size_t width_;
+    std::size_t height_;
+    std::vector<double> values_;
+    std::vector<double> row_sums_;  ///< of each row: sums of the cells up to each
+    std::vector<double> column_;    ///< sums of the rows up to each
+    double largest_ = 0;
+};
+
+/// Reads a picture or an array. @throws Error(io): missing or unreadable; Error(input), naming the
+/// file: neither PNG nor NPY, damaged, not two-dimensional, empty, negative, not finite, all zero;
+/// Error(limit)
+DensityMap read_density(const std::string& path, bool invert, const RunContext& run);
+
+/// The same for a region: 1 where the value is not 0, before scaling.
+DensityMap read_mask(const std::string& path, bool invert, const RunContext& run);
+
+}  // namespace stipple

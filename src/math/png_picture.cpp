@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "math/png_picture.hpp"
+
+#include <png.h>
+
+#include <algorithm>
+#include <array>
+#include <csetjmp>
+#include <cstdint>
+#include <cstring>
+
+#include "core/error.hpp"
+
+namespace stipple {
+namespace {
+
+/// libpng reports errors by a long jump. The functions that set its target hold no objects with
+/// destructors, which the jump would pass over.
+class Decoder {
+  public:
+    explicit Decoder(std::string_view bytes) : bytes_(bytes) {
+        png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, take_error, ignore_warning);
+        if (png_ != nullptr) info_ = png_create_info_struct(png_);
+    }
+    Decoder(const Decoder&) = delete;
+    Decoder& operator=(const Decoder&) = delete;
+    ~Decoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
+
+    /// Reads what precedes the pixels, and asks for whole bytes without a palette. False: error().
+    bool read_head() {
+        if (info_ == nullptr) return false;
+        if (setjmp(png_jmpbuf(png_)) != 0) return false;
+        png_set_read_fn(png_, this, give_bytes);
+        png_read_info(png_, info_);
+        png_set_expand(png_);
+        png_set_interlace_handling(png_);
+        png_read_update_info(png_, info_);
+        return true;
+    }
+
+    /// Reads all rows, and the end of the file. False: error().
+    bool read_rows(png_bytep* rows) {
+        if (setjmp(png_jmpbuf(png_)) != 0) return false;
+        png_read_image(png_, rows);
+        png_read_end(png_, nullptr);
+        return true;
+    }
+
+    [[nodiscard]] std::size_t width() const { return png_get_image_width(png_, info_); }
+    [[nodiscard]] std::size_t height() const { return png_get_image_height(png_, info_); }
+    [[nodiscard]] std::size_t channels() const { return png_get_channels(png_, info_); }
+    [[nodiscard]] std::size_t sample_bytes() const { return png_get_bit_depth(png_, info_) / 8U; }
+    [[nodiscard]] std::size_t row_bytes() const { return png_get_rowbytes(png_, info_); }
+    [[nodiscard]] const char* error() const { return error_.data(); }
+
+  private:
+    [[noreturn]] static void take_error(png_structp png, png_const_charp message) {
+        auto& self = *static_cast<Decoder*>(png_get_error_ptr(png));
+        std::strncpy(self.error_.data(), message, self.error_.size() - 1);
+        png_longjmp(png, 1);
+    }
+
+    static void ignore_warning(png_structp, png_const_charp) {}
+
+    static void give_bytes(png_structp png, png_bytep out, std::size_t size) {
+        auto& self = *static_cast<Decoder*>(png_get_io_ptr(png));
+        if (self.bytes_.size() < size) png_error(png, "the file ends too soon");
+        std::memcpy(out, self.bytes_.data(), size);
+        self.bytes_.remove_prefix(size);
+    }
+
+    std::string_view bytes_;
+    png_structp png_ = nullptr;
+    png_infop info_ = nullptr;
+    std::array<char, 128> error_{"libpng cannot be used"};
+};
+
+/// Samples of an expanded picture, each of one byte, or two with the high one first.
+class Samples {
+  public:
+    Samples(const unsigned char* bytes, std::size_t channels, std::size_t size)
+        : at_(bytes), channels_(channels), size_(size) {}
+
+    [[nodiscard]] double grey(std::size_t pixel) const {
+        if (channels_ < 3) return sample(pixel, 0) / largest();
+        // Whole numbers, so that equal samples give the grey that one sample would.
+        const double sum =
+            2126 * sample(pixel, 0) + 7152 * sample(pixel, 1) + 722 * sample(pixel, 2);
+        return sum / (10000 * largest());
+    }
+
+    [[nodiscard]] double opacity(std::size_t pixel) const {
+        return sample(pixel, channels_ - 1) / largest();
+    }
+
+  private:
+    [[nodiscard]] double largest() const { return size_ == 1 ? 255 : 65535; }
+    [[nodiscard]] double sample(std::size_t pixel, std::size_t channel) const {
+        const unsigned char* s = at_ + (pixel * channels_ + channel) * size_;
+        return size_ == 1 ? *s : 256 * s[0] + s[1];
+    }
+
+    const unsigned char* at_;
+    std::size_t channels_;
+    std::size_t size_;
+};
+
+}  // namespace
+
+PngPicture read_png(std::string_view bytes, const std::string& source, const RunContext& run) {
+    if (!bytes.starts_with(png_magic)) fail(ErrorKind::input, "{}: not a PNG picture", source);
+    Decoder decoder(bytes);
+    if (!decoder.read_head())
+        fail(ErrorKind::input, "{}: no whole PNG picture: {}", source, decoder.error());
+    PngPicture picture{
+        .width = decoder.width(), .height = decoder.height(), .grey = {}, .opacity = {}};
+    const std::size_t pixels = picture.width * picture.height;
+    run.need_memory(static_cast<double>(pixels) * 24, "the picture " + source);
+
+    std::vector<unsigned char> raw(decoder.row_bytes() * picture.height);
+    std::vector<png_bytep> rows(picture.height);
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = raw.data() + i * decoder.row_bytes();
+    if (!decoder.read_rows(rows.data()))
+        fail(ErrorKind::input, "{}: no whole PNG picture: {}", source, decoder.error());
+
+    const Samples samples(raw.data(), decoder.channels(), decoder.sample_bytes());
+    picture.grey.resize(pixels);
+    for (std::size_t i = 0; i < pixels; ++i) picture.grey[i] = samples.grey(i);
+    if (decoder.channels() % 2 == 0) {
+        picture.opacity.resize(pixels);
+        for (std::size_t i = 0; i < pixels; ++i) picture.opacity[i] = samples.opacity(i);
+    }
+    return picture;
+}
+
+}  // namespace stipple

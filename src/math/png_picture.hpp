@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+//
+// A PNG picture as numbers. Grey of a colour is its luminance by the weights of ITU-R BT.709,
+//
+//     Y = 0.2126 R + 0.7152 G + 0.0722 B,
+//
+// of the samples as they stand in the file: taken as linear, no gamma is undone.
+//
+// Shape   any PNG: 1 to 16 bits, grey, colour or palette, opaque or not, interlaced or not.
+// Cost    24 bytes a pixel while it is read, at most.
+// Promise malformed files end in an Error; nothing is printed.
+// Beware  colour profiles and gamma chunks are passed over.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/run_context.hpp"
+
+namespace stipple {
+
+struct PngPicture {
+    std::size_t width = 0;
+    std::size_t height = 0;
+    std::vector<double> grey;     ///< in [0, 1], row after row from the top
+    std::vector<double> opacity;  ///< the same of alpha; empty: opaque
+};
+
+inline constexpr std::string_view png_magic = "\x89PNG\r\n\x1a\n";
+
+/// @throws Error(input) "SOURCE: what is wrong" for bytes that are no whole PNG picture,
+/// Error(limit)
+PngPicture read_png(std::string_view bytes, const std::string& source, const RunContext& run);
+
+}  // namespace stipple

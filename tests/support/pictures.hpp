@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+//
+// Files for tests: pictures and arrays, written by hand or by libpng.
+#pragma once
+
+#include <png.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace stipple::testing {
+
+/// A file that is there as long as the object.
+class TemporaryFile {
+  public:
+    explicit TemporaryFile(std::string_view bytes, const std::string& extension = "") {
+        static std::atomic<int> made{0};
+        path_ =
+            (std::filesystem::temp_directory_path() /
+             ("stipple-" + std::to_string(::getpid()) + "-" + std::to_string(made++) + extension))
+                .string();
+        std::ofstream(path_, std::ios::binary) << bytes;
+    }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    ~TemporaryFile() { std::filesystem::remove(path_); }
+
+    [[nodiscard]] const std::string& path() const { return path_; }
+    [[nodiscard]] std::string bytes() const {
+        std::ostringstream all;
+        all << std::ifstream(path_, std::ios::binary).rdbuf();
+        return all.str();
+    }
+
+  private:
+    std::string path_;
+};
+
+/// An NPY file: the type as NumPy names it ("<f8"), the shape as Python writes it ("(2, 3)").
+inline std::string npy_of(const std::string& type, const std::string& shape,
+                          std::string_view numbers, bool columns_first = false) {
+    std::string head = "{'descr': '" + type +
+                       "', 'fortran_order': " + (columns_first ? "True" : "False") +
+                       ", 'shape': " + shape + ", }";
+    head.resize(117, ' ');
+    return std::string("\x93NUMPY\x01\0v\0", 10) + head + "\n" + std::string(numbers);
+}
+
+/// An NPY file of numbers of type T, which `type` must name.
+template <class T>
+std::string npy_of(const std::string& type, const std::string& shape, const std::vector<T>& numbers,
+                   bool columns_first = false) {
+    const std::string_view bytes(reinterpret_cast<const char*>(numbers.data()),
+                                 numbers.size() * sizeof(T));
+    return npy_of(type, shape, bytes, columns_first);
+}
+
+/// How a picture is stored.
+struct PngKind {
+    int colour = PNG_COLOR_TYPE_GRAY;
+    int bits = 8;
+    bool interlaced = false;
+    std::vector<png_color> palette = {};
+    std::vector<png_byte> palette_alpha = {};
+};
+
+/// The bytes of a PNG file; `samples` as the kind stores them, row after row from the top, channels
+/// of a pixel together. Fewer than 8 bits are packed here.
+inline std::string png_of(std::size_t width, std::size_t height,
+                          const std::vector<std::uint16_t>& samples, const PngKind& kind = {}) {
+    std::string out;
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png_create_info_struct(png);
+    png_set_write_fn(
+        png, &out,
+        [](png_structp p, png_bytep bytes, std::size_t size) {
+            static_cast<std::string*>(png_get_io_ptr(p))
+                ->append(reinterpret_cast<const char*>(bytes), size);
+        },
+        [](png_structp) {});
+    png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height),
+                 kind.bits, kind.colour, kind.interlaced ? PNG_INTERLACE_ADAM7 : PNG_INTERLACE_NONE,
+                 0, 0);
+    if (!kind.palette.empty())
+        png_set_PLTE(png, info, kind.palette.data(), static_cast<int>(kind.palette.size()));
+    if (!kind.palette_alpha.empty())
+        png_set_tRNS(png, info, kind.palette_alpha.data(),
+                     static_cast<int>(kind.palette_alpha.size()), nullptr);
+    png_write_info(png, info);
+    if (kind.bits < 8) png_set_packing(png);
+    std::vector<png_byte> raw;
+    for (const std::uint16_t sample : samples) {
+        if (kind.bits == 16) raw.push_back(static_cast<png_byte>(sample >> 8));
+        raw.push_back(static_cast<png_byte>(sample & 255));
+    }
+    std::vector<png_bytep> rows(height);
+    for (std::size_t i = 0; i < height; ++i) rows[i] = raw.data() + raw.size() / height * i;
+    png_write_image(png, rows.data());
+    png_write_end(png, info);
+    png_destroy_write_struct(&png, &info);
+    return out;
+}
+
+}  // namespace stipple::testing
