@@ -2,22 +2,27 @@
 //
 // Lloyd's relaxation: every point moves to the centroid of its Voronoi cell, again and again,
 //
-//     x_i  <-  integral of x rho(x) dx / integral of rho(x) dx,    both over the cell of x_i,
+//     x_i  <-  integral of x rho(x)^2 dx / integral of rho(x)^2 dx,    both over the cell of x_i,
 //
-// which lowers the energy  E = sum over i of integral of |x - x_i|^2 rho(x) dx over cell i  until
-// every point is the centroid of its cell. Without a density the points settle into hexagons with
-// defects between them: few iterations leave them irregular, many make crystals.
+// which lowers the energy  E = sum over i of integral of |x - x_i|^2 rho(x)^2 dx over cell i  until
+// every point is the centroid of its cell. rho is the number of points per area that --density asks
+// for, else constant; it is squared since sets of least energy have points per area in proportion
+// to the root of the density that is integrated. Without a density the points settle into hexagons
+// with defects between them: few iterations leave them irregular, many make crystals.
 //
 // Shape   d = 2; any rectangle, its opposite sides joined (torus) or walls.
-// Cost    1.3 us a point and iteration on one core, with a density 2 us and more; 80 bytes a point.
+// Cost    1.3 us a point and iteration on one core, with a density 2 us and more; 100 bytes a
+// point.
+//         Points where the density is 0 all around stay where they are.
 // Promise E never rises; the same bits for any number of threads. Of points in one place all but
 //         one are moved to random places.
 // Source  S. P. Lloyd, IEEE Trans. Inf. Theory 28 (1982) 129-137, doi:10.1109/TIT.1982.1056489.
 //         Q. Du, V. Faber, M. Gunzburger, SIAM Review 41 (1999) 637-676,
-//         doi:10.1137/S0036144599352836. Density: A. Secord, NPAR (2002) 37-43,
-//         doi:10.1145/508530.508537.
+//         doi:10.1137/S0036144599352836. Stippling: A. Secord, NPAR (2002) 37-43,
+//         doi:10.1145/508530.508537 (rho itself, not squared).
 
-#include "core/error.hpp"
+#include <algorithm>
+
 #include "core/parallel.hpp"
 #include "core/rng.hpp"
 #include "generators/generator.hpp"
@@ -29,8 +34,6 @@ namespace {
 
 using planar::bounded;
 using planar::from;
-using planar::initial;
-using planar::torus;
 
 constexpr Param<std::int64_t> iterations{.name = "iterations",
                                          .fallback = 50,
@@ -41,11 +44,15 @@ constexpr Param<std::int64_t> iterations{.name = "iterations",
 
 class Lloyd {
   public:
-    Lloyd(const Planar& planar, const std::vector<double>& rows, std::uint64_t seed,
-          const RunContext& run)
-        : planar_(planar), seed_(seed), run_(run), order_(along_strips(rows, planar, run)) {
-        next_.resize(order_.size());
-        sites_ = PeriodicVoronoi(planar.sides, planar.torus, order_.size());
+    Lloyd(const Planar& planar, const std::vector<double>& rows,
+          const std::optional<DensityMoments>& density, std::uint64_t seed, const RunContext& run)
+        : planar_(planar),
+          density_(density),
+          seed_(seed),
+          run_(run),
+          order_(along_strips(rows, planar, run)),
+          next_(order_.size()),
+          sites_(planar.sides, planar.torus, order_.size(), density.has_value()) {
         for (std::size_t i = 0; i < order_.size(); ++i)
             sites_.insert(i, {rows[2 * order_[i]], rows[2 * order_[i] + 1]});
     }
@@ -78,7 +85,7 @@ class Lloyd {
     [[nodiscard]] Vec2 better_place(std::size_t i, std::uint64_t iteration,
                                     VoronoiCell& cell) const {
         sites_.cut_cell(i, cell);
-        const CellMoments moments = cell.moments();
+        const CellMoments moments = density_ ? (*density_)(cell, sites_[i]) : cell.moments();
         if (cell.empty()) {
             const Rng rng(seed_, 1 + iteration);
             const double x = rng.uniform(2 * std::uint64_t{order_[i]});
@@ -93,18 +100,21 @@ class Lloyd {
     }
 
     const Planar& planar_;
+    const std::optional<DensityMoments>& density_;
     std::uint64_t seed_;
     const RunContext& run_;
     std::vector<std::uint32_t> order_;  ///< site i is point order_[i]
     std::vector<Vec2> next_;
-    PeriodicVoronoi sites_{{1, 1}, true, 0};
+    PeriodicVoronoi sites_;
 };
 
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
-    run.need_memory(80.0 * static_cast<double>(plan.count), "Lloyd's relaxation");
+    run.need_memory(100.0 * static_cast<double>(plan.count), "Lloyd's relaxation");
     const Planar planar = planar_of(plan, !options[bounded]);
-    const auto rows = starting_rows(plan, options, planar, run);
-    Lloyd lloyd(planar, rows, plan.seed, run);
+    const auto density = planar_density(options, run);
+    const auto moments = planar_moments(density, DensityPower::squared, planar, run);
+    const auto rows = starting_rows(plan, options, planar, density, run);
+    Lloyd lloyd(planar, rows, moments, plan.seed, run);
     const auto steps = static_cast<std::uint64_t>(options[iterations]);
     run.tick(0, 1);
     for (std::uint64_t i = 0; i < steps; ++i) {
@@ -128,7 +138,8 @@ Generator lloyd() {
                        .sequence = false,
                        .prefix = false,
                        .boxed = true},
-            .options = Schema(iterations, initial, from, torus, bounded),
+            .options = Schema(iterations, planar::initial, from, planar::density, planar::invert,
+                              planar::torus, bounded),
             .aliases = {"cvt", "centroidal-voronoi"},
             .plan = planar_plan,
             .set = make,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 #include "core/error.hpp"
 #include "core/rng.hpp"
@@ -94,16 +95,40 @@ Planar planar_of(const Plan& plan, bool torus) {
         .low = {box.low[0], box.low[1]}, .sides = {box.extent(0), box.extent(1)}, .torus = torus};
 }
 
+std::optional<DensityMap> planar_density(const Values& options, const RunContext& run) {
+    if (options.given(planar::density))
+        return read_density(options[planar::density], options[planar::invert], run);
+    if (options[planar::invert])
+        fail(ErrorKind::usage, "--invert is about --density, which is not given");
+    return {};
+}
+
+std::optional<DensityMoments> planar_moments(const std::optional<DensityMap>& density,
+                                             DensityPower power, const Planar& planar,
+                                             const RunContext& run) {
+    if (!density) return {};
+    run.need_memory(56.0 * static_cast<double>(density->values().size()), "the density");
+    std::vector<double> values(density->values().begin(), density->values().end());
+    if (power == DensityPower::squared)
+        for (double& value : values) value *= value;
+    return DensityMoments(density->width(), density->height(), values, planar.sides);
+}
+
 std::vector<double> starting_rows(const Plan& plan, const Values& options, const Planar& planar,
-                                  const RunContext& run) {
+                                  const std::optional<DensityMap>& density, const RunContext& run) {
     if (options.given(planar::from)) return rows_of_file(options[planar::from], planar, run);
     if (plan.count >= 0xffff'ffff)
         fail(ErrorKind::limit, "--count: {} points are too many; at most 2^32 - 2", plan.count);
     const Rng rng(plan.seed);
     auto rows = options[planar::initial] == "random" ? random_rows(plan.count, rng)
                                                      : jittered_rows(plan.count, rng, run);
-    for (std::size_t k = 0; k < rows.size(); ++k)
-        rows[k] *= k % 2 == 0 ? planar.sides.x : planar.sides.y;
+    for (std::size_t i = 0; i < rows.size(); i += 2) {
+        if (density)
+            std::ranges::copy(density->place(rows[i], rows[i + 1]),
+                              rows.begin() + static_cast<std::ptrdiff_t>(i));
+        rows[i] *= planar.sides.x;
+        rows[i + 1] *= planar.sides.y;
+    }
     return rows;
 }
 

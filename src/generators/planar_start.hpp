@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "generators/generator.hpp"
+#include "math/density_map.hpp"
+#include "math/density_moments.hpp"
 #include "math/periodic_voronoi.hpp"
 
 namespace stipple {
@@ -23,6 +25,10 @@ constexpr Param<Choice> initial{.name = "initial",
                                 .fallback = "jittered",
                                 .choices = "jittered|random",
                                 .help = "Points to start from"};
+constexpr Param<Path> density{
+    {.name = "density", .help = "Picture (PNG) or array (NPY): points per area go by its values"}};
+constexpr Param<bool> invert{.name = "invert",
+                             .help = "Points where --density is dark, as ink on paper"};
 constexpr Param<bool> torus{.name = "torus",
                             .help = "Opposite sides are joined (so they are by default)"};
 constexpr Param<bool> bounded{.name = "bounded", .help = "The sides are walls"};
@@ -40,9 +46,18 @@ Plan planar_plan(const Request& request, const Values& options);
 
 Planar planar_of(const Plan& plan, bool torus);
 
+/// The density of --density over the rectangle, nothing without the option.
+std::optional<DensityMap> planar_density(const Values& options, const RunContext& run);
+
+/// Its moments over cells, or those of its square.
+enum class DensityPower { plain, squared };
+std::optional<DensityMoments> planar_moments(const std::optional<DensityMap>& density,
+                                             DensityPower power, const Planar& planar,
+                                             const RunContext& run);
+
 /// Rows (x, y) in [0, side) to start from, as the options say.
 std::vector<double> starting_rows(const Plan& plan, const Values& options, const Planar& planar,
-                                  const RunContext& run);
+                                  const std::optional<DensityMap>& density, const RunContext& run);
 
 /// The order of the points along strips of the rectangle: what is near in it is near in memory.
 std::vector<std::uint32_t> along_strips(const std::vector<double>& rows, const Planar& planar,

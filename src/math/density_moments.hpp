@@ -32,8 +32,7 @@ class DensityMoments {
     /// Moments of the cell about its site, which is at `site`.
     [[nodiscard]] CellMoments operator()(const VoronoiCell& cell, Vec2 site) const;
 
-    /// Integral over the straight edge between two places of a neighbour's density, for the flow
-    /// between cells: of rho along it, in units of length.
+    /// Integral of the density along a straight line.
     [[nodiscard]] double along(Vec2 from, Vec2 to) const;
 
   private:

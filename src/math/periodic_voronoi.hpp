@@ -76,7 +76,10 @@ class VoronoiCell {
     /// Keeps the part with x . neighbor <= bound, whose new edge is towards `neighbor`.
     void cut(const Vec2& neighbor, double bound, std::uint32_t site);
 
-    void clear() { corners_.clear(); }
+    void clear() {
+        corners_.clear();
+        squared_reach_ = 0;
+    }
 
   private:
     friend class PeriodicVoronoi;

@@ -2,9 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 
+#include "core/text.hpp"
 #include "math/periodic_voronoi.hpp"
+#include "support/pictures.hpp"
 #include "support/units.hpp"
 
 using namespace stipple;
@@ -31,6 +32,13 @@ double energy(const PointSet& set, bool torus) {
     return sum * static_cast<double>(set.count());
 }
 
+std::string text_of(const PointSet& set) {
+    std::string text;
+    for (std::size_t i = 0; i < set.count(); ++i)
+        text += format_number(set[i][0]) + ' ' + format_number(set[i][1]) + '\n';
+    return text;
+}
+
 double distance_on_torus(std::span<const double> p, std::span<const double> q) {
     double sum = 0;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -53,8 +61,8 @@ double relative_distance(const PointSet& set) {
 
 // Worked by hand: sites at 1/8 and 1/2 between walls meet at 5/16; the halves' middles follow.
 TEST(Lloyd, OneStepByHand) {
-    const std::string path = ::testing::TempDir() + "lloyd_two.txt";
-    std::ofstream(path) << "0.125 0.5\n0.5 0.5\n";
+    const TemporaryFile file("0.125 0.5\n0.5 0.5\n");
+    const std::string& path = file.path();
     const PointSet set =
         make("lloyd", {}, {{"from", path}, {"iterations", "1"}, {"bounded", "true"}});
     EXPECT_EQ(set, points_of({{5.0 / 32, 0.5}, {21.0 / 32, 0.5}}));
@@ -88,25 +96,21 @@ TEST(Lloyd, EnergyApproachesThatOfHexagons) {
 }
 
 TEST(Lloyd, TheHexagonalLatticeStays) {
-    const std::string path = ::testing::TempDir() + "lloyd_hexagons.txt";
-    std::ofstream file(path);
-    file.precision(17);
     PointSet lattice(64, 2);
     for (std::size_t i = 0; i < 64; ++i) {
         lattice[i][0] = (static_cast<double>(i % 8) + (i / 8 % 2 ? 0.5 : 0)) / 8;
         lattice[i][1] = static_cast<double>(i / 8) / 8;
-        file << lattice[i][0] << ' ' << lattice[i][1] << '\n';
     }
-    file.close();
-    const PointSet set = make("lloyd", {}, {{"from", path}});
+    const TemporaryFile file(text_of(lattice));
+    const PointSet set = make("lloyd", {}, {{"from", file.path()}});
     for (std::size_t i = 0; i < 64; ++i)
         EXPECT_LT(distance_on_torus(set[i], lattice[i]), 1e-12) << i;
 }
 
 // Points in one place part, also on corners that are one place of the torus.
 TEST(Lloyd, PointsInOnePlacePart) {
-    const std::string path = ::testing::TempDir() + "lloyd_corners.txt";
-    std::ofstream(path) << "x,y\n0,0\n1,0\n0,1\n1,1\n0.5,0.5\n0.5,0.5\n";
+    const TemporaryFile file("x,y\n0,0\n1,0\n0,1\n1,1\n0.5,0.5\n0.5,0.5\n");
+    const std::string& path = file.path();
     for (const Settings& settings : {Settings{}, walls}) {
         const PointSet set = make("lloyd", {}, with(settings, "from", path));
         ASSERT_EQ(set.count(), 6U);
@@ -173,8 +177,8 @@ TEST(Lloyd, JitteredStartsFillStrataOfEqualArea) {
 }
 
 TEST(Lloyd, RefusesWhatContradictsOrIsOutside) {
-    const std::string path = ::testing::TempDir() + "lloyd_outside.txt";
-    std::ofstream(path) << "0.5 0.5\n0.5 1.5\n";
+    const TemporaryFile file("0.5 0.5\n0.5 1.5\n");
+    const std::string& path = file.path();
     const auto refusal = [](const Request& request, const Settings& settings) {
         return error_of([&] { make("lloyd", request, settings); });
     };
@@ -189,4 +193,46 @@ TEST(Lloyd, RefusesWhatContradictsOrIsOutside) {
     Request thin = points(10, 2);
     thin.bounds = Box{{0, 0}, {1, 1e-9}};
     EXPECT_EQ(refusal(thin, {}).substr(0, 15), "usage: --bounds");
+}
+
+// A density of 1 on the left and 3 on the right: a quarter and three quarters of the points, but for
+// the two columns of some 25 each where the halves meet.
+TEST(Lloyd, PointsGoByTheDensity) {
+    const TemporaryFile density(npy_of<double>("<f8", "(1, 2)", {1, 3}));
+    for (const Settings& settings : {Settings{}, walls}) {
+        const PointSet set =
+            make("lloyd", points(1000, 2), with(settings, "density", density.path()));
+        double right = 0;
+        for (std::size_t i = 0; i < set.count(); ++i) right += set[i][0] >= 0.5;
+        EXPECT_NEAR(right, 750, 20);
+    }
+    const TemporaryFile black(npy_of<double>("<f8", "(1, 2)", {0, 3}));
+    const Settings ink = {{"density", black.path()}, {"invert", "true"}};
+    const PointSet set = make("lloyd", points(100, 2), ink);
+    for (std::size_t i = 0; i < 100; ++i) EXPECT_LT(set[i][0], 0.5);
+}
+
+TEST(Lloyd, PointsMoveToWhereTheDensityIs) {
+    const TemporaryFile density(npy_of<double>("<f8", "(1, 4)", {1, 2, 3, 2}));
+    const TemporaryFile start(text_of(make("random", points(60, 2))));
+    const PointSet set = make(
+        "lloyd", {}, {{"from", start.path()}, {"density", density.path()}, {"iterations", "3000"}});
+    double held[4] = {0, 0, 0, 0};
+    for (std::size_t i = 0; i < set.count(); ++i) ++held[static_cast<int>(set[i][0] * 4)];
+    EXPECT_NEAR(held[0], 7.5, 3.5);
+    EXPECT_NEAR(held[2], 22.5, 3.5);
+}
+
+// A density that is the same everywhere changes nothing but rounding.
+TEST(Lloyd, EvenDensitiesAreNone) {
+    const TemporaryFile density(npy_of<double>("<f8", "(2, 3)", {7, 7, 7, 7, 7, 7}));
+    const TemporaryFile start(text_of(make("random", points(100, 2))));
+    const Settings steps = {{"from", start.path()}, {"iterations", "5"}};
+    const PointSet plain = make("lloyd", {}, steps);
+    const PointSet even = make("lloyd", {}, with(steps, "density", density.path()));
+    for (std::size_t i = 0; i < 100; ++i) EXPECT_LT(distance_on_torus(plain[i], even[i]), 1e-12);
+    EXPECT_EQ(error_of([] {
+                  make("lloyd", {}, {{"invert", "true"}});
+              }),
+              "usage: --invert is about --density, which is not given");
 }
