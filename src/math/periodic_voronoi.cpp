@@ -155,6 +155,12 @@ Vec2 PeriodicVoronoi::wrapped(Vec2 at) const {
     return {wrap(at.x, sides_.x), wrap(at.y, sides_.y)};
 }
 
+Vec2 PeriodicVoronoi::shortest(Vec2 from, Vec2 to) const {
+    const auto step = [](double d, double side) { return d - side * std::round(d / side); };
+    const Vec2 d{to.x - from.x, to.y - from.y};
+    return torus_ ? Vec2{step(d.x, sides_.x), step(d.y, sides_.y)} : d;
+}
+
 void PeriodicVoronoi::start(const Site& site, std::uint32_t i, VoronoiCell& cell) const {
     const auto [a, b] = sides_;
     const Vec2 low = torus_ ? Vec2{-a / 2, -b / 2} : Vec2{-site.at.x, -site.at.y};

@@ -125,6 +125,9 @@ class PeriodicVoronoi {
     /// `at` moved by whole sides into the rectangle [0, side); for points of the torus.
     [[nodiscard]] Vec2 wrapped(Vec2 at) const;
 
+    /// The way from one place to another, on the torus the shortest of all.
+    [[nodiscard]] Vec2 shortest(Vec2 from, Vec2 to) const;
+
   private:
     static constexpr std::uint32_t none = 0xffff'ffff;
     struct Site {
