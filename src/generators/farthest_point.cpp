@@ -80,7 +80,7 @@ class FarthestPoint {
     FarthestPoint(const Planar& planar, const std::vector<double>& rows, const RunContext& run)
         : n_(rows.size() / 2), sites_(planar.sides, true, n_), corners_(n_), circles_(n_) {
         for (std::size_t i = 0; i < n_; ++i)
-            sites_.insert(i, sites_.wrapped({rows[2 * i], rows[2 * i + 1]}));
+            sites_.insert(i, sites_.inside({rows[2 * i], rows[2 * i + 1]}));
         std::vector<std::size_t> crowded;  // in the place of another
         for (std::size_t i = 0; i < n_; ++i) {
             if (i % 1024 == 0) run.check_stop();
@@ -149,7 +149,7 @@ class FarthestPoint {
     [[nodiscard]] Place farthest_place() const {
         const std::size_t i = circles_.winner();
         const auto [x, y] = corners_[i];
-        return {sites_.wrapped({sites_[i].x + x, sites_[i].y + y}), x * x + y * y};
+        return {sites_.inside({sites_[i].x + x, sites_[i].y + y}), x * x + y * y};
     }
 
     /// Where the gap that a point has left is the largest, as it mostly is once points are spread,
@@ -158,7 +158,7 @@ class FarthestPoint {
         constexpr double beyond = 0.8;  // of the step; 0 takes eight times as many iterations
         const Vec2 step = sites_.shortest(was, to);
         if (step.x * step.x + step.y * step.y > nearest / 16) return false;
-        sites_.insert(i, sites_.wrapped({to.x + beyond * step.x, to.y + beyond * step.y}));
+        sites_.insert(i, sites_.inside({to.x + beyond * step.x, to.y + beyond * step.y}));
         sites_.cut_cell(i, cell_);
         if (squared_nearest() >= nearest) return true;
         sites_.remove(i);

@@ -95,8 +95,7 @@ class Lloyd {
         if (!(moments.mass > 0)) return sites_[i];
         const Vec2 at{sites_[i].x + moments.first.x / moments.mass,
                       sites_[i].y + moments.first.y / moments.mass};
-        if (planar_.torus) return sites_.wrapped(at);
-        return {std::clamp(at.x, 0.0, planar_.sides.x), std::clamp(at.y, 0.0, planar_.sides.y)};
+        return sites_.inside(at);
     }
 
     const Planar& planar_;
@@ -112,7 +111,8 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     run.need_memory(100.0 * static_cast<double>(plan.count), "Lloyd's relaxation");
     const Planar planar = planar_of(plan, !options[bounded]);
     const auto density = planar_density(options, run);
-    const auto moments = planar_moments(density, DensityPower::squared, planar, run);
+    const auto square = [](double value) { return value * value; };
+    const auto moments = planar_moments(density, square, planar, run);
     const auto rows = starting_rows(plan, options, planar, density, run);
     Lloyd lloyd(planar, rows, moments, plan.seed, run);
     const auto steps = static_cast<std::uint64_t>(options[iterations]);

@@ -104,13 +104,14 @@ std::optional<DensityMap> planar_density(const Values& options, const RunContext
 }
 
 std::optional<DensityMoments> planar_moments(const std::optional<DensityMap>& density,
-                                             DensityPower power, const Planar& planar,
+                                             double (*function)(double), const Planar& planar,
                                              const RunContext& run) {
     if (!density) return {};
     run.need_memory(56.0 * static_cast<double>(density->values().size()), "the density");
-    std::vector<double> values(density->values().begin(), density->values().end());
-    if (power == DensityPower::squared)
-        for (double& value : values) value *= value;
+    std::vector<double> values(density->values().size());
+    std::ranges::transform(density->values(), values.begin(), function);
+    const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+    for (double& value : values) value *= static_cast<double>(values.size()) / sum;
     return DensityMoments(density->width(), density->height(), values, planar.sides);
 }
 

@@ -49,10 +49,9 @@ Planar planar_of(const Plan& plan, bool torus);
 /// The density of --density over the rectangle, nothing without the option.
 std::optional<DensityMap> planar_density(const Values& options, const RunContext& run);
 
-/// Its moments over cells, or those of its square.
-enum class DensityPower { plain, squared };
+/// Moments of a function of it over cells, scaled to a mean of 1.
 std::optional<DensityMoments> planar_moments(const std::optional<DensityMap>& density,
-                                             DensityPower power, const Planar& planar,
+                                             double (*function)(double), const Planar& planar,
                                              const RunContext& run);
 
 /// Rows (x, y) in [0, side) to start from, as the options say.

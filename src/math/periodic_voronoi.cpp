@@ -147,7 +147,8 @@ void PeriodicVoronoi::set_weights(std::span<const double> weights) {
     largest_weight_ = weights_.empty() ? 0 : *std::ranges::max_element(weights_);
 }
 
-Vec2 PeriodicVoronoi::wrapped(Vec2 at) const {
+Vec2 PeriodicVoronoi::inside(Vec2 at) const {
+    if (!torus_) return {std::clamp(at.x, 0.0, sides_.x), std::clamp(at.y, 0.0, sides_.y)};
     const auto wrap = [](double x, double side) {
         x -= side * std::floor(x / side);
         return x < side && x >= 0 ? x : 0.0;

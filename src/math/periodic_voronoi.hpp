@@ -122,8 +122,8 @@ class PeriodicVoronoi {
     /// The cell of a site that is in its place. Several threads may ask at once.
     void cut_cell(std::size_t i, VoronoiCell& cell) const;
 
-    /// `at` moved by whole sides into the rectangle [0, side); for points of the torus.
-    [[nodiscard]] Vec2 wrapped(Vec2 at) const;
+    /// `at`, moved by whole sides into [0, side) on the torus, else to the nearest wall if outside.
+    [[nodiscard]] Vec2 inside(Vec2 at) const;
 
     /// The way from one place to another, on the torus the shortest of all.
     [[nodiscard]] Vec2 shortest(Vec2 from, Vec2 to) const;
