@@ -1,31 +1,37 @@
 // SPDX-License-Identifier: MIT
 //
-// Poisson-disk set: points thrown at random, none nearer than a radius to any other, until hardly
-// a place is left for one more.
+// Poisson-disk set: points thrown at random, none nearer than a radius to any other, until no place
+// is left for one more (generators/maximal_disks.hpp).
 //
-// --radius R   as many points as fit, by Bridson's method (generators/bridson.hpp).
-// --count N    exactly N points. Sets are made for radii about the one that gives N on average:
-// each
-//              try corrects the radius by its own surplus, r <- r (1 + (count / N - 1) / d). Of
-//              those with N points or more the one with the largest radius is taken, and its
-//              surplus is removed at random. Of up to 30 tries (6 for N > 16 666) the first with a
-//              surplus of at most sqrt(N) / 4 ends the search, once N > 1000. The radius stays
-//              within 0.5 % of the one that gives N on average, from N = 1000 on; below, it is
-//              mostly larger.
+// --radius R   as many points as fit.
+// --n-approx N about N points: as many as fit with the radius that gives N in the mean.
+// --count N    exactly N points, as many as fit with some radius, which is searched for: the same
+//              darts leave fewer points for a larger radius, mostly, and hardly other points for
+//              one that hardly differs, so that a few tries, each as long as a run with --radius,
+//              come to exactly N. Where N is passed over other darts are tried; of eight in vain,
+//              which happens to a few points only, the surplus of the best is removed. The radius
+//              that is noted is the least distance that the points have, and they are maximal for
+//              that, too.
 //
-// Shape   d = 2, 3; distances hold in the box of --bounds, across its faces too (torus) or not.
-// Cost    --radius: O(n k) time, about 50 bytes a point. --count: some 3 times as much for large N.
+// Shape   d = 2 ... 6; distances hold in the box of --bounds, across its faces too (torus) or not.
+// Cost    see maximal_disks.hpp; --count takes some ten runs.
 // Promise sum_k d_k^2 >= radius^2 for every pair, in float64, from the coordinates as stored;
-//         d_k = |x_k - y_k|, on the torus min(d_k, side_k - d_k). The provenance has the radius.
-// Source  R. Bridson, SIGGRAPH 2007 sketches, doi:10.1145/1278780.1278807.
+//         d_k = |x_k - y_k|, on the torus min(d_k, side_k - d_k). No place of the box is as far as
+//         the radius from all points. The provenance has the radius.
+// Source  R. L. Cook, ACM Trans. Graph. 5 (1986) 51-72, doi:10.1145/7529.8927 (the process).
 
 #include <cmath>
+#include <limits>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/rng.hpp"
 #include "core/text.hpp"
-#include "generators/bridson.hpp"
-#include "generators/generator.hpp"
-#include "math/spaced_points.hpp"
+#include "generators/box_space.hpp"
+#include "generators/maximal_disks.hpp"
+#include "generators/spread_order.hpp"
+#include "math/kd_tree.hpp"
+#include "math/permutation.hpp"
 
 namespace stipple::generators {
 namespace {
@@ -38,46 +44,33 @@ constexpr Param<double> radius{.name = "radius",
                                .help =
                                    "Least distance of two points; as many as fit are made. "
                                    "Instead of --count, which finds the radius"};
-constexpr Param<std::int64_t> attempts{
-    .name = "k",
-    .fallback = 30,
-    .low = 1,
-    .high = 1'000'000,
-    .unit = "attempts",
-    .help = "Throws around a point before it is given up; more leave fewer gaps"};
-constexpr Param<bool> torus{.name = "torus",
-                            .help = "Distances go across opposite faces (so they do by default)"};
-constexpr Param<bool> bounded{.name = "bounded", .help = "Distances end at the faces"};
-
-Box box_of(const Plan& plan) {
-    if (plan.bounds) return *plan.bounds;
-    return {std::vector<double>(plan.dimension, 0.0), std::vector<double>(plan.dimension, 1.0)};
-}
-
-double diagonal(const Box& box) {
-    double squared = 0;
-    for (std::size_t k = 0; k < box.dimension(); ++k) squared += box.extent(k) * box.extent(k);
-    return std::sqrt(squared);
-}
+constexpr Param<std::int64_t> about{.name = "n-approx",
+                                    .low = 1,
+                                    .optional = true,
+                                    .unit = "points",
+                                    .help =
+                                        "About so many points, made in one go: mostly within "
+                                        "1 % (from 1000 on). Instead of --count"};
+constexpr Param<Choice> order{.name = "order",
+                              .fallback = "random",
+                              .choices = "random|progressive",
+                              .help =
+                                  "progressive: the first n points are well spread, too, for "
+                                  "every n"};
 
 Plan plan(const Request& request, const Values& options) {
-    if (options[torus] && options[bounded])
-        fail(ErrorKind::usage, "--torus contradicts --bounded; give one of them");
-    const std::size_t dimension = request.bounds ? request.bounds->dimension() : 2;
-    Plan plan = default_plan(request, 1024, dimension);
-    const Box box = box_of(plan);
-    if (box.dimension() != plan.dimension)
-        fail(ErrorKind::usage, "--bounds: {} ranges for {} coordinates", box.dimension(),
-             plan.dimension);
-    const double most = diagonal(box);
-    if (!(most > 1e-140 && most < 1e150))
-        fail(ErrorKind::usage, "--bounds: {} has no distances that float64 can square",
-             format_box(box));
-    if (!options.given(radius)) return plan;
+    Plan plan = plan_in_box(request, options);
+    if (options.given(radius) && options.given(about))
+        fail(ErrorKind::usage, "--radius {} contradicts --n-approx {}; give one of them",
+             format_number(options[radius]), options[about]);
+    if (!options.given(radius) && !options.given(about)) return plan;
     if (request.count)
-        fail(ErrorKind::usage, "--radius {} contradicts --count {}; give one of them",
-             format_number(options[radius]), *request.count);
-    if (!(options[radius] > 0 && options[radius] <= most))
+        fail(ErrorKind::usage, "{} contradicts --count {}; give one of them",
+             options.given(radius) ? "--radius " + format_number(options[radius])
+                                   : fmt::format("--n-approx {}", options[about]),
+             *request.count);
+    const double most = space_of(plan, false).largest_distance();
+    if (options.given(radius) && !(options[radius] > 0 && options[radius] <= most))
         fail(ErrorKind::usage,
              "--radius: {} is outside (0, {}]; no two points of the box are farther apart",
              format_number(options[radius]), format_number(most));
@@ -85,123 +78,169 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-/// Largest radius whose square is at most the squared distance of every pair; the box's diagonal
-/// for a single point. O(n^2).
-double smallest_distance(const std::vector<double>& rows, const DiskSpace& space) {
-    const std::size_t d = space.box.dimension();
-    const double most = diagonal(space.box);
-    double squared = most * most;
-    for (std::size_t i = 0; i < rows.size(); i += d)
-        for (std::size_t j = 0; j < i; j += d) {
-            const double* p = rows.data() + i;
-            const double* q = rows.data() + j;
-            const auto side = [&](std::size_t k) { return space.box.extent(k); };
-            const double distance =
-                d == 2 ? squared_distance<2>(p, q, {side(0), side(1)}, space.torus)
-                       : squared_distance<3>(p, q, {side(0), side(1), side(2)}, space.torus);
-            squared = std::min(squared, distance);
-        }
-    const double root = std::sqrt(squared);
-    return root * root <= squared ? root : std::nextafter(root, 0.0);
-}
-
-/// Points with a radius that they verify.
+/// Points with a radius that they keep, and leave no place for more.
 struct Packing {
-    std::vector<double> rows = {};
+    Rows rows = {};
     double radius = 0;
 };
 
-/// Looks for exactly `count` points, as the header says.
+/// Where expected_disks is the number that is wanted.
+double typical_radius(const BoxSpace& space, double wanted) {
+    double low = 0;
+    double high = space.largest_distance();
+    if (expected_disks(space, high) >= wanted) return high;
+    for (int i = 0; i < 100; ++i) {
+        const double middle = (low + high) / 2;
+        (expected_disks(space, middle) > wanted ? low : high) = middle;
+    }
+    return high;
+}
+
+/// Looks for the radius at which the darts of one seed leave exactly `count` points.
 class Search {
   public:
-    Search(const DiskSpace& space, std::uint64_t count, std::uint64_t seed, const RunContext& run)
-        : space_(space),
-          seed_(seed),
-          run_(run),
-          dimension_(space.box.dimension()),
-          count_(count),
-          wanted_(static_cast<double>(count)) {}
+    Search(const BoxSpace& space, std::uint64_t count, const RunContext& run)
+        : space_(space), run_(run), dimension_(space.box.dimension()), count_(count) {}
 
-    Packing find() {
-        const std::uint64_t tries = std::clamp<std::uint64_t>(100'000 / count_, 6, 30);
-        const double most = diagonal(space_.box);
-        double r = first_radius();
-        for (std::uint64_t i = 0; i < tries || best_.rows.empty(); ++i) {
-            const double found = attempt(r, i);
-            const double surplus = found - wanted_;
-            if (count_ > 1000 && surplus >= 0 && surplus * surplus <= wanted_ / 16) break;
-            const double change = surplus / wanted_ / static_cast<double>(dimension_);
-            // Late tries are those of a box with hardly a place for so many: they go down only.
-            r = i < tries ? std::min(most, r * (1 + std::clamp(change, -0.5, 0.5))) : 0.9 * r;
-        }
-        trim();
-        if (count_ <= few) best_.radius = smallest_distance(best_.rows, space_);
+    /// Sets of the streams of a seed are searched one after the other, until one comes to exactly
+    /// the count. If none does, the surplus of the one with the largest radius is removed.
+    Packing find(std::uint64_t seed) {
+        constexpr std::uint64_t streams = 8;
+        for (std::uint64_t stream = 0; stream < streams; ++stream)
+            if (found_in(stream == 0 ? seed : Rng(seed, stream).bits(0))) return std::move(best_);
+        trim(seed);
         return std::move(best_);
     }
 
   private:
-    static constexpr std::uint64_t few = 2000;  ///< so many points can be compared pair by pair
-
-    /// Where the expected number is the one that is wanted, to start with.
-    [[nodiscard]] double first_radius() const {
-        constexpr double typical = 0.8;  // of what is expected, which is rather too many
-        double low = 0;
-        double high = diagonal(space_.box);
-        for (int i = 0; i < 100; ++i) {
-            const double middle = (low + high) / 2;
-            (typical * expected_disks(space_, middle) > wanted_ ? low : high) = middle;
+    bool found_in(std::uint64_t seed) {
+        constexpr int tries = 60;
+        const double largest = space_.largest_distance();
+        double r = typical_radius(space_, static_cast<double>(count_));
+        cells_ = 0.9 * r;
+        enough_ = 0;
+        few_ = std::nextafter(largest, 2 * largest);
+        for (int i = 0; i < tries && few_ > enough_ * (1 + 1e-9); ++i) {
+            const std::uint64_t found = attempt(r, seed);
+            if (found == count_) return true;
+            r = next(r, found);
         }
-        return high;
+        return false;
     }
 
-    /// Number of points for the radius; keeps them if they are the best so far.
-    double attempt(double r, std::uint64_t stream) {
-        RunContext part = run_;
-        const double share = (1 - done_) / 3;
-        part.progress = [&](double fraction) {
-            if (run_.progress) run_.progress(done_ + share * fraction);
-        };
-        auto rows = bridson(space_, r, Rng(seed_, stream), part);
-        done_ += share;
-        const std::size_t found = rows.size() / dimension_;
-        if (found >= count_ && r > best_.radius) best_ = {std::move(rows), r};
-        return static_cast<double>(found);
+    /// Number of points for the radius; keeps them if they are what is wanted, or the best so far.
+    std::uint64_t attempt(double r, std::uint64_t seed) {
+        constexpr double typical = 8;  // tries that it takes
+        cells_ = std::min(cells_, r);
+        const double part = (1 - done_) / typical;
+        Rows rows = maximal_disks(space_, r, cells_, seed, run_.stage(done_, done_ + part));
+        done_ += part;
+        const std::uint64_t found = rows.numbers().size() / dimension_;
+        (found >= count_ ? enough_ : few_) = r;
+        if (found == count_ || (found > count_ && r > best_.radius)) best_ = {std::move(rows), r};
+        return found;
+    }
+
+    /// The radius that would take or give the rest in the mean, if that may be; else a middle one.
+    [[nodiscard]] double next(double r, std::uint64_t found) const {
+        const double ratio = static_cast<double>(found) / static_cast<double>(count_);
+        const double step = (ratio - 1) / static_cast<double>(dimension_);
+        const double guess = r * (1 + std::clamp(step, -0.3, 0.3));
+        const double low = enough_ > 0 ? enough_ : few_ / 2;
+        return guess > low && guess < few_ ? guess : (low + few_) / 2;
     }
 
     /// Removes the surplus, each point with the same chance.
-    void trim() {
-        const Rng rng(seed_, ~std::uint64_t{0});
-        auto& rows = best_.rows;
-        for (std::uint64_t i = 0; rows.size() > count_ * dimension_; ++i) {
-            const std::uint64_t victim = rng.below(i, rows.size() / dimension_) * dimension_;
-            std::copy_n(rows.end() - static_cast<std::ptrdiff_t>(dimension_), dimension_,
-                        rows.begin() + static_cast<std::ptrdiff_t>(victim));
-            rows.resize(rows.size() - dimension_);
+    void trim(std::uint64_t seed) {
+        const Rng rng(seed, ~std::uint64_t{0});
+        const auto rows = best_.rows.numbers();
+        std::vector<double> left(rows.begin(), rows.end());
+        for (std::uint64_t i = 0; left.size() > count_ * dimension_; ++i) {
+            const auto victim =
+                static_cast<std::ptrdiff_t>(rng.below(i, left.size() / dimension_) * dimension_);
+            const auto last = left.end() - static_cast<std::ptrdiff_t>(dimension_);
+            std::copy(last, left.end(), left.begin() + victim);
+            left.erase(last, left.end());
         }
+        best_.rows = Rows(std::move(left));
     }
 
-    const DiskSpace& space_;
-    std::uint64_t seed_;
+    const BoxSpace& space_;
     const RunContext& run_;
     std::size_t dimension_;
     std::uint64_t count_;
-    double wanted_;
-    double done_ = 0;  ///< fraction of the work, as far as one can know
+    double cells_ = 0;   ///< radius that the cells are made for, the same for all tries
+    double enough_ = 0;  ///< the last radius that left enough points
+    double few_ = 0;     ///< the last that left too few
+    double done_ = 0;    ///< fraction of the work, as far as one can know
     Packing best_;
 };
 
-PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
-    const DiskSpace space{box_of(plan), !options[bounded], options[attempts]};
-    Packing packing =
-        options.given(radius)
-            ? Packing{bridson(space, options[radius], Rng(plan.seed), run), options[radius]}
-            : Search(space, plan.count, plan.seed, run).find();
+/// Largest radius whose square is at most the squared distance of every pair; for a single point,
+/// that of the farthest place.
+double least_distance(const Rows& rows, const BoxSpace& space, const RunContext& run) {
+    const std::size_t d = space.box.dimension();
+    if (rows.numbers().size() <= d) return space.largest_distance();
+    std::vector<double> sides;
+    for (std::size_t k = 0; space.torus && k < d; ++k) sides.push_back(space.box.extent(k));
+    double squared = std::numeric_limits<double>::infinity();
+    for (const Neighbor& n : KdTree(rows.numbers(), d, sides, run).all_nearest(run))
+        squared = std::min(squared, n.squared);
+    const double root = std::sqrt(squared);
+    return root * root <= squared ? root : std::nextafter(root, 0.0);
+}
+
+Packing pack(const BoxSpace& space, const Plan& plan, const Values& options,
+             const RunContext& run) {
+    if (plan.count == 0) {
+        const double r = options.given(radius)
+                             ? options[radius]
+                             : typical_radius(space, static_cast<double>(options[about]));
+        return {maximal_disks(space, r, r, plan.seed, run), r};
+    }
+    Packing packing = Search(space, plan.count, run).find(plan.seed);
+    packing.radius = least_distance(packing.rows, space, run);
+    return packing;
+}
+
+/// The points in an order that tells nothing of where they are.
+Rows shuffled(const Rows& rows, const Plan& plan, const RunContext& run) {
+    constexpr std::uint64_t block = 4096;
+    const std::size_t d = plan.dimension;
+    const auto from = rows.numbers();
+    Rows out = Rows::unwritten(from.size());
+    const auto to = out.numbers();
+    const std::uint64_t count = from.size() / d;
+    const Permutation permutation(count, Rng(plan.seed, ~std::uint64_t{1}).bits(0));
+    for_each_block(
+        worth_threads(run, 3e-8 * static_cast<double>(count)), count, block,
+        [&](const Block& b) {
+            std::array<double, block> images;
+            permutation.fill(b.first, std::span(images).first(b.last - b.first));
+            for (std::uint64_t i = b.first; i < b.last; ++i)
+                std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(i * d), d,
+                            to.begin() + static_cast<std::ptrdiff_t>(images[i - b.first]) *
+                                             static_cast<std::ptrdiff_t>(d));
+        },
+        true);
+    return out;
+}
+
+PointSet make(const Plan& plan, const Values& options, const RunContext& given) {
+    const RunContext run = given.rising();
+    const bool progressive = options[order] == "progressive";
+    const double packed = progressive ? 0.5 : 1;  // of the time
+    const BoxSpace space = space_of(plan, !options[bounded_option]);
+    Packing packing = pack(space, plan, options, run.stage(0, packed));
+    Rows rows = shuffled(packing.rows, plan, run);
+    packing.rows = {};
+    if (progressive) rows = spread_out(rows.numbers(), space, packing.radius, run.stage(packed, 1));
     run.tick(1, 1);
-    PointSet points(std::move(packing.rows), plan.dimension);
+    PointSet points(std::move(rows), plan.dimension);
     if (plan.bounds) points.domain = box_domain(*plan.bounds);
     points.provenance.options = {{"radius", format_number(packing.radius)},
-                                 {"k", std::to_string(space.attempts)},
-                                 {space.torus ? "torus" : "bounded", "true"}};
+                                 {space.torus ? "torus" : "bounded", "true"},
+                                 {"order", options[order]}};
     return points;
 }
 
@@ -209,14 +248,16 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
 
 Generator poisson_disk() {
     return {.name = "poisson-disk",
-            .summary = "Random points that keep a distance from each other (blue noise)",
-            .source = "Bridson 2007, doi:10.1145/1278780.1278807",
+            .summary = "Random points that keep a distance, until no place is left (blue noise)",
+            .source =
+                "Cook 1986, doi:10.1145/7529.8927; Ebeida et al. 2012, "
+                "doi:10.1111/j.1467-8659.2012.03059.x",
             .traits = {.min_dimension = 2,
-                       .max_dimension = 3,
+                       .max_dimension = 6,
                        .sequence = false,
                        .prefix = false,
                        .boxed = true},
-            .options = Schema(radius, attempts, torus, bounded),
+            .options = Schema(radius, about, torus_option, bounded_option, order),
             .aliases = {"poisson", "poisson-disc"},
             .plan = plan,
             .set = make};

@@ -1,0 +1,404 @@
+// SPDX-License-Identifier: MIT
+#include "generators/maximal_disks.hpp"
+
+#include <atomic>
+#include <cmath>
+#include <type_traits>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/rng.hpp"
+#include "core/text.hpp"
+#include "generators/disk_shower.hpp"
+#include "generators/disk_tiles.hpp"
+#include "math/mixer.hpp"
+
+namespace stipple {
+namespace {
+
+/// Volume of the ball of radius 1.
+constexpr double unit_ball[] = {1,
+                                2,
+                                3.141592653589793,
+                                4.188790204786391,
+                                4.934802200544679,
+                                5.263789013914325,
+                                5.167712780049970};
+
+/// Points to r^d in a large box, when no place is left: the densities of random sequential addition
+/// (S. Torquato, O. U. Uche, F. H. Stillinger, Phys. Rev. E 74 (2006) 061308,
+/// doi:10.1103/PhysRevE.74.061308), rounded up.
+constexpr double jammed[] = {0, 0.75, 0.70, 0.74, 0.85, 1.05, 1.40};
+
+template <std::size_t D>
+class Rain {
+  public:
+    using Grid = DiskGrid<D>;
+    using Point = typename Grid::Point;
+    using Index = typename Grid::Index;
+    using Tile = DiskTile<D>;
+
+    Rain(const BoxSpace& space, double radius, double cell_radius, std::uint64_t seed,
+         const RunContext& run)
+        : grid_(space, radius, cell_radius),
+          tiles_(grid_),
+          keys_(seed),
+          expected_(static_cast<std::uint64_t>(expected_disks(space, radius))),
+          run_(worth_threads(run, static_cast<double>(expected_) * seconds_a_point)) {
+        double largest = 0;
+        for (std::size_t k = 0; k < D; ++k)
+            largest = std::max({largest, std::abs(grid_.low[k]), std::abs(grid_.high[k])});
+        slack_ = 0x1p-49 * (largest / radius + 8);
+        for (std::size_t t = 0; t < grid_.tile_count; ++t)
+            live_.push_back(static_cast<std::uint32_t>(t));
+        if (D > 3) return;  // of the few points there, tiles have no typical number
+        for (Tile& tile : tiles_.all()) tile.points.reserve(typical_points(tile) * D);
+    }
+
+    Rows fill() {
+        rain_at_large();
+        rain_on_the_open();
+        return collect();
+    }
+
+  private:
+    enum Fate : std::uint8_t { unknown, stays, goes };
+
+    /// About, on one core; far more for D > 3.
+    static constexpr double seconds_a_point = D == 2 ? 1e-6 : 1e-5;
+
+    /// Windows of this level and beyond are too small for floats.
+    static constexpr std::uint8_t deep = 7;
+
+    static constexpr std::size_t all_parts = lines<D> * parts<D>;
+
+    /// Darts to a cell, when one falls on a ball of the radius.
+    static double one_to_a_ball() {
+        return 1 / (unit_ball[D] * std::sqrt(static_cast<double>(power(D, D))));
+    }
+
+    /// A little more points than a tile mostly has.
+    [[nodiscard]] std::size_t typical_points(const Tile& tile) const {
+        double places = jammed[D];
+        for (std::size_t k = 0; k < D; ++k)
+            places *= (tile.last[k] - tile.first[k]) * grid_.scales[k];
+        return static_cast<std::size_t>(places + std::sqrt(places) / 2 + 1);
+    }
+
+    /// The first showers fall everywhere: most of their darts still find a place.
+    void rain_at_large() {
+        constexpr double enough = 8;  // darts to a ball, of which one in six stays
+        double fallen = 0;
+        while (fallen < enough) {
+            const double density = std::max(1.25, fallen / 2);
+            const Shower shower(density * one_to_a_ball(), together);
+            const std::uint64_t key = keys_.bits(showers_++);
+            rain(key, [&](Tile& tile, std::uint64_t own, Desk<D>& desk) {
+                fall_at_large(tile, shower, own, desk, fallen > 0);
+            });
+            fallen += density;
+        }
+    }
+
+    /// What is open after a time t is of size 1/t, so that showers grow like powers.
+    void rain_on_the_open() {
+        double density = 32 * one_to_a_ball();
+        for (bool first = true; !live_.empty(); first = false, density *= 4) {
+            std::vector<Shower> showers;  // for windows of each level
+            double mean = density / static_cast<double>(all_parts);
+            for (std::size_t level = 0; level < levels; ++level) {
+                showers.emplace_back(mean, all_parts);
+                mean /= static_cast<double>(std::size_t{1} << D);
+            }
+            const std::uint64_t key = keys_.bits(showers_++);
+            rain(key, [&](Tile& tile, std::uint64_t own, Desk<D>& desk) {
+                desk.windows.clear();
+                if (first)
+                    fall_on_cells(tile, showers.front(), own, desk);
+                else
+                    fall_on_windows(tile, showers, own, desk);
+                tile.windows = std::vector(desk.windows.begin(), desk.windows.end());
+            });
+            std::erase_if(live_, [&](std::uint32_t t) {
+                Tile& tile = tiles_.all()[t];
+                if (tile.windows.empty()) tile.candidates = {};
+                return tile.windows.empty();
+            });
+        }
+    }
+
+    /// One shower: fall(tile, key, desk) makes a tile's candidates, of which some become points.
+    template <class Fall>
+    void rain(std::uint64_t key, const Fall& fall) {
+        for_tiles([&](Tile& tile, std::uint32_t number) {
+            thread_local Desk<D> desk;
+            desk.candidates.clear();
+            tiles_.prepare(tile, desk);
+            fall(tile, Mixer(key + number).next(), desk);
+            tile.candidates = std::vector(desk.candidates.begin(), desk.candidates.end());
+            tile.fates.assign(tile.candidates.size(), unknown);
+        });
+        for_tiles([&](Tile& tile, std::uint32_t) { tiles_.publish(tile); });
+        for_tiles([&](Tile& tile, std::uint32_t) {
+            for (std::size_t i = 0; i < tile.candidates.size(); ++i) decide(tile, i);
+        });
+        for_tiles([&](Tile& tile, std::uint32_t) { tiles_.settle(tile, stays); });
+        std::size_t points = 0;
+        for (const Tile& tile : tiles_.all()) points += tile.points.size() / D;
+        run_.tick(std::min<std::uint64_t>(points, expected_), expected_);
+    }
+
+    template <class Work>
+    void for_tiles(const Work& work) {
+        for_each_block(
+            run_, live_.size(), 1,
+            [&](const Block& b) { work(tiles_.all()[live_[b.first]], live_[b.first]); }, true);
+    }
+
+    /// Numbers that belong to a piece of a cell, whoever asks for them.
+    static Mixer stream(std::uint64_t key, std::uint64_t place, const Point& corner,
+                        std::uint64_t level) {
+        std::uint64_t state = Mixer(key ^ (place << 8 | level)).next();
+        for (const double x : corner) state = Mixer(state ^ std::bit_cast<std::uint64_t>(x)).next();
+        return Mixer(state);
+    }
+
+    /// Calls visit(cell, count) for runs of up to `most` cells along the first direction.
+    template <class Visit>
+    static void for_runs(const Tile& tile, std::uint32_t most, const Visit& visit) {
+        Index cell = tile.first;
+        while (true) {
+            for (cell[0] = tile.first[0]; cell[0] < tile.last[0]; cell[0] += most)
+                visit(cell, std::min(most, tile.last[0] - cell[0]));
+            std::size_t k = 1;
+            for (; k < D && ++cell[k] == tile.last[k]; ++k) cell[k] = tile.first[k];
+            if (k == D) return;
+        }
+    }
+
+    static constexpr std::uint32_t together = 8;  ///< cells that share a Poisson number
+
+    void fall_at_large(const Tile& tile, const Shower& shower, std::uint64_t key, Desk<D>& desk,
+                       bool any_points) {
+        desk.near.clear();
+        desk.near.close();
+        for_runs(tile, together, [&](const Index& run, std::uint32_t count) {
+            Mixer mixer = stream(key, Grid::place_of(run), {}, 0);
+            for (std::uint64_t left = shower.on(count, mixer); left > 0; --left) {
+                Index cell = run;
+                Point place;
+                for (double& x : place) x = to_unit(mixer.next());
+                place[0] *= count;
+                const auto step = static_cast<std::uint32_t>(place[0]);
+                place[0] -= step;
+                cell[0] += step;
+                if (tiles_.taken(cell)) continue;
+                if (any_points) tiles_.gather(tile, cell, desk, desk.near);
+                fall<float>(tile, cell, place, desk.near, mixer, desk);
+            }
+        });
+    }
+
+    /// A dart falls at `place` of a cell (in cells), where these points are near.
+    template <class Real>
+    void fall(const Tile& tile, const Index& cell, const Point& place,
+              const NearDisks<D, Real>& near, Mixer& mixer, Desk<D>& desk) const {
+        std::array<Real, D> off;
+        for (std::size_t k = 0; k < D; ++k) off[k] = static_cast<Real>(place[k] * grid_.scales[k]);
+        const Hit hit = hits<D, Real>(near, off, slack<Real>());
+        if (hit == Hit::yes) return;
+        Candidate<D> c{};
+        for (std::size_t k = 0; k < D; ++k) {
+            c.at[k] = grid_.low[k] + (cell[k] + place[k]) * grid_.widths[k];
+            c.off[k] = static_cast<float>(off[k]);
+            if (!(c.at[k] < grid_.high[k])) return;  // rounded up to a face
+        }
+        if (hit == Hit::unsure && tiles_.hits(tile, cell, c.at.data())) return;
+        c.time = static_cast<std::uint32_t>(mixer.next() >> 32);
+        c.place = Grid::place_of(cell);
+        desk.candidates.push_back(c);
+    }
+
+    /// All cells without a point are windows at first.
+    void fall_on_cells(const Tile& tile, const Shower& shower, std::uint64_t key, Desk<D>& desk) {
+        for_runs(tile, 1, [&](const Index& cell, std::uint32_t) {
+            if (tiles_.taken(cell)) return;
+            tiles_.gather(tile, cell, desk, desk.near);
+            fall_on<float>(tile, cell, {{}, Grid::place_of(cell), 0}, shower, key, desk);
+        });
+    }
+
+    void fall_on_windows(const Tile& tile, const std::vector<Shower>& showers, std::uint64_t key,
+                         Desk<D>& desk) {
+        const auto& windows = tile.windows;
+        for (std::size_t i = 0; i < windows.size();) {
+            const std::uint16_t place = windows[i].place;
+            const Index cell = Grid::cell_at(tile.first, place);
+            const bool taken = tiles_.taken(cell);
+            const std::size_t first = i;
+            bool fine = false;
+            for (; i < windows.size() && windows[i].place == place; ++i)
+                fine = fine || windows[i].level >= deep;
+            if (taken) continue;
+            tiles_.gather(tile, cell, desk, desk.near);
+            if (fine) tiles_.gather(tile, cell, desk, desk.exactly_near);
+            for (std::size_t w = first; w < i; ++w) {
+                const Shower& shower = showers[windows[w].level];
+                if (windows[w].level < deep)
+                    fall_on<float>(tile, cell, windows[w], shower, key, desk);
+                else
+                    fall_on<double>(tile, cell, windows[w], shower, key, desk);
+            }
+        }
+    }
+
+    /// Darts fall on what is open of a window; what is left of it goes to the desk.
+    template <class Real>
+    void fall_on(const Tile& tile, const Index& cell, const Window<D>& window, const Shower& shower,
+                 std::uint64_t key, Desk<D>& desk) {
+        if (too_small(window)) return;
+        Raster<D, Real> raster;
+        for (std::size_t k = 0; k < D; ++k) {
+            raster.corner[k] = static_cast<Real>(window.corner[k] * grid_.scales[k]);
+            raster.part[k] = static_cast<Real>(window.part() * grid_.scales[k]);
+        }
+        const auto [near, reaching] = lists<Real>(desk);
+        OpenParts<D> open;
+        if (!uncovered<D, Real>(near, raster, slack<Real>(), reaching, open)) return;
+        const std::size_t count = count_open<D>(open);
+        Mixer mixer = stream(key, window.place, window.corner, window.level);
+        for (std::uint64_t left = shower.on(count, mixer); left > 0; --left) {
+            Point place = open_part<D>(open, mixer.below(count));
+            for (std::size_t k = 0; k < D; ++k)
+                place[k] = window.corner[k] + (place[k] + to_unit(mixer.next())) * window.part();
+            fall<Real>(tile, cell, place, reaching, mixer, desk);
+        }
+        narrow<D>(window, open, shower.mean(count), desk.windows);
+    }
+
+    /// Whether no arithmetic could tell a gap of this size from none.
+    [[nodiscard]] bool too_small(const Window<D>& window) const {
+        bool small = window.level + 1U >= levels;
+        for (const double scale : grid_.scales) small |= window.side() * scale < 2 * slack_;
+        return small;
+    }
+
+    static constexpr std::size_t levels = 56;
+
+    template <class Real>
+    static auto lists(Desk<D>& desk) {
+        if constexpr (std::is_same_v<Real, float>)
+            return std::pair<NearDisks<D, float>&, NearDisks<D, float>&>(desk.near, desk.reaching);
+        else
+            return std::pair<NearDisks<D, double>&, NearDisks<D, double>&>(desk.exactly_near,
+                                                                           desk.exactly_reaching);
+    }
+
+    template <class Real>
+    [[nodiscard]] Real slack() const {
+        if constexpr (std::is_same_v<Real, float>)
+            return float_slack;
+        else
+            return slack_;
+    }
+
+    /// Stays, unless an earlier one that is too near stays. Several threads may ask; they all find
+    /// the same.
+    Fate decide(Tile& tile, std::size_t i) {
+        const std::atomic_ref<std::uint8_t> fate(tile.fates[i]);
+        const auto known = static_cast<Fate>(fate.load(std::memory_order_relaxed));
+        if (known != unknown) return known;
+        const bool beaten = tiles_.any_before(
+            tile, tile.candidates[i],
+            [&](Tile& there, std::size_t earlier) { return decide(there, earlier) == stays; });
+        fate.store(beaten ? goes : stays, std::memory_order_relaxed);
+        return beaten ? goes : stays;
+    }
+
+    Rows collect() {
+        std::size_t numbers = 0;
+        for (const Tile& tile : tiles_.all()) numbers += tile.points.size();
+        Rows rows = Rows::unwritten(numbers);
+        auto out = rows.numbers().begin();
+        for (Tile& tile : tiles_.all()) {
+            out = std::ranges::copy(tile.points, out).out;
+            tile.points = {};
+        }
+        return rows;
+    }
+
+    Grid grid_;
+    std::conditional_t<D <= 3, CellTiles<D>, FewTiles<D>> tiles_;
+    Rng keys_;
+    std::uint64_t expected_;
+    RunContext run_;
+    double slack_;                     ///< of distances that doubles hold, in radii
+    std::vector<std::uint32_t> live_;  ///< tiles with something open
+    std::uint64_t showers_ = 0;
+};
+
+/// @throws Error(limit) when the radius is so small that rounding moves points by more than a
+/// thousandth of it.
+void check_resolution(const Box& box, double radius) {
+    double largest = 0;
+    for (std::size_t k = 0; k < box.dimension(); ++k)
+        largest = std::max({largest, std::abs(box.low[k]), std::abs(box.high[k])});
+    const double finest = largest * 0x1p-52 * 1024;
+    if (radius < finest)
+        fail(ErrorKind::limit,
+             "a radius of {} is too fine for coordinates near {}, which tell {:.5g} from each "
+             "other well",
+             format_number(radius), format_number(largest), finest);
+}
+
+/// @throws Error(limit) when the points for this radius do not fit the memory, or the indices.
+void check_size(const BoxSpace& space, double radius, const RunContext& run) {
+    const std::size_t d = space.box.dimension();
+    double cells = 1;
+    for (const double along : cells_along(space.box, radius)) cells *= along;
+    const double points = expected_disks(space, radius);
+    const double n = static_cast<double>(d);
+    // A cell's head, place and bits; a point, its copy and the candidates of a shower; windows.
+    const double to_a_cell = d <= 3 ? 2.25 + 4 * n : 0;
+    const double to_a_point = 2 * 8 * n + 0.6 * (12 * n + 8);
+    const double windows = cells * (d == 2 ? 0.7 : d == 3 ? 1 : 1.5) * (8 * n + 8);
+    const double bytes = cells * to_a_cell + points * to_a_point + windows;
+    run.need_memory(bytes, fmt::format("a radius of {}, with about {:.3g} points,",
+                                       format_number(radius), points));
+    if (cells >= 0xffff'fffe)
+        fail(ErrorKind::limit,
+             "a radius of {} makes about {:.3g} points, and {:.3g} cells to find them by; at most "
+             "2^32 cells are possible",
+             format_number(radius), points, cells);
+}
+
+}  // namespace
+
+double expected_disks(const BoxSpace& space, double radius) {
+    double places = jammed[space.box.dimension()];
+    for (std::size_t k = 0; k < space.box.dimension(); ++k) {
+        const double along = space.box.extent(k) / radius;
+        places *= space.torus ? std::max(along, 1.0) : along + 1;
+    }
+    return places + 1;
+}
+
+Rows maximal_disks(const BoxSpace& space, double radius, double cell_radius, std::uint64_t seed,
+                   const RunContext& run) {
+    check_resolution(space.box, radius);
+    check_size(space, radius, run);
+    switch (space.box.dimension()) {
+        case 2:
+            return Rain<2>(space, radius, cell_radius, seed, run).fill();
+        case 3:
+            return Rain<3>(space, radius, cell_radius, seed, run).fill();
+        case 4:
+            return Rain<4>(space, radius, cell_radius, seed, run).fill();
+        case 5:
+            return Rain<5>(space, radius, cell_radius, seed, run).fill();
+        default:
+            return Rain<6>(space, radius, cell_radius, seed, run).fill();
+    }
+}
+
+}  // namespace stipple

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#include "generators/spread_order.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "math/point_grid.hpp"
+
+namespace stipple {
+namespace {
+
+template <std::size_t D>
+Rows in_order(std::span<const double> rows, const BoxSpace& space, double radius,
+              const RunContext& run) {
+    constexpr double step = 0.8408964152537145;  // 2^(-1/4)
+    constexpr std::size_t often = 4096;
+    GrowingPoints<D> chosen(space.box, space.torus);
+    std::vector<const double*> left;
+    for (std::size_t i = 0; i < rows.size(); i += D) left.push_back(rows.data() + i);
+    const std::size_t count = left.size();
+    for (double r = space.largest_distance(); !left.empty(); r *= step) {
+        const bool all = r <= radius;  // nothing that is left is too near
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < left.size(); ++i) {
+            if (i % often == 0) run.tick(chosen.count(), count);
+            if (all || !chosen.any_nearer(left[i], r))
+                chosen.add(left[i]);
+            else
+                left[kept++] = left[i];
+        }
+        left.resize(kept);
+    }
+    return Rows(chosen.rows());
+}
+
+}  // namespace
+
+Rows spread_out(std::span<const double> rows, const BoxSpace& space, double radius,
+                const RunContext& run) {
+    return with_dimension(space.box.dimension(),
+                          [&]<std::size_t D>() { return in_order<D>(rows, space, radius, run); });
+}
+
+}  // namespace stipple
