@@ -11,7 +11,7 @@
 // floor(j K^2 / m).
 //
 // Shape   2-D. A sequence: point i is a function of i, n and the seed; no memory but for the tile.
-// Cost    O(t (iterations + t)) once, 1 second for t = 4096; then 2 ns a point and core.
+// Cost    O(t (iterations + t)) once, 1.5 seconds for t = 4096; then 2 ns a point and core.
 // Promise no two points are nearer than the nearest of the tile's torus, divided by K; a tile of
 //         4096 points keeps them 0.5 / sqrt(n) apart and more.
 // Beware  the set is periodic as far as it is not thinned: its spectrum has peaks at multiples of

@@ -10,7 +10,7 @@
 //              pixel of a picture, its grey in [0, 65536), is white where it is above the mask.
 //
 // Shape   2-D, n <= W H. Without --size: the smallest square of a power of two with at least 16
-//         cells a point, or a point of the largest density.
+//         cells a point; with a density 4, a point where it is largest.
 // Promise point i does not depend on n when --size is given and --density is not.
 // Beware  points lie on cells: their spectrum repeats with periods W and H. --cell random mends
 //         that, and costs some evenness. Where n density(c) > W H no further point fits.
@@ -66,10 +66,10 @@ Torus torus_of(const std::vector<std::int64_t>& extents, const std::string& text
     return {static_cast<std::size_t>(extents[0]), static_cast<std::size_t>(extents[1])};
 }
 
-/// 16 cells for each of `points`. @throws Error(limit)
-Torus torus_for(double points) {
+/// So many cells for each of `points`. @throws Error(limit)
+Torus torus_for(double points, double cells) {
     std::size_t side = 4;
-    while (static_cast<double>(side * side) < 16 * points && side < 32768) side *= 2;
+    while (static_cast<double>(side * side) < cells * points && side < 32768) side *= 2;
     if (static_cast<double>(side * side) < points)
         fail(ErrorKind::limit, "void-and-cluster makes at most 2^30 points; {:.0f} are too many",
              points);
@@ -148,8 +148,9 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     std::optional<DensityMap> map;
     if (options.given(density)) map = read_density(options[density], options[invert], run);
     const auto wanted = static_cast<double>(plan.count);
-    const Torus torus = options.given(size) ? torus_of(options[size], {})
-                                            : torus_for(wanted * (map ? map->largest() : 1));
+    const Torus torus = options.given(size)
+                            ? torus_of(options[size], {})
+                            : torus_for(wanted * (map ? map->largest() : 1), map ? 4 : 16);
     const bool all = map || options.given(mask_image);
     const std::size_t count = plan.count;
     const std::vector<std::uint32_t> order = void_and_cluster_order(

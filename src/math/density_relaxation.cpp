@@ -17,6 +17,7 @@ namespace {
 constexpr double reach = 5;        // exp(-12.5) = 3.7e-6
 constexpr std::size_t lanes = 8;   // sums run side by side, the same on every machine
 constexpr double leaf_mass = 0.5;  // of a point
+constexpr double window_mass = 2;  // points
 constexpr int deepest = 24;        // levels of the quadtree
 
 /// What acts on a point: another point, or what a leaf holds of the density.
@@ -204,8 +205,17 @@ class Masses {
     }
 
   private:
-    /// Mass of [0, x) x [0, y).
+    /// Mass of [0, x) x [0, y), of a density that repeats beyond the unit square.
     [[nodiscard]] double below(double x, double y) const {
+        const double across = std::floor(x);
+        const double up = std::floor(y);
+        const double s = x - across;
+        const double t = y - up;
+        return across * up + across * inside(1, t) + up * inside(s, 1) + inside(s, t);
+    }
+
+    /// The same for x and y in [0, 1].
+    [[nodiscard]] double inside(double x, double y) const {
         const double u = x * static_cast<double>(width_);
         const double v = y * static_cast<double>(height_);
         const std::size_t i = std::min(width_ - 1, static_cast<std::size_t>(u));
@@ -228,64 +238,50 @@ class Quadtree {
   public:
     Quadtree(const DensityMap& map, double count, double side, const RunContext& run)
         : masses_(map), count_(count), side_(side), run_(run) {
-        nodes_.push_back({});
-        split(0, {0, 0, 1}, 0);
+        split({0, 0, 1}, 0);
     }
 
     [[nodiscard]] const std::vector<Body>& leaves() const { return leaves_; }
 
-    /// sigma^2 at a point of the unit square.
+    /// sigma^2 at a point of the unit square: the share of a point in the square about it that
+    /// holds window_mass points.
     [[nodiscard]] double square_at(double x, double y) const {
-        std::size_t node = 0;
-        while (nodes_[node].children != 0) {
-            x *= 2;
-            y *= 2;
-            const auto right = static_cast<std::size_t>(x >= 1);
-            const auto above = static_cast<std::size_t>(y >= 1);
-            x -= static_cast<double>(right);
-            y -= static_cast<double>(above);
-            node = nodes_[node].children + right + 2 * above;
+        double low = 0;
+        double high = 0.5;
+        for (int i = 0; i < 60 && high - low > 1e-7 * high; ++i) {
+            const double half = (low + high) / 2;
+            const double mass = count_ * masses_.of(x - half, x + half, y - half, y + half);
+            (mass > window_mass ? high : low) = half;
         }
-        return nodes_[node].square;
+        const double size = (low + high) * side_;
+        return size * size / std::min(window_mass, count_);
     }
 
   private:
-    struct Node {
-        std::uint32_t children = 0;  ///< the first of four; 0: a leaf
-        double square = 0;
-    };
     struct Square {
         double x, y, size;
     };
 
-    void split(std::size_t node, const Square& s, int depth) {
+    void split(const Square& s, int depth) {
         run_.check_stop();
         const double mass = count_ * masses_.of(s.x, s.x + s.size, s.y, s.y + s.size);
+        constexpr double nothing = 1e-9;  // what rounding may leave of an empty square
+        if (mass < nothing) return;
         if (mass > leaf_mass && depth < deepest) {
-            const std::size_t children = nodes_.size();
-            nodes_[node].children = static_cast<std::uint32_t>(children);
-            nodes_.resize(children + 4);
             const double half = s.size / 2;
-            for (std::size_t c = 0; c < 4; ++c)
-                split(children + c,
-                      {s.x + (c % 2 == 1 ? half : 0), s.y + (c / 2 == 1 ? half : 0), half},
-                      depth + 1);
+            for (const double y : {s.y, s.y + half})
+                for (const double x : {s.x, s.x + half}) split({x, y, half}, depth + 1);
             return;
         }
-        const double area = s.size * s.size * side_ * side_;
-        // A leaf that is nearly empty lies at a border; its size tells more than its mass.
-        nodes_[node].square = area / std::max(mass, leaf_mass / 4);
-        constexpr double nothing = 1e-9;  // what rounding may leave of an empty square
-        if (mass > nothing)
-            leaves_.push_back({(s.x + s.size / 2) * side_, (s.y + s.size / 2) * side_,
-                               nodes_[node].square, -mass});
+        const double x = s.x + s.size / 2;
+        const double y = s.y + s.size / 2;
+        leaves_.push_back({x * side_, y * side_, square_at(x, y), -mass});
     }
 
     Masses masses_;
     double count_;
     double side_;
     const RunContext& run_;
-    std::vector<Node> nodes_;
     std::vector<Body> leaves_;
 };
 

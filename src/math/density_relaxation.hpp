@@ -5,15 +5,18 @@
 //
 //     f(x) = sum_i K_i(x) - integral rho(y) K_y(x) dy,    K_y(x) = exp(-|x - y|^2 / sigma(y)^2),
 //
-// is 0 where points and density are alike; sigma = rho^(-1/2) is the distance of points. Points
-// move down the gradient of f, smoothed by their own kernel, as in math/gaussian_relaxation.hpp:
+// is 0 where points and density are alike; sigma, near rho^(-1/2), is the distance of points.
+// Points move down the gradient of f, smoothed by their own kernel, as in
+// math/gaussian_relaxation.hpp:
 //
 //     F_i = sum_j m_j 4 a b / (a + b)^2 (x_i - x_j) exp(-|x_i - x_j|^2 / (a + b)),
 //     a = sigma_i^2,  b = sigma_j^2,
 //
 // over the points (m = 1) and over the leaves of a quadtree that stand for the density (m = -mass):
-// squares that hold at most half a point. sigma is that of the leaf that a point is in. For
-// the constant density this is the force of gaussian_relaxation.
+// squares that hold at most half a point. sigma^2 is half the area of the square about x that holds
+// two points: rho smoothed so far that it varies little over a kernel, without which the force is
+// none of an energy, and points drift. For the constant density this is the force of
+// gaussian_relaxation.
 //
 // Shape   2-D; a density of any contrast.
 // Cost    a step: some 10 times that of relax_gaussian, more where the contrast is high.

@@ -11,7 +11,7 @@
 // are near the distance of neighbours, take some hundred steps so, and some ten thousand without.
 //
 // Shape   d = 1 ... 4.
-// Cost    a step: O(n (14^d)), 0.5 microseconds a point and core in 2-D, 10 in 3-D.
+// Cost    a step: O(n (14^d)), 1 microsecond a point and core in 2-D, 14 in 3-D.
 // Promise the same bits on every machine and for any number of threads.
 // Source  A. G. M. Ahmed, J. Ren, P. Wonka, "Gaussian blue noise", ACM Trans. Graph. 41(6), 260
 //         (2022), doi:10.1145/3550454.3555519: the energy and the plain step.

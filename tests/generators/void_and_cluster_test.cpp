@@ -120,7 +120,8 @@ TEST(VoidAndCluster, FollowsADensity) {
 
 TEST(VoidAndCluster, AConstantDensityIsNone) {
     const TemporaryFile file(npy_of<double>("<f8", "(2, 1)", {3, 3}));
-    EXPECT_EQ(make(name, points(500, 2), {{"density", file.path()}}), make(name, points(500, 2)));
+    EXPECT_EQ(make(name, points(500, 2), {{"density", file.path()}, {"size", "64x64"}}),
+              make(name, points(500, 2), {{"size", "64x64"}}));
 }
 
 TEST(VoidAndCluster, RefusesWrongOptionsInOneLine) {

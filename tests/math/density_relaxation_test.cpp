@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -90,6 +91,24 @@ TEST(DensityRelaxation, NoPointLiesWhereTheDensityIsNothing) {
     auto rows = scattered(map, 300);
     relax_to_density(rows, map, 30, {});
     for (std::size_t i = 0; i < rows.size(); i += 2) EXPECT_GT(map.at(rows[i], rows[i + 1]), 0);
+}
+
+// A slanted bar a few points wide, whose rim is grey as that of a drawn letter is: where sigma
+// jumps, points drift along it and gather at one end.
+TEST(DensityRelaxation, ThinShapesKeepTheirShareAllAlong) {
+    std::vector<double> bar(128 * 128);
+    for (std::size_t i = 0; i < bar.size(); ++i) {
+        const double x = static_cast<double>(i % 128) + 0.5;
+        const double y = static_cast<double>(i / 128) + 0.5;
+        bar[i] = std::clamp(6 - std::abs(y - 20 - 0.6 * x), 0.0, 1.0);
+    }
+    const DensityMap map(128, 128, bar);
+    auto rows = scattered(map, 400);
+    relax_to_density(rows, map, 150, {});
+    for (int part = 0; part < 4; ++part)
+        EXPECT_NEAR(static_cast<double>(points_in(rows, part / 4.0, (part + 1) / 4.0, 0, 1)), 100,
+                    3)
+            << part;
 }
 
 TEST(DensityRelaxation, TakesAnyContrastAndVeryFewPoints) {
