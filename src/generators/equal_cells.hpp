@@ -46,9 +46,9 @@ class EqualCells {
 
     /// Finds the weights, from the present ones on; those of sites that have lost their cells are
     /// 0 again, and so all others. Sites that have no mass even then are put to places of `rescue`
-    /// (n of them). Returns the largest |m_i n / total - 1|, above `tolerance` only where
-    /// rounding keeps it there.
-    double equalize(double tolerance, const std::vector<Vec2>& rescue);
+    /// (n of them). Returns the largest |m_i n / total - 1|, above `tolerance` only after so many
+    /// steps, or where rounding keeps it there.
+    double equalize(double tolerance, const std::vector<Vec2>& rescue, std::size_t steps = 1000);
 
     /// Moves every site to the centroid of its cell.
     void move_to_centroids();
