@@ -40,7 +40,7 @@ class EqualCells {
         double conductance;
     };
 
-    /// Sites at `rows`; the density is 1 if there is none. Both stay where they are.
+    /// Sites at `rows`; the density, which must outlive the cells, is 1 if there is none.
     EqualCells(const Planar& planar, const std::optional<DensityMoments>& density,
                const std::vector<double>& rows, const RunContext& run);
 
@@ -77,7 +77,7 @@ class EqualCells {
     bool try_steps(const std::vector<double>& step);
 
     const std::optional<DensityMoments>& density_;
-    const RunContext& run_;
+    RunContext run_;
     PeriodicVoronoi sites_;
     double share_;  ///< the mass that each cell is to have
     std::vector<double> weights_;
