@@ -153,9 +153,9 @@ void EqualCells::revive(const std::vector<Vec2>& rescue) {
     measure();
 }
 
-double EqualCells::equalize(double tolerance, const std::vector<Vec2>& rescue) {
+double EqualCells::equalize(double tolerance, const std::vector<Vec2>& rescue, std::size_t steps) {
     revive(rescue);
-    while (worst() > tolerance && least_mass() > 0)
+    for (std::size_t k = 0; k < steps && worst() > tolerance && least_mass() > 0; ++k)
         if (!try_steps(newton_step())) break;
     return worst();
 }

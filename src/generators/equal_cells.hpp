@@ -40,15 +40,15 @@ class EqualCells {
         double conductance;
     };
 
-    /// Sites at `rows`; the density is 1 if there is none. Both stay where they are.
+    /// Sites at `rows`; the density, which must outlive the cells, is 1 if there is none.
     EqualCells(const Planar& planar, const std::optional<DensityMoments>& density,
                const std::vector<double>& rows, const RunContext& run);
 
     /// Finds the weights, from the present ones on; those of sites that have lost their cells are
     /// 0 again, and so all others. Sites that have no mass even then are put to places of `rescue`
-    /// (n of them). Returns the largest |m_i n / total - 1|, above `tolerance` only where
-    /// rounding keeps it there.
-    double equalize(double tolerance, const std::vector<Vec2>& rescue);
+    /// (n of them). Returns the largest |m_i n / total - 1|, above `tolerance` only after so many
+    /// steps, or where rounding keeps it there.
+    double equalize(double tolerance, const std::vector<Vec2>& rescue, std::size_t steps = 1000);
 
     /// Moves every site to the centroid of its cell.
     void move_to_centroids();
@@ -77,7 +77,7 @@ class EqualCells {
     bool try_steps(const std::vector<double>& step);
 
     const std::optional<DensityMoments>& density_;
-    const RunContext& run_;
+    RunContext run_;
     PeriodicVoronoi sites_;
     double share_;  ///< the mass that each cell is to have
     std::vector<double> weights_;

@@ -172,11 +172,16 @@ class FarthestPoint {
     VoronoiCell cell_;
 };
 
+void need_memory(std::uint64_t n, const RunContext& run) {
+    run.need_memory(130.0 * static_cast<double>(n), "the farthest-point optimisation");
+}
+
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
-    run.need_memory(130.0 * static_cast<double>(plan.count), "the farthest-point optimisation");
+    need_memory(plan.count, run);
     const Planar planar = planar_of(plan, true);
     auto rows = starting_rows(plan, options, planar, {}, run);
     const std::size_t n = rows.size() / 2;
+    need_memory(n, run);
     const auto sweeps = static_cast<std::uint64_t>(options[iterations]);
     run.tick(0, 1);
     FarthestPoint set(planar, rows, run);

@@ -107,13 +107,18 @@ class Lloyd {
     PeriodicVoronoi sites_;
 };
 
+void need_memory(std::uint64_t n, const RunContext& run) {
+    run.need_memory(100.0 * static_cast<double>(n), "Lloyd's relaxation");
+}
+
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
-    run.need_memory(100.0 * static_cast<double>(plan.count), "Lloyd's relaxation");
+    need_memory(plan.count, run);
     const Planar planar = planar_of(plan, !options[bounded]);
     const auto density = planar_density(options, run);
     const auto square = [](double value) { return value * value; };
     const auto moments = planar_moments(density, square, planar, run);
     const auto rows = starting_rows(plan, options, planar, density, run);
+    need_memory(rows.size() / 2, run);
     Lloyd lloyd(planar, rows, moments, plan.seed, run);
     const auto steps = static_cast<std::uint64_t>(options[iterations]);
     run.tick(0, 1);

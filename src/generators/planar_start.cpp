@@ -73,6 +73,8 @@ Plan planar_plan(const Request& request, const Values& options) {
         if (request.count)
             fail(ErrorKind::usage,
                  "--from contradicts --count; the points of the file are counted");
+        if (options.given(planar::initial))
+            fail(ErrorKind::usage, "--from contradicts --initial; give one of them");
         plan.count = 0;
     }
     if (!plan.bounds || plan.dimension != 2) return plan;

@@ -179,6 +179,7 @@ TEST(Lloyd, JitteredStartsFillStrataOfEqualArea) {
 TEST(Lloyd, RefusesWhatContradictsOrIsOutside) {
     const TemporaryFile file("0.5 0.5\n0.5 1.5\n");
     const std::string& path = file.path();
+    const TemporaryFile good("0.5 0.5\n0.5 0.7\n");
     const auto refusal = [](const Request& request, const Settings& settings) {
         return error_of([&] { make("lloyd", request, settings); });
     };
@@ -186,6 +187,12 @@ TEST(Lloyd, RefusesWhatContradictsOrIsOutside) {
               "input: " + path + ": point 2, (0.5, 1.5), is outside 0..1,0..1");
     EXPECT_EQ(refusal(points(3, 2), {{"from", path}}),
               "usage: --from contradicts --count; the points of the file are counted");
+    EXPECT_EQ(refusal({}, {{"from", path}, {"initial", "random"}}),
+              "usage: --from contradicts --initial; give one of them");
+    EXPECT_EQ(error_of([&] {
+                  make("lloyd", {}, {{"from", good.path()}}, {.max_memory = 150});
+              }).substr(0, 3),
+              "lim");
     EXPECT_EQ(refusal({}, {{"torus", "true"}, {"bounded", "true"}}),
               "usage: --torus contradicts --bounded; give one of them");
     EXPECT_EQ(refusal({}, {{"iterations", "-1"}}).substr(0, 19), "usage: --iterations");
@@ -195,8 +202,8 @@ TEST(Lloyd, RefusesWhatContradictsOrIsOutside) {
     EXPECT_EQ(refusal(thin, {}).substr(0, 15), "usage: --bounds");
 }
 
-// A density of 1 on the left and 3 on the right: a quarter and three quarters of the points, but for
-// the two columns of some 25 each where the halves meet.
+// A density of 1 on the left and 3 on the right: a quarter and three quarters of the points, but
+// for the two columns of some 25 each where the halves meet.
 TEST(Lloyd, PointsGoByTheDensity) {
     const TemporaryFile density(npy_of<double>("<f8", "(1, 2)", {1, 3}));
     for (const Settings& settings : {Settings{}, walls}) {
