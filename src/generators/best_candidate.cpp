@@ -17,7 +17,7 @@
 // Cost    at c = 1 about 0.1 ms a point in 2-D, hardly growing with their number and with c; in
 // more
 //         dimensions more. All candidates would be n^2 / 2, a million a point after two million
-//         points. Some 3 KB a point.
+//         points. Some 5 KB a point.
 // Promise the law of the points is exactly that of Mitchell's method with all m candidates made.
 //         Point i does not depend on the number of points.
 // Source  D. P. Mitchell, Comput. Graph. (SIGGRAPH) 25 (1991) 157-164, doi:10.1145/122718.122736.
@@ -178,7 +178,7 @@ class Sieve {
         best_ = -1;
         all_ = std::max(1.0, std::floor(factor_ * static_cast<double>(points_.count())));
         // As high as peaks of the distance rise above the level that the best candidate reaches.
-        constexpr double fine = 2;
+        constexpr double fine = 4;
         open_size_ = std::min(0.25, fine * factor_ * nth_root(all_, D + 1) / all_);
         while (!heap_.empty() && all_ * open_share_ < eager) pull();
         auto left = static_cast<std::uint64_t>(all_);
@@ -286,7 +286,7 @@ class Sieve {
         const double level = crowded || heap_.empty() ? best_ : heap_.top().bound;
         for (const std::uint32_t id : missed_)
             if (cells_[id].slot != closed && !closes(id, level) &&
-                worth_a_cut(cells_[id], open_size_ / 16))
+                worth_a_cut(cells_[id], open_size_ / 4))
                 cut(id, level);
         missed_.clear();
         if (points_.count() == 1) return;
@@ -346,26 +346,42 @@ class Sieve {
         return c;
     }
 
-    /// The least of what each point near by allows: the distance of the cell's farthest corner.
+    /// For each of 2^D parts of the cell the least of what each point near by allows, the distance
+    /// of its farthest corner; of the parts the highest.
     void bound(Cell& cell) {
         if (cell.points == points_.count()) return;
         cell.points = static_cast<std::uint32_t>(points_.count());
         const Point& side = sides_[cell.depth];
         const Point middle = center(cell);
-        double least = cell.bound * cell.bound;
+        std::array<double, parts> least;
+        least.fill(cell.bound * cell.bound);
         points_.visit(middle.data(), cell.bound, [&](std::size_t, double, const double* q) {
-            double sum = 0;
-            for (std::size_t k = 0; k < D; ++k) {
-                double d = std::abs(middle[k] - q[k]);
-                if (space_.torus) d = std::min(d, points_.frame().side(k) - d);
-                d += side[k] / 2;
-                sum += d * d;
-            }
-            least = std::min(least, sum);
+            lower_to_corners(middle, side, q, least);
             return true;
         });
         constexpr double safety = 1 + 1e-12;  // far above what rounding does
-        cell.bound = std::min(cell.bound, std::sqrt(least) * safety);
+        const double highest = *std::ranges::max_element(least);
+        cell.bound = std::min(cell.bound, std::sqrt(highest) * safety);
+    }
+
+    static constexpr std::size_t parts = std::size_t{1} << D;
+
+    /// Lowers each part's squared bound to the distance of q to its farthest corner.
+    void lower_to_corners(const Point& middle, const Point& side, const double* q,
+                          std::array<double, parts>& least) const {
+        std::array<double, parts> far{};
+        for (std::size_t k = 0; k < D; ++k) {
+            const double quarter = side[k] / 4;
+            double squares[2];
+            for (const int upper : {0, 1}) {
+                double d = std::abs(middle[k] + (upper ? quarter : -quarter) - q[k]);
+                if (space_.torus) d = std::min(d, points_.frame().side(k) - d);
+                squares[upper] = (std::abs(d) + quarter) * (std::abs(d) + quarter);
+            }
+            for (std::size_t part = 0; part < parts; ++part) far[part] += squares[part >> k & 1];
+        }
+        for (std::size_t part = 0; part < parts; ++part)
+            least[part] = std::min(least[part], far[part]);
     }
 
     /// The cell's number becomes that of one half.
@@ -419,7 +435,7 @@ class Sieve {
 };
 
 /// What cells and their lists take for a point, as measured in 2-D.
-constexpr double cell_bytes = 3000;
+constexpr double cell_bytes = 5000;
 
 template <std::size_t D>
 PointSet make_in(const Plan& plan, const Values& options, const RunContext& run) {
