@@ -206,9 +206,19 @@ class SortedPoints {
     void visit(const double* p, double radius, Visit&& visit) const {
         const double most = radius * radius;
         frame_.visit(p, radius, [&](std::size_t first, std::size_t last) {
-            for (std::size_t s = starts_[first]; s < starts_[last]; ++s) {
-                const double squared = frame_.squared_distance(p, (*this)[s]);
-                if (squared <= most) visit(s, squared);
+            // Hits are noted before they are visited, since a branch would be guessed wrong often.
+            constexpr std::size_t some = 32;
+            std::array<double, some> squares;
+            std::array<std::size_t, some> hits;
+            for (std::size_t s = starts_[first]; s < starts_[last];) {
+                const std::size_t end = std::min<std::size_t>(starts_[last], s + some);
+                std::size_t found = 0;
+                for (; s < end; ++s) {
+                    squares[found] = frame_.squared_distance(p, (*this)[s]);
+                    hits[found] = s;
+                    found += squares[found] <= most;
+                }
+                for (std::size_t i = 0; i < found; ++i) visit(hits[i], squares[i]);
             }
             return true;
         });
