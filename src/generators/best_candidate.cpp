@@ -14,10 +14,8 @@
 //
 // Shape   d = 1, ..., 6; distances are those in the box of --bounds, across its faces too (torus)
 //         or not.
-// Cost    at c = 1 about 0.1 ms a point in 2-D, hardly growing with their number and with c; in
-// more
-//         dimensions more. All candidates would be n^2 / 2, a million a point after two million
-//         points. Some 5 KB a point.
+// Cost    at c = 1 about 0.1 ms a point in 2-D, growing slowly with their number and with c, and
+//         0.5 ms in 3-D; some 5 KB a point. To make all candidates would be n^2 / 2 searches.
 // Promise the law of the points is exactly that of Mitchell's method with all m candidates made.
 //         Point i does not depend on the number of points.
 // Source  D. P. Mitchell, Comput. Graph. (SIGGRAPH) 25 (1991) 157-164, doi:10.1145/122718.122736.
@@ -199,7 +197,7 @@ class Sieve {
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     static constexpr std::uint32_t most_halvings = 50;
     static constexpr std::uint32_t closed = 0xffff'ffff;
-    static constexpr double eager = 4;
+    static constexpr double eager = 4;  ///< candidates that are to fall into open cells, at least
 
     struct Cell {
         Point low;
