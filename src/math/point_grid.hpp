@@ -26,6 +26,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "core/domain.hpp"
@@ -205,9 +206,19 @@ class SortedPoints {
     void visit(const double* p, double radius, Visit&& visit) const {
         const double most = radius * radius;
         frame_.visit(p, radius, [&](std::size_t first, std::size_t last) {
-            for (std::size_t s = starts_[first]; s < starts_[last]; ++s) {
-                const double squared = frame_.squared_distance(p, (*this)[s]);
-                if (squared <= most) visit(s, squared);
+            // Hits are noted before they are visited, since a branch would be guessed wrong often.
+            constexpr std::size_t some = 32;
+            std::array<double, some> squares;
+            std::array<std::size_t, some> hits;
+            for (std::size_t s = starts_[first]; s < starts_[last];) {
+                const std::size_t end = std::min<std::size_t>(starts_[last], s + some);
+                std::size_t found = 0;
+                for (; s < end; ++s) {
+                    squares[found] = frame_.squared_distance(p, (*this)[s]);
+                    hits[found] = s;
+                    found += squares[found] <= most;
+                }
+                for (std::size_t i = 0; i < found; ++i) visit(hits[i], squares[i]);
             }
             return true;
         });
@@ -227,36 +238,33 @@ class GrowingPoints {
     using Point = typename GridFrame<D>::Point;
 
     GrowingPoints(Box box, bool torus)
-        : box_(std::move(box)), frame_(box_, torus, infinity), heads_(1, none) {}
+        : box_(std::move(box)), frame_(box_, torus, infinity), buckets_(1) {}
 
     [[nodiscard]] const GridFrame<D>& frame() const { return frame_; }
-    [[nodiscard]] std::size_t count() const { return next_.size(); }
+    [[nodiscard]] std::size_t count() const { return rows_.size() / D; }
     [[nodiscard]] const double* operator[](std::size_t i) const { return rows_.data() + i * D; }
     [[nodiscard]] const std::vector<double>& rows() const { return rows_; }
 
     /// Bytes that `points` points take, with room to grow.
-    static double memory(double points) { return points * 2 * (8 * D + 4 + 8); }
+    static double memory(double points) { return points * (16 * D + 1.5 * sizeof(Bucket)); }
 
     void add(const double* p) {
         rows_.insert(rows_.end(), p, p + D);
-        next_.push_back(none);
         if (count() > 2 * filled_at_)
             divide();
         else
             link(count() - 1);
     }
 
-    /// Calls visit(i, distance^2) for every point within the radius of p until a call returns
-    /// false; returns whether none did.
+    /// Calls visit(i, distance^2), or visit(i, distance^2, coordinates), for every point within
+    /// the radius of p until a call returns false; returns whether none did.
     template <class Visit>
     bool visit(const double* p, double radius, Visit&& visit) const {
         const double most = radius * radius;
         return frame_.visit(p, radius, [&](std::size_t first, std::size_t last) {
             for (std::size_t c = first; c < last; ++c)
-                for (std::uint32_t i = heads_[c]; i != none; i = next_[i]) {
-                    const double squared = frame_.squared_distance(p, (*this)[i]);
-                    if (squared <= most && !visit(i, squared)) return false;
-                }
+                for (std::size_t b = c; b != none; b = buckets_[b].next)
+                    if (!visit_bucket(buckets_[b], p, most, visit)) return false;
             return true;
         });
     }
@@ -284,10 +292,42 @@ class GrowingPoints {
     static constexpr std::uint32_t none = 0xffff'ffff;
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
+    /// A few points of a cell, together in memory.
+    struct Bucket {
+        static constexpr std::uint32_t room = 4;
+        std::array<double, room * D> rows{};
+        std::array<std::uint32_t, room> points{};
+        std::uint32_t size = 0;
+        std::uint32_t next = none;  ///< bucket with more points of the cell
+    };
+
+    template <class Visit>
+    bool visit_bucket(const Bucket& bucket, const double* p, double most, Visit& visit) const {
+        for (std::size_t s = 0; s < bucket.size; ++s) {
+            const double* q = bucket.rows.data() + s * D;
+            const double squared = frame_.squared_distance(p, q);
+            if (squared > most) continue;
+            if constexpr (std::is_invocable_v<Visit&, std::size_t, double>) {
+                if (!visit(bucket.points[s], squared)) return false;
+            } else {
+                if (!visit(bucket.points[s], squared, q)) return false;
+            }
+        }
+        return true;
+    }
+
     void link(std::size_t i) {
-        std::uint32_t& head = heads_[frame_.cell_of((*this)[i])];
-        next_[i] = head;
-        head = static_cast<std::uint32_t>(i);
+        std::size_t b = frame_.cell_of((*this)[i]);
+        while (buckets_[b].size == Bucket::room) {
+            if (buckets_[b].next == none) {
+                buckets_[b].next = static_cast<std::uint32_t>(buckets_.size());
+                buckets_.emplace_back();
+            }
+            b = buckets_[b].next;
+        }
+        Bucket& bucket = buckets_[b];
+        bucket.points[bucket.size] = static_cast<std::uint32_t>(i);
+        std::copy_n((*this)[i], D, bucket.rows.data() + bucket.size++ * D);
     }
 
     /// Makes about as many cells as there are points, and deals them out again.
@@ -305,14 +345,13 @@ class GrowingPoints {
         };
         while (cell > 0 && cells_of(cell / 1.125) <= points) cell /= 1.125;
         frame_ = GridFrame<D>(box_, frame_.torus(), cell > 0 ? cell : infinity);
-        heads_.assign(frame_.size(), none);
+        buckets_.assign(frame_.size(), {});
         for (std::size_t i = 0; i < count(); ++i) link(i);
     }
 
     Box box_;
     GridFrame<D> frame_;
-    std::vector<std::uint32_t> heads_;  ///< of each cell: its newest point
-    std::vector<std::uint32_t> next_;   ///< the one before in the same cell
+    std::vector<Bucket> buckets_;  ///< one a cell, then those of crowded cells
     std::vector<double> rows_;
     std::size_t filled_at_ = 0;  ///< number of points when the cells were made
 };

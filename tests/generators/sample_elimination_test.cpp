@@ -289,8 +289,9 @@ TEST(SampleElimination, RefusesWhatCannotBe) {
     EXPECT_EQ(refusal(points(10'000'000, 2), {}).substr(0, 6), "limit:");
     const PointsText flat(points_of({{1, 1}, {1, 2}, {1, 3}}), "flat");
     EXPECT_EQ(refusal({}, {{"from", flat.path()}}),
-              "input: the points of FILE lie in a box of no volume | --measure, with "
-              "--manifold-dimension, tells what they are on");
+              "input: the points of " + flat.path() +
+                  " lie in a box of no volume | --measure, with --manifold-dimension, tells what "
+                  "they are on");
     EXPECT_EQ(refusal({.count = 2},
                       {{"from", flat.path()}, {"manifold-dimension", "1"}, {"measure", "2"}}),
               "");

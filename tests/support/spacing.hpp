@@ -41,14 +41,9 @@ inline std::vector<Space> some_spaces() {
 }
 
 /// Points of a generator in that space.
-inline PointSet make_in(const std::string& generator, const Space& space,
-                        std::optional<std::uint64_t> count, Settings settings = {},
-                        std::uint64_t seed = 1) {
-    if (!space.torus) settings.emplace_back("bounded", "true");
-    Request request{.count = count, .dimension = space.box.dimension()};
-    request.bounds = space.box;
-    return make(generator, request, settings, {.seed = seed});
-}
+PointSet make_in(const std::string& generator, const Space& space,
+                 std::optional<std::uint64_t> count, const Settings& settings = {},
+                 std::uint64_t seed = 1);
 
 /// Oracle: the distance as a user would work it out.
 inline double distance(std::span<const double> p, std::span<const double> q, const Space& space) {
