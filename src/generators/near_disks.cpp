@@ -40,6 +40,23 @@ template <std::size_t D, class Real>
     }
 }
 
+/// Floats are used for windows of some size alone, so that no disk is millions of parts off.
+[[gnu::always_inline]] inline float within_int(float x) { return x; }
+[[gnu::always_inline]] inline double within_int(double x) { return std::clamp(x, -1e9, 1e9); }
+
+/// The first end of a part at x or beyond, in 0 ... parts; the last one at x or before.
+template <std::size_t D, class Real>
+[[gnu::always_inline]] inline std::int32_t next_end(Real x) {
+    const auto whole = static_cast<std::int32_t>(within_int(x));
+    const std::int32_t up = whole + (static_cast<Real>(whole) < x ? 1 : 0);
+    return std::clamp(up, 0, static_cast<std::int32_t>(parts<D>));
+}
+template <std::size_t D, class Real>
+[[gnu::always_inline]] inline std::int32_t last_end(Real x) {
+    const auto whole = static_cast<std::int32_t>(within_int(x));
+    return std::clamp(whole, 0, static_cast<std::int32_t>(parts<D>));
+}
+
 template <std::size_t D, class Real>
 [[gnu::always_inline]] inline void choose(const NearDisks<D, Real>& near,
                                           const Raster<D, Real>& window, Real slack,
@@ -50,7 +67,7 @@ template <std::size_t D, class Real>
         half[k] = window.part[k] * (Real{parts<D>} / 2);
         middle[k] = window.corner[k] + half[k];
     }
-    reaching.start_over(near.size());
+    reaching.start_over(near);
     for (std::size_t i = 0; i < near.size(); i += lanes) {
         std::int32_t chosen[lanes];
         for (std::size_t l = 0; l < lanes; ++l) {
@@ -73,7 +90,6 @@ template <std::size_t D, class Real>
                                                       NearDisks<D, Real>& reaching,
                                                       OpenParts<D>& open) {
     choose<D, Real>(near, window, slack, reaching);
-    constexpr auto all = static_cast<Real>(parts<D>);
     const Real scale = 1 / window.part[0];
     std::uint8_t any = 0;
     for (std::size_t first = 0; first < lines<D>; first += lanes) {
@@ -90,12 +106,9 @@ template <std::size_t D, class Real>
                     left -= y * y;
                 }
                 const Real half = std::sqrt(std::max(left, Real{0})) * scale;
-                const Real from = std::min(std::max(at - half, Real{0}), all);
-                const Real to = std::min(std::max(at + half, Real{0}), all);
-                const auto down = static_cast<std::int32_t>(from);
-                const std::int32_t begin = down + (static_cast<Real>(down) < from ? 1 : 0);
-                const auto end = static_cast<std::int32_t>(to);
-                covered[l] |= (1 << (end > begin ? end : begin)) - (1 << begin);
+                const std::int32_t begin = next_end<D>(at - half);
+                const std::int32_t end = last_end<D>(at + half);
+                covered[l] |= (1 << std::max(begin, end)) - (1 << begin);
             }
         }
         for (std::size_t l = 0; l < lanes; ++l) {

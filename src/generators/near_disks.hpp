@@ -18,6 +18,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace stipple {
@@ -48,7 +50,7 @@ class NearDisks {
     void clear() { size_ = 0; }
 
     void add(const std::array<Real, D>& center) {
-        if (size_ + lanes >= room_) grow();
+        if constexpr (!bounded) make_room(size_ + lanes + 1);
         for (std::size_t k = 0; k < D; ++k) at_[k * room_ + size_] = center[k];
         ++size_;
     }
@@ -60,11 +62,10 @@ class NearDisks {
                         Real{1e9});
     }
 
-    [[nodiscard]] std::size_t size() const { return size_; }
-
-    /// Makes these the disks of `all` that are chosen: eight at a time, from the i-th on.
-    void start_over(std::size_t most) {
-        while (most + lanes >= room_) grow();
+    /// Makes these the disks of `all` that are chosen: start_over(), take() for each eight,
+    /// close().
+    void start_over(const NearDisks& all) {
+        if constexpr (!bounded) make_room(all.size() + 2 * lanes);
         size_ = 0;
     }
     [[gnu::always_inline]] void take(const NearDisks& all, std::size_t i,
@@ -74,20 +75,38 @@ class NearDisks {
             size_ += static_cast<std::size_t>(chosen[l]);
         }
     }
+
+    [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] const Real* along(std::size_t k) const { return at_.data() + k * room_; }
 
   private:
-    void grow() {
-        std::vector<Real> more(2 * at_.size());
-        for (std::size_t k = 0; k < D; ++k)
-            std::copy_n(along(k), size_, more.begin() + static_cast<std::ptrdiff_t>(2 * k * room_));
-        at_ = std::move(more);
-        room_ *= 2;
+    /// There are no more disks about a cell than cells about it, 7^D; for larger D mostly far
+    /// fewer.
+    static constexpr bool bounded = D <= 3;
+    static constexpr std::size_t first_room = bounded ? power(7, D) + 2 * lanes : 128;
+
+    void make_room(std::size_t size) {
+        while (size > room_) {
+            std::vector<Real> more(2 * at_.size());
+            for (std::size_t k = 0; k < D; ++k)
+                std::copy_n(along(k), size_,
+                            more.begin() + static_cast<std::ptrdiff_t>(2 * k * room_));
+            at_ = std::move(more);
+            room_ *= 2;
+        }
+    }
+
+    using Store = std::conditional_t<bounded, std::array<Real, D * first_room>, std::vector<Real>>;
+    static Store first_store() {
+        if constexpr (bounded)
+            return {};
+        else
+            return Store(D * first_room);
     }
 
     std::size_t size_ = 0;
-    std::size_t room_ = 64;
-    std::vector<Real> at_ = std::vector<Real>(64 * D);
+    std::conditional_t<bounded, const std::size_t, std::size_t> room_ = first_room;
+    Store at_ = first_store();
 };
 
 enum class Hit : std::uint8_t { no, yes, unsure };
