@@ -163,8 +163,12 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return results;
 }
 
-/// A mean of places or pairs is none.
-void refine(Report& mean, std::size_t sets, const Values&) {
+/// A mean of places or pairs is none. It is valid where all sets are.
+void refine(Report& mean, std::size_t sets, const Values& options) {
+    const auto* item = mean.find("valid");
+    const bool* valid = item ? std::get_if<bool>(item) : nullptr;
+    if (options.given(expect) && !(valid && *valid))
+        mean.unmet(fmt::format("of {} sets, not all are maximal Poisson-disk sets", sets));
     if (sets > 1)
         std::erase_if(mean.entries(), [](const auto& entry) {
             return entry.name == "center" || entry.name == "first_conflict";
