@@ -31,17 +31,15 @@
 //         H. B. Mann, A. Wald, Annals of Mathematical Statistics 13 (1942) 306-317,
 //         doi:10.1214/aoms/1177731569 (number of cells).
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/non_central_chi_squared.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
-#include <limits>
 #include <mutex>
 
 #include "analyzers/analyzer.hpp"
+#include "analyzers/outside.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
@@ -137,20 +135,12 @@ std::uint64_t cell_count(const Grid& grid) {
     return product;
 }
 
-/// Points that the domain does not contain.
-struct Outside {
-    std::uint64_t count = 0;
-    std::uint64_t first = std::numeric_limits<std::uint64_t>::max();
-};
-
-[[noreturn]] void refuse(const Outside& outside, const PointSet& points) {
-    const std::string domain = points.domain->spec();
+/// What helps where points are outside the domain.
+std::string hint_for(const Domain& domain) {
     std::string hint = "--domain names what the points live on";
-    if (domain == "unit-cube") hint += "; --rescale or --bounds lo..hi moves them into the cube";
-    fail_with_hint(ErrorKind::input, std::move(hint),
-                   "{} of {} points are outside the domain {}; the first is point {}: ({})",
-                   outside.count, points.count(), domain, outside.first,
-                   fmt::join(points[outside.first], ", "));
+    if (domain.spec() == "unit-cube")
+        hint += "; --rescale or --bounds lo..hi moves them into the cube";
+    return hint;
 }
 
 /// The cell of a point of the cube; `grid` has as many axes.
@@ -187,10 +177,9 @@ std::vector<std::uint64_t> count_points(const PointSet& points, const Grid& grid
         }
         const std::lock_guard lock(adding);
         for (const std::size_t cell : found) ++counts[cell];
-        outside.count += lost.count;
-        outside.first = std::min(outside.first, lost.first);
+        outside.add(lost);
     });
-    if (outside.count > 0) refuse(outside, points);
+    if (outside.count > 0) refuse(outside, points, hint_for(*points.domain));
     return counts;
 }
 

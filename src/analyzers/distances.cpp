@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "analyzers/distances.hpp"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <limits>
 
+#include "analyzers/outside.hpp"
 #include "core/error.hpp"
 
 namespace stipple::analyzers {
 namespace {
-
-/// Points that the domain does not contain.
-struct Outside {
-    std::size_t count = 0;
-    std::size_t first = 0;
-};
 
 Outside outside_of(const PointSet& points) {
     Outside outside;
@@ -25,13 +18,6 @@ Outside outside_of(const PointSet& points) {
         outside.first = i;
     }
     return outside;
-}
-
-[[noreturn]] void refuse(const PointSet& points, const Outside& outside, const char* hint) {
-    fail_with_hint(ErrorKind::input, hint,
-                   "{} of {} points are outside the domain {}; the first is point {}: ({})",
-                   outside.count, points.count(), points.domain->spec(), outside.first,
-                   fmt::join(points[outside.first], ", "));
 }
 
 /// The domain as the box that it is.
@@ -62,7 +48,7 @@ Distances distances_of(const PointSet& points, const std::string& asked) {
     const Outside outside = outside_of(points);
     if (outside.count == 0) return distances;
     if (distances.torus)
-        refuse(points, outside,
+        refuse(outside, points,
                "--domain names what the points live on; --metric euclidean takes points anywhere");
     distances.box.reset();
     return distances;
@@ -72,7 +58,7 @@ Distances distances_in_box(const PointSet& points, const std::string& asked, con
     const Distances distances = distances_of(points, asked);
     if (distances.box) return distances;
     if (box_of(*points.domain))
-        refuse(points, outside_of(points), "--domain 'box:bounds=[lo..hi,...]' names another box");
+        refuse(outside_of(points), points, "--domain 'box:bounds=[lo..hi,...]' names another box");
     fail(ErrorKind::input, "{} takes points of the unit cube or a box; these live on {}", analyzer,
          points.domain->spec());
 }

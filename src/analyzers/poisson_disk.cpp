@@ -163,8 +163,12 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return results;
 }
 
-/// A mean of places or pairs is none.
-void refine(Report& mean, std::size_t sets, const Values&) {
+/// A mean of places or pairs is none. It is valid where all sets are.
+void refine(Report& mean, std::size_t sets, const Values& options) {
+    const auto* item = mean.find("valid");
+    const bool* valid = item ? std::get_if<bool>(item) : nullptr;
+    if (options.given(expect) && !(valid && *valid))
+        mean.unmet(fmt::format("of {} sets, not all are maximal Poisson-disk sets", sets));
     if (sets > 1)
         std::erase_if(mean.entries(), [](const auto& entry) {
             return entry.name == "center" || entry.name == "first_conflict";
@@ -177,7 +181,7 @@ Analyzer poisson_disk() {
     return {.name = "poisson-disk",
             .summary = "Verifies that a set is a maximal Poisson-disk set of a radius",
             .source = "Ebeida et al. 2012, doi:10.1111/j.1467-8659.2012.03059.x",
-            .traits = {.max_dimension = 32, .unit_cube = false},
+            .traits = {.max_dimension = 32, .unit_cube = false, .boxed = true},
             .options = Schema(radius, metric, tolerance, expect),
             .results = {{"radius", "that was verified"},
                         {"minimum", "the smallest distance of two points"},

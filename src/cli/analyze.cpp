@@ -54,6 +54,22 @@ PointSet prepared(PointSet points, const Arguments& arguments) {
     return points;
 }
 
+bool tells(const Analyzer& analyzer, std::string_view key) {
+    return std::ranges::any_of(analyzer.results, [&](const auto& r) { return r.key == key; });
+}
+
+/// A condition; --check alone asks whether the set is valid.
+Check check_of(const std::string& text, const Analyzer& analyzer) {
+    if (text != bare_check) return parse_check(text);
+    if (tells(analyzer, "valid")) return {.key = "valid", .op = "==", .value = "true"};
+    std::vector<std::string> keys;
+    for (const ResultKey& result : analyzer.results) keys.push_back(result.key);
+    fail_with_hint(ErrorKind::usage, "its results are " + join(keys, ", "),
+                   "--check: {} does not tell whether a set is valid; expected KEY<VALUE, with <, "
+                   "<=, >, >=, == or !=",
+                   analyzer.name);
+}
+
 enum class Style { text, json, csv };
 
 Style style_of(const Arguments& arguments, const std::string& path) {
@@ -78,7 +94,8 @@ class Analysis {
           path_(arguments.get("output").value_or("-")),
           style_(style_of(arguments, path_)),
           averaged_(arguments.has("average")) {
-        for (const auto& text : arguments.all("check")) checks_.push_back(parse_check(text));
+        for (const auto& text : arguments.all("check"))
+            checks_.push_back(check_of(text, analyzer_));
         for (const Option& option : analyzer_.options.options()) {
             const auto& item = options_.find(option.name);
             if (!option.optional || item.given)
@@ -147,7 +164,7 @@ class Analysis {
         m.sets = average_.count();
         m.results = average_.mean();
         if (analyzer_.refine) analyzer_.refine(m.results, average_.count(), options_);
-        if (average_.count() > 1) m.standard_error = average_.standard_error();
+        if (average_.count() > 1) m.standard_error = only_of(m.results, average_.standard_error());
         if (different_)
             session_.warn("the sets that were averaged differ in their number of points");
         save_grid(m.results, 0, false);
@@ -172,13 +189,19 @@ class Analysis {
         }
     }
 
+    /// What averaged sets disagree on is not in their mean, and holds for none of it.
+    bool holds(const Check& check, const Report& results) const {
+        const bool lost = averaged_ && !results.find(check.key) && tells(analyzer_, check.key);
+        return !lost && check.holds(results);
+    }
+
     /// Whether all checks and expectations hold; says which do not.
     bool verdict() {
         for (const Measurement& m : measurements_) {
-            const auto& unmet = m.results.unmet();
-            unmet_.insert(unmet_.end(), unmet.begin(), unmet.end());
+            for (const auto& sentence : m.results.unmet())
+                unmet_.push_back(fmt::format("{}: {}", m.source, sentence));
             for (const Check& check : checks_)
-                if (!check.holds(m.results))
+                if (!holds(check, m.results))
                     unmet_.push_back(fmt::format("{}: {}{}{} does not hold", m.source, check.key,
                                                  check.op, check.value));
         }

@@ -71,6 +71,18 @@ void split_coordinates(std::vector<std::string>& words, const Kind& kind) {
     }
 }
 
+/// `--check` before what is no condition, such as a file, gets none.
+void complete_checks(std::vector<std::string>& words) {
+    const auto condition = [](const std::string& word) {
+        return !word.starts_with('-') && word.find_first_of("<>=") != std::string::npos;
+    };
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (words[i] != "--check") continue;
+        if (i + 1 < words.size() && condition(words[i + 1])) continue;
+        words[i] += "=" + std::string(bare_check);
+    }
+}
+
 /// The parser of one verb's words: CLI11 splits them up, and what is typed is kept as text. Only
 /// the unit that the words name is a subcommand, so that a file may be called like another.
 class Parser {
@@ -221,7 +233,8 @@ const std::vector<VerbInfo>& verbs() {
          "  stipple generate halton -n 1000 | stipple analyze star-discrepancy\n"
          "  stipple analyze chi-square disk.csv --domain disk --expect uniform\n"
          "  stipple analyze star-discrepancy a.csv b.csv --format csv\n"
-         "  stipple analyze star-discrepancy a.csv --check 'value<0.01'\n"},
+         "  stipple analyze star-discrepancy a.csv --check 'value<0.01'\n"
+         "  stipple analyze poisson-disk --radius 0.02 --check points.csv\n"},
         {Verb::convert, "convert", "stipple convert INPUT -o OUTPUT [OPTIONS]",
          "from one file format to another",
          "The formats are those of the names' extensions, or --from and --format. Every double "
@@ -267,8 +280,8 @@ const std::vector<CommonOption>& common_options() {
         {"--rescale", "", "", "map the bounding box of the points to the unit cube before",
          analyze},
         {"--average", "", "", "one result: the mean over all sets, with standard errors", analyze},
-        {"--check", "KEY<VALUE", "", "exit with 1 unless it holds; also <= > >= == !=", analyze,
-         true},
+        {"--check", "[KEY<VALUE]", "",
+         "exit with 1 unless it holds; also <= > >= == !=; alone: valid==true", analyze, true},
         {"--column", "X,Y,...", "", "columns to read, by name or number (from 1)", readers},
         {"--from", "FORMAT", "", "format of the input; else from its extension or first bytes",
          readers},
@@ -339,6 +352,7 @@ Arguments parse_arguments(int argc, const char* const* argv, const std::vector<K
     words.erase(words.begin());
     const auto kind = units_for(kinds, verb->name);
     if (verb->verb == Verb::warp) split_coordinates(words, *kind);
+    if (verb->verb == Verb::analyze) complete_checks(words);
     return Parser(*verb, kind ? &*kind : nullptr, words).parse(words);
 }
 

@@ -41,6 +41,9 @@ const std::vector<CommonOption>& common_options();
 /// A unit's options less those that the verb takes for all units.
 std::vector<Option> own_options(Verb verb, const UnitInfo& unit);
 
+/// What `--check` without a condition stands for.
+inline constexpr std::string_view bare_check = "valid";
+
 /// What was typed.
 struct Arguments {
     std::optional<Verb> verb;

@@ -80,9 +80,12 @@ UnitInfo info(const Analyzer& unit) {
     UnitInfo out = base_info(unit);
     out.traits = {{"min_dimension", t.min_dimension},
                   {"max_dimension", t.max_dimension},
-                  {"unit_cube", t.unit_cube}};
+                  {"unit_cube", t.unit_cube},
+                  {"boxed", t.boxed}};
     out.remarks = {dimensions(t.min_dimension, t.max_dimension),
-                   t.unit_cube ? "takes points of the closed unit cube" : "takes any domain"};
+                   t.unit_cube ? "takes points of the closed unit cube"
+                   : t.boxed   ? "takes points of the unit cube or a box"
+                               : "takes any domain"};
     for (const auto& [key, help] : unit.results) out.results.emplace_back(key, help);
     return out;
 }

@@ -85,16 +85,17 @@ std::string shell_word(const std::string& word) {
 }
 
 /// The command that makes these bytes: what was typed, less what cannot change them.
-std::string command_of(const Arguments& arguments, const Schema& schema, const Target& target,
+std::string command_of(const Arguments& arguments, const Generator& generator, const Target& target,
                        std::uint64_t seed) {
+    const auto& options = generator.options.options();
     std::vector<std::string> words = {"stipple", "generate", arguments.unit};
     const auto type = [&words](const std::string& name, const std::string& text, bool flag) {
         words.push_back("--" + name);
         if (!flag) words.push_back(shell_word(text));
     };
     for (const auto& [name, text] : arguments.settings) {
-        const auto option = std::ranges::find(schema.options(), name, &Option::name);
-        type(name, text, option->type == "flag");
+        if (std::ranges::find(generator.writes, name) != generator.writes.end()) continue;
+        type(name, text, std::ranges::find(options, name, &Option::name)->type == "flag");
     }
     const std::vector<std::string> silent = {"output",     "format", "threads", "quiet",
                                              "max-memory", "seed",   "progress"};
@@ -173,7 +174,7 @@ int generate(const Arguments& arguments, Session& session) {
         job.request.bounds = parse_box(*bounds, plan.dimension);
     }
     const Target target = target_of(arguments);
-    job.command = command_of(arguments, job.generator->options, target, job.request.seed);
+    job.command = command_of(arguments, *job.generator, target, job.request.seed);
     produce(job, target, session.run());
     return 0;
 }

@@ -70,6 +70,7 @@ struct Generator {
     GeneratorTraits traits;
     Schema options;
     std::vector<std::string> aliases = {};  ///< other names that users of the field would type
+    std::vector<std::string> writes = {};   ///< options that name a side file (core/point_set.hpp)
 
     /// Decides count and dimension. Empty: 1024 points, 2 dimensions unless asked otherwise.
     /// @throws Error(usage) for counts and dimensions it cannot make, naming what it can.

@@ -180,6 +180,7 @@ Generator void_and_cluster() {
             .traits = {.min_dimension = 2, .max_dimension = 2, .sequence = false, .prefix = false},
             .options = Schema(size, cell, density, invert, mask_image),
             .aliases = {"dither"},
+            .writes = {std::string(mask_image.name)},
             .plan = plan,
             .set = make};
 }

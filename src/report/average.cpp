@@ -73,10 +73,12 @@ bool merge(Item& mean, Item& squares, const Item& item, double k) {
     return true;
 }
 
-/// The report with every number replaced by f(number); words and flags stay.
+/// The report with every number replaced by f(number); words and flags stay. What the report did
+/// not meet is its own.
 template <class F>
 Report mapped(const Report& report, const F& f) {
-    Report out = report;
+    Report out;
+    out.entries() = report.entries();
     for (auto& entry : out.entries()) {
         if (auto* group = std::get_if<Report>(&entry.value)) {
             entry.value = mapped(*group, f);
@@ -117,6 +119,21 @@ Report ReportAverage::standard_error() const {
     const auto k = static_cast<double>(count_);
     return numbers_only(
         mapped(squares_, [k](double sum) { return std::sqrt(sum / (k * (k - 1))); }));
+}
+
+Report only_of(const Report& mean, const Report& errors) {
+    Report out;
+    for (const auto& entry : errors.entries()) {
+        const Item* item = mean.find(entry.name);
+        if (item == nullptr) continue;
+        const auto* group = std::get_if<Report>(&entry.value);
+        const auto* means = std::get_if<Report>(item);
+        if (group && means)
+            out.add(entry.name, only_of(*means, *group));
+        else
+            out.entries().push_back(entry);
+    }
+    return out;
 }
 
 }  // namespace stipple

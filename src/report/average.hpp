@@ -6,8 +6,10 @@
 //     (k - 1)))
 //
 // Numbers, curves and grids are averaged; a word or a flag stays where all reports agree on it;
-// what they disagree on (or lists of different lengths) is left out. Source  B. P. Welford,
-// Technometrics 4 (1962) 419-420, doi:10.1080/00401706.1962.10490022.
+// what they disagree on (or lists of different lengths) is left out. Whether the mean meets what
+// was expected, the analyzer's `refine` decides.
+//
+// Source  B. P. Welford, Technometrics 4 (1962) 419-420, doi:10.1080/00401706.1962.10490022.
 #pragma once
 
 #include <cstddef>
@@ -31,5 +33,8 @@ class ReportAverage {
     Report mean_;
     Report squares_;  ///< sums of squared deviations from the mean
 };
+
+/// The standard errors of what `mean` has: an analyzer may take out of it what has no mean.
+Report only_of(const Report& mean, const Report& errors);
 
 }  // namespace stipple

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <list>
 #include <memory>
 #include <mutex>
 
@@ -176,8 +177,8 @@ Layout layout_of(const Shipment& shipment, std::size_t first, std::size_t last,
 }
 
 /// One file with sets [first, last) of the shipment.
-bool ship_file(const Shipment& shipment, std::size_t first, std::size_t last,
-               const std::string& path, const Target& target, const RunContext& run) {
+bool ship_points(const Shipment& shipment, std::size_t first, std::size_t last,
+                 const std::string& path, const Target& target, const RunContext& run) {
     const Format& format = *target.format;
     const Layout layout = layout_of(shipment, first, last, target);
     check_format(format, layout);
@@ -204,19 +205,44 @@ bool ship_file(const Shipment& shipment, std::size_t first, std::size_t last,
     return true;
 }
 
+/// What comes with sets [first, last), written but not yet in its place.
+std::list<io::Output> side_files(const Shipment& shipment, std::size_t first, std::size_t last,
+                                 const RunContext& run) {
+    std::list<io::Output> outputs;
+    for (std::size_t set = first; set < last && shipment.side_files; ++set)
+        for (const SideFile& file : shipment.side_files(set))
+            outputs.emplace_back(file.path, run.stop).write(file.bytes);
+    return outputs;
+}
+
+/// The points and what comes with them: all of it or, when it fails, nothing. Who closes the pipe
+/// has seen enough of the points, but did not say so of the other files.
+bool ship_file(const Shipment& shipment, std::size_t first, std::size_t last,
+               const std::string& path, const Target& target, const RunContext& run) {
+    auto beside = side_files(shipment, first, last, run);
+    const bool whole = ship_points(shipment, first, last, path, target, run);
+    for (io::Output& file : beside) file.commit();
+    return whole;
+}
+
 }  // namespace
 
 bool file_per_set(const std::string& path) {
     return path.find("{set}") != std::string::npos || path.find("{seed}") != std::string::npos;
 }
 
+std::string path_of_set(std::string path, std::size_t set, std::uint64_t seed) {
+    replace_all(path, "{set}", std::to_string(set));
+    replace_all(path, "{seed}", std::to_string(seed));
+    return path;
+}
+
 bool ship(const Shipment& shipment, const Target& target, const RunContext& run) {
     if (!file_per_set(target.path))
         return ship_file(shipment, 0, shipment.sets, target.path, target, run);
     for (std::size_t set = 0; set < shipment.sets; ++set) {
-        std::string path = target.path;
-        replace_all(path, "{set}", std::to_string(shipment.first_set + set));
-        replace_all(path, "{seed}", std::to_string(shipment.provenance(set).seed));
+        const std::string path =
+            path_of_set(target.path, shipment.first_set + set, shipment.provenance(set).seed);
         if (!ship_file(shipment, set, set + 1, path, target, run)) return false;
     }
     return true;

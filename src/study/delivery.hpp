@@ -41,6 +41,8 @@ struct Shipment {
     std::function<Source(std::size_t set, const RunContext&)> source;
     std::function<Provenance(std::size_t set)> provenance;
     std::function<Box(std::size_t set)> extent;  ///< what a picture of the set shows
+    /// Files that come with the set, under their final names; empty: none.
+    std::function<const std::vector<SideFile>&(std::size_t set)> side_files = {};
     std::vector<std::uint64_t> counts;
     std::size_t dimension = 0;  ///< numbers of a row that is written, less the density
     Route route;
@@ -49,7 +51,11 @@ struct Shipment {
 /// Whether the path holds {set} or {seed}.
 bool file_per_set(const std::string& path);
 
-/// Writes the sets to the target's file or files. False: the pipe was closed.
+/// The path with {set} and {seed} filled in.
+std::string path_of_set(std::string path, std::size_t set, std::uint64_t seed);
+
+/// Writes the sets to the target's file or files, and what comes with them. False: the pipe was
+/// closed.
 /// @throws Error
 bool ship(const Shipment& shipment, const Target& target, const RunContext& run);
 

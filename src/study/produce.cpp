@@ -56,32 +56,48 @@ PointSet image_of(const PointSet& points, const WarpChain& chain, bool inverse, 
     return image;
 }
 
+/// What a file of several sets tells of them: the first one's provenance, less the options that
+/// are not the same for all, such as a radius that was worked out for each.
+Provenance common_provenance(const std::vector<PointSet>& sets) {
+    Provenance common = sets.front().provenance;
+    std::erase_if(common.options, [&](const auto& option) {
+        return std::ranges::any_of(sets, [&](const PointSet& set) {
+            const auto& options = set.provenance.options;
+            return std::ranges::find(options, option) == options.end();
+        });
+    });
+    return common;
+}
+
 /// Writes sets as they are; `chain` is what gave them, for their density.
 void ship_images(const std::vector<PointSet>& images, const WarpChain& chain, std::size_t first_set,
                  std::size_t all_sets, const Target& target, const RunContext& run) {
     const std::size_t d = images.front().dimension();
+    const bool together = !file_per_set(target.path);
+    const Provenance common = common_provenance(images);
     Shipment shipment{
         .sets = images.size(),
         .first_set = first_set,
         .all_sets = all_sets,
         .source = [&](std::size_t set, const RunContext&) { return source_of(images[set]); },
-        .provenance = [&](std::size_t set) { return images[set].provenance; },
+        .provenance = [&](std::size_t set) { return together ? common : images[set].provenance; },
         .extent =
             [&](std::size_t set) {
                 return bounding_box(images[set].flat(), images[set].domain->bounding_box());
             },
-        .counts = {},
-        .dimension = d,
-        .route = {}};
-    for (const PointSet& set : images) shipment.counts.push_back(set.count());
-    PointSet wide;
-    if (target.with_pdf)
-        shipment.source = [&](std::size_t set, const RunContext&) {
-            wide = PointSet(with_density(images[set].flat(), chain), d + 1);
-            return source_of(wide);
-        };
-    ship(shipment, target, run);
+        .side_files = [&](std::size_t set) -> const auto& {return images[set].side_files;
 }
+, .counts = {}, .dimension = d, .route = {}
+};  // namespace
+for (const PointSet& set : images) shipment.counts.push_back(set.count());
+PointSet wide;
+if (target.with_pdf)
+    shipment.source = [&](std::size_t set, const RunContext&) {
+        wide = PointSet(with_density(images[set].flat(), chain), d + 1);
+        return source_of(wide);
+    };
+ship(shipment, target, run);
+}  // namespace stipple
 
 /// Writes down that the set went through a warp.
 void record_warp(PointSet& set, std::string warp) {
@@ -141,7 +157,23 @@ class Producer {
         if (job_.sets > 1 && !uses_seed(generator_, job_.options) && !chain_->seeded())
             run_.tell(fmt::format("{} does not use the seed: all {} sets are the same",
                                   generator_.name, job_.sets));
+        check_side_files();
         if (job_.shard.index == 0) tell_notes(generator_, job_.request, job_.options, run_);
+    }
+
+    /// Side files must not replace each other, nor the points.
+    void check_side_files() const {
+        for (const std::string& option : generator_.writes) {
+            const auto& item = job_.options.find(option);
+            if (!item.given) continue;
+            const auto& path = std::get<std::string>(item.value);
+            if (job_.sets > 1 && !file_per_set(path))
+                fail(ErrorKind::usage, "--{}: {} sets need a name with {{set}} or {{seed}}", option,
+                     job_.sets);
+            if (path_of_set(path, 0, plan_.seed) == path_of_set(target_.path, 0, plan_.seed))
+                fail(ErrorKind::usage, "--{}: '{}' is where the points go; name another file",
+                     option, path);
+        }
     }
 
     /// The warps with the random choices of one set.
@@ -211,6 +243,9 @@ class Producer {
         request.seed += set;
         PointSet points = make_points(generator_, request, job_.options, part_of_run);
         auto options = std::move(points.provenance.options);
+        auto side_files = std::move(points.side_files);
+        for (SideFile& file : side_files)
+            file.path = path_of_set(std::move(file.path), set, plan_.seed + set);
         if (bounds_) scale_into(*bounds_, points.flat());
         if (!chain_->empty())
             points = image_of(points, *chain_for(set), false, job_.request.start, run_);
@@ -223,6 +258,7 @@ class Producer {
         points.domain = domain();
         points.provenance = provenance(set, points.count());
         if (!options.empty()) points.provenance.options = std::move(options);
+        points.side_files = std::move(side_files);
         return points;
     }
 

@@ -220,3 +220,43 @@ TEST(Analyze, AveragesSetsOfDifferentSizesWhereThatMeansSomething) {
         EXPECT_THAT(outcome.err, HasSubstr("differ in their number of points")) << more[0];
     }
 }
+
+TEST(Analyze, WhatHasNoMeanHasNoStandardError) {
+    const Sandbox box;
+    good(box.run({"generate", "random", "-n", "50", "-m", "3", "-o", "p.csv"}));
+    for (const auto& [analyzer, gone] :
+         {std::pair<std::string, std::vector<std::string>>{"nearest-neighbor", {"pair"}},
+          {"coverage", {"center"}},
+          {"poisson-disk", {"center", "first_conflict"}}}) {
+        const auto mean = report_of(box.run({"analyze", analyzer, "p.csv", "--average"}));
+        EXPECT_FALSE(mean["standard_error"].empty()) << analyzer;
+        for (const auto& [key, error] : mean["standard_error"].items())
+            EXPECT_TRUE(mean["results"].contains(key)) << analyzer << ' ' << key;
+        for (const std::string& key : gone)
+            EXPECT_FALSE(mean["standard_error"].contains(key)) << analyzer << ' ' << key;
+    }
+}
+
+// Each set of three has a radius of its own; a radius that the user gave is that of all.
+TEST(Analyze, VerifiesEverySetOfAFileByItsOwnRadius) {
+    const Sandbox box;
+    for (const std::string name : {"p.json", "p.jsonl", "p.csv", "p.txt"}) {
+        const auto conflicts = [&](const std::vector<std::string>& more) {
+            std::vector<std::string> words = {"generate", "poisson-disk", "-m",    "3",
+                                              "-o",       name,           "--meta"};
+            words.insert(words.end(), more.begin(), more.end());
+            good(box.run(words));
+            std::vector<std::string> found;
+            for (const auto& one : report_of(box.run({"analyze", "poisson-disk", name})))
+                found.push_back(one["results"]["conflicts"].dump() + " of " +
+                                one["results"]["radius"].dump());
+            return found;
+        };
+        const auto own = conflicts({"-n", "100"});
+        ASSERT_EQ(own.size(), 3U) << name;
+        for (const std::string& one : own) EXPECT_TRUE(one.starts_with("0 of 0.0")) << name << one;
+        EXPECT_NE(own[0], own[1]) << name;
+        EXPECT_EQ(conflicts({"--radius", "0.07"}), std::vector<std::string>(3, "0 of 0.07"))
+            << name;
+    }
+}

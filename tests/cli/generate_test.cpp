@@ -212,6 +212,25 @@ TEST(Generate, PoissonDiskPutsItsRadiusIntoTheProvenance) {
     EXPECT_GT(out["meta"]["options"]["radius"].get<double>(), 0.04);
 }
 
+// What is written of several sets is true of all: their seeds follow the first one's, and no radius
+// is theirs but one that was asked for.
+TEST(Generate, TellsOfSeveralSetsWhatIsTrueOfAll) {
+    const Sandbox box;
+    const auto options = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> words = {"generate", "poisson-disk", "-f",
+                                          "json",     "--order",      "progressive"};
+        words.insert(words.end(), more.begin(), more.end());
+        return json::parse(good(box.run(words)))["meta"]["options"];
+    };
+    const auto several = options({"-n", "50", "-m", "3"});
+    EXPECT_FALSE(several.contains("radius"));
+    EXPECT_EQ(several["order"], "progressive");
+    EXPECT_EQ(options({"--radius", "0.1", "-m", "3"})["radius"], 0.1);
+    good(box.run({"generate", "poisson-disk", "-n", "50", "-m", "2", "-o", "p{set}.json"}));
+    for (const char* name : {"p0.json", "p1.json"})
+        EXPECT_TRUE(json::parse(box.read(name))["meta"]["options"].contains("radius")) << name;
+}
+
 TEST(Generate, AClosedPipeIsNoError) {
     const Sandbox box;
     const Outcome outcome = box.shell("stipple generate random -n 1e9 -f bin | head -c 16 | wc -c");

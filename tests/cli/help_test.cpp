@@ -106,3 +106,20 @@ TEST(List, SaysThatLegacyGeneratorsAreSequential) {
     const Sandbox box;
     EXPECT_THAT(box.run({"list", "generators"}).out, HasSubstr("sequential"));
 }
+
+TEST(Help, SaysWhatDomainsAnAnalyzerTakes) {
+    const Sandbox box;
+    for (const auto& [unit, domains] :
+         {std::pair{"star-discrepancy", "takes points of the closed unit cube"},
+          {"coverage", "takes points of the unit cube or a box"},
+          {"poisson-disk", "takes points of the unit cube or a box"},
+          {"nearest-neighbor", "takes any domain"}}) {
+        EXPECT_THAT(box.run({"analyze", unit, "--help"}).out, HasSubstr(domains)) << unit;
+        EXPECT_THAT(box.run({"list", "analyzers"}).out, HasSubstr(domains)) << unit;
+    }
+    const auto all = nlohmann::json::parse(box.run({"list", "--json"}).out);
+    for (const auto& unit : all["analyzers"])
+        EXPECT_EQ(unit["traits"]["boxed"],
+                  unit["name"] == "coverage" || unit["name"] == "poisson-disk")
+            << unit["name"];
+}

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "study/chain.hpp"
 #include "study/pipeline.hpp"
 #include "support/contract.hpp"
 
@@ -61,6 +62,20 @@ TEST_P(EveryAnalyzer, RefusesPointsOutsideItsDomainCountingThem) {
     EXPECT_NE(error.find("(1.5, "), std::string::npos) << error;
 }
 
+TEST_P(EveryAnalyzer, TakesTheDomainsThatItsRecordTells) {
+    PointSet set = make("random", points(1024, 2));
+    for (double& x : set.flat()) x /= 2;
+    const auto error_on = [&](const char* domain) {
+        set.domain = parse_domain(domain, 2);
+        return error_of([&] { analyze(unit, set, unit.options.defaults(), {}); });
+    };
+    EXPECT_EQ(error_on("box:bounds=[0..1,-1..2]"), "");
+    EXPECT_EQ(error_on("disk"),
+              unit.traits.boxed ? "input: " + unit.name +
+                                      " takes points of the unit cube or a box; these live on disk"
+                                : "");
+}
+
 TEST_P(EveryAnalyzer, TakesPointsOnTheClosedCube) {
     PointSet set = make("random", points(1024, dimension));
     set[7][0] = 1;
@@ -79,6 +94,7 @@ TEST_P(EveryAnalyzer, StopsAtOnce) {
 TEST_P(EveryAnalyzer, HasACompleteRecord) {
     expect_complete_record(unit);
     EXPECT_FALSE(unit.results.empty());
+    EXPECT_FALSE(unit.traits.unit_cube && unit.traits.boxed);
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryAnalyzer, ::testing::ValuesIn(names_of(analyzers::all())),

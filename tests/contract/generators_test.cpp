@@ -139,6 +139,13 @@ TEST_P(EveryGenerator, HasACompleteRecord) {
     EXPECT_EQ(static_cast<bool>(unit.sequence), unit.traits.sequence);
     EXPECT_EQ(static_cast<bool>(unit.set), !unit.traits.sequence);
     EXPECT_TRUE(unit.traits.seeded || !unit.uses_seed);
+    for (const std::string& written : unit.writes)
+        EXPECT_EQ(std::ranges::count_if(unit.options.options(),
+                                        [&](const Option& option) {
+                                            return option.name == written && option.type == "file";
+                                        }),
+                  1)
+            << written;
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryGenerator, ::testing::ValuesIn(names_of(generators::all())),

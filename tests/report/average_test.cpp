@@ -55,3 +55,16 @@ TEST(ReportAverage, OneReportIsItsOwnMeanWithoutError) {
     EXPECT_EQ(average.mean().number("value"), 2);
     EXPECT_TRUE(average.standard_error().entries().empty());
 }
+
+TEST(ReportAverage, StandardErrorsOfWhatIsNotInTheMeanAreLeftOut) {
+    ReportAverage average;
+    for (const double x : {1.0, 2.0}) average.add(sample(x, 1, "same"));
+    Report mean;
+    mean.add("count", 1.0).add("inner", Report());
+    const Report errors = only_of(mean, average.standard_error());
+    EXPECT_EQ(errors.find("value"), nullptr);
+    EXPECT_EQ(errors.find("inner.curve"), nullptr);
+    EXPECT_EQ(errors.number("count"), 0);
+    EXPECT_EQ(only_of(average.mean(), average.standard_error()).curve("inner.curve"),
+              (Report::Curve{0.5, 1}));
+}
