@@ -78,26 +78,60 @@ class Rain {
 
   private:
     static constexpr double first_density = 0.4;
-    static constexpr double growth = 1;
+    static constexpr double growth = 3;
     static constexpr double most_darts = 1.5;  ///< mean on a window
     static constexpr std::size_t slot_count = 1024;
+    static constexpr double together = 1.5;    ///< width of a group of windows, in radii
     static constexpr std::size_t often = 256;  ///< windows between two questions for a stop
 
-    /// Rain on all windows: candidates, and the windows for the next shower.
+    /// Rain on all windows: candidates, and the windows for the next shower. Neighbours in the list
+    /// are neighbours in the rectangle, and share the search for disks.
     void fall() {
         std::vector<Window> before;
         before.swap(windows_);
-        for (std::size_t i = 0; i < before.size(); ++i) {
-            if (i % often == 0) report();
-            near_.clear();
-            const Window& window = before[i];
-            const double most = scale_ * field_.most(window.node);
-            index_.any_near(window.low, window.high, most, [&](const Disk& disk) {
-                if (reaches(disk, window, most)) near_.push_back(disk);
-                return false;
-            });
-            fall_on(window, 0);
+        for (std::size_t i = 0; i < before.size();) {
+            if (groups_++ % often == 0) report();
+            Window group = before[i];
+            double most = scale_ * field_.most(group.node);
+            const double widest = together * scale_ * field_.least(group.node);
+            const std::size_t first = i;
+            for (++i; i < before.size() && include(before[i], widest, group); ++i)
+                most = std::max(most, scale_ * field_.most(before[i].node));
+            gather(group, most);
+            const std::size_t found = near_.size();
+            for (std::size_t w = first; w < i; ++w) {
+                if (i - first > 1) narrow(0, found, before[w]);
+                fall_on(before[w], i - first > 1 ? found : 0);
+                near_.resize(found);
+            }
         }
+    }
+
+    /// Makes the group hold the window, too, unless that makes it wider than allowed.
+    static bool include(const Window& window, double widest, Window& group) {
+        Window larger = group;
+        for (std::size_t k = 0; k < 2; ++k) {
+            larger.low[k] = std::min(group.low[k], window.low[k]);
+            larger.high[k] = std::max(group.high[k], window.high[k]);
+            if (larger.high[k] - larger.low[k] > widest) return false;
+        }
+        group = larger;
+        return true;
+    }
+
+    void gather(const Window& window, double most) {
+        near_.clear();
+        index_.any_near(window.low, window.high, most, [&](const Disk& disk) {
+            if (reaches(disk, window, most)) near_.push_back(disk);
+            return false;
+        });
+    }
+
+    /// Adds to near_ those from the first up to the last that reach a window.
+    void narrow(std::size_t first, std::size_t last, const Window& window) {
+        const double most = scale_ * field_.most(window.node);
+        for (std::size_t i = first; i < last; ++i)
+            if (reaches(near_[i], window, most)) near_.push_back(near_[i]);
     }
 
     /// Rain on a window, or its halves, where only disks of near_ from the `first` on may reach it.
@@ -120,9 +154,7 @@ class Rain {
         const std::size_t count = divide(window, parts);
         if (++divided_ % often == 0) run_.check_stop();
         for (std::size_t p = 0; p < count; ++p) {
-            const double most = scale_ * field_.most(parts[p].node);
-            for (std::size_t i = first; i < last; ++i)
-                if (reaches(near_[i], parts[p], most)) near_.push_back(near_[i]);
+            narrow(first, last, parts[p]);
             fall_on(parts[p], last);
             near_.resize(last);
         }
@@ -238,13 +270,14 @@ class Rain {
     std::vector<Window> windows_;
     std::vector<Disk> near_;
     std::size_t divided_ = 0;
+    std::size_t groups_ = 0;
     std::vector<std::vector<Candidate>> slots_;  ///< by the first bits of their times
 };
 
 /// @throws Error(limit) when the least radius is too small for the coordinates, or the memory.
 void check_size(const BoxSpace& space, const RadiusField& field, double scale,
                 const RunContext& run) {
-    constexpr double bytes = 350;  // to a point
+    constexpr double bytes = 500;  // to a point
     const double radius = scale * field.least();
     double largest = 0;
     for (std::size_t k = 0; k < 2; ++k)
