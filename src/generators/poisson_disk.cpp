@@ -13,6 +13,14 @@
 //              that is noted is the least distance that the points have, and they are maximal for
 //              that, too.
 //
+// In 2-D radii may change from place to place (generators/varied_disks.hpp); two points then keep
+// the smaller of their radii, and every place where points may lie is nearer than the smaller of
+// its radius and a point's to that point:
+//
+// --density    r(x) = radius * sqrt(largest density / density(x)), no points where it is 0.
+// --radius-map r(x) as given; scaled to a least radius with --radius, --count and --n-approx.
+// --mask       points only where it is not 0.
+//
 // Shape   d = 2 ... 6; distances hold in the box of --bounds, across its faces too (torus) or not.
 // Cost    see maximal_disks.hpp; --count takes some ten runs.
 // Promise sum_k d_k^2 >= radius^2 for every pair, in float64, from the coordinates as stored;
@@ -29,7 +37,10 @@
 #include "core/text.hpp"
 #include "generators/box_space.hpp"
 #include "generators/maximal_disks.hpp"
+#include "generators/radius_field.hpp"
+#include "generators/radius_search.hpp"
 #include "generators/spread_order.hpp"
+#include "generators/varied_disks.hpp"
 #include "math/kd_tree.hpp"
 #include "math/permutation.hpp"
 
@@ -51,6 +62,18 @@ constexpr Param<std::int64_t> about{.name = "n-approx",
                                     .help =
                                         "About so many points, made in one go: mostly within "
                                         "1 % (from 1000 on). Instead of --count"};
+constexpr Param<Path> density{
+    {.name = "density",
+     .help = "Picture (PNG) or array (NPY): points per area go by its values, radii by their "
+             "roots; --radius is that of the densest place. 2-D, as the next three"}};
+constexpr Param<bool> invert{.name = "invert",
+                             .help = "Points where --density is dark, as ink on paper"};
+constexpr Param<Path> radius_map{
+    {.name = "radius-map",
+     .help = "Array (NPY) of radii; two points keep the smaller of theirs. Scaled to a least one "
+             "of --radius, or for --count or --n-approx"}};
+constexpr Param<Path> mask{
+    {.name = "mask", .help = "Picture (PNG) or array (NPY): points only where it is not 0"}};
 constexpr Param<Choice> order{.name = "order",
                               .fallback = "random",
                               .choices = "random|progressive",
@@ -58,12 +81,33 @@ constexpr Param<Choice> order{.name = "order",
                                   "progressive: the first n points are well spread, too, for "
                                   "every n"};
 
+/// Whether there is more than one radius, or a place without points.
+bool is_varied(const Values& options) {
+    return options.given(density) || options.given(radius_map) || options.given(mask);
+}
+
+void check_varied(const Values& options, std::size_t dimension) {
+    if (options[invert] && !options.given(density))
+        fail(ErrorKind::usage, "--invert: there is no --density to invert");
+    if (options.given(density) && options.given(radius_map))
+        fail(ErrorKind::usage, "--radius-map contradicts --density; give one of them");
+    if (is_varied(options) && dimension != 2)
+        fail(ErrorKind::usage, "--dimension: {} is not 2, the dimension of a --{}", dimension,
+             options.given(density)      ? "density"
+             : options.given(radius_map) ? "radius-map"
+                                         : "mask");
+}
+
 Plan plan(const Request& request, const Values& options) {
     Plan plan = plan_in_box(request, options);
+    check_varied(options, plan.dimension);
     if (options.given(radius) && options.given(about))
         fail(ErrorKind::usage, "--radius {} contradicts --n-approx {}; give one of them",
              format_number(options[radius]), options[about]);
-    if (!options.given(radius) && !options.given(about)) return plan;
+    if (!options.given(radius) && !options.given(about)) {
+        if (options.given(radius_map) && !request.count) plan.count = 0;  // as it is
+        return plan;
+    }
     if (request.count)
         fail(ErrorKind::usage, "{} contradicts --count {}; give one of them",
              options.given(radius) ? "--radius " + format_number(options[radius])
@@ -78,12 +122,6 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-/// Points with a radius that they keep, and leave no place for more.
-struct Packing {
-    Rows rows = {};
-    double radius = 0;
-};
-
 /// Where expected_disks is the number that is wanted.
 double typical_radius(const BoxSpace& space, double wanted) {
     double low = 0;
@@ -95,86 +133,6 @@ double typical_radius(const BoxSpace& space, double wanted) {
     }
     return high;
 }
-
-/// Looks for the radius at which the darts of one seed leave exactly `count` points.
-class Search {
-  public:
-    Search(const BoxSpace& space, std::uint64_t count, const RunContext& run)
-        : space_(space), run_(run), dimension_(space.box.dimension()), count_(count) {}
-
-    /// Sets of the streams of a seed are searched one after the other, until one comes to exactly
-    /// the count. If none does, the surplus of the one with the largest radius is removed.
-    Packing find(std::uint64_t seed) {
-        constexpr std::uint64_t streams = 8;
-        for (std::uint64_t stream = 0; stream < streams; ++stream)
-            if (found_in(stream == 0 ? seed : Rng(seed, stream).bits(0))) return std::move(best_);
-        trim(seed);
-        return std::move(best_);
-    }
-
-  private:
-    bool found_in(std::uint64_t seed) {
-        constexpr int tries = 60;
-        const double largest = space_.largest_distance();
-        double r = typical_radius(space_, static_cast<double>(count_));
-        cells_ = 0.9 * r;
-        enough_ = 0;
-        few_ = std::nextafter(largest, 2 * largest);
-        for (int i = 0; i < tries && few_ > enough_ * (1 + 1e-9); ++i) {
-            const std::uint64_t found = attempt(r, seed);
-            if (found == count_) return true;
-            r = next(r, found);
-        }
-        return false;
-    }
-
-    /// Number of points for the radius; keeps them if they are what is wanted, or the best so far.
-    std::uint64_t attempt(double r, std::uint64_t seed) {
-        constexpr double typical = 8;  // tries that it takes
-        cells_ = std::min(cells_, r);
-        const double part = (1 - done_) / typical;
-        Rows rows = maximal_disks(space_, r, cells_, seed, run_.stage(done_, done_ + part));
-        done_ += part;
-        const std::uint64_t found = rows.numbers().size() / dimension_;
-        (found >= count_ ? enough_ : few_) = r;
-        if (found == count_ || (found > count_ && r > best_.radius)) best_ = {std::move(rows), r};
-        return found;
-    }
-
-    /// The radius that would take or give the rest in the mean, if that may be; else a middle one.
-    [[nodiscard]] double next(double r, std::uint64_t found) const {
-        const double ratio = static_cast<double>(found) / static_cast<double>(count_);
-        const double step = (ratio - 1) / static_cast<double>(dimension_);
-        const double guess = r * (1 + std::clamp(step, -0.3, 0.3));
-        const double low = enough_ > 0 ? enough_ : few_ / 2;
-        return guess > low && guess < few_ ? guess : (low + few_) / 2;
-    }
-
-    /// Removes the surplus, each point with the same chance.
-    void trim(std::uint64_t seed) {
-        const Rng rng(seed, ~std::uint64_t{0});
-        const auto rows = best_.rows.numbers();
-        std::vector<double> left(rows.begin(), rows.end());
-        for (std::uint64_t i = 0; left.size() > count_ * dimension_; ++i) {
-            const auto victim =
-                static_cast<std::ptrdiff_t>(rng.below(i, left.size() / dimension_) * dimension_);
-            const auto last = left.end() - static_cast<std::ptrdiff_t>(dimension_);
-            std::copy(last, left.end(), left.begin() + victim);
-            left.erase(last, left.end());
-        }
-        best_.rows = Rows(std::move(left));
-    }
-
-    const BoxSpace& space_;
-    const RunContext& run_;
-    std::size_t dimension_;
-    std::uint64_t count_;
-    double cells_ = 0;   ///< radius that the cells are made for, the same for all tries
-    double enough_ = 0;  ///< the last radius that left enough points
-    double few_ = 0;     ///< the last that left too few
-    double done_ = 0;    ///< fraction of the work, as far as one can know
-    Packing best_;
-};
 
 /// Largest radius whose square is at most the squared distance of every pair; for a single point,
 /// that of the farthest place.
@@ -190,6 +148,35 @@ double least_distance(const Rows& rows, const BoxSpace& space, const RunContext&
     return root * root <= squared ? root : std::nextafter(root, 0.0);
 }
 
+RadiusField read_field(const BoxSpace& space, const Values& options, const RunContext& run) {
+    FieldSource source;
+    if (options.given(density))
+        source.density = read_density(options[density], options[invert], run);
+    if (options.given(radius_map)) source.lengths = read_lengths(options[radius_map], run);
+    if (options.given(mask)) source.mask = read_mask(options[mask], false, run);
+    return {space.box, source, run};
+}
+
+/// The radius of a packing is the least one.
+Packing pack_varied(const BoxSpace& space, const RadiusField& field, const Plan& plan,
+                    const Values& options, const RunContext& run) {
+    constexpr double jammed = 0.6966;  // points to integral dx / r^2
+    const auto fill = [&](double r, double cells, std::uint64_t seed, const RunContext& part) {
+        return varied_disks(space, field, r / field.least(), cells / field.least(), seed, part);
+    };
+    const auto once = [&](double r) { return Packing{fill(r, r, plan.seed, run), r}; };
+    const auto typical = [&](double count) {
+        return std::min(space.largest_distance(),
+                        field.least() * std::sqrt(jammed * field.darts() / count));
+    };
+    if (options.given(radius)) return once(options[radius]);
+    if (options.given(about)) return once(typical(static_cast<double>(options[about])));
+    if (plan.count == 0) return once(field.least());
+    const SearchGoal goal{plan.count, 2, typical(static_cast<double>(plan.count)),
+                          space.largest_distance()};
+    return search_radius(goal, plan.seed, fill, run);
+}
+
 Packing pack(const BoxSpace& space, const Plan& plan, const Values& options,
              const RunContext& run) {
     if (plan.count == 0) {
@@ -198,7 +185,13 @@ Packing pack(const BoxSpace& space, const Plan& plan, const Values& options,
                              : typical_radius(space, static_cast<double>(options[about]));
         return {maximal_disks(space, r, r, plan.seed, run), r};
     }
-    Packing packing = Search(space, plan.count, run).find(plan.seed);
+    const SearchGoal goal{plan.count, plan.dimension,
+                          typical_radius(space, static_cast<double>(plan.count)),
+                          space.largest_distance()};
+    const auto fill = [&](double r, double cells, std::uint64_t seed, const RunContext& part) {
+        return maximal_disks(space, r, cells, seed, part);
+    };
+    Packing packing = search_radius(goal, plan.seed, fill, run);
     packing.radius = least_distance(packing.rows, space, run);
     return packing;
 }
@@ -226,21 +219,39 @@ Rows shuffled(const Rows& rows, const Plan& plan, const RunContext& run) {
     return out;
 }
 
+std::vector<std::pair<std::string, std::string>> notes(const Values& options, const BoxSpace& space,
+                                                       double found) {
+    std::vector<std::pair<std::string, std::string>> notes{
+        {"radius", format_number(found)},
+        {space.torus ? "torus" : "bounded", "true"},
+        {"order", options[order]}};
+    for (const auto* file : {&density, &radius_map, &mask})
+        if (options.given(*file)) notes.emplace_back(file->name, options[*file]);
+    if (options[invert]) notes.emplace_back("invert", "true");
+    return notes;
+}
+
 PointSet make(const Plan& plan, const Values& options, const RunContext& given) {
     const RunContext run = given.rising();
     const bool progressive = options[order] == "progressive";
     const double packed = progressive ? 0.5 : 1;  // of the time
     const BoxSpace space = space_of(plan, !options[bounded_option]);
-    Packing packing = pack(space, plan, options, run.stage(0, packed));
+    std::optional<RadiusField> field;
+    if (is_varied(options)) field = read_field(space, options, run);
+    const RunContext packing_run = run.stage(0, packed);
+    Packing packing = field ? pack_varied(space, *field, plan, options, packing_run)
+                            : pack(space, plan, options, packing_run);
     Rows rows = shuffled(packing.rows, plan, run);
     packing.rows = {};
-    if (progressive) rows = spread_out(rows.numbers(), space, packing.radius, run.stage(packed, 1));
+    if (progressive && field)
+        rows = spread_varied(rows.numbers(), space, *field, packing.radius / field->least(),
+                             run.stage(packed, 1));
+    else if (progressive)
+        rows = spread_out(rows.numbers(), space, packing.radius, run.stage(packed, 1));
     run.tick(1, 1);
     PointSet points(std::move(rows), plan.dimension);
     if (plan.bounds) points.domain = box_domain(*plan.bounds);
-    points.provenance.options = {{"radius", format_number(packing.radius)},
-                                 {space.torus ? "torus" : "bounded", "true"},
-                                 {"order", options[order]}};
+    points.provenance.options = notes(options, space, packing.radius);
     return points;
 }
 
@@ -257,7 +268,8 @@ Generator poisson_disk() {
                        .sequence = false,
                        .prefix = false,
                        .boxed = true},
-            .options = Schema(radius, about, torus_option, bounded_option, order),
+            .options = Schema(radius, about, density, invert, radius_map, mask, torus_option,
+                              bounded_option, order),
             .aliases = {"poisson", "poisson-disc"},
             .plan = plan,
             .set = make};

@@ -14,12 +14,7 @@
 namespace stipple {
 namespace {
 
-/// Values as they stand in a file, row after row from y = 0.
-struct Cells {
-    std::size_t width = 0;
-    std::size_t height = 0;
-    std::vector<double> values = {};
-};
+using Cells = PlaneValues;
 
 Cells cells_of_png(std::string_view bytes, const std::string& path, bool invert,
                    const RunContext& run) {
@@ -37,19 +32,18 @@ Cells cells_of_png(std::string_view bytes, const std::string& path, bool invert,
     return {picture.width, picture.height, std::move(values)};
 }
 
-/// @throws Error(input) naming the first value that no density has
-void check_values(const Cells& cells, const std::string& path) {
-    const auto bad = std::ranges::find_if(
-        cells.values, [](double value) { return !(value >= 0 && std::isfinite(value)); });
+/// @throws Error(input) naming the first value that is not as expected
+template <class Good>
+void check_values(const Cells& cells, const std::string& path, const Good& good,
+                  const char* expected) {
+    const auto bad = std::ranges::find_if_not(cells.values, good);
     if (bad == cells.values.end()) return;
     const auto index = static_cast<std::size_t>(bad - cells.values.begin());
-    fail(ErrorKind::input,
-         "{}: value {} in row {}, column {}; expected finite densities, none below 0", path,
-         format_number(*bad), index / cells.width, index % cells.width);
+    fail(ErrorKind::input, "{}: value {} in row {}, column {}; expected {}", path,
+         format_number(*bad), index / cells.width, index % cells.width, expected);
 }
 
-Cells cells_of_npy(std::string_view bytes, const std::string& path, bool invert,
-                   const RunContext& run) {
+Cells cells_of_array(std::string_view bytes, const std::string& path, const RunContext& run) {
     const NpyHeader header = read_npy_header(bytes, path);
     if (header.shape.size() != 2)
         fail(ErrorKind::input, "{}: an array of shape {}; expected (rows, columns)", path,
@@ -57,7 +51,7 @@ Cells cells_of_npy(std::string_view bytes, const std::string& path, bool invert,
     if (header.empty())
         fail(ErrorKind::input, "{}: an array of shape {} is empty", path, header.shown_shape);
     const std::size_t count = npy_numbers(header, bytes.size());
-    run.need_memory(static_cast<double>(count) * 24, "the density " + path);
+    run.need_memory(static_cast<double>(count) * 24, "the array " + path);
     Cells cells{header.shape[1], header.shape[0], std::vector<double>(count)};
     take_raw(bytes.substr(header.size), header.type, cells.values);
     if (header.columns_first) {
@@ -65,7 +59,15 @@ Cells cells_of_npy(std::string_view bytes, const std::string& path, bool invert,
         for (std::size_t i = 0; i < count; ++i)
             cells.values[i] = stored[i / cells.width + i % cells.width * cells.height];
     }
-    check_values(cells, path);
+    return cells;
+}
+
+Cells cells_of_npy(std::string_view bytes, const std::string& path, bool invert,
+                   const RunContext& run) {
+    Cells cells = cells_of_array(bytes, path, run);
+    check_values(
+        cells, path, [](double value) { return value >= 0 && std::isfinite(value); },
+        "finite densities, none below 0");
     if (invert) {
         const double top = std::ranges::max(cells.values);
         for (double& value : cells.values) value = top - value;
@@ -162,6 +164,17 @@ std::vector<DensityLevel> DensityMap::pyramid() const {
 DensityMap read_density(const std::string& path, bool invert, const RunContext& run) {
     Cells cells = read_cells(path, invert, run);
     return {cells.width, cells.height, std::move(cells.values)};
+}
+
+PlaneValues read_lengths(const std::string& path, const RunContext& run) {
+    const std::string bytes = read_file(path);
+    if (!bytes.starts_with(npy_magic))
+        fail(ErrorKind::input, "{}: no NPY array, as lengths are to be", path);
+    Cells cells = cells_of_array(bytes, path, run);
+    check_values(
+        cells, path, [](double value) { return value > 0 && std::isfinite(value); },
+        "finite lengths above 0");
+    return cells;
 }
 
 DensityMap read_mask(const std::string& path, bool invert, const RunContext& run) {

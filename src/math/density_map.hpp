@@ -25,6 +25,13 @@
 
 namespace stipple {
 
+/// Values on the cells of a grid, row after row from y = 0.
+struct PlaneValues {
+    std::size_t width = 0;
+    std::size_t height = 0;
+    std::vector<double> values = {};
+};
+
 /// One level of a pyramid: cell (i, j) covers cells 2i, 2i + 1 and 2j, 2j + 1 of the level before,
 /// as far as these are there.
 struct DensityLevel {
@@ -78,7 +85,11 @@ class DensityMap {
 /// Error(limit)
 DensityMap read_density(const std::string& path, bool invert, const RunContext& run);
 
-/// The same for a region: 1 where the value is not 0, before scaling.
+/// Reads an array of lengths as it is. @throws as read_density; what is no array, and a length that
+/// is not above 0, are Error(input)
+PlaneValues read_lengths(const std::string& path, const RunContext& run);
+
+/// As read_density, for a region: 1 where the value is not 0, before scaling.
 DensityMap read_mask(const std::string& path, bool invert, const RunContext& run);
 
 }  // namespace stipple

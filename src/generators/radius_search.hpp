@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+//
+// Looks for the radius at which a process leaves exactly as many points as are wanted: the same
+// darts leave fewer points for a larger radius, mostly, and hardly other points for one that hardly
+// differs, so that a few tries come to exactly the count. Where it is passed over other darts are
+// tried; of eight in vain the surplus of the best is removed.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "core/rows.hpp"
+#include "core/run_context.hpp"
+
+namespace stipple {
+
+/// Points with a radius that they keep, and leave no place for more.
+struct Packing {
+    Rows rows = {};
+    double radius = 0;
+};
+
+/// The points for a radius and a seed; cell_radius, at most the radius, is what the darts are
+/// thrown for: with the same one, sets for radii that hardly differ hardly differ themselves.
+using Pack = std::function<Rows(double radius, double cell_radius, std::uint64_t seed,
+                                const RunContext& run)>;
+
+/// What is searched for.
+struct SearchGoal {
+    std::uint64_t count;
+    std::size_t dimension;
+    double typical;  ///< radius that gives about the count
+    double largest;  ///< radius that leaves one point
+};
+
+/// Exactly as many points as wanted.
+Packing search_radius(const SearchGoal& goal, std::uint64_t seed, const Pack& pack,
+                      const RunContext& run);
+
+}  // namespace stipple

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+//
+// Disks of very different radii in a rectangle, to find those near a place.
+//
+//     class c:  2^(c-1) s <= r < 2^c s,    s the least radius,    in cells of sides of at least 2^c
+//     s
+//
+// Cells have no memory of their own: a disk stands in a list that the hash of its cell names, so
+// that a few tiny disks in a large box cost no more than others.
+//
+// Cost    a place asks some nine cells of each class that has disks; 36 to 60 bytes a disk.
+// Promise finds every disk whose centre is within the reach; maybe others, and some twice.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "generators/box_space.hpp"
+#include "math/mixer.hpp"
+#include "math/spaced_points.hpp"
+
+namespace stipple {
+
+struct Disk {
+    std::array<double, 2> at;
+    double radius;
+};
+
+class VariedIndex {
+  public:
+    VariedIndex(const BoxSpace& space, double least_radius)
+        : low_{space.box.low[0], space.box.low[1]},
+          sides_{space.box.extent(0), space.box.extent(1)},
+          torus_(space.torus),
+          least_(least_radius),
+          last_class_(class_of(space.largest_distance())),
+          classes_(last_class_ + 1) {
+        for (std::size_t c = 0; c <= last_class_; ++c)
+            for (std::size_t k = 0; k < 2; ++k) {
+                classes_[c].reach = std::ldexp(least_, static_cast<int>(c));
+                const double count = std::floor(sides_[k] / (classes_[c].reach * (1 + 1e-9)));
+                classes_[c].count[k] = static_cast<std::int64_t>(std::max(1.0, count));
+                classes_[c].scale[k] = static_cast<double>(classes_[c].count[k]) / sides_[k];
+            }
+    }
+
+    [[nodiscard]] const std::vector<Disk>& disks() const { return disks_; }
+
+    void add(const Disk& disk) {
+        disks_.push_back(disk);
+        next_.push_back(none);
+        if (disks_.size() > heads_.size()) return grow();
+        link(static_cast<std::uint32_t>(disks_.size() - 1));
+    }
+
+    /// Squared distance as in math/spaced_points.hpp.
+    [[nodiscard]] double squared(const std::array<double, 2>& p,
+                                 const std::array<double, 2>& q) const {
+        return squared_distance<2>(p.data(), q.data(), sides_, torus_);
+    }
+
+    /// Distance of two coordinates.
+    [[nodiscard]] double apart(std::size_t k, double x, double y) const {
+        const double d = std::abs(x - y);
+        return torus_ ? std::min(d, sides_[k] - d) : d;
+    }
+    [[nodiscard]] double side(std::size_t k) const { return sides_[k]; }
+    [[nodiscard]] bool torus() const { return torus_; }
+
+    /// Calls visit(disk) for those that a disk of at most `radius` with its centre in [low, high]
+    /// may be too near to; stops where it returns true, and returns that.
+    template <class Visit>
+    bool any_near(const std::array<double, 2>& low, const std::array<double, 2>& high,
+                  double radius, const Visit& visit) const {
+        for (std::size_t c = 0; c <= last_class_; ++c) {
+            if (classes_[c].disks == 0) continue;
+            const double reach = c == last_class_ ? radius : std::min(radius, classes_[c].reach);
+            const Cells x = cells(c, 0, low[0] - reach, high[0] + reach);
+            const Cells y = cells(c, 1, low[1] - reach, high[1] + reach);
+            for (std::int64_t j = y.first; j < y.first + y.count; ++j) {
+                const std::uint64_t row = row_hash(c, wrapped(c, 1, j));
+                for (std::int64_t i = x.first; i < x.first + x.count; ++i)
+                    for (std::uint32_t at = heads_[bucket(row, wrapped(c, 0, i))]; at != none;
+                         at = next_[at])
+                        if (visit(disks_[at])) return true;
+            }
+        }
+        return false;
+    }
+
+    /// Whether a disk would be too near to one that is there: nearer than the smaller radius.
+    [[nodiscard]] bool blocks(const Disk& disk) const {
+        return any_near(disk.at, disk.at, disk.radius, [&](const Disk& other) {
+            const double r = std::min(disk.radius, other.radius);
+            return squared(disk.at, other.at) < r * r;
+        });
+    }
+
+  private:
+    static constexpr std::uint32_t none = 0xffff'ffff;
+
+    struct Class {
+        double reach = 0;  ///< no radius of the class is above it
+        std::array<std::int64_t, 2> count{};
+        std::array<double, 2> scale{};  ///< cells to a length
+        std::size_t disks = 0;
+    };
+    struct Cells {
+        std::int64_t first;
+        std::int64_t count;
+    };
+
+    /// The last class has all that is larger, too.
+    [[nodiscard]] std::size_t class_of(double radius) const {
+        int exponent = 0;
+        std::frexp(std::min(radius / least_, 1e300), &exponent);
+        return static_cast<std::size_t>(std::max(exponent, 0));
+    }
+
+    [[nodiscard]] std::int64_t cell(std::size_t c, std::size_t k, double x) const {
+        const double at = std::floor((x - low_[k]) * classes_[c].scale[k]);
+        // What is far outside only has to stay outside.
+        const auto count = static_cast<double>(classes_[c].count[k]);
+        return static_cast<std::int64_t>(std::clamp(at, -2 * count - 2, 3 * count + 2));
+    }
+
+    /// Cells that [low, high] may meet, each once; below 0 and from the count on across the faces.
+    [[nodiscard]] Cells cells(std::size_t c, std::size_t k, double low, double high) const {
+        const std::int64_t count = classes_[c].count[k];
+        const double slack = 1e-9 / classes_[c].scale[k];
+        std::int64_t first = cell(c, k, low - slack);
+        std::int64_t last = cell(c, k, high + slack);
+        if (!torus_) {
+            first = std::clamp<std::int64_t>(first, 0, count - 1);
+            last = std::clamp<std::int64_t>(last, 0, count - 1);
+        }
+        if (last - first + 1 >= count) return {0, count};
+        return {first, last - first + 1};
+    }
+
+    [[nodiscard]] std::uint64_t wrapped(std::size_t c, std::size_t k, std::int64_t i) const {
+        const std::int64_t count = classes_[c].count[k];
+        while (i < 0) i += count;
+        while (i >= count) i -= count;
+        return static_cast<std::uint64_t>(i);
+    }
+
+    static std::uint64_t row_hash(std::size_t c, std::uint64_t row) {
+        return Mixer(row << 8 | c).next();
+    }
+    [[nodiscard]] std::size_t bucket(std::uint64_t row, std::uint64_t column) const {
+        return (row + column) & (heads_.size() - 1);
+    }
+
+    void link(std::uint32_t number) {
+        const Disk& disk = disks_[number];
+        const std::size_t c = std::min(class_of(disk.radius), last_class_);
+        const std::int64_t zero = 0;
+        const auto at = [&](std::size_t k) {
+            return static_cast<std::uint64_t>(
+                std::clamp(cell(c, k, disk.at[k]), zero, classes_[c].count[k] - 1));
+        };
+        std::uint32_t& head = heads_[bucket(row_hash(c, at(1)), at(0))];
+        next_[number] = head;
+        head = number;
+        ++classes_[c].disks;
+    }
+
+    void grow() {
+        heads_.assign(2 * heads_.size(), none);
+        for (Class& c : classes_) c.disks = 0;
+        for (std::uint32_t i = 0; i < disks_.size(); ++i) link(i);
+    }
+
+    std::array<double, 2> low_;
+    std::array<double, 2> sides_;
+    bool torus_;
+    double least_;
+    std::size_t last_class_;
+    std::vector<Class> classes_;
+    std::vector<Disk> disks_;
+    std::vector<std::uint32_t> next_;  ///< in the list of its cell
+    std::vector<std::uint32_t> heads_ = std::vector<std::uint32_t>(64, none);
+};
+
+}  // namespace stipple
