@@ -512,14 +512,13 @@ def replace_file(path, data):
 class Parser(argparse.ArgumentParser):
     """Errors in one line; exit code 2 is argparse's own."""
 
-    def __init__(self, description, examples, inputs="?"):
+    def __init__(self, description, examples, inputs="?", default="data/overview.png"):
         super().__init__(
             description=description,
             epilog="examples:\n" + examples,
             formatter_class=argparse.RawDescriptionHelpFormatter,
             allow_abbrev=False,
         )
-        default = "data/overview.png"
         if inputs:
             default = "FILE's name with .png; for standard input there is none"
             self.add_argument(

@@ -15,9 +15,14 @@
 namespace stipple {
 namespace {
 
-/// One point in each of n strata of equal area: columns of them, some of one more.
+/// A point for each of n strata of equal area, columns of them, some of one more: uniform in the
+/// stratum and the next ones, twice as wide and as high, and beyond the last from the first on.
+/// Points in their own strata would still show the columns after hundreds of iterations, as peaks
+/// of the spectrum at (sqrt(n), 0) and (0, sqrt(n)).
 std::vector<double> jittered_rows(std::uint64_t n, const Rng& rng, const RunContext& run) {
     const std::uint64_t columns = std::max<std::uint64_t>(floor_root(n, 2), 1);
+    const auto all = static_cast<double>(n);
+    const auto wrap = [](double x, double side) { return x < side ? x : x - side; };
     std::vector<double> rows;
     rows.reserve(2 * n);
     for (std::uint64_t c = 0; c < columns; ++c) {
@@ -25,10 +30,10 @@ std::vector<double> jittered_rows(std::uint64_t n, const Rng& rng, const RunCont
         const std::uint64_t first = c * n / columns;
         const auto held = static_cast<double>((c + 1) * n / columns - first);
         for (std::uint64_t i = first; i < (c + 1) * n / columns; ++i) {
-            const double x = static_cast<double>(first) + held * rng.uniform(2 * i);
-            const double y = static_cast<double>(i - first) + rng.uniform(2 * i + 1);
-            rows.push_back(x / static_cast<double>(n));
-            rows.push_back(y / held);
+            const double x = static_cast<double>(first) + 2 * held * rng.uniform(2 * i);
+            const double y = static_cast<double>(i - first) + 2 * rng.uniform(2 * i + 1);
+            rows.push_back(wrap(x, all) / all);
+            rows.push_back(wrap(y, held) / held);
         }
     }
     return rows;

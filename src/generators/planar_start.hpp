@@ -4,7 +4,8 @@
 // start from, and the density.
 //
 // random      uniform points, or of the density.
-// jittered    one point in each of n strata of equal area (mass); columns of them.
+// jittered    one point for each of n strata of equal area (mass), in it or beside it: evener than
+//             random, and without the strata's rows and columns.
 // --from      points of a file, in the box.
 #pragma once
 

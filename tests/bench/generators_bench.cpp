@@ -32,10 +32,10 @@ void fill_blocks(benchmark::State& state, const std::string& name, const Setting
     state.SetItemsProcessed(static_cast<std::int64_t>(first));
 }
 
-void make_set(benchmark::State& state, const Request& request, const Settings& settings) {
+void make_set(benchmark::State& state, const std::string& name, const Request& request,
+              const Settings& settings) {
     std::size_t made = 0;
-    for (auto _ : state)
-        made += generate("poisson-disk", request, settings, {.threads = 1}).count();
+    for (auto _ : state) made += generate(name, request, settings, {.threads = 1}).count();
     state.SetItemsProcessed(static_cast<std::int64_t>(made));
 }
 
@@ -113,15 +113,22 @@ void add_searches() {
     add("polynomial-lattice", 1'048'576);
 }
 
+/// About 10^5 points, and of what moves them many times 4096.
 void add_sets() {
-    const auto add = [](const char* label, const Request& request, const Settings& settings) {
-        benchmark::RegisterBenchmark(label, [=](auto& state) {
-            make_set(state, request, settings);
+    const auto add = [](const std::string& name, const char* label, const Request& request,
+                        const Settings& settings) {
+        benchmark::RegisterBenchmark((name + label).c_str(), [=](auto& state) {
+            make_set(state, name, request, settings);
         })->Unit(benchmark::kMillisecond);
     };
-    add("poisson-disk/1e5", {}, {{"radius", "0.00248"}});
-    add("poisson-disk/1e5_exactly", {.count = 100'000}, {});
-    add("poisson-disk/3d", {.dimension = 3}, {{"radius", "0.0179"}});
+    add("poisson-disk", "/1e5", {}, {{"radius", "0.00248"}});
+    add("poisson-disk", "/1e5_exactly", {.count = 100'000}, {});
+    add("poisson-disk", "/3d", {.dimension = 3}, {{"radius", "0.0179"}});
+    for (const char* name : {"dart-throwing", "sample-elimination"})
+        add(name, "/1e5", {.count = 100'000}, {});
+    for (const char* name : {"lloyd", "farthest-point", "capacity-constrained",
+                             "gaussian-blue-noise", "tiled", "void-and-cluster"})
+        add(name, "/4096", {.count = 4096}, {});
 }
 
 const bool registered = [] {

@@ -243,10 +243,38 @@ TEST(Overview, IsDrawnFromTheProgram) {
     EXPECT_FALSE(box.exists("no.png"));
 }
 
+TEST(PlotBlueNoise, DrawsPointsSpectrumAndRadialPowerOfEach) {
+    const Sandbox box;
+    const std::string small = "plot_blue_noise.py --count 64 --spectrum-count 64 --sets 2 ";
+    expect_quiet(run(box, small + "random 'lloyd --iterations 5' -o a.png"));
+    expect_picture(box, "a.png");
+    expect_quiet(run(box, small + "random 'lloyd --iterations 5' -o a.svg"));
+    EXPECT_EQ(texts(box.read("a.svg")), "random\nlloyd --iterations 5\n");
+    expect_refusal(run(box, small + "radnom -o no.png"), 4, "plot_blue_noise.py", "radnom");
+    expect_refusal(run(box, small + "--sets 0 -o no.png"), 2, "plot_blue_noise.py", "--sets");
+    EXPECT_FALSE(box.exists("no.png"));
+}
+
+// 64 points of a square grid: 1/8 apart, sqrt(sqrt(3) / 2) of hexagons, and circles of sqrt(1/2) /
+// 8 are empty, sqrt(3 sqrt(3) / 4) times those of hexagons.
+TEST(BlueNoiseTable, HasARowForEachGenerator) {
+    const Sandbox box;
+    const std::string table = STIPPLE_SOURCE_DIR "/tests/bench/blue_noise_table.py ";
+    const Outcome outcome =
+        run(box, table + "$(command -v stipple) --sets 2 --count 64 grid random");
+    expect_quiet(outcome);
+    EXPECT_THAT(outcome.out, HasSubstr("| generator |"));
+    EXPECT_THAT(outcome.out, HasSubstr("| grid      | 0.931    | 0.931    | 1.140 "));
+    EXPECT_THAT(outcome.out, HasSubstr("\n| random    | 0.0"));
+    EXPECT_THAT(outcome.out, HasSubstr("| published "));
+    EXPECT_EQ(run(box, table).code, 1);
+    EXPECT_EQ(run(box, table + "no/such/stipple").code, 1);
+}
+
 TEST(Scripts, ExplainThemselves) {
     const Sandbox box;
-    for (const char* name :
-         {"plot_points.py", "plot_spectrum.py", "plot_discrepancy.py", "overview.py"}) {
+    for (const char* name : {"plot_points.py", "plot_spectrum.py", "plot_discrepancy.py",
+                             "overview.py", "plot_blue_noise.py"}) {
         const Outcome outcome = run(box, std::string(name) + " --help");
         expect_quiet(outcome);
         EXPECT_THAT(outcome.out, HasSubstr("usage: " + std::string(name)));
@@ -255,6 +283,6 @@ TEST(Scripts, ExplainThemselves) {
     // Importing draws nothing and reads nothing.
     expect_quiet(run(box, "PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=" STIPPLE_SOURCE_DIR
                           "/scripts /usr/bin/python3 -c 'import plot_points, plot_spectrum, "
-                          "plot_discrepancy, overview'"));
+                          "plot_discrepancy, overview, plot_blue_noise'"));
     EXPECT_EQ(box.files(), std::vector<std::string>{});
 }
