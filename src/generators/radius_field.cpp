@@ -102,9 +102,12 @@ void RadiusField::fill(const Box& box, const FieldSource& source, const RunConte
         for (double& f : cells.least)
             if (std::isnan(f)) f = closed;  // 0 / 0
     }
-    if (std::ranges::all_of(cells.least, [](double f) { return f == closed; }))
+    const double least = std::ranges::min(cells.least);
+    if (least == closed)
         fail(ErrorKind::input,
              "--mask: the density is 0 all over it; there is no place for a point");
+    for (double& f : cells.least)
+        if (f < closed) f = std::min(f, widest * least);
 }
 
 void RadiusField::join(const Box& box) {

@@ -41,6 +41,9 @@ class RadiusField {
     /// A place where no point may lie.
     static constexpr double closed = std::numeric_limits<double>::infinity();
 
+    /// The largest f is at most so many times the least; no box is that wide.
+    static constexpr double widest = 1e75;
+
     /// A cell, or joined ones: column i and row j of its level; level 0 has the cells.
     struct Node {
         std::uint32_t level;

@@ -64,7 +64,9 @@ class Rain {
         windows_.push_back({corners[0], corners[1], keys_.bits(0), field_.root()});
         double fallen = 0;  // darts to r^2
         for (std::uint64_t shower = 1; !windows_.empty(); ++shower) {
-            density_ = std::max(first_density, fallen * growth);
+            // As hard as before and harder, so that the fastest window gets something at least.
+            density_ =
+                shower == 1 ? first_density : std::max(fallen * growth, most_darts / fastest_);
             fallen += density_;
             shower_key_ = keys_.bits(shower);
             fall();
@@ -89,8 +91,13 @@ class Rain {
     void fall() {
         std::vector<Window> before;
         before.swap(windows_);
+        fastest_ = 0;
         for (std::size_t i = 0; i < before.size();) {
             if (groups_++ % often == 0) report();
+            if (is_spared(before[i])) {
+                keep(before[i++]);
+                continue;
+            }
             Window group = before[i];
             double most = scale_ * field_.most(group.node);
             const double widest = together * scale_ * field_.least(group.node);
@@ -105,6 +112,32 @@ class Rain {
                 near_.resize(found);
             }
         }
+    }
+
+    /// Darts on a window to a density of 1, where r is the least all over it.
+    [[nodiscard]] double rate(const Window& window) const {
+        const double unit = dart_scale_ * field_.least(window.node);
+        return (window.high[0] - window.low[0]) / unit * ((window.high[1] - window.low[1]) / unit);
+    }
+
+    void keep(const Window& window) {
+        fastest_ = std::max(fastest_, rate(window));
+        windows_.push_back(window);
+    }
+
+    /// Whether few darts are due on a window, and none of them falls: then it stays as it is, and
+    /// nothing has to be known of it.
+    [[nodiscard]] bool is_spared(const Window& window) const {
+        const double mean = density_ * rate(window);
+        if (mean > most_darts / 16) return false;
+        Mixer mixer(shower_key_ ^ window.key);
+        const double u = to_unit(mixer.next());
+        for (std::size_t i = 0; i < at_most_.size() && u >= at_most_[i]; ++i) {
+            for (std::size_t k = 0; k < 2; ++k) mixer.next();
+            if (to_unit(mixer.next()) * most_darts < mean) return false;
+            mixer.next();
+        }
+        return true;
     }
 
     /// Makes the group hold the window, too, unless that makes it wider than allowed.
@@ -142,13 +175,10 @@ class Rain {
         const std::size_t last = near_.size();
         for (std::size_t i = first; i < last; ++i)
             if (covers(near_[i], window, r)) return;
-        const double unit = dart_scale_ * least;
-        const double mean = density_ * ((window.high[0] - window.low[0]) / unit) *
-                            ((window.high[1] - window.low[1]) / unit);
+        const double mean = density_ * rate(window);
         if (mean <= most_darts) {
             throw_darts(window, first, mean, least);
-            windows_.push_back(window);
-            return;
+            return keep(window);
         }
         std::array<Window, 2> parts;
         const std::size_t count = divide(window, parts);
@@ -265,6 +295,7 @@ class Rain {
     double expected_;
     double finest_ = 0;   ///< a length that nobody can tell from none
     double density_ = 0;  ///< darts to r^2, r by dart_scale_
+    double fastest_ = 0;  ///< the largest rate of the windows
     std::uint64_t shower_key_ = 0;
     std::vector<double> at_most_;  ///< probability of at most so many darts, their mean most_darts
     std::vector<Window> windows_;
