@@ -109,7 +109,7 @@ class RadiusField {
         return node.j * levels_[node.level].count[0] + node.i;
     }
     void fill(const Box& box, const FieldSource& source, const RunContext& run);
-    void join(const Box& box);
+    void join(const Box& box, const RunContext& run);
     void measure();
 
     std::array<std::vector<double>, 2> lines_;  ///< between cells, the faces too
