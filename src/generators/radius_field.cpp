@@ -69,7 +69,7 @@ RadiusField::RadiusField(const Box& box, const FieldSource& source, const RunCon
     run.need_memory(cells * 24, "the field of radii");
     levels_.push_back({most, {0, 0}, {}, {}});
     fill(box, source, run);
-    join(box);
+    join(box, run);
     measure();
 }
 
@@ -102,12 +102,15 @@ void RadiusField::fill(const Box& box, const FieldSource& source, const RunConte
         for (double& f : cells.least)
             if (std::isnan(f)) f = closed;  // 0 / 0
     }
-    if (std::ranges::all_of(cells.least, [](double f) { return f == closed; }))
+    const double least = std::ranges::min(cells.least);
+    if (least == closed)
         fail(ErrorKind::input,
              "--mask: the density is 0 all over it; there is no place for a point");
+    for (double& f : cells.least)
+        if (f < closed) f = std::min(f, widest * least);
 }
 
-void RadiusField::join(const Box& box) {
+void RadiusField::join(const Box& box, const RunContext& run) {
     while (levels_.back().count != std::array<std::size_t, 2>{1, 1}) {
         const Level& fine = levels_.back();
         const auto side = [&](std::size_t k) {
@@ -122,12 +125,14 @@ void RadiusField::join(const Box& box) {
         level.least.assign(level.count[0] * level.count[1], closed);
         level.most.assign(level.count[0] * level.count[1], 0);
         const auto below = static_cast<std::uint32_t>(levels_.size() - 1);
-        for (std::uint32_t j = 0; j < fine.count[1]; ++j)
+        for (std::uint32_t j = 0; j < fine.count[1]; ++j) {
+            run.check_stop();
             for (std::uint32_t i = 0; i < fine.count[0]; ++i) {
                 const std::size_t to = (k == 0 ? j : j / 2) * level.count[0] + (k == 0 ? i / 2 : i);
                 level.least[to] = std::min(level.least[to], least({below, i, j}));
                 level.most[to] = std::max(level.most[to], most({below, i, j}));
             }
+        }
         levels_.push_back(std::move(level));
     }
 }

@@ -41,6 +41,9 @@ class RadiusField {
     /// A place where no point may lie.
     static constexpr double closed = std::numeric_limits<double>::infinity();
 
+    /// The largest f is at most so many times the least; no box is that wide.
+    static constexpr double widest = 1e75;
+
     /// A cell, or joined ones: column i and row j of its level; level 0 has the cells.
     struct Node {
         std::uint32_t level;
@@ -106,7 +109,7 @@ class RadiusField {
         return node.j * levels_[node.level].count[0] + node.i;
     }
     void fill(const Box& box, const FieldSource& source, const RunContext& run);
-    void join(const Box& box);
+    void join(const Box& box, const RunContext& run);
     void measure();
 
     std::array<std::vector<double>, 2> lines_;  ///< between cells, the faces too

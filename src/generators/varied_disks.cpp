@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <vector>
 
 #include "core/error.hpp"
@@ -44,8 +45,8 @@ class Rain {
           dart_scale_(dart_scale),
           keys_(seed),
           run_(run),
-          index_(space, scale * field.least()),
           expected_(expected_varied(field, scale)),
+          index_(space, scale * field.least(), static_cast<std::size_t>(expected_)),
           slots_(slot_count) {
         for (std::size_t k = 0; k < 2; ++k)
             finest_ = std::max({finest_, std::abs(space.box.low[k]), std::abs(space.box.high[k])});
@@ -64,7 +65,9 @@ class Rain {
         windows_.push_back({corners[0], corners[1], keys_.bits(0), field_.root()});
         double fallen = 0;  // darts to r^2
         for (std::uint64_t shower = 1; !windows_.empty(); ++shower) {
-            density_ = std::max(first_density, fallen * growth);
+            // As hard as before and harder, so that the fastest window gets something at least.
+            density_ =
+                shower == 1 ? first_density : std::max(fallen * growth, most_darts / fastest_);
             fallen += density_;
             shower_key_ = keys_.bits(shower);
             fall();
@@ -87,24 +90,62 @@ class Rain {
     /// Rain on all windows: candidates, and the windows for the next shower. Neighbours in the list
     /// are neighbours in the rectangle, and share the search for disks.
     void fall() {
-        std::vector<Window> before;
+        std::deque<Window> before;
         before.swap(windows_);
-        for (std::size_t i = 0; i < before.size();) {
+        fastest_ = 0;
+        while (!before.empty()) {
             if (groups_++ % often == 0) report();
-            Window group = before[i];
-            double most = scale_ * field_.most(group.node);
-            const double widest = together * scale_ * field_.least(group.node);
-            const std::size_t first = i;
-            for (++i; i < before.size() && include(before[i], widest, group); ++i)
-                most = std::max(most, scale_ * field_.most(before[i].node));
-            gather(group, most);
-            const std::size_t found = near_.size();
-            for (std::size_t w = first; w < i; ++w) {
-                if (i - first > 1) narrow(0, found, before[w]);
-                fall_on(before[w], i - first > 1 ? found : 0);
-                near_.resize(found);
-            }
+            std::size_t count = 1;
+            if (is_spared(before[0]))
+                keep(before[0]);
+            else
+                count = fall_on_group(before);
+            before.erase(before.begin(), before.begin() + static_cast<std::ptrdiff_t>(count));
         }
+    }
+
+    /// Rain on the first windows that are near together; how many these are.
+    std::size_t fall_on_group(const std::deque<Window>& windows) {
+        Window group = windows[0];
+        double most = scale_ * field_.most(group.node);
+        const double widest = together * scale_ * field_.least(group.node);
+        std::size_t count = 1;
+        for (; count < windows.size() && include(windows[count], widest, group); ++count)
+            most = std::max(most, scale_ * field_.most(windows[count].node));
+        gather(group, most);
+        const std::size_t found = near_.size();
+        for (std::size_t w = 0; w < count; ++w) {
+            if (count > 1) narrow(0, found, windows[w]);
+            fall_on(windows[w], count > 1 ? found : 0);
+            near_.resize(found);
+        }
+        return count;
+    }
+
+    /// Darts on a window to a density of 1, where r is the least all over it.
+    [[nodiscard]] double rate(const Window& window) const {
+        const double unit = dart_scale_ * field_.least(window.node);
+        return (window.high[0] - window.low[0]) / unit * ((window.high[1] - window.low[1]) / unit);
+    }
+
+    void keep(const Window& window) {
+        fastest_ = std::max(fastest_, rate(window));
+        windows_.push_back(window);
+    }
+
+    /// Whether few darts are due on a window, and none of them falls: then it stays as it is, and
+    /// nothing has to be known of it.
+    [[nodiscard]] bool is_spared(const Window& window) const {
+        const double mean = density_ * rate(window);
+        if (mean > most_darts / 16) return false;
+        Mixer mixer(shower_key_ ^ window.key);
+        const double u = to_unit(mixer.next());
+        for (std::size_t i = 0; i < at_most_.size() && u >= at_most_[i]; ++i) {
+            for (std::size_t k = 0; k < 2; ++k) mixer.next();
+            if (to_unit(mixer.next()) * most_darts < mean) return false;
+            mixer.next();
+        }
+        return true;
     }
 
     /// Makes the group hold the window, too, unless that makes it wider than allowed.
@@ -142,13 +183,10 @@ class Rain {
         const std::size_t last = near_.size();
         for (std::size_t i = first; i < last; ++i)
             if (covers(near_[i], window, r)) return;
-        const double unit = dart_scale_ * least;
-        const double mean = density_ * ((window.high[0] - window.low[0]) / unit) *
-                            ((window.high[1] - window.low[1]) / unit);
+        const double mean = density_ * rate(window);
         if (mean <= most_darts) {
             throw_darts(window, first, mean, least);
-            windows_.push_back(window);
-            return;
+            return keep(window);
         }
         std::array<Window, 2> parts;
         const std::size_t count = divide(window, parts);
@@ -261,13 +299,14 @@ class Rain {
     double dart_scale_;
     Rng keys_;
     const RunContext& run_;
-    VariedIndex index_;
     double expected_;
+    VariedIndex index_;
     double finest_ = 0;   ///< a length that nobody can tell from none
     double density_ = 0;  ///< darts to r^2, r by dart_scale_
+    double fastest_ = 0;  ///< the largest rate of the windows
     std::uint64_t shower_key_ = 0;
     std::vector<double> at_most_;  ///< probability of at most so many darts, their mean most_darts
-    std::vector<Window> windows_;
+    std::deque<Window> windows_;
     std::vector<Disk> near_;
     std::size_t divided_ = 0;
     std::size_t groups_ = 0;
@@ -277,7 +316,7 @@ class Rain {
 /// @throws Error(limit) when the least radius is too small for the coordinates, or the memory.
 void check_size(const BoxSpace& space, const RadiusField& field, double scale,
                 const RunContext& run) {
-    constexpr double bytes = 500;  // to a point
+    constexpr double bytes = 300;  // to a point
     const double radius = scale * field.least();
     double largest = 0;
     for (std::size_t k = 0; k < 2; ++k)
@@ -318,8 +357,11 @@ Rows spread_varied(std::span<const double> rows, const BoxSpace& space, const Ra
     std::vector<Disk> chosen;
     for (double s = space.largest_distance() / field.least(); !left.empty(); s *= step) {
         const bool all = s <= scale;  // nothing that is left is too near
-        VariedIndex index(space, s * field.least());
-        for (const Disk& disk : chosen) index.add({disk.at, s * disk.radius});
+        VariedIndex index(space, s * field.least(), chosen.size());
+        for (std::size_t i = 0; i < chosen.size(); ++i) {
+            if (i % often == 0) run.check_stop();
+            index.add({chosen[i].at, s * chosen[i].radius});
+        }
         std::size_t kept = 0;
         for (std::size_t i = 0; i < left.size(); ++i) {
             if (i % often == 0) run.tick(chosen.size(), rows.size() / 2);

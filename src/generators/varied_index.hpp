@@ -12,7 +12,9 @@
 // Promise finds every disk whose centre is within the reach; maybe others, and some twice.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -31,13 +33,17 @@ struct Disk {
 
 class VariedIndex {
   public:
-    VariedIndex(const BoxSpace& space, double least_radius)
+    /// @param expected number of disks; more are no harm
+    VariedIndex(const BoxSpace& space, double least_radius, std::size_t expected)
         : low_{space.box.low[0], space.box.low[1]},
           sides_{space.box.extent(0), space.box.extent(1)},
           torus_(space.torus),
           least_(least_radius),
           last_class_(class_of(space.largest_distance())),
-          classes_(last_class_ + 1) {
+          classes_(last_class_ + 1),
+          heads_(std::bit_ceil(std::max<std::size_t>(expected, 64)), none) {
+        disks_.reserve(expected);
+        next_.reserve(expected);
         for (std::size_t c = 0; c <= last_class_; ++c)
             for (std::size_t k = 0; k < 2; ++k) {
                 classes_[c].reach = std::ldexp(least_, static_cast<int>(c));
@@ -182,8 +188,8 @@ class VariedIndex {
     std::size_t last_class_;
     std::vector<Class> classes_;
     std::vector<Disk> disks_;
-    std::vector<std::uint32_t> next_;  ///< in the list of its cell
-    std::vector<std::uint32_t> heads_ = std::vector<std::uint32_t>(64, none);
+    std::vector<std::uint32_t> next_;   ///< in the list of its cell
+    std::vector<std::uint32_t> heads_;  ///< of lists, a power of two
 };
 
 }  // namespace stipple

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/rng.hpp"
+#include "generators/varied_index.hpp"
 #include "support/pictures.hpp"
 #include "support/spacing.hpp"
 #include "support/units.hpp"
@@ -77,7 +78,10 @@ std::vector<Radii> some_radii() {
             radii(wide, 30, 5, [](double x, double y) { return 0.2 + 0.7 * x * (1 - y); }),
             radii(thin, 300, 4, [](double x, double) { return 0.3 + x; }),
             radii(far, 11, 13, [](double x, double y) { return 0.5 + std::abs(x - y); }),
-            radii(walled, 6, 6, [](double, double) { return 3.0; })};
+            radii(walled, 6, 6, [](double, double) { return 3.0; }),
+            radii(square, 2, 2, [](double x, double y) {
+                return x < y ? 1e308 : x > y ? 1e300 : 0.05;
+            })};
 }
 
 /// As the generator makes them, from files.
@@ -182,6 +186,83 @@ double count_in(const PointSet& set, double x0, double x1, double y0, double y1)
 }
 
 }  // namespace
+
+// Two thirds and halves: lines at 1/3, 1/2 and 2/3. By hand: 8 is the largest density that the mask
+// leaves, so that f = sqrt(8 / density).
+TEST(RadiusField, SeesADensityThroughAMaskOfOtherCells) {
+    const FieldSource source{.density = DensityMap(2, 1, {2, 8}),
+                             .mask = DensityMap(3, 1, {1, 0, 1})};
+    const RadiusField field({{0, 0}, {6, 1}}, source, {});
+    EXPECT_EQ(field.at(1, 0.5), 2);
+    EXPECT_EQ(field.at(2.5, 0.5), RadiusField::closed);
+    EXPECT_EQ(field.at(3.5, 0.5), RadiusField::closed);
+    EXPECT_EQ(field.at(4, 0), 1);
+    EXPECT_EQ(field.at(5.9, 0.99), 1);
+    EXPECT_DOUBLE_EQ(field.darts(), 2.0 / 4 + 2);
+    EXPECT_EQ(field.least(), 1);
+    EXPECT_EQ(field.most(field.root()), 2);
+}
+
+// Each node has the bounds of the places that its children have, and these fill it.
+TEST(RadiusField, NodesHoldWhatTheyJoin) {
+    const Radii radii_of = some_radii()[9];
+    FieldSource source;
+    source.lengths = PlaneValues{radii_of.width, radii_of.height, radii_of.values};
+    const RadiusField field(radii_of.space.box, source, {});
+    std::vector<RadiusField::Node> nodes{field.root()};
+    std::size_t cells = 0;
+    double area = 0;
+    while (!nodes.empty()) {
+        const RadiusField::Node node = nodes.back();
+        nodes.pop_back();
+        const auto [low, high] = field.corners(node);
+        if (node.level == 0) {
+            ++cells;
+            area += (high[0] - low[0]) * (high[1] - low[1]);
+            EXPECT_EQ(field.least(node),
+                      radii_of.at((low[0] + high[0]) / 2, (low[1] + high[1]) / 2));
+            continue;
+        }
+        double least = RadiusField::closed;
+        double most = 0;
+        for (const RadiusField::Node& child : field.children(node)) {
+            least = std::min(least, field.least(child));
+            most = std::max(most, field.most(child));
+            nodes.push_back(child);
+        }
+        EXPECT_EQ(field.least(node), least);
+        EXPECT_EQ(field.most(node), most);
+    }
+    EXPECT_EQ(cells, radii_of.values.size());
+    EXPECT_NEAR(area, 13.3 * 1.1, 1e-9);
+}
+
+// Against all disks one by one, for radii of seven decades.
+TEST(VariedIndex, FindsWhatBlocksADisk) {
+    for (const bool torus : {true, false}) {
+        const BoxSpace space{{{-1, 2}, {2, 3}}, torus};
+        VariedIndex index(space, 1e-6, 10);
+        const Rng rng(3);
+        int blocked = 0;
+        for (std::uint64_t i = 0; i < 8000; i += 4) {
+            const double size = std::pow(10, -6 + 7 * rng.uniform(i));
+            Disk disk{{-1 + 3 * rng.uniform(i + 1), 2 + rng.uniform(i + 2)}, size};
+            if (i > 4000)  // near one that is there
+                for (std::size_t k = 0; k < 2; ++k)
+                    disk.at[k] = std::clamp(index.disks()[i / 8].at[k] + size * (k == 0 ? 1 : 0.5),
+                                            space.box.low[k], space.box.high[k]);
+            const bool expected = std::ranges::any_of(index.disks(), [&](const Disk& other) {
+                return distance(disk.at, other.at, {space.box, torus}) <
+                       std::min(disk.radius, other.radius);
+            });
+            EXPECT_EQ(index.blocks(disk), expected) << i;
+            blocked += expected;
+            index.add(disk);
+        }
+        EXPECT_GT(blocked, 300);
+        EXPECT_LT(blocked, 1700);
+    }
+}
 
 TEST(VariedDisks, EveryPairKeepsTheSmallerRadius) {
     for (const Radii& field : some_radii())
@@ -340,14 +421,19 @@ TEST(VariedDisks, OrdersHoldTheSamePoints) {
 }
 
 // First darts fall in proportion to 1 / r^2, and where one falls it stays: of sets that have room
-// for one point, the half with the densest fourth of the square holds 9 of 11. 400 sets; off by at
-// most 5 standard deviations of 0.0193 (false alarm 6e-7).
+// for one point, columns of nine times the density of those between hold 9 of 10. 400 sets; off by
+// at most 5 standard deviations of 0.015 (false alarm 6e-7).
 TEST(VariedDisks, DartsFallInProportion) {
+    std::vector<double> values;
+    for (int i = 0; i < 32 * 32; ++i) values.push_back(i % 2 == 0 ? 1 : 9);
     double dense = 0;
-    for (std::uint64_t seed = 1; seed <= 400; ++seed)
-        dense += of_density("(2, 2)", {1, 8, 1, 1}, {}, {{"radius", "1.4"}},
-                            {.seed = seed})[0][0] >= 0.5;
-    EXPECT_NEAR(dense / 400, 9.0 / 11, 5 * 0.0193);
+    for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+        const PointSet set =
+            of_density("(32, 32)", values, {}, {{"radius", "1.4"}}, {.seed = seed});
+        EXPECT_EQ(set.count(), 1);
+        dense += static_cast<int>(set[0][0] * 32) % 2;
+    }
+    EXPECT_NEAR(dense / 400, 9.0 / 10, 5 * 0.015);
 }
 
 namespace {
