@@ -96,11 +96,6 @@ PUBLISHED = (
         "minimum 0.925, mean 0.932 (one set, n = 1024, 63 iterations)",
         "Schlömer, Heck, Deussen 2011, figure 1, last picture",
     ),
-    (
-        "(none here)",
-        "Nyquist at most 0.564, for a power that is a step from 0 to 1",
-        "Heck, Schlömer, Deussen 2013, step blue noise: √(n / 4π)",
-    ),
 )
 
 
