@@ -64,8 +64,9 @@ constexpr Param<std::int64_t> about{.name = "n-approx",
                                         "1 % (from 1000 on). Instead of --count"};
 constexpr Param<Path> density{
     {.name = "density",
-     .help = "Picture (PNG) or array (NPY): points per area go by its values, radii by their "
-             "roots; --radius is that of the densest place. 2-D, as the next three"}};
+     .help = "Picture (PNG) or array (NPY): points per area go by its values, none where it is 0. "
+             "The densest place has --radius; two points keep the smaller of their radii. In 2-D, "
+             "as the next three"}};
 constexpr Param<bool> invert{.name = "invert",
                              .help = "Points where --density is dark, as ink on paper"};
 constexpr Param<Path> radius_map{

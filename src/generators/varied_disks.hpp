@@ -14,7 +14,7 @@
 // older points go first; the rest come in the order of their times, and stay if they keep the rule.
 //
 // Shape   d = 2; any rectangle, torus or bounded; any field.
-// Cost    5 us (one radius) to 7 us (a picture) a point on one core, 250 bytes a point.
+// Cost    5 us (one radius) to 9 us (a picture) a point on one core; 250 bytes a point.
 // Promise squared_distance (math/spaced_points.hpp) of the numbers that come out is at least
 //         min(r(x), r(y))^2 for every pair. Every place x where points may lie has a point y with
 //         |x - y| < min(r(x), r(y)), but for gaps that float64 hardly tells from none: below 2^-46
