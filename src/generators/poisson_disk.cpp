@@ -41,6 +41,7 @@
 #include "generators/radius_search.hpp"
 #include "generators/spread_order.hpp"
 #include "generators/varied_disks.hpp"
+#include "math/draws.hpp"
 #include "math/kd_tree.hpp"
 #include "math/permutation.hpp"
 
@@ -178,6 +179,13 @@ Packing pack_varied(const BoxSpace& space, const RadiusField& field, const Plan&
     return search_radius(goal, plan.seed, fill, run);
 }
 
+/// One point, and the distance that no place has from it or more.
+Packing single(const BoxSpace& space, std::uint64_t seed) {
+    std::vector<double> point(space.box.dimension());
+    DrawStream(Rng(seed)).point(space.box, point.data());
+    return {Rows(std::move(point)), space.largest_distance()};
+}
+
 Packing pack(const BoxSpace& space, const Plan& plan, const Values& options,
              const RunContext& run) {
     if (plan.count == 0) {
@@ -186,9 +194,11 @@ Packing pack(const BoxSpace& space, const Plan& plan, const Values& options,
                              : typical_radius(space, static_cast<double>(options[about]));
         return {maximal_disks(space, r, r, plan.seed, run), r};
     }
-    const SearchGoal goal{plan.count, plan.dimension,
-                          typical_radius(space, static_cast<double>(plan.count)),
-                          space.largest_distance()};
+    if (plan.count == 1) return single(space, plan.seed);
+    // At the largest distance itself disks leave single places, which are hard to tell from none.
+    const double most = space.largest_distance();
+    const double typical = typical_radius(space, static_cast<double>(plan.count));
+    const SearchGoal goal{plan.count, plan.dimension, std::min(typical, 0.99 * most), most};
     const auto fill = [&](double r, double cells, std::uint64_t seed, const RunContext& part) {
         return maximal_disks(space, r, cells, seed, part);
     };

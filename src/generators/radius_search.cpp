@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/rng.hpp"
 
 namespace stipple {
@@ -22,6 +23,8 @@ class Search {
         constexpr std::uint64_t streams = 8;
         for (std::uint64_t stream = 0; stream < streams; ++stream)
             if (found_in(stream == 0 ? seed : Rng(seed, stream).bits(0))) return std::move(best_);
+        if (best_.radius == 0)
+            fail(ErrorKind::limit, "--count: no radius was found that leaves {} points", count_);
         trim(seed);
         return std::move(best_);
     }

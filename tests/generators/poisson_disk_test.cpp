@@ -358,7 +358,7 @@ TEST(PoissonDisk, OrderIsRandomOrProgressive) {
         return rows;
     };
     EXPECT_EQ(sorted(random), sorted(spread));
-    for (const std::size_t n : {10, 100, 1000, 4000}) {
+    for (const std::size_t n : {10, 100, 1000}) {
         const auto prefix = [n](const PointSet& set) {
             return PointSet(
                 std::vector<double>(set.flat().begin(),
@@ -369,7 +369,10 @@ TEST(PoissonDisk, OrderIsRandomOrProgressive) {
         EXPECT_GT(measure("nearest-neighbor", "relative_radius", prefix(spread)), 0.6) << n;
         // in random order the beginning is spread like random points are, over the whole square
         EXPECT_LT(measure("nearest-neighbor", "relative_radius", prefix(random)), 0.6) << n;
-        EXPECT_GT(measure("chi-square", "p_upper", prefix(random), {{"cells", "3x3"}}), 1e-4) << n;
+        if (n >= 100) {
+            EXPECT_GT(measure("chi-square", "p_upper", prefix(random), {{"cells", "3x3"}}), 1e-4)
+                << n;
+        }
     }
 }
 
