@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/text.hpp"
+
 namespace stipple {
 
 double BoxSpace::largest_distance() const {
@@ -13,6 +15,31 @@ double BoxSpace::largest_distance() const {
         squared += across * across;
     }
     return std::sqrt(squared);
+}
+
+double BoxSpace::largest_coordinate() const {
+    double largest = 0;
+    for (std::size_t k = 0; k < box.dimension(); ++k)
+        largest = std::max({largest, std::abs(box.low[k]), std::abs(box.high[k])});
+    return largest;
+}
+
+double BoxSpace::expected_points(double density, double radius) const {
+    double places = density;
+    for (std::size_t k = 0; k < box.dimension(); ++k) {
+        const double along = box.extent(k) / radius;
+        places *= torus ? std::max(along, 1.0) : along + 1;
+    }
+    return places + 1;
+}
+
+void BoxSpace::check_resolution(double radius, std::string_view name) const {
+    const double largest = largest_coordinate();
+    const double finest = largest * 0x1p-52 * 1024;
+    if (!(radius >= finest))
+        fail(ErrorKind::limit,
+             "{} of {} is too fine for coordinates near {}, which tell {:.5g} from each other well",
+             name, format_number(radius), format_number(largest), finest);
 }
 
 double BoxSpace::measure() const {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 
 #include "core/domain.hpp"
 #include "core/error.hpp"
@@ -25,6 +26,17 @@ struct BoxSpace {
 
     /// The least number that no distance in it is above.
     [[nodiscard]] double largest_distance() const;
+
+    /// The largest absolute value of a coordinate.
+    [[nodiscard]] double largest_coordinate() const;
+
+    /// About how many points there are when `density` of them fill the cube of side `radius`, which
+    /// they keep as their distance; walls let some more in.
+    [[nodiscard]] double expected_points(double density, double radius) const;
+
+    /// @throws Error(limit) when `name` is so small a radius that rounding moves points by more
+    /// than a thousandth of it.
+    void check_resolution(double radius, std::string_view name) const;
 
     /// Length, area, volume...
     [[nodiscard]] double measure() const;

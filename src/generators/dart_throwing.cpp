@@ -51,15 +51,7 @@ constexpr Param<double> shrink{.name = "shrink",
                                .high = 0.999999,
                                .help = "What the radius is multiplied by when it shrinks"};
 
-/// About how many points find a place; rather too many.
-double expected_points(const BoxSpace& space, double r) {
-    double places = 0.8;
-    for (std::size_t k = 0; k < space.box.dimension(); ++k) {
-        const double along = space.box.extent(k) / r;
-        places *= space.torus ? std::max(along, 1.0) : along + 1;
-    }
-    return places + 1;
-}
+constexpr double packed = 0.8;  // points to r^d when hardly one more finds a place; rather too many
 
 Plan plan(const Request& request, const Values& options) {
     Plan plan = plan_in_box(request, options);
@@ -104,7 +96,7 @@ class Thrower {
 
     /// Adds points that keep `r`, `count` of them unless that is 0; how many there are.
     std::size_t fill(double r, std::uint64_t count) {
-        wanted_ = count ? count : static_cast<std::uint64_t>(expected_points(space_, r));
+        wanted_ = count ? count : static_cast<std::uint64_t>(space_.expected_points(packed, r));
         while ((count == 0 || points_.count() < count) && add(r)) {
         }
         return points_.count();
@@ -143,7 +135,7 @@ PointSet make_in(const Plan& plan, const Values& options, const RunContext& run)
     const BoxSpace space = space_of(plan, !options[bounded_option]);
     const std::uint64_t wanted = plan.count ? plan.start + plan.count : 0;
     double r = options.given(radius) ? options[radius] : 0;
-    const double expected = wanted ? static_cast<double>(wanted) : expected_points(space, r);
+    const double expected = wanted ? static_cast<double>(wanted) : space.expected_points(packed, r);
     check_size<D>(expected, fmt::format("{:.4g} points", expected), run);
 
     const auto patience = static_cast<std::uint64_t>(options[misses]);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/rng.hpp"
+#include "math/exponential.hpp"
 
 namespace stipple {
 namespace {
@@ -26,22 +27,9 @@ std::uint64_t by_inversion(double u, double mean, double none) {
 
 }  // namespace
 
-double decay(double x) {
-    // The series at x / 1024, where nine terms are exact to rounding, squared ten times.
-    x *= 0x1p-10;
-    double term = 1;
-    double sum = 1;
-    for (int i = 1; i < 9; ++i) {
-        term *= -x / i;
-        sum += term;
-    }
-    for (int i = 0; i < 10; ++i) sum *= sum;
-    return sum;
-}
-
 Shower::Shower(double mean, std::size_t most) : mean_(mean) {
     double none = 1;
-    const double none_on_one = decay(std::min(mean, most_at_once));
+    const double none_on_one = exponential(-std::min(mean, most_at_once));
     for (std::size_t parts = 0; parts <= most && this->mean(parts) <= most_at_once; ++parts) {
         none_.push_back(none);
         none *= none_on_one;
@@ -52,7 +40,7 @@ std::uint64_t Shower::on(std::size_t parts, Mixer& mixer) const {
     const double all = mean(parts);
     if (parts < none_.size()) return by_inversion(to_unit(mixer.next()), all, none_[parts]);
     const double portions = std::ceil(all / most_at_once);
-    const double none = decay(all / portions);
+    const double none = exponential(-all / portions);
     std::uint64_t sum = 0;
     for (double i = 0; i < portions; ++i)
         sum += by_inversion(to_unit(mixer.next()), all / portions, none);

@@ -12,9 +12,6 @@
 
 namespace stipple {
 
-/// e^-x for x in [0, 16], to some 1e-12, from products alone: the same on any machine.
-double decay(double x);
-
 /// Poisson numbers for pieces of 0 ... most equal parts.
 class Shower {
   public:

@@ -45,10 +45,7 @@ class Rain {
           keys_(seed),
           expected_(static_cast<std::uint64_t>(expected_disks(space, radius))),
           run_(worth_threads(run, static_cast<double>(expected_) * seconds_a_point)) {
-        double largest = 0;
-        for (std::size_t k = 0; k < D; ++k)
-            largest = std::max({largest, std::abs(grid_.low[k]), std::abs(grid_.high[k])});
-        slack_ = 0x1p-49 * (largest / radius + 8);
+        slack_ = 0x1p-49 * (space.largest_coordinate() / radius + 8);
         for (std::size_t t = 0; t < grid_.tile_count; ++t)
             live_.push_back(static_cast<std::uint32_t>(t));
         if (D > 3) return;  // of the few points there, tiles have no typical number
@@ -337,20 +334,6 @@ class Rain {
     std::uint64_t showers_ = 0;
 };
 
-/// @throws Error(limit) when the radius is so small that rounding moves points by more than a
-/// thousandth of it.
-void check_resolution(const Box& box, double radius) {
-    double largest = 0;
-    for (std::size_t k = 0; k < box.dimension(); ++k)
-        largest = std::max({largest, std::abs(box.low[k]), std::abs(box.high[k])});
-    const double finest = largest * 0x1p-52 * 1024;
-    if (radius < finest)
-        fail(ErrorKind::limit,
-             "a radius of {} is too fine for coordinates near {}, which tell {:.5g} from each "
-             "other well",
-             format_number(radius), format_number(largest), finest);
-}
-
 /// @throws Error(limit) when the points for this radius do not fit the memory, or the indices.
 void check_size(const BoxSpace& space, double radius, const RunContext& run) {
     const std::size_t d = space.box.dimension();
@@ -375,17 +358,12 @@ void check_size(const BoxSpace& space, double radius, const RunContext& run) {
 }  // namespace
 
 double expected_disks(const BoxSpace& space, double radius) {
-    double places = jammed[space.box.dimension()];
-    for (std::size_t k = 0; k < space.box.dimension(); ++k) {
-        const double along = space.box.extent(k) / radius;
-        places *= space.torus ? std::max(along, 1.0) : along + 1;
-    }
-    return places + 1;
+    return space.expected_points(jammed[space.box.dimension()], radius);
 }
 
 Rows maximal_disks(const BoxSpace& space, double radius, double cell_radius, std::uint64_t seed,
                    const RunContext& run) {
-    check_resolution(space.box, radius);
+    space.check_resolution(radius, "a radius");
     check_size(space, radius, run);
     switch (space.box.dimension()) {
         case 2:

@@ -61,8 +61,9 @@ constexpr Param<std::int64_t> about{.name = "n-approx",
                                     .optional = true,
                                     .unit = "points",
                                     .help =
-                                        "About so many points, made in one go: mostly within "
-                                        "1 % (from 1000 on). Instead of --count"};
+                                        "About so many points, made in one go: on the torus mostly "
+                                        "within 2 % from 1000 on, with walls fewer. Instead of "
+                                        "--count"};
 constexpr Param<Path> density{
     {.name = "density",
      .help = "Picture (PNG) or array (NPY): points per area go by its values, none where it is 0. "

@@ -12,6 +12,7 @@
 #include "core/text.hpp"
 #include "generators/disk_shower.hpp"
 #include "generators/varied_index.hpp"
+#include "math/exponential.hpp"
 #include "math/mixer.hpp"
 
 namespace stipple {
@@ -48,10 +49,8 @@ class Rain {
           expected_(expected_varied(field, scale)),
           index_(space, scale * field.least(), static_cast<std::size_t>(expected_)),
           slots_(slot_count) {
-        for (std::size_t k = 0; k < 2; ++k)
-            finest_ = std::max({finest_, std::abs(space.box.low[k]), std::abs(space.box.high[k])});
-        finest_ *= 0x1p-48;
-        double none = decay(most_darts);
+        finest_ = space.largest_coordinate() * 0x1p-48;
+        double none = exponential(-most_darts);
         double sum = none;
         for (std::size_t k = 1; sum < one_minus_ulp && k < 40; ++k) {
             at_most_.push_back(sum);
@@ -318,15 +317,7 @@ void check_size(const BoxSpace& space, const RadiusField& field, double scale,
                 const RunContext& run) {
     constexpr double bytes = 300;  // to a point
     const double radius = scale * field.least();
-    double largest = 0;
-    for (std::size_t k = 0; k < 2; ++k)
-        largest = std::max({largest, std::abs(space.box.low[k]), std::abs(space.box.high[k])});
-    const double finest = largest * 0x1p-52 * 1024;
-    if (!(radius >= finest))
-        fail(ErrorKind::limit,
-             "a least radius of {} is too fine for coordinates near {}, which tell {:.5g} from "
-             "each other well",
-             format_number(radius), format_number(largest), finest);
+    space.check_resolution(radius, "a least radius");
     const double points = expected_varied(field, scale);
     const std::string what = fmt::format("a least radius of {}, with about {:.3g} points,",
                                          format_number(radius), points);

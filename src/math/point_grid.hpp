@@ -31,6 +31,7 @@
 
 #include "core/domain.hpp"
 #include "core/run_context.hpp"
+#include "math/spaced_points.hpp"
 
 namespace stipple {
 
@@ -67,13 +68,7 @@ class GridFrame {
     }
 
     [[nodiscard]] double squared_distance(const double* p, const double* q) const {
-        double sum = 0;
-        for (std::size_t k = 0; k < D; ++k) {
-            double d = std::abs(p[k] - q[k]);
-            if (torus_) d = std::min(d, sides_[k] - d);
-            sum += d * d;
-        }
-        return sum;
+        return stipple::squared_distance<D>(p, q, sides_, torus_);
     }
 
     /// Calls visit(first, last) for stretches [first, last) of cells that together hold all that

@@ -9,11 +9,6 @@
 
 using namespace stipple;
 
-TEST(DiskShower, DecayIsTheExponential) {
-    EXPECT_EQ(decay(0), 1);
-    for (double x = 0; x <= 16; x += 0.01) EXPECT_NEAR(decay(x) / std::exp(-x), 1, 2e-12) << x;
-}
-
 // 200 000 numbers of each mean against the Poisson probabilities: the chi-square statistic of the
 // cells with an expectation above 10 is below its mean by 6 of its standard deviations sqrt(2 dof)
 // but for 1e-8 or so. Means above 16 are drawn in portions.
