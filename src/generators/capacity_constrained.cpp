@@ -168,8 +168,8 @@ Generator capacity_constrained() {
                        .sequence = false,
                        .prefix = false,
                        .boxed = true},
-            .options = Schema(iterations, crystals, planar::initial, from, planar::density,
-                              planar::invert, planar::torus, bounded),
+            .options = Schema(iterations, crystals, planar::initial, from, density_option,
+                              invert_option, planar::torus, bounded),
             .aliases = {"bnot", "optimal-transport", "ccvt"},
             .plan = planar_plan,
             .set = make};

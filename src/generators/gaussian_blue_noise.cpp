@@ -24,6 +24,7 @@
 
 #include "core/error.hpp"
 #include "core/rng.hpp"
+#include "generators/density_options.hpp"
 #include "generators/generator.hpp"
 #include "math/density_map.hpp"
 #include "math/density_relaxation.hpp"
@@ -44,16 +45,11 @@ constexpr Param<std::int64_t> iterations{
     .help =
         "Steps down the energy, the more the emptier the spectrum below its peak; 1000 unless "
         "given, with a density 300"};
-constexpr Param<Path> density{{.name = "density",
-                               .help = "PNG picture or 2-D NPY array: points in proportion to its "
-                                       "values"}};
-constexpr Param<bool> invert{.name = "invert", .help = "Dark is dense, as ink is"};
 
 Plan plan(const Request& request, const Values& options) {
     const Plan plan = default_plan(request);
-    if (options[invert] && !options.given(density))
-        fail(ErrorKind::usage, "--invert: there is no --density to invert");
-    if (options.given(density) && plan.dimension != 2)
+    check_invert(options);
+    if (options.given(density_option) && plan.dimension != 2)
         fail(ErrorKind::usage, "--dimension: {} is not 2, the dimension of a --density",
              plan.dimension);
     return plan;
@@ -72,7 +68,8 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
         fail(ErrorKind::limit, "gaussian-blue-noise makes fewer than 2^32 points; {} are too many",
              plan.count);
     std::optional<DensityMap> map;
-    if (options.given(density)) map = read_density(options[density], options[invert], run);
+    if (options.given(density_option))
+        map = read_density(options[density_option], options[invert_option], run);
     const double working = map ? density_relaxation_bytes(plan.count, *map)
                                : relaxation_bytes(plan.count, plan.dimension);
     const auto numbers = static_cast<double>(plan.count * plan.dimension);
@@ -89,8 +86,8 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
         relax_gaussian(points.flat(), plan.dimension, static_cast<std::uint64_t>(steps), run);
     }
     points.provenance.options = {{"iterations", std::to_string(steps)}};
-    if (map) points.provenance.options.emplace_back("density", options[density]);
-    if (options[invert]) points.provenance.options.emplace_back("invert", "true");
+    if (map) points.provenance.options.emplace_back("density", options[density_option]);
+    if (options[invert_option]) points.provenance.options.emplace_back("invert", "true");
     return points;
 }
 
@@ -101,7 +98,7 @@ Generator gaussian_blue_noise() {
             .summary = "Random points that Gaussian kernels have pushed apart (blue noise)",
             .source = "Ahmed, Ren, Wonka 2022, doi:10.1145/3550454.3555519",
             .traits = {.max_dimension = relaxation_dimensions, .sequence = false, .prefix = false},
-            .options = Schema(iterations, density, invert),
+            .options = Schema(iterations, density_option, invert_option),
             .aliases = {"gbn"},
             .plan = plan,
             .set = make};

@@ -143,7 +143,7 @@ Generator lloyd() {
                        .sequence = false,
                        .prefix = false,
                        .boxed = true},
-            .options = Schema(iterations, planar::initial, from, planar::density, planar::invert,
+            .options = Schema(iterations, planar::initial, from, density_option, invert_option,
                               planar::torus, bounded),
             .aliases = {"cvt", "centroidal-voronoi"},
             .plan = planar_plan,

@@ -103,9 +103,9 @@ Planar planar_of(const Plan& plan, bool torus) {
 }
 
 std::optional<DensityMap> planar_density(const Values& options, const RunContext& run) {
-    if (options.given(planar::density))
-        return read_density(options[planar::density], options[planar::invert], run);
-    if (options[planar::invert])
+    if (options.given(density_option))
+        return read_density(options[density_option], options[invert_option], run);
+    if (options[invert_option])
         fail(ErrorKind::usage, "--invert is about --density, which is not given");
     return {};
 }

@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "generators/density_options.hpp"
 #include "generators/generator.hpp"
 #include "math/density_map.hpp"
 #include "math/density_moments.hpp"
@@ -26,10 +27,6 @@ constexpr Param<Choice> initial{.name = "initial",
                                 .fallback = "jittered",
                                 .choices = "jittered|random",
                                 .help = "Points to start from"};
-constexpr Param<Path> density{
-    {.name = "density", .help = "Picture (PNG) or array (NPY): points per area go by its values"}};
-constexpr Param<bool> invert{.name = "invert",
-                             .help = "Points where --density is dark, as ink on paper"};
 constexpr Param<bool> torus{.name = "torus",
                             .help = "Opposite sides are joined (so they are by default)"};
 constexpr Param<bool> bounded{.name = "bounded", .help = "The sides are walls"};

@@ -36,6 +36,7 @@
 #include "core/rng.hpp"
 #include "core/text.hpp"
 #include "generators/box_space.hpp"
+#include "generators/density_options.hpp"
 #include "generators/maximal_disks.hpp"
 #include "generators/radius_field.hpp"
 #include "generators/radius_search.hpp"
@@ -69,8 +70,6 @@ constexpr Param<Path> density{
      .help = "Picture (PNG) or array (NPY): points per area go by its values, none where it is 0. "
              "The densest place has --radius; two points keep the smaller of their radii. In 2-D, "
              "as the next three"}};
-constexpr Param<bool> invert{.name = "invert",
-                             .help = "Points where --density is dark, as ink on paper"};
 constexpr Param<Path> radius_map{
     {.name = "radius-map",
      .help = "Array (NPY) of radii; two points keep the smaller of theirs. Scaled to a least one "
@@ -90,8 +89,7 @@ bool is_varied(const Values& options) {
 }
 
 void check_varied(const Values& options, std::size_t dimension) {
-    if (options[invert] && !options.given(density))
-        fail(ErrorKind::usage, "--invert: there is no --density to invert");
+    check_invert(options);
     if (options.given(density) && options.given(radius_map))
         fail(ErrorKind::usage, "--radius-map contradicts --density; give one of them");
     if (is_varied(options) && dimension != 2)
@@ -154,7 +152,7 @@ double least_distance(const Rows& rows, const BoxSpace& space, const RunContext&
 RadiusField read_field(const BoxSpace& space, const Values& options, const RunContext& run) {
     FieldSource source;
     if (options.given(density))
-        source.density = read_density(options[density], options[invert], run);
+        source.density = read_density(options[density], options[invert_option], run);
     if (options.given(radius_map)) source.lengths = read_lengths(options[radius_map], run);
     if (options.given(mask)) source.mask = read_mask(options[mask], false, run);
     return {space.box, source, run};
@@ -239,7 +237,7 @@ std::vector<std::pair<std::string, std::string>> notes(const Values& options, co
         {"order", options[order]}};
     for (const auto* file : {&density, &radius_map, &mask})
         if (options.given(*file)) notes.emplace_back(file->name, options[*file]);
-    if (options[invert]) notes.emplace_back("invert", "true");
+    if (options[invert_option]) notes.emplace_back("invert", "true");
     return notes;
 }
 
@@ -280,7 +278,7 @@ Generator poisson_disk() {
                        .sequence = false,
                        .prefix = false,
                        .boxed = true},
-            .options = Schema(radius, about, density, invert, radius_map, mask, torus_option,
+            .options = Schema(radius, about, density, invert_option, radius_map, mask, torus_option,
                               bounded_option, order),
             .aliases = {"poisson", "poisson-disc"},
             .plan = plan,

@@ -25,6 +25,7 @@
 
 #include "core/error.hpp"
 #include "core/rng.hpp"
+#include "generators/density_options.hpp"
 #include "generators/generator.hpp"
 #include "math/density_map.hpp"
 #include "math/png_picture.hpp"
@@ -40,10 +41,6 @@ constexpr Param<Choice> cell{.name = "cell",
                              .fallback = "center",
                              .choices = "center|random",
                              .help = "Where in its cell a point is"};
-constexpr Param<Path> density{{.name = "density",
-                               .help = "PNG picture or 2-D NPY array: points in proportion to its "
-                                       "values"}};
-constexpr Param<bool> invert{.name = "invert", .help = "Dark is dense, as ink is"};
 constexpr Param<Path> mask_image{
     {.name = "mask-image", .help = "Also writes the ranks of all cells as a PNG dither mask"}};
 
@@ -78,8 +75,7 @@ Torus torus_for(double points, double cells) {
 
 Plan plan(const Request& request, const Values& options) {
     Plan plan = default_plan(request);
-    if (options[invert] && !options.given(density))
-        fail(ErrorKind::usage, "--invert: there is no --density to invert");
+    check_invert(options);
     if (!options.given(size)) return plan;
     const std::string text = format_value(options.find(size.name).value);
     const Torus torus = torus_of(options[size], text);
@@ -146,7 +142,8 @@ PointSet place(const Torus& torus, const std::vector<std::uint32_t>& cells, std:
 
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     std::optional<DensityMap> map;
-    if (options.given(density)) map = read_density(options[density], options[invert], run);
+    if (options.given(density_option))
+        map = read_density(options[density_option], options[invert_option], run);
     const auto wanted = static_cast<double>(plan.count);
     const Torus torus = options.given(size)
                             ? torus_of(options[size], {})
@@ -158,13 +155,13 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
 
     const bool centered = options[cell] == "center";
     PointSet points =
-        place(torus, map ? dithered(torus, order, *map, count, options[density]) : order, count,
-              centered, plan.seed);
+        place(torus, map ? dithered(torus, order, *map, count, options[density_option]) : order,
+              count, centered, plan.seed);
     const Value extents = std::vector<std::int64_t>{static_cast<std::int64_t>(torus.width),
                                                     static_cast<std::int64_t>(torus.height)};
     points.provenance.options = {{"size", format_value(extents)}, {"cell", options[cell]}};
-    if (map) points.provenance.options.emplace_back("density", options[density]);
-    if (options[invert]) points.provenance.options.emplace_back("invert", "true");
+    if (map) points.provenance.options.emplace_back("density", options[density_option]);
+    if (options[invert_option]) points.provenance.options.emplace_back("invert", "true");
     if (options.given(mask_image))
         points.side_files.push_back({options[mask_image], mask_png(torus, order)});
     run.tick(1, 1);
@@ -178,7 +175,7 @@ Generator void_and_cluster() {
             .summary = "Cells of a torus in the order of void and cluster, and its dither mask",
             .source = "Ulichney 1993, doi:10.1117/12.152707",
             .traits = {.min_dimension = 2, .max_dimension = 2, .sequence = false, .prefix = false},
-            .options = Schema(size, cell, density, invert, mask_image),
+            .options = Schema(size, cell, density_option, invert_option, mask_image),
             .aliases = {"dither"},
             .writes = {std::string(mask_image.name)},
             .plan = plan,

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+//
+// The options of generators whose points follow a density (math/density_map.hpp).
+#pragma once
+
+#include "core/error.hpp"
+#include "core/options.hpp"
+
+namespace stipple {
+
+inline constexpr Param<Path> density_option{
+    {.name = "density", .help = "Picture (PNG) or array (NPY): points per area go by its values"}};
+inline constexpr Param<bool> invert_option{
+    .name = "invert", .help = "Points where --density is dark, as ink on paper"};
+
+/// @throws Error(usage) where there is nothing to invert.
+inline void check_invert(const Values& options) {
+    if (options[invert_option] && !options.given(density_option))
+        fail(ErrorKind::usage, "--invert: there is no --density to invert");
+}
+
+}  // namespace stipple
