@@ -36,6 +36,7 @@ std::string seed_use(const Generator& unit) {
 template <class Unit>
 UnitInfo base_info(const Unit& unit) {
     UnitInfo out{.name = unit.name, .summary = unit.summary, .source = unit.source};
+    if constexpr (requires { unit.strata; }) out.strata = unit.strata;
     if constexpr (requires { unit.aliases; }) out.aliases = unit.aliases;
     if constexpr (requires { unit.options; }) out.options = unit.options.options();
     return out;
@@ -129,6 +130,7 @@ Json option_json(const Option& option) {
 Json unit_json(const UnitInfo& unit, std::string_view kind) {
     Json out = {{"name", unit.name},     {"aliases", unit.aliases}, {"summary", unit.summary},
                 {"source", unit.source}, {"traits", unit.traits},   {"options", Json::array()}};
+    if (!unit.strata.empty()) out["strata"] = unit.strata;
     for (const Option& option : unit.options) out["options"].push_back(option_json(option));
     if (kind == "analyzers") {
         out["results"] = Json::array();

@@ -18,6 +18,7 @@ struct UnitInfo {
     std::string name;
     std::string summary;
     std::string source;
+    std::string strata = {};  ///< of warps: what becomes of the unit coordinates
     std::vector<std::string> aliases = {};
     nlohmann::ordered_json traits = {};
     std::vector<std::string> remarks = {};  ///< the traits in words

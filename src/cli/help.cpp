@@ -82,6 +82,7 @@ std::string help_unit(const VerbInfo& info, const UnitInfo& unit) {
     std::string text =
         fmt::format("{}: {}\n\nUsage: {}\n\nSource: {}\n{}.\n", unit.name, unit.summary, usage,
                     unit.source, capitalised(join(unit.remarks, "; ")));
+    if (!unit.strata.empty()) text += fmt::format("Strata: {}.\n", unit.strata);
     if (!unit.aliases.empty()) text += fmt::format("Also called {}.\n", join(unit.aliases, ", "));
     const auto own = own_options(info.verb, unit);
     if (!own.empty()) {

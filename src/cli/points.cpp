@@ -150,7 +150,7 @@ std::vector<PointSet> read_input(const std::string& path, const Arguments& argum
         const std::string& domain = set.provenance.domain;
         // Columns picked by hand are not what the file's domain speaks of.
         if (options.columns.empty() && domain != "unit-cube" && !domain.empty())
-            set.domain = parse_domain(domain, set.dimension());
+            set.domain = parse_domain(domain, set.dimension(), run);
         set.provenance.domain = set.domain->spec();
         set.provenance.count = set.count();
         set.provenance.dimension = set.dimension();

@@ -110,12 +110,34 @@ class ProductDomain final : public Domain {
         }
         return box;
     }
+    double density(std::span<const double> point) const override {
+        double product = 1;
+        for (const auto& factor : factors_) product *= factor.domain->density(part(factor, point));
+        return product;
+    }
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         for (const auto& factor : factors_) {
             const std::size_t size = factor.domain->cube_dimension();
             factor.domain->to_cube(part(factor, point), cube.first(size));
             cube = cube.subspan(size);
         }
+    }
+    bool even() const override {
+        return std::ranges::all_of(factors_, [](const Factor& f) { return f.domain->even(); });
+    }
+    Estimate probability(const Box& cell) const override {
+        Estimate product{1, 0};
+        std::ptrdiff_t k = 0;
+        for (const auto& factor : factors_) {
+            const auto end = k + static_cast<std::ptrdiff_t>(factor.domain->cube_dimension());
+            const Estimate one =
+                factor.domain->probability({{cell.low.begin() + k, cell.low.begin() + end},
+                                            {cell.high.begin() + k, cell.high.begin() + end}});
+            product = {product.value * one.value,
+                       product.error * (one.value + one.error) + product.value * one.error};
+            k = end;
+        }
+        return product;
     }
     std::vector<std::string> cube_axes() const override {
         std::vector<std::string> axes;

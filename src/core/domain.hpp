@@ -16,6 +16,13 @@ namespace stipple {
 class Domain;
 using DomainPtr = std::shared_ptr<const Domain>;
 
+/// A number that was worked out to a tolerance: the right one is within `error`; 0: it is exact, up
+/// to its rounding.
+struct Estimate {
+    double value = 0;
+    double error = 0;
+};
+
 /// An axis-parallel box [low, high).
 struct Box {
     std::vector<double> low;
@@ -39,22 +46,39 @@ class Domain {
     /// Numbers that make a point.
     [[nodiscard]] virtual std::size_t dimension() const = 0;
 
-    /// Length, area, volume...
+    /// Length, area, volume...; infinite for a whole line or plane.
     [[nodiscard]] virtual double measure() const = 0;
 
     /// Whether the closed domain contains the point, up to the rounding that a point on its rim
     /// has.
     [[nodiscard]] virtual bool contains(std::span<const double> point) const = 0;
 
-    /// The smallest axis-parallel box around it.
+    /// The smallest axis-parallel box around it or, where it has no end, around nearly all points
+    /// that follow its density: what a picture shows.
     [[nodiscard]] virtual Box bounding_box() const = 0;
 
     /// Numbers that to_cube gives.
     [[nodiscard]] virtual std::size_t cube_dimension() const { return dimension(); }
 
-    /// Measure-preserving coordinates in [0, 1]: a point uniform on the domain is uniform on the
-    /// cube, so every box of the cube is a cell of exactly known probability.
+    /// Density of the domain's points with respect to its measure; 0 outside. Uniform, unless the
+    /// domain says otherwise.
+    [[nodiscard]] virtual double density(std::span<const double> point) const {
+        return contains(point) ? 1 / measure() : 0;
+    }
+
+    /// Coordinates in [0, 1]. Where even(), they preserve probability: a point that follows
+    /// density() is uniform on the cube.
     virtual void to_cube(std::span<const double> point, std::span<double> cube) const = 0;
+
+    /// Whether the probability of every box of the cube is its volume.
+    [[nodiscard]] virtual bool even() const { return true; }
+
+    /// Probability of a box of the cube, for points that follow density().
+    [[nodiscard]] virtual Estimate probability(const Box& cell) const {
+        double volume = 1;
+        for (std::size_t k = 0; k < cell.dimension(); ++k) volume *= cell.extent(k);
+        return {volume, 0};
+    }
 
     /// What the coordinates of to_cube mean, for people: "x", "area fraction r^2/R^2", "angle".
     [[nodiscard]] virtual std::vector<std::string> cube_axes() const = 0;

@@ -76,17 +76,18 @@ std::vector<std::size_t> all_of(std::size_t dimension) {
 
 }  // namespace
 
-WarpChain::WarpChain(std::span<const Spec> specs, std::size_t dimension, const ChainSet& set)
+WarpChain::WarpChain(std::span<const Spec> specs, std::size_t dimension, const ChainSet& set,
+                     const RunContext& run)
     : dimension_in_(dimension), dimension_out_(dimension) {
-    for (const Spec& spec : specs) add(spec, set);
+    for (const Spec& spec : specs) add(spec, set, run);
     find_domain();
 }
 
-void WarpChain::add(const Spec& spec, const ChainSet& set) {
+void WarpChain::add(const Spec& spec, const ChainSet& set, const RunContext& run) {
     if (const Scramble* scramble = scramble_named(spec.name))
         add_scramble(*scramble, spec, set);
     else
-        add_warp(find_warp(spec.name), spec);
+        add_warp(find_warp(spec.name), spec, run);
 }
 
 /// The coordinates that a spec names, or all. They must be there, and still be uniform.
@@ -135,10 +136,10 @@ void WarpChain::add_scramble(const Scramble& scramble, const Spec& spec, const C
     steps_.push_back(std::move(step));
 }
 
-void WarpChain::add_warp(const Warp& warp, const Spec& spec) {
+void WarpChain::add_warp(const Warp& warp, const Spec& spec, const RunContext& run) {
     const Values values = spec.values(warp.options);
     Step step{.coordinates = coordinates_of(spec), .width_in = dimension_out_};
-    step.mapping = warp.make(values, step.coordinates.size());
+    step.mapping = warp.make(values, step.coordinates.size(), run);
     const std::size_t takes = step.mapping->cube_dimension();
     if (takes != step.coordinates.size())
         fail_with_hint(ErrorKind::usage,
@@ -149,7 +150,6 @@ void WarpChain::add_warp(const Warp& warp, const Spec& spec) {
     const std::size_t gives = step.mapping->domain()->dimension();
     step.width_out = step.width_in - takes + gives;
     step.image = places(step.coordinates, gives);
-    step.drops = warp.traits.drops;
     const auto rest = others(step.width_in, step.coordinates);
     const auto moved = others(step.width_out, step.image);
     for (Step& earlier : steps_)
@@ -174,14 +174,18 @@ void WarpChain::find_domain() {
     domain_ = whole ? factors[0].domain : product_domain(std::move(factors));
 }
 
-bool WarpChain::drops() const { return std::ranges::any_of(steps_, &Step::drops); }
+bool WarpChain::drops() const {
+    return std::ranges::any_of(
+        steps_, [](const Step& step) { return step.mapping && step.mapping->drops(); });
+}
 
 std::vector<double> WarpChain::forward(std::vector<double> rows, std::uint64_t first) const {
     for (const Step& step : steps_) {
         const std::size_t count = rows.size() / step.width_in;
         const bool whole = step.coordinates == all_of(step.width_in);
         auto part = whole ? std::move(rows) : gather(rows, step.width_in, step.coordinates);
-        std::vector<std::uint8_t> keep(step.drops ? count : 0, 1);
+        const bool drops = step.mapping && step.mapping->drops();
+        std::vector<std::uint8_t> keep(drops ? count : 0, 1);
         if (step.mapping) {
             std::vector<double> image(count * step.image.size());
             step.mapping->forward(part, image, keep);
@@ -193,7 +197,7 @@ std::vector<double> WarpChain::forward(std::vector<double> rows, std::uint64_t f
         rows = whole ? std::move(part)
                      : interleave(rows, step.width_in, others(step.width_in, step.coordinates),
                                   part, places(step.coordinates, gives));
-        if (step.drops) keep_rows(rows, step.width_out, keep);
+        if (drops) keep_rows(rows, step.width_out, keep);
     }
     return rows;
 }
@@ -224,7 +228,7 @@ std::vector<double> WarpChain::density(std::span<const double> rows) const {
     return density;
 }
 
-DomainPtr parse_domain(std::string_view text, std::size_t dimension) {
+DomainPtr parse_domain(std::string_view text, std::size_t dimension, const RunContext& run) {
     std::vector<Factor> factors;
     while (!text.empty()) {
         const auto times = text.find(" x ");
@@ -240,7 +244,7 @@ DomainPtr parse_domain(std::string_view text, std::size_t dimension) {
             domain = box_domain(parse_box(spec.settings[0].second, given));
         } else {
             const Warp& warp = find_warp(spec.name);
-            domain = warp.make(spec.values(warp.options), given)->domain();
+            domain = warp.make(spec.values(warp.options), given, run)->domain();
         }
         factors.push_back(
             {std::move(domain), spec.coordinates.empty() ? all_of(dimension) : spec.coordinates});

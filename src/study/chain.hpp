@@ -30,7 +30,8 @@ struct ChainSet {
 class WarpChain {
   public:
     /// @throws Error(usage): unknown warps, coordinates that are not there or no longer uniform.
-    WarpChain(std::span<const Spec> specs, std::size_t dimension, const ChainSet& set = {});
+    WarpChain(std::span<const Spec> specs, std::size_t dimension, const ChainSet& set = {},
+              const RunContext& run = {});
 
     [[nodiscard]] bool empty() const { return steps_.empty(); }
     [[nodiscard]] std::size_t dimension_in() const { return dimension_in_; }
@@ -67,12 +68,11 @@ class WarpChain {
         std::vector<std::size_t> image = {};        ///< where its numbers stand in the last row
         std::size_t width_in = 0;                   ///< numbers of the row before
         std::size_t width_out = 0;                  ///< and after
-        bool drops = false;
     };
 
-    void add(const Spec& spec, const ChainSet& set);
+    void add(const Spec& spec, const ChainSet& set, const RunContext& run);
     void add_scramble(const Scramble& scramble, const Spec& spec, const ChainSet& set);
-    void add_warp(const Warp& warp, const Spec& spec);
+    void add_warp(const Warp& warp, const Spec& spec, const RunContext& run);
     template <class Unit>
     void remember(const Unit& unit, const Spec& spec, const Values& values);
     [[nodiscard]] std::vector<std::size_t> coordinates_of(const Spec& spec) const;
@@ -88,6 +88,6 @@ class WarpChain {
 
 /// The domain that a text means: unit-cube, box:bounds=[lo..hi,...], a warp's spec, or several with
 /// coordinates joined by " x ". @throws Error(usage)
-DomainPtr parse_domain(std::string_view text, std::size_t dimension);
+DomainPtr parse_domain(std::string_view text, std::size_t dimension, const RunContext& run = {});
 
 }  // namespace stipple

@@ -109,10 +109,10 @@ void record_warp(PointSet& set, std::string warp) {
 }
 
 /// Numbers of a row that the warp makes into one of `after` numbers.
-std::size_t dimension_before(const Spec& spec, std::size_t after) {
+std::size_t dimension_before(const Spec& spec, std::size_t after, const RunContext& run) {
     const Warp& warp = find_warp(spec.name);
     const std::size_t given = spec.coordinates.empty() ? after : spec.coordinates.size();
-    const auto mapping = warp.make(spec.values(warp.options), given);
+    const auto mapping = warp.make(spec.values(warp.options), given, run);
     const std::size_t gives = mapping->domain()->dimension();
     if (gives > after || (spec.coordinates.empty() && gives != after))
         fail(ErrorKind::input, "the inverse of {} takes points of {} numbers; these have {}",
@@ -129,7 +129,7 @@ class Producer {
           target_(target),
           run_(run),
           plan_(plan_for(generator_, job.request, job.options)),
-          chain_(std::make_shared<WarpChain>(job.warps, plan_.dimension)) {
+          chain_(std::make_shared<WarpChain>(job.warps, plan_.dimension, ChainSet{}, run)) {
         if (!generator_.traits.boxed) bounds_ = job.request.bounds;
         check();
     }
@@ -181,7 +181,7 @@ class Producer {
         if (!chain_->seeded()) return chain_;
         return std::make_shared<WarpChain>(
             job_.warps, plan_.dimension,
-            ChainSet{.seed = plan_.seed + set, .count = job_.request.start + plan_.count});
+            ChainSet{.seed = plan_.seed + set, .count = job_.request.start + plan_.count}, run_);
     }
 
     /// What the points are on in the end.
@@ -307,7 +307,7 @@ void write_sets(std::vector<PointSet> sets, const Target& target, const RunConte
 void write_warped(std::vector<PointSet> sets, const Spec& warp, bool inverse, const Target& target,
                   const RunContext& run) {
     const std::size_t d = sets.front().dimension();
-    const WarpChain chain({&warp, 1}, inverse ? dimension_before(warp, d) : d);
+    const WarpChain chain({&warp, 1}, inverse ? dimension_before(warp, d, run) : d, {}, run);
     if (inverse && target.with_pdf)
         fail(ErrorKind::usage, "--with-pdf: the inverse gives points of the unit cube, density 1");
     for (PointSet& set : sets) {

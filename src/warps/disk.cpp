@@ -212,10 +212,10 @@ class Disk final : public Mapping {
                 const auto [x, y] = Method::forward(cube[2 * i], cube[2 * i + 1]);
                 keep[i] = x * x + y * y < 1;
             }
-        } else {
-            std::ranges::fill(keep, std::uint8_t{1});
         }
     }
+
+    bool drops() const override { return std::is_same_v<Method, Rejection>; }
 
     void inverse(std::span<const double> image, std::span<double> cube) const override {
         for (std::size_t i = 0; i + 1 < image.size(); i += 2) {
@@ -237,7 +237,8 @@ class Disk final : public Mapping {
     std::shared_ptr<const DiskDomain> disk_;
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/) {
+std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
+                              const RunContext& /*run*/) {
     const double r = options[radius];
     const auto at = options[center];
     if (at.size() != 2)
@@ -260,6 +261,9 @@ Warp disk() {
     return {.name = "disk",
             .summary = "Disk, uniform by area (but method naive: biased, kept to show its bias)",
             .source = "Shirley, Chiu 1997, doi:10.1080/10867651.1997.10487479 (concentric)",
+            .strata =
+                "polar: xi1 is the share of the area within the radius, xi2 the angle, both as "
+                "they are; concentric: squares about the centre become rings, left stays left",
             .traits = {.invertible = true, .drops = true, .biased = true},
             .options = schema(),
             .make = make};

@@ -210,15 +210,12 @@ class Triangle final : public Mapping {
         }
     }
 
-    double density(std::span<const double> point) const override {
-        return triangle_->contains(point) ? 1 / triangle_->measure() : 0;
-    }
-
   private:
     std::shared_ptr<const TriangleDomain> triangle_;
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/) {
+std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
+                              const RunContext& /*run*/) {
     return std::make_unique<Triangle>(options[vertices]);
 }
 
@@ -228,6 +225,9 @@ Warp triangle() {
     return {.name = "triangle",
             .summary = "Triangle in the plane or in space, uniform by area",
             .source = "Turk 1990, in: Graphics Gems",
+            .strata =
+                "xi1 is the share of the area between the first vertex and a parallel of the "
+                "opposite side, xi2 the place along it, both as they are",
             .traits = {},
             .options = schema(),
             .make = make};

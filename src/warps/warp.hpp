@@ -13,6 +13,7 @@
 
 #include "core/domain.hpp"
 #include "core/options.hpp"
+#include "core/run_context.hpp"
 
 namespace stipple {
 
@@ -24,23 +25,30 @@ class Mapping {
     Mapping& operator=(const Mapping&) = delete;
     virtual ~Mapping() = default;
 
-    /// What the image lives on. The image's numbers a point are domain()->dimension().
+    /// What the image lives on. The image's numbers a point are domain()->dimension(). Its density
+    /// is the one that the warp is for; a biased method makes another.
     [[nodiscard]] virtual DomainPtr domain() const = 0;
 
     /// Unit coordinates that make one point.
     [[nodiscard]] virtual std::size_t cube_dimension() const = 0;
 
     /// Maps point after point: `cube` holds count x cube_dimension() numbers, `image` takes
-    /// count x domain()->dimension(). Where the trait `drops` is set, keep[i] = 0 marks a point
-    /// that has no image; else `keep` is not touched.
+    /// count x domain()->dimension(). Where drops(), keep[i] = 0 marks a point that has no image;
+    /// else `keep` is not touched.
     virtual void forward(std::span<const double> cube, std::span<double> image,
                          std::span<std::uint8_t> keep) const = 0;
+
+    /// Whether some points may have no image.
+    [[nodiscard]] virtual bool drops() const { return false; }
 
     /// The way back, into the closed unit cube. @throws Error(usage) where there is none.
     virtual void inverse(std::span<const double> image, std::span<double> cube) const;
 
-    /// Density of the image of a uniform point with respect to the domain's measure.
-    [[nodiscard]] virtual double density(std::span<const double> point) const = 0;
+    /// Density of the image of a uniform point with respect to the domain's measure: the domain's,
+    /// save where the method is biased.
+    [[nodiscard]] virtual double density(std::span<const double> point) const {
+        return domain()->density(point);
+    }
 };
 
 struct WarpTraits {
@@ -53,12 +61,16 @@ struct Warp {
     std::string name;
     std::string summary;
     std::string source;
+    std::string strata;  ///< what becomes of each unit coordinate, and whether it is xi or 1 - xi
     WarpTraits traits;
     Schema options;
+    std::vector<std::string> aliases = {};  ///< other names that users of the field would type
 
     /// The map for these options. `given` is the number of coordinates at hand: a warp of fixed
-    /// dimension ignores it. @throws Error(usage)
-    std::function<std::unique_ptr<Mapping>(const Values&, std::size_t given)> make;
+    /// dimension ignores it. @throws Error(usage); of warps that read a file, also what reading
+    /// throws, and Error(limit)
+    std::function<std::unique_ptr<Mapping>(const Values&, std::size_t given, const RunContext&)>
+        make;
 };
 
 namespace warps {

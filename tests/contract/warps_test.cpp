@@ -19,7 +19,7 @@ namespace {
 class EveryWarp : public ::testing::TestWithParam<std::string> {
   protected:
     const Warp& unit = find_warp(GetParam());
-    const std::unique_ptr<Mapping> mapping = unit.make(unit.options.defaults(), 2);
+    const std::unique_ptr<Mapping> mapping = unit.make(unit.options.defaults(), 2, {});
     const std::size_t in = mapping->cube_dimension();
     const std::size_t out = mapping->domain()->dimension();
 
@@ -88,7 +88,10 @@ TEST_P(EveryWarp, CellsAreInTheCube) {
     EXPECT_EQ(mapping->domain()->cube_axes().size(), coordinates.size());
 }
 
-TEST_P(EveryWarp, HasACompleteRecord) { expect_complete_record(unit); }
+TEST_P(EveryWarp, HasACompleteRecord) {
+    expect_complete_record(unit);
+    EXPECT_FALSE(unit.strata.empty());
+}
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryWarp, ::testing::ValuesIn(names_of(warps::all())),
                          case_name);

@@ -21,7 +21,7 @@ namespace stipple::testing {
 inline std::unique_ptr<Mapping> mapping(std::string_view text) {
     const Spec spec = parse_spec(text);
     const Warp& warp = find_warp(spec.name);
-    return warp.make(spec.values(warp.options), 2);
+    return warp.make(spec.values(warp.options), 2, {});
 }
 
 /// The image of points that have one, with its domain.
