@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <string_view>
+#include <vector>
 
 #include "core/domain.hpp"
 #include "core/error.hpp"
@@ -49,6 +50,14 @@ BoxSpace space_of(const Plan& plan, bool torus);
 /// @throws Error(usage): --torus and --bounded, a box of another dimension, or one whose distances
 /// cannot be squared.
 Plan plan_in_box(const Request& request, const Values& options);
+
+/// Sides of the plan's box in proportion, the shortest 1; none where all are alike, as those of the
+/// unit cube.
+std::vector<double> proportions_of(const Plan& plan);
+
+/// The plan of a generator that knows its box by its proportions. @throws Error(usage): a box of
+/// another dimension, or with a side longer than largest_proportion times another.
+Plan plan_in_proportion(const Request& request);
 
 /// The points, on their box, from index plan.start on.
 PointSet set_in_box(std::vector<double> rows, const Plan& plan);
