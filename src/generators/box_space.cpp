@@ -9,6 +9,11 @@
 
 namespace stipple {
 
+void check_torus(const Values& options) {
+    if (options[torus_option] && options[bounded_option])
+        fail(ErrorKind::usage, "--torus contradicts --bounded; give one of them");
+}
+
 double BoxSpace::largest_distance() const {
     double squared = 0;
     for (std::size_t k = 0; k < box.dimension(); ++k) {
@@ -56,8 +61,7 @@ BoxSpace space_of(const Plan& plan, bool torus) {
 }
 
 Plan plan_in_box(const Request& request, const Values& options) {
-    if (options[torus_option] && options[bounded_option])
-        fail(ErrorKind::usage, "--torus contradicts --bounded; give one of them");
+    check_torus(options);
     const Plan plan = default_plan(request, 1024, request.bounds ? request.bounds->dimension() : 2);
     const BoxSpace space = space_of(plan, false);
     if (space.box.dimension() != plan.dimension)

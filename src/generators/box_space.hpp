@@ -20,6 +20,9 @@ inline constexpr Param<bool> torus_option{
 inline constexpr Param<bool> bounded_option{.name = "bounded",
                                             .help = "Distances end at the faces"};
 
+/// @throws Error(usage): --torus and --bounded
+void check_torus(const Values& options);
+
 /// A box with distances; they go across opposite faces on the torus.
 struct BoxSpace {
     Box box;
