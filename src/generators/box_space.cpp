@@ -95,10 +95,16 @@ Plan plan_in_proportion(const Request& request) {
     for (const double side : proportions_of(plan))
         if (!(side <= largest_proportion))
             fail(ErrorKind::usage,
-                 "--bounds: {} has a side {:.4g} times as long as another; expected {:.0f} times "
+                 "--bounds: {} has a side {:.5g} times as long as another; expected {:.0f} times "
                  "at most",
                  format_box(*plan.bounds), side, largest_proportion);
     return plan;
+}
+
+void put_in_box(const Plan& plan, PointSet& points) {
+    if (!plan.bounds) return;
+    scale_into(*plan.bounds, points.flat());
+    points.domain = box_domain(*plan.bounds);
 }
 
 PointSet set_in_box(std::vector<double> rows, const Plan& plan) {

@@ -62,6 +62,9 @@ std::vector<double> proportions_of(const Plan& plan);
 /// another dimension, or with a side longer than largest_proportion times another.
 Plan plan_in_proportion(const Request& request);
 
+/// Moves points of the unit cube into the plan's box, which becomes their domain.
+void put_in_box(const Plan& plan, PointSet& points);
+
 /// The points, on their box, from index plan.start on.
 PointSet set_in_box(std::vector<double> rows, const Plan& plan);
 
