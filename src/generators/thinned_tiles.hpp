@@ -3,17 +3,15 @@
 // Tiles of ranked points, thinned to a density by their ranks: a point of rank r (0, 1, ...) at x,
 // in tile c, has the score
 //
-//     (r + u_c) / rho(x),     u_c = frac(a column + b row + seed's part),  a, b of the plastic
-//     ratio,
+//     (r + u_c) / rho(x),    u_c = frac(column / p + row / p^2 + a part of the seed),  p^3 = p + 1,
 //
 // and the n points with the lowest scores stay: about rho(x) s per tile, s the score of the last.
 // u, even over the tiles, rounds the number of a tile's points up in one and down in the next; so
 // large regions get their share also where rho is too low for a point in every tile.
 //
-// Shape   a point of equal score with the last stays if its tile, then its rank, is among the
-// first. Cost    3 looks at each candidate, a point with a rank below s times the largest density
-// in its
-//         tile; 5 ns a look and core. 16 bytes a tile.
+// Shape   of points with the score of the last those stay whose tile, then rank, is lower.
+// Cost    3 looks at each candidate, a point with a rank below s times the largest density in its
+//         tile; 2 to 3 ns a look and core. 16 bytes a tile.
 // Promise nothing is kept where the density is 0.
 // Source  J. Kopf, D. Cohen-Or, O. Deussen, D. Lischinski, "Recursive Wang tiles for real-time blue
 //         noise", ACM Trans. Graph. 25(3) (2006) 509-518, doi:10.1145/1141911.1141916: ranks as

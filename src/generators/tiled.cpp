@@ -9,13 +9,13 @@
 // n - K^2 (t - 1) are there, spread evenly over the tiles: m of K^2, the j-th in tile
 // floor(j K^2 / m).
 //
-// --bounds    K x L tiles in a box with sides a and b, K L T >= n, of sides a / K and b / L: as
-// near
-//             to squares as whole numbers allow. Points are even on a tile of just these sides, so
-//             the set is so on the box, and a torus, whatever its proportions.
+// --bounds    K x L tiles in a box that is no square: just as many as needed, nearly squares. The
+//             tile is made even with the sides that it has in the box, so the set is even there,
+//             and a torus, whatever the proportions. Points stay in [0, 1)^2 until they are
+//             scaled.
 // --density   tiles of t = ceil((n + 2 sqrt(n)) top / K^2) points, top the largest density over its
-//             mean. Ranks are thresholds (generators/thinned_tiles.hpp): of all points with a
-//             density above 0 the n stay whose (rank + u) / density is the least, 0 <= u < 1 one
+//             mean. Ranks are thresholds (generators/thinned_tiles.hpp): of all points with
+//             a density above 0 the n stay whose (rank + u) / density is the least, 0 <= u < 1 one
 //             number a tile. The few more than n top keep where the density is the largest from
 //             running out of points; where they do nevertheless, as in a picture as fine as the
 //             points, the tiles become more. These points stand by tile. A constant density is as
@@ -23,16 +23,14 @@
 //
 // Shape   2-D. A sequence: point i is a function of i, n and the seed; no memory but for the tile,
 //         and, with a density, 16 bytes for each time that it is repeated.
-// Cost    O(t (iterations + t)) once, 1.5 seconds for t = 4096; then 2 ns a point and core. With a
-//         density 20 ns a point and core times top, less where the density varies little within
-//         tiles.
+// Cost    O(t (iterations + t)) once, 1.5 seconds for t = 4096; then 2 ns a point and core. With
+//         a density some 8 ns a point and core, times top.
 // Promise exactly n points. No two are nearer than the nearest of the tile's torus, in the size it
 //         is repeated with; without a density a tile of 4096 points keeps them 0.5 / sqrt(n) apart
 //         and more (times the root of a box's area).
-// Beware  the set is periodic as far as it is not thinned: its spectrum has peaks at multiples of
-// K.
-//         Larger tiles move them together and down. Where a density leaves a point or two in every
-//         tile they stand in rows.
+// Beware  the set is periodic as far as it is not thinned: its spectrum has peaks at multiples
+//         of K, which larger tiles move together and down. Where a density leaves a point or two in
+//         every tile they stand in rows; larger tiles have more.
 // Source  one tile for all: M. F. Cohen, J. Shade, S. Hiller, O. Deussen, "Wang tiles for image and
 //         texture generation", ACM Trans. Graph. 22(3) (2003) 287-294,
 //         doi:10.1145/882262.882265, of which this is the case of a single tile. Ranks for a
@@ -42,6 +40,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/wide.hpp"
@@ -128,16 +127,19 @@ class Tiles final : public Sequence {
     std::uint64_t last_count_;
 };
 
-/// At least so many tiles, as near to squares as can be where `sides` are those of the box.
+/// At least so many tiles, few more, and nearly squares where `sides` are those of the box.
 Tiling tiling_of(std::uint64_t least, Vec2 sides) {
     const double longer = std::max(sides.x, sides.y) / std::min(sides.x, sides.y);
-    const auto across =
+    auto across =
         static_cast<std::uint64_t>(std::ceil(std::sqrt(static_cast<double>(least) / longer)));
-    std::uint64_t along = least;
-    if (across > 1)
-        along = std::max(static_cast<std::uint64_t>(static_cast<double>(across) * longer + 0.5),
-                         (least - 1) / across + 1);
-    return sides.x >= sides.y ? Tiling{along, across} : Tiling{across, along};
+    if (sides.x == sides.y) return {across, across};
+    const auto along = [&](std::uint64_t b) { return (least - 1) / b + 1; };
+    const auto badness = [&](std::uint64_t b) {
+        const double shape = longer * static_cast<double>(b) / static_cast<double>(along(b));
+        return std::pair(b * along(b), std::max(shape, 1 / shape));
+    };
+    if (across > 1 && badness(across - 1) <= badness(across)) --across;
+    return sides.x > sides.y ? Tiling{along(across), across} : Tiling{across, along(across)};
 }
 
 /// The tile for so many repetitions.
