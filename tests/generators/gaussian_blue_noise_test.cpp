@@ -63,7 +63,7 @@ double smallest_distance(const PointSet& set) {
 }
 
 PointSet make_in_box(const Box& box, const Settings& settings) {
-    Request request = points(500, 2);
+    Request request = points(300, 2);
     request.bounds = box;
     return make(name, request, settings);
 }
@@ -124,10 +124,10 @@ TEST(GaussianBlueNoise, DistancesHoldInTheBox) {
         const PointSet plain = make_in_box(box, {{"iterations", "100"}});
         const Space space{box, true};
         expect_inside(plain, space);
-        const double spacing = std::sqrt(box.extent(0) * box.extent(1) / 500);
+        const double spacing = std::sqrt(box.extent(0) * box.extent(1) / 300);
         EXPECT_GT(stipple::testing::smallest_distance(plain, space), 0.5 * spacing);
         const TemporaryFile file(png_of(2, 2, {200, 100, 100, 200}));
-        const PointSet dense = make_in_box(box, {{"iterations", "40"}, {"density", file.path()}});
+        const PointSet dense = make_in_box(box, {{"iterations", "100"}, {"density", file.path()}});
         expect_inside(dense, space);
         EXPECT_GT(stipple::testing::smallest_distance(dense, space), 0.4 * spacing);
     }

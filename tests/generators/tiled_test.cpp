@@ -8,6 +8,7 @@
 #include <map>
 
 #include "math/density_map.hpp"
+#include "support/contract.hpp"
 #include "support/pictures.hpp"
 #include "support/spacing.hpp"
 #include "support/units.hpp"
@@ -246,6 +247,33 @@ TEST(Tiled, IsEvenInABoxOfAnyProportions) {
                       0.5 * std::sqrt(a * b / static_cast<double>(n)))
                 << space.name() << ", " << n;
         }
+}
+
+// Three tiles side by side, though no squares, are fewer than two by two.
+TEST(Tiled, RepeatsATileInABoxNoMoreThanNeeded) {
+    Request request = points(3 * 64, 2);
+    request.bounds = Box{{0, 0}, {2, 1}};
+    const PointSet set = make(name, request, small);
+    std::map<std::pair<double, double>, std::size_t> found;
+    for (std::size_t i = 0; i < set.count(); ++i) {
+        const double x = std::round(set[i][0] * 3 * 0x1p28) / 0x1p28;
+        ++found[{x - std::floor(x), set[i][1]}];
+    }
+    EXPECT_EQ(found.size(), 64U);
+    for (const auto& [place, count] : found) EXPECT_EQ(count, 3U);
+}
+
+TEST(Tiled, WithADensityItReportsProgressAndStops) {
+    const TemporaryFile file(array_of(16, 16, steep()));
+    const auto work = [&](const RunContext& run) {
+        make(name, points(100'000, 2), with_density(file), run);
+    };
+    expect_progress_to_the_end(work);
+    expect_to_stop_at_once(work);
+    EXPECT_EQ(error_of([&] {
+                  make(name, points(100'000'000, 2), with_density(file), {.max_memory = 1 << 20});
+              }).substr(0, 50),
+              "limit: the tiling for this density needs 87.2 MiB ");
 }
 
 TEST(Tiled, ABoxOfEqualSidesIsAsTheUnitSquare) {
