@@ -146,6 +146,14 @@ DensityMap::DensityMap(std::size_t width, std::size_t height, std::vector<double
     largest_ = std::ranges::max(values_);
 }
 
+double DensityMap::largest_in(double x0, double x1, double y0, double y1) const {
+    double largest = 0;
+    for (std::size_t j = cell_of(y0, height_); j <= cell_of(y1, height_); ++j)
+        for (std::size_t i = cell_of(x0, width_); i <= cell_of(x1, width_); ++i)
+            largest = std::max(largest, values_[j * width_ + i]);
+    return largest;
+}
+
 std::array<double, 2> DensityMap::place(double u, double v) const {
     const auto [j, above] = locate(column_, v * column_.back());
     const auto row = std::span(row_sums_).subspan(j * width_, width_);

@@ -59,6 +59,9 @@ class DensityMap {
 
     [[nodiscard]] double largest() const { return largest_; }
 
+    /// Largest density at points of the closed rectangle [x0, x1] x [y0, y1].
+    [[nodiscard]] double largest_in(double x0, double x1, double y0, double y1) const;
+
     /// Image of a point of [0, 1)^2 under the map that takes the uniform density to this one,
     /// rising in v along y, and in u along x.
     [[nodiscard]] std::array<double, 2> place(double u, double v) const;
