@@ -20,13 +20,11 @@ struct Edge {
 };
 
 /// The share of a slab's height, from the end where its row is w0 long, that has the share f of its
-/// area.
+/// area; the longer one of w0 and w1 is 1.
 double height_share(double f, double w0, double w1) {
-    const double widest = std::max(w0, w1);
-    const double near = w0 / widest;
-    const double far = w1 / widest;
-    if (!(f > 0)) return 0;
-    return f * (near + far) / (near + std::sqrt((1 - f) * near * near + f * far * far));
+    const double root = std::sqrt((1 - f) * w0 * w0 + f * w1 * w1);
+    const double null = f == 0;  // where w0 = 0, too, this is 0 / 0
+    return f * (w0 + w1) / (w0 + root + null);
 }
 
 /// The way back: the share of the area that has the share t of the height.
@@ -114,12 +112,18 @@ void PolygonRows::cut_slabs(const RunContext& run) {
 void PolygonRows::measure_slabs() {
     for (std::size_t j = 0; j < slabs_.size(); ++j) {
         Slab& slab = slabs_[j];
-        slab.width_bottom = width_at(slab, 0);
-        slab.width_top = width_at(slab, 1);
+        for (const Part& part : parts_of(slab)) {
+            slab.width_bottom += part.right(0) - part.left(0);
+            slab.width_top += part.right(1) - part.left(1);
+        }
         slab.area = 0.5 * (slab.width_bottom + slab.width_top) * slab.height();
         slab.area_below = area_;
         area_ += slab.area;
-        if (slab.area > 0) last_filled_ = j;
+        if (!(slab.area > 0)) continue;
+        const double widest = std::max(slab.width_bottom, slab.width_top);
+        slab.share_bottom = slab.width_bottom / widest;
+        slab.share_top = slab.width_top / widest;
+        last_filled_ = j;
     }
     double above = 0;
     for (std::size_t j = slabs_.size(); j-- > 0;) {
@@ -129,38 +133,35 @@ void PolygonRows::measure_slabs() {
 }
 
 void PolygonRows::fill_guide() {
-    guide_.resize(std::max<std::size_t>(16, 2 * slabs_.size()));
-    const auto shares = static_cast<double>(guide_.size());
+    const std::size_t shares = std::max<std::size_t>(64, 4 * slabs_.size());
+    shares_ = static_cast<double>(shares);
+    guide_.resize(shares + 1);  // the last one is for u = 1
     std::size_t j = 0;
     for (std::size_t k = 0; k < guide_.size(); ++k) {
-        const double below = static_cast<double>(k) / shares * area_;
+        const double below = static_cast<double>(k) / shares_ * area_;
         while (j < last_filled_ && slabs_[j].area_below + slabs_[j].area <= below) ++j;
         guide_[k] = static_cast<std::uint32_t>(j);
     }
 }
 
-double PolygonRows::width_at(const Slab& slab, double t) const {
-    double sum = 0;
-    for (const Part& part : parts_of(slab)) sum += part.right(t) - part.left(t);
-    return sum;
-}
-
-/// The row in the slab that has the share u of the whole area below it.
+/// The row in the slab that has the share u of the whole area below it, from the end of the slab
+/// that u is nearer to. Written without branches, since they would be guessed wrong half of the
+/// time.
 double PolygonRows::row_at(const Slab& slab, double u) const {
-    if (u < 0.5) {
-        const double f = std::clamp((u * area_ - slab.area_below) / slab.area, 0.0, 1.0);
-        const double t = height_share(f, slab.width_bottom, slab.width_top);
-        return std::min(slab.bottom + t * slab.height(), slab.top);
-    }
-    const double g = std::clamp(((1 - u) * area_ - slab.area_above) / slab.area, 0.0, 1.0);
-    const double t = height_share(g, slab.width_top, slab.width_bottom);
-    return std::max(slab.top - t * slab.height(), slab.bottom);
+    const bool up = u < 0.5;
+    const double low = slab.share_bottom;
+    const double high = slab.share_top;
+    const double rest = (up ? u : 1 - u) * area_ - (up ? slab.area_below : slab.area_above);
+    const double f = std::max(0.0, std::min(rest / slab.area, 1.0));
+    const double way = height_share(f, up ? low : high, up ? high : low) * slab.height();
+    const double y = up ? slab.bottom + way : slab.top - way;
+    return std::max(slab.bottom, std::min(y, slab.top));
 }
 
 PlanePoint PolygonRows::forward(double u, double v) const {
     const double below = u * area_;
-    const auto share = static_cast<std::size_t>(u * static_cast<double>(guide_.size()));
-    std::size_t j = guide_[std::min(share, guide_.size() - 1)];
+    const auto share = static_cast<std::int64_t>(u * shares_);
+    std::size_t j = guide_[static_cast<std::size_t>(share)];
     while (j > 0 && slabs_[j].area_below > below) --j;  // rounding took the share too high
     while (j < last_filled_ && slabs_[j].area_below + slabs_[j].area <= below) ++j;
     const Slab& slab = slabs_[j];
@@ -168,7 +169,7 @@ PlanePoint PolygonRows::forward(double u, double v) const {
 
     const double t = (y - slab.bottom) / slab.height();  // of the row as it is rounded
     const auto parts = parts_of(slab);
-    const double way = v * width_at(slab, t);
+    const double way = v * slab.width(t);
     double passed = 0;
     for (std::size_t k = 0;; ++k) {
         const double left = parts[k].left(t);
@@ -198,7 +199,7 @@ PlanePoint PolygonRows::inverse(PlanePoint p) const {
 
 /// The share of the row's length that is on the left of x, or of the part that is nearest to it.
 double PolygonRows::place_in_row(const Slab& slab, double t, double x) const {
-    const double width = width_at(slab, t);
+    const double width = slab.width(t);
     if (!(width > 0)) return 0;
     double passed = 0;
     double nearest = std::numeric_limits<double>::infinity();

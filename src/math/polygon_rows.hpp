@@ -79,8 +79,13 @@ class PolygonRows {
         double area = 0;
         double area_below = 0;
         double area_above = 0;
+        double share_bottom = 0;  ///< widths as shares of the greater one
+        double share_top = 0;
 
         [[nodiscard]] double height() const { return top - bottom; }
+        [[nodiscard]] double width(double t) const {
+            return width_bottom + t * (width_top - width_bottom);
+        }
     };
 
     void measure_rings(const std::vector<Ring>& rings);
@@ -90,7 +95,6 @@ class PolygonRows {
     [[nodiscard]] std::span<const Part> parts_of(const Slab& slab) const {
         return std::span(parts_).subspan(slab.first, slab.last - slab.first);
     }
-    [[nodiscard]] double width_at(const Slab& slab, double t) const;
     [[nodiscard]] double row_at(const Slab& slab, double u) const;
     [[nodiscard]] double place_in_row(const Slab& slab, double t, double x) const;
     [[nodiscard]] double gap(const Slab& slab, PlanePoint p) const;
@@ -101,7 +105,8 @@ class PolygonRows {
     std::vector<Slab> slabs_;
     std::vector<Part> parts_;
     std::vector<std::uint32_t> guide_;  ///< the slab of the first row of each share of the area
-    std::size_t last_filled_ = 0;       ///< the topmost slab that has an area
+    double shares_ = 0;
+    std::size_t last_filled_ = 0;  ///< the topmost slab that has an area
     Box box_;
     double area_ = 0;
     double slack_ = 0;
