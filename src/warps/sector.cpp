@@ -18,6 +18,8 @@
 //         xi within 1e-14 R / (R - q) and 1e-14 / (beta - alpha) turns, save that all xi1 meet in
 //         the centre where q = 0. The same bits on every machine.
 
+#include <cmath>
+
 #include "core/error.hpp"
 #include "core/spec.hpp"
 #include "warps/placed_shape.hpp"
@@ -26,19 +28,12 @@
 namespace stipple::warps {
 namespace {
 
-constexpr Param<double> from{.name = "from",
-                             .fallback = 0,
-                             .low = -360,
-                             .high = 360,
-                             .unit = "degrees",
-                             .help = "First angle, from the x axis towards the y axis"};
-
-constexpr Param<double> to{.name = "to",
-                           .fallback = 90,
-                           .low = -360,
-                           .high = 720,
-                           .unit = "degrees",
-                           .help = "Last angle: above --from, by at most 360"};
+constexpr Param<Numbers> angles{
+    {.name = "angles",
+     .fallback = "0,90",
+     .unit = "degrees",
+     .help = "First and last angle, from the x axis towards the y axis: the last one is above the "
+             "first, by at most 360"}};
 
 constexpr Param<double> inner{.name = "inner",
                               .fallback = 0,
@@ -50,23 +45,39 @@ constexpr Param<double> radius{
     .name = "radius", .fallback = 1, .low = 1e-150, .high = 1e150, .help = "Outer radius, above 0"};
 
 const Schema& schema() {
-    static const Schema options(from, to, inner, radius, shape_center);
+    static const Schema options(angles, inner, radius, shape_center);
     return options;
+}
+
+struct Span {
+    double first;
+    double degrees;
+};
+
+/// What the two angles enclose. @throws Error(usage)
+Span span_of(const std::vector<double>& ends) {
+    if (ends.size() != 2)
+        fail(ErrorKind::usage, "--angles: {} numbers; 2 are needed, first,last", ends.size());
+    for (const double angle : ends)
+        if (!(std::abs(angle) <= 720))
+            fail(ErrorKind::usage, "--angles: {} is outside [-720, 720]", angle);
+    const double degrees = ends[1] - ends[0];
+    if (!(degrees >= 1e-9 && degrees <= 360))
+        fail(ErrorKind::usage, "--angles: from {} to {} are {} degrees; [1e-9, 360] are allowed",
+             ends[0], ends[1], degrees);
+    return {ends[0], degrees};
 }
 
 std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
                               const RunContext& /*run*/) {
-    const double angle = options[to] - options[from];
-    if (!(angle >= 1e-9 && angle <= 360))
-        fail(ErrorKind::usage, "--to: {} is {} degrees from --from {}; [1e-9, 360] are allowed",
-             options[to], angle, options[from]);
+    const auto [first, angle] = span_of(options[angles]);
     const double width = options[radius] - options[inner];
     if (!(width > lost_in_rounding * options[radius]))
         fail(ErrorKind::usage,
              "--inner: {} is not below --radius {}, or lost in rounding beside it", options[inner],
              options[radius]);
     const auto shape = RingSector::between(options[inner], options[radius], angle / 360);
-    const auto at = place(options[shape_center], options[radius], options[from], width, "a sector");
+    const auto at = place(options[shape_center], options[radius], first, width, "a sector");
     return placed(format_spec("sector", options, schema()), shape, at);
 }
 

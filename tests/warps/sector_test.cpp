@@ -13,11 +13,11 @@ namespace {
 
 const std::vector<std::string> shapes = {
     "sector",
-    "sector:from=30,to=75,inner=0.5,radius=2,center=[1,-2]",
-    "sector:from=-135,to=135",
-    "sector:from=45,to=405,inner=0.25",
-    "sector:from=350,to=370,inner=0.9",
-    "sector:from=90,to=90.01",
+    "sector:angles=[30,75],inner=0.5,radius=2,center=[1,-2]",
+    "sector:angles=[-135,135]",
+    "sector:angles=[45,405],inner=0.25",
+    "sector:angles=[350,370],inner=0.9",
+    "sector:angles=[90,90.01]",
 };
 
 }  // namespace
@@ -28,15 +28,15 @@ TEST(Sector, PointsByHand) {
     EXPECT_EQ(image_at("sector", 0.25, 0), (std::vector{0.5, 0.0}));
     EXPECT_EQ(image_at("sector", 0.25, 1), (std::vector{0.0, 0.5}));
     EXPECT_EQ(image_at("sector", 1, 0.5), (std::vector{h, h}));
-    EXPECT_EQ(image_at("sector:from=90,to=270", 1, 0.5), (std::vector{-1.0, 0.0}));
-    EXPECT_EQ(image_at("sector:from=-90,to=90,radius=2,center=[1,1]", 1, 0),
+    EXPECT_EQ(image_at("sector:angles=[90,270]", 1, 0.5), (std::vector{-1.0, 0.0}));
+    EXPECT_EQ(image_at("sector:angles=[-90,90],radius=2,center=[1,1]", 1, 0),
               (std::vector{1.0, -1.0}));
     EXPECT_EQ(image_at("sector:inner=3,radius=5", 0.4375, 1), (std::vector{0.0, 4.0}));
 }
 
 TEST(Sector, WholeTurnIsTheAnnulus) {
     const PointSet cube = telling_points();
-    EXPECT_TRUE(std::ranges::equal(warped(*mapping("sector:to=360,inner=0.5"), cube).flat(),
+    EXPECT_TRUE(std::ranges::equal(warped(*mapping("sector:angles=[0,360],inner=0.5"), cube).flat(),
                                    warped(*mapping("annulus"), cube).flat()));
 }
 
@@ -46,14 +46,14 @@ TEST(Sector, RoundTripOverTheWholeSquare) {
         expect_round_trip(*mapping(spec), 6e-14);
         expect_stands_hostile_points(*mapping(spec), 6e-14, 20'000);
     }
-    expect_round_trip(*mapping("sector:from=20,to=30,radius=1e150"), 1e136);
-    expect_unit_coordinates_back(*mapping("sector:from=10,to=80,inner=0.5"), 1e-14);
-    expect_unit_coordinates_back(*mapping("sector:from=10,to=80"), 1e-14, 1e-290);
+    expect_round_trip(*mapping("sector:angles=[20,30],radius=1e150"), 1e136);
+    expect_unit_coordinates_back(*mapping("sector:angles=[10,80],inner=0.5"), 1e-14);
+    expect_unit_coordinates_back(*mapping("sector:angles=[10,80]"), 1e-14, 1e-290);
 }
 
 TEST(Sector, DensityIsOneOverTheArea) {
     EXPECT_DOUBLE_EQ(mapping("sector")->domain()->measure(), std::numbers::pi / 4);
-    EXPECT_DOUBLE_EQ(mapping("sector:from=30,to=60,inner=1,radius=2")->domain()->measure(),
+    EXPECT_DOUBLE_EQ(mapping("sector:angles=[30,60],inner=1,radius=2")->domain()->measure(),
                      std::numbers::pi / 4);
     EXPECT_EQ(mapping("sector")->density(std::vector{-0.1, 0.5}), 0);
     for (const auto& spec : shapes) {
@@ -63,7 +63,7 @@ TEST(Sector, DensityIsOneOverTheArea) {
 }
 
 TEST(Sector, IsUniformByArea) {
-    expect_chi_square_can_tell(*mapping("sector:from=30,to=75,inner=0.5,radius=2,center=[1,-2]"));
+    expect_chi_square_can_tell(*mapping("sector:angles=[30,75],inner=0.5,radius=2,center=[1,-2]"));
     // Of a quarter disk: means 4 / (3 pi), variances 1/4 - (4 / (3 pi))^2, standard errors 8.4e-4
     // and 7e-4, covariance 1 / (2 pi) - (4 / (3 pi))^2.
     const double mean = 4 / (3 * std::numbers::pi);
@@ -77,7 +77,7 @@ TEST(Sector, IsUniformByArea) {
 TEST(Sector, DomainSaysWhatItIsAndParsesBack) {
     EXPECT_EQ(mapping("sector")->domain()->spec(), "sector");
     for (const auto& spec : shapes) EXPECT_EQ(mapping(spec)->domain()->spec(), spec);
-    const DomainPtr quarter = mapping("sector:from=90,to=180")->domain();
+    const DomainPtr quarter = mapping("sector:angles=[90,180]")->domain();
     for (const auto& p : {std::vector{0.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0}, {-0.5, 0.5}})
         EXPECT_TRUE(quarter->contains(p)) << p[0];
     for (const auto& p :
@@ -85,18 +85,19 @@ TEST(Sector, DomainSaysWhatItIsAndParsesBack) {
         EXPECT_FALSE(quarter->contains(p)) << p[0];
     const Box box = quarter->bounding_box();
     EXPECT_EQ(box, (Box{{-1, 0}, {0, 1}}));
-    const Box bow = mapping("sector:from=-45,to=45,inner=0.5")->domain()->bounding_box();
+    const Box bow = mapping("sector:angles=[-45,45],inner=0.5")->domain()->bounding_box();
     EXPECT_NEAR(bow.low[0], 0.5 * std::sqrt(0.5), 1e-15);
     EXPECT_DOUBLE_EQ(bow.high[0], 1);
 }
 
 TEST(Sector, RefusesWhatIsNoSector) {
     const auto error = [](std::string_view spec) { return error_of([&] { mapping(spec); }); };
-    EXPECT_EQ(error("sector:from=90,to=45"),
-              "usage: --to: 45 is -45 degrees from --from 90; [1e-9, 360] are allowed");
-    EXPECT_NE(error("sector:from=0,to=0"), "");
-    EXPECT_NE(error("sector:from=0,to=361"), "");
-    EXPECT_EQ(error("sector:from=400"), "usage: --from: 400 is outside [-360, 360]");
+    EXPECT_EQ(error("sector:angles=[90,45]"),
+              "usage: --angles: from 90 to 45 are -45 degrees; [1e-9, 360] are allowed");
+    EXPECT_NE(error("sector:angles=[0,0]"), "");
+    EXPECT_NE(error("sector:angles=[0,361]"), "");
+    EXPECT_EQ(error("sector:angles=90"), "usage: --angles: 1 numbers; 2 are needed, first,last");
+    EXPECT_EQ(error("sector:angles=[700,800]"), "usage: --angles: 800 is outside [-720, 720]");
     EXPECT_NE(error("sector:inner=1"), "");
     EXPECT_EQ(error_of([] {
                   inverse_of(*mapping("sector"), {-0.25, 0});
