@@ -116,8 +116,7 @@ PointSet read_points(const std::string& path, const RunContext& run) {
     return read_points(file, run);
 }
 
-std::vector<PointSet> read_point_groups(const std::string& path, const RunContext& run) {
-    TokenFile file(path);
+std::vector<PointSet> read_point_groups(TokenFile& file, const RunContext& run) {
     const Lines rows = read_lines(file, run);
     std::vector<PointSet> groups;
     for (std::size_t g = 0; g < rows.groups.size(); ++g) {

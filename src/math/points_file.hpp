@@ -26,6 +26,6 @@ PointSet read_points(TokenFile& file, const RunContext& run);
 
 /// Points in groups: a blank line, or one of a comment alone, begins another. At least one group,
 /// none of them empty.
-std::vector<PointSet> read_point_groups(const std::string& path, const RunContext& run);
+std::vector<PointSet> read_point_groups(TokenFile& file, const RunContext& run);
 
 }  // namespace stipple

@@ -87,7 +87,8 @@ std::vector<Ring> parse_rings(std::string_view text, const Source& source) {
 
 std::vector<Ring> read_rings(const std::string& path, const Source& source, const RunContext& run) {
     std::vector<Ring> rings;
-    for (const PointSet& group : read_point_groups(path, run)) {
+    TokenFile text(path);
+    for (const PointSet& group : read_point_groups(text, run)) {
         if (group.dimension() != 2)
             source.refuse("{} coordinates a line; 2 are needed, x,y", group.dimension());
         Ring ring;
