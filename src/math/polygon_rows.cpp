@@ -19,6 +19,22 @@ struct Edge {
     }
 };
 
+/// An edge that passes through the slab at hand, and where it does half way up.
+struct Passing {
+    const Edge* edge;
+    double x = 0;
+};
+
+/// By insertion: edges don't cross, so that all but the new ones at the end are in order already.
+void sort_from_left(std::vector<Passing>& passing, double middle) {
+    for (Passing& p : passing) p.x = p.edge->x_at(middle);
+    for (auto p = passing.begin(); p != passing.end(); ++p) {
+        if (p == passing.begin() || (p - 1)->x <= p->x) continue;
+        const auto place = std::ranges::upper_bound(passing.begin(), p, p->x, {}, &Passing::x);
+        std::rotate(place, p, p + 1);
+    }
+}
+
 /// The share of a slab's height, from the end where its row is w0 long, that has the share f of its
 /// area; the longer one of w0 and w1 is 1.
 double height_share(double f, double w0, double w1) {
@@ -89,20 +105,22 @@ void PolygonRows::cut_slabs(const RunContext& run) {
     heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
     std::ranges::sort(edges, {}, [](const Edge& edge) { return edge.low.y; });
 
-    std::vector<Edge> through;
+    std::vector<Passing> passing;
     auto next = edges.begin();
     for (std::size_t j = 0; j + 1 < heights.size(); ++j) {
         run.check_stop();
         const double bottom = heights[j];
         const double top = heights[j + 1];
-        std::erase_if(through, [&](const Edge& edge) { return edge.high.y <= bottom; });
-        for (; next != edges.end() && next->low.y <= bottom; ++next) through.push_back(*next);
-        const double middle = bottom + 0.5 * (top - bottom);
-        std::ranges::sort(through, {}, [&](const Edge& edge) { return edge.x_at(middle); });
+        std::erase_if(passing, [&](const Passing& p) { return p.edge->high.y <= bottom; });
+        for (; next != edges.end() && next->low.y <= bottom; ++next) passing.push_back({&*next});
+        sort_from_left(passing, bottom + 0.5 * (top - bottom));
         const std::size_t first = parts_.size();
-        for (std::size_t k = 0; k + 1 < through.size(); k += 2)
-            parts_.push_back({through[k].x_at(bottom), through[k].x_at(top),
-                              through[k + 1].x_at(bottom), through[k + 1].x_at(top)});
+        for (std::size_t k = 0; k + 1 < passing.size(); k += 2) {
+            const Edge& left = *passing[k].edge;
+            const Edge& right = *passing[k + 1].edge;
+            parts_.push_back(
+                {left.x_at(bottom), left.x_at(top), right.x_at(bottom), right.x_at(top)});
+        }
         slabs_.push_back({.bottom = bottom, .top = top, .first = first, .last = parts_.size()});
         run.need_memory(static_cast<double>(parts_.size()) * 2 * sizeof(Part),
                         "the rows of the polygon");
