@@ -10,7 +10,7 @@
 // Strata  xi0 and xi1 are taken as they are, not as 1 - xi: small xi0 is near the inner rim, xi1
 //         turns from the x axis towards the y axis. Strata become parts of rings between two
 //         angles.
-// Cost    O(1) a point; about 5 ns forward, 8 ns back on one core.
+// Cost    O(1) a point; about 9 ns forward, 15 ns back on one core.
 // Promise density 1 / (pi (R^2 - q^2)). Points lie in the closed annulus up to
 //         16 epsilon (R + |cx| + |cy|). Forward and back again is the same point within 1e-14 of
 //         |c| + R; for c = 0 also the same xi within 1e-14 R / (R - q), save that all xi1 meet in

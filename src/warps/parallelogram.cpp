@@ -9,7 +9,7 @@
 //
 // Shape   2 unit coordinates; 2 or 3 coordinates, as the edges have.
 // Strata  xi0 and xi1 are taken as they are, not as 1 - xi; strata become parallelograms.
-// Cost    O(1) a point; about 1.5 ns forward, 6 ns back on one core.
+// Cost    O(1) a point; about 1 ns forward, 15 ns back on one core.
 // Promise density 1 / |a x b|. Points lie in the closed parallelogram up to the rounding stated at
 //         contains(). Forward and back again is the same point within 1e-14 of the largest
 //         coordinate, times longest edge / smallest height.

@@ -14,11 +14,13 @@
 // Strata  xi0 and xi1 are taken as they are, not as 1 - xi: small xi0 is below, small xi1 left.
 //         Strata become pieces of horizontal bands; where a row has several parts, one may lie in
 //         two of them. The map of a convex polygon is continuous.
-// Cost    O(1) a point and O(edges that its row crosses); 25 ns forward for a dozen vertices.
+// Cost    O(1) a point and O(edges that its row crosses); about 21 ns forward, 60 ns back on one
+//         core where these are two.
 // Promise density 1 / area. Points lie in the closed polygon up to 16 epsilon (largest coordinate).
 //         Forward and back again is the same xi within 1e-14 of 1, times the area of the bounding
-//         box / area, save where a row is a point, all xi1 of which go back to 0. The same bits on
-//         every machine.
+//         box / area, save where a row is a point, all xi1 of which go back to 0; and the same
+//         point within 1e-14 of the largest coordinate, times A / L(y). The same bits on every
+//         machine.
 
 #include <fmt/format.h>
 

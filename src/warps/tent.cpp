@@ -13,7 +13,7 @@
 // Shape   as many coordinates as there are unit coordinates.
 // Strata  xi is taken as it is, not as 1 - xi: small xi is on the left. Strata become boxes, wide
 //         near the rim.
-// Cost    O(1) a coordinate; about 2 ns forward, 3 ns back on one core.
+// Cost    O(1) a coordinate; about 2 ns forward, 4 ns back on one core.
 // Promise the density above, 0 at the rim, where xi = 0 and 1 are. Points lie in the closed box up
 //         to 8 epsilon (r + |c|). Forward and back again is the same point, and for c = 0 the same
 //         xi, within 1e-14. The same bits on every machine.
