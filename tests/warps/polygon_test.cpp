@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -6,7 +7,6 @@
 #include <fstream>
 #include <numbers>
 
-#include "core/text.hpp"
 #include "support/planar.hpp"
 
 using namespace stipple;
@@ -41,7 +41,7 @@ Corners star(std::uint64_t seed, int n) {
 std::string text_of(const Corners& corners) {
     std::string text;
     for (const auto& [x, y] : corners)
-        text += (text.empty() ? "" : " ") + format_number(x) + "," + format_number(y);
+        text += fmt::format("{}{},{}", text.empty() ? "" : " ", x, y);
     return text;
 }
 
@@ -173,7 +173,8 @@ TEST(Polygon, InsideIsWhatAnOddNumberOfRingsSurrounds) {
 TEST(Polygon, AreasAndMembershipAreThoseOfTheOracles) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         const Corners corners = star(seed, 3 + static_cast<int>(3 * seed - 3));
-        const DomainPtr domain = mapping("polygon:vertices=[" + text_of(corners) + "]")->domain();
+        const DomainPtr domain =
+            mapping(fmt::format("polygon:vertices=[{}]", text_of(corners)))->domain();
         EXPECT_NEAR(domain->measure(), shoelace(corners), 1e-14) << "seed " << seed;
         const Box box = domain->bounding_box();
         const PointSet cloud = make("random", points(500, 2), {}, {.seed = seed});
@@ -265,7 +266,7 @@ TEST_F(PolygonFile, HoldsRingsBetweenBlankLinesOrComments) {
     const PointSet cube = telling_points();
     const PointSet expected = warped(*mapping(frame), cube);
     for (const std::string between : {"\n", "# the hole\n", "\n\n#\n"}) {
-        const auto map = mapping("polygon:file=" + write(rings + between + hole));
+        const auto map = mapping(fmt::format("polygon:file={}", write(rings + between + hole)));
         EXPECT_TRUE(std::ranges::equal(warped(*map, cube).flat(), expected.flat())) << between;
     }
     const std::string path = write(rings);
