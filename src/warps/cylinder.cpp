@@ -147,13 +147,15 @@ struct Side {
 
 struct Whole {
     Cylinder shape;
+    double cap = shape.cap_share();
+    double side = shape.side_share();
 
     Vector3 forward(const std::array<double, 2>& xi) const {
-        const double share = shape.cap_share();
-        const double end = std::min(xi[0], 1 - xi[0]);  // area left to the nearer centre of a cap
-        const double ratio = std::sqrt(std::min(end / share, 1.0));
-        const double side = (xi[0] - share) / shape.side_share();
-        const double z = std::max(0.0, std::min(side, 1.0)) - 0.5;
+        const double below = xi[0];
+        const double above = 1 - below;
+        const double end = std::min(below, above);  // area left to the nearer centre of a cap
+        const double ratio = std::sqrt(std::min(end / cap, 1.0));
+        const double z = std::max(0.0, std::min((below - cap) / side, 1.0)) - 0.5;
         return shape.place({shape.radius * ratio, shape.height * z, xi[1]});
     }
     std::array<double, 2> inverse(std::span<const double> point) const {

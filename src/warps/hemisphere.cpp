@@ -157,9 +157,9 @@ struct CosinePower : Polar {
     Vector3 forward(const std::array<double, 2>& xi) const {
         const double u = std::min(xi[0], one_minus_ulp);
         const double log = log_1p(0 - u) / (law.power + 1);  // of cos theta
-        const double horizon = xi[0] == 1;
-        const double z = exponential(log) * (1 - horizon);
-        const double r = std::sqrt(horizon - exp_minus_1(2 * log) * (1 - horizon));
+        const double less = xi[0] < 1 ? exp_minus_1(log) : -1;
+        const double z = 1 + less;
+        const double r = std::sqrt(0 - less * (1 + z));
         const auto [c, s] = cos_sin_turns(xi[1]);
         return frame.out({r * c, r * s, z});
     }

@@ -40,8 +40,8 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr Param<Path> mesh_file{
     {.name = "file", .help = "PLY (ascii or binary little endian) or OBJ mesh"}};
 
-constexpr Param<Choice> output{
-    .name = "output",
+constexpr Param<Choice> attributes{
+    .name = "attributes",
     .fallback = "position",
     .choices = "position|normal|barycentric",
     .help =
@@ -50,7 +50,7 @@ constexpr Param<Choice> output{
         "barycentrics"};
 
 const Schema& schema() {
-    static const Schema options(mesh_file, output);
+    static const Schema options(mesh_file, attributes);
     return options;
 }
 
@@ -313,14 +313,14 @@ class Mesh final : public Mapping {
 std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/, const RunContext& run) {
     if (!options.given(mesh_file))
         fail(ErrorKind::usage, "--file: name a PLY or OBJ file with a triangle mesh");
-    const std::string how = options[output];
+    const std::string how = options[attributes];
     const Gives gives = how == "normal"        ? Gives::normal
                         : how == "barycentric" ? Gives::barycentric
                                                : Gives::position;
     const std::string path = options[mesh_file];
     return std::make_unique<Mesh>(std::make_shared<MeshDomain>(
         read_mesh(path, run), gives, path,
-        domain_spec("mesh", options, schema(), {mesh_file.name, output.name}), run));
+        domain_spec("mesh", options, schema(), {mesh_file.name, attributes.name}), run));
 }
 
 }  // namespace

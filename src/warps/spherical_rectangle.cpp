@@ -82,14 +82,16 @@ class Urena {
     explicit Urena(const Rectangle& rectangle) : seen_(rectangle) {
         // Turned so that the digits are kept: mostly x <= 0 and y >= 0.
         if (seen_.x0 + seen_.x1 > 0) {
-            turned_x_ = true;
+            from_x_ = 1;
+            sign_x_ = -1;
             std::swap(seen_.x0, seen_.x1);
             seen_.x0 = -seen_.x0;
             seen_.x1 = -seen_.x1;
             seen_.frame.x = times(seen_.frame.x, -1);
         }
         if (seen_.y0 + seen_.y1 < 0) {
-            turned_y_ = true;
+            from_y_ = 1;
+            sign_y_ = -1;
             std::swap(seen_.y0, seen_.y1);
             seen_.y0 = -seen_.y0;
             seen_.y1 = -seen_.y1;
@@ -109,8 +111,8 @@ class Urena {
     }
 
     Vector3 forward(const std::array<double, 2>& xi) const {
-        const double u = turned_x_ ? 1 - xi[0] : xi[0];
-        const double v = turned_y_ ? 1 - xi[1] : xi[1];
+        const double u = from_x_ + sign_x_ * xi[0];
+        const double v = from_y_ + sign_y_ * xi[1];
         const CosSin h = cos_sin_turns(before_ + half_ * u);
         const CosSin g = cos_sin_turns(behind_ + half_ * (1 - u));
         const double along = h.sin * g.cos - h.cos * g.sin;  // sin(H - G)
@@ -140,7 +142,7 @@ class Urena {
         const Rises from = rises(seen_.y0, cos_phi);
         const double range = from.below - rises(seen_.y1, cos_phi).below;
         const double v = (y > 0 ? from.below - least : least - from.above) / range;
-        return {turned_x_ ? 1 - u : u, turned_y_ ? 1 - v : v};
+        return {from_x_ + sign_x_ * u, from_y_ + sign_y_ * v};
     }
 
   private:
@@ -185,8 +187,10 @@ class Urena {
     }
 
     Rectangle seen_;
-    bool turned_x_ = false;
-    bool turned_y_ = false;
+    double from_x_ = 0;  ///< xi0 or, where x is turned, 1 - xi0
+    double sign_x_ = 1;
+    double from_y_ = 0;  ///< the same of xi1 and y
+    double sign_y_ = 1;
     double half_ = 0;    ///< half the solid angle, in turns
     double before_ = 0;  ///< H at x0
     double behind_ = 0;  ///< G at x1

@@ -9,8 +9,8 @@
 //
 // With E = pi - theta, M = pi - 2 pi xi0 and e = r / R <= 1 that is Kepler's equation
 // E - e sin E = M. For M in [0, pi] its left side is convex, so that Newton's steps fall to the
-// root from any start above; they end when rounding stops them. E - sin E is summed as a power
-// series below 1, so that no digits are lost where e is near 1.
+// root from any start above; they end when one was so small that no other would count. E - sin E is
+// summed as a power series below 1, so that no digits are lost where e is near 1.
 //
 // Shape   2 unit coordinates, 3 coordinates; r <= R.
 // Strata  xi0 turns around the tube, from the outermost point upwards and in; xi1 turns from x
@@ -27,6 +27,7 @@
 #include <limits>
 #include <numbers>
 
+#include "math/roots.hpp"
 #include "math/trigonometry.hpp"
 #include "warps/placement.hpp"
 #include "warps/row_mapping.hpp"
@@ -98,15 +99,17 @@ struct Torus {
     double eccentric_turns(double mean) const {
         const double e = minor / major;
         const double lacks = (major - minor) / major;
-        double turns = std::min(mean + e, std::numbers::pi) / two_pi;
-        for (int step = 0; step < 80; ++step) {
+        // E - sin E >= E^3 / pi^2 bounds it where e is near 1.
+        const double cubic = cube_root(std::numbers::pi * std::numbers::pi * mean / e);
+        double turns = std::min({mean + e, cubic, std::numbers::pi}) / two_pi;
+        for (bool more = turns > 0; more;) {
             const auto [c, s] = cos_sin_turns(0.5 * turns);
             const double angle = two_pi * turns;
             const double excess = lacks * angle + e * less_sine(angle, 2 * s * c) - mean;
-            const double slope = lacks + 2 * e * s * s;
-            const double next = turns - excess / (slope * two_pi);
-            if (!(next < turns) || turns == 0) break;
-            turns = std::max(next, 0.0);
+            const double step = excess / ((lacks + 2 * e * s * s) * two_pi);
+            // Each step squares what is left.
+            more = step > 1e-9 * turns;
+            turns = std::max(turns - step, 0.0);
         }
         return turns;
     }

@@ -78,30 +78,30 @@ TEST(Mesh, PointsByHand) {
     expect_near(image_of(*map, {1, 1}), {0, 1, 0}, 1e-15);
 }
 
-TEST(Mesh, OutputsNormalsAndBarycentrics) {
+TEST(Mesh, GivesNormalsAndBarycentrics) {
     const double area = 1.5 + std::sqrt(0.75);
-    const auto normals = mapping(tetrahedron + ",output=normal");
+    const auto normals = mapping(tetrahedron + ",attributes=normal");
     expect_near(image_of(*normals, {0.125 / area, 0.75}), {0.125, 0.375, 0, 0, 0, -1}, 1e-15);
     const double h = std::sqrt(1 / 3.);
     expect_near(image_of(*normals, {1, 1}), {0, 1, 0, h, h, h}, 1e-15);
-    const auto weights = mapping(tetrahedron + ",output=barycentric");
+    const auto weights = mapping(tetrahedron + ",attributes=barycentric");
     expect_near(image_of(*weights, {(0.5 + 0.125) / area, 0.75}),
                 {0.375, 0, 0.125, 1, 0.5, 0.375, 0.125}, 1e-15);
     EXPECT_EQ(weights->domain()->bounding_box().high, (Point{1, 1, 1, 4, 1, 1, 1}));
 }
 
-TEST(Mesh, RoundTripOverTheWholeSquareWithAllOutputs) {
+TEST(Mesh, RoundTripOverTheWholeSquareWithAllAttributes) {
     const MeshFile bumps(bumpy_sphere(12));
-    for (const std::string output : {"position", "normal", "barycentric"}) {
-        SCOPED_TRACE(output);
-        expect_round_trip(*mapping(tetrahedron + ",output=" + output), 1e-14);
-        expect_round_trip(*mapping(bumps.spec(",output=" + output)), 1e-12);
+    for (const std::string attributes : {"position", "normal", "barycentric"}) {
+        SCOPED_TRACE(attributes);
+        expect_round_trip(*mapping(tetrahedron + ",attributes=" + attributes), 1e-14);
+        expect_round_trip(*mapping(bumps.spec(",attributes=" + attributes)), 1e-12);
     }
 }
 
 TEST(Mesh, TrianglesWithoutAreaGetNoPoints) {
     const MeshFile file("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\nf 2 2 4\nf 1 1 1\n");
-    const auto map = mapping(file.spec(",output=barycentric"));
+    const auto map = mapping(file.spec(",attributes=barycentric"));
     EXPECT_DOUBLE_EQ(map->domain()->measure(), 0.5);
     for (const double u : {0.0, 1e-300, 0.5, one_minus_ulp, 1.0})
         EXPECT_EQ(image_of(*map, {u, 0.5})[3], 1) << u;
@@ -144,7 +144,7 @@ TEST(Mesh, MeansOfTheTetrahedron) {
 TEST(Mesh, ChiSquareAcceptsItAndRejectsEqualChancesOfTriangles) {
     const MeshFile bumps(bumpy_sphere(12));
     EXPECT_GT(p_of_random(*mapping(bumps.spec()), 50'000), 1e-5);
-    EXPECT_GT(p_of_random(*mapping(tetrahedron + ",output=normal"), 50'000), 1e-5);
+    EXPECT_GT(p_of_random(*mapping(tetrahedron + ",attributes=normal"), 50'000), 1e-5);
     const double area = 1.5 + std::sqrt(0.75);
     PointSet cube = make("random", points(50'000, 2));
     for (std::size_t i = 0; i < cube.count(); ++i) {
@@ -165,11 +165,11 @@ TEST(Mesh, DomainKnowsWhatIsOnTheSurface) {
     EXPECT_FALSE(domain->contains(Point{0.5, 1e-13, 0.5 - 2e-13}));
     EXPECT_FALSE(domain->contains(Point{-1e-13, 0, 0}));
     EXPECT_FALSE(domain->contains(Point{std::nan(""), 0, 0}));
-    const DomainPtr normals = mapping(tetrahedron + ",output=normal")->domain();
+    const DomainPtr normals = mapping(tetrahedron + ",attributes=normal")->domain();
     EXPECT_TRUE(normals->contains(Point{0, 0, 0.5, 0, -1, 0}));
     EXPECT_TRUE(normals->contains(Point{0, 0, 0.5, -1, 0, 0})) << "two faces meet there";
     EXPECT_FALSE(normals->contains(Point{0, 0, 0.5, 0, 1, 0}));
-    const DomainPtr weights = mapping(tetrahedron + ",output=barycentric")->domain();
+    const DomainPtr weights = mapping(tetrahedron + ",attributes=barycentric")->domain();
     EXPECT_TRUE(weights->contains(Point{0.25, 0.5, 0, 0, 0.25, 0.5, 0.25}));
     EXPECT_FALSE(weights->contains(Point{0.25, 0.5, 0, 1, 0.25, 0.5, 0.25}));
     EXPECT_FALSE(weights->contains(Point{0.25, 0.5, 0, 4, 0.25, 0.5, 0.25}));
