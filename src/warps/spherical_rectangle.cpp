@@ -119,9 +119,9 @@ class Urena {
         const double root =
             h.sin * g.sin * sine_of_sum(h, g, low_, high_) * sine_of_sum(g, h, low_, high_);
         const double across = 2 * std::sqrt(std::max(root, 0.0));
-        const double size = std::sqrt(along * along + across * across);
-        const double sin_phi = along / size;
-        const double cos_phi = across / size;
+        const double scale = 1 / std::sqrt(along * along + across * across);
+        const double sin_phi = along * scale;
+        const double cos_phi = across * scale;
         const Rises from = rises(seen_.y0, cos_phi);
         const Rises to = rises(seen_.y1, cos_phi);
         const double below = (1 - v) * from.below + v * to.below;

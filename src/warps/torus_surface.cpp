@@ -58,9 +58,16 @@ const Schema& schema() {
 double less_sine(double angle, double sine) {
     if (angle >= 1) return angle - sine;
     const double z = angle * angle;
-    double sum = 1;  // 1 - z/(4 5) (1 - z/(6 7) (1 - ...)), up to E^19
-    for (int k = 18; k >= 4; k -= 2) sum = 1 - z / (k * (k + 1)) * sum;
-    return angle * z / 6 * sum;
+    double sum = -1 / 121645100408832000.0;  // 1/19!, then 1/17!, ...
+    sum = sum * z + 1 / 355687428096000.0;
+    sum = sum * z - 1 / 1307674368000.0;
+    sum = sum * z + 1 / 6227020800.0;
+    sum = sum * z - 1 / 39916800.0;
+    sum = sum * z + 1 / 362880.0;
+    sum = sum * z - 1 / 5040.0;
+    sum = sum * z + 1 / 120.0;
+    sum = sum * z - 1 / 6.0;
+    return 0 - angle * z * sum;
 }
 
 struct Torus {
