@@ -66,15 +66,17 @@ constexpr Param<Extents> cells{
              "primes with a product near 2 n^(2/5)"}};
 
 constexpr Param<bool> shifted{.name = "shifted",
-                              .help = "Test on a second grid, too, shifted by half a cell along "
-                                      "each axis; the verdict is that of both"};
+                              .help =
+                                  "Test on a second grid, too, shifted by half a cell along "
+                                  "each axis; the verdict is that of both"};
 
 constexpr Param<Choice> combination{
     .name = "combine",
     .fallback = "sum",
     .choices = "sum|sidak|fisher",
-    .help = "What makes one p of several sets (--average): the sum of their statistics, the "
-            "smallest p (Sidak), or the product of the p (Fisher)"};
+    .help =
+        "What makes one p of several sets (--average): the sum of their statistics, the "
+        "smallest p (Sidak), or the product of the p (Fisher)"};
 
 constexpr Param<double> level{.name = "level",
                               .fallback = 0.001,
@@ -180,6 +182,8 @@ class Counter final : public Accumulator {
             tallies_.emplace_back(default_grid(*arrival.count, axes_), options[shifted], 0, run);
         } else {
             width_ = std::min(axes_, most_cut_axes);
+            run.need_memory(8.0 * static_cast<double>(held_points * width_),
+                            "the first points of a stream");
         }
     }
 
@@ -275,7 +279,8 @@ class Counter final : public Accumulator {
 
 /// Of several sets: the sum of their statistics has the sum of their degrees of freedom.
 Tails sum_tails(const Report& mean, double sets) {
-    if (const auto* hits = mean.find("impossible_points"); hits && mean.number("impossible_points") > 0)
+    if (const auto* hits = mean.find("impossible_points");
+        hits && mean.number("impossible_points") > 0)
         return {.upper = 0, .lower = 1};
     return chi_square_tails(sets * mean.number("statistic"),
                             sets * mean.number("degrees_of_freedom"));

@@ -56,15 +56,15 @@ Scaled transitions(std::size_t k, double h) {
     std::vector<double> inverse(m + 1, 1);  // 1 / r!
     for (std::size_t r = 1; r <= m; ++r) inverse[r] = inverse[r - 1] / static_cast<double>(r);
     for (std::size_t i = 0; i < m; ++i)
-        for (std::size_t j = 0; j <= std::min(i + 1, m - 1); ++j) a.at[i * m + j] = inverse[i + 1 - j];
+        for (std::size_t j = 0; j <= std::min(i + 1, m - 1); ++j)
+            a.at[i * m + j] = inverse[i + 1 - j];
     double power = 1;
     for (std::size_t i = 0; i < m; ++i) {
         power *= h;  // h^(i + 1)
         a.at[i * m] -= power * inverse[i + 1];
         a.at[(m - 1) * m + (m - 1 - i)] -= power * inverse[i + 1];
     }
-    if (2 * h > 1)
-        a.at[(m - 1) * m] += std::pow(2 * h - 1, static_cast<double>(m)) * inverse[m];
+    if (2 * h > 1) a.at[(m - 1) * m] += std::pow(2 * h - 1, static_cast<double>(m)) * inverse[m];
     return a;
 }
 
@@ -117,19 +117,22 @@ double kolmogorov_expansion(std::uint64_t n, double x) {
     const double z6 = z4 * z2;
     const double scale = std::sqrt(pi / 2);
     const double k0 = std::sqrt(2 * pi) / z * theta_sum(z, 0.5, [](double) { return 0.5; });
-    const double k1 =
-        scale / (6 * z4) * theta_sum(z, 0.5, [&](double q) { return q - z2; });
-    const double k2 = scale / (72 * z6 * z) * theta_sum(z, 0.5, [&](double q) {
+    const double k1 = scale / (6 * z4) * theta_sum(z, 0.5, [&](double q) { return q - z2; });
+    const double k2 =
+        scale / (72 * z6 * z) *
+            theta_sum(z, 0.5,
+                      [&](double q) {
                           return 6 * z6 + 2 * z4 + q * (2 * z4 - 5 * z2) + q * q * (1 - 2 * z2);
                       }) -
-                      scale / (36 * z2 * z) * theta_sum(z, 0, [](double q) { return q; });
-    const double k3 = scale / (6480 * z6 * z4) * theta_sum(z, 0.5, [&](double q) {
+        scale / (36 * z2 * z) * theta_sum(z, 0, [](double q) { return q; });
+    const double k3 =
+        scale / (6480 * z6 * z4) *
+            theta_sum(z, 0.5,
+                      [&](double q) {
                           return q * q * q * (5 - 30 * z2) + q * q * (-60 * z2 + 212 * z4) +
                                  q * (135 * z4 - 96 * z6) - 30 * z6 - 90 * z4 * z4;
                       }) +
-                      scale / (216 * z6) * theta_sum(z, 0, [&](double q) {
-                          return -q * q + 3 * q * z2;
-                      });
+        scale / (216 * z6) * theta_sum(z, 0, [&](double q) { return -q * q + 3 * q * z2; });
     return std::clamp(k0 + (k1 + (k2 + k3 / root) / root) / root, 0.0, 1.0);
 }
 

@@ -63,8 +63,8 @@ void conclude(Report& report, const Tails& all, const Values& options) {
     report.add("verdict", verdict);
     const std::string wanted = options[expect];
     if (!wanted.empty() && wanted != verdict)
-        report.unmet(fmt::format("expected {}, found {} (p = {:.3g})", wanted, verdict,
-                                 all.two_sided()));
+        report.unmet(
+            fmt::format("expected {}, found {} (p = {:.3g})", wanted, verdict, all.two_sided()));
 }
 
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
@@ -86,8 +86,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     std::vector<Tails> tails;
     std::vector<Placed> sorted(n);
     for (std::size_t k = 0; k < axes; ++k) {
-        for (std::uint64_t i = 0; i < n; ++i)
-            sorted[i] = {cubes[i * axes + k] + 0.0, 0};  // no -0
+        for (std::uint64_t i = 0; i < n; ++i) sorted[i] = {cubes[i * axes + k] + 0.0, 0};  // no -0
         radix_sort(sorted, run);
         statistic.push_back(statistic_of(sorted));
         tails.push_back(kolmogorov_tails(n, statistic.back(), run));

@@ -74,8 +74,7 @@ double largest_z(const SampleAndErrors& found, const SampleMoments& exact) {
 class Summation final : public Accumulator {
   public:
     explicit Summation(const Arrival& arrival) : domain_(arrival.domain) {
-        if (domain_->even())
-            cube_.emplace(std::vector<double>(domain_->cube_dimension(), 0.5));
+        if (domain_->even()) cube_.emplace(std::vector<double>(domain_->cube_dimension(), 0.5));
     }
 
     void add(std::span<const double> rows, const RunContext& run) override {
@@ -125,8 +124,9 @@ std::vector<ResultKey> results() {
     group("standard_error.", "standard error: ");
     group("exact.", "of the domain's law, where a closed form is known: ");
     group("cube.", "on the domain's cube: ");
-    keys.push_back({"cube.largest_z",
-                    "the largest distance of one of these from its exact value, in standard errors"});
+    keys.push_back(
+        {"cube.largest_z",
+         "the largest distance of one of these from its exact value, in standard errors"});
     return keys;
 }
 

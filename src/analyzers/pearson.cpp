@@ -83,12 +83,12 @@ void tell_of_errors(std::span<const Estimate> masses, std::uint64_t n, const Fit
                     const RunContext& run) {
     double added = 0;
     for (const Estimate& mass : masses)
-        if (mass.value > 0)
-            added += static_cast<double>(n) * mass.error * mass.error / mass.value;
+        if (mass.value > 0) added += static_cast<double>(n) * mass.error * mass.error / mass.value;
     if (added > 0.1 * std::sqrt(2 * found.freedom()))
-        run.tell(fmt::format("the cells' probabilities are known to {:.2g} only, which may add {:.2g} "
-                             "to the statistic",
-                             found.mass_error, added));
+        run.tell(
+            fmt::format("the cells' probabilities are known to {:.2g} only, which may add {:.2g} "
+                        "to the statistic",
+                        found.mass_error, added));
 }
 
 }  // namespace

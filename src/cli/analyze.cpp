@@ -126,8 +126,7 @@ class Analysis {
         if (inputs.empty()) inputs.emplace_back("-");
         const bool in_blocks = analyzer_.accumulate && !arguments_.has("rescale");
         check_bounds(arguments_);
-        for (const std::string& input : inputs)
-            in_blocks ? add_stream(input) : add_sets(input);
+        for (const std::string& input : inputs) in_blocks ? add_stream(input) : add_sets(input);
         if (averaged_) finish_average();
         const bool fine = verdict();
         print();

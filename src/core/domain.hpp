@@ -34,8 +34,8 @@ struct Box {
     bool operator==(const Box&) const = default;
 };
 
-/// Exact moments of a law: per coordinate the mean and the skewness, and the covariance of each pair
-/// of coordinates, row after row.
+/// Exact moments of a law: per coordinate the mean and the skewness, and the covariance of each
+/// pair of coordinates, row after row.
 struct Moments {
     std::vector<double> mean;
     std::vector<double> covariance;

@@ -230,8 +230,7 @@ class RowReader {
             more ? fields[width].at : line.data() + line.size(),
             fmt::format("the row has {} field{}; expected {}", fields.size(),
                         fields.size() == 1 ? "" : "s", width) +
-                (model_line() > 0 ? fmt::format(", as line {} has", model_line())
-                                  : std::string()));
+                (model_line() > 0 ? fmt::format(", as line {} has", model_line()) : std::string()));
     }
 
     std::size_t model_line() const { return model_ ? text_.line_of(model_) : dialect_.model_line; }
@@ -450,8 +449,8 @@ struct TableHead {
     Top top;
     Dialect dialect;
     Columns columns;
-    bool names = false;        ///< the first line is a header
-    std::size_t line = 0;      ///< the first line that is no comment
+    bool names = false;          ///< the first line is a header
+    std::size_t line = 0;        ///< the first line that is no comment
     const char* body = nullptr;  ///< where rows begin
 };
 
@@ -482,6 +481,7 @@ class DelimitedStream final : public PointStream {
           columns_(head.columns),
           dialect_(head.dialect),
           provenance_(head.top.provenance),
+          names_(head.names),
           newline_(front.newline()) {
         dialect_.model_line = head.line;
         const auto skipped = static_cast<std::size_t>(head.body - feed_->front().data());
@@ -493,6 +493,9 @@ class DelimitedStream final : public PointStream {
 
     std::size_t dimension() const override { return columns_.dimension; }
     const Provenance& provenance() const override { return provenance_; }
+
+    /// Below a header sets are told by a column; lines `#` stand in texts without.
+    bool looks_like_one_set() const override { return names_; }
 
     bool next_set() override {
         if (!started_) return started_ = true;
@@ -591,6 +594,7 @@ class DelimitedStream final : public PointStream {
     Columns columns_;
     Dialect dialect_;
     Provenance provenance_;
+    bool names_;
     char newline_;
     bool started_ = false;
     std::string text_;

@@ -19,8 +19,8 @@ namespace stipple::io {
 
 /// How a row is written.
 struct Dialect {
-    char separator = ' ';   ///< a blank stands for any run of blanks and tabs
-    bool brackets = false;  ///< a row is [x,y]; lines that begin with { stand between rows
+    char separator = ' ';        ///< a blank stands for any run of blanks and tabs
+    bool brackets = false;       ///< a row is [x,y]; lines that begin with { stand between rows
     std::size_t model_line = 0;  ///< that decided what the columns are, in an earlier part; or 0
 };
 

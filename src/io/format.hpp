@@ -56,8 +56,8 @@ struct ReadOptions {
 
 struct FormatTraits {
     bool binary = false;
-    bool equal_sets = false;  ///< all sets must have as many points
-    bool many_sets = true;    ///< a file can hold more than one set
+    bool equal_sets = false;    ///< all sets must have as many points
+    bool many_sets = true;      ///< a file can hold more than one set
     bool counts_first = false;  ///< what comes before the rows tells their number, or their extent
     std::size_t max_dimension = 1'000'000;
     std::size_t min_dimension = 1;

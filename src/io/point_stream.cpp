@@ -100,9 +100,10 @@ class RawStream final : public PointStream {
         const std::size_t all = shape_.offset + numbers_ * shape_.type.size + bytes_.size();
         if (bytes_.size() == wanted * point) return;
         if (shape_.count)
-            fail(ErrorKind::input, "{}: byte {}: the file ends too soon; expected {} bytes of "
-                 "numbers, found {}", source_, all, shape_.sets * *shape_.count * point,
-                 all - shape_.offset);
+            fail(ErrorKind::input,
+                 "{}: byte {}: the file ends too soon; expected {} bytes of "
+                 "numbers, found {}",
+                 source_, all, shape_.sets * *shape_.count * point, all - shape_.offset);
         if (bytes_.size() % point != 0)
             fail(ErrorKind::input,
                  "{}: byte {}: the last point is cut off; expected whole points, {} float{} each",
@@ -116,8 +117,10 @@ class RawStream final : public PointStream {
         std::string more(Feed::front_size, '\0');
         const std::size_t got = feed_->read(more);
         if (got > 0)
-            fail(ErrorKind::input, "{}: byte {}: {}{} bytes follow the numbers; expected the end "
-                 "of the file", source_, shape_.offset + numbers_ * shape_.type.size,
+            fail(ErrorKind::input,
+                 "{}: byte {}: {}{} bytes follow the numbers; expected the end "
+                 "of the file",
+                 source_, shape_.offset + numbers_ * shape_.type.size,
                  got == more.size() ? "at least " : "", got);
     }
 

@@ -71,6 +71,9 @@ class PointStream {
     /// Number of sets, where it is known before.
     [[nodiscard]] virtual std::optional<std::size_t> sets() const { return std::nullopt; }
 
+    /// Whether there is one set, as far as its front tells.
+    [[nodiscard]] virtual bool looks_like_one_set() const { return sets() == std::size_t{1}; }
+
     /// Points of this set, where they are known before.
     [[nodiscard]] virtual std::optional<std::uint64_t> count() const { return std::nullopt; }
 

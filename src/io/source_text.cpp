@@ -26,10 +26,7 @@ SourceText::SourceText(std::string_view bytes, std::string_view source)
 
 SourceText::SourceText(std::string_view bytes, std::string_view source, char newline,
                        std::size_t lines_before)
-    : bytes_(bytes),
-      source_(source_name(source)),
-      newline_(newline),
-      lines_before_(lines_before) {}
+    : bytes_(bytes), source_(source_name(source)), newline_(newline), lines_before_(lines_before) {}
 
 std::size_t SourceText::line_of(const char* at) const {
     return lines_before_ + 1 + static_cast<std::size_t>(std::count(begin(), at, newline_));

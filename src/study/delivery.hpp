@@ -22,7 +22,7 @@ struct Source {
     std::size_t dimension = 0;  ///< numbers of a row that `fill` gives
     /// Gives rows [first, first + k) where `rows` holds k of them.
     std::function<void(std::uint64_t first, std::span<double> rows)> fill;
-    bool in_order = false;                   ///< fill must be called for one block after the other
+    bool in_order = false;  ///< fill must be called for one block after the other
     /// In place of fill, where the count is not known: gives the next rows, as many as fit, and
     /// fewer only at the end.
     std::function<std::size_t(std::span<double> rows)> read = {};

@@ -50,8 +50,8 @@ PointSet generate(const Generator& generator, const Request& request, const Valu
 PointSet generate(std::string_view generator, const Request& request, const Settings& settings = {},
                   const RunContext& run = {});
 
-/// What measures points of `dimension` numbers as they come. @throws Error(input) where the analyzer
-/// or the domain does not take them, Error(usage)
+/// What measures points of `dimension` numbers as they come. @throws Error(input) where the
+/// analyzer or the domain does not take them, Error(usage)
 std::unique_ptr<Accumulator> accumulator_for(const Analyzer& analyzer, const Arrival& arrival,
                                              std::size_t dimension, const Values& options,
                                              const RunContext& run);
@@ -74,8 +74,8 @@ struct Found {
     std::uint64_t count = 0;
 };
 
-/// Measures a set that comes in blocks, by an analyzer that has `accumulate`: the same result as for
-/// the set in memory. The next block is fetched while one is looked at.
+/// Measures a set that comes in blocks, by an analyzer that has `accumulate`: the same result as
+/// for the set in memory. The next block is fetched while one is looked at.
 /// @throws Error(input)
 Found analyze(const Analyzer& analyzer, const Arrival& arrival, std::size_t dimension,
               const NextRows& next, const Values& options, const RunContext& run);

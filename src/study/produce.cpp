@@ -334,7 +334,8 @@ void write_warped(std::vector<PointSet> sets, const Spec& warp, bool inverse, co
 }
 
 bool can_stream(const io::PointStream& stream, const Target& target) {
-    return !stream.held() && !target.format->traits.counts_first && !target.meta &&
+    const bool sets_known = stream.sets() || stream.looks_like_one_set();
+    return sets_known && !stream.held() && !target.format->traits.counts_first && !target.meta &&
            !file_per_set(target.path);
 }
 

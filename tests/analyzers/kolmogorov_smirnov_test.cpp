@@ -69,9 +69,9 @@ TEST(Kolmogorov, ClosedFormsAtBothEnds) {
 TEST(Kolmogorov, AgreesWithCountingCellByCell) {
     for (const int n : {2, 5, 10, 50, 200})
         for (int k = 1; k <= std::min(n - 1, 40); k += 1 + k / 4)
-            EXPECT_NEAR(kolmogorov_exact(static_cast<std::uint64_t>(n), double(k) / n, {}) /
-                            massey(n, k),
-                        1, 1e-9)
+            EXPECT_NEAR(
+                kolmogorov_exact(static_cast<std::uint64_t>(n), double(k) / n, {}) / massey(n, k),
+                1, 1e-9)
                 << n << ", " << k;
 }
 
@@ -109,8 +109,8 @@ TEST(KolmogorovSmirnov, IsTheStarDiscrepancyOfTheUnitInterval) {
     for (const char* generator : {"random", "jittered", "van-der-corput", "sobol"})
         for (const std::uint64_t n : {1U, 2U, 5U, 16U, 100U, 1024U}) {
             const PointSet points = make(generator, {n, 1});
-            EXPECT_NEAR(curve("statistic", points)[0],
-                        measure("star-discrepancy", "value", points), 1e-15)
+            EXPECT_NEAR(curve("statistic", points)[0], measure("star-discrepancy", "value", points),
+                        1e-15)
                 << generator << " " << n;
         }
     for (const auto& flat : {std::vector<double>{0, 0, 0}, {1, 1}, {0, 1}, {0.5}, {0.25, 0.25, 1}})
@@ -138,8 +138,8 @@ TEST(KolmogorovSmirnov, BothTailsAreFound) {
 TEST(KolmogorovSmirnov, FalseAlarmsAreAsManyAsTheLevelSays) {
     int alarms = 0, low = 0;
     for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-        const Report report = analyze("kolmogorov-smirnov", make("random", {50, 3}, {}, {.seed = seed}),
-                                      {{"level", "0.01"}});
+        const Report report = analyze(
+            "kolmogorov-smirnov", make("random", {50, 3}, {}, {.seed = seed}), {{"level", "0.01"}});
         alarms += report.text("verdict") != "uniform";
         low += report.number("combined_p_value") < 0.5;
     }
@@ -151,13 +151,14 @@ TEST(KolmogorovSmirnov, TakesEveryEvenDomainAndNamesPointsOutside) {
     const PointSet cube = make("random", {5000, 2});
     EXPECT_EQ(analyze("kolmogorov-smirnov", warped(*mapping("disk"), cube)).text("verdict"),
               "uniform");
-    EXPECT_EQ(analyze("kolmogorov-smirnov", warped(*mapping("disk:method=naive"), cube))
-                  .text("verdict"),
-              "non-uniform");
+    EXPECT_EQ(
+        analyze("kolmogorov-smirnov", warped(*mapping("disk:method=naive"), cube)).text("verdict"),
+        "non-uniform");
     PointSet off = warped(*mapping("disk"), cube);
     off[3][0] = 2;
-    EXPECT_NE(error_of([&] { analyze("kolmogorov-smirnov", off); })
-                  .find("1 of 5000 points are outside the domain disk; the first is point 3"),
+    EXPECT_NE(error_of([&] {
+                  analyze("kolmogorov-smirnov", off);
+              }).find("1 of 5000 points are outside the domain disk; the first is point 3"),
               std::string::npos);
 }
 

@@ -65,11 +65,9 @@ TEST(Moments, AgreeWithTheDefinition) {
             EXPECT_NEAR(at(report, "skewness", a), double(m3 / std::pow(m2, 1.5L)), 1e-9);
             for (std::size_t b = 0; b < 3; ++b) {
                 const long double mb = mean([&](auto i) { return set[i][b]; });
-                const auto c =
-                    mean([&](auto i) { return (set[i][a] - ma) * (set[i][b] - mb); });
-                const auto m22 = mean([&](auto i) {
-                    return std::pow((set[i][a] - ma) * (set[i][b] - mb), 2.0L);
-                });
+                const auto c = mean([&](auto i) { return (set[i][a] - ma) * (set[i][b] - mb); });
+                const auto m22 = mean(
+                    [&](auto i) { return std::pow((set[i][a] - ma) * (set[i][b] - mb), 2.0L); });
                 EXPECT_NEAR(at(report, "covariance", 3 * a + b), double(c * n / (n - 1)), 1e-10);
                 EXPECT_NEAR(at(report, "standard_error.covariance", 3 * a + b),
                             double(std::sqrt((m22 - c * c) / n)), 2e-6);
@@ -117,13 +115,16 @@ TEST(Moments, BoxesAndProductsHaveExactValues) {
 TEST(Moments, CubeCoordinatesTellRightWarpsFromWrong) {
     const PointSet cube = make("random", {20'000, 2});
     EXPECT_LT(measure("moments", "cube.largest_z", warped(*mapping("disk"), cube)), 5);
-    EXPECT_GT(measure("moments", "cube.largest_z", warped(*mapping("disk:method=naive"), cube)), 50);
+    EXPECT_GT(measure("moments", "cube.largest_z", warped(*mapping("disk:method=naive"), cube)),
+              50);
     EXPECT_EQ(analyze("moments", warped(*mapping("disk"), cube)).find("exact") != nullptr,
               mapping("disk")->domain()->moments().has_value());
 }
 
 TEST(Moments, NeedTwoPointsOnTheirDomain) {
-    EXPECT_EQ(error_of([] { analyze("moments", make("random", {1, 2})); }),
+    EXPECT_EQ(error_of([] {
+                  analyze("moments", make("random", {1, 2}));
+              }),
               "input: moments needs at least 2 points; there is 1");
     PointSet far = make("random", {10, 1});
     far.domain = box_domain({{-1e200}, {1e200}});

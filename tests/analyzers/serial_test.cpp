@@ -17,14 +17,16 @@ Report serial(const std::vector<double>& flat, const char* lags = "1") {
 }  // namespace
 
 TEST(Serial, ByHand) {
-    // Rises, rises, falls, falls, rises: 3 runs of mean 11/3, variance 67/90; about 1/2: - - + - -+.
+    // Rises, rises, falls, falls, rises: 3 runs of mean 11/3, variance 67/90; about 1/2: - - + -
+    // -+.
     const Report report = serial({0.1, 0.3, 0.9, 0.4, 0.2, 0.7}, "2");
     const auto runs = std::get<Report::Integers>(*report.find("runs_up_down"));
     EXPECT_EQ(runs, Report::Integers{3});
     EXPECT_DOUBLE_EQ(report.curve("runs_up_down_z")[0], (3 - 11.0 / 3) / std::sqrt(67.0 / 90));
     EXPECT_EQ(std::get<Report::Integers>(*report.find("runs_about_half")), Report::Integers{4});
     EXPECT_DOUBLE_EQ(report.curve("runs_about_half_z")[0], 0.5 / std::sqrt(1.25));
-    // Off 1/2: -.4 -.2 .4 -.1 -.3 .2; lag 1: .08 - .08 - .04 + .03 - .06; lag 2: -.16 + .02 - .12 - .02
+    // Off 1/2: -.4 -.2 .4 -.1 -.3 .2; lag 1: .08 - .08 - .04 + .03 - .06; lag 2: -.16 + .02 - .12 -
+    // .02
     EXPECT_NEAR(report.curve("correlation")[0], 12 * -0.07 / 5, 1e-15);
     EXPECT_NEAR(report.curve("correlation")[1], 12 * -0.28 / 4, 1e-15);
     EXPECT_NEAR(report.curve("correlation_z")[1], 12 * -0.28 / 2, 1e-15);
@@ -56,9 +58,9 @@ TEST(Serial, RunsHaveTheMeanAndVarianceThatAreSaid) {
 TEST(Serial, FalseAlarmsAreNotMoreThanTheLevelSays) {
     int alarms = 0;
     for (std::uint64_t seed = 1; seed <= 200; ++seed)
-        alarms += analyze("serial", make("random", {1000, 2}, {}, {.seed = seed}),
-                          {{"level", "0.01"}})
-                      .text("verdict") == "dependent";
+        alarms +=
+            analyze("serial", make("random", {1000, 2}, {}, {.seed = seed}), {{"level", "0.01"}})
+                .text("verdict") == "dependent";
     EXPECT_LE(alarms, 12);
 }
 
@@ -74,7 +76,9 @@ TEST(Serial, FindsWhatDependsOnThePointsBefore) {
 }
 
 TEST(Serial, NeedsMorePointsThanLags) {
-    EXPECT_EQ(error_of([] { serial({0.1, 0.2, 0.3}, "2"); }),
+    EXPECT_EQ(error_of([] {
+                  serial({0.1, 0.2, 0.3}, "2");
+              }),
               "input: serial needs at least 4 points for 2 lags; these are 3");
     EXPECT_EQ(error_of([] { serial({0.1, 0.2, 0.3}); }), "");
 }
