@@ -34,11 +34,14 @@
 //
 // Shape   points n x d on any domain, also in pieces; a report of numbers and the verdict.
 // Cost    O(n d) time, O(K) memory besides the points; of a stream of unknown length, the first
-//         2^20 points are kept. About 15 ns a point in 2-D on one core.
+//         2^20 points are kept. About 25 ns a point in 2-D on one core.
 // Promise counts, and so all results, are the same for any number of threads, and whether points
 //         come at once or in pieces. A coordinate of exactly 1 belongs to the last cell.
 // Beware  one set of low-discrepancy points is stratified, not random: its p is a description, not
-//         a chance. The p of random points is approximate where expectations are small.
+//         a chance. The p of random points is approximate where expectations are small. With few
+//         groups the statistic takes few values, and p_lower of the smallest, 0, is too small: of
+//         many small sets, combine the sum. A density's jump to 0 at the edge of a cell leaves it
+//         to rounding which of both cells a point on the jump is in.
 // Source  K. Pearson, Philosophical Magazine 50 (1900) 157-175, doi:10.1080/14786440009463897.
 //         H. B. Mann, A. Wald, Annals of Mathematical Statistics 13 (1942) 306-317,
 //         doi:10.1214/aoms/1177731569 (number of cells). Z. Sidak, Journal of the American

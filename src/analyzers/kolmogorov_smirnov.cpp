@@ -12,8 +12,8 @@
 // independent. Several sets are combined in the same way.
 //
 // Shape   points n x d on any domain whose coordinates preserve probability (all but a few).
-// Cost    O(n log n) time and 16 bytes a point for each axis; half a second for each axis at most
-//         for the distribution.
+// Cost    O(n) time, about 45 ns a point for each axis; 32 bytes a point and 8 for each axis
+//         besides the points; half a second for each axis at most for the distribution.
 // Promise D is exact up to the rounding of i/n; on the unit interval it is the star discrepancy. p
 //         is exact up to 10^4 points (relative error below 1e-9), and within 1e-9 above.
 // Beware  one axis by itself tells nothing of how coordinates depend on each other.
@@ -72,7 +72,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     require_even(domain, "kolmogorov-smirnov");
     const std::uint64_t n = points.count();
     const std::size_t axes = domain.cube_dimension();
-    run.need_memory((16.0 + 8.0 * static_cast<double>(axes)) * static_cast<double>(n),
+    run.need_memory((32.0 + 8.0 * static_cast<double>(axes)) * static_cast<double>(n),
                     "the sorted coordinates");
     if (n > std::numeric_limits<std::uint32_t>::max())
         fail(ErrorKind::limit, "kolmogorov-smirnov takes at most {} points; these are {}",

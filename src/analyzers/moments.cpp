@@ -17,7 +17,7 @@
 // largest_z is the largest |value - exact| / error among them.
 //
 // Shape   points n x d, n >= 2, on any domain, also in pieces. Matrices row after row.
-// Cost    O(n d^2) time, O(d^2) memory besides the points; about 15 ns a point in 2-D on one core.
+// Cost    O(n d^2) time, O(d^2) memory besides the points; about 25 ns a point in 2-D on one core.
 // Promise the same for any number of threads, and whether points come at once or in pieces.
 // Source  M. G. Kendall, A. Stuart, "The Advanced Theory of Statistics", volume 1, chapter 10
 //         (standard errors by the delta method).
