@@ -76,6 +76,25 @@ TEST(Moments, AgreeWithTheDefinition) {
     }
 }
 
+TEST(Moments, DoNotDependOnWhatSumsAreTakenAbout) {
+    const PointSet set = make("random", {500, 2});
+    analyzers::MomentSums far({1.5, -0.5});
+    analyzers::MomentSums near({0.5, 0.5});
+    far.add(set.flat(), {});
+    near.add(set.flat(), {});
+    const auto a = far.moments();
+    const auto b = near.moments();
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_NEAR(a.value.covariance[i], b.value.covariance[i], 1e-14);
+        EXPECT_NEAR(a.error.covariance[i], b.error.covariance[i], 1e-12);
+    }
+    for (std::size_t k = 0; k < 2; ++k) {
+        EXPECT_NEAR(a.value.mean[k], b.value.mean[k], 1e-15);
+        EXPECT_NEAR(a.value.skewness[k], b.value.skewness[k], 1e-12);
+        EXPECT_NEAR(a.error.skewness[k], b.error.skewness[k], 1e-11);
+    }
+}
+
 // 100 sets: each standard error is that of the spread between the sets within 30 %, which 100
 // values miss with a chance of 2e-5.
 TEST(Moments, StandardErrorsAreTheSpreadBetweenSets) {
