@@ -478,6 +478,13 @@ TEST(ChiSquare, PoolsTheLeastProbableCellsFirst) {
     const Report two = analyze(
         "chi-square", in_cells({60, 7, 4, 29}, steps({0.7, 0.02, 0.06, 0.22})), {{"cells", "4"}});
     EXPECT_NEAR(two.number("statistic"), 9.0 / 8 + 49.0 / 22 + 100.0 / 70, 1e-12);
+    // Five cells that expect 3 each: the fifth goes to the last group, 6 and 9.
+    const Report left =
+        analyze("chi-square", in_cells({5, 3, 1, 2, 4}, steps({0.2, 0.2, 0.2, 0.2, 0.2})),
+                {{"cells", "5"}});
+    EXPECT_EQ(left.number("degrees_of_freedom"), 1);
+    EXPECT_NEAR(left.number("statistic"), 4.0 / 6 + 4.0 / 9, 1e-12);
+    EXPECT_EQ(left.number("pooled_cells"), 5);
     EXPECT_EQ(
         error_of([&] {
             analyze("chi-square", in_cells({1, 1, 0, 3}, steps({0.7, 0.02, 0.06, 0.22})),
