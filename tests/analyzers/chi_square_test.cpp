@@ -478,12 +478,12 @@ TEST(ChiSquare, PoolsTheLeastProbableCellsFirst) {
     const Report two = analyze(
         "chi-square", in_cells({60, 7, 4, 29}, steps({0.7, 0.02, 0.06, 0.22})), {{"cells", "4"}});
     EXPECT_NEAR(two.number("statistic"), 9.0 / 8 + 49.0 / 22 + 100.0 / 70, 1e-12);
-    // Five cells that expect 3 each: the fifth goes to the last group, 6 and 9.
+    // 2.7 + 2.85 and 3 + 3.15, and 3.3 is left over: it goes to the last group.
     const Report left =
-        analyze("chi-square", in_cells({5, 3, 1, 2, 4}, steps({0.2, 0.2, 0.2, 0.2, 0.2})),
+        analyze("chi-square", in_cells({5, 3, 1, 2, 4}, steps({0.18, 0.19, 0.2, 0.21, 0.22})),
                 {{"cells", "5"}});
     EXPECT_EQ(left.number("degrees_of_freedom"), 1);
-    EXPECT_NEAR(left.number("statistic"), 4.0 / 6 + 4.0 / 9, 1e-12);
+    EXPECT_NEAR(left.number("statistic"), 2.45 * 2.45 * (1 / 5.55 + 1 / 9.45), 1e-12);
     EXPECT_EQ(left.number("pooled_cells"), 5);
     EXPECT_EQ(
         error_of([&] {
