@@ -279,10 +279,13 @@ TEST(ChiSquare, ExpectationsThatDoNotHoldAreSaid) {
     EXPECT_EQ(unmet(some, "uniform"), std::vector<std::string>{});
     EXPECT_EQ(unmet(some, "stratified"),
               std::vector<std::string>{"expected stratified, found uniform (p = 0.147)"});
-    const PointSet even(std::vector<double>{.1, .1, .2, .3, .4, .6, .7, .8, .9, 1}, 1);
-    EXPECT_EQ(unmet(even, "stratified"), std::vector<std::string>{});
-    EXPECT_EQ(unmet(even, "uniform"),
-              std::vector<std::string>{"expected uniform, found stratified (p = 0)"});
+    const PointSet even = in_cells({20, 20, 20, 20, 20}, unit_cube(1));
+    const auto of_even = [&](const char* wanted) {
+        return analyze("chi-square", even, {{"expect", wanted}, {"cells", "5"}}).unmet();
+    };
+    EXPECT_EQ(of_even("stratified"), std::vector<std::string>{});
+    EXPECT_EQ(of_even("uniform"),
+              std::vector<std::string>{"expected uniform, found stratified (p = 0.000278)"});
     const PointSet clumped(std::vector<double>(30, 0.5), 1);
     EXPECT_EQ(unmet(clumped, "uniform").size(), 1U);
     EXPECT_TRUE(analyze("chi-square", clumped).unmet().empty());
@@ -537,6 +540,20 @@ TEST(ChiSquare, ShiftedGridSeesWhatCellsHide) {
     const Report report = analyze("chi-square", points, {{"cells", "5"}, {"shifted", "true"}});
     EXPECT_EQ(report.text("verdict"), "non-uniform");
     EXPECT_LT(report.number("shifted.p_upper"), 1e-10);
+}
+
+// 15 points, 5 in each of 3 cells: 15! / (5!^3 3^15); of 16, one cell has 6, any of three.
+TEST(ChiSquare, EvenCountsInFewCellsAreNotRare) {
+    const Report even = analyze("chi-square", in_cells({5, 5, 5}, unit_cube(1)));
+    EXPECT_EQ(even.number("statistic"), 0);
+    EXPECT_NEAR(even.number("p_lower"), 0.05273963, 1e-8);
+    EXPECT_EQ(even.text("verdict"), "uniform");
+    EXPECT_NEAR(measure("chi-square", "p_lower", in_cells({5, 6, 5}, unit_cube(1))), 0.14063900,
+                1e-6);
+    int alarms = 0;  // of 2000 sets at level 0.001, more than 10 with a chance of 1e-5
+    for (std::uint64_t seed = 1; seed <= 2000; ++seed)
+        alarms += verdict(uniform(15, seed, 1)) != "uniform";
+    EXPECT_LE(alarms, 10);
 }
 
 // Tails by the formulas, for sets with p_upper 0.1, 0.001, 0.9 and p_lower 0.9, 0.999, 0.1.
