@@ -4,7 +4,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,7 +30,40 @@ struct AnalyzerTraits {
 struct ResultKey {
     std::string key;
     std::string help;
+    bool always = true;  ///< false: some options give it
 };
+
+/// What is known of a set before its points come.
+struct Arrival {
+    DomainPtr domain;
+    std::optional<std::uint64_t> count = {};  ///< points, where somebody told
+
+    [[nodiscard]] std::size_t dimension() const { return domain->dimension(); }
+};
+
+/// Measures a set that comes in pieces, without keeping it. What it reports must not depend on
+/// whether the count was told before.
+class Accumulator {
+  public:
+    Accumulator() = default;
+    Accumulator(const Accumulator&) = delete;
+    Accumulator& operator=(const Accumulator&) = delete;
+    virtual ~Accumulator() = default;
+
+    /// Takes the next points of the set, arrival_batch() of them, and fewer only at its end. It may
+    /// use the run's threads; its progress is the caller's to tell.
+    virtual void add(std::span<const double> rows, const RunContext& run) = 0;
+
+    /// Called once, when all points came. @throws Error(input)
+    virtual Report report(const RunContext& run) = 0;
+};
+
+/// Points that an accumulator is given at a time: depends on nothing but the dimension, so that
+/// sums do not, either.
+constexpr std::size_t arrival_batch(std::size_t dimension) {
+    constexpr std::size_t numbers = std::size_t{1} << 18;
+    return dimension < numbers ? numbers / dimension : 1;
+}
 
 struct Analyzer {
     std::string name;
@@ -36,12 +73,22 @@ struct Analyzer {
     Schema options;
     std::vector<ResultKey> results;
 
-    /// Measures one set. Dimension and domain were checked against the traits before.
-    std::function<Report(const PointSet&, const Values&, const RunContext&)> analyze;
+    /// Measures one set. Dimension and domain were checked against the traits before. Empty where
+    /// `accumulate` does it.
+    std::function<Report(const PointSet&, const Values&, const RunContext&)> analyze = {};
+
+    /// Measures a set of any size as it comes, in constant memory where it can; checks by itself
+    /// that the points are on their domain. Empty: all points are needed at once.
+    std::function<std::unique_ptr<Accumulator>(const Arrival&, const Values&, const RunContext&)>
+        accumulate = {};
 
     /// Called with the mean of `sets` reports (numbers, curves and grids averaged): works out anew
     /// what a mean of results is not, such as an anisotropy. May be empty.
     std::function<void(Report& mean, std::size_t sets, const Values&)> refine = {};
+
+    /// Called after `refine` with the reports that were averaged, less their curves and grids: adds
+    /// what is worked out from each of them, such as a combined p-value. May be empty.
+    std::function<void(Report& mean, std::span<const Report> sets, const Values&)> combine = {};
 };
 
 /// @throws Error(input) when the points' dimension is not one that the analyzer takes.

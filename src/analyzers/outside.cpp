@@ -7,11 +7,25 @@
 
 namespace stipple::analyzers {
 
-void refuse(const Outside& outside, const PointSet& points, std::string hint) {
+void refuse(const Outside& outside, std::uint64_t total, const Domain& domain, std::string hint) {
     fail_with_hint(ErrorKind::input, std::move(hint),
                    "{} of {} points are outside the domain {}; the first is point {}: ({})",
-                   outside.count, points.count(), points.domain->spec(), outside.first,
-                   fmt::join(points[outside.first], ", "));
+                   outside.count, total, domain.spec(), outside.first,
+                   fmt::join(outside.point, ", "));
+}
+
+void refuse(const Outside& outside, const PointSet& points, std::string hint) {
+    Outside named = outside;
+    const auto point = points[outside.first];
+    named.point.assign(point.begin(), point.end());
+    refuse(named, points.count(), *points.domain, std::move(hint));
+}
+
+std::string outside_hint(const Domain& domain) {
+    std::string hint = "--domain names what the points live on";
+    if (domain.spec() == "unit-cube")
+        hint += "; --rescale or --bounds lo..hi moves them into the cube";
+    return hint;
 }
 
 }  // namespace stipple::analyzers

@@ -3,10 +3,11 @@
 // Points that the domain which they are said to live on does not contain.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "core/point_set.hpp"
 
@@ -15,14 +16,30 @@ namespace stipple::analyzers {
 struct Outside {
     std::uint64_t count = 0;
     std::uint64_t first = std::numeric_limits<std::uint64_t>::max();  ///< the lowest index
+    std::vector<double> point = {};  ///< at that index, where points are not kept
 
+    /// Adds point `i`, the points before it having been looked at.
+    void add(std::uint64_t i, std::span<const double> at) {
+        if (count++ > 0) return;
+        first = i;
+        point.assign(at.begin(), at.end());
+    }
     void add(const Outside& other) {
         count += other.count;
-        first = std::min(first, other.first);
+        if (other.first >= first) return;
+        first = other.first;
+        point = other.point;
     }
 };
 
-/// Counts them and names the first. @throws Error(input)
+/// Counts them among `total` and names the first. @throws Error(input)
+[[noreturn]] void refuse(const Outside& outside, std::uint64_t total, const Domain& domain,
+                         std::string hint);
+
+/// The same for points that are kept. @throws Error(input)
 [[noreturn]] void refuse(const Outside& outside, const PointSet& points, std::string hint);
+
+/// What helps where points are outside the domain.
+std::string outside_hint(const Domain& domain);
 
 }  // namespace stipple::analyzers

@@ -31,26 +31,44 @@ Box box_around(const PointSet& points) {
     return box;
 }
 
-/// Points of the box as points of the unit cube. @throws Error(input) for points outside.
-PointSet to_unit_cube(const PointSet& points, const Box& box) {
+/// Makes points of the box, the first of them point `first`, points of the unit cube.
+/// @throws Error(input) for points outside.
+void into_unit_cube(std::span<double> rows, const Box& box, std::uint64_t first) {
     const DomainPtr domain = box_domain(box);
-    PointSet out(points.count(), points.dimension());
-    for (std::size_t i = 0; i < points.count(); ++i) {
-        if (!domain->contains(points[i]))
-            fail(ErrorKind::input, "point {} is outside the bounds {}", i, format_box(box));
-        domain->to_cube(points[i], out[i]);
+    const std::size_t d = box.dimension();
+    for (std::size_t i = 0; i < rows.size(); i += d) {
+        const auto point = rows.subspan(i, d);
+        if (!domain->contains(point))
+            fail(ErrorKind::input, "point {} is outside the bounds {}", first + i / d,
+                 format_box(box));
+        domain->to_cube(point, point);
     }
-    return out;
+}
+
+PointSet to_unit_cube(PointSet points, const Box& box) {
+    into_unit_cube(points.flat(), box, 0);
+    points.domain = unit_cube(points.dimension());
+    return points;
+}
+
+void check_bounds(const Arguments& arguments) {
+    if (arguments.has("bounds") && arguments.has("rescale"))
+        fail(ErrorKind::usage, "--bounds and --rescale: give one of them");
 }
 
 PointSet prepared(PointSet points, const Arguments& arguments) {
     const auto bounds = arguments.get("bounds");
-    if (bounds && arguments.has("rescale"))
-        fail(ErrorKind::usage, "--bounds and --rescale: give one of them");
+    check_bounds(arguments);
     if (const auto domain = arguments.get("domain"))
         points.domain = parse_domain(*domain, points.dimension());
-    if (bounds) return to_unit_cube(points, parse_box(*bounds, points.dimension()));
-    if (arguments.has("rescale")) return to_unit_cube(points, box_around(points));
+    if (bounds) {
+        const Box box = parse_box(*bounds, points.dimension());
+        return to_unit_cube(std::move(points), box);
+    }
+    if (arguments.has("rescale")) {
+        const Box box = box_around(points);
+        return to_unit_cube(std::move(points), box);
+    }
     return points;
 }
 
@@ -106,11 +124,9 @@ class Analysis {
     int go() {
         auto inputs = arguments_.inputs;
         if (inputs.empty()) inputs.emplace_back("-");
-        for (const std::string& input : inputs) {
-            auto sets = read_input(input, arguments_, session_.run());
-            for (std::size_t set = 0; set < sets.size(); ++set)
-                add_naming_source(std::move(sets[set]), input, set, sets.size());
-        }
+        const bool in_blocks = analyzer_.accumulate && !arguments_.has("rescale");
+        check_bounds(arguments_);
+        for (const std::string& input : inputs) in_blocks ? add_stream(input) : add_sets(input);
         if (averaged_) finish_average();
         const bool fine = verdict();
         print();
@@ -120,16 +136,68 @@ class Analysis {
   private:
     using Clock = std::chrono::steady_clock;
 
+    void add_sets(const std::string& input) {
+        auto sets = read_input(input, arguments_, session_.run());
+        for (std::size_t set = 0; set < sets.size(); ++set)
+            naming(input, [&] {
+                add(prepared(std::move(sets[set]), arguments_), input, set, sets.size());
+            });
+    }
+
     /// What is wrong with a set's points is said with the file that they are from.
-    void add_naming_source(PointSet points, const std::string& input, std::size_t set,
-                           std::size_t sets) {
+    template <class Work>
+    void naming(const std::string& input, const Work& work) {
         try {
-            add(prepared(std::move(points), arguments_), input, set, sets);
+            work();
         } catch (const Error& e) {
-            if (e.kind() != ErrorKind::input) throw;
-            throw Error(e.kind(), fmt::format("{}: {}", input == "-" ? "stdin" : input, e.what()),
-                        e.hint());
+            const std::string name = input == "-" ? "stdin" : input;
+            if (e.kind() != ErrorKind::input || std::string(e.what()).starts_with(name + ":"))
+                throw;
+            throw Error(e.kind(), fmt::format("{}: {}", name, e.what()), e.hint());
         }
+    }
+
+    /// Sets of any size, in blocks.
+    void add_stream(const std::string& input) {
+        const auto stream = open_input(input, arguments_, session_.run());
+        const std::size_t before = measurements_.size();
+        std::size_t sets = 0;
+        while (stream->next_set()) naming(input, [&] { add_arriving(*stream, input, sets++); });
+        if (sets == 1 && measurements_.size() == before + 1) measurements_.back().set.reset();
+    }
+
+    [[nodiscard]] DomainPtr domain_of(const io::PointStream& stream) const {
+        const std::size_t d = stream.dimension();
+        if (arguments_.has("bounds")) return unit_cube(d);
+        if (const auto named = arguments_.get("domain")) return parse_domain(*named, d);
+        return input_domain(stream.provenance(), d, arguments_, session_.run());
+    }
+
+    void add_arriving(io::PointStream& stream, const std::string& input, std::size_t set) {
+        const auto start = Clock::now();
+        const std::size_t d = stream.dimension();
+        const DomainPtr domain = domain_of(stream);
+        std::optional<Box> box;
+        if (const auto bounds = arguments_.get("bounds")) box = parse_box(*bounds, d);
+        std::uint64_t at = 0;
+        const NextRows next = [&](std::span<double> rows) {
+            const std::size_t count = stream.read(rows);
+            if (box) into_unit_cube(rows.first(count * d), *box, at);
+            at += count;
+            return count;
+        };
+        Found found = stipple::analyze(analyzer_, {domain, stream.count()}, d, next, options_,
+                                       session_.run());
+        keep({.analyzer = analyzer_.name,
+              .source = input,
+              .set = set,
+              .count = found.count,
+              .dimension = d,
+              .domain = domain->spec(),
+              .options = shown_options_,
+              .results = std::move(found.report),
+              .seconds = std::chrono::duration<double>(Clock::now() - start).count()},
+             arguments_.inputs.size() > 1 || set > 0);
     }
 
     void add(const PointSet& points, const std::string& input, std::size_t set, std::size_t sets) {
@@ -143,17 +211,23 @@ class Analysis {
                       .options = shown_options_,
                       .results = stipple::analyze(analyzer_, points, options_, session_.run())};
         m.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        keep(std::move(m), arguments_.inputs.size() > 1 || sets > 1);
+    }
+
+    /// Takes one set's results, `several` if there are others.
+    void keep(Measurement m, bool several) {
         if (!averaged_) {
-            save_grid(m.results, measurements_.size(), arguments_.inputs.size() > 1 || sets > 1);
+            save_grid(m.results, measurements_.size(), several);
             measurements_.push_back(std::move(m));
             return;
         }
         average_.add(m.results);
+        if (analyzer_.combine) singles_.push_back(numbers_only(m.results));
         if (average_.count() == 1) {
             measurements_.push_back(std::move(m));
         } else {
             measurements_[0].seconds += m.seconds;
-            if (measurements_[0].source != input) measurements_[0].source += ", " + input;
+            if (measurements_[0].source != m.source) measurements_[0].source += ", " + m.source;
             different_ |= measurements_[0].count != m.count;
         }
     }
@@ -164,6 +238,7 @@ class Analysis {
         m.sets = average_.count();
         m.results = average_.mean();
         if (analyzer_.refine) analyzer_.refine(m.results, average_.count(), options_);
+        if (analyzer_.combine) analyzer_.combine(m.results, singles_, options_);
         if (average_.count() > 1) m.standard_error = only_of(m.results, average_.standard_error());
         if (different_)
             session_.warn("the sets that were averaged differ in their number of points");
@@ -228,6 +303,7 @@ class Analysis {
     std::vector<Measurement> measurements_;
     std::vector<std::string> unmet_;
     ReportAverage average_;
+    std::vector<Report> singles_;  ///< what was averaged, where it is needed
 };
 
 }  // namespace

@@ -87,7 +87,7 @@ UnitInfo info(const Analyzer& unit) {
                    t.unit_cube ? "takes points of the closed unit cube"
                    : t.boxed   ? "takes points of the unit cube or a box"
                                : "takes any domain"};
-    for (const auto& [key, help] : unit.results) out.results.emplace_back(key, help);
+    for (const ResultKey& result : unit.results) out.results.emplace_back(result.key, result.help);
     return out;
 }
 

@@ -133,8 +133,15 @@ Values settings_of(const Schema& schema, const Arguments& arguments) {
     return values;
 }
 
-std::vector<PointSet> read_input(const std::string& path, const Arguments& arguments,
-                                 const RunContext& run) {
+namespace {
+
+/// How an input is to be read.
+struct Reading {
+    ReadOptions options;
+    const Format* format = nullptr;  ///< as named; else its name or its bytes tell
+};
+
+Reading reading_of(const std::string& path, const Arguments& arguments) {
     ReadOptions options{.source = path};
     std::string from = arguments.get("from").value_or("");
     const bool convert = arguments.verb == Verb::convert;
@@ -144,18 +151,42 @@ std::vector<PointSet> read_input(const std::string& path, const Arguments& argum
     if (const auto d = arguments.integer("dimension", 1, most_dimensions)) options.dimension = *d;
     if (const auto columns = arguments.get("column"))
         for (const auto column : split(*columns, ',')) options.columns.emplace_back(trim(column));
-    const Format* format = from.empty() ? nullptr : &io::format_named(from);
-    auto sets = io::read_points(path, options, run, format);
+    return {std::move(options), from.empty() ? nullptr : &io::format_named(from)};
+}
+
+/// Domain and provenance as the program knows them.
+std::vector<PointSet> named(std::vector<PointSet> sets, const Arguments& arguments,
+                            const RunContext& run) {
     for (PointSet& set : sets) {
-        const std::string& domain = set.provenance.domain;
-        // Columns picked by hand are not what the file's domain speaks of.
-        if (options.columns.empty() && domain != "unit-cube" && !domain.empty())
-            set.domain = parse_domain(domain, set.dimension(), run);
+        set.domain = input_domain(set.provenance, set.dimension(), arguments, run);
         set.provenance.domain = set.domain->spec();
         set.provenance.count = set.count();
         set.provenance.dimension = set.dimension();
     }
     return sets;
+}
+
+}  // namespace
+
+DomainPtr input_domain(const Provenance& provenance, std::size_t dimension,
+                       const Arguments& arguments, const RunContext& run) {
+    const std::string& domain = provenance.domain;
+    // Columns picked by hand are not what the file's domain speaks of.
+    if (arguments.has("column") || domain == "unit-cube" || domain.empty())
+        return unit_cube(dimension);
+    return parse_domain(domain, dimension, run);
+}
+
+std::vector<PointSet> read_input(const std::string& path, const Arguments& arguments,
+                                 const RunContext& run) {
+    const auto [options, format] = reading_of(path, arguments);
+    return named(io::read_points(path, options, run, format), arguments, run);
+}
+
+std::unique_ptr<io::PointStream> open_input(const std::string& path, const Arguments& arguments,
+                                            const RunContext& run) {
+    const auto [options, format] = reading_of(path, arguments);
+    return io::open_points(path, options, run, format);
 }
 
 int generate(const Arguments& arguments, Session& session) {
@@ -211,9 +242,15 @@ int warp(const Arguments& arguments, Session& session) {
     if (arguments.inputs.size() > 1)
         fail(ErrorKind::usage, "warp takes one INPUT; {} are given", arguments.inputs.size());
     const std::string path = arguments.inputs.empty() ? "-" : arguments.inputs[0];
-    auto sets = read_input(path, arguments, session.run());
-    if (scrambles) return scramble(arguments, spec, sets, target, session);
-    write_warped(std::move(sets), spec, arguments.has("inverse"), target, session.run());
+    const RunContext& run = session.run();
+    if (scrambles)
+        return scramble(arguments, spec, read_input(path, arguments, run), target, session);
+    const auto stream = open_input(path, arguments, run);
+    const bool inverse = arguments.has("inverse");
+    if (can_stream(*stream, target))
+        write_warped(*stream, spec, inverse, target, run);
+    else
+        write_warped(named(stream->read_all(run), arguments, run), spec, inverse, target, run);
     return 0;
 }
 

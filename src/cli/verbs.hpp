@@ -5,6 +5,7 @@
 
 #include "cli/arguments.hpp"
 #include "cli/session.hpp"
+#include "io/point_stream.hpp"
 #include "study/produce.hpp"
 
 namespace stipple::cli {
@@ -21,6 +22,14 @@ Target target_of(const Arguments& arguments);
 /// The sets of an input file, with their domain; --from, -d, --column, --dtype are heeded.
 std::vector<PointSet> read_input(const std::string& path, const Arguments& arguments,
                                  const RunContext& run);
+
+/// The same in blocks, where they are many; their domain is input_domain.
+std::unique_ptr<io::PointStream> open_input(const std::string& path, const Arguments& arguments,
+                                            const RunContext& run);
+
+/// What points of a file live on.
+DomainPtr input_domain(const Provenance& provenance, std::size_t dimension,
+                       const Arguments& arguments, const RunContext& run);
 
 /// The unit's options as typed. @throws Error(usage)
 Values settings_of(const Schema& schema, const Arguments& arguments);

@@ -19,6 +19,28 @@ std::vector<std::string> axis_names(std::size_t dimension) {
     return names;
 }
 
+/// Of the uniform law on a box: independent coordinates of variance (extent^2) / 12.
+Moments moments_of(const Box& box) {
+    const std::size_t d = box.dimension();
+    Moments m{std::vector<double>(d), std::vector<double>(d * d), std::vector<double>(d)};
+    for (std::size_t k = 0; k < d; ++k) {
+        m.mean[k] = box.low[k] + 0.5 * box.extent(k);
+        m.covariance[k * d + k] = box.extent(k) * box.extent(k) / 12;
+    }
+    return m;
+}
+
+/// Puts the moments of a part in their place among those of the whole.
+void place_moments(const Moments& part, std::span<const std::size_t> at, Moments& whole) {
+    const std::size_t d = whole.dimension();
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        whole.mean[at[i]] = part.mean[i];
+        whole.skewness[at[i]] = part.skewness[i];
+        for (std::size_t j = 0; j < at.size(); ++j)
+            whole.covariance[at[i] * d + at[j]] = part.covariance[i * at.size() + j];
+    }
+}
+
 class UnitCube final : public Domain {
   public:
     explicit UnitCube(std::size_t dimension) : dimension_(dimension) {}
@@ -34,6 +56,7 @@ class UnitCube final : public Domain {
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         std::ranges::copy(point, cube.begin());
     }
+    std::optional<Moments> moments() const override { return moments_of(bounding_box()); }
     std::vector<std::string> cube_axes() const override { return axis_names(dimension_); }
 
   private:
@@ -60,6 +83,7 @@ class BoxDomain final : public Domain {
         for (std::size_t k = 0; k < dimension(); ++k)
             cube[k] = std::clamp((point[k] - box_.low[k]) / box_.extent(k), 0.0, 1.0);
     }
+    std::optional<Moments> moments() const override { return moments_of(box_); }
     std::vector<std::string> cube_axes() const override { return axis_names(dimension()); }
 
   private:
@@ -138,6 +162,16 @@ class ProductDomain final : public Domain {
             k = end;
         }
         return product;
+    }
+    std::optional<Moments> moments() const override {
+        const std::size_t d = dimension();
+        Moments whole{std::vector<double>(d), std::vector<double>(d * d), std::vector<double>(d)};
+        for (const auto& [domain, coordinates] : factors_) {
+            const auto part = domain->moments();
+            if (!part) return std::nullopt;
+            place_moments(*part, coordinates, whole);
+        }
+        return whole;
     }
     std::vector<std::string> cube_axes() const override {
         std::vector<std::string> axes;

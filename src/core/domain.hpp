@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -31,6 +32,16 @@ struct Box {
     [[nodiscard]] std::size_t dimension() const { return low.size(); }
     [[nodiscard]] double extent(std::size_t k) const { return high[k] - low[k]; }
     bool operator==(const Box&) const = default;
+};
+
+/// Exact moments of a law: per coordinate the mean and the skewness, and the covariance of each
+/// pair of coordinates, row after row.
+struct Moments {
+    std::vector<double> mean;
+    std::vector<double> covariance;
+    std::vector<double> skewness;
+
+    [[nodiscard]] std::size_t dimension() const { return mean.size(); }
 };
 
 class Domain {
@@ -79,6 +90,9 @@ class Domain {
         for (std::size_t k = 0; k < cell.dimension(); ++k) volume *= cell.extent(k);
         return {volume, 0};
     }
+
+    /// Moments of points that follow density(); nothing where no closed form is known.
+    [[nodiscard]] virtual std::optional<Moments> moments() const { return std::nullopt; }
 
     /// What the coordinates of to_cube mean, for people: "x", "area fraction r^2/R^2", "angle".
     [[nodiscard]] virtual std::vector<std::string> cube_axes() const = 0;

@@ -59,6 +59,7 @@ class Report {
 
     /// An expectation that the user stated (--expect) and that does not hold.
     void unmet(std::string sentence) { unmet_.push_back(std::move(sentence)); }
+    void forget_unmet() { unmet_.clear(); }
     [[nodiscard]] const std::vector<std::string>& unmet() const { return unmet_; }
 
     bool operator==(const Report&) const;

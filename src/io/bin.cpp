@@ -8,6 +8,7 @@
 #include "io/binary.hpp"
 #include "io/columns.hpp"
 #include "io/format.hpp"
+#include "io/point_stream.hpp"
 #include "io/source_text.hpp"
 
 namespace stipple::io {
@@ -18,13 +19,17 @@ void rows(const Layout& layout, std::size_t, std::uint64_t, std::span<const doub
     append_raw(out, numbers, layout.single);
 }
 
+std::size_t width_of(const ReadOptions& options) {
+    if (!options.dimension || *options.dimension == 0)
+        fail(ErrorKind::usage, "{}: raw numbers do not tell their dimension; say it with -d",
+             source_name(options.source));
+    return *options.dimension;
+}
+
 std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
                            const RunContext& run) {
     const std::string source = source_name(options.source);
-    if (!options.dimension || *options.dimension == 0)
-        fail(ErrorKind::usage, "{}: raw numbers do not tell their dimension; say it with -d",
-             source);
-    const std::size_t width = *options.dimension;
+    const std::size_t width = width_of(options);
     const std::size_t size = options.single ? 4 : 8;
     if (bytes.empty()) fail(ErrorKind::input, "{}: the file is empty; expected raw points", source);
     if (bytes.size() % size != 0 || bytes.size() / size % width != 0)
@@ -41,6 +46,14 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
     return cut_sets(keep_coordinates(std::move(table), columns), columns.dimension, {0}, {});
 }
 
+std::unique_ptr<PointStream> stream(std::unique_ptr<Feed>& feed, const ReadOptions& options,
+                                    const RunContext& /*run*/) {
+    const RawShape shape{.width = width_of(options), .type = {.size = options.single ? 4U : 8U}};
+    ReadOptions inner = options;
+    inner.dimension.reset();  // told the width of a row, not what picking leaves
+    return stream_raw(std::move(feed), shape, inner);
+}
+
 }  // namespace
 
 Format bin() {
@@ -50,7 +63,8 @@ Format bin() {
             .extensions = {".bin", ".f64", ".f32"},
             .traits = {.binary = true},
             .rows = rows,
-            .read = read};
+            .read = read,
+            .stream = stream};
 }
 
 }  // namespace stipple::io

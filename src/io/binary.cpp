@@ -31,7 +31,7 @@ void append_raw(std::string& out, std::span<const double> numbers, bool single) 
 void check_finite(std::span<const double> numbers, const RawPlace& place) {
     const auto it = std::ranges::find_if_not(numbers, [](double x) { return std::isfinite(x); });
     if (it == numbers.end()) return;
-    const auto index = static_cast<std::size_t>(it - numbers.begin());
+    const auto index = place.before + static_cast<std::size_t>(it - numbers.begin());
     const std::string point =
         place.row == 0 ? std::string() : fmt::format(" in point {}", index / place.row);
     fail(ErrorKind::input, "{}: byte {}: {}{}; expected finite numbers", place.source,

@@ -21,7 +21,8 @@ struct RawPlace {
     std::string source;
     std::size_t row = 0;     ///< numbers of a point; 0 where they do not stand together
     std::size_t size = 8;    ///< bytes of a number
-    std::size_t offset = 0;  ///< byte at which the first stands
+    std::size_t offset = 0;  ///< byte at which the first of all stands
+    std::size_t before = 0;  ///< numbers before these
 };
 
 /// @throws Error(input) naming the first number that is not finite, its byte and its point.

@@ -47,7 +47,8 @@ Format csv() {
             .traits = {},
             .head = head,
             .rows = rows,
-            .read = read_delimited};
+            .read = read_delimited,
+            .stream = stream_delimited};
 }
 
 }  // namespace stipple::io

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <unordered_map>
 
@@ -229,8 +230,10 @@ class RowReader {
             more ? fields[width].at : line.data() + line.size(),
             fmt::format("the row has {} field{}; expected {}", fields.size(),
                         fields.size() == 1 ? "" : "s", width) +
-                (model_ ? fmt::format(", as line {} has", text_.line_of(model_)) : std::string()));
+                (model_line() > 0 ? fmt::format(", as line {} has", model_line()) : std::string()));
     }
+
+    std::size_t model_line() const { return model_ ? text_.line_of(model_) : dialect_.model_line; }
 
     std::string_view inside_brackets(std::string_view line) const {
         const std::string_view row = trim(line);
@@ -439,30 +442,202 @@ std::vector<PointSet> gather_sets(Rows rows, std::size_t dimension, const Proven
 
 }  // namespace
 
-std::vector<PointSet> read_delimited(std::string_view bytes, const ReadOptions& options,
-                                     const RunContext& run) {
-    const SourceText text(bytes, options.source);
-    const Top top = read_top(text);
-    const std::string_view line = line_at(text, top.first);
-    const char separator = separator_of(line);
-    const std::vector<Field> fields = fields_of(line, separator);
+namespace {
+
+/// What the top of a table tells.
+struct TableHead {
+    Top top;
+    Dialect dialect;
+    Columns columns;
+    bool names = false;          ///< the first line is a header
+    std::size_t line = 0;        ///< the first line that is no comment
+    const char* body = nullptr;  ///< where rows begin
+};
+
+TableHead read_head(const SourceText& text, const ReadOptions& options) {
+    TableHead head{.top = read_top(text), .dialect = {}, .columns = {}};
+    const std::string_view line = line_at(text, head.top.first);
+    head.dialect.separator = separator_of(line);
+    const std::vector<Field> fields = fields_of(line, head.dialect.separator);
     std::vector<std::string> names;
     if (is_header(fields))
         for (const Field& field : fields) names.emplace_back(field.text);
-    const std::size_t header_line = text.line_of(top.first);
-    const Columns columns = choose_columns(names, fields.size(), options,
-                                           fmt::format("{}:{}", text.source(), header_line));
-    Rows rows = read_rows(text, names.empty() ? top.first : top.next, top.first, columns,
-                          {.separator = separator}, run);
+    head.names = !names.empty();
+    head.line = text.line_of(head.top.first);
+    head.columns = choose_columns(names, fields.size(), options,
+                                  fmt::format("{}:{}", text.source(), head.line));
+    head.body = head.names ? head.top.next : head.top.first;
+    return head;
+}
+
+/// Rows of a text that is parsed in parts, each of whole lines.
+class DelimitedStream final : public PointStream {
+  public:
+    DelimitedStream(std::unique_ptr<Feed> feed, const TableHead& head, const SourceText& front,
+                    const ReadOptions& options, const RunContext& run)
+        : feed_(std::move(feed)),
+          run_(run),
+          source_(options.source),
+          columns_(head.columns),
+          dialect_(head.dialect),
+          provenance_(head.top.provenance),
+          names_(head.names),
+          newline_(front.newline()) {
+        dialect_.model_line = head.line;
+        const auto skipped = static_cast<std::size_t>(head.body - feed_->front().data());
+        lines_ = front.line_of(head.body) - 1;
+        text_.resize(skipped);
+        feed_->read(text_);
+        text_.clear();
+    }
+
+    std::size_t dimension() const override { return columns_.dimension; }
+    const Provenance& provenance() const override { return provenance_; }
+
+    /// Below a header sets are told by a column; lines `#` stand in texts without.
+    bool looks_like_one_set() const override { return names_; }
+
+    bool next_set() override {
+        if (!started_) return started_ = true;
+        while (at_ == part_end() && !cut_here() && refill()) {
+        }
+        if (!cut_here()) return false;
+        marks_.erase(marks_.begin());
+        return true;
+    }
+
+    std::size_t read(std::span<double> rows) override {
+        const std::size_t d = columns_.dimension;
+        std::size_t done = 0;
+        while (done < rows.size()) {
+            if (cut_here() || (at_ == part_end() && !refill())) break;
+            if (cut_here()) break;
+            const std::uint64_t end = marks_.empty() ? part_end() : marks_.front().row;
+            const auto count = std::min<std::size_t>(end - at_, (rows.size() - done) / d);
+            const auto from = std::span(rows_.numbers).subspan((at_ - part_begin_) * d, count * d);
+            std::ranges::copy(from, rows.begin() + static_cast<std::ptrdiff_t>(done));
+            done += count * d;
+            at_ += count;
+        }
+        return done / d;
+    }
+
+  private:
+    /// A line `#` between two sets, and the first row behind it among all.
+    struct Cut {
+        std::uint64_t row;
+        std::size_t line;
+    };
+
+    std::uint64_t part_end() const {
+        return part_begin_ + rows_.numbers.size() / columns_.dimension;
+    }
+    bool cut_here() const { return !marks_.empty() && marks_.front().row == at_; }
+
+    /// Parses the next part; false at the end. A part may hold no rows.
+    bool refill() {
+        while (at_ == part_end()) {
+            if (!read_lines()) {
+                refuse_empty_set();
+                return false;
+            }
+            parse();
+            if (cut_here()) return true;
+        }
+        return true;
+    }
+
+    /// Moves what is left of an incomplete line to the front, and reads on behind it.
+    bool read_lines() {
+        text_.erase(0, used_);
+        used_ = 0;
+        for (;;) {
+            const std::size_t before = text_.size();
+            text_.resize(before + Feed::front_size);
+            const std::size_t got = feed_->read(std::span(text_).subspan(before));
+            text_.resize(before + got);
+            const auto last = text_.rfind(newline_);
+            const bool end = got < Feed::front_size;
+            used_ = end ? text_.size() : last == std::string::npos ? 0 : last + 1;
+            if (used_ > 0 || end) return used_ > 0;
+            run_.need_memory(static_cast<double>(text_.size()), "a line of " + source_);
+        }
+    }
+
+    void parse() {
+        part_begin_ = at_;
+        const SourceText text(std::string_view(text_).substr(0, used_), source_, newline_, lines_);
+        rows_ = read_rows(text, text.begin(), nullptr, columns_, dialect_, run_);
+        for (const Mark& mark : rows_.marks) {
+            const Cut cut{part_begin_ + mark.row, text.line_of(mark.at)};
+            if (cut.row == 0) continue;  // comments above the first point
+            if (cut.row == last_cut_.row) refuse_empty(cut.line);
+            marks_.push_back(cut);
+            last_cut_ = cut;
+        }
+        lines_ = text.line_of(text.end()) - 1;
+    }
+
+    void refuse_empty_set() const {
+        if (last_cut_.row > 0 && last_cut_.row == part_end()) refuse_empty(last_cut_.line);
+    }
+
+    [[noreturn]] void refuse_empty(std::size_t line) const {
+        fail(ErrorKind::input,
+             "{}:{}:1: a set without points; a line such as this stands between two sets",
+             source_name(source_), line);
+    }
+
+    std::unique_ptr<Feed> feed_;
+    RunContext run_;
+    std::string source_;
+    Columns columns_;
+    Dialect dialect_;
+    Provenance provenance_;
+    bool names_;
+    char newline_;
+    bool started_ = false;
+    std::string text_;
+    std::size_t used_ = 0;   ///< bytes of text_ that were parsed
+    std::size_t lines_ = 0;  ///< before the next part
+    Rows rows_;
+    std::uint64_t part_begin_ = 0;  ///< the first row of this part among all
+    std::uint64_t at_ = 0;          ///< the next row among all
+    std::vector<Cut> marks_;
+    Cut last_cut_{0, 0};
+};
+
+}  // namespace
+
+std::vector<PointSet> read_delimited(std::string_view bytes, const ReadOptions& options,
+                                     const RunContext& run) {
+    const SourceText text(bytes, options.source);
+    const TableHead head = read_head(text, options);
+    const Columns& columns = head.columns;
+    Rows rows = read_rows(text, head.body, head.top.first, columns, head.dialect, run);
     if (rows.numbers.empty())
         text.refuse_whole(
             fmt::format("the file holds only a header (line {}); expected points "
                         "below it, one a line",
-                        header_line));
+                        head.line));
     if (columns.has(Columns::set_number))
-        return gather_sets(std::move(rows), columns.dimension, top.provenance);
+        return gather_sets(std::move(rows), columns.dimension, head.top.provenance);
     const auto starts = set_starts(text, rows, columns.dimension);
-    return cut_sets(std::move(rows.numbers), columns.dimension, starts, top.provenance);
+    return cut_sets(std::move(rows.numbers), columns.dimension, starts, head.top.provenance);
+}
+
+std::unique_ptr<PointStream> stream_delimited(std::unique_ptr<Feed>& feed,
+                                              const ReadOptions& options, const RunContext& run) {
+    const SourceText front(feed->front(), options.source);
+    std::optional<TableHead> head;
+    try {
+        head = read_head(front, options);
+    } catch (const Error&) {
+        return nullptr;  // the whole text says better what is wrong
+    }
+    const bool cut_off = std::find(head->body, front.end(), front.newline()) == front.end();
+    if (cut_off || head->columns.has(Columns::set_number)) return nullptr;
+    return std::make_unique<DelimitedStream>(std::move(feed), *head, front, options, run);
 }
 
 }  // namespace stipple::io

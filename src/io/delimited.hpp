@@ -12,14 +12,16 @@
 #include "core/run_context.hpp"
 #include "io/columns.hpp"
 #include "io/format.hpp"
+#include "io/point_stream.hpp"
 #include "io/source_text.hpp"
 
 namespace stipple::io {
 
 /// How a row is written.
 struct Dialect {
-    char separator = ' ';   ///< a blank stands for any run of blanks and tabs
-    bool brackets = false;  ///< a row is [x,y]; lines that begin with { stand between rows
+    char separator = ' ';        ///< a blank stands for any run of blanks and tabs
+    bool brackets = false;       ///< a row is [x,y]; lines that begin with { stand between rows
+    std::size_t model_line = 0;  ///< that decided what the columns are, in an earlier part; or 0
 };
 
 /// A line between rows at which a new set may begin.
@@ -62,5 +64,10 @@ std::string_view line_at(const SourceText& text, const char* begin);
 /// Reads csv, tsv and txt: whatever separates, with a header or without.
 std::vector<PointSet> read_delimited(std::string_view bytes, const ReadOptions& options,
                                      const RunContext& run);
+
+/// The same in blocks; nothing for columns that tell the set, and where the front does not show
+/// what the columns are.
+std::unique_ptr<PointStream> stream_delimited(std::unique_ptr<Feed>& feed,
+                                              const ReadOptions& options, const RunContext& run);
 
 }  // namespace stipple::io

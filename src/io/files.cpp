@@ -16,6 +16,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "io/point_stream.hpp"
 #include "io/source_text.hpp"
 
 namespace stipple::io {
@@ -78,7 +79,21 @@ std::string folder_of(const std::string& path) {
     return slash == std::string::npos ? "." : path.substr(0, std::max<std::size_t>(slash, 1));
 }
 
-/// The format of text that no extension decides: bytes tell.
+/// Opens a file for reading, or takes standard input for "-". @throws Error(io)
+int open_to_read(const std::string& path, struct stat& status) {
+    // Without O_NONBLOCK, opening a named pipe would wait where nobody can stop it.
+    const int descriptor =
+        path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0 || ::fstat(descriptor, &status) != 0) refuse(source_name(path), errno);
+    if (S_ISDIR(status.st_mode)) {
+        const Closing file{descriptor};
+        refuse(source_name(path), EISDIR);
+    }
+    return descriptor;
+}
+
+}  // namespace
+
 const Format& format_for(const std::string& path, std::string_view bytes) {
     const Format* named = format_of_extension(path);
     if (named == nullptr || named->name == "csv" || named->name == "txt")
@@ -90,17 +105,64 @@ const Format& format_for(const std::string& path, std::string_view bytes) {
     return *named;
 }
 
-}  // namespace
+Feed::Feed(const std::string& path, RunContext run)
+    : name_(source_name(path)), run_(std::move(run)) {
+    struct stat status {};
+    descriptor_ = open_to_read(path, status);
+#ifdef F_SETPIPE_SZ
+    // Large enough for a writer's whole block, so that both sides work at the same time.
+    if (S_ISFIFO(status.st_mode)) ::fcntl(descriptor_, F_SETPIPE_SZ, 1 << 20);
+#endif
+    front_.resize(front_size);
+    try {
+        front_.resize(fetch(front_));
+    } catch (...) {
+        const Closing file{descriptor_};
+        throw;
+    }
+}
+
+Feed::~Feed() { const Closing file{descriptor_}; }
+
+std::size_t Feed::fetch(std::span<char> bytes) {
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+        wait_for_bytes(descriptor_, run_);
+        const auto got = ::read(descriptor_, bytes.data() + done, bytes.size() - done);
+        if (got == 0) break;
+        if (got > 0)
+            done += static_cast<std::size_t>(got);
+        else if (errno != EINTR && errno != EAGAIN)
+            refuse(name_, errno);
+    }
+    return done;
+}
+
+std::size_t Feed::read(std::span<char> bytes) {
+    const std::size_t held = std::min(front_.size() - taken_, bytes.size());
+    std::copy_n(front_.begin() + static_cast<std::ptrdiff_t>(taken_), held, bytes.begin());
+    taken_ += held;
+    return held == bytes.size() ? held : held + fetch(bytes.subspan(held));
+}
+
+std::string Feed::read_all() {
+    std::string bytes = front_.substr(taken_);
+    if (ends_in_front()) return bytes;
+    for (;;) {
+        const std::size_t before = bytes.size();
+        run_.need_memory(2 * static_cast<double>(before), "the bytes of " + name_);
+        bytes.resize(before + std::max(before, front_size));
+        const std::size_t got = fetch(std::span(bytes).subspan(before));
+        const bool end = got < bytes.size() - before;
+        bytes.resize(before + got);
+        if (end) return bytes;
+    }
+}
 
 Input::Input(const std::string& path, const RunContext& run) {
     const std::string name = source_name(path);
-    const bool standard = path == "-";
-    // Without O_NONBLOCK, opening a named pipe would wait where nobody can stop it.
-    const Closing file{standard ? STDIN_FILENO
-                                : ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
     struct stat status {};
-    if (file.descriptor < 0 || ::fstat(file.descriptor, &status) != 0) refuse(name, errno);
-    if (S_ISDIR(status.st_mode)) refuse(name, EISDIR);
+    const Closing file{open_to_read(path, status)};
     if (S_ISREG(status.st_mode) && status.st_size > 0 &&
         ::lseek(file.descriptor, 0, SEEK_CUR) == 0) {
         size_ = static_cast<std::size_t>(status.st_size);
@@ -232,13 +294,13 @@ void Output::commit() {
     temporary_.clear();
 }
 
-std::vector<PointSet> read_points(const std::string& path, const ReadOptions& options,
-                                  const RunContext& run, const Format* format) {
-    const Input input(path, run);
+std::vector<PointSet> read_sets(std::string_view bytes, const std::string& path,
+                                const ReadOptions& options, const RunContext& run,
+                                const Format* format) {
     ReadOptions inner = options;
     if (inner.source == "-") inner.source = path;
     inner.single = options.single || extension_is_single(path);
-    const Format& chosen = format != nullptr ? *format : format_for(path, input.bytes());
+    const Format& chosen = format != nullptr ? *format : format_for(path, bytes);
     if (!chosen.read) {
         std::vector<std::string> readable;
         for (const Format& known : all())
@@ -246,7 +308,13 @@ std::vector<PointSet> read_points(const std::string& path, const ReadOptions& op
         fail(ErrorKind::usage, "{}: {} is only written; formats that are read: {}",
              source_name(inner.source), chosen.name, join(readable, ", "));
     }
-    return chosen.read(input.bytes(), inner, run);
+    return chosen.read(bytes, inner, run);
+}
+
+std::vector<PointSet> read_points(const std::string& path, const ReadOptions& options,
+                                  const RunContext& run, const Format* format) {
+    const Input input(path, run);
+    return read_sets(input.bytes(), path, options, run, format);
 }
 
 }  // namespace stipple::io

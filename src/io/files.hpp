@@ -72,6 +72,14 @@ class Output {
     bool broken_ = false;  ///< the pipe has no reader
 };
 
+/// The format that a file's extension means or, where it leaves that open, its first bytes.
+const Format& format_for(const std::string& path, std::string_view bytes);
+
+/// All sets in the bytes of a file; else as read_points.
+std::vector<PointSet> read_sets(std::string_view bytes, const std::string& path,
+                                const ReadOptions& options, const RunContext& run,
+                                const Format* format = nullptr);
+
 /// All sets of a file, in the named format or the one that its extension or its bytes tell. Where
 /// options.source is "-", messages name `path`.
 /// @throws Error(input), Error(io), Error(usage)

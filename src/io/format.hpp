@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -40,6 +41,11 @@ struct Layout {
 /// Names of coordinates: x / x,y / x,y,z / x1..xd.
 std::vector<std::string> coordinate_names(std::size_t dimension);
 
+namespace io {
+class Feed;
+class PointStream;
+}  // namespace io
+
 /// What a reader is told.
 struct ReadOptions {
     std::string source = "-";                   ///< for messages and reports
@@ -50,8 +56,9 @@ struct ReadOptions {
 
 struct FormatTraits {
     bool binary = false;
-    bool equal_sets = false;  ///< all sets must have as many points
-    bool many_sets = true;    ///< a file can hold more than one set
+    bool equal_sets = false;    ///< all sets must have as many points
+    bool many_sets = true;      ///< a file can hold more than one set
+    bool counts_first = false;  ///< what comes before the rows tells their number, or their extent
     std::size_t max_dimension = 1'000'000;
     std::size_t min_dimension = 1;
 };
@@ -80,6 +87,12 @@ struct Format {
     std::function<std::vector<PointSet>(std::string_view bytes, const ReadOptions&,
                                         const RunContext&)>
         read = {};
+
+    /// The same in blocks, where the front of the bytes shows that it can be done: takes the feed
+    /// then, and leaves it where it gives nothing. Empty: never.
+    std::function<std::unique_ptr<io::PointStream>(std::unique_ptr<io::Feed>&, const ReadOptions&,
+                                                   const RunContext&)>
+        stream = {};
 };
 
 namespace io {

@@ -261,7 +261,7 @@ Format json() {
             .summary = "One JSON object with provenance and all points",
             .source = "RFC 8259",
             .extensions = {".json"},
-            .traits = {},
+            .traits = {.counts_first = true},
             .head = head,
             .begin_set = begin_set,
             .rows = rows,

@@ -83,7 +83,7 @@ Format jsonl() {
             .summary = "A line of provenance, then a point [x,y] a line",
             .source = "https://jsonlines.org",
             .extensions = {".jsonl"},
-            .traits = {},
+            .traits = {.counts_first = true},
             .begin_set = begin_set,
             .rows = rows,
             .read = read};

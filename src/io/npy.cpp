@@ -13,6 +13,7 @@
 #include "io/binary.hpp"
 #include "io/columns.hpp"
 #include "io/format.hpp"
+#include "io/point_stream.hpp"
 #include "io/source_text.hpp"
 
 namespace stipple::io {
@@ -79,6 +80,22 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
     return cut_sets(keep_coordinates(std::move(table), columns), columns.dimension, starts, {});
 }
 
+/// Point after point; what is stored with the first index running fastest needs all of it.
+std::unique_ptr<PointStream> stream(std::unique_ptr<Feed>& feed, const ReadOptions& options,
+                                    const RunContext& /*run*/) {
+    const std::string source = source_name(options.source);
+    const NpyHeader header = read_npy_header(feed->front(), source);
+    const std::size_t rank = header.shape.size();
+    if (rank == 0 || rank > 3 || header.empty() || header.columns_first) return nullptr;
+    const bool many = rank == 3;
+    const RawShape shape{.sets = many ? header.shape[0] : 1,
+                         .count = header.shape[many ? 1 : 0],
+                         .width = rank == 1 ? 1 : header.shape.back(),
+                         .type = header.type,
+                         .offset = header.size};
+    return stream_raw(std::move(feed), shape, options);
+}
+
 }  // namespace
 
 Format npy() {
@@ -86,10 +103,11 @@ Format npy() {
             .summary = "NumPy array of shape (n, d), or (sets, n, d)",
             .source = "NEP 1, numpy.lib.format",
             .extensions = {".npy"},
-            .traits = {.binary = true, .equal_sets = true},
+            .traits = {.binary = true, .equal_sets = true, .counts_first = true},
             .head = head,
             .rows = rows,
-            .read = read};
+            .read = read,
+            .stream = stream};
 }
 
 }  // namespace stipple::io

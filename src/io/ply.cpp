@@ -65,7 +65,7 @@ Format ply() {
             .summary = "Polygon file with the points as vertices; write only",
             .source = "Turk 1994, The PLY polygon file format",
             .extensions = {".ply"},
-            .traits = {.binary = true, .max_dimension = 3},
+            .traits = {.binary = true, .counts_first = true, .max_dimension = 3},
             .head = head,
             .rows = rows};
 }

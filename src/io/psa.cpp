@@ -49,7 +49,10 @@ Format psa() {
             .summary = "The number of points, then 'x y' a line",
             .source = "PSA, the program by T. Schloemer",
             .extensions = {},
-            .traits = {.many_sets = false, .max_dimension = 2, .min_dimension = 2},
+            .traits = {.many_sets = false,
+                       .counts_first = true,
+                       .max_dimension = 2,
+                       .min_dimension = 2},
             .head = head,
             .rows = rows,
             .read = read};

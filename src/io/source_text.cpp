@@ -24,8 +24,12 @@ SourceText::SourceText(std::string_view bytes, std::string_view source)
     if (bytes_.find('\n') == std::string_view::npos) newline_ = '\r';
 }
 
+SourceText::SourceText(std::string_view bytes, std::string_view source, char newline,
+                       std::size_t lines_before)
+    : bytes_(bytes), source_(source_name(source)), newline_(newline), lines_before_(lines_before) {}
+
 std::size_t SourceText::line_of(const char* at) const {
-    return 1 + static_cast<std::size_t>(std::count(begin(), at, newline_));
+    return lines_before_ + 1 + static_cast<std::size_t>(std::count(begin(), at, newline_));
 }
 
 void SourceText::refuse(const char* at, const std::string& what, std::string hint) const {

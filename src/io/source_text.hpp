@@ -18,6 +18,10 @@ class SourceText {
     /// @throws Error(input) when it is empty, compressed, or not in one byte a letter.
     SourceText(std::string_view bytes, std::string_view source);
 
+    /// A later part of a text, of which `lines_before` were read.
+    SourceText(std::string_view bytes, std::string_view source, char newline,
+               std::size_t lines_before);
+
     [[nodiscard]] const char* begin() const { return bytes_.data(); }
     [[nodiscard]] const char* end() const { return bytes_.data() + bytes_.size(); }
     [[nodiscard]] const std::string& source() const { return source_; }
@@ -38,6 +42,7 @@ class SourceText {
     std::string_view bytes_;
     std::string source_;
     char newline_ = '\n';
+    std::size_t lines_before_ = 0;
 };
 
 /// A piece of a text as a message shows it: short, in quotes, without control bytes.

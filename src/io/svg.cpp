@@ -89,7 +89,10 @@ Format svg() {
             .summary = "A picture of 2-D points; write only",
             .source = "W3C, Scalable Vector Graphics 1.1",
             .extensions = {".svg"},
-            .traits = {.many_sets = false, .max_dimension = 2, .min_dimension = 2},
+            .traits = {.many_sets = false,
+                       .counts_first = true,
+                       .max_dimension = 2,
+                       .min_dimension = 2},
             .head = head,
             .rows = rows,
             .tail = tail};

@@ -37,7 +37,8 @@ Format txt() {
             .head = head,
             .begin_set = begin_set,
             .rows = rows,
-            .read = read_delimited};
+            .read = read_delimited,
+            .stream = stream_delimited};
 }
 
 }  // namespace stipple::io

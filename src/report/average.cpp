@@ -91,11 +91,11 @@ Report mapped(const Report& report, const F& f) {
 }
 
 /// The report without words, flags and grids.
-Report numbers_only(const Report& report) {
+Report without_words(const Report& report) {
     Report out;
     for (const auto& entry : report.entries()) {
         if (const auto* group = std::get_if<Report>(&entry.value))
-            out.add(entry.name, numbers_only(*group));
+            out.add(entry.name, without_words(*group));
         else if (numbers(entry.value) && !std::holds_alternative<Grid>(entry.value))
             out.entries().push_back(entry);
     }
@@ -114,10 +114,22 @@ void ReportAverage::add(const Report& report) {
     merge_groups(mean_, squares_, report, static_cast<double>(count_));
 }
 
+Report numbers_only(const Report& report) {
+    Report out;
+    for (const auto& entry : report.entries()) {
+        if (const auto* group = std::get_if<Report>(&entry.value))
+            out.add(entry.name, numbers_only(*group));
+        else if (std::holds_alternative<double>(entry.value) ||
+                 std::holds_alternative<std::int64_t>(entry.value))
+            out.entries().push_back(entry);
+    }
+    return out;
+}
+
 Report ReportAverage::standard_error() const {
     if (count_ < 2) return {};
     const auto k = static_cast<double>(count_);
-    return numbers_only(
+    return without_words(
         mapped(squares_, [k](double sum) { return std::sqrt(sum / (k * (k - 1))); }));
 }
 

@@ -34,6 +34,9 @@ class ReportAverage {
     Report squares_;  ///< sums of squared deviations from the mean
 };
 
+/// A report's numbers, without words, flags, curves and grids.
+Report numbers_only(const Report& report);
+
 /// The standard errors of what `mean` has: an analyzer may take out of it what has no mean.
 Report only_of(const Report& mean, const Report& errors);
 

@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/text.hpp"
 #include "io/files.hpp"
 
 namespace stipple {
@@ -18,6 +19,7 @@ namespace {
 
 std::vector<double> travel(std::vector<double> rows, const WarpChain& chain, std::uint64_t first,
                            const Route& route) {
+    if (route.inverse) return chain.inverse(std::move(rows));
     if (route.bounds) scale_into(*route.bounds, rows);
     rows = chain.forward(std::move(rows), first);
     return route.with_pdf ? with_density(rows, chain) : std::move(rows);
@@ -47,24 +49,37 @@ class Conveyor {
 
     /// False: the pipe was closed.
     bool go() {
-        if (run_.thread_count() == 1 || source_.count <= block_)
+        if (run_.thread_count() == 1 || (source_.count <= block_ && !source_.read))
             go_alone();
         else
             within_threads(run_, [this] { go_parallel(); });
+        if (source_.read && !closed_ && !route_.inverse)
+            tell_dropped(at_, rows_out_, *source_.chain, run_);
         return !closed_;
     }
 
   private:
     /// The next block in a free parcel; nullptr at the end. Called by one thread at a time.
     Parcel* next() {
-        if (closed_ || at_ == source_.count) return nullptr;
+        if (closed_ || (at_ == source_.count && !source_.read)) return nullptr;
         run_.check_stop();
         Parcel& parcel = take();
         parcel.first = at_;
+        if (source_.read) return read(parcel) ? &parcel : nullptr;
         parcel.last = at_ = at_ + std::min(source_.count - at_, block_);
         parcel.bytes.clear();
         if (source_.in_order) fill(parcel);
         return &parcel;
+    }
+
+    /// False: all rows were read.
+    bool read(Parcel& parcel) {
+        parcel.rows.resize(block_ * source_.dimension);
+        const std::size_t count = source_.read(parcel.rows);
+        parcel.rows.resize(count * source_.dimension);
+        parcel.last = at_ += count;
+        parcel.bytes.clear();
+        return count > 0;
     }
 
     /// Parcels are owned here and used again: a pipeline that is stopped drops what it holds.
@@ -85,7 +100,7 @@ class Conveyor {
     }
 
     void work(Parcel& parcel) const {
-        if (!source_.in_order) fill(parcel);
+        if (!source_.in_order && !source_.read) fill(parcel);
         parcel.rows =
             travel(std::move(parcel.rows), *source_.chain, source_.first + parcel.first, route_);
         format_.rows(layout_, set_, parcel.first, parcel.rows, parcel.bytes);
@@ -93,7 +108,8 @@ class Conveyor {
 
     void deliver(Parcel& parcel) {
         if (!closed_ && !output_.write(parcel.bytes)) closed_ = true;
-        run_.tick(parcel.last, source_.count);
+        rows_out_ += parcel.rows.size() / layout_.width();
+        if (!source_.read) run_.tick(parcel.last, source_.count);
         const std::lock_guard lock(mutex_);
         free_.push_back(&parcel);
     }
@@ -132,6 +148,7 @@ class Conveyor {
     const RunContext& run_;
     std::uint64_t block_;
     std::uint64_t at_ = 0;
+    std::uint64_t rows_out_ = 0;
     std::atomic<bool> closed_ = false;
     std::mutex mutex_;
     std::vector<std::unique_ptr<Parcel>> parcels_;
@@ -251,6 +268,18 @@ bool ship(const Shipment& shipment, const Target& target, const RunContext& run)
 RunContext lane(const RunContext& run, std::size_t set, std::size_t sets) {
     const auto all = static_cast<double>(sets);
     return run.stage(static_cast<double>(set) / all, static_cast<double>(set + 1) / all);
+}
+
+void tell_dropped(std::uint64_t count, std::uint64_t kept, const WarpChain& chain,
+                  const RunContext& run) {
+    const auto dropped = static_cast<double>(count - kept);
+    if (dropped > 0)
+        run.tell(fmt::format("dropped {} of {} points ({:.1f} %): they have no image under {}",
+                             dropped, count, 100 * dropped / static_cast<double>(count),
+                             join(chain.specs(), ", ")));
+    if (kept == 0)
+        fail(ErrorKind::input, "none of {} points has an image under {}", count,
+             join(chain.specs(), ", "));
 }
 
 std::vector<double> with_density(std::span<const double> rows, const WarpChain& chain) {

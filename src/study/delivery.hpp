@@ -22,7 +22,10 @@ struct Source {
     std::size_t dimension = 0;  ///< numbers of a row that `fill` gives
     /// Gives rows [first, first + k) where `rows` holds k of them.
     std::function<void(std::uint64_t first, std::span<double> rows)> fill;
-    bool in_order = false;                   ///< fill must be called for one block after the other
+    bool in_order = false;  ///< fill must be called for one block after the other
+    /// In place of fill, where the count is not known: gives the next rows, as many as fit, and
+    /// fewer only at the end.
+    std::function<std::size_t(std::span<double> rows)> read = {};
     std::shared_ptr<const WarpChain> chain;  ///< that the rows go through
     std::uint64_t first = 0;                 ///< index of the first row in the whole set
 };
@@ -31,6 +34,7 @@ struct Source {
 struct Route {
     std::optional<Box> bounds = {};  ///< scales the unit cube to this box first
     bool with_pdf = false;           ///< adds the density as a last number
+    bool inverse = false;            ///< goes back to the unit cube
 };
 
 /// Sets with everything that is needed to write them one after the other.
@@ -61,6 +65,11 @@ bool ship(const Shipment& shipment, const Target& target, const RunContext& run)
 
 /// The part of a run's progress that one of several sets is.
 RunContext lane(const RunContext& run, std::size_t set, std::size_t sets);
+
+/// Tells the user how many of `count` points have no image under the chain, if any.
+/// @throws Error(input) when none has
+void tell_dropped(std::uint64_t count, std::uint64_t kept, const WarpChain& chain,
+                  const RunContext& run);
 
 /// Each row with its density on the chain's domain behind it.
 std::vector<double> with_density(std::span<const double> rows, const WarpChain& chain);

@@ -2,6 +2,7 @@
 #include "study/pipeline.hpp"
 
 #include <algorithm>
+#include <future>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -59,7 +60,59 @@ PointSet fill_all(Sequence& sequence, const Plan& plan, std::uint64_t start,
     return points;
 }
 
+/// A set in memory, given to an accumulator in batches.
+Report accumulated(const Analyzer& analyzer, const PointSet& points, const Values& options,
+                   const RunContext& run) {
+    const std::size_t d = points.dimension();
+    const auto measure =
+        accumulator_for(analyzer, {points.domain, points.count()}, d, options, run);
+    RunContext quiet = run;
+    quiet.progress = {};
+    const std::size_t batch = arrival_batch(d);
+    for (std::size_t first = 0; first < points.count(); first += batch) {
+        const std::size_t count = std::min(batch, points.count() - first);
+        measure->add(points.flat().subspan(first * d, count * d), quiet);
+        run.tick(first + count, points.count());
+    }
+    return measure->report(quiet);
+}
+
 }  // namespace
+
+Found analyze(const Analyzer& analyzer, const Arrival& arrival, std::size_t dimension,
+              const NextRows& next, const Values& options, const RunContext& run) {
+    const auto measure = accumulator_for(analyzer, arrival, dimension, options, run);
+    RunContext quiet = run;
+    quiet.progress = {};
+    std::vector<double> rows(arrival_batch(dimension) * dimension);
+    std::vector<double> ahead(rows.size());
+    const auto policy = run.thread_count() > 1 ? std::launch::async : std::launch::deferred;
+    Found found;
+    std::size_t count = next(rows);
+    while (count > 0) {
+        run.check_stop();
+        auto fetched = std::async(policy, [&] { return next(ahead); });
+        measure->add(std::span(rows).first(count * dimension), quiet);
+        found.count += count;
+        if (arrival.count) run.tick(found.count, *arrival.count);
+        count = fetched.get();
+        rows.swap(ahead);
+    }
+    if (found.count == 0)
+        fail(ErrorKind::input, "{} needs at least one point; the set is empty", analyzer.name);
+    found.report = measure->report(quiet);
+    return found;
+}
+
+std::unique_ptr<Accumulator> accumulator_for(const Analyzer& analyzer, const Arrival& arrival,
+                                             std::size_t dimension, const Values& options,
+                                             const RunContext& run) {
+    check_dimension(analyzer, dimension);
+    if (arrival.dimension() != dimension)
+        fail(ErrorKind::input, "points of the domain {} have dimension {}; these have {}",
+             arrival.domain->spec(), arrival.dimension(), dimension);
+    return analyzer.accumulate(arrival, options, run);
+}
 
 const Generator& find_generator(std::string_view name) {
     return find_unit("generator", generators::all(), name);
@@ -130,7 +183,8 @@ Report analyze(const Analyzer& analyzer, const PointSet& points, const Values& o
         fail(ErrorKind::input, "{} needs at least one point; the set is empty", analyzer.name);
     check_dimension(analyzer, points.dimension());
     if (analyzer.traits.unit_cube) require_unit_cube(points);
-    return analyzer.analyze(points, options, run);
+    return analyzer.accumulate ? accumulated(analyzer, points, options, run)
+                               : analyzer.analyze(points, options, run);
 }
 
 Report analyze(std::string_view name, const PointSet& points, const Settings& settings,

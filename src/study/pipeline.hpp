@@ -4,6 +4,10 @@
 // line does with files, another program does with these.
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -46,6 +50,12 @@ PointSet generate(const Generator& generator, const Request& request, const Valu
 PointSet generate(std::string_view generator, const Request& request, const Settings& settings = {},
                   const RunContext& run = {});
 
+/// What measures points of `dimension` numbers as they come. @throws Error(input) where the
+/// analyzer or the domain does not take them, Error(usage)
+std::unique_ptr<Accumulator> accumulator_for(const Analyzer& analyzer, const Arrival& arrival,
+                                             std::size_t dimension, const Values& options,
+                                             const RunContext& run);
+
 /// @throws Error(input) counting the points outside the closed unit cube and naming the first
 void require_unit_cube(const PointSet& points);
 
@@ -54,6 +64,21 @@ void require_unit_cube(const PointSet& points);
 /// @throws Error(input)
 Report analyze(const Analyzer& analyzer, const PointSet& points, const Values& options,
                const RunContext& run);
+
+/// Gives a set's next points, as many as fit; fewer only at its end.
+using NextRows = std::function<std::size_t(std::span<double> rows)>;
+
+/// What was found of points that came in blocks, and how many they were.
+struct Found {
+    Report report;
+    std::uint64_t count = 0;
+};
+
+/// Measures a set that comes in blocks, by an analyzer that has `accumulate`: the same result as
+/// for the set in memory. The next block is fetched while one is looked at.
+/// @throws Error(input)
+Found analyze(const Analyzer& analyzer, const Arrival& arrival, std::size_t dimension,
+              const NextRows& next, const Values& options, const RunContext& run);
 Report analyze(std::string_view analyzer, const PointSet& points, const Settings& settings = {},
                const RunContext& run = {});
 

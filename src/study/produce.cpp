@@ -44,15 +44,7 @@ PointSet image_of(const PointSet& points, const WarpChain& chain, bool inverse, 
     PointSet image(std::move(rows), inverse ? chain.dimension_in() : chain.dimension_out());
     image.provenance = points.provenance;
     if (!inverse) image.domain = chain.domain();
-    const auto dropped = static_cast<double>(points.count() - image.count());
-    if (dropped > 0)
-        run.tell(fmt::format("dropped {} of {} points ({:.1f} %): they have no image under {}",
-                             dropped, points.count(),
-                             100 * dropped / static_cast<double>(points.count()),
-                             join(chain.specs(), ", ")));
-    if (image.count() == 0)
-        fail(ErrorKind::input, "none of {} points has an image under {}", points.count(),
-             join(chain.specs(), ", "));
+    tell_dropped(points.count(), image.count(), chain, run);
     return image;
 }
 
@@ -118,6 +110,30 @@ std::size_t dimension_before(const Spec& spec, std::size_t after, const RunConte
         fail(ErrorKind::input, "the inverse of {} takes points of {} numbers; these have {}",
              spec.name, gives, after);
     return after - gives + mapping->cube_dimension();
+}
+
+void refuse_inverse_density(bool inverse, const Target& target) {
+    if (inverse && target.with_pdf)
+        fail(ErrorKind::usage, "--with-pdf: the inverse gives points of the unit cube, density 1");
+}
+
+/// The points of a stream before these are in the closed unit cube; so must these be.
+void require_unit_cube(std::span<const double> rows, std::size_t d, std::uint64_t first) {
+    const auto inside = [](double x) { return x >= 0 && x <= 1; };
+    const auto it = std::ranges::find_if_not(rows, inside);
+    if (it == rows.end()) return;
+    const auto index = static_cast<std::size_t>(it - rows.begin()) / d;
+    std::vector<std::string> numbers;
+    for (const double x : rows.subspan(index * d, d)) numbers.push_back(format_number(x));
+    fail(ErrorKind::input, "point {} is outside the unit cube [0, 1]^{}: ({})", first + index, d,
+         join(numbers, ", "));
+}
+
+/// A text whose number of sets was not known when the first was begun must have no more.
+void refuse_second_set(io::PointStream& stream) {
+    if (stream.sets() || !stream.next_set()) return;
+    fail_with_hint(ErrorKind::input, "give each set in a file of its own",
+                   "a second set begins in a text that is too large to be read as a whole");
 }
 
 /// Everything about a production that is the same for all its sets.
@@ -308,14 +324,54 @@ void write_warped(std::vector<PointSet> sets, const Spec& warp, bool inverse, co
                   const RunContext& run) {
     const std::size_t d = sets.front().dimension();
     const WarpChain chain({&warp, 1}, inverse ? dimension_before(warp, d, run) : d, {}, run);
-    if (inverse && target.with_pdf)
-        fail(ErrorKind::usage, "--with-pdf: the inverse gives points of the unit cube, density 1");
+    refuse_inverse_density(inverse, target);
     for (PointSet& set : sets) {
         if (!inverse) require_unit_cube(set);
         set = image_of(set, chain, inverse, 0, run);
         record_warp(set, (inverse ? "inverse " : "") + chain.specs().front());
     }
     ship_images(sets, chain, 0, sets.size(), target, run);
+}
+
+bool can_stream(const io::PointStream& stream, const Target& target) {
+    const bool sets_known = stream.sets() || stream.looks_like_one_set();
+    return sets_known && !stream.held() && !target.format->traits.counts_first && !target.meta &&
+           !file_per_set(target.path);
+}
+
+void write_warped(io::PointStream& stream, const Spec& warp, bool inverse, const Target& target,
+                  const RunContext& run) {
+    const std::size_t d = stream.dimension();
+    const auto chain = std::make_shared<WarpChain>(
+        std::span(&warp, 1), inverse ? dimension_before(warp, d, run) : d, ChainSet{}, run);
+    refuse_inverse_density(inverse, target);
+    const std::size_t sets = stream.sets().value_or(1);
+    const auto source = [&](std::size_t /*set*/, const RunContext&) {
+        stream.next_set();
+        auto at = std::make_shared<std::uint64_t>(0);
+        return Source{.dimension = d,
+                      .fill = {},
+                      .read =
+                          [&stream, inverse, d, at](std::span<double> rows) {
+                              const std::size_t count = stream.read(rows);
+                              if (count == 0) refuse_second_set(stream);
+                              if (!inverse) require_unit_cube(rows.first(count * d), d, *at);
+                              *at += count;
+                              return count;
+                          },
+                      .chain = chain};
+    };
+    const std::size_t wide = inverse ? chain->dimension_in() : chain->dimension_out();
+    const DomainPtr domain = inverse ? unit_cube(wide) : chain->domain();
+    ship({.sets = sets,
+          .all_sets = sets,
+          .source = source,
+          .provenance = [&](std::size_t) { return stream.provenance(); },
+          .extent = [&](std::size_t) { return domain->bounding_box(); },
+          .counts = std::vector<std::uint64_t>(sets, 0),
+          .dimension = wide,
+          .route = {.bounds = {}, .with_pdf = target.with_pdf, .inverse = inverse}},
+         target, run);
 }
 
 void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, std::uint64_t seed,

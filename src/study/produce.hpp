@@ -13,6 +13,7 @@
 #include "core/spec.hpp"
 #include "generators/generator.hpp"
 #include "io/format.hpp"
+#include "io/point_stream.hpp"
 
 namespace stipple {
 
@@ -54,6 +55,15 @@ void write_sets(std::vector<PointSet> sets, const Target& target, const RunConte
 /// Writes the images of sets under a warp or, with `inverse`, what it makes them from.
 /// @throws Error(input) for points outside the unit cube, or the warp's domain
 void write_warped(std::vector<PointSet> sets, const Spec& warp, bool inverse, const Target& target,
+                  const RunContext& run);
+
+/// Whether points can be written to the target as they come, before their number is known.
+bool can_stream(const io::PointStream& stream, const Target& target);
+
+/// The same for points that come in blocks, in constant memory. What is wrong with a point ends it
+/// when it comes; a file is not left then, but a pipe had the points before.
+/// @throws Error(input) also for a text of several sets
+void write_warped(io::PointStream& stream, const Spec& warp, bool inverse, const Target& target,
                   const RunContext& run);
 
 /// Writes `replications` of each set, independently scrambled with the seeds seed, seed + 1, ...

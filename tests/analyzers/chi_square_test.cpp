@@ -5,6 +5,7 @@
 #include <map>
 #include <stop_token>
 
+#include "support/steps.hpp"
 #include "support/warping.hpp"
 
 using namespace stipple;
@@ -53,6 +54,15 @@ std::string verdict(const PointSet& points, const Settings& settings = {}) {
 PointSet on(DomainPtr domain, PointSet points) {
     points.domain = std::move(domain);
     return points;
+}
+
+/// `counts` points in the middle of each of as many cells.
+PointSet in_cells(const std::vector<int>& counts, DomainPtr domain) {
+    std::vector<double> flat;
+    for (std::size_t c = 0; c < counts.size(); ++c)
+        for (int i = 0; i < counts[c]; ++i)
+            flat.push_back((static_cast<double>(c) + 0.5) / static_cast<double>(counts.size()));
+    return on(std::move(domain), PointSet(std::move(flat), 1));
 }
 
 /// Oracle: the statistic for groups of `size` cells of an a x b grid, by the definition.
@@ -269,10 +279,13 @@ TEST(ChiSquare, ExpectationsThatDoNotHoldAreSaid) {
     EXPECT_EQ(unmet(some, "uniform"), std::vector<std::string>{});
     EXPECT_EQ(unmet(some, "stratified"),
               std::vector<std::string>{"expected stratified, found uniform (p = 0.147)"});
-    const PointSet even(std::vector<double>{.1, .1, .2, .3, .4, .6, .7, .8, .9, 1}, 1);
-    EXPECT_EQ(unmet(even, "stratified"), std::vector<std::string>{});
-    EXPECT_EQ(unmet(even, "uniform"),
-              std::vector<std::string>{"expected uniform, found stratified (p = 0)"});
+    const PointSet even = in_cells({20, 20, 20, 20, 20}, unit_cube(1));
+    const auto of_even = [&](const char* wanted) {
+        return analyze("chi-square", even, {{"expect", wanted}, {"cells", "5"}}).unmet();
+    };
+    EXPECT_EQ(of_even("stratified"), std::vector<std::string>{});
+    EXPECT_EQ(of_even("uniform"),
+              std::vector<std::string>{"expected uniform, found stratified (p = 0.000278)"});
     const PointSet clumped(std::vector<double>(30, 0.5), 1);
     EXPECT_EQ(unmet(clumped, "uniform").size(), 1U);
     EXPECT_TRUE(analyze("chi-square", clumped).unmet().empty());
@@ -386,4 +399,235 @@ TEST(ChiSquare, HonoursLimitsStopsAndProgress) {
     EXPECT_EQ(seen, 1);
     unit.options.set(options, "cells", "1000x1000");
     EXPECT_NE(error_of([&] { analyze(unit, set, options, {.max_memory = 1'000'000}); }), "");
+}
+
+// Expectations 5, 10, 15, 70: no pooling; 3 5 22 70 give 4/5 + 25/10 + 49/15 + 0.
+TEST(ChiSquare, UnequalCellsByHand) {
+    const auto domain = std::make_shared<Steps>(std::vector<double>{0.05, 0.1, 0.15, 0.7});
+    const Report report = analyze("chi-square", in_cells({3, 5, 22, 70}, domain), {{"cells", "4"}});
+    EXPECT_NEAR(report.number("statistic"), 0.8 + 2.5 + 49.0 / 15, 1e-12);
+    EXPECT_EQ(report.number("degrees_of_freedom"), 3);
+    EXPECT_EQ(report.number("pooled_cells"), 0);
+    EXPECT_EQ(report.number("mass_error"), 0);
+}
+
+// Expectations 70, 1, 4, 3, 22: sorted 1 3 4 22 70; 1 + 3 + 4 are the first group, of counts 2 + 0
+// + 9, and nothing is left over. With 70, 22, 2, 3, 3 the first group is 2 + 3.
+TEST(ChiSquare, PoolsTheLeastProbableCellsFirst) {
+    const auto steps = [](std::vector<double> masses) {
+        return std::make_shared<Steps>(std::move(masses));
+    };
+    const Report three =
+        analyze("chi-square", in_cells({60, 2, 9, 0, 29}, steps({0.70, 0.01, 0.04, 0.03, 0.22})),
+                {{"cells", "5"}});
+    EXPECT_NEAR(three.number("statistic"), 9.0 / 8 + 49.0 / 22 + 100.0 / 70, 1e-12);
+    EXPECT_EQ(three.number("degrees_of_freedom"), 2);
+    EXPECT_EQ(three.number("pooled_cells"), 3);
+    // The cells 3 and 22 become one group, for 3 alone is too few.
+    const Report two = analyze(
+        "chi-square", in_cells({60, 7, 4, 29}, steps({0.7, 0.02, 0.06, 0.22})), {{"cells", "4"}});
+    EXPECT_NEAR(two.number("statistic"), 9.0 / 8 + 49.0 / 22 + 100.0 / 70, 1e-12);
+    // 2.7 + 2.85 and 3 + 3.15, and 3.3 is left over: it goes to the last group.
+    const Report left =
+        analyze("chi-square", in_cells({5, 3, 1, 2, 4}, steps({0.18, 0.19, 0.2, 0.21, 0.22})),
+                {{"cells", "5"}});
+    EXPECT_EQ(left.number("degrees_of_freedom"), 1);
+    EXPECT_NEAR(left.number("statistic"), 2.45 * 2.45 * (1 / 5.55 + 1 / 9.45), 1e-12);
+    EXPECT_EQ(left.number("pooled_cells"), 5);
+    EXPECT_EQ(
+        error_of([&] {
+            analyze("chi-square", in_cells({1, 1, 0, 3}, steps({0.7, 0.02, 0.06, 0.22})),
+                    {{"cells", "4"}});
+        }),
+        "input: chi-square needs two groups of cells that expect 5 points each; 5 points on 4 "
+        "cells give 1 | more points, or other --cells");
+}
+
+TEST(ChiSquare, OnePointWhereNoneCanBeIsEnough) {
+    const auto domain = std::make_shared<Steps>(std::vector<double>{0.5, 0.25, 0, 0.25});
+    const Settings settings = {{"cells", "4"}, {"level", "1e-9"}};
+    const Report fine = analyze("chi-square", in_cells({50, 25, 0, 25}, domain), settings);
+    EXPECT_EQ(fine.number("impossible_points"), 0);
+    EXPECT_EQ(fine.number("degrees_of_freedom"), 2);
+    const Report hit = analyze("chi-square", in_cells({50, 24, 1, 25}, domain), settings);
+    EXPECT_EQ(hit.number("impossible_points"), 1);
+    EXPECT_EQ(hit.number("p_value"), 0);
+    EXPECT_EQ(hit.text("verdict"), "non-uniform");
+    // And so it is for many sets of which one holds such a point.
+    const Analyzer& unit = find_analyzer("chi-square");
+    Report mean = fine;
+    mean.add("impossible_points", 0.01);
+    unit.refine(mean, 100, unit.options.defaults());
+    EXPECT_EQ(mean.text("verdict"), "non-uniform");
+}
+
+// False alarm: 20 seeds at level 1e-6. The shifted grid wraps around, where the density jumps.
+TEST(ChiSquare, UnevenDomainsAreTestedLikeEvenOnes) {
+    const auto domain =
+        std::make_shared<Steps>(std::vector<double>{0.4, 0.3, 0, 0.1, 0.15, 0.05}, 2);
+    const Settings settings = {{"level", "1e-6"}, {"shifted", "true"}};
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        PointSet points = uniform(20'000, seed);
+        PointSet swapped = points;
+        for (std::size_t i = 0; i < points.count(); ++i) {
+            points[i][0] = domain->place(points[i][0]);
+            swapped[i][1] = domain->place(swapped[i][1]);
+        }
+        const Report right = analyze("chi-square", on(domain, points), settings);
+        EXPECT_EQ(right.text("verdict"), "uniform") << seed;
+        EXPECT_EQ(right.number("impossible_points"), 0);
+        EXPECT_EQ(right.number("shifted.impossible_points"), 0);
+        EXPECT_EQ(verdict(on(domain, swapped), settings), "non-uniform") << seed;
+    }
+}
+
+TEST(ChiSquare, MassesThatContradictEachOtherAreRefused) {
+    const auto error = [](double claimed, double off) {
+        const auto domain = std::make_shared<Steps>(std::vector<double>{0.5, 0.5}, 1, claimed, off);
+        return error_of([&] {
+            analyze("chi-square", in_cells({50, 50}, domain), {{"cells", "2"}});
+        });
+    };
+    EXPECT_EQ(error(0, 0), "");
+    EXPECT_EQ(error(1e-4, 1e-4), "");
+    EXPECT_EQ(error(1e-6, 1e-4),
+              "limit: steps: the probabilities of its 2 cells sum to 1.0001, not to 1 within their "
+              "error 2e-06");
+    EXPECT_NE(error(std::nan(""), 0), "");
+    EXPECT_NE(error(0, -3), "") << "negative";
+}
+
+TEST(ChiSquare, ErrorsOfMassesAreSaid) {
+    std::string said;
+    RunContext run;
+    run.warn = [&](const std::string& sentence) { said = sentence; };
+    const Analyzer& unit = find_analyzer("chi-square");
+    Values options = unit.options.defaults();
+    unit.options.set(options, "cells", "2");
+    const auto with_error = [&](double error) {
+        said.clear();
+        const auto domain = std::make_shared<Steps>(std::vector<double>{0.5, 0.5}, 1, error);
+        return analyze(unit, in_cells({50, 50}, domain), options, run).number("mass_error");
+    };
+    EXPECT_EQ(with_error(1e-6), 2e-6);
+    EXPECT_EQ(said, "");
+    with_error(0.03);
+    EXPECT_NE(said.find("known to 0.06 only"), std::string::npos) << said;
+}
+
+// Oracle: the points themselves shifted by half a cell.
+TEST(ChiSquare, ShiftedGridIsTheGridOfShiftedPoints) {
+    const PointSet points = uniform(3000, 4);
+    PointSet moved = points;
+    for (std::size_t i = 0; i < points.count(); ++i)
+        for (const auto& [k, m] : {std::pair<std::size_t, double>{0, 5}, {1, 7}})
+            moved[i][k] = std::fmod(points[i][k] + 0.5 / m, 1);
+    const Report both = analyze("chi-square", points, {{"cells", "5x7"}, {"shifted", "true"}});
+    const Report other = analyze("chi-square", moved, {{"cells", "5x7"}});
+    EXPECT_NEAR(both.number("shifted.statistic"), other.number("statistic"), 1e-9);
+    const double least = std::min(both.number("p_value"), both.number("shifted.p_value"));
+    EXPECT_NEAR(both.number("combined_p_value"), 1 - (1 - least) * (1 - least), 1e-12);
+}
+
+// Points in the middles of cells, all alike: the plain grid sees nothing, the shifted one all.
+TEST(ChiSquare, ShiftedGridSeesWhatCellsHide) {
+    std::vector<double> flat;
+    for (int i = 0; i < 100;
+         ++i)  // 0.19 and 0.21 are in cells of their own; half a cell on, in one
+        flat.insert(flat.end(), {0.19, 0.21, 0.59, 0.61, 0.85});
+    const PointSet points(flat, 1);
+    EXPECT_EQ(verdict(points, {{"cells", "5"}}), "stratified");
+    const Report report = analyze("chi-square", points, {{"cells", "5"}, {"shifted", "true"}});
+    EXPECT_EQ(report.text("verdict"), "non-uniform");
+    EXPECT_LT(report.number("shifted.p_upper"), 1e-10);
+}
+
+// 15 points, 5 in each of 3 cells: 15! / (5!^3 3^15); of 16, one cell has 6, any of three.
+TEST(ChiSquare, EvenCountsInFewCellsAreNotRare) {
+    const Report even = analyze("chi-square", in_cells({5, 5, 5}, unit_cube(1)));
+    EXPECT_EQ(even.number("statistic"), 0);
+    EXPECT_NEAR(even.number("p_lower"), 0.05273963, 1e-8);
+    EXPECT_EQ(even.text("verdict"), "uniform");
+    EXPECT_NEAR(measure("chi-square", "p_lower", in_cells({5, 6, 5}, unit_cube(1))), 0.14063900,
+                1e-6);
+    int alarms = 0;  // of 2000 sets at level 0.001, more than 10 with a chance of 1e-5
+    for (std::uint64_t seed = 1; seed <= 2000; ++seed)
+        alarms += verdict(uniform(15, seed, 1)) != "uniform";
+    EXPECT_LE(alarms, 10);
+}
+
+// Tails by the formulas, for sets with p_upper 0.1, 0.001, 0.9 and p_lower 0.9, 0.999, 0.1.
+TEST(ChiSquare, SetsAreCombinedAsAsked) {
+    const Analyzer& unit = find_analyzer("chi-square");
+    std::vector<Report> sets(3);
+    const double upper[] = {0.1, 0.001, 0.9};
+    for (std::size_t i = 0; i < 3; ++i)
+        sets[i].add("p_upper", upper[i]).add("p_lower", 1 - upper[i]);
+    const auto combined = [&](const char* how) {
+        Values options = unit.options.defaults();
+        unit.options.set(options, "combine", how);
+        Report mean;
+        mean.add("p_value", 0.5);
+        unit.combine(mean, sets, options);
+        return mean;
+    };
+    EXPECT_NEAR(combined("sidak").number("p_upper"), 1 - std::pow(0.999, 3), 1e-15);
+    EXPECT_NEAR(combined("sidak").number("p_lower"), 1 - std::pow(0.9, 3), 1e-15);
+    EXPECT_NEAR(combined("sidak").number("p_value"), 2 * (1 - std::pow(0.999, 3)), 1e-15);
+    // P(chi2_6 > x) = exp(-x/2) (1 + x/2 + x^2/8), x/2 = -ln(0.1 * 0.001 * 0.9)
+    const double h = -std::log(0.1 * 0.001 * 0.9);
+    EXPECT_NEAR(combined("fisher").number("p_upper"), std::exp(-h) * (1 + h + h * h / 2), 1e-14);
+    EXPECT_EQ(combined("sum").number("p_value"), 0.5) << "left as refine made it";
+}
+
+namespace {
+
+/// The report on points that come in batches, and nobody knows how many.
+Report streamed(const PointSet& points, const Settings& settings = {}, unsigned threads = 2) {
+    const Analyzer& unit = find_analyzer("chi-square");
+    Values options = unit.options.defaults();
+    for (const auto& [name, text] : settings) unit.options.set(options, name, text);
+    std::size_t at = 0;
+    const auto next = [&](std::span<double> rows) {
+        const auto rest = points.flat().subspan(at);
+        const std::size_t size = std::min(rest.size(), rows.size());
+        std::ranges::copy(rest.first(size), rows.begin());
+        at += size;
+        return size / points.dimension();
+    };
+    const Found found =
+        analyze(unit, {points.domain}, points.dimension(), next, options, {.threads = threads});
+    EXPECT_EQ(found.count, points.count());
+    return found.report;
+}
+
+}  // namespace
+
+TEST(ChiSquare, StreamsGiveWhatSetsGive) {
+    const std::size_t million = std::size_t{1} << 20;
+    for (const std::size_t n : {20UL, 5000UL, 300'000UL, million - 1, million, million + 1})
+        EXPECT_EQ(streamed(uniform(n, n)), analyze("chi-square", uniform(n, n))) << n;
+    EXPECT_EQ(streamed(uniform(100'000, 1), {}, 1), streamed(uniform(100'000, 1), {}, 7));
+    const PointSet wide = uniform(150'000, 1, 9);
+    const Settings both = {{"shifted", "true"}};
+    EXPECT_EQ(streamed(wide, both), analyze("chi-square", wide, both));
+    EXPECT_EQ(streamed(wide, {{"cells", "2"}}), analyze("chi-square", wide, {{"cells", "2"}}));
+    const PointSet disk = warped(*mapping("disk"), uniform(5000, 1));
+    EXPECT_EQ(streamed(disk), analyze("chi-square", disk));
+    PointSet off = disk;
+    off[4999][0] = 3;
+    EXPECT_EQ(error_of([&] { streamed(off); }), error_of([&] { analyze("chi-square", off); }));
+    EXPECT_EQ(error_of([&] { streamed(PointSet(0, 2)); }),
+              "input: chi-square needs at least one point; the set is empty");
+}
+
+TEST(ChiSquare, GridOfLargeSetsStopsAtPowersOfSixteen) {
+    using Grid = Report::Integers;
+    const auto grid_of = [](std::size_t n) {
+        return std::get<Grid>(*analyze("chi-square", uniform(n, 1, 1)).find("grid"));
+    };
+    const std::size_t million = std::size_t{1} << 20;
+    EXPECT_EQ(grid_of(million), grid_of(3 * million));
+    EXPECT_EQ(grid_of(million), Grid{509});
+    EXPECT_NE(grid_of(million), grid_of(million / 2));
 }

@@ -33,10 +33,31 @@ TEST_P(EveryAnalyzer, GivesTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(one, report(4096, {.threads = 7}));
 }
 
+TEST_P(EveryAnalyzer, GivesTheSameForPointsThatComeInBlocks) {
+    EXPECT_NE(unit.analyze == nullptr, unit.accumulate == nullptr) << "one of both";
+    if (!unit.accumulate) GTEST_SKIP();
+    const PointSet set = make("random", points(200'001, dimension));
+    const Values options = unit.options.defaults();
+    for (const bool told : {false, true}) {
+        std::size_t at = 0;
+        const auto next = [&](std::span<double> rows) {
+            const auto rest = set.flat().subspan(at);
+            const std::size_t size = std::min(rest.size(), rows.size());
+            std::ranges::copy(rest.first(size), rows.begin());
+            at += size;
+            return size / dimension;
+        };
+        Arrival arrival{.domain = set.domain};
+        if (told) arrival.count = set.count();
+        const Found found = analyze(unit, arrival, dimension, next, options, {});
+        EXPECT_EQ(found.report, analyze(unit, set, options, {})) << told;
+    }
+}
+
 TEST_P(EveryAnalyzer, GivesTheKeysOfItsRecord) {
     const Report found = report(512);
-    for (const auto& [key, help] : unit.results) {
-        EXPECT_NE(found.find(key), nullptr) << key;
+    for (const auto& [key, help, always] : unit.results) {
+        EXPECT_EQ(found.find(key) != nullptr, always) << key;
         EXPECT_FALSE(help.empty()) << key;
     }
     for (const auto& key : found.keys())

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+//
+// Pearson's statistic over groups of cells, its tails, and how several tests become one.
+//
+//     X^2 = sum_i (O_i - E_i)^2 / E_i,    degrees of freedom = groups - 1
+//
+// Groups of cells of equal probability are neighbours in the order of the cells, as many to a group
+// as it takes to expect 5 points; what is left over goes to the last group. Cells of unequal
+// probability are first sorted by it, the least probable first (equal ones by their number), and
+// put together until a group expects 5; what is left over goes to the last group. So all groups
+// expect at least 5, and cells that do so alone stay alone.
+//
+// Promise equal cells: (K (O - E))^2 is worked out in whole numbers.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/domain.hpp"
+#include "core/run_context.hpp"
+
+namespace stipple::analyzers {
+
+struct Fit {
+    double statistic = 0;
+    std::uint64_t groups = 0;
+    std::uint64_t pooled = 0;      ///< cells that were put together with others
+    std::uint64_t impossible = 0;  ///< points in cells of probability 0
+    double mass_error = 0;         ///< sum over the cells' probabilities
+    double most_even = 0;          ///< chance of the least statistic there is; 0: not known
+
+    [[nodiscard]] double freedom() const { return static_cast<double>(groups - 1); }
+};
+
+/// Cells of equal probability. @throws Error(input) where fewer than two groups come of it.
+Fit fit_equal(std::span<const std::uint64_t> counts, std::uint64_t n, const RunContext& run);
+
+/// Cells of these probabilities, of which there is one for each count. Tells the user when their
+/// error is not small beside the statistic's spread. @throws Error(input)
+Fit fit_masses(std::span<const std::uint64_t> counts, std::span<const Estimate> masses,
+               std::uint64_t n, const RunContext& run);
+
+/// The chances that what is right gives so large a statistic, and so small a one.
+struct Tails {
+    double upper = 1;
+    double lower = 1;
+
+    [[nodiscard]] double two_sided() const;
+};
+
+/// Of chi-square with these degrees of freedom.
+Tails chi_square_tails(double statistic, double freedom);
+
+/// One of several independent tests: the least of their p-values, 1 - (1 - p)^T; each tail by
+/// itself.
+Tails sidak(std::span<const Tails> tests);
+
+/// -2 sum ln p is chi-square with 2 T degrees of freedom; each tail by itself.
+Tails fisher(std::span<const Tails> tests);
+
+/// 1 - (1 - p)^tests.
+double sidak(double p, double tests);
+
+/// The noncentrality at which a test of that two-sided level has too large a statistic with
+/// probability 0.9.
+double detectable_noncentrality(double freedom, double level);
+
+}  // namespace stipple::analyzers

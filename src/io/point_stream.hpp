@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+//
+// Points of files and pipes that may be larger than memory: block after block, in order.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/point_set.hpp"
+#include "core/raw_numbers.hpp"
+#include "core/run_context.hpp"
+#include "io/format.hpp"
+
+namespace stipple::io {
+
+/// The bytes of a file or of standard input, in order. The first of them can be looked at before
+/// they are read.
+class Feed {
+  public:
+    static constexpr std::size_t front_size = std::size_t{1} << 22;
+
+    /// Waits for the front's bytes as long as nobody asks to stop.
+    /// @throws Error(io): missing, a directory, unreadable; Error(cancelled).
+    Feed(const std::string& path, RunContext run);
+    Feed(const Feed&) = delete;
+    Feed& operator=(const Feed&) = delete;
+    ~Feed();
+
+    /// The first front_size bytes, or all where there are fewer.
+    [[nodiscard]] std::string_view front() const { return front_; }
+
+    /// Whether the front is all there is.
+    [[nodiscard]] bool ends_in_front() const { return front_.size() < front_size; }
+
+    /// Takes the next bytes, from the front on; fewer than asked for only at the end.
+    std::size_t read(std::span<char> bytes);
+
+    /// Takes all bytes. @throws Error(limit)
+    std::string read_all();
+
+  private:
+    std::size_t fetch(std::span<char> bytes);
+
+    std::string name_;
+    RunContext run_;
+    int descriptor_ = -1;
+    std::string front_;
+    std::size_t taken_ = 0;  ///< bytes of the front that were read
+};
+
+/// Sets of points, one after the other.
+class PointStream {
+  public:
+    PointStream() = default;
+    PointStream(const PointStream&) = delete;
+    PointStream& operator=(const PointStream&) = delete;
+    virtual ~PointStream() = default;
+
+    [[nodiscard]] virtual std::size_t dimension() const = 0;
+
+    /// Goes to the next set, to the first one at first. The set before must have been read to its
+    /// end. False: there is none.
+    virtual bool next_set() = 0;
+
+    /// Number of sets, where it is known before.
+    [[nodiscard]] virtual std::optional<std::size_t> sets() const { return std::nullopt; }
+
+    /// Whether there is one set, as far as its front tells.
+    [[nodiscard]] virtual bool looks_like_one_set() const { return sets() == std::size_t{1}; }
+
+    /// Points of this set, where they are known before.
+    [[nodiscard]] virtual std::optional<std::uint64_t> count() const { return std::nullopt; }
+
+    [[nodiscard]] virtual const Provenance& provenance() const = 0;
+
+    /// Whether all points are in memory anyway.
+    [[nodiscard]] virtual bool held() const { return false; }
+
+    /// All sets, where none was gone to yet.
+    virtual std::vector<PointSet> read_all(const RunContext& run);
+
+    /// Takes the set's next points, as many as fit; fewer, or none, only at its end.
+    /// @throws Error(input), Error(io), Error(cancelled)
+    virtual std::size_t read(std::span<double> rows) = 0;
+};
+
+/// What is small, or must be read as a whole (JSON, columns of a matrix one after the other, CSV
+/// with a column that tells the set), is read so; the rest in blocks. Errors are those of
+/// read_points, save that points before the place that is wrong were given out already.
+std::unique_ptr<PointStream> open_points(const std::string& path, const ReadOptions& options,
+                                         const RunContext& run, const Format* format = nullptr);
+
+// Below: for formats.
+
+/// Bytes that are numbers, set after set.
+struct RawShape {
+    std::size_t sets = 1;
+    std::optional<std::uint64_t> count = {};  ///< points of a set; else all that come
+    std::size_t width = 1;                    ///< numbers of a point
+    RawType type = {};
+    std::size_t offset = 0;  ///< bytes before the first number
+};
+
+std::unique_ptr<PointStream> stream_raw(std::unique_ptr<Feed> feed, const RawShape& shape,
+                                        const ReadOptions& options);
+
+}  // namespace stipple::io
