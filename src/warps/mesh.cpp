@@ -16,7 +16,7 @@
 //         the opposite edge, xi1 along that edge from corner 2 to 1; both as they are. Strata keep
 //         together as far as the order of the file does.
 // Cost    set-up O(n log n) for n triangles; O(1) a point forward, O(log n) back; on one core about
-//         25 ns forward, 400 ns back for 1e5 triangles.
+//         22 ns forward, 740 ns back for 3600 triangles.
 // Promise density 1 / area; a triangle's share of the points is exact to 2^-53. Points lie on the
 //         mesh up to the rounding stated at contains(). Forward and back again is the same point
 //         within 1e-15 n of the mesh's size, for n triangles. The same bits on every machine.

@@ -63,6 +63,50 @@ TEST_P(EveryWarp, MapsTheWholeCubeIntoItsDomain) {
     }
 }
 
+/// A number in [0, 1] that warps may stumble over: an end, a place next to one at any scale, or
+/// next to a simple fraction.
+double hostile(std::uint64_t bits) {
+    const double any = to_unit(bits);
+    const auto scale = static_cast<int>(bits / 8 % 64);
+    const double fraction = static_cast<double>(scale % 25) / 24;
+    switch (bits % 8) {
+        case 0:
+            return scale < 32 ? 0 : 1;
+        case 1:
+            return std::ldexp(any, -scale);
+        case 2:
+            return std::ldexp(any, -17 * scale);  // down to denormals
+        case 3:
+            return 1 - std::ldexp(any, -scale);
+        case 4:
+            return std::nextafter(fraction, 0);
+        case 5:
+            return fraction;
+        case 6:
+            return std::min(std::nextafter(fraction, 2), 1.0);
+        default:
+            return any;
+    }
+}
+
+TEST_P(EveryWarp, StandsAHundredThousandHostilePoints) {
+    const std::size_t count = 100'000;
+    std::vector<double> rows(count * in), image(count * out);
+    const Rng rng(17);
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = hostile(rng.bits(i));
+    std::vector<std::uint8_t> keep(count, 1);
+    mapping->forward(rows, image, keep);
+    std::vector<double> cell(mapping->domain()->cube_dimension());
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!keep[i]) continue;
+        const auto point = std::span<const double>(image).subspan(i * out, out);
+        ASSERT_TRUE(mapping->domain()->contains(point)) << "point " << i;
+        ASSERT_TRUE(mapping->density(point) >= 0) << "point " << i;
+        mapping->domain()->to_cube(point, cell);
+        for (const double u : cell) ASSERT_TRUE(u >= 0 && u <= 1) << "point " << i << ": " << u;
+    }
+}
+
 TEST_P(EveryWarp, ComesBackWithinRounding) {
     if (!unit.traits.invertible) GTEST_SKIP();
     const auto rows = cube();

@@ -120,6 +120,24 @@ TEST(Mesh, SharesOfTinyTrianglesAreExact) {
     EXPECT_EQ(image_of(*map, {share + 1e-9 * share + 1e-12, 0.5})[2], 9);
 }
 
+// 1000 triangles of 1e-17 of the area have 1e-14 of it, though each is lost when added to 1.
+TEST(Mesh, ManyTrianglesTooSmallToAddHaveTheirShareTogether) {
+    std::string text = "v 0 0 0\nv 2 0 0\nv 0 1 0\nv 0 0 5\nv 2e-8 0 5\nv 0 1e-9 5\nf 1 2 3\n";
+    for (int i = 0; i < 1000; ++i) text += "f 4 5 6\n";
+    const MeshFile file(text);
+    const auto map = mapping(file.spec());
+    EXPECT_EQ(image_of(*map, {1 - 2e-14, 0.5})[2], 0);
+    EXPECT_EQ(image_of(*map, {1 - 5e-15, 0.5})[2], 5);
+}
+
+TEST(Mesh, TheFarEdgeOfATriangleIsNotTheNextTriangle) {
+    const auto map = mapping(tetrahedron + ",attributes=barycentric");
+    for (const Point& end : {Point{0, 1, 0, 0, 0, 1, 0}, {0, 0, 1, 1, 0, 0, 1}}) {
+        const Point again = image_of(*map, inverse_of(*map, end));
+        expect_near(again, end, 1e-14);
+    }
+}
+
 TEST(Mesh, DensityIsOneOverTheStretch) {
     const auto map = mapping(tetrahedron);
     for (const double u : {0.05, 0.2, 0.3, 0.5, 0.9})
