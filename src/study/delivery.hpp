@@ -30,7 +30,8 @@ struct Source {
 /// What happens to rows before and after their warps.
 struct Route {
     std::optional<Box> bounds = {};  ///< scales the unit cube to this box first
-    bool with_pdf = false;           ///< adds the density as a last number
+    Columns columns = {};            ///< added as last numbers
+    double volume = 1;               ///< measure of what the chain's unit cube was scaled to
 };
 
 /// Sets with everything that is needed to write them one after the other.
@@ -44,7 +45,7 @@ struct Shipment {
     /// Files that come with the set, under their final names; empty: none.
     std::function<const std::vector<SideFile>&(std::size_t set)> side_files = {};
     std::vector<std::uint64_t> counts;
-    std::size_t dimension = 0;  ///< numbers of a row that is written, less the density
+    std::size_t dimension = 0;  ///< numbers of a row that is written, less the columns
     Route route;
 };
 
@@ -62,7 +63,8 @@ bool ship(const Shipment& shipment, const Target& target, const RunContext& run)
 /// The part of a run's progress that one of several sets is.
 RunContext lane(const RunContext& run, std::size_t set, std::size_t sets);
 
-/// Each row with its density on the chain's domain behind it.
-std::vector<double> with_density(std::span<const double> rows, const WarpChain& chain);
+/// Each row with the route's columns behind it.
+std::vector<double> with_columns(std::span<const double> rows, const WarpChain& chain,
+                                 const Route& route);
 
 }  // namespace stipple
