@@ -10,16 +10,33 @@
 #include "study/chain.hpp"
 #include "study/pipeline.hpp"
 #include "support/contract.hpp"
+#include "support/pictures.hpp"
 
 using namespace stipple;
 using namespace stipple::testing;
 
 namespace {
 
+/// What a unit cannot do without.
+Settings needed(const std::string& name) {
+    static const TemporaryFile array(
+        npy_of<double>("<f8", "(2, 3)", std::vector<double>{1, 2, 3, 4, 2, 1}));
+    if (name == "expression-1d") return {{"density", "1+x"}};
+    if (name == "expression-2d") return {{"density", "1+x*y"}};
+    if (name == "image") return {{"file", array.path()}};
+    if (name == "rejection") return {{"density", "x+y"}, {"bound", "2"}};
+    return {};
+}
+
+Values options_of(const Warp& unit) {
+    return Spec{.name = unit.name, .coordinates = {}, .settings = needed(unit.name)}.values(
+        unit.options);
+}
+
 class EveryWarp : public ::testing::TestWithParam<std::string> {
   protected:
     const Warp& unit = find_warp(GetParam());
-    const std::unique_ptr<Mapping> mapping = unit.make(unit.options.defaults(), 2, {});
+    const std::unique_ptr<Mapping> mapping = unit.make(options_of(unit), 2, {});
     const std::size_t in = mapping->cube_dimension();
     const std::size_t out = mapping->domain()->dimension();
 
