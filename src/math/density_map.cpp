@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "math/density_map.hpp"
 
+#include <sys/mman.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "core/error.hpp"
 #include "core/file_bytes.hpp"
@@ -113,6 +117,18 @@ double share_before(std::span<const double> sums, std::size_t cell, double fract
     return std::min((before + fraction * (sums[cell] - before)) / sums.back(), 1.0);
 }
 
+/// Zeros in large pages, where the system has them: points fall anywhere, and looking up where a
+/// small page is takes as long as fetching from it.
+template <class Number>
+void fill_with_zeros(std::vector<Number>& numbers, std::size_t count) {
+    numbers.reserve(count);
+    constexpr std::uintptr_t page = 4096;
+    const auto from = (reinterpret_cast<std::uintptr_t>(numbers.data()) + page - 1) / page * page;
+    const auto to = reinterpret_cast<std::uintptr_t>(numbers.data() + count) / page * page;
+    if (to > from) madvise(reinterpret_cast<void*>(from), to - from, MADV_HUGEPAGE);
+    numbers.resize(count);
+}
+
 /// (cell + fraction) / cells, kept in that cell when rounding would leave it.
 double coordinate(std::size_t cell, double fraction, std::size_t cells) {
     const auto count = static_cast<double>(cells);
@@ -140,7 +156,8 @@ DensityLevel level_above(const DensityLevel& fine) {
 }  // namespace
 
 DensityMap::DensityMap(std::size_t width, std::size_t height, std::vector<double> values)
-    : width_(width), height_(height), values_(std::move(values)), row_sums_(width * height) {
+    : width_(width), height_(height), values_(std::move(values)) {
+    fill_with_zeros(row_sums_, width * height);
     // First to a largest value of 1, so that no sum is too large for a double.
     const double top = std::ranges::max(values_);
     double sum = 0;
@@ -167,7 +184,7 @@ void DensityMap::lay_out_guides() {
     column_guide_.resize(height_ + 1);
     fill_guide(column_, column_guide_);
     row_guide_size_ = buckets + 1;
-    row_guides_.resize(height_ * row_guide_size_);
+    fill_with_zeros(row_guides_, height_ * row_guide_size_);
     for (std::size_t j = 0; j < height_; ++j) {
         const auto sums = std::span(row_sums_).subspan(j * width_, width_);
         rows_.push_back({sums.back(), std::nextafter(sums.back(), 0.0), {sums.back(), buckets}});
@@ -205,30 +222,27 @@ std::array<double, 2> DensityMap::place(double u, double v) const {
     return {across(visit), visit.y};
 }
 
+/// In three steps, each some points ahead of the next, so that cells of many points are on their
+/// way from memory at a time.
 void DensityMap::place_all(std::span<const double> cube, std::span<double> image) const {
-    for (std::size_t i = 0; i < cube.size(); i += 2 * batch) {
-        const std::size_t size = std::min(cube.size() - i, 2 * batch);
-        place_batch(cube.subspan(i, size), image.subspan(i, size));
-    }
-}
-
-/// In three passes, so that many cells are on their way from memory at a time.
-void DensityMap::place_batch(std::span<const double> cube, std::span<double> image) const {
-    std::array<Visit, batch> visits;
+    constexpr std::size_t ahead = 4;
+    constexpr std::size_t ring = 16;  // a power of two above 2 * ahead
+    std::array<Visit, ring> visits;
     const std::size_t count = cube.size() / 2;
-    for (std::size_t i = 0; i < count; ++i) {
-        visits[i] = visit(cube[2 * i], cube[2 * i + 1]);
-        __builtin_prefetch(&row_guides_[visits[i].bucket]);
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-        const double* sums = &row_sums_[visits[i].row * width_];
-        __builtin_prefetch(sums + row_guides_[visits[i].bucket]);
-        __builtin_prefetch(sums +
-                           std::min<std::size_t>(row_guides_[visits[i].bucket + 1], width_ - 1));
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-        image[2 * i] = across(visits[i]);
-        image[2 * i + 1] = visits[i].y;
+    for (std::size_t i = 0; i < count + 2 * ahead; ++i) {
+        if (i < count) {
+            Visit& next = visits[i % ring] = visit(cube[2 * i], cube[2 * i + 1]);
+            __builtin_prefetch(&row_guides_[next.bucket]);
+        }
+        if (i >= ahead && i - ahead < count) {
+            const Visit& next = visits[(i - ahead) % ring];
+            __builtin_prefetch(&row_sums_[next.row * width_ + row_guides_[next.bucket]]);
+        }
+        if (i >= 2 * ahead) {
+            const std::size_t at = i - 2 * ahead;
+            image[2 * at] = across(visits[at % ring]);
+            image[2 * at + 1] = visits[at % ring].y;
+        }
     }
 }
 

@@ -10,6 +10,7 @@
 #include "study/chain.hpp"
 #include "study/pipeline.hpp"
 #include "support/contract.hpp"
+#include "support/warp_examples.hpp"
 
 using namespace stipple;
 using namespace stipple::testing;
@@ -17,17 +18,15 @@ using namespace stipple::testing;
 namespace {
 
 /// Default options and, where there is no default, an example.
-Values example_of(const Warp& unit) {
-    Values values = unit.options.defaults();
-    if (unit.name == "mesh")
-        unit.options.set(values, "file", STIPPLE_SOURCE_DIR "/tests/support/tetrahedron.obj");
-    return values;
+Values options_of(const Warp& unit) {
+    return Spec{.name = unit.name, .coordinates = {}, .settings = needed_options(unit.name)}.values(
+        unit.options);
 }
 
 class EveryWarp : public ::testing::TestWithParam<std::string> {
   protected:
     const Warp& unit = find_warp(GetParam());
-    const std::unique_ptr<Mapping> mapping = unit.make(example_of(unit), 2, {});
+    const std::unique_ptr<Mapping> mapping = unit.make(options_of(unit), 2, {});
     const std::size_t in = mapping->cube_dimension();
     const std::size_t out = mapping->domain()->dimension();
 

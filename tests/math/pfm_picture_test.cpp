@@ -62,7 +62,7 @@ TEST(PfmPicture, SaysWhatIsWrongAndWhere) {
         {"Pf\n1 1\n",
          "byte 7: expected a scale that is not 0, below 0 for floats with the low byte first"},
         {"Pf\n999999999 999999999\n-1\n",
-         "byte 27: expected 3999999992000000000 bytes of floats, found 0"}};
+         "byte 26: expected 3999999992000000000 bytes of floats, found 0"}};
     for (const auto& [bytes, message] : cases)
         EXPECT_EQ(refused(bytes), "input: p.pfm: " + message);
     for (std::size_t size = 0; size < good.size(); ++size)
