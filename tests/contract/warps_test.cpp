@@ -47,7 +47,11 @@ TEST_P(EveryWarp, MapsTheWholeCubeIntoItsDomain) {
         if (!keep[i]) continue;
         const auto point = std::span<const double>(image).subspan(i * out, out);
         EXPECT_TRUE(mapping->domain()->contains(point)) << "point " << i;
-        EXPECT_GT(mapping->density(point), 0) << "point " << i;
+        // A density may fall to 0 on the rim, which edges of the cube are taken to.
+        const auto unit_point = std::span<const double>(rows).subspan(i * in, in);
+        const bool edge = std::ranges::count(unit_point, 0.0) > 0;
+        const double density = mapping->density(point);
+        EXPECT_TRUE(density > 0 || (edge && density == 0)) << "point " << i << ": " << density;
     }
 }
 
