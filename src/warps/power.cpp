@@ -20,10 +20,11 @@
 //         probability in the same order.
 // Cost    O(1) a coordinate; on one core about 3 ns for k = 1 and 2, 10 ns for others.
 // Promise x in [a, b]. Forward and back again is the same xi within 1e-14 (1 + |k| / 10), times
-//         1 + |log(b / a)| where the range does not contain 0, and max(|a|, |b|) / (b - a). The same bits on
-//         every machine.
+//         1 + |log(b / a)| where the range does not contain 0, and max(|a|, |b|) / (b - a). The
+//         same bits on every machine.
 
 #include <cmath>
+#include <numbers>
 
 #include "math/real_power.hpp"
 #include "math/roots.hpp"
@@ -48,8 +49,8 @@ const Schema& schema() {
     return options;
 }
 
-/// How x^p is undone.
-enum class Root { none, square, cube, other };
+/// How x^p is undone; by logarithms on one side of 0 where x^p hardly changes.
+enum class Root { none, square, cube, other, logarithm };
 
 Root root_for(double p) {
     if (p == 1) return Root::none;
@@ -87,10 +88,11 @@ struct Interval {
 /// An interval on one side of 0, measured from its heavier end.
 template <Root root>
 struct OneSided : Interval {
+    static constexpr bool narrow = root == Root::logarithm;  ///< r > 1/2
+
     double heavy = 1;        ///< size of the end with the larger |x|^p
     double sign = 1;         ///< of x
     bool heavy_last = true;  ///< the heavier end is b
-    bool narrow = false;     ///< r > 1/2: by logarithms
     double r = 0;
     double inverse_p = 1;
     double log_ratio = 0;  ///< log(o / e)
@@ -102,10 +104,10 @@ struct OneSided : Interval {
         const double w = heavy_last ? 1 - u : u;
         const double rest = heavy_last ? u : 1 - u;
         double x = 0;
-        if (!narrow)
-            x = rooted<root>(rest + w * r, inverse_p);
-        else
+        if constexpr (narrow)
             x = stipple::exponential(p == 0 ? w * log_ratio : log_1p(w * less) * inverse_p);
+        else
+            x = rooted<root>(rest + w * r, inverse_p);
         const double placed = sign * (heavy * x);
         return std::max(a, std::min(placed, b));
     }
@@ -166,7 +168,6 @@ std::unique_ptr<Mapping> one_sided(const Interval& interval, std::size_t given,
         law.log_ratio = logarithm(other) - logarithm(law.heavy);
         law.r = stipple::exponential(interval.p * law.log_ratio);
         law.less = exp_minus_1(interval.p * law.log_ratio);
-        law.narrow = interval.p == 0 || law.r > 0.5;
     } else {
         law.less = -1;
     }
@@ -191,9 +192,11 @@ std::unique_ptr<Mapping> two_sided(const Interval& interval, std::size_t given,
 template <Root root>
 std::unique_ptr<Mapping> mapping_of(const Interval& interval, std::size_t given,
                                     const Values& options) {
-    const bool around = interval.a < 0 && interval.b > 0;
-    return around ? two_sided<root>(interval, given, options)
-                  : one_sided<root>(interval, given, options);
+    if (interval.a < 0 && interval.b > 0) return two_sided<root>(interval, given, options);
+    const double ends = std::abs(std::log(std::abs(interval.a / interval.b)));
+    return std::abs(interval.p) * ends < std::numbers::ln2
+               ? one_sided<Root::logarithm>(interval, given, options)
+               : one_sided<root>(interval, given, options);
 }
 
 Interval interval_of(const Values& options) {

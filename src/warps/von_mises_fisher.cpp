@@ -48,24 +48,18 @@ const Schema& schema() {
 
 class Fisher {
   public:
-    explicit Fisher(double kappa) : kappa_(kappa) {
+    explicit Fisher(double kappa) : kappa_(std::max(kappa, 1e-17)) {
         constexpr double most = 55 * 0.6931471805599453;  // -log 2^-55
-        // Below, the density is uniform to the last bit; above 20, 1 + cos keeps its digits as the
-        // complement of 1 - cos, since no xi below 1 comes near the far pole.
-        uniform_ = kappa < 1e-17;
-        const bool both = !uniform_ && kappa <= 20;
-        if (!uniform_) near_factor_ = exp_minus_1(-2 * kappa);
-        if (both) far_factor_ = exp_minus_1(2 * kappa);
-        const double half = both ? exp_minus_1(-kappa) / near_factor_ : 2.0;
-        turn_ = uniform_ ? 0.5 : half;
-        last_ = uniform_ || both ? 0 : std::min(2.0, most / kappa);
+        // Below 1e-17, the density is uniform to the last bit; above 20, 1 + cos keeps its digits
+        // as the complement of 1 - cos, since no xi below 1 comes near the far pole.
+        const bool both = kappa_ <= 20;
+        near_factor_ = exp_minus_1(-2 * kappa_);
+        if (both) far_factor_ = exp_minus_1(2 * kappa_);
+        turn_ = both ? exp_minus_1(-kappa_) / near_factor_ : 2.0;
+        last_ = both ? 0 : std::min(2.0, most / kappa_);
     }
 
     Tilt forward(double u) const {
-        if (uniform_) {
-            const double side = std::min(u, 1 - u);
-            return {1 - 2 * u, 2 * std::sqrt(side * (1 - side))};
-        }
         const bool near = u < turn_;
         const double inside = near ? u * near_factor_ : (1 - u) * far_factor_;
         const double size = std::abs(log_1p(u < 1 ? inside : 0)) / kappa_;
@@ -73,19 +67,16 @@ class Fisher {
         return {near ? 1 - small : small - 1, std::sqrt(small * (2 - small))};
     }
     double share(double v, double c) const {
-        if (uniform_) return v < c ? 0.5 * v : 1 - 0.5 * c;
         if (v < c || far_factor_ == 0) return std::expm1(-kappa_ * v) / near_factor_;
         return 1 - std::expm1(kappa_ * c) / far_factor_;
     }
     double density(double v, double /*c*/) const {
         constexpr double around = 2 * std::numbers::pi;
-        if (uniform_) return 1 / (2 * around);
         return kappa_ * std::exp(-kappa_ * v) / (around * -near_factor_);
     }
 
   private:
     double kappa_;
-    bool uniform_ = false;
     double near_factor_ = -1;  ///< expm1(-2 kappa)
     double far_factor_ = 0;    ///< expm1(2 kappa), where it is used
     double turn_ = 0.5;        ///< the xi of 90 degrees; 2: always near
