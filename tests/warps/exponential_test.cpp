@@ -10,7 +10,7 @@
 using namespace stipple;
 using namespace stipple::testing;
 
-TEST(Exponential, NumbersByHand) {
+TEST(ExponentialWarp, NumbersByHand) {
     const auto map = mapping("exponential");
     EXPECT_EQ(image_of(*map, {0, 0}), (std::vector{0.0, 0.0}));
     EXPECT_FALSE(std::signbit(image_of(*map, {0, 0})[0]));
@@ -22,12 +22,12 @@ TEST(Exponential, NumbersByHand) {
     EXPECT_DOUBLE_EQ(ends[1], 55 * std::numbers::ln2 / 4) << "xi = 1 counts as 1 - 2^-55";
 }
 
-TEST(Exponential, RoundTripOverTheWholeSquare) {
+TEST(ExponentialWarp, RoundTripOverTheWholeSquare) {
     expect_round_trip(*mapping("exponential"), 4e-14);
     expect_round_trip(*mapping("exponential:rate=[1e-3,1e9]"), 4e-11);
 }
 
-TEST(Exponential, UnitCoordinatesComeBackAlsoTinyOnes) {
+TEST(ExponentialWarp, UnitCoordinatesComeBackAlsoTinyOnes) {
     const auto map = mapping("exponential:rate=3");
     const PointSet cube = telling_points();
     for (std::size_t i = 0; i < cube.count(); ++i) {
@@ -38,7 +38,7 @@ TEST(Exponential, UnitCoordinatesComeBackAlsoTinyOnes) {
     }
 }
 
-TEST(Exponential, DensityIsOneOverTheStretch) {
+TEST(ExponentialWarp, DensityIsOneOverTheStretch) {
     expect_density_is_one_over_stretch(*mapping("exponential:rate=[2,0.5]"));
     const auto map = mapping("exponential:rate=2");
     EXPECT_DOUBLE_EQ(map->density(std::vector{0.0, 0.0}), 4);
@@ -48,7 +48,7 @@ TEST(Exponential, DensityIsOneOverTheStretch) {
 
 // Mean and standard deviation are 1 / rate. 1e5 points: 5 standard errors are 0.008 and, for the
 // second moment 2 / rate^2, 0.018: false alarm 1e-6 each.
-TEST(Exponential, MomentsAreRight) {
+TEST(ExponentialWarp, MomentsAreRight) {
     const PointSet x = warped(*mapping("exponential:rate=2"), make("random", points(50'000, 2)));
     double first = 0, second = 0;
     for (const double v : x.flat()) {
@@ -60,7 +60,7 @@ TEST(Exponential, MomentsAreRight) {
 }
 
 // False alarm 1e-4 each.
-TEST(Exponential, ChiSquareAcceptsItAndRejectsAWrongRate) {
+TEST(ExponentialWarp, ChiSquareAcceptsItAndRejectsAWrongRate) {
     const auto map = mapping("exponential:rate=2");
     EXPECT_GT(p_of_random(*map, 100'000), 1e-4);
     PointSet wrong = warped(*map, make("random", points(100'000, 2)));
@@ -68,7 +68,7 @@ TEST(Exponential, ChiSquareAcceptsItAndRejectsAWrongRate) {
     EXPECT_LT(measure("chi-square", "p_upper", wrong), 1e-4);
 }
 
-TEST(Exponential, DomainSaysWhatItIs) {
+TEST(ExponentialWarp, DomainSaysWhatItIs) {
     const DomainPtr law = mapping("exponential:rate=[2,4]")->domain();
     EXPECT_EQ(law->spec(), "exponential:rate=[2,4]");
     EXPECT_EQ(law->measure(), std::numeric_limits<double>::infinity());
@@ -78,7 +78,7 @@ TEST(Exponential, DomainSaysWhatItIs) {
     EXPECT_EQ(law->bounding_box(), (Box{{0, 0}, {5, 2.5}}));
 }
 
-TEST(Exponential, RefusesRatesOutOfRange) {
+TEST(ExponentialWarp, RefusesRatesOutOfRange) {
     EXPECT_EQ(error_of([] { mapping("exponential:rate=0"); }),
               "usage: --rate: 0 is outside [1e-300, 1e+300]");
     EXPECT_EQ(error_of([] { mapping("exponential:rate=[1,-2]"); }),
