@@ -67,9 +67,20 @@ class SpecParser {
             if (at_ < text_.size() && text_[at_] != ',') complain("',' or the end is expected");
             return {std::move(name), std::move(value)};
         }
-        std::string value = take_until("]");
+        std::string value = bracketed();
         if (!accept(']')) complain("']' is missing");
         return {std::move(name), std::move(value)};
+    }
+
+    /// What stands up to the ']' that closes the bracket just opened.
+    std::string bracketed() {
+        const std::size_t begin = at_;
+        std::size_t open = 1;
+        for (; at_ < text_.size(); ++at_) {
+            if (text_[at_] == '[') ++open;
+            if (text_[at_] == ']' && --open == 0) break;
+        }
+        return std::string(text_.substr(begin, at_ - begin));
     }
 
     std::string_view text_;
@@ -94,7 +105,7 @@ std::string format_spec(std::string_view name, const Values& values, const Schem
         const bool unset = option.optional && !item.given;
         if (unset || item.value == option.fallback) continue;
         const std::string text = format_value(item.value);
-        const bool brackets = text.find_first_of(", ") != std::string::npos;
+        const bool brackets = text.find_first_of(", [") != std::string::npos;
         spec += fmt::format(fmt::runtime(brackets ? "{}{}=[{}]" : "{}{}={}"), separator,
                             option.name, text);
         separator = ',';

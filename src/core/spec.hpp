@@ -3,6 +3,8 @@
 // A spec names a unit with its options in one word:
 //
 //     NAME[@I,J...][:OPT=VALUE[,OPT=VALUE...]]      a value with commas stands in [brackets]
+//
+// and may hold pairs of brackets: components=[cone:axis=[1,0,0]|hemisphere].
 #pragma once
 
 #include <string>

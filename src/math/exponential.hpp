@@ -28,7 +28,7 @@ struct Exponential {
     double square;
 };
 
-inline Exponential exponential_parts(double x) {
+[[gnu::always_inline]] inline Exponential exponential_parts(double x) {
     constexpr double per_log = 1.4426950408889634;  // 1 / ln 2
     constexpr double head = 0x1.62e42fee00000p-1;   // ln 2, its last 33 bits 0: k * head is exact
     constexpr double tail = 0x1.a39ef35793c76p-33;

@@ -69,8 +69,9 @@ inline Fraction fraction_of(double x) {
     return {tiny ? k - 54 : k, mantissa - 1};
 }
 
-/// log(x (1 + rest)) for a rest of at most a unit in the last place.
-inline double log_near(double x, double rest) {
+/// log(x (1 + rest)) for a rest of at most a unit in the last place. Always inlined, like all that
+/// loops call: a call would keep them from being vectorised.
+[[gnu::always_inline]] inline double log_near(double x, double rest) {
     const auto [k, f] = fraction_of(x);
     const double s = f / (2 + f);
     const double z = s * s;
@@ -102,7 +103,7 @@ inline double log_1p(double x) {
 }
 
 /// log(x) for finite x > 0, off by at most 2^-63 of itself.
-inline TwoPart logarithm_parts(double x) {
+[[gnu::always_inline]] inline TwoPart logarithm_parts(double x) {
     const auto [k, f] = detail::fraction_of(x);
     const double below = 2 + f;
     const double below_rest = f - (below - 2);

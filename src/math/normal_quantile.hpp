@@ -65,17 +65,28 @@ constexpr Rational quantile_far_tail{
      7.86869131145613259100e-4, 1.84631831751005468180e-5, 1.42151175831644588870e-7,
      2.04426310338993978564e-15}};
 
+/// The quantile of p = 1/2 + q, with m the smaller of p and 1 - p.
+inline double normal_quantile(double q, double m) {
+    const double middle = q * quantile_middle(0.180625 - q * q);
+    const double r = std::sqrt(-logarithm(m));
+    const double near = quantile_tail(r - 1.6);
+    const double far = quantile_far_tail(r - 5);
+    const double tail = std::copysign(r <= 5 ? near : far, q);
+    return std::abs(q) <= 0.425 ? middle : tail;
+}
+
 }  // namespace detail
 
 /// The x with Phi(x) = p, for p in (0, 1).
 inline double normal_quantile(double p) {
-    const double q = p - 0.5;
-    const double middle = q * detail::quantile_middle(0.180625 - q * q);
-    const double r = std::sqrt(-logarithm(std::min(p, 1 - p)));
-    const double near = detail::quantile_tail(r - 1.6);
-    const double far = detail::quantile_far_tail(r - 5);
-    const double tail = std::copysign(r <= 5 ? near : far, q);
-    return std::abs(q) <= 0.425 ? middle : tail;
+    return detail::normal_quantile(p - 0.5, std::min(p, 1 - p));
+}
+
+/// The same for p in [0, 1]. Below 2^-54, the middle of the step of random numbers at 0, p is taken
+/// as 2^-54: -8.2924. 1, which random numbers never are, is taken as 1 - 2^-55: 8.3744.
+inline double bounded_normal_quantile(double p) {
+    const double least = p < 0.5 ? 0x1p-54 : 0x1p-55;
+    return detail::normal_quantile(p - 0.5, std::max(std::min(p, 1 - p), least));
 }
 
 }  // namespace stipple

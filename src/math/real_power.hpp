@@ -21,7 +21,7 @@
 namespace stipple {
 
 /// x^y for finite x >= 0 and finite y.
-inline double real_power(double x, double y) {
+[[gnu::always_inline]] inline double real_power(double x, double y) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
     constexpr double most = 709;
     constexpr double large = 0x1p63;  // beyond, x = 1 alone has a finite power that is not 0

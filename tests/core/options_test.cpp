@@ -102,3 +102,19 @@ TEST(Spec, WritesWhatDiffersAndReadsItBack) {
     EXPECT_EQ(back[center], values[center]);
     EXPECT_EQ(back[radius], values[radius]);
 }
+
+// A value in brackets ends at the bracket that closes it, so that specs can hold specs.
+TEST(Spec, BracketsNest) {
+    const Spec spec = parse_spec("mixture:components=[cone:axis=[1,0,0]|disk],weights=[1,2]");
+    ASSERT_EQ(spec.settings.size(), 2U);
+    EXPECT_EQ(spec.settings[0].second, "cone:axis=[1,0,0]|disk");
+    EXPECT_EQ(spec.settings[1].second, "1,2");
+    EXPECT_THROW(parse_spec("mixture:components=[cone:axis=[1,0,0]"), Error);
+
+    constexpr Param<Text> parts{{.name = "parts", .fallback = "none", .help = "Parts"}};
+    const Schema schema(parts);
+    Values values = schema.defaults();
+    values.put("parts", std::string("a:b=[c]"));
+    EXPECT_EQ(format_spec("unit", values, schema), "unit:parts=[a:b=[c]]");
+    EXPECT_EQ(parse_spec("unit:parts=[a:b=[c]]").values(schema), values);
+}

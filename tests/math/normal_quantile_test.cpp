@@ -62,3 +62,11 @@ TEST(NormalQuantile, GivesPrintedValues) {
     EXPECT_NEAR(normal_quantile(0.001), -3.09023230616781354152, 4e-15);
     EXPECT_NEAR(normal_quantile(0x1p-54), -8.2924, 0.1);
 }
+
+TEST(NormalQuantile, BoundedIsTheSameButForTheEnds) {
+    for (const double p : {0x1p-54, 0x1p-53, 1e-5, 0.3, 0.5, 0.97, 1 - 0x1p-53})
+        EXPECT_EQ(bounded_normal_quantile(p), normal_quantile(p)) << p;
+    EXPECT_EQ(bounded_normal_quantile(0), normal_quantile(0x1p-54));
+    EXPECT_EQ(bounded_normal_quantile(5e-324), normal_quantile(0x1p-54));
+    EXPECT_EQ(bounded_normal_quantile(1), -normal_quantile(0x1p-55));
+}

@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: MIT
+//
+// Mixture of other warps with weights w_i that sum to 1:
+//
+//     component i where w_0 + ... + w_i-1 <= xi0 < w_0 + ... + w_i,
+//     its first coordinate xi0' = (xi0 - w_0 - ... - w_i-1) / w_i, the others as they are;
+//     density = sum_i w_i density_i.
+//
+// Components are specs with | between them, as in
+//
+//     mixture:weights=[0.6,0.4],components=[von-mises-fisher:kappa=50,axis=[1,0,0]|sphere]
+//
+// All must give directions (unit vectors of the plane or space), or all must fill the same number
+// of dimensions of the line, plane or space, and none may drop points, which would change the
+// weights. The domain is the whole sphere or space. Its cells are zones of height and longitude or,
+// in space, boxes of the normal probabilities of (x - middle) / (width / 4) of the bounding box.
+//
+// Shape   as many unit coordinates as the components take, and as many coordinates as they give.
+// Strata  xi0 as it is, cut by the weights and stretched: n strata give each component n w_i of
+//         them, rounded up or down. All else is the components'.
+// Cost    that of the components, and about 15 ns a point on one core.
+// Promise a component of weight 0 never comes. Probabilities of cells are by adaptive quadrature
+//         with their error. There is no way back: a point may come from several components. The
+//         same bits on every machine, where the components have them.
+
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <boost/math/special_functions/erf.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "core/rng.hpp"
+#include "core/spec.hpp"
+#include "core/text.hpp"
+#include "math/normal_quantile.hpp"
+#include "math/running_sums.hpp"
+#include "math/trigonometry.hpp"
+#include "warps/warp.hpp"
+
+namespace stipple::warps {
+namespace {
+
+constexpr Param<Numbers> weights{
+    {.name = "weights",
+     .fallback = "0.5,0.5",
+     .help = "Probability of each component; they must sum to 1 within 1e-12"}};
+
+constexpr Param<Text> components{
+    {.name = "components",
+     .fallback = "henyey-greenstein:g=0.7|henyey-greenstein:g=-0.3",
+     .help = "Warps as specs, with | between them: 'cone:angle=10|hemisphere:method=cosine'"}};
+
+constexpr Param<bool> normalize{.name = "normalize", .help = "Divide the weights by their sum"};
+
+const Schema& schema() {
+    static const Schema options(weights, components, normalize);
+    return options;
+}
+
+struct Component {
+    std::string spec;
+    double weight = 0;
+    std::unique_ptr<Mapping> mapping;
+};
+
+class MixtureDomain final : public Domain {
+  public:
+    MixtureDomain(std::vector<DomainPtr> parts, std::vector<double> shares, std::string spec)
+        : parts_(std::move(parts)), weights_(std::move(shares)), spec_(std::move(spec)) {
+        box_ = parts_[0]->bounding_box();
+        for (const DomainPtr& part : parts_) {
+            const Box box = part->bounding_box();
+            box_ = stipple::bounding_box(box.low, stipple::bounding_box(box.high, box_));
+        }
+    }
+
+    std::string spec() const override { return spec_; }
+    std::size_t dimension() const override { return parts_[0]->dimension(); }
+    std::size_t cube_dimension() const override { return parts_[0]->cube_dimension(); }
+    double measure() const override {
+        if (!directions()) return std::numeric_limits<double>::infinity();
+        return dimension() == 3 ? 4 * std::numbers::pi : 2 * std::numbers::pi;
+    }
+
+    /// Unit vectors, up to 16 epsilon; else all that is finite.
+    bool contains(std::span<const double> point) const override {
+        double square = 0;
+        for (const double x : point) {
+            if (!std::isfinite(x)) return false;
+            square += x * x;
+        }
+        constexpr double slack = 32 * std::numeric_limits<double>::epsilon();
+        return !directions() || std::abs(square - 1) <= slack;
+    }
+    Box bounding_box() const override { return box_; }
+    double density(std::span<const double> point) const override {
+        double sum = 0;
+        for (std::size_t i = 0; i < parts_.size(); ++i)
+            sum += weights_[i] * parts_[i]->density(point);
+        return sum;
+    }
+    void to_cube(std::span<const double> point, std::span<double> cube) const override {
+        if (directions()) {
+            cube.back() = turns_of(point[0], point[1]);
+            if (dimension() == 3) cube[0] = std::clamp(0.5 * (1 - point[2]), 0.0, 1.0);
+            return;
+        }
+        for (std::size_t k = 0; k < cube.size(); ++k) {
+            const double z = (point[k] - middle(k)) / scale(k);
+            cube[k] = 0.5 * std::erfc(-z / std::numbers::sqrt2);
+        }
+    }
+    bool even() const override { return false; }
+    Estimate probability(const Box& cell) const override {
+        std::vector<double> at(cube_dimension());
+        return integral(cell, at, 0);
+    }
+    std::vector<std::string> cube_axes() const override {
+        if (directions() && dimension() == 3) return {"(1 - z) / 2", "longitude in turns"};
+        if (directions()) return {"angle in turns"};
+        std::vector<std::string> axes;
+        for (std::size_t k = 0; k < dimension(); ++k)
+            axes.push_back(fmt::format("normal probability of x{}", k + 1));
+        return axes;
+    }
+
+  private:
+    bool directions() const { return cube_dimension() < dimension(); }
+    double middle(std::size_t k) const { return box_.low[k] + 0.5 * box_.extent(k); }
+    double scale(std::size_t k) const { return box_.extent(k) > 0 ? 0.25 * box_.extent(k) : 1; }
+
+    /// Density by the coordinates that integral() goes through.
+    double density_at(std::span<const double> at) const {
+        if (!directions()) return density(at);
+        const double turn = 2 * std::numbers::pi * at.back();
+        if (dimension() == 2)
+            return measure() * density(std::vector{std::cos(turn), std::sin(turn)});
+        const double r = 2 * std::sqrt(at[0] * (1 - at[0]));
+        return measure() *
+               density(std::vector{r * std::cos(turn), r * std::sin(turn), 1 - 2 * at[0]});
+    }
+
+    /// Where an edge of a cell is: of the cube, or in space.
+    double edge(double u, std::size_t k) const {
+        if (directions()) return u;
+        if (u <= 0 || u >= 1)
+            return std::copysign(std::numeric_limits<double>::infinity(), u - 0.5);
+        return middle(k) + scale(k) * normal_quantile(u);
+    }
+
+    /// Over coordinates k and beyond, with those before it fixed.
+    Estimate integral(const Box& cell, std::vector<double>& at, std::size_t k) const {
+        using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
+        constexpr unsigned depth = 8;
+        constexpr double tolerance = 1e-7;
+        const double low = edge(cell.low[k], k);
+        const double high = edge(cell.high[k], k);
+        if (!(low < high)) return {};
+        double inner = 0;  // the largest error of what is integrated
+        const auto slice = [&](double x) {
+            at[k] = x;
+            if (k + 1 == at.size()) return density_at(at);
+            const Estimate rest = integral(cell, at, k + 1);
+            inner = std::max(inner, rest.error);
+            return rest.value;
+        };
+        Estimate found;
+        found.value = Rule::integrate(slice, low, high, depth, tolerance, &found.error);
+        const double width = std::isfinite(high - low) ? high - low : box_.extent(k);
+        found.error += inner * width;
+        return found;
+    }
+
+    std::vector<DomainPtr> parts_;
+    std::vector<double> weights_;
+    std::string spec_;
+    Box box_;
+};
+
+class Mixture final : public Mapping {
+  public:
+    Mixture(std::vector<Component> parts, std::vector<double> sums, std::string spec)
+        : parts_(std::move(parts)), sums_(std::move(sums)) {
+        std::vector<DomainPtr> domains;
+        std::vector<double> shares;
+        for (const Component& part : parts_) {
+            domains.push_back(part.mapping->domain());
+            shares.push_back(part.weight);
+        }
+        domain_ =
+            std::make_shared<MixtureDomain>(std::move(domains), std::move(shares), std::move(spec));
+    }
+
+    DomainPtr domain() const override { return domain_; }
+    std::size_t cube_dimension() const override { return parts_[0].mapping->cube_dimension(); }
+
+    void forward(std::span<const double> cube, std::span<double> image,
+                 std::span<std::uint8_t> /*keep*/) const override {
+        const std::size_t d = cube_dimension();
+        std::vector<std::vector<std::size_t>> rows(parts_.size());
+        for (std::size_t i = 0; i < cube.size() / d; ++i) rows[chosen(cube[i * d])].push_back(i);
+        for (std::size_t c = 0; c < parts_.size(); ++c)
+            if (!rows[c].empty()) move(c, rows[c], cube, image);
+    }
+
+    double density(std::span<const double> point) const override {
+        double sum = 0;
+        for (const Component& part : parts_) sum += part.weight * part.mapping->density(point);
+        return sum;
+    }
+
+  private:
+    /// The first component whose running weight is above u.
+    std::size_t chosen(double u) const {
+        const auto above = std::ranges::upper_bound(sums_, std::min(u, one_minus_ulp));
+        return static_cast<std::size_t>(above - sums_.begin());
+    }
+
+    /// Maps the rows of one component.
+    void move(std::size_t c, const std::vector<std::size_t>& rows, std::span<const double> cube,
+              std::span<double> image) const {
+        const std::size_t d = cube_dimension();
+        const std::size_t m = domain_->dimension();
+        const double before = c > 0 ? sums_[c - 1] : 0;
+        const double width = sums_[c] - before;
+        std::vector<double> from(rows.size() * d), to(rows.size() * m);
+        std::vector<std::uint8_t> keep(rows.size(), 1);
+        for (std::size_t j = 0; j < rows.size(); ++j) {
+            std::copy_n(&cube[rows[j] * d], d, &from[j * d]);
+            from[j * d] = std::clamp((from[j * d] - before) / width, 0.0, one_minus_ulp);
+        }
+        parts_[c].mapping->forward(from, to, keep);
+        for (std::size_t j = 0; j < rows.size(); ++j)
+            std::copy_n(&to[j * m], m, &image[rows[j] * m]);
+    }
+
+    std::vector<Component> parts_;
+    std::vector<double> sums_;
+    std::shared_ptr<const MixtureDomain> domain_;
+};
+
+/// The parts between | outside of brackets.
+std::vector<std::string> parts_of(std::string_view text) {
+    std::vector<std::string> parts(1);
+    int open = 0;
+    for (const char c : text) {
+        open += c == '[' ? 1 : (c == ']' ? -1 : 0);
+        if (c == '|' && open == 0)
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    }
+    return parts;
+}
+
+const Warp& warp_of(const Spec& spec) {
+    std::vector<std::string> names;
+    for (const Warp& warp : all()) {
+        if (warp.name == spec.name || std::ranges::count(warp.aliases, spec.name) > 0) return warp;
+        names.push_back(warp.name);
+    }
+    fail_with_hint(ErrorKind::usage, suggest(spec.name, names),
+                   "--components: there is no warp '{}'", spec.name);
+}
+
+/// Whether random points become unit vectors.
+bool gives_directions(const Mapping& mapping) {
+    constexpr std::size_t n = 16;
+    const std::size_t m = mapping.domain()->dimension();
+    std::vector<double> cube(n * mapping.cube_dimension()), image(n * m);
+    std::vector<std::uint8_t> keep(n, 1);
+    Rng(1).fill(0, cube);
+    mapping.forward(cube, image, keep);
+    for (std::size_t i = 0; i < n; ++i) {
+        double square = 0;
+        for (std::size_t k = 0; k < m; ++k) square += image[i * m + k] * image[i * m + k];
+        if (!(std::abs(square - 1) <= 1e-14)) return false;
+    }
+    return true;
+}
+
+/// What the points of a component are, for people; equal where components can be mixed.
+std::string space_of(const Component& part, const Warp& warp) {
+    const Domain& domain = *part.mapping->domain();
+    const std::size_t m = domain.dimension();
+    const bool full = domain.cube_dimension() == m;
+    if (part.mapping->drops())
+        fail(ErrorKind::usage, "--components: {} drops points, which would change the weights",
+             part.spec);
+    if (warp.name == "discrete" || (!full && !gives_directions(*part.mapping)))
+        fail(ErrorKind::usage,
+             "--components: {} gives neither directions nor points that fill a space", part.spec);
+    return fmt::format(fmt::runtime(full ? "points of dimension {}" : "directions of dimension {}"),
+                       m);
+}
+
+Component component_of(const std::string& text, std::size_t given, const RunContext& run,
+                       std::string& space) {
+    const Spec spec = parse_spec(text);
+    if (!spec.coordinates.empty())
+        fail(ErrorKind::usage, "--components: {} names coordinates; all take the same", text);
+    const Warp& warp = warp_of(spec);
+    Component part{.spec = text, .mapping = warp.make(spec.values(warp.options), given, run)};
+    space = space_of(part, warp);
+    return part;
+}
+
+std::unique_ptr<Mapping> make(const Values& options, std::size_t given, const RunContext& run) {
+    std::vector<double> shares = options[weights];
+    const auto texts = parts_of(options[components]);
+    if (shares.size() != texts.size())
+        fail(ErrorKind::usage, "--weights: {} numbers for {} components", shares.size(),
+             texts.size());
+    for (const double w : shares)
+        if (!(w >= 0 && w <= 1e300)) fail(ErrorKind::usage, "--weights: {} is outside [0, 1]", w);
+    const double sum = running_sums(shares).back();
+    if (!options[normalize] && !(std::abs(sum - 1) <= 1e-12))
+        fail_with_hint(ErrorKind::usage, "--normalize divides them by their sum",
+                       "--weights: their sum is {}; 1 is needed", sum);
+    if (!(sum > 0 && std::isfinite(sum)))
+        fail(ErrorKind::usage, "--weights: their sum is {}; it cannot be divided by", sum);
+    for (double& w : shares) w /= sum;
+
+    std::vector<Component> parts;
+    std::string first;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        std::string space;
+        parts.push_back(component_of(texts[i], given, run, space));
+        parts.back().weight = shares[i];
+        if (i == 0) first = space;
+        if (space != first ||
+            parts[i].mapping->cube_dimension() != parts[0].mapping->cube_dimension())
+            fail(ErrorKind::usage, "--components: {} gives {} from {} coordinates, {} {} from {}",
+                 texts[0], first, parts[0].mapping->cube_dimension(), texts[i], space,
+                 parts[i].mapping->cube_dimension());
+    }
+    std::vector<double> sums = running_sums(shares);
+    const double total = sums.back();
+    for (double& s : sums) s = s == total ? 1 : s;
+    return std::make_unique<Mixture>(std::move(parts), std::move(sums),
+                                     format_spec("mixture", options, schema()));
+}
+
+}  // namespace
+
+Warp mixture() {
+    return {.name = "mixture",
+            .summary = "Mixture of other warps with weights",
+            .source = "Composition: the weighted sum of the components' densities",
+            .strata =
+                "xi1 is cut by the weights, in order, and stretched for the component's own use; "
+                "all else is as the components have it",
+            .traits = {.invertible = false},
+            .options = schema(),
+            .make = make};
+}
+
+}  // namespace stipple::warps

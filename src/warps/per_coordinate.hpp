@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+//
+// A mapping that gives each coordinate a law on the line, by inversion, whatever the others are:
+//
+//     struct Law {
+//         double forward(double u) const;           // [0, 1] to the line
+//         double inverse(double x) const;           // and back
+//         double place(double x) const;             // coordinate in the domain's cube
+//         double density(double x) const;           // 0 outside
+//         bool contains(double x) const;
+//         double measure() const;                   // of all that it contains
+//         std::pair<double, double> range() const;  // what a picture shows
+//         double mass(double low, double high) const;   // only if places are not even
+//     };
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/wide.hpp"
+#include "warps/row_mapping.hpp"
+
+namespace stipple::warps {
+
+/// Each coordinate by a law of its own, independent of the others.
+template <class Law>
+class LineDomain final : public Domain {
+  public:
+    /// @param what what place() is, for people
+    LineDomain(std::vector<Law> laws, std::string spec, std::string what)
+        : laws_(std::move(laws)), spec_(std::move(spec)), what_(std::move(what)) {}
+
+    std::string spec() const override { return spec_; }
+    std::size_t dimension() const override { return laws_.size(); }
+    double measure() const override {
+        double product = 1;
+        for (const Law& law : laws_) product *= law.measure();
+        return product;
+    }
+    bool contains(std::span<const double> point) const override {
+        for (std::size_t k = 0; k < laws_.size(); ++k)
+            if (!laws_[k].contains(point[k])) return false;
+        return true;
+    }
+    Box bounding_box() const override {
+        Box box;
+        for (const Law& law : laws_) {
+            const auto [low, high] = law.range();
+            box.low.push_back(low);
+            box.high.push_back(high);
+        }
+        return box;
+    }
+    double density(std::span<const double> point) const override {
+        double product = 1;
+        for (std::size_t k = 0; k < laws_.size(); ++k) product *= laws_[k].density(point[k]);
+        return product;
+    }
+    void to_cube(std::span<const double> point, std::span<double> cube) const override {
+        for (std::size_t k = 0; k < laws_.size(); ++k)
+            cube[k] = std::clamp(laws_[k].place(point[k]), 0.0, 1.0);
+    }
+    bool even() const override { return !has_masses; }
+    Estimate probability(const Box& cell) const override {
+        double product = 1;
+        for (std::size_t k = 0; k < laws_.size(); ++k) {
+            if constexpr (has_masses)
+                product *= laws_[k].mass(cell.low[k], cell.high[k]);
+            else
+                product *= cell.extent(k);
+        }
+        return {product, 0};
+    }
+    std::vector<std::string> cube_axes() const override {
+        std::vector<std::string> axes;
+        for (std::size_t k = 0; k < laws_.size(); ++k)
+            axes.push_back(laws_.size() == 1 ? what_ : fmt::format("{} of x{}", what_, k + 1));
+        return axes;
+    }
+
+    const std::vector<Law>& laws() const { return laws_; }
+
+  private:
+    static constexpr bool has_masses = requires { &Law::mass; };
+
+    std::vector<Law> laws_;
+    std::string spec_;
+    std::string what_;
+};
+
+// The law is taken by value: what is written to the image cannot change it, so that its constants
+// stay in registers.
+template <class Law>
+STIPPLE_WIDE void map_numbers(const Law law, std::span<const double> cube,
+                              std::span<double> image) {
+    for (std::size_t i = 0; i < cube.size(); ++i) image[i] = law.forward(cube[i]);
+}
+
+template <class Law>
+STIPPLE_WIDE void map_column(const Law law, std::span<const double> cube, std::span<double> image,
+                             std::size_t first, std::size_t step) {
+    for (std::size_t i = first; i < cube.size(); i += step) image[i] = law.forward(cube[i]);
+}
+
+template <class Law>
+class LineMapping final : public Mapping {
+  public:
+    /// @param way_back why there is no inverse; empty where there is one
+    explicit LineMapping(std::shared_ptr<const LineDomain<Law>> domain, std::string way_back = {})
+        : domain_(std::move(domain)), no_way_back_(std::move(way_back)) {
+        const auto& laws = domain_->laws();
+        same_ = std::ranges::all_of(laws, [&](const Law& law) { return law == laws[0]; });
+    }
+
+    DomainPtr domain() const override { return domain_; }
+    std::size_t cube_dimension() const override { return domain_->dimension(); }
+
+    void forward(std::span<const double> cube, std::span<double> image,
+                 std::span<std::uint8_t> /*keep*/) const override {
+        const auto& laws = domain_->laws();
+        if (same_) return map_numbers(laws[0], cube, image);
+        for (std::size_t k = 0; k < laws.size(); ++k)
+            map_column(laws[k], cube, image, k, laws.size());
+    }
+
+    void inverse(std::span<const double> image, std::span<double> cube) const override {
+        if (!no_way_back_.empty()) fail(ErrorKind::usage, "--inverse: {}", no_way_back_);
+        const auto& laws = domain_->laws();
+        const std::size_t d = laws.size();
+        for (std::size_t i = 0; i < image.size(); i += d) {
+            const auto point = image.subspan(i, d);
+            if (!domain_->contains(point)) refuse_outside(point, *domain_);
+            for (std::size_t k = 0; k < d; ++k)
+                cube[i + k] = std::clamp(laws[k].inverse(point[k]), 0.0, 1.0);
+        }
+    }
+
+  private:
+    std::shared_ptr<const LineDomain<Law>> domain_;
+    std::string no_way_back_;
+    bool same_ = true;
+};
+
+/// One of a list that holds one number for all coordinates or one for each.
+inline double number_for(const std::vector<double>& numbers, std::size_t k) {
+    return numbers.size() == 1 ? numbers[0] : numbers[k];
+}
+
+}  // namespace stipple::warps

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "support/warping.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+const std::string lobes =
+    "mixture:weights=[0.6,0.4],components=[von-mises-fisher:kappa=50,axis=[1,0,0]|"
+    "henyey-greenstein:g=0.5]";
+const std::string plane =
+    "mixture:weights=[0.25,0.75],components=[normal:mean=3|normal:deviation=2]";
+
+}  // namespace
+
+TEST(Mixture, SelectsByWeightAndStretchesTheFirstCoordinate) {
+    const auto map = mapping(lobes);
+    const auto first = mapping("von-mises-fisher:kappa=50,axis=[1,0,0]");
+    const auto second = mapping("henyey-greenstein:g=0.5");
+    EXPECT_EQ(image_of(*map, {0, 0.3}), image_of(*first, {0, 0.3}));
+    EXPECT_EQ(image_of(*map, {0.3, 0.7}), image_of(*first, {0.3 / 0.6, 0.7}));
+    EXPECT_EQ(image_of(*map, {0.6, 0.7}), image_of(*second, {0, 0.7}));
+    EXPECT_EQ(image_of(*map, {0.8, 0.7}), image_of(*second, {(0.8 - 0.6) / (1 - 0.6), 0.7}));
+    EXPECT_EQ(image_of(*map, {1, 0.7}), image_of(*second, {one_minus_ulp, 0.7}));
+}
+
+TEST(Mixture, AComponentOfWeightZeroNeverComes) {
+    const auto map =
+        mapping("mixture:weights=[0,1,0],components=[normal:mean=100|normal|normal:mean=-100]");
+    const PointSet cube = telling_points();
+    for (std::size_t i = 0; i < cube.count(); ++i)
+        ASSERT_LT(std::abs(image_of(*map, {cube[i][0], cube[i][1]})[0]), 9) << cube[i][0];
+}
+
+TEST(Mixture, DensityIsTheWeightedSum) {
+    const auto map = mapping(plane);
+    const double at = 1 / (2 * std::numbers::pi);
+    EXPECT_DOUBLE_EQ(map->density(std::vector{3.0, 3.0}),
+                     0.25 * at + 0.75 * at / 4 * std::exp(-9 / 4.));
+    const auto sphere = mapping(lobes);
+    const std::vector<double> x = {1, 0, 0};
+    EXPECT_DOUBLE_EQ(sphere->density(x), 0.6 * mapping("vmf:kappa=50,axis=[1,0,0]")->density(x) +
+                                             0.4 * mapping("henyey-greenstein:g=0.5")->density(x));
+}
+
+// Cells of 9 x 7 over the cube; the masses sum to 1, and random points fit them: 62 degrees of
+// freedom, above 135 with probability 3e-7. A mixture with other weights does not.
+TEST(Mixture, CellsHaveTheProbabilitiesOfThePoints) {
+    for (const std::string& spec : {lobes, plane}) {
+        const auto map = mapping(spec);
+        const DomainPtr law = map->domain();
+        EXPECT_FALSE(law->even());
+        const auto statistic = [&](const PointSet& x) {
+            std::vector<double> count(63), u(2);
+            for (std::size_t i = 0; i < x.count(); ++i) {
+                law->to_cube(x[i], u);
+                const auto column = std::min(static_cast<std::size_t>(u[0] * 9), std::size_t{8});
+                const auto row = std::min(static_cast<std::size_t>(u[1] * 7), std::size_t{6});
+                count[7 * column + row] += 1;
+            }
+            double sum = 0, mass = 0;
+            for (std::size_t c = 0; c < 63; ++c) {
+                const auto i = static_cast<double>(c / 7);
+                const auto j = static_cast<double>(c % 7);
+                const auto p = law->probability({{i / 9, j / 7}, {(i + 1) / 9, (j + 1) / 7}});
+                EXPECT_LT(p.error, 1e-5);
+                mass += p.value;
+                const double expected = std::max(p.value, 1e-12) * 1e5;
+                if (expected > 5) sum += (count[c] - expected) * (count[c] - expected) / expected;
+            }
+            EXPECT_NEAR(mass, 1, 1e-6) << spec;
+            return sum;
+        };
+        EXPECT_LT(statistic(warped(*map, make("random", points(100'000, 2)))), 135) << spec;
+        const std::string other =
+            "mixture:weights=[0.55,0.45]," + spec.substr(spec.find("components"));
+        EXPECT_GT(statistic(warped(*mapping(other), make("random", points(100'000, 2)))), 135);
+    }
+}
+
+TEST(Mixture, DomainSpecParsesBackWithItsBrackets) {
+    const DomainPtr law = mapping(lobes)->domain();
+    EXPECT_EQ(law->spec(), lobes);
+    EXPECT_EQ(mapping(law->spec())->domain()->spec(), law->spec());
+    EXPECT_TRUE(law->contains(std::vector{0.0, 1.0, 0.0}));
+    EXPECT_FALSE(law->contains(std::vector{0.0, 1.1, 0.0}));
+}
+
+TEST(Mixture, RefusesWhatCannotBeMixed) {
+    EXPECT_EQ(error_of([] { mapping("mixture:components=[normal|vmf]"); }),
+              "usage: --components: normal gives points of dimension 2 from 2 coordinates, vmf "
+              "directions of dimension 3 from 2");
+    EXPECT_EQ(error_of([] { mapping("mixture:components=[disk:method=rejection|disk]"); }),
+              "usage: --components: disk:method=rejection drops points, which would change the "
+              "weights");
+    EXPECT_EQ(
+        error_of([] { mapping("mixture:components=[discrete|discrete]"); }),
+        "usage: --components: discrete gives neither directions nor points that fill a space");
+    EXPECT_EQ(error_of([] { mapping("mixture:weights=[0.5,0.4]"); }),
+              "usage: --weights: their sum is 0.9; 1 is needed | --normalize divides them by their "
+              "sum");
+    EXPECT_EQ(error_of([] { mapping("mixture:weights=1"); }),
+              "usage: --weights: 1 numbers for 2 components");
+    EXPECT_EQ(error_of([] {
+                  inverse_of(*mapping("mixture"), {0, 0, 1});
+              }),
+              "usage: --inverse: this warp has no inverse");
+}

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "support/warping.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+// Masses 1, 0, 3 and 2 of 6: a ramp, a gap, a jump to a plateau, a fall.
+const std::string mixed = "table-1d:rows=[0,0 1,2 1,0 2,0 2,3 3,3 4,1]";
+const std::string steps = "table-1d:interpolation=constant,rows=[-1,2 0,0 2,6 3,0]";
+
+double at(const std::string& spec, double u) { return image_of(*mapping(spec), {u, 0.5})[0]; }
+
+/// A file of the test's own, removed at the end.
+class File {
+  public:
+    explicit File(const std::string& text)
+        : path_(std::filesystem::temp_directory_path() /
+                ("stipple_table_" +
+                 std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) +
+                 ".csv")) {
+        std::ofstream(path_) << text;
+    }
+    ~File() { std::filesystem::remove(path_); }
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+    std::string name() const { return path_.string(); }
+
+  private:
+    std::filesystem::path path_;
+};
+
+}  // namespace
+
+// Default: p = 2 - 2 x, x = 1 - sqrt(1 - xi).
+TEST(Table1d, NumbersByHand) {
+    EXPECT_EQ(at("table-1d", 0), 0);
+    EXPECT_DOUBLE_EQ(at("table-1d", 0.75), 0.5);
+    EXPECT_EQ(at("table-1d", 1), 1);
+    EXPECT_DOUBLE_EQ(at("table-1d", 1e-20), 5e-21);
+    EXPECT_DOUBLE_EQ(at(mixed, 0.25 / 6), 0.5);
+    EXPECT_DOUBLE_EQ(at(mixed, 2.5 / 6), 2.5);
+    EXPECT_DOUBLE_EQ(at(mixed, 4 / 6. + 1.25 / 6), 3.5);
+    EXPECT_DOUBLE_EQ(at(steps, 0.125), -0.5);
+    EXPECT_DOUBLE_EQ(at(steps, 0.25 + 0.375), 2.5);
+    EXPECT_EQ(at(steps, 0.25), 2) << "the piece without mass is skipped";
+}
+
+TEST(Table1d, RoundTripOverTheWholeSquare) {
+    for (const std::string& spec : {std::string("table-1d"), mixed, steps,
+                                    std::string("table-1d:rows=[1e-9,1 5,1e-9 6,1e9]")}) {
+        SCOPED_TRACE(spec);
+        const auto map = mapping(spec);
+        const PointSet cube = telling_points();
+        for (std::size_t i = 0; i < cube.count(); ++i) {
+            const auto x = image_of(*map, {cube[i][0], cube[i][1]});
+            ASSERT_TRUE(map->domain()->contains(x)) << cube[i][0];
+            ASSERT_NEAR(inverse_of(*map, x)[0], cube[i][0], 1e-14) << x[0];
+        }
+    }
+}
+
+TEST(Table1d, NothingFallsIntoGaps) {
+    const PointSet cube = telling_points();
+    for (std::size_t i = 0; i < cube.count(); ++i) {
+        const double x = at(mixed, cube[i][0]);
+        ASSERT_TRUE(x <= 1 || x >= 2) << cube[i][0] << ": " << x;
+        const double y = at(steps, cube[i][0]);
+        ASSERT_TRUE(y <= 0 || y >= 2) << cube[i][0] << ": " << y;
+    }
+}
+
+TEST(Table1d, DensityIsOneOverTheStretchAndIntegratesToOne) {
+    expect_density_is_one_over_stretch(*mapping("table-1d"), 1e-4);
+    EXPECT_DOUBLE_EQ(mapping("table-1d")->density(std::vector{0.25, 0.5}), 1.5);
+    const auto map = mapping(mixed);
+    const auto density = [&](double x) { return map->density(std::vector{x, 2.5}) / 0.5; };
+    EXPECT_DOUBLE_EQ(density(0.5), 1 / 6.);
+    EXPECT_EQ(density(1.5), 0);
+    EXPECT_EQ(density(4.5), 0);
+    double mass = 0;
+    for (const double left : {0.0, 1.0, 2.0, 3.0})
+        mass += boost::math::quadrature::gauss_kronrod<double, 15>::integrate(density, left,
+                                                                              left + 1, 0);
+    EXPECT_NEAR(mass, 1, 1e-13);
+}
+
+// False alarm 1e-4 each; wrong: xi -> 1 - sqrt(xi), and a table that is 2 % off.
+TEST(Table1d, ChiSquareAcceptsItAndRejectsWrongOnes) {
+    for (const std::string& spec : {std::string("table-1d"), mixed, steps})
+        EXPECT_GT(p_of_random(*mapping(spec), 100'000), 1e-4) << spec;
+    PointSet wrong =
+        warped(*mapping("table-1d:rows=[0,2 1,0.1]"), make("random", points(200'000, 2)));
+    wrong.domain = mapping("table-1d")->domain();
+    EXPECT_LT(measure("chi-square", "p_upper", wrong), 1e-4);
+}
+
+TEST(Table1d, ReadsFiles) {
+    const File file("x,density\n0,0\n1,2\n2,0\n");
+    EXPECT_DOUBLE_EQ(at("table-1d:file=" + file.name(), 0.125), 0.5);
+    EXPECT_EQ(mapping("table-1d:file=" + file.name())->domain()->spec(),
+              "table-1d:file=" + file.name());
+    EXPECT_EQ(error_of([&] { mapping("table-1d:rows=[0,1 1,1],file=" + file.name()); }),
+              "usage: --rows: --file is given, too; one of them is allowed");
+    const File bad("0,1\n1,-2\n");
+    EXPECT_EQ(error_of([&] { mapping("table-1d:file=" + bad.name()); }),
+              "input: " + bad.name() + ": row 2 has the density -2; [0, 1e150] is allowed");
+}
+
+TEST(Table1d, RefusesWhatIsNoDensity) {
+    EXPECT_EQ(error_of([] { mapping("table-1d:rows=[0,1 1,-1]"); }),
+              "usage: --rows: row 2 has the density -1; [0, 1e150] is allowed");
+    EXPECT_EQ(error_of([] { mapping("table-1d:rows=[0,1 2,1 1,1]"); }),
+              "usage: --rows: row 3 has x = 1 after 2; x must rise");
+    EXPECT_EQ(error_of([] { mapping("table-1d:rows=[0,0 2,0]"); }),
+              "usage: --rows: the density's integral is 0; it must be in [1e-290, 1e290]");
+    EXPECT_EQ(error_of([] { mapping("table-1d:rows=[0,1]"); }),
+              "usage: --rows: 1 rows; 2 to 2^28 are needed");
+    EXPECT_EQ(error_of([] { mapping("table-1d:rows=[0,1,2 1,1,1]"); }),
+              "usage: --rows: rows of 3 numbers; 2 are needed, x,density");
+    EXPECT_NE(error_of([] { mapping("table-1d:interpolation=constant,rows=[0,1 0,1 1,1]"); }), "");
+    EXPECT_EQ(mapping("table-1d")->domain()->spec(), "table-1d");
+}
