@@ -11,6 +11,7 @@
 #include <boost/version.hpp>
 
 #include "core/text.hpp"
+#include "math/expression.hpp"
 
 namespace stipple::cli {
 namespace {
@@ -110,12 +111,12 @@ std::string help_text(const Arguments& arguments, const std::vector<Kind>& kinds
 std::string version_text() {
     return fmt::format(
         "stipple {}\nCLI11 {}, fmt {}.{}.{}, nlohmann-json {}.{}.{}, {}, oneTBB {}.{}, Boost "
-        "{}.{}.{}, Random123 {}, libpng {}\n",
+        "{}.{}.{}, Random123 {}, libpng {}, muParser {}\n",
         STIPPLE_VERSION, CLI11_VERSION, FMT_VERSION / 10000, FMT_VERSION / 100 % 100,
         FMT_VERSION % 100, NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
         NLOHMANN_JSON_VERSION_PATCH, fftw_version, TBB_VERSION_MAJOR, TBB_VERSION_MINOR,
         BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100, RANDOM123_VERSION,
-        PNG_LIBPNG_VER_STRING);
+        PNG_LIBPNG_VER_STRING, muparser_version());
 }
 
 }  // namespace stipple::cli

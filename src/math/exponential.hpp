@@ -6,10 +6,11 @@
 //     x = k ln 2 + r,  |r| <= ln 2 / 2,    exp(x) = 2^k (1 + r + r^2 q(r)),    q by Taylor's
 //     series.
 //
-// Shape   x <= 709; exactly 0 below -708.
+// Shape   x <= 709; exp(x) is exactly 0 below -708.
 // Cost    no branch and no table, so that compilers vectorise loops of it.
-// Promise within 1 unit in the last place; exp(0) = 1; the same bits on every machine with IEEE 754
-//         arithmetic, compiled without contraction into fused multiply-adds.
+// Promise within 1 unit in the last place, exp(x) - 1 within 2, also near 0; exp(0) = 1; the same
+//         bits on every machine with IEEE 754 arithmetic, compiled without contraction into fused
+//         multiply-adds.
 #pragma once
 
 #include <bit>
@@ -17,16 +18,26 @@
 
 namespace stipple {
 
-inline double exponential(double x) {
-    constexpr double least = -708;
+namespace detail {
+
+/// exp(x) = power * (1 + r + square) with r = high - low, for x in [-708, 709].
+struct Exponential {
+    double power;
+    double high;
+    double low;
+    double square;
+};
+
+inline Exponential exponential_parts(double x) {
     constexpr double per_log = 1.4426950408889634;  // 1 / ln 2
     constexpr double head = 0x1.62e42fee00000p-1;   // ln 2, its last 33 bits 0: k * head is exact
     constexpr double tail = 0x1.a39ef35793c76p-33;
     constexpr double round = 0x1.8p52;  // adding it leaves the nearest whole number in the low bits
-    const double inside = x > least ? x : least;
-    const double sum = inside * per_log + round;
+    const double sum = x * per_log + round;
     const double k = sum - round;
-    const double r = (inside - k * head) - k * tail;
+    const double high = x - k * head;
+    const double low = k * tail;
+    const double r = high - low;
 
     double q = 1 / 87178291200.0;  // 1/14!, then 1/13!, ...
     q = q * r + 1 / 6227020800.0;
@@ -41,9 +52,28 @@ inline double exponential(double x) {
     q = q * r + 1 / 24.0;
     q = q * r + 1 / 6.0;
     q = q * r + 0.5;
-    const double mantissa = 1 + (r + r * r * q);
-    const auto power = std::bit_cast<double>((std::bit_cast<std::uint64_t>(sum) + 1023) << 52);
-    return x >= least ? mantissa * power : 0;
+    return {std::bit_cast<double>((std::bit_cast<std::uint64_t>(sum) + 1023) << 52), high, low,
+            r * r * q};
+}
+
+constexpr double least_exponent = -708;
+
+}  // namespace detail
+
+/// exp(x) for x <= 709.
+inline double exponential(double x) {
+    const bool inside = x >= detail::least_exponent;
+    const auto [power, high, low, square] =
+        detail::exponential_parts(inside ? x : detail::least_exponent);
+    return inside ? (1 + ((high - low) + square)) * power : 0;
+}
+
+/// exp(x) - 1 for x <= 709.
+inline double exp_minus_1(double x) {
+    const bool inside = x >= detail::least_exponent;
+    const auto [power, high, low, square] =
+        detail::exponential_parts(inside ? x : detail::least_exponent);
+    return power * (high + (square - low)) + (power - 1);
 }
 
 }  // namespace stipple

@@ -6,24 +6,15 @@
 #include <cmath>
 
 #include "core/rng.hpp"
+#include "support/ulps.hpp"
 
 using namespace stipple;
-
-namespace {
-
-/// Distance in units in the last place of `expected`.
-double ulps(double value, long double expected) {
-    const auto near = static_cast<double>(expected);
-    const double ulp = std::nextafter(near, INFINITY) - near;
-    return static_cast<double>(std::abs(static_cast<long double>(value) - expected) / ulp);
-}
-
-}  // namespace
+using stipple::testing::ulps;
 
 TEST(Exponential, IsWithinOneUnitInTheLastPlace) {
     const Rng rng(1);
     double worst = 0;
-    for (std::uint64_t i = 0; i < 200'000; ++i) {
+    for (std::uint64_t i = 0; i < 40'000; ++i) {
         const double u = rng.uniform(i);
         for (const double x : {-u, -40 * u, -708 * u, 709 * u, u * u * u * 1e-6})
             worst = std::max(worst, ulps(exponential(x), std::exp(static_cast<long double>(x))));
@@ -47,4 +38,24 @@ TEST(Exponential, KnowsItsEnds) {
 TEST(Exponential, GivesPrintedValues) {
     EXPECT_DOUBLE_EQ(exponential(1), 2.71828182845904523536);
     EXPECT_DOUBLE_EQ(exponential(-10), 4.5399929762484851536e-5);
+}
+
+TEST(ExpMinusOne, IsWithinTwoUnitsInTheLastPlace) {
+    const Rng rng(2);
+    double worst = 0;
+    for (std::uint64_t i = 0; i < 40'000; ++i) {
+        const double u = rng.uniform(i);
+        for (const double x : {-u, u, -40 * u, 709 * u, 1e-6 * u, -1e-17 * u, 1e-300 * u})
+            worst = std::max(worst, ulps(exp_minus_1(x), std::expm1(static_cast<long double>(x))));
+    }
+    EXPECT_LE(worst, 2);
+    EXPECT_GT(worst, 0.5);
+}
+
+TEST(ExpMinusOne, KnowsItsEnds) {
+    EXPECT_EQ(exp_minus_1(0), 0);
+    EXPECT_EQ(exp_minus_1(5e-324), 5e-324);
+    EXPECT_EQ(exp_minus_1(-708), -1);
+    EXPECT_EQ(exp_minus_1(-1e300), -1);
+    EXPECT_TRUE(std::isfinite(exp_minus_1(709)));
 }

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+//
+// A formula that a user typed, parsed by muParser and evaluated at points: f(x, y).
+//
+//     variables   x, y, z or x1 ... xd for the coordinates
+//     constants   pi, e
+//     operators   + - * / ^ ( ), < <= > >= == != && ||, condition ? a : b
+//     functions   sin cos tan asin acos atan atan2 sinh cosh tanh exp log ln log2 log10 sqrt cbrt
+//                 pow abs sign min max floor ceil round mod hypot
+//
+// Units   angles in radians; log and ln are natural.
+// Cost    some 10 ns an operation and point; parsing once a thread.
+// Promise the same bits on every machine: functions and ^ are those of src/math, not the C
+//         library's, and muParser's optimizer, which changes roundings, is off. Safe to use from
+//         several threads.
+// Beware  sin and cos lose digits far from 0, as the angle is divided by 2 pi in one rounding.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace stipple {
+
+class Expression {
+  public:
+    /// @throws Error(usage) "--OPTION: 'TEXT', column N: what is wrong; what is expected"
+    Expression(std::string_view option, std::string_view text, std::size_t dimension);
+
+    /// The formula without blanks.
+    [[nodiscard]] const std::string& text() const { return text_; }
+    [[nodiscard]] std::size_t dimension() const { return dimension_; }
+
+    [[nodiscard]] double at(std::span<const double> point) const;
+
+    /// Values at points, which stand one after the other.
+    void evaluate(std::span<const double> points, std::span<double> values) const;
+
+  private:
+    class Machines;
+
+    std::string text_;
+    std::size_t dimension_;
+    std::shared_ptr<Machines> machines_;
+};
+
+/// Of the library: "2.3.3".
+std::string muparser_version();
+
+/// "x = 0.5" or "(x, y) = (0.5, 2)": a place, for messages.
+std::string place_text(std::span<const double> point);
+
+}  // namespace stipple

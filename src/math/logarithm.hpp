@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+//
+// Natural logarithm by additions, multiplications, one division and the bits of a double: the
+// mathematics library's own differs between machines.
+//
+//     x = 2^k (1 + f),  sqrt(1/2) <= 1 + f < sqrt(2);    s = f / (2 + f)
+//     log(1 + f) = 2 artanh(s) = 2 s + (2/3) s^3 + (2/5) s^5 + ...
+//                = f - f^2/2 + s (f^2/2 + (2/3) s^2 + (2/5) s^4 + ...)
+//
+// Shape   logarithm(x): finite x > 0; log_1p(x) = log(1 + x): finite x > -1.
+// Cost    no branch and no table, so that compilers vectorise loops of it.
+// Promise within 1 unit in the last place, log_1p also near 0; log(1) = 0 = log_1p(0); the same
+//         bits on every machine with IEEE 754 arithmetic, compiled without contraction into fused
+//         multiply-adds. logarithm_parts is log(x) to 63 bits, as a sum of two doubles.
+// Source  The form with f - f^2/2 is that of FDLIBM's e_log.c (Sun Microsystems, 1993).
+#pragma once
+
+#include <bit>
+#include <cstdint>
+
+namespace stipple {
+
+/// A number as the unevaluated sum of a double and a small rest.
+struct TwoPart {
+    double high;
+    double low;
+};
+
+/// a * b without rounding, unless it under- or overflows.
+inline TwoPart exact_product(double a, double b) {
+    constexpr std::uint64_t upper = ~0x7ffffffULL;  // 26 bits: products of two are exact
+    const auto a_high = std::bit_cast<double>(std::bit_cast<std::uint64_t>(a) & upper);
+    const auto b_high = std::bit_cast<double>(std::bit_cast<std::uint64_t>(b) & upper);
+    const double a_low = a - a_high;
+    const double b_low = b - b_high;
+    const double product = a * b;
+    const double rest =
+        ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
+    return {product, rest};
+}
+
+/// a + b as the nearest double and what it lacks; |a| >= |b| or a = 0.
+inline TwoPart exact_sum(double a, double b) {
+    const double sum = a + b;
+    return {sum, b - (sum - a)};
+}
+
+namespace detail {
+
+constexpr double log_2_head = 0x1.62e42fee00000p-1;  // ln 2, its last 33 bits 0: k * head is exact
+constexpr double log_2_tail = 0x1.a39ef35793c76p-33;
+
+/// x = 2^k (1 + f) with 1 + f in [sqrt(1/2), sqrt(2)).
+struct Fraction {
+    double k;
+    double f;
+};
+
+inline Fraction fraction_of(double x) {
+    constexpr double least = 0x1p-1022;
+    constexpr std::uint64_t one = 0x3ff0000000000000;
+    constexpr std::uint64_t root_half = 0x3fe6a09e667f3bcd;
+    const bool tiny = x < least;
+    const auto bits = std::bit_cast<std::uint64_t>(tiny ? x * 0x1p54 : x);
+    const std::uint64_t biased = (bits + (one - root_half)) >> 52;
+    const auto mantissa = std::bit_cast<double>(bits - (biased << 52) + one);
+    // 2^52 + biased, as bits: so vectors convert it, too.
+    const double k = std::bit_cast<double>(0x4330000000000000 | biased) - (0x1p52 + 1023);
+    return {tiny ? k - 54 : k, mantissa - 1};
+}
+
+/// log(x (1 + rest)) for a rest of at most a unit in the last place.
+inline double log_near(double x, double rest) {
+    const auto [k, f] = fraction_of(x);
+    const double s = f / (2 + f);
+    const double z = s * s;
+    double r = 2 / 21.0;
+    r = r * z + 2 / 19.0;
+    r = r * z + 2 / 17.0;
+    r = r * z + 2 / 15.0;
+    r = r * z + 2 / 13.0;
+    r = r * z + 2 / 11.0;
+    r = r * z + 2 / 9.0;
+    r = r * z + 2 / 7.0;
+    r = r * z + 2 / 5.0;
+    r = r * z + 2 / 3.0;
+    const double half = 0.5 * f * f;
+    return k * log_2_head - ((half - (s * (half + z * r) + (k * log_2_tail + rest))) - f);
+}
+
+}  // namespace detail
+
+/// log(x) for finite x > 0.
+inline double logarithm(double x) { return detail::log_near(x, 0); }
+
+/// log(1 + x) for finite x > -1, accurate also where 1 + x is rounded.
+inline double log_1p(double x) {
+    const double sum = 1 + x;
+    const double part = sum - 1;
+    const double lost = (1 - (sum - part)) + (x - part);
+    return detail::log_near(sum, lost / sum);
+}
+
+/// log(x) for finite x > 0, off by at most 2^-63 of itself.
+inline TwoPart logarithm_parts(double x) {
+    const auto [k, f] = detail::fraction_of(x);
+    const double below = 2 + f;
+    const double below_rest = f - (below - 2);
+    const double s = f / below;
+    const auto [back, back_rest] = exact_product(s, below);
+    const double s_rest = (((f - back) - back_rest) - s * below_rest) / below;
+    const auto [z, z_rest] = exact_product(s, s);
+
+    double r = 2 / 23.0;  // z (2/5 + (2/7) z + ...) needs no second part
+    r = r * z + 2 / 21.0;
+    r = r * z + 2 / 19.0;
+    r = r * z + 2 / 17.0;
+    r = r * z + 2 / 15.0;
+    r = r * z + 2 / 13.0;
+    r = r * z + 2 / 11.0;
+    r = r * z + 2 / 9.0;
+    r = r * z + 2 / 7.0;
+    r = r * z + 2 / 5.0;
+
+    constexpr double third = 2 / 3.0;
+    constexpr double third_rest = 0x1.5555555555555p-55;  // 2/3 - third
+    const auto [factor, lost] = exact_sum(third, z * r);
+    const double factor_rest = lost + (third_rest + z_rest * r);
+
+    const auto [cube, cube_lost] = exact_product(s, z);
+    const double cube_rest = cube_lost + (s * (z_rest + 2 * s * s_rest) + s_rest * z);
+    const auto [c, c_lost] = exact_product(cube, factor);
+    const double c_rest = c_lost + (cube_rest * factor + cube * factor_rest);
+
+    const auto [first, first_rest] = exact_sum(2 * s, c);
+    const auto [all, all_rest] = exact_sum(k * detail::log_2_head, first);
+    const double rest = all_rest + (first_rest + ((k * detail::log_2_tail + 2 * s_rest) + c_rest));
+    return exact_sum(all, rest);
+}
+
+}  // namespace stipple
