@@ -32,7 +32,9 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <optional>
 
 #include "analyzers/analyzer.hpp"
 #include "analyzers/outside.hpp"
@@ -42,6 +44,7 @@
 #include "core/parallel.hpp"
 #include "core/spec.hpp"
 #include "core/text.hpp"
+#include "math/expression.hpp"
 #include "math/integrand.hpp"
 
 namespace stipple::analyzers {
@@ -56,6 +59,16 @@ constexpr Param<Text> integrand{
              "disk-indicator, half-plane-indicator, soft-shadow (:seed=S), zone-plate (:phase=K); "
              "on a hemisphere: sky-radiance; on any domain: measure, its length, area or volume"}};
 
+constexpr Param<Text> expression{
+    {.name = "expression",
+     .help =
+         "Also, or instead, a formula in x, y, z or x1, x2, ..., the points' coordinates as they "
+         "are: 'exp(-x*y)'"}};
+
+constexpr Param<double> exact{.name = "exact",
+                              .optional = true,
+                              .help = "The integral of the expression over the domain, if known"};
+
 constexpr Param<bool> compare{
     .name = "compare",
     .help =
@@ -65,8 +78,8 @@ constexpr Param<bool> compare{
 struct Task {
     std::string name;
     Region region;
-    Integrand function;
-    double exact;  ///< over the domain
+    std::function<double(std::span<const double>)> value;
+    std::optional<double> exact;  ///< over the domain, where it is known
 };
 
 const char* words(Region region) {
@@ -106,9 +119,8 @@ Values options_of(const Spec& spec, const std::string& text, const IntegrandKind
 
 Task task_of(const IntegrandKind& kind, const Values& values, const Domain& domain,
              const RegionView& view) {
-    Task task{kind.name, kind.region, kind.make(domain.dimension(), values), 0};
-    task.exact = task.function.exact * view.scale(kind.region);
-    return task;
+    const Integrand function = kind.make(domain.dimension(), values);
+    return {kind.name, kind.region, function.value, function.exact * view.scale(kind.region)};
 }
 
 /// A second genz-gaussian is genz-gaussian-2.
@@ -121,21 +133,26 @@ void tell_apart(std::vector<Task>& tasks) {
     }
 }
 
-/// What is to be integrated. @throws Error(usage), Error(input)
-std::vector<Task> tasks_of(const Domain& domain, const RegionView& view, const Values& options) {
+/// All integrands that take points of the domain. @throws Error(input) if there is none.
+std::vector<Task> tasks_that_fit(const Domain& domain, const RegionView& view) {
     std::vector<Task> tasks;
-    if (!options.given(integrand)) {
-        for (const IntegrandKind& kind : integrand_kinds())
-            if (fits(kind, domain, view))
-                tasks.push_back(task_of(kind, kind.options.defaults(), domain, view));
-        if (tasks.empty())
-            fail(ErrorKind::input, "integration: no integrand takes points of {}", domain.spec());
-        return tasks;
-    }
-    for (const std::string& text : split_specs(options[integrand])) {
+    for (const IntegrandKind& kind : integrand_kinds())
+        if (fits(kind, domain, view))
+            tasks.push_back(task_of(kind, kind.options.defaults(), domain, view));
+    if (tasks.empty())
+        fail_with_hint(ErrorKind::input, "--expression gives one",
+                       "integration: no integrand takes points of {}", domain.spec());
+    return tasks;
+}
+
+/// Those of --integrand. @throws Error(usage), Error(input)
+std::vector<Task> tasks_named(const std::string& list, const Domain& domain,
+                              const RegionView& view) {
+    std::vector<Task> tasks;
+    for (const std::string& text : split_specs(list)) {
         if (text.empty())
             fail(ErrorKind::usage, "--integrand: '{}' has an empty name; expected NAME,NAME...",
-                 options[integrand]);
+                 list);
         const Spec spec = parse_spec(text);
         const IntegrandKind& kind = integrand_kind(spec.name);
         const Values values = options_of(spec, text, kind);
@@ -143,6 +160,27 @@ std::vector<Task> tasks_of(const Domain& domain, const RegionView& view, const V
         tasks.push_back(task_of(kind, values, domain, view));
     }
     tell_apart(tasks);
+    return tasks;
+}
+
+Task formula(const Domain& domain, const Values& options) {
+    const Expression f("expression", options[expression], domain.dimension());
+    Task task{"expression", Region::anywhere, [f](auto x) { return f.at(x); }, std::nullopt};
+    if (options.given(exact)) task.exact = options[exact];
+    return task;
+}
+
+/// What is to be integrated. @throws Error(usage), Error(input)
+std::vector<Task> tasks_of(const Domain& domain, const RegionView& view, const Values& options) {
+    const bool typed = options.given(expression);
+    if (options.given(exact) && !typed)
+        fail(ErrorKind::usage, "--exact: is the integral of an --expression; none is given");
+    std::vector<Task> tasks;
+    if (options.given(integrand))
+        tasks = tasks_named(options[integrand], domain, view);
+    else if (!typed)
+        tasks = tasks_that_fit(domain, view);
+    if (typed) tasks.push_back(formula(domain, options));
     return tasks;
 }
 
@@ -154,6 +192,7 @@ struct Fault {
     std::size_t task = 0;
     double value = 0;
     double density = 0;
+    bool uniform = false;  ///< at the uniform point that was made from that one
 
     void add(const Fault& other) {
         if (other.point < point) *this = other;
@@ -198,9 +237,9 @@ class Evaluation {
             if (std::isfinite(weight))
                 sums_.weighted[k].add(weight);
             else
-                sums_.fault.add({i, k, value, density});
+                sums_.fault.add({i, k, value, density, false});
         });
-        if (comparing_) add_uniform(point);
+        if (comparing_) add_uniform(i, point);
     }
 
     [[nodiscard]] const Sums& sums() const { return sums_; }
@@ -212,17 +251,22 @@ class Evaluation {
         for (std::size_t k = 0; k < tasks_.size(); ++k) {
             const Task& task = tasks_[k];
             if (k == 0 || task.region != tasks_[k - 1].region) view_.see(task.region, point, seen_);
-            take(k, task.function.value(seen_));
+            take(k, task.value(seen_));
         }
     }
 
-    void add_uniform(std::span<const double> point) {
+    void add_uniform(std::uint64_t i, std::span<const double> point) {
         cube_.resize(domain_.cube_dimension());
         even_.resize(point.size());
         domain_.to_cube(point, cube_);
         view_.uniform(cube_, even_);
-        each(even_,
-             [&](std::size_t k, double value) { sums_.uniform[k].add(domain_.measure() * value); });
+        const double measure = domain_.measure();
+        each(even_, [&](std::size_t k, double value) {
+            if (std::isfinite(measure * value))
+                sums_.uniform[k].add(measure * value);
+            else
+                sums_.fault.add({i, k, value, 1 / measure, true});
+        });
     }
 
     const Domain& domain_;
@@ -232,6 +276,15 @@ class Evaluation {
     Sums sums_;
     std::vector<double> seen_, cube_, even_;
 };
+
+[[noreturn]] void refuse(const Fault& fault, const std::vector<Task>& tasks, const Domain& domain) {
+    const std::string& name = tasks[fault.task].name;
+    if (fault.uniform)
+        fail(ErrorKind::input, "--compare: at the uniform point made of point {} {} is {}",
+             fault.point, name, fault.value);
+    fail(ErrorKind::input, "at point {} the integrand {} is {} and the density of {} is {}",
+         fault.point, name, fault.value, domain.spec(), fault.density);
+}
 
 /// @throws Error(input) for points outside the domain, and values that are not numbers.
 Sums sums_over(const PointSet& points, const RegionView& view, const std::vector<Task>& tasks,
@@ -247,9 +300,7 @@ Sums sums_over(const PointSet& points, const RegionView& view, const std::vector
     Sums all;
     for (const Sums& part : parts) all.add(part);
     if (all.outside.count > 0) refuse(all.outside, points, outside_hint(domain));
-    if (const Fault& fault = all.fault; fault.point < points.count())
-        fail(ErrorKind::input, "at point {} the integrand {} is {} and the density of {} is {}",
-             fault.point, tasks[fault.task].name, fault.value, domain.spec(), fault.density);
+    if (all.fault.point < points.count()) refuse(all.fault, tasks, domain);
     return all;
 }
 
@@ -298,8 +349,9 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     for (std::size_t k = 0; k < tasks.size(); ++k) {
         const Tally& values = sums.weighted[k];
         Report one;
-        one.add("estimate", values.mean()).add("exact", tasks[k].exact);
-        one.add("error", values.mean() - tasks[k].exact);
+        one.add("estimate", values.mean());
+        if (const auto known = tasks[k].exact)
+            one.add("exact", *known).add("error", values.mean() - *known);
         if (independent(points) && points.count() > 1)
             one.add("standard_error", values.standard_error());
         report.add(tasks[k].name, std::move(one));
@@ -313,6 +365,7 @@ void replicate(Report& mean, const std::string& name, std::span<const Report> se
     Tally estimates, squares;
     for (const Report& set : sets) {
         estimates.add(set.number(name + ".estimate"));
+        if (!set.find(name + ".error")) continue;
         const double error = set.number(name + ".error");
         squares.add(error * error);
     }
@@ -322,7 +375,7 @@ void replicate(Report& mean, const std::string& name, std::span<const Report> se
     const double middle = estimates.mean();
     mean.add("standard_error", spread);
     mean.add("interval_low", middle - reach).add("interval_high", middle + reach);
-    mean.add("rms_error", std::sqrt(squares.mean()));
+    if (squares.count() > 0) mean.add("rms_error", std::sqrt(squares.mean()));
 }
 
 void combine(Report& mean, std::span<const Report> sets, const Values&) {
@@ -350,10 +403,10 @@ Analyzer integration() {
         .summary = "Integrals of functions with known integrals, and their errors",
         .source = "Genz 1984; Owen 2003",
         .traits = {.max_dimension = 10'000, .unit_cube = false},
-        .options = Schema(integrand, compare),
+        .options = Schema(integrand, expression, exact, compare),
         .results =
             {{"INTEGRAND.estimate", "mean of f / p, where p is the density of the points"},
-             {"INTEGRAND.exact", "the integral"},
+             {"INTEGRAND.exact", "the integral; of an expression, if --exact tells it"},
              {"INTEGRAND.error", "estimate - exact"},
              {"INTEGRAND.standard_error",
               "of the estimate: of several sets (--average) from the spread between them; of one "

@@ -311,6 +311,35 @@ TEST(Integration, RefusesPointsWhereTheDensityIsZero) {
               "input: at point 1 the integrand measure is 1 and the density of ramp is 0");
 }
 
+// int_0^1 int_0^1 x y^2 = 1/6; on the ramp with the same points' density.
+TEST(Integration, TakesFormulas) {
+    const PointSet set = make("sobol", points(1024, 2));
+    const auto of = [&](const PointSet& points, const Settings& settings) {
+        return analyze("integration", points, settings);
+    };
+    const Report bare = of(set, {{"expression", "x * y^2"}});
+    EXPECT_NEAR(bare.number("expression.estimate"), 1 / 6.0, 2e-3);
+    EXPECT_EQ(bare.keys(), std::vector<std::string>{"expression.estimate"});
+    const Report both =
+        of(on_ramp(set), {{"expression", "x1*x2^2"}, {"exact", "0.5"}, {"integrand", "owen"}});
+    EXPECT_NEAR(both.number("expression.estimate"), 1 / 6.0, 2e-3);
+    EXPECT_NEAR(both.number("expression.error"), 1 / 6.0 - 0.5, 2e-3);
+    EXPECT_NE(both.find("owen.error"), nullptr);
+    const Report mean = combined({bare, bare});
+    EXPECT_EQ(mean.number("expression.standard_error"), 0);
+    EXPECT_EQ(mean.find("expression.rms_error"), nullptr);
+    EXPECT_EQ(error_of([&] {
+                  of(set, {{"exact", "1"}});
+              }),
+              "usage: --exact: is the integral of an --expression; none is given");
+    EXPECT_TRUE(error_of([&] {
+                    of(set, {{"expression", "x+"}});
+                }).starts_with("usage: --expression: 'x+', column "));
+    EXPECT_TRUE(error_of([&] {
+                    of(set, {{"expression", "1/(x-x)"}});
+                }).starts_with("input: at point 0 the integrand expression is inf"));
+}
+
 TEST(Integration, HelpNamesAllIntegrands) {
     const auto& help = find_analyzer("integration").options.options().front().help;
     for (const IntegrandKind& kind : integrand_kinds())
