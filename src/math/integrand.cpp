@@ -32,8 +32,7 @@ const IntegrandKind& integrand_kind(std::string_view name) {
     if (it != kinds.end()) return *it;
     std::vector<std::string> names;
     for (const IntegrandKind& kind : kinds) names.push_back(kind.name);
-    fail_with_hint(ErrorKind::usage, suggest(name, names), "--integrand: '{}' is not an integrand",
-                   name);
+    fail_with_hint(ErrorKind::usage, suggest(name, names), "'{}' is not an integrand", name);
 }
 
 std::vector<std::string> split_specs(std::string_view list) {

@@ -119,7 +119,7 @@ constexpr Param<Numbers> a{
 Integrand sobol_g(std::size_t dimension, const Values& values) {
     std::vector<double> given = values[a];
     for (const double x : given)
-        if (!(x >= 0)) fail(ErrorKind::usage, "--integrand: sobol-g:a: {} is below 0", x);
+        if (!(x >= 0)) fail(ErrorKind::usage, "--integrand: sobol-g: --a: {} is below 0", x);
     const bool rising = given.empty();
     for (std::size_t j = given.size(); j < dimension; ++j)
         given.push_back(rising ? static_cast<double>(j) : given.back());

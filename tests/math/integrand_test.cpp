@@ -199,7 +199,7 @@ TEST(Integrands, AreNamedInLists) {
     EXPECT_EQ(split_specs(""), List{""});
     EXPECT_EQ(split_specs("owen,"), (List{"owen", ""}));
     EXPECT_EQ(error_of([] { integrand_kind("genz-gausian"); }),
-              "usage: --integrand: 'genz-gausian' is not an integrand | did you mean "
+              "usage: 'genz-gausian' is not an integrand | did you mean "
               "'genz-gaussian'?");
 }
 
