@@ -19,8 +19,9 @@
 //
 //             1/d! int_0^inf t^d e^-t prod (1 - e^(-a_i t)) / (a_i t) dt,
 //
-//         positive throughout, where inclusion and exclusion over the corners,
-//         1 / (d! prod a_i) sum_S (-1)^|S| / (1 + sum_S a_i), cancels all digits from d = 12 or so.
+//         positive throughout. Inclusion and exclusion over the corners,
+//         1 / (d! prod a_i) sum_S (-1)^|S| / (1 + sum_S a_i), is the same but cancels: in 10
+//         dimensions with difficulty 0.1 it has no right digit, where this has 15.
 // Source  A. Genz, "Testing multidimensional integration routines", in B. Ford, J. C. Rault,
 //         F. Thomasset (eds.), Tools, Methods and Languages for Scientific and Engineering
 //         Computation, North-Holland (1984) 81-94.

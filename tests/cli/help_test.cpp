@@ -80,8 +80,8 @@ TEST(Help, VersionNamesTheLibraries) {
     const Sandbox box;
     const Outcome outcome = box.run({"--version"});
     EXPECT_TRUE(outcome.out.starts_with("stipple ")) << outcome.out;
-    for (const char* name :
-         {"CLI11", "fmt", "nlohmann-json", "fftw", "oneTBB", "Boost", "Random123", "libpng", "muParser"})
+    for (const char* name : {"CLI11", "fmt", "nlohmann-json", "fftw", "oneTBB", "Boost",
+                             "Random123", "libpng", "muParser"})
         EXPECT_THAT(outcome.out, HasSubstr(name));
 }
 
