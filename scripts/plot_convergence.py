@@ -5,8 +5,8 @@
 Reads reports of `stipple analyze integration` (JSON, also many end to end, or CSV). A curve's name
 is the part of the measured file's name before the number: sobol_1024.csv belongs to 'sobol'. What
 is drawn at n is the root mean square of the errors of all sets of n points. A curve's slope is that
-of the straight line fitted to it by least squares; its band holds the true RMS error at each n with
-probability 0.95, where the errors of several sets are independent and normal.
+of the straight line fitted to it by least squares, with its standard error. Its band holds the true
+RMS error at each n with probability 0.95, where errors of sets are independent and normal.
 """
 
 import numpy as np
@@ -97,11 +97,16 @@ def band(error, sets):
 
 
 def fit(n, error):
-    """Slope and intercept of log error against log n; nothing of fewer than two counts."""
-    known = error > 0
-    if known.sum() < 2:
-        return None
-    return np.polyfit(np.log(n[known]), np.log(error[known]), 1)
+    """The line of log error against log n, and its slope in words with its standard error."""
+    if len(n) < 2:
+        return None, ""
+    if len(n) == 2:
+        line = np.polyfit(np.log(n), np.log(error), 1)
+        return line, f", $n^{{{line[0]:.2f}}}$"
+    line, covariance = np.polyfit(np.log(n), np.log(error), 1, cov="unscaled")
+    rest = np.log(error) - np.polyval(line, np.log(n))
+    wide = np.sqrt(covariance[0, 0] * (rest @ rest) / (len(n) - 2))
+    return line, f", $n^{{{line[0]:.2f} \\pm {wide:.2f}}}$"
 
 
 # ---------------------------------------------------------------- drawing
@@ -112,8 +117,7 @@ def draw_curve(axes, k, label, curve):
     shown = error > 0
     n, error, sets = n[shown], error[shown], sets[shown]
     colour = io.COLOURS[k % len(io.COLOURS)]
-    line = fit(n, error)
-    slope = "" if line is None else rf", $n^{{{line[0]:.2f}}}$"
+    line, slope = fit(n, error)
     axes.plot(
         n,
         error,
