@@ -8,6 +8,9 @@
 //
 //     p_upper = P(chi2 >= X^2),  p_lower = P(chi2 <= X^2),  p = min(1, 2 min(p_upper, p_lower))
 //
+// (p_lower not below the chance of the most even counts that there are, which chi-square takes for
+// 0: three points in each of three cells are nothing rare.)
+//
 // p < level with the upper tail the smaller one: non-uniform, the counts differ too much from what
 // is expected. With the lower tail: stratified, they differ less than those of random points do.
 // Else: uniform. A point in a cell of probability 0 is impossible: non-uniform, p = 0.
@@ -38,10 +41,9 @@
 // Promise counts, and so all results, are the same for any number of threads, and whether points
 //         come at once or in pieces. A coordinate of exactly 1 belongs to the last cell.
 // Beware  one set of low-discrepancy points is stratified, not random: its p is a description, not
-//         a chance. The p of random points is approximate where expectations are small. With few
-//         groups the statistic takes few values, and p_lower of the smallest, 0, is too small: of
-//         many small sets, combine the sum. A density's jump to 0 at the edge of a cell leaves it
-//         to rounding which of both cells a point on the jump is in.
+//         a chance. The p of random points is approximate where expectations are small, and with
+//         few groups, whose statistic takes few values. A density's jump to 0 at the edge of a cell
+//         leaves it to rounding which of both cells a point on the jump is in.
 // Source  K. Pearson, Philosophical Magazine 50 (1900) 157-175, doi:10.1080/14786440009463897.
 //         H. B. Mann, A. Wald, Annals of Mathematical Statistics 13 (1942) 306-317,
 //         doi:10.1214/aoms/1177731569 (number of cells). Z. Sidak, Journal of the American
@@ -161,7 +163,9 @@ void conclude(Report& report, const Tails& plain, const std::optional<Tails>& se
 /// With points where none can be, nothing is left to chance.
 Tails tails_of(const Fit& fit) {
     if (fit.impossible > 0) return {.upper = 0, .lower = 1};
-    return chi_square_tails(fit.statistic, fit.freedom());
+    Tails tails = chi_square_tails(fit.statistic, fit.freedom());
+    tails.lower = std::max(tails.lower, fit.most_even);
+    return tails;
 }
 
 Report shifted_report(const Fit& fit) {

@@ -12,7 +12,7 @@ namespace stipple::analyzers {
 void require_even(const Domain& domain, std::string_view analyzer) {
     if (domain.even()) return;
     fail_with_hint(ErrorKind::input, "chi-square takes every domain",
-                   "{} needs coordinates that preserve probability, which {} has none of", analyzer,
+                   "{} needs coordinates that preserve probability; {} has none", analyzer,
                    domain.spec());
 }
 

@@ -6,6 +6,7 @@
 
 #include "analyzers/outside.hpp"
 #include "core/error.hpp"
+#include "math/grid_nearest.hpp"
 
 namespace stipple::analyzers {
 namespace {
@@ -74,6 +75,12 @@ std::vector<Neighbor> nearest_neighbors(const PointSet& points, const Distances&
     run.need_memory(
         static_cast<double>(points.count()) * (48 + 10 * static_cast<double>(points.dimension())),
         "the search for nearest neighbours");
+    if (points.dimension() <= 3) {
+        const Box box =
+            distances.torus ? *distances.box : box_around(points.flat(), points.dimension());
+        auto found = all_nearest_by_grid(points.flat(), box, distances.torus, run);
+        if (found) return std::move(*found);
+    }
     const KdTree tree(points.flat(), points.dimension(), distances.sides(), run.stage(0, 0.5));
     return tree.all_nearest(run.stage(0.5, 1));
 }

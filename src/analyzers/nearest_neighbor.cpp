@@ -18,7 +18,8 @@
 //
 // Shape   points n x d. A duplicate has distance 0. A single point on the torus is its own
 //         neighbour, across the shortest side; elsewhere it has none and is refused.
-// Cost    O(n log n) for few dimensions; 10^6 points in 2-D take 0.9 s on one core.
+// Cost    O(n log n) for few dimensions; on one core 10^6 even points take 0.3 s in 2-D, 0.6 s in
+//         3-D; clustered ones in 2-D 1 s, as those do that a grid does not fit.
 // Promise exact: distances are the roots of sums of squares in float64, as comparing all pairs
 //         would find them. The pair is the one of lowest indices that has the smallest distance.
 //         Never depends on the number of threads.

@@ -31,6 +31,19 @@ std::uint64_t group_size(std::uint64_t n, std::uint64_t total) {
     return size;
 }
 
+/// The chance that independent points fall into equal groups as evenly as can be: n mod K groups
+/// hold one point more than the others. Chi-square, being continuous, takes it for 0.
+double most_even_chance(std::uint64_t n, std::uint64_t groups) {
+    const auto k = static_cast<double>(groups);
+    const auto more = static_cast<double>(n % groups);
+    const auto each = static_cast<double>(n / groups);
+    const auto log_factorial = [](double x) { return std::lgamma(x + 1); };
+    const double ways = log_factorial(k) - log_factorial(more) - log_factorial(k - more);
+    const double counts = log_factorial(static_cast<double>(n)) - (k - more) * log_factorial(each) -
+                          more * log_factorial(each + 1);
+    return std::min(1.0, std::exp(ways + counts - static_cast<double>(n) * std::log(k)));
+}
+
 /// Cells that points can be in, the least probable first; counts the points that are in others.
 std::vector<std::uint64_t> possible_cells(std::span<const std::uint64_t> counts,
                                           std::span<const Estimate> masses, Fit& found) {
@@ -112,6 +125,7 @@ Fit fit_equal(std::span<const std::uint64_t> counts, std::uint64_t n, const RunC
         const double off = scaled / static_cast<double>(total);
         found.statistic += off * off / expected;
     }
+    if (total % size == 0) found.most_even = most_even_chance(n, found.groups);
     return found;
 }
 

@@ -28,6 +28,7 @@ struct Fit {
     std::uint64_t pooled = 0;      ///< cells that were put together with others
     std::uint64_t impossible = 0;  ///< points in cells of probability 0
     double mass_error = 0;         ///< sum over the cells' probabilities
+    double most_even = 0;          ///< chance of the least statistic there is; 0: not known
 
     [[nodiscard]] double freedom() const { return static_cast<double>(groups - 1); }
 };

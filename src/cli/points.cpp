@@ -99,9 +99,10 @@ std::string command_of(const Arguments& arguments, const Generator& generator, c
     }
     const std::vector<std::string> silent = {"output",     "format", "threads", "quiet",
                                              "max-memory", "seed",   "progress"};
+    const std::vector<std::string> flags = {"with-pdf", "with-weight", "meta", "no-header"};
     for (const auto& [name, text] : arguments.common)
         if (std::ranges::find(silent, name) == silent.end())
-            type(name, text, name == "with-pdf" || name == "meta" || name == "no-header");
+            type(name, text, std::ranges::find(flags, name) != flags.end());
     if (arguments.has("seed")) type("seed", std::to_string(seed), false);
     if (target.format->name != "csv") type("format", target.format->name, false);
     return join(words, " ");
@@ -118,7 +119,7 @@ Target target_of(const Arguments& arguments) {
     target.single = asks_single(arguments, target.path.ends_with(".f32"));
     if (const auto digits = arguments.integer("precision", 0, 1000))
         target.precision = static_cast<int>(*digits);
-    target.with_pdf = arguments.has("with-pdf");
+    target.columns = {.pdf = arguments.has("with-pdf"), .weight = arguments.has("with-weight")};
     const bool terminal = target.path == "-" && isatty(STDOUT_FILENO) == 1;
     if (target.format->traits.binary && terminal)
         fail_with_hint(ErrorKind::usage, "name a file with -o, or pipe it on",
@@ -215,7 +216,7 @@ namespace {
 /// Replications of the input by a scramble.
 int scramble(const Arguments& arguments, const Spec& spec, const std::vector<PointSet>& sets,
              const Target& target, Session& session) {
-    for (const char* option : {"inverse", "with-pdf"})
+    for (const char* option : {"inverse", "with-pdf", "with-weight"})
         if (arguments.has(option))
             fail(ErrorKind::usage, "--{}: {} is a scramble, random and of density 1", option,
                  spec.name);

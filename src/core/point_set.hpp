@@ -27,9 +27,10 @@ struct Provenance {
     std::uint64_t start = 0;
     std::vector<std::string> warps;  ///< specs, in order
     std::string domain = "unit-cube";
-    std::string bounds;   ///< empty: none
-    std::string shard;    ///< "I/K"; empty: the whole
-    std::string command;  ///< that makes it, without what cannot change it
+    std::string bounds;     ///< empty: none
+    std::string shard;      ///< "I/K"; empty: the whole
+    double efficiency = 1;  ///< share of the points that warps did not drop
+    std::string command;    ///< that makes it, without what cannot change it
 
     bool operator==(const Provenance&) const = default;
 };

@@ -14,8 +14,9 @@
 //
 // Shape   d = 1, ..., 6; distances are those in the box of --bounds, across its faces too (torus)
 //         or not.
-// Cost    at c = 1 about 0.1 ms a point in 2-D, growing slowly with their number and with c, and
-//         0.5 ms in 3-D; some 5 KB a point. To make all candidates would be n^2 / 2 searches.
+// Cost    10^5 points in 2-D take 1.5e10 instructions and 0.2 GB, most of the time waiting for
+//         memory; slowly more a point with their number and with c, and some ten times as much in
+//         3-D. To make all candidates would be n^2 / 2 searches.
 // Promise the law of the points is exactly that of Mitchell's method with all m candidates made.
 //         Point i does not depend on the number of points.
 // Source  D. P. Mitchell, Comput. Graph. (SIGGRAPH) 25 (1991) 157-164, doi:10.1145/122718.122736.
@@ -30,6 +31,8 @@
 #include "core/text.hpp"
 #include "generators/box_space.hpp"
 #include "generators/generator.hpp"
+#include "generators/near_lists.hpp"
+#include "math/covering_bound.hpp"
 #include "math/mixer.hpp"
 #include "math/point_grid.hpp"
 #include "math/roots.hpp"
@@ -153,6 +156,7 @@ class Sieve {
           factor_(factor),
           rng_(seed),
           points_(space.box, space.torus),
+          near_(space.box, space.torus),
           heap_(space.largest_distance()),
           tiles_(space.box, space.torus, infinity) {
         Cell whole{.low = {}, .bound = infinity};
@@ -165,6 +169,14 @@ class Sieve {
             *std::ranges::max_element(sides_[depth]) /= 2;
             shares_[depth] = shares_[depth - 1] / 2;
         }
+        for (std::size_t depth = 0; depth <= most_halvings; ++depth) {
+            double squared = 0;
+            for (std::size_t k = 0; k < D; ++k) {
+                halves_[depth][k] = sides_[depth][k] / 2;
+                squared += sides_[depth][k] * sides_[depth][k];
+            }
+            diagonals_[depth] = std::sqrt(squared);
+        }
         cells_.push_back(whole);
         heap_.push({infinity, 0});
         tile_cells_.resize(1);
@@ -176,18 +188,20 @@ class Sieve {
         best_ = -1;
         all_ = std::max(1.0, std::floor(factor_ * static_cast<double>(points_.count())));
         // As high as peaks of the distance rise above the level that the best candidate reaches.
-        constexpr double fine = 4;
+        constexpr double fine = 64;
         open_size_ = std::min(0.25, fine * factor_ * nth_root(all_, D + 1) / all_);
         while (!heap_.empty() && all_ * open_share_ < eager) pull();
+        crowded_ = all_ * open_share_ > 4 * eager;
+        find_depths();
         auto left = static_cast<std::uint64_t>(all_);
         const std::uint64_t hits = heap_.empty() ? left : draws.binomial(left, open_share_);
         for (std::uint64_t i = 0; i < hits; ++i) {
-            const std::uint32_t cell = open_cell(draws.next() * open_share_);
-            if (!try_candidate(cells_[cell], draws)) missed_.push_back(cell);
+            const Open& open = open_cell(draws.next() * open_share_);
+            try_candidate(open, draws);
         }
         left -= hits;
         while (!heap_.empty() && best_ < heap_.top().bound && left > 0) left -= go_on(left, draws);
-        points_.add(winner_.data());
+        add_winner();
         tidy();
     }
 
@@ -197,7 +211,9 @@ class Sieve {
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     static constexpr std::uint32_t most_halvings = 50;
     static constexpr std::uint32_t closed = 0xffff'ffff;
-    static constexpr double eager = 4;  ///< candidates that are to fall into open cells, at least
+    static constexpr bool listed = D <= 3;
+    static constexpr double reach_in_best = 1.5;
+    static constexpr double eager = 64;  ///< candidates that are to fall into open cells, at least
 
     struct Cell {
         Point low;
@@ -206,6 +222,25 @@ class Sieve {
         std::uint32_t points = 0;     ///< when the bound was worked out
         std::uint32_t slot = closed;  ///< where in the list of open cells
     };
+
+    /// A cell that candidates are thrown into.
+    struct Open {
+        Point low;
+        double bound;
+        std::uint32_t cell;
+        std::uint32_t depth;
+        std::uint32_t size = 0;             ///< of the points below
+        std::array<Point, D + 1> points{};  ///< near it, seen from `low`: most candidates lose here
+    };
+
+    void add_winner() {
+        points_.add(winner_.data());
+        if (!listed) return;
+        if (2 * points_.count() >= 3 * near_.renewed_at() && best_ > 0)
+            near_.renew(reach_in_best * best_, points_.rows());
+        else if (near_.reach() > 0)
+            near_.add(winner_.data());
+    }
 
     /// Takes the highest cell of the heap: bounds it anew, halves it, or opens it, which gives
     /// true.
@@ -218,7 +253,7 @@ class Sieve {
             heap_.push({cells_[id].bound, id});
             return false;
         }
-        if (worth_a_cut(cells_[id], open_size_)) {
+        if (worth_a_cut(cells_[id].depth, open_size_)) {
             for (const std::uint32_t half : halves(id)) heap_.push({cells_[half].bound, half});
             return false;
         }
@@ -226,15 +261,16 @@ class Sieve {
         return true;
     }
 
-    [[nodiscard]] bool worth_a_cut(const Cell& cell, double size) const {
-        return all_ * shares_[cell.depth] > size && cell.depth < most_halvings;
+    [[nodiscard]] bool worth_a_cut(std::uint32_t depth, double size) const {
+        return all_ * shares_[depth] > size && depth < most_halvings;
     }
 
     void open(std::uint32_t id) {
         Cell& cell = cells_[id];
         auto& list = open_[cell.depth];
         cell.slot = static_cast<std::uint32_t>(list.size());
-        list.push_back(id);
+        list.push_back({cell.low, cell.bound, id, cell.depth});
+        note_points(list.back());
         open_share_ += shares_[cell.depth];
         newest_ = id;
         tile_cells_[tiles_.cell_of(center(cell).data())].push_back(id);
@@ -243,7 +279,7 @@ class Sieve {
     void close(std::uint32_t id) {
         Cell& cell = cells_[id];
         auto& list = open_[cell.depth];
-        cells_[list.back()].slot = cell.slot;
+        cells_[list.back().cell].slot = cell.slot;
         list[cell.slot] = list.back();
         list.pop_back();
         cell.slot = closed;
@@ -256,16 +292,26 @@ class Sieve {
         const double rest = 1 - open_share_;
         if (!pull()) return 0;
         const Cell& cell = cells_[newest_];
+        const Open open = open_[cell.depth][cell.slot];
         const std::uint64_t hits =
             heap_.empty() ? left : draws.binomial(left, shares_[cell.depth] / rest);
-        for (std::uint64_t i = 0; i < hits; ++i) try_candidate(cell, draws);
+        for (std::uint64_t i = 0; i < hits; ++i) try_candidate(open, draws);
         return hits;
     }
 
+    /// Depths between which there are open cells.
+    void find_depths() {
+        const auto used = [](const auto& list) { return !list.empty(); };
+        const auto first = std::ranges::find_if(open_, used);
+        shallowest_ = static_cast<std::uint32_t>(first - open_.begin());
+        const auto last = std::find_if(open_.rbegin(), open_.rend(), used);
+        deepest_ = static_cast<std::uint32_t>(open_.rend() - last) - 1;
+    }
+
     /// The cell at a place of all open ones laid side by side.
-    [[nodiscard]] std::uint32_t open_cell(double place) const {
+    [[nodiscard]] const Open& open_cell(double place) const {
         std::uint32_t last = 0;
-        for (std::uint32_t depth = 0; depth <= most_halvings; ++depth) {
+        for (std::uint32_t depth = shallowest_; depth <= deepest_; ++depth) {
             const double share = static_cast<double>(open_[depth].size()) * shares_[depth];
             if (share > 0) last = depth;
             if (place < share) break;
@@ -280,11 +326,10 @@ class Sieve {
     /// halves them.
     void tidy() {
         if (points_.count() > 2 * tiles_.size()) make_tiles();
-        const bool crowded = all_ * open_share_ > 4 * eager;
-        const double level = crowded || heap_.empty() ? best_ : heap_.top().bound;
+        const double level = crowded_ || heap_.empty() ? best_ : heap_.top().bound;
         for (const std::uint32_t id : missed_)
             if (cells_[id].slot != closed && !closes(id, level) &&
-                worth_a_cut(cells_[id], open_size_ / 4))
+                worth_a_cut(cells_[id].depth, open_size_ / 4))
                 cut(id, level);
         missed_.clear();
         if (points_.count() == 1) return;
@@ -306,8 +351,13 @@ class Sieve {
 
     /// Bounds an open cell anew; whether that closes it.
     bool closes(std::uint32_t id, double level) {
-        bound(cells_[id]);
-        if (cells_[id].bound >= level) return false;
+        Cell& cell = cells_[id];
+        const double before = cell.bound;
+        bound(cell);
+        if (cell.bound >= level) {
+            if (cell.bound < before) note_points(open_[cell.depth][cell.slot]);
+            return false;
+        }
         close(id);
         heap_.push({cells_[id].bound, id});
         return true;
@@ -334,8 +384,8 @@ class Sieve {
         tiles_ = GridFrame<D>(space_.box, space_.torus, side);
         tile_cells_.assign(tiles_.size(), {});
         for (const auto& list : open_)
-            for (const std::uint32_t id : list)
-                tile_cells_[tiles_.cell_of(center(cells_[id]).data())].push_back(id);
+            for (const Open& open : list)
+                tile_cells_[tiles_.cell_of(center(cells_[open.cell]).data())].push_back(open.cell);
     }
 
     [[nodiscard]] Point center(const Cell& cell) const {
@@ -344,42 +394,74 @@ class Sieve {
         return c;
     }
 
-    /// For each of 2^D parts of the cell the least of what each point near by allows, the distance
-    /// of its farthest corner; of the parts the highest.
+    /// Bounds a cell anew by all points that may be nearest somewhere in it.
     void bound(Cell& cell) {
-        if (cell.points == points_.count()) return;
+        const std::uint32_t before = cell.points;
+        if (before == points_.count()) return;
         cell.points = static_cast<std::uint32_t>(points_.count());
-        const Point& side = sides_[cell.depth];
         const Point middle = center(cell);
-        std::array<double, parts> least;
-        least.fill(cell.bound * cell.bound);
-        points_.visit(middle.data(), cell.bound, [&](std::size_t, double, const double* q) {
-            lower_to_corners(middle, side, q, least);
-            return true;
-        });
+        const double reach = reach_of(cell);
+        if (near_.reach() >= reach && before > 0) {
+            const auto& list = near_.at(middle.data());
+            if (list.empty() || list.back().index < before) return;  // nothing new near by
+        }
+        gather(middle, reach);
+        if (covering_.empty()) return;
         constexpr double safety = 1 + 1e-12;  // far above what rounding does
-        const double highest = *std::ranges::max_element(least);
-        cell.bound = std::min(cell.bound, std::sqrt(highest) * safety);
+        cell.bound =
+            std::min(cell.bound, std::sqrt(covering_.squared(halves_[cell.depth])) * safety);
     }
 
-    static constexpr std::size_t parts = std::size_t{1} << D;
+    /// Farther from the cell's centre no point is the nearest one of a place in it.
+    [[nodiscard]] double reach_of(const Cell& cell) const {
+        return cell.bound + diagonals_[cell.depth] / 2;
+    }
 
-    /// Lowers each part's squared bound to the distance of q to its farthest corner.
-    void lower_to_corners(const Point& middle, const Point& side, const double* q,
-                          std::array<double, parts>& least) const {
-        std::array<double, parts> far{};
-        for (std::size_t k = 0; k < D; ++k) {
-            const double quarter = side[k] / 4;
-            double squares[2];
-            for (const int upper : {0, 1}) {
-                double d = std::abs(middle[k] + (upper ? quarter : -quarter) - q[k]);
-                if (space_.torus) d = std::min(d, points_.frame().side(k) - d);
-                squares[upper] = (std::abs(d) + quarter) * (std::abs(d) + quarter);
+    /// All points within the reach of the middle.
+    void gather(const Point& middle, double reach) {
+        covering_.clear();
+        if (near_.reach() >= reach) {
+            for (const auto& near : near_.at(middle.data())) {
+                const Point way = shift(middle, near.at.data());
+                double squared = 0;
+                for (const double x : way) squared += x * x;
+                if (squared <= reach * reach) covering_.add(way);
             }
-            for (std::size_t part = 0; part < parts; ++part) far[part] += squares[part >> k & 1];
+            return;
         }
-        for (std::size_t part = 0; part < parts; ++part)
-            least[part] = std::min(least[part], far[part]);
+        points_.visit(middle.data(), reach, [&](std::size_t, double, const double* q) {
+            covering_.add(shift(middle, q));
+            return true;
+        });
+    }
+
+    /// Gives an open cell the points that its bound rests on.
+    void note_points(Open& open) {
+        Cell& cell = cells_[open.cell];
+        open.bound = cell.bound;
+        open.size = 0;
+        gather(center(cell), reach_of(cell));
+        if (covering_.empty()) return;
+        const Point& half = halves_[cell.depth];
+        covering_.squared(half);
+        covering_.visit_basis([&](const Point& q) {
+            Point& noted = open.points[open.size++];
+            for (std::size_t k = 0; k < D; ++k) noted[k] = q[k] + half[k];
+        });
+    }
+
+    /// The way from p to the nearest image of q.
+    [[nodiscard]] Point shift(const Point& p, const double* q) const {
+        Point way;
+        for (std::size_t k = 0; k < D; ++k) {
+            way[k] = q[k] - p[k];
+            if (!space_.torus) continue;
+            const double side = sides_[0][k];
+            way[k] = way[k] > side / 2    ? way[k] - side
+                     : way[k] < -side / 2 ? way[k] + side
+                                          : way[k];
+        }
+        return way;
     }
 
     /// The cell's number becomes that of one half.
@@ -397,42 +479,75 @@ class Sieve {
         return {id, other};
     }
 
-    /// Makes a candidate in the cell; whether it is the best so far.
-    bool try_candidate(const Cell& cell, PointDraws& draws) {
+    /// Makes a candidate in the cell, and keeps it if it is the best so far.
+    void try_candidate(const Open& open, PointDraws& draws) {
+        Point place;  // seen from the cell's corner
         Point p;
-        for (std::size_t k = 0; k < D; ++k) do
-                p[k] = cell.low[k] + draws.next() * sides_[cell.depth][k];
-            while (p[k] >= space_.box.high[k]);
-        if (best_ > 0 && points_.any_nearer(p.data(), best_)) return false;
-        const double guess = cell.bound < infinity ? cell.bound : space_.largest_distance();
-        const double distance = std::sqrt(points_.nearest_squared(p.data(), guess));
-        if (distance <= best_) return false;
+        for (std::size_t k = 0; k < D; ++k) do {
+                place[k] = draws.next() * sides_[open.depth][k];
+                p[k] = open.low[k] + place[k];
+            } while (p[k] >= space_.box.high[k]);
+        for (std::size_t i = 0; i < open.size && best_ > 0; ++i) {
+            double squared = 0;
+            for (std::size_t k = 0; k < D; ++k)
+                squared += (place[k] - open.points[i][k]) * (place[k] - open.points[i][k]);
+            if (squared <= best_ * best_) {
+                if ((crowded_ && open.bound < best_) || worth_a_cut(open.depth, open_size_ / 4))
+                    missed_.push_back(open.cell);
+                return;
+            }
+        }
+        const double distance = distance_of(p, open.bound);
+        if (distance <= best_) {
+            missed_.push_back(open.cell);
+            return;
+        }
         best_ = distance;
         winner_ = p;
-        return true;
+    }
+
+    /// Distance of the nearest point, which is at most `bound`; or some number up to the best
+    /// distance so far, if that is not reached.
+    [[nodiscard]] double distance_of(const Point& p, double bound) const {
+        if (near_.reach() >= bound) {
+            double least = infinity;
+            for (const auto& near : near_.at(p.data()))
+                least = std::min(least, points_.frame().squared_distance(p.data(), near.at.data()));
+            return std::sqrt(least);
+        }
+        if (best_ > 0 && points_.any_nearer(p.data(), best_)) return 0;
+        const double guess = bound < infinity ? bound : space_.largest_distance();
+        return std::sqrt(points_.nearest_squared(p.data(), guess));
     }
 
     const BoxSpace& space_;
     double factor_;
     Rng rng_;
     GrowingPoints<D> points_;
-    std::array<Point, most_halvings + 1> sides_{};     ///< of cells, by depth
+    NearLists<D> near_;                              ///< the same points; empty unless `listed`
+    std::array<Point, most_halvings + 1> sides_{};   ///< of cells, by depth
+    std::array<Point, most_halvings + 1> halves_{};  ///< of those sides
+    std::array<double, most_halvings + 1> diagonals_{};
     std::array<double, most_halvings + 1> shares_{1};  ///< of the box, by depth
     std::vector<Cell> cells_;
     WaitingCells heap_;
-    std::array<std::vector<std::uint32_t>, most_halvings + 1> open_;  ///< by depth
-    double open_share_ = 0;                                           ///< of the box; exact
-    std::uint32_t newest_ = 0;                                        ///< cell opened last
-    GridFrame<D> tiles_;                                              ///< to find open cells by
-    std::vector<std::vector<std::uint32_t>> tile_cells_;              ///< some closed meanwhile
-    std::vector<std::uint32_t> missed_;                               ///< where candidates lost
+    std::array<std::vector<Open>, most_halvings + 1> open_;  ///< by depth
+    bool crowded_ = false;                                   ///< more is open than need be
+    std::uint32_t shallowest_ = 0;
+    std::uint32_t deepest_ = 0;
+    double open_share_ = 0;                               ///< of the box; exact
+    std::uint32_t newest_ = 0;                            ///< cell opened last
+    GridFrame<D> tiles_;                                  ///< to find open cells by
+    std::vector<std::vector<std::uint32_t>> tile_cells_;  ///< some closed meanwhile
+    std::vector<std::uint32_t> missed_;                   ///< where candidates lost
+    CoveringBound<D> covering_;
     double open_size_ = 1;  ///< candidates in a cell that may be opened
     double all_ = 1;        ///< candidates for the point that is being looked for
     double best_ = 0;       ///< distance of the best of them so far
     Point winner_{};
 };
 
-/// What cells and their lists take for a point, as measured in 2-D.
+/// What cells and the lists take for a point: 2000 in 2-D, more in 3-D.
 constexpr double cell_bytes = 5000;
 
 template <std::size_t D>

@@ -5,8 +5,14 @@
 #include <cmath>
 
 #include "core/text.hpp"
+#include "math/gaussian_relaxation.hpp"
 
 namespace stipple {
+
+void check_torus(const Values& options) {
+    if (options[torus_option] && options[bounded_option])
+        fail(ErrorKind::usage, "--torus contradicts --bounded; give one of them");
+}
 
 double BoxSpace::largest_distance() const {
     double squared = 0;
@@ -55,8 +61,7 @@ BoxSpace space_of(const Plan& plan, bool torus) {
 }
 
 Plan plan_in_box(const Request& request, const Values& options) {
-    if (options[torus_option] && options[bounded_option])
-        fail(ErrorKind::usage, "--torus contradicts --bounded; give one of them");
+    check_torus(options);
     const Plan plan = default_plan(request, 1024, request.bounds ? request.bounds->dimension() : 2);
     const BoxSpace space = space_of(plan, false);
     if (space.box.dimension() != plan.dimension)
@@ -67,6 +72,39 @@ Plan plan_in_box(const Request& request, const Values& options) {
         fail(ErrorKind::usage, "--bounds: {} has no distances that float64 can square",
              format_box(space.box));
     return plan;
+}
+
+std::vector<double> proportions_of(const Plan& plan) {
+    constexpr double alike = 1 + 1e-9;  // squares far from the origin have sides with rounding
+    if (!plan.bounds) return {};
+    std::vector<double> sides;
+    for (std::size_t k = 0; k < plan.bounds->dimension(); ++k)
+        sides.push_back(plan.bounds->extent(k));
+    const double shortest = std::ranges::min(sides);
+    for (double& side : sides) side /= shortest;
+    if (std::ranges::max(sides) <= alike) sides.clear();
+    return sides;
+}
+
+Plan plan_in_proportion(const Request& request) {
+    Plan plan = default_plan(request, 1024, request.bounds ? request.bounds->dimension() : 2);
+    if (!plan.bounds) return plan;
+    if (plan.bounds->dimension() != plan.dimension)
+        fail(ErrorKind::usage, "--bounds: {} ranges for {} coordinates", plan.bounds->dimension(),
+             plan.dimension);
+    for (const double side : proportions_of(plan))
+        if (!(side <= largest_proportion))
+            fail(ErrorKind::usage,
+                 "--bounds: {} has a side {:.5g} times as long as another; expected {:.0f} times "
+                 "at most",
+                 format_box(*plan.bounds), side, largest_proportion);
+    return plan;
+}
+
+void put_in_box(const Plan& plan, PointSet& points) {
+    if (!plan.bounds) return;
+    scale_into(*plan.bounds, points.flat());
+    points.domain = box_domain(*plan.bounds);
 }
 
 PointSet set_in_box(std::vector<double> rows, const Plan& plan) {

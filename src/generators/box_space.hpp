@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <string_view>
+#include <vector>
 
 #include "core/domain.hpp"
 #include "core/error.hpp"
@@ -18,6 +19,9 @@ inline constexpr Param<bool> torus_option{
     .name = "torus", .help = "Distances go across opposite faces (so they do by default)"};
 inline constexpr Param<bool> bounded_option{.name = "bounded",
                                             .help = "Distances end at the faces"};
+
+/// @throws Error(usage): --torus and --bounded
+void check_torus(const Values& options);
 
 /// A box with distances; they go across opposite faces on the torus.
 struct BoxSpace {
@@ -49,6 +53,17 @@ BoxSpace space_of(const Plan& plan, bool torus);
 /// @throws Error(usage): --torus and --bounded, a box of another dimension, or one whose distances
 /// cannot be squared.
 Plan plan_in_box(const Request& request, const Values& options);
+
+/// Sides of the plan's box in proportion, the shortest 1; none where all are alike, as those of the
+/// unit cube.
+std::vector<double> proportions_of(const Plan& plan);
+
+/// The plan of a generator that knows its box by its proportions. @throws Error(usage): a box of
+/// another dimension, or with a side longer than largest_proportion times another.
+Plan plan_in_proportion(const Request& request);
+
+/// Moves points of the unit cube into the plan's box, which becomes their domain.
+void put_in_box(const Plan& plan, PointSet& points);
 
 /// The points, on their box, from index plan.start on.
 PointSet set_in_box(std::vector<double> rows, const Plan& plan);

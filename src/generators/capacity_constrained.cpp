@@ -38,7 +38,6 @@
 namespace stipple::generators {
 namespace {
 
-using planar::bounded;
 using planar::from;
 
 constexpr Param<std::int64_t> iterations{.name = "iterations",
@@ -127,7 +126,7 @@ void need_memory(std::uint64_t n, const RunContext& run) {
 
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     need_memory(plan.count, run);
-    const Planar planar = planar_of(plan, !options[bounded]);
+    const Planar planar = planar_of(plan, !options[bounded_option]);
     const auto density = planar_density(options, run);
     const auto floor = [](double value) { return std::max(value, 1e-3); };
     const auto moments = planar_moments(density, floor, planar, run);
@@ -169,7 +168,7 @@ Generator capacity_constrained() {
                        .prefix = false,
                        .boxed = true},
             .options = Schema(iterations, crystals, planar::initial, from, density_option,
-                              invert_option, planar::torus, bounded),
+                              invert_option, torus_option, bounded_option),
             .aliases = {"bnot", "optimal-transport", "ccvt"},
             .plan = planar_plan,
             .set = make};

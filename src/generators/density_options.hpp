@@ -9,7 +9,8 @@
 namespace stipple {
 
 inline constexpr Param<Path> density_option{
-    {.name = "density", .help = "Picture (PNG) or array (NPY): points per area go by its values"}};
+    {.name = "density",
+     .help = "Picture (PNG, PFM) or array (NPY): points per area go by its values"}};
 inline constexpr Param<bool> invert_option{
     .name = "invert", .help = "Points where --density is dark, as ink on paper"};
 

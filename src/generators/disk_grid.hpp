@@ -42,6 +42,7 @@ struct DiskGrid {
             scales[k] = widths[k] / radius;
             const double across = radius / widths[k] * (1 + 1e-6);
             reach[k] = across < cells[k] ? static_cast<std::uint32_t>(across) + 1 : cells[k];
+            inner[k] = reach[k] == 2 && cells[k] > 4 ? cells[k] - 4 : 0;
             tiles[k] = (cells[k] + tile_side - 1) >> tile_bits;
             cell_count *= cells[k];
             tile_count *= tiles[k];
@@ -90,7 +91,7 @@ struct DiskGrid {
     [[nodiscard]] bool interior(const Index& cell) const {
         bool inside = true;
         for (std::size_t k = 0; k < D; ++k)
-            inside &= reach[k] == 2 && cell[k] >= 2 && cell[k] + 2 < cells[k];
+            inside &= cell[k] - 2 < inner[k];  // wraps around below 2
         return inside;
     }
 
@@ -112,6 +113,7 @@ struct DiskGrid {
     Point scales{};  ///< of a cell, in radii
     Index cells{};
     Index reach{};  ///< cells that a distance of the radius can lead across
+    Index inner{};  ///< cells from the third to the last but two, if these are what it cannot leave
     Index tiles{};
     std::size_t cell_count = 1;
     std::size_t tile_count = 1;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/rng.hpp"
 #include "math/exponential.hpp"
 
 namespace stipple {
@@ -12,14 +11,21 @@ namespace {
 
 constexpr double most_at_once = 16;  ///< mean that inversion is used for; more is drawn in portions
 
+constexpr auto inverses = [] {
+    std::array<double, 64> table{};
+    for (std::size_t k = 1; k < table.size(); ++k) table[k] = 1 / static_cast<double>(k);
+    return table;
+}();
+
 /// A Poisson number by inversion: the first whose cumulated probability is above u.
-std::uint64_t by_inversion(double u, double mean, double none) {
+std::uint64_t first_above(double u, double mean, double none) {
     constexpr double nothing = 1e-20;  // probabilities that no double u can tell from 0
     double chance = none;
     double sum = none;
     std::uint64_t k = 0;
     while (u >= sum && chance > nothing) {
-        chance *= mean / static_cast<double>(++k);
+        ++k;
+        chance *= k < inverses.size() ? mean * inverses[k] : mean / static_cast<double>(k);
         sum += chance;
     }
     return k;
@@ -36,14 +42,17 @@ Shower::Shower(double mean, std::size_t most) : mean_(mean) {
     }
 }
 
-std::uint64_t Shower::on(std::size_t parts, Mixer& mixer) const {
+std::uint64_t Shower::by_inversion(double u, std::size_t parts) const {
+    return first_above(u, mean(parts), none_[parts]);
+}
+
+std::uint64_t Shower::in_portions(double u, std::size_t parts, Mixer& mixer) const {
     const double all = mean(parts);
-    if (parts < none_.size()) return by_inversion(to_unit(mixer.next()), all, none_[parts]);
     const double portions = std::ceil(all / most_at_once);
     const double none = exponential(-all / portions);
     std::uint64_t sum = 0;
-    for (double i = 0; i < portions; ++i)
-        sum += by_inversion(to_unit(mixer.next()), all / portions, none);
+    for (double left = portions; left > 0; --left, u = to_unit(mixer.next()))
+        sum += first_above(u, all / portions, none);
     return sum;
 }
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/rng.hpp"
 #include "math/mixer.hpp"
 
 namespace stipple {
@@ -23,9 +24,16 @@ class Shower {
     }
 
     /// Darts on that many parts.
-    [[nodiscard]] std::uint64_t on(std::size_t parts, Mixer& mixer) const;
+    [[nodiscard]] std::uint64_t on(std::size_t parts, Mixer& mixer) const {
+        const double u = to_unit(mixer.next());
+        if (parts < none_.size()) return u < none_[parts] ? 0 : by_inversion(u, parts);
+        return in_portions(u, parts, mixer);
+    }
 
   private:
+    [[nodiscard]] std::uint64_t by_inversion(double u, std::size_t parts) const;
+    [[nodiscard]] std::uint64_t in_portions(double u, std::size_t parts, Mixer& mixer) const;
+
     double mean_;
     std::vector<double> none_;  ///< probability of no dart on so many parts
 };

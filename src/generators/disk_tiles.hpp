@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/parallel.hpp"
+#include "generators/disk_covers.hpp"
 #include "generators/disk_grid.hpp"
 #include "generators/disk_window.hpp"
 #include "generators/near_disks.hpp"
@@ -24,10 +25,9 @@ namespace stipple {
 template <std::size_t D>
 struct Candidate {
     std::array<double, D> at;
-    std::array<float, D> off;  ///< from its cell's corner, in radii
-    std::uint32_t time;        ///< within the shower
-    std::uint16_t place;       ///< of its cell in the tile
-    std::uint16_t next;        ///< the next one of the same cell in order of time, from 1 on
+    std::uint32_t time;   ///< within the shower
+    std::uint16_t place;  ///< of its cell in the tile
+    std::uint16_t next;   ///< the next one of the same cell in order of time, from 1 on
 
     [[nodiscard]] bool before(const Candidate& other) const {
         return time < other.time || (time == other.time && at < other.at);
@@ -96,6 +96,9 @@ class CellTiles : public TilesBase<D> {
     using typename Base::Index;
     using typename Base::Point;
     using typename Base::Tile;
+    using Off = std::array<float, D>;
+
+    static constexpr bool knows_parts = true;
 
     explicit CellTiles(const Grid& grid)
         : Base(grid),
@@ -103,8 +106,50 @@ class CellTiles : public TilesBase<D> {
           heads_(grid.cell_count),
           places_(grid.cell_count),
           taken_(grid.cell_count / grid.cells[0] * pitch_ + 8),
-          pending_(taken_) {
+          pending_(taken_),
+          covers_(grid) {
+        for (std::size_t k = 0; k < D; ++k)
+            to_parts_[k] = static_cast<float>(double{cell_parts<D>} / grid.scales[k]);
         for (std::size_t b = 0; b < about_.size(); ++b) look_at(b);
+        for (std::size_t part = 0; part < parts_of_cell; ++part)
+            for (std::size_t b = 0; b < about_.size(); ++b)
+                if (reaches(b, part)) masks_[part][b / 25] |= 1U << (b % 25);
+        for (const auto& masks : masks_)
+            for (std::size_t group = 0; group < groups; ++group)
+                masks_[whole][group] |= masks[group];
+    }
+
+    /// Asks for the cells of a row that is soon reached from this one; always inline, since GCC
+    /// takes a call that does nothing but fetch for one that does nothing.
+    [[gnu::always_inline]] void fetch_row(const Tile& tile, const Index& row) const {
+        constexpr std::uint32_t ahead = 5;
+        constexpr std::size_t line = 64;  // bytes
+        Index there = row;
+        there[1] += ahead;
+        if (there[1] >= grid_.cells[1]) return;
+        there[0] = tile.first[0];
+        const std::size_t at = grid_.number_of(there);
+        const std::size_t end = at + tile.last[0] - tile.first[0];
+        for (std::size_t i = at; i < end; i += line / sizeof(PartBits)) covers_.fetch(i);
+        for (std::size_t i = at; i < end; i += line / sizeof(Off)) __builtin_prefetch(&places_[i]);
+        for (std::size_t i = at; i < end; i += line / 2) __builtin_prefetch(&heads_[i]);
+    }
+
+    /// The same for candidates, which lie in order of their rows, as the i-th is reached.
+    [[gnu::always_inline]] void fetch_about(const Tile& tile, std::size_t i) const {
+        const auto row = [&](std::size_t j) { return tile.candidates[j].place >> Grid::tile_bits; };
+        if (i == 0 || row(i) == row(i - 1)) return;
+        fetch_row(tile, Grid::cell_at(tile.first, tile.candidates[i].place));
+    }
+
+    /// Parts that a point covers alone, of a cell and those behind it along the first direction.
+    [[nodiscard]] const PartBits* covered(const Index& cell) const {
+        return covers_.row(grid_.number_of(cell));
+    }
+
+    /// Whether a point is known to cover a place of a cell.
+    [[nodiscard]] bool covers(const Index& cell, const Point& place) const {
+        return covers_.covers(grid_.number_of(cell), place);
     }
 
     /// Gets a desk ready for a tile.
@@ -117,7 +162,7 @@ class CellTiles : public TilesBase<D> {
         near.clear();
         if (grid_.interior(cell)) {
             const std::size_t at = grid_.number_of(cell);
-            for_bits(taken_, cell, [&](const Neighbour& n) {
+            for_bits(taken_, cell, whole, [&](const Neighbour& n) {
                 auto p = places_[at + static_cast<std::size_t>(n.cells)];
                 for (std::size_t k = 0; k < D; ++k) p[k] += n.off[k];
                 near.add(p);
@@ -133,6 +178,23 @@ class CellTiles : public TilesBase<D> {
             });
         }
         near.close();
+    }
+
+    /// Whether a point covers the place at `off` from a cell's corner.
+    [[nodiscard]] Hit hit_at(const Tile& tile, const Index& cell, const Off& off,
+                             Desk<D>& desk) const {
+        if (!grid_.interior(cell)) {
+            gather(tile, cell, desk, desk.near);
+            return stipple::hits<D, float>(desk.near, off, float_slack);
+        }
+        const std::size_t at = grid_.number_of(cell);
+        Hit hit = Hit::no;
+        for_bits(taken_, cell, part_of(off), [&](const Neighbour& n) {
+            const float squared = squared_from(at, n, off);
+            if (squared < 1 + float_slack) hit = squared < 1 - float_slack ? Hit::yes : Hit::unsure;
+            return hit != Hit::yes;
+        });
+        return hit;
     }
 
     void gather(const Tile&, const Index& cell, const Desk<D>&, NearDisks<D, double>& near) const {
@@ -159,17 +221,41 @@ class CellTiles : public TilesBase<D> {
         return hit;
     }
 
-    /// Lets the tile's candidates be found.
-    void publish(Tile& tile) {
-        auto& all = tile.candidates;
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            const Index cell = Grid::cell_at(tile.first, all[i].place);
-            std::uint16_t* link = &heads_[grid_.number_of(cell)];
-            if (*link == 0) flip(pending_, cell);
-            while (*link != 0 && all[*link - 1U].before(all[i])) link = &all[*link - 1U].next;
-            all[i].next = *link;
-            *link = static_cast<std::uint16_t>(i + 1);
+    /// Gives back all memory but that of the points.
+    void clear_cells() {
+        heads_ = {};
+        places_ = {};
+        covers_.clear();
+    }
+
+    /// Forgets the candidates of the shower before.
+    void start_over(Tile& tile) {
+        tile.candidates.clear();
+        Index row = tile.first;
+        while (true) {
+            std::memset(&pending_[byte_of(row)], 0, Grid::tile_side / 8);
+            std::size_t k = 1;
+            for (; k < D && ++row[k] == tile.last[k]; ++k) row[k] = tile.first[k];
+            if (k == D) return;
         }
+    }
+
+    /// Adds a candidate, for others to find.
+    void add(Tile& tile, const Index& cell, const Off& off, Candidate<D> c) {
+        const std::size_t number = grid_.number_of(cell);
+        if (!has(pending_, cell)) {
+            flip(pending_, cell);
+            places_[number] = off;
+            heads_[number] = 0;
+        } else {
+            places_[number][0] = not_one;
+        }
+        auto& all = tile.candidates;
+        std::uint16_t* link = &heads_[number];
+        while (*link != 0 && all[*link - 1U].before(c)) link = &all[*link - 1U].next;
+        c.next = *link;
+        *link = static_cast<std::uint16_t>(all.size() + 1);
+        all.push_back(c);
     }
 
     /// Calls visit(tile, number) for candidates that fell before c and are too near to it, until
@@ -179,7 +265,12 @@ class CellTiles : public TilesBase<D> {
         const Index cell = Grid::cell_at(tile.first, c.place);
         bool found = false;
         if (grid_.interior(cell)) {
-            for_bits(pending_, cell, [&](const Neighbour& n) {
+            const std::size_t at = grid_.number_of(cell);
+            const Off off = off_of(cell, at, c);
+            const bool alone = !std::isnan(places_[at][0]);
+            for_bits(pending_, cell, part_of(off), [&](const Neighbour& n) {
+                if (squared_from(at, n, off) > 1 + float_slack) return true;
+                if (n.cells == 0 && alone) return true;
                 Index there;
                 for (std::size_t k = 0; k < D; ++k)
                     there[k] = cell[k] + static_cast<std::uint32_t>(n.steps[k]);
@@ -194,27 +285,28 @@ class CellTiles : public TilesBase<D> {
         return found;
     }
 
-    /// Makes the candidates that stay points, and forgets the others.
-    void settle(Tile& tile, std::uint8_t stays) {
+    /// Makes the candidates that stay points.
+    void settle(Tile& tile, std::uint8_t stays, bool shared) {
         for (std::size_t i = 0; i < tile.candidates.size(); ++i) {
+            fetch_about(tile, i);
+            if (tile.fates[i] != stays) continue;
             const Candidate<D>& c = tile.candidates[i];
             const Index cell = Grid::cell_at(tile.first, c.place);
             const std::size_t number = grid_.number_of(cell);
-            if (has(pending_, cell)) flip(pending_, cell);
-            if (tile.fates[i] == stays) {
-                heads_[number] = static_cast<std::uint16_t>(settled | (tile.points.size() / D));
-                tile.points.insert(tile.points.end(), c.at.begin(), c.at.end());
-                places_[number] = c.off;
-                flip(taken_, cell);
-            } else if ((heads_[number] & settled) == 0) {
-                heads_[number] = 0;
-            }
+            heads_[number] = static_cast<std::uint16_t>(tile.points.size() / D);
+            tile.points.insert(tile.points.end(), c.at.begin(), c.at.end());
+            places_[number] = off_of(cell, number, c);
+            flip(taken_, cell);
+            covers_.add(cell, places_[number], shared && !inside(tile, cell));
         }
     }
 
   private:
-    static constexpr std::uint16_t settled = 0x8000;  ///< in a head: of a point, no candidate
     static constexpr std::size_t rows = power(5, D - 1);
+    static constexpr std::size_t groups = rows / 5;
+    static constexpr std::size_t parts_of_cell = 8 * sizeof(PartBits);
+    static constexpr std::size_t whole = parts_of_cell;
+    static constexpr float not_one = std::numeric_limits<float>::quiet_NaN();  ///< place of several
 
     /// One of the 5^D cells about another.
     struct Neighbour {
@@ -228,7 +320,6 @@ class CellTiles : public TilesBase<D> {
         std::size_t rest = b;
         std::ptrdiff_t row = 0;
         std::ptrdiff_t stride = 1;
-        double gap = 0;
         for (std::size_t k = 0; k < D; ++k, rest /= 5) {
             const int step = static_cast<int>(rest % 5) - 2;
             n.steps[k] = step;
@@ -237,12 +328,32 @@ class CellTiles : public TilesBase<D> {
                 row += step * stride;
                 stride *= grid_.cells[k];
             }
-            const double apart = std::max(std::abs(step) - 1, 0) * grid_.scales[k];
-            gap += apart * apart;
         }
         n.cells = row * static_cast<std::ptrdiff_t>(grid_.cells[0]) + n.steps[0];
         rows_[b / 5] = row;
-        if (gap < 1) masks_[b / 5] |= 1U << (b % 5);
+    }
+
+    /// Whether a disk in a neighbour can reach into a part of a cell.
+    [[nodiscard]] bool reaches(std::size_t b, std::size_t part) const {
+        constexpr std::size_t p = cell_parts<D>;
+        double gap = 0;
+        for (std::size_t k = 0; k < D; ++k, part /= p) {
+            const double low = static_cast<double>(part % p) / double{p};
+            const double step = about_[b].steps[k];
+            const double apart = std::max({step - low - 1 / double{p}, low - step - 1, 0.0});
+            gap += apart * apart * grid_.scales[k] * grid_.scales[k];
+        }
+        return gap < 1 + float_slack;
+    }
+
+    /// The part of a cell that a place is in.
+    [[nodiscard]] std::size_t part_of(const Off& off) const {
+        std::size_t part = 0;
+        for (std::size_t k = D; k-- > 0;) {
+            const auto along = static_cast<std::size_t>(off[k] * to_parts_[k]);
+            part = part * cell_parts<D> + std::min(along, cell_parts<D> - 1);
+        }
+        return part;
     }
 
     [[nodiscard]] std::size_t byte_of(const Index& cell) const {
@@ -260,7 +371,7 @@ class CellTiles : public TilesBase<D> {
     /// Calls visit(neighbour) where the bit is set, about an interior cell, as long as that is
     /// true.
     template <class Visit>
-    void for_bits(const std::vector<std::uint8_t>& bits, const Index& cell,
+    void for_bits(const std::vector<std::uint8_t>& bits, const Index& cell, std::size_t part,
                   const Visit& visit) const {
         Index start = cell;
         start[0] -= 2;
@@ -272,8 +383,9 @@ class CellTiles : public TilesBase<D> {
                 std::uint16_t word;
                 const std::ptrdiff_t off = rows_[group + r] * static_cast<std::ptrdiff_t>(pitch_);
                 std::memcpy(&word, bits.data() + from + static_cast<std::size_t>(off), sizeof word);
-                found |= (word >> shift & masks_[group + r]) << (5 * r);
+                found |= (word >> shift & 31U) << (5 * r);
             }
+            found &= masks_[part][group / 5];
             for (; found != 0; found &= found - 1) {
                 const auto bit = static_cast<std::size_t>(std::countr_zero(found));
                 if (!visit(about_[5 * group + bit])) return;
@@ -281,12 +393,39 @@ class CellTiles : public TilesBase<D> {
         }
     }
 
+    /// Where in its cell a candidate is.
+    [[nodiscard]] Off off_of(const Index& cell, std::size_t number, const Candidate<D>& c) const {
+        Off off = places_[number];
+        if (!std::isnan(off[0])) return off;
+        for (std::size_t k = 0; k < D; ++k)
+            off[k] = static_cast<float>(((c.at[k] - grid_.low[k]) / grid_.widths[k] - cell[k]) *
+                                        grid_.scales[k]);
+        return off;
+    }
+
+    /// Squared distance of a place from what places_ has of the neighbour.
+    [[nodiscard]] float squared_from(std::size_t at, const Neighbour& n, const Off& off) const {
+        const Off& p = places_[at + static_cast<std::size_t>(n.cells)];
+        float squared = 0;
+        for (std::size_t k = 0; k < D; ++k) {
+            const float along = p[k] + n.off[k] - off[k];
+            squared += along * along;
+        }
+        return squared;
+    }
+
+    /// Whether no other tile's points reach the cells that a point of this cell reaches.
+    [[nodiscard]] static bool inside(const Tile& tile, const Index& cell) {
+        bool in = true;
+        for (std::size_t k = 0; k < D; ++k)
+            in &= cell[k] >= tile.first[k] + 4 && cell[k] + 4 < tile.last[k];
+        return in;
+    }
+
     /// The point of a cell, or nullptr.
     [[nodiscard]] const double* point_in(const Index& cell) const {
-        const std::uint16_t head = heads_[grid_.number_of(cell)];
-        if ((head & settled) == 0) return nullptr;
-        const std::size_t number = head & (settled - 1U);
-        return tiles_[grid_.tile_of(cell)].points.data() + number * D;
+        if (!taken(cell)) return nullptr;
+        return tiles_[grid_.tile_of(cell)].points.data() + heads_[grid_.number_of(cell)] * D;
     }
 
     template <class Visit>
@@ -302,13 +441,17 @@ class CellTiles : public TilesBase<D> {
     }
 
     std::size_t pitch_;  ///< bytes of bits to a row of cells; tiles never share a byte
-    std::vector<std::uint16_t> heads_;
-    std::vector<std::array<float, D>> places_;  ///< of a cell's point, from its corner, in radii
+    std::vector<std::uint16_t>
+        heads_;                ///< of a cell: its point's number, or that of its first candidate
+    std::vector<Off> places_;  ///< of a cell's point or only candidate, from its corner, in radii
     std::vector<std::uint8_t> taken_;
     std::vector<std::uint8_t> pending_;
+    DiskCovers<D> covers_;
     std::array<Neighbour, rows * 5> about_{};
     std::array<std::ptrdiff_t, rows> rows_{};
-    std::array<std::uint32_t, rows> masks_{};
+    Off to_parts_{};  ///< from radii
+    /// For each part of a cell, and for the whole, from which neighbours a disk reaches into it.
+    std::array<std::array<std::uint32_t, groups>, parts_of_cell + 1> masks_{};
 };
 
 /// For many dimensions.
@@ -325,6 +468,8 @@ class FewTiles : public TilesBase<D> {
     using typename Base::Tile;
 
     using Base::Base;
+
+    static constexpr bool knows_parts = false;
 
     void prepare(const Tile& tile, Desk<D>& desk) const {
         desk.about.clear();
@@ -376,7 +521,15 @@ class FewTiles : public TilesBase<D> {
         return hit;
     }
 
-    void publish(Tile&) {}
+    void clear_cells() const {}
+    void start_over(Tile& tile) const { tile.candidates.clear(); }
+
+    void fetch_row(const Tile&, const Index&) const {}
+    void fetch_about(const Tile&, std::size_t) const {}
+
+    void add(Tile& tile, const Index&, const std::array<float, D>&, const Candidate<D>& c) const {
+        tile.candidates.push_back(c);
+    }
 
     template <class Visit>
     [[nodiscard]] bool any_before(const Tile& tile, const Candidate<D>& c, const Visit& visit) {
@@ -391,7 +544,7 @@ class FewTiles : public TilesBase<D> {
         return found;
     }
 
-    void settle(Tile& tile, std::uint8_t stays) {
+    void settle(Tile& tile, std::uint8_t stays, bool) {
         for (std::size_t i = 0; i < tile.candidates.size(); ++i)
             if (tile.fates[i] == stays)
                 tile.points.insert(tile.points.end(), tile.candidates[i].at.begin(),

@@ -10,14 +10,17 @@
 //
 // The circles are those about the corners of Voronoi cells: each cell is kept with its farthest
 // corner, in a tree that knows the farthest of all. A move cuts the cells around the two places
-// anew, some 14 of them.
+// anew, some 14 of them. Between walls (--bounded) cells end there, and so do the places for
+// a circle's centre: it may lie on a wall or in a corner, and as points are the farthest apart
+// then, many come to.
 //
 // Once points are spread the largest circle is mostly the one that the point leaves itself, and all
 // points creep to better places together. There a move goes beyond the centre by 0.8 of its length,
 // as in successive over-relaxation, where the point gets no nearer to others by it than it was:
 // this reaches a least distance of 0.93 (hexagons: 1) in 50 iterations, instead of 400.
 //
-// Shape   d = 2, on the torus; any rectangle.
+// Shape   d = 2; any rectangle, torus or bounded. No density: we know of no variant for one that
+//         we could check against its paper.
 // Cost    20 us a move, n moves an iteration; 130 bytes a point.
 // Promise the least distance never falls. A run ends early when an iteration moves no point to a
 //         place that is better by a part in 10^9.
@@ -78,7 +81,7 @@ class Tournament {
 class FarthestPoint {
   public:
     FarthestPoint(const Planar& planar, const std::vector<double>& rows, const RunContext& run)
-        : n_(rows.size() / 2), sites_(planar.sides, true, n_), corners_(n_), circles_(n_) {
+        : n_(rows.size() / 2), sites_(planar.sides, planar.torus, n_), corners_(n_), circles_(n_) {
         for (std::size_t i = 0; i < n_; ++i)
             sites_.insert(i, sites_.inside({rows[2 * i], rows[2 * i + 1]}));
         std::vector<std::size_t> crowded;  // in the place of another
@@ -128,17 +131,19 @@ class FarthestPoint {
     std::vector<std::uint32_t> neighbors(std::size_t i) const {
         std::vector<std::uint32_t> around;
         for (const CellCorner& edge : cell_.corners())
-            if (edge.site != i) around.push_back(edge.site);
+            if (edge.site != i && edge.site != CellCorner::wall) around.push_back(edge.site);
         std::ranges::sort(around);
         around.erase(std::unique(around.begin(), around.end()), around.end());
         return around;
     }
 
-    /// Squared distance of the site of the cell cut last from its nearest neighbour.
+    /// Squared distance of the site of the cell cut last from its nearest neighbour; infinite where
+    /// there are walls only.
     [[nodiscard]] double squared_nearest() const {
         double least = std::numeric_limits<double>::infinity();
         for (const auto& [at, neighbor, site] : cell_.corners())
-            least = std::min(least, neighbor.x * neighbor.x + neighbor.y * neighbor.y);
+            if (site != CellCorner::wall)
+                least = std::min(least, neighbor.x * neighbor.x + neighbor.y * neighbor.y);
         return least;
     }
 
@@ -178,7 +183,7 @@ void need_memory(std::uint64_t n, const RunContext& run) {
 
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     need_memory(plan.count, run);
-    const Planar planar = planar_of(plan, true);
+    const Planar planar = planar_of(plan, !options[bounded_option]);
     auto rows = starting_rows(plan, options, planar, {}, run);
     const std::size_t n = rows.size() / 2;
     need_memory(n, run);
@@ -216,7 +221,7 @@ Generator farthest_point() {
                        .sequence = false,
                        .prefix = false,
                        .boxed = true},
-            .options = Schema(iterations, initial, planar::from, planar::torus),
+            .options = Schema(iterations, initial, planar::from, torus_option, bounded_option),
             .aliases = {"fpo", "farthest-point-optimization"},
             .plan = planar_plan,
             .set = make,

@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: MIT
 //
-// Gaussian blue noise: random points of the unit torus, moved down the energy
+// Gaussian blue noise: random points of a torus of volume V, moved down the energy
 //
-//     E = sum over pairs i < j of  exp(-n^(2/d) |x_i - x_j|^2 / 2)
+//     E = sum over pairs i < j of  exp(-(n / V)^(2/d) |x_i - x_j|^2 / 2)
 //
 // by --iterations accelerated gradient steps (math/gaussian_relaxation.hpp). Points convolved with
-// Gaussians of standard deviation sqrt(1/2) n^(-1/d), whose squares E adds up, come as near to
-// a constant as they can: what is below the frequency n^(1/d) / 2 vanishes from the spectrum.
+// Gaussians of standard deviation sqrt(1/2) (V / n)^(1/d), whose squares E adds up, come as near to
+// a constant as they can: what is below the frequency (n / V)^(1/d) / 2 vanishes from the spectrum.
 //
 // With a --density kernels are as wide as points are to be apart, and the density itself pulls as
 // much as the points push (math/density_relaxation.hpp).
 //
-// Shape   d = 1 ... 4, distances on the torus; a density in 2-D.
+// Shape   d = 1 ... 4, distances on the torus, which is the unit cube or a box with no side a
+//         thousand times another; a density in 2-D.
 // Cost    O(n) a step: 4096 points in 2-D and 1000 steps take 5 s of processor time; some 10 and
 //         100 times as much in 3-D and 4-D, and 10 times as much with a density.
 // Promise the same bits for any number of threads.
-// Beware  on the unit square; --bounds that are no square squash what is even.
+// Beware  in a box whose shortest side is below (V / n)^(1/d) points line up, farther apart than
+//         Gaussians reach, and stay as random as they were.
 // Source  A. G. M. Ahmed, J. Ren, P. Wonka, "Gaussian blue noise", ACM Trans. Graph. 41(6), 260
 //         (2022), doi:10.1145/3550454.3555519; its sigma of 1 is this one.
 
@@ -24,6 +26,7 @@
 
 #include "core/error.hpp"
 #include "core/rng.hpp"
+#include "generators/box_space.hpp"
 #include "generators/density_options.hpp"
 #include "generators/generator.hpp"
 #include "math/density_map.hpp"
@@ -47,7 +50,7 @@ constexpr Param<std::int64_t> iterations{
         "given, with a density 300"};
 
 Plan plan(const Request& request, const Values& options) {
-    const Plan plan = default_plan(request);
+    const Plan plan = plan_in_proportion(request);
     check_invert(options);
     if (options.given(density_option) && plan.dimension != 2)
         fail(ErrorKind::usage, "--dimension: {} is not 2, the dimension of a --density",
@@ -75,16 +78,19 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     const auto numbers = static_cast<double>(plan.count * plan.dimension);
     run.need_memory(8 * numbers + working, "gaussian-blue-noise");
 
+    const auto extents = proportions_of(plan);
     const std::int64_t usual = map ? usual_steps_to_density : usual_steps;
     const std::int64_t steps = options.given(iterations) ? options[iterations] : usual;
     PointSet points(plan.count, plan.dimension);
     if (map) {
         scatter(*map, plan.seed, points);
-        relax_to_density(points.flat(), *map, static_cast<std::uint64_t>(steps), run);
+        relax_to_density(points.flat(), *map, static_cast<std::uint64_t>(steps), run, extents);
     } else {
         Rng(plan.seed).fill(0, points.flat());
-        relax_gaussian(points.flat(), plan.dimension, static_cast<std::uint64_t>(steps), run);
+        relax_gaussian(points.flat(), plan.dimension, static_cast<std::uint64_t>(steps), run,
+                       extents);
     }
+    put_in_box(plan, points);
     points.provenance.options = {{"iterations", std::to_string(steps)}};
     if (map) points.provenance.options.emplace_back("density", options[density_option]);
     if (options[invert_option]) points.provenance.options.emplace_back("invert", "true");
@@ -97,7 +103,10 @@ Generator gaussian_blue_noise() {
     return {.name = "gaussian-blue-noise",
             .summary = "Random points that Gaussian kernels have pushed apart (blue noise)",
             .source = "Ahmed, Ren, Wonka 2022, doi:10.1145/3550454.3555519",
-            .traits = {.max_dimension = relaxation_dimensions, .sequence = false, .prefix = false},
+            .traits = {.max_dimension = relaxation_dimensions,
+                       .sequence = false,
+                       .prefix = false,
+                       .boxed = true},
             .options = Schema(iterations, density_option, invert_option),
             .aliases = {"gbn"},
             .plan = plan,

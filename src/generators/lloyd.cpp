@@ -32,7 +32,6 @@
 namespace stipple::generators {
 namespace {
 
-using planar::bounded;
 using planar::from;
 
 constexpr Param<std::int64_t> iterations{.name = "iterations",
@@ -113,7 +112,7 @@ void need_memory(std::uint64_t n, const RunContext& run) {
 
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     need_memory(plan.count, run);
-    const Planar planar = planar_of(plan, !options[bounded]);
+    const Planar planar = planar_of(plan, !options[bounded_option]);
     const auto density = planar_density(options, run);
     const auto square = [](double value) { return value * value; };
     const auto moments = planar_moments(density, square, planar, run);
@@ -144,7 +143,7 @@ Generator lloyd() {
                        .prefix = false,
                        .boxed = true},
             .options = Schema(iterations, planar::initial, from, density_option, invert_option,
-                              planar::torus, bounded),
+                              torus_option, bounded_option),
             .aliases = {"cvt", "centroidal-voronoi"},
             .plan = planar_plan,
             .set = make,

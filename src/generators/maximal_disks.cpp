@@ -37,6 +37,7 @@ class Rain {
     using Point = typename Grid::Point;
     using Index = typename Grid::Index;
     using Tile = DiskTile<D>;
+    using Tiles = std::conditional_t<D <= 3, CellTiles<D>, FewTiles<D>>;
 
     Rain(const BoxSpace& space, double radius, double cell_radius, std::uint64_t seed,
          const RunContext& run)
@@ -67,7 +68,8 @@ class Rain {
     /// Windows of this level and beyond are too small for floats.
     static constexpr std::uint8_t deep = 7;
 
-    static constexpr std::size_t all_parts = lines<D> * parts<D>;
+    static constexpr std::size_t all_parts = lines<D> * parts<D>;       ///< of a window
+    static constexpr std::size_t parts_of_cell = 8 * sizeof(PartBits);  ///< where they are known
 
     /// Darts to a cell, when one falls on a ball of the radius.
     static double one_to_a_ball() {
@@ -84,7 +86,7 @@ class Rain {
 
     /// The first showers fall everywhere: most of their darts still find a place.
     void rain_at_large() {
-        constexpr double enough = 8;  // darts to a ball, of which one in six stays
+        constexpr double enough = D == 2 ? 4 : D == 3 ? 2 : 8;  // darts to a ball
         double fallen = 0;
         while (fallen < enough) {
             const double density = std::max(1.25, fallen / 2);
@@ -97,31 +99,44 @@ class Rain {
         }
     }
 
-    /// What is open after a time t is of size 1/t, so that showers grow like powers.
+    /// What is open after a time t is of size 1/t, so that showers grow like powers: first those on
+    /// the parts of cells that no disk covers alone, where these are known, then those on windows.
     void rain_on_the_open() {
-        double density = 32 * one_to_a_ball();
-        for (bool first = true; !live_.empty(); first = false, density *= 4) {
-            std::vector<Shower> showers;  // for windows of each level
-            double mean = density / static_cast<double>(all_parts);
-            for (std::size_t level = 0; level < levels; ++level) {
-                showers.emplace_back(mean, all_parts);
-                mean /= static_cast<double>(std::size_t{1} << D);
-            }
-            const std::uint64_t key = keys_.bits(showers_++);
-            rain(key, [&](Tile& tile, std::uint64_t own, Desk<D>& desk) {
-                desk.windows.clear();
-                if (first)
-                    fall_on_cells(tile, showers.front(), own, desk);
-                else
-                    fall_on_windows(tile, showers, own, desk);
-                tile.windows = std::vector(desk.windows.begin(), desk.windows.end());
-            });
-            std::erase_if(live_, [&](std::uint32_t t) {
-                Tile& tile = tiles_.all()[t];
-                if (tile.windows.empty()) tile.candidates = {};
-                return tile.windows.empty();
-            });
+        double density = (Tiles::knows_parts ? 8 : 32) * one_to_a_ball();
+        if constexpr (Tiles::knows_parts)
+            for (int time = 0; time < 4; ++time, density *= 3) rain_on_parts(density);
+        for (bool first = true; !live_.empty(); first = false, density *= 4)
+            rain_on_windows(density, first);
+    }
+
+    /// @param density of darts, to a cell
+    void rain_on_parts(double density) {
+        const Shower shower(density / parts_of_cell, parts_of_cell);
+        rain(keys_.bits(showers_++), [&](Tile& tile, std::uint64_t own, Desk<D>& desk) {
+            fall_on_parts(tile, shower, own, desk);
+        });
+    }
+
+    void rain_on_windows(double density, bool first) {
+        std::vector<Shower> showers;  // for windows of each level
+        double mean = density / static_cast<double>(all_parts);
+        for (std::size_t level = 0; level < levels; ++level) {
+            showers.emplace_back(mean, all_parts);
+            mean /= static_cast<double>(std::size_t{1} << D);
         }
+        rain(keys_.bits(showers_++), [&](Tile& tile, std::uint64_t own, Desk<D>& desk) {
+            desk.windows.clear();
+            if (first)
+                fall_on_cells(tile, showers, own, desk);
+            else
+                fall_on_windows(tile, showers, own, desk);
+            tile.windows = std::vector(desk.windows.begin(), desk.windows.end());
+        });
+        std::erase_if(live_, [&](std::uint32_t t) {
+            Tile& tile = tiles_.all()[t];
+            if (tile.windows.empty()) tile.candidates = {};
+            return tile.windows.empty();
+        });
     }
 
     /// One shower: fall(tile, key, desk) makes a tile's candidates, of which some become points.
@@ -129,17 +144,22 @@ class Rain {
     void rain(std::uint64_t key, const Fall& fall) {
         for_tiles([&](Tile& tile, std::uint32_t number) {
             thread_local Desk<D> desk;
-            desk.candidates.clear();
             tiles_.prepare(tile, desk);
+            tile.candidates.swap(desk.candidates);  // has room
+            tiles_.start_over(tile);
             fall(tile, Mixer(key + number).next(), desk);
+            tile.candidates.swap(desk.candidates);
             tile.candidates = std::vector(desk.candidates.begin(), desk.candidates.end());
             tile.fates.assign(tile.candidates.size(), unknown);
         });
-        for_tiles([&](Tile& tile, std::uint32_t) { tiles_.publish(tile); });
         for_tiles([&](Tile& tile, std::uint32_t) {
-            for (std::size_t i = 0; i < tile.candidates.size(); ++i) decide(tile, i);
+            for (std::size_t i = 0; i < tile.candidates.size(); ++i) {
+                tiles_.fetch_about(tile, i);
+                decide(tile, i);
+            }
         });
-        for_tiles([&](Tile& tile, std::uint32_t) { tiles_.settle(tile, stays); });
+        const bool shared = run_.thread_count() > 1;
+        for_tiles([&](Tile& tile, std::uint32_t) { tiles_.settle(tile, stays, shared); });
         std::size_t points = 0;
         for (const Tile& tile : tiles_.all()) points += tile.points.size() / D;
         run_.tick(std::min<std::uint64_t>(points, expected_), expected_);
@@ -175,11 +195,12 @@ class Rain {
 
     static constexpr std::uint32_t together = 8;  ///< cells that share a Poisson number
 
-    void fall_at_large(const Tile& tile, const Shower& shower, std::uint64_t key, Desk<D>& desk,
+    void fall_at_large(Tile& tile, const Shower& shower, std::uint64_t key, Desk<D>& desk,
                        bool any_points) {
         desk.near.clear();
         desk.near.close();
         for_runs(tile, together, [&](const Index& run, std::uint32_t count) {
+            if (run[0] == tile.first[0]) tiles_.fetch_row(tile, run);
             Mixer mixer = stream(key, Grid::place_of(run), {}, 0);
             for (std::uint64_t left = shower.on(count, mixer); left > 0; --left) {
                 Index cell = run;
@@ -189,43 +210,94 @@ class Rain {
                 const auto step = static_cast<std::uint32_t>(place[0]);
                 place[0] -= step;
                 cell[0] += step;
-                if (tiles_.taken(cell)) continue;
-                if (any_points) tiles_.gather(tile, cell, desk, desk.near);
-                fall<float>(tile, cell, place, desk.near, mixer, desk);
+                if constexpr (Tiles::knows_parts) {
+                    if (tiles_.covers(cell, place)) continue;
+                    fall_among(tile, cell, place, any_points, mixer, desk);
+                } else {
+                    if (any_points) tiles_.gather(tile, cell, desk, desk.near);
+                    fall<float>(tile, cell, place, desk.near, mixer);
+                }
             }
         });
     }
 
     /// A dart falls at `place` of a cell (in cells), where these points are near.
     template <class Real>
-    void fall(const Tile& tile, const Index& cell, const Point& place,
-              const NearDisks<D, Real>& near, Mixer& mixer, Desk<D>& desk) const {
+    void fall(Tile& tile, const Index& cell, const Point& place, const NearDisks<D, Real>& near,
+              Mixer& mixer) {
         std::array<Real, D> off;
         for (std::size_t k = 0; k < D; ++k) off[k] = static_cast<Real>(place[k] * grid_.scales[k]);
-        const Hit hit = hits<D, Real>(near, off, slack<Real>());
-        if (hit == Hit::yes) return;
-        Candidate<D> c{};
-        for (std::size_t k = 0; k < D; ++k) {
-            c.at[k] = grid_.low[k] + (cell[k] + place[k]) * grid_.widths[k];
-            c.off[k] = static_cast<float>(off[k]);
-            if (!(c.at[k] < grid_.high[k])) return;  // rounded up to a face
-        }
-        if (hit == Hit::unsure && tiles_.hits(tile, cell, c.at.data())) return;
-        c.time = static_cast<std::uint32_t>(mixer.next() >> 32);
-        c.place = Grid::place_of(cell);
-        desk.candidates.push_back(c);
+        land(tile, cell, place, hits<D, Real>(near, off, slack<Real>()), mixer);
     }
 
-    /// All cells without a point are windows at first.
-    void fall_on_cells(const Tile& tile, const Shower& shower, std::uint64_t key, Desk<D>& desk) {
-        for_runs(tile, 1, [&](const Index& cell, std::uint32_t) {
-            if (tiles_.taken(cell)) return;
-            tiles_.gather(tile, cell, desk, desk.near);
-            fall_on<float>(tile, cell, {{}, Grid::place_of(cell), 0}, shower, key, desk);
+    /// The same, where the points that are near have to be found.
+    void fall_among(Tile& tile, const Index& cell, const Point& place, bool any_points,
+                    Mixer& mixer, Desk<D>& desk) {
+        std::array<float, D> off;
+        for (std::size_t k = 0; k < D; ++k) off[k] = static_cast<float>(place[k] * grid_.scales[k]);
+        const Hit hit = any_points ? tiles_.hit_at(tile, cell, off, desk) : Hit::no;
+        land(tile, cell, place, hit, mixer);
+    }
+
+    /// Makes a dart a candidate, unless it hit.
+    void land(Tile& tile, const Index& cell, const Point& place, Hit hit, Mixer& mixer) {
+        if (hit == Hit::yes) return;
+        Candidate<D> c{};
+        std::array<float, D> off;
+        for (std::size_t k = 0; k < D; ++k) {
+            c.at[k] = grid_.low[k] + (cell[k] + place[k]) * grid_.widths[k];
+            off[k] = static_cast<float>(place[k] * grid_.scales[k]);
+            if (!(c.at[k] < grid_.high[k])) return;  // rounded up to a face
+        }
+        if (hit == Hit::unsure && (tiles_.taken(cell) || tiles_.hits(tile, cell, c.at.data())))
+            return;
+        c.time = static_cast<std::uint32_t>(mixer.next() >> 32);
+        c.place = Grid::place_of(cell);
+        tiles_.add(tile, cell, off, c);
+    }
+
+    /// Darts fall on the parts of cells that no point covers alone.
+    void fall_on_parts(Tile& tile, const Shower& shower, std::uint64_t key, Desk<D>& desk) {
+        for_open_cells(tile, [&](const Index& cell, PartBits open) {
+            const std::size_t count = ones_of(open);
+            Mixer mixer(Mixer(key ^ Grid::place_of(cell)).next());
+            for (std::uint64_t left = shower.on(count, mixer); left > 0; --left) {
+                Point place = nth_part<D>(open, mixer.below(count));
+                for (double& x : place) x += to_unit(mixer.next()) / double{cell_parts<D>};
+                fall_among(tile, cell, place, true, mixer, desk);
+            }
         });
     }
 
-    void fall_on_windows(const Tile& tile, const std::vector<Shower>& showers, std::uint64_t key,
+    /// Calls visit(cell, open) for cells with parts that no point covers alone.
+    template <class Visit>
+    void for_open_cells(const Tile& tile, const Visit& visit) const {
+        for_runs(tile, Grid::tile_side, [&](const Index& row, std::uint32_t length) {
+            tiles_.fetch_row(tile, row);
+            const PartBits* covered = tiles_.covered(row);
+            for (Index cell = row; cell[0] < row[0] + length; ++cell[0], ++covered)
+                if (const PartBits open = ~*covered; open != 0) visit(cell, open);
+        });
+    }
+
+    /// The first windows: about what is open of cells as far as that is known, or the cells.
+    void fall_on_cells(Tile& tile, const std::vector<Shower>& showers, std::uint64_t key,
+                       Desk<D>& desk) {
+        const auto fall_in = [&](const Index& cell, const Window<D>& window) {
+            tiles_.gather(tile, cell, desk, desk.near);
+            fall_on<float>(tile, cell, window, showers[window.level], key, desk);
+        };
+        if constexpr (Tiles::knows_parts)
+            for_open_cells(tile, [&](const Index& cell, PartBits open) {
+                fall_in(cell, window_around<D>(open, Grid::place_of(cell)));
+            });
+        else
+            for_runs(tile, 1, [&](const Index& cell, std::uint32_t) {
+                fall_in(cell, {{}, Grid::place_of(cell), 0});
+            });
+    }
+
+    void fall_on_windows(Tile& tile, const std::vector<Shower>& showers, std::uint64_t key,
                          Desk<D>& desk) {
         const auto& windows = tile.windows;
         for (std::size_t i = 0; i < windows.size();) {
@@ -251,7 +323,7 @@ class Rain {
 
     /// Darts fall on what is open of a window; what is left of it goes to the desk.
     template <class Real>
-    void fall_on(const Tile& tile, const Index& cell, const Window<D>& window, const Shower& shower,
+    void fall_on(Tile& tile, const Index& cell, const Window<D>& window, const Shower& shower,
                  std::uint64_t key, Desk<D>& desk) {
         if (too_small(window)) return;
         Raster<D, Real> raster;
@@ -268,7 +340,7 @@ class Rain {
             Point place = open_part<D>(open, mixer.below(count));
             for (std::size_t k = 0; k < D; ++k)
                 place[k] = window.corner[k] + (place[k] + to_unit(mixer.next())) * window.part();
-            fall<Real>(tile, cell, place, reaching, mixer, desk);
+            fall<Real>(tile, cell, place, reaching, mixer);
         }
         narrow<D>(window, open, shower.mean(count), desk.windows);
     }
@@ -313,6 +385,7 @@ class Rain {
     }
 
     Rows collect() {
+        tiles_.clear_cells();
         std::size_t numbers = 0;
         for (const Tile& tile : tiles_.all()) numbers += tile.points.size();
         Rows rows = Rows::unwritten(numbers);
@@ -325,7 +398,7 @@ class Rain {
     }
 
     Grid grid_;
-    std::conditional_t<D <= 3, CellTiles<D>, FewTiles<D>> tiles_;
+    Tiles tiles_;
     Rng keys_;
     std::uint64_t expected_;
     RunContext run_;
@@ -342,8 +415,8 @@ void check_size(const BoxSpace& space, double radius, const RunContext& run) {
     const double points = expected_disks(space, radius);
     const double n = static_cast<double>(d);
     // A cell's head, place and bits; a point, its copy and the candidates of a shower; windows.
-    const double to_a_cell = d <= 3 ? 2.25 + 4 * n : 0;
-    const double to_a_point = 2 * 8 * n + 0.6 * (12 * n + 8);
+    const double to_a_cell = d <= 3 ? 10.25 + 4 * n : 0;
+    const double to_a_point = 2 * 8 * n + 0.6 * (8 * n + 9);
     const double windows = cells * (d == 2 ? 0.7 : d == 3 ? 1 : 1.5) * (8 * n + 8);
     const double bytes = cells * to_a_cell + points * to_a_point + windows;
     run.need_memory(bytes, fmt::format("a radius of {}, with about {:.3g} points,",

@@ -6,9 +6,11 @@
 // Darts fall as rain, a Poisson process in space and time. One stays if it keeps the distance from
 // all that fell before it and stayed. Where a disk covers a part of the box no dart can stay, so
 // that none need be thrown there: rain falls on what is left alone, the harder the less is left,
-// and what stays is what would have stayed without that. What is left is kept as windows of cells
-// (generators/near_disks.hpp), cut down to the parts that no disk covers by itself. A window
-// without such a part is covered for certain, and with the last window the set is maximal.
+// and what stays is what would have stayed without that. What is left is known in two and three
+// dimensions as the parts of cells that no disk covers by itself (generators/disk_covers.hpp), and
+// in the end, and in more dimensions from the start, as windows of cells that are cut down to such
+// parts again and again (generators/near_disks.hpp). A window without one is covered for certain,
+// and with the last window the set is maximal.
 //
 // Rain falls in showers. Of a shower, darts that are too near to older points go first; of those
 // that are left each stays unless an earlier one that is too near to it stays, which is asked from

@@ -70,9 +70,7 @@ std::vector<double> rows_of_file(const std::string& path, const Planar& planar,
 }  // namespace
 
 Plan planar_plan(const Request& request, const Values& options) {
-    if (const auto* bounded = options.try_find("bounded");
-        bounded && options[planar::torus] && std::get<bool>(bounded->value))
-        fail(ErrorKind::usage, "--torus contradicts --bounded; give one of them");
+    check_torus(options);
     Plan plan = default_plan(request, 1024, 2);
     if (options.given(planar::from)) {
         if (request.count)

@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "generators/box_space.hpp"
 #include "generators/density_options.hpp"
 #include "generators/generator.hpp"
 #include "math/density_map.hpp"
@@ -27,9 +28,6 @@ constexpr Param<Choice> initial{.name = "initial",
                                 .fallback = "jittered",
                                 .choices = "jittered|random",
                                 .help = "Points to start from"};
-constexpr Param<bool> torus{.name = "torus",
-                            .help = "Opposite sides are joined (so they are by default)"};
-constexpr Param<bool> bounded{.name = "bounded", .help = "The sides are walls"};
 }  // namespace planar
 
 /// The rectangle of a plan; points are worked on from its lower corner.

@@ -1,35 +1,54 @@
 // SPDX-License-Identifier: MIT
 //
-// A tile of blue noise, repeated K x K times and thinned to n points:
+// A tile of blue noise, repeated and thinned to n points. On the unit square
 //
-//     K = least with K^2 T >= n,    the tile has t = ceil(n / K^2) points,    T = --tile-points.
+//     K x K tiles,  K = least with K^2 T >= n,  of  t = ceil(n / K^2) points,   T = --tile-points.
 //
-// The tile is toroidal Gaussian blue noise (math/gaussian_relaxation.hpp), its points ranked by
-// taking away the fullest place, one after the other, as void-and-cluster does. Points i of the set
-// stand by rank: those of rank 0 in all tiles, row after row; then those of rank 1, ...; of the
-// last rank n - K^2 (t - 1) are there, spread evenly over the tiles: m of K^2, the j-th in tile
+// The tile is a torus of ranked points (generators/ranked_tile.hpp). Points i of the set stand by
+// rank: those of rank 0 in all tiles, row after row; then those of rank 1, ...; of the last rank
+// n - K^2 (t - 1) are there, spread evenly over the tiles: m of K^2, the j-th in tile
 // floor(j K^2 / m).
 //
-// Shape   2-D. A sequence: point i is a function of i, n and the seed; no memory but for the tile.
-// Cost    O(t (iterations + t)) once, 1.5 seconds for t = 4096; then 2 ns a point and core.
-// Promise no two points are nearer than the nearest of the tile's torus, divided by K; a tile of
-//         4096 points keeps them 0.5 / sqrt(n) apart and more.
-// Beware  the set is periodic as far as it is not thinned: its spectrum has peaks at multiples of
-// K.
-//         Larger tiles move them together and down.
+// --bounds    K x L tiles in a box that is no square: just as many as needed, nearly squares. The
+//             tile is made even with the sides that it has in the box, so the set is even there,
+//             and a torus, whatever the proportions. Points stay in [0, 1)^2 until they are
+//             scaled.
+// --density   tiles of t = ceil((n + 2 sqrt(n)) top / K^2) points, top the largest density over its
+//             mean. Ranks are thresholds (generators/thinned_tiles.hpp): of all points with
+//             a density above 0 the n stay whose (rank + u) / density is the least, 0 <= u < 1 one
+//             number a tile. The few more than n top keep where the density is the largest from
+//             running out of points; where they do nevertheless, as in a picture as fine as the
+//             points, the tiles become more. These points stand by tile. A constant density is as
+//             none.
+//
+// Shape   2-D. A sequence: point i is a function of i, n and the seed; no memory but for the tile,
+//         and, with a density, 16 bytes for each time that it is repeated.
+// Cost    O(t (iterations + t)) once, 1.5 seconds for t = 4096; then 2 ns a point and core. With
+//         a density some 8 ns a point and core, times top.
+// Promise exactly n points. No two are nearer than the nearest of the tile's torus, in the size it
+//         is repeated with; without a density a tile of 4096 points keeps them 0.5 / sqrt(n) apart
+//         and more (times the root of a box's area).
+// Beware  the set is periodic as far as it is not thinned: its spectrum has peaks at multiples
+//         of K, which larger tiles move together and down. Where a density leaves a point or two in
+//         every tile they stand in rows; larger tiles have more.
 // Source  one tile for all: M. F. Cohen, J. Shade, S. Hiller, O. Deussen, "Wang tiles for image and
 //         texture generation", ACM Trans. Graph. 22(3) (2003) 287-294,
-//         doi:10.1145/882262.882265, of which this is the case of a single tile.
+//         doi:10.1145/882262.882265, of which this is the case of a single tile. Ranks for a
+//         density: J. Kopf, D. Cohen-Or, O. Deussen, D. Lischinski, "Recursive Wang tiles for
+//         real-time blue noise", ACM Trans. Graph. 25(3) (2006) 509-518,
+//         doi:10.1145/1141911.1141916.
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "core/rng.hpp"
+#include "core/error.hpp"
 #include "core/wide.hpp"
+#include "generators/box_space.hpp"
+#include "generators/density_options.hpp"
 #include "generators/generator.hpp"
-#include "math/exponential.hpp"
-#include "math/gaussian_relaxation.hpp"
-#include "math/powers.hpp"
+#include "generators/ranked_tile.hpp"
+#include "generators/thinned_tiles.hpp"
 
 namespace stipple::generators {
 namespace {
@@ -48,98 +67,21 @@ constexpr Param<std::int64_t> iterations{.name = "iterations",
                                          .unit = "steps",
                                          .help = "Steps that make the tile even"};
 
-struct Point {
-    double x;
-    double y;
-};
-
-double difference(double a, double b) {
-    const double t = std::abs(a - b);
-    return std::min(t, 1 - t);
-}
-
-/// The order in which points of the unit torus are taken away: each time the one that feels most
-/// of those left, by Gaussians that double in width when a quarter is left.
-class Ranking {
-  public:
-    Ranking(std::vector<Point> points, const RunContext& run)
-        : points_(std::move(points)), energies_(points_.size()), run_(run) {}
-
-    /// The points, those taken last in front.
-    std::vector<Point> ranked() {
-        const auto all = static_cast<double>(points_.size());
-        std::size_t widen = points_.size();
-        double narrow = 0.5 * all / (0.47 * 0.47);  // 1 / (2 sigma^2): 0.47 of the mean distance
-        for (std::size_t left = points_.size(); left > 0; --left) {
-            run_.tick(points_.size() - left, points_.size());
-            if (left == widen) {
-                gather(left, narrow);
-                sharpness_ = narrow;
-                narrow /= 4;
-                widen /= 4;
-            }
-            const auto end = energies_.begin() + static_cast<std::ptrdiff_t>(left);
-            const auto fullest = static_cast<std::size_t>(std::max_element(energies_.begin(), end) -
-                                                          energies_.begin());
-            std::swap(points_[fullest], points_[left - 1]);
-            std::swap(energies_[fullest], energies_[left - 1]);
-            for (std::size_t i = 0; i + 1 < left; ++i)
-                energies_[i] -= felt(points_[i], points_[left - 1], sharpness_);
-        }
-        return std::move(points_);
-    }
-
-  private:
-    static double felt(const Point& p, const Point& q, double sharpness) {
-        const double x = difference(p.x, q.x);
-        const double y = difference(p.y, q.y);
-        return exponential(-sharpness * (x * x + y * y));
-    }
-
-    void gather(std::size_t left, double sharpness) {
-        for (std::size_t i = 0; i < left; ++i) {
-            if (i % 64 == 0) run_.check_stop();
-            energies_[i] = 0;
-            for (std::size_t j = 0; j < left; ++j)
-                energies_[i] += felt(points_[i], points_[j], sharpness);
-        }
-    }
-
-    std::vector<Point> points_;
-    std::vector<double> energies_;
-    double sharpness_ = 0;
-    const RunContext& run_;
-};
-
-std::vector<Point> make_tile(std::size_t count, std::uint64_t steps, std::uint64_t seed,
-                             const RunContext& run) {
-    constexpr double grain = 0x1p28;  // coordinates are multiples of its inverse: sums are exact
-    run.need_memory(relaxation_bytes(count, 2) + 56 * static_cast<double>(count), "the tile");
-    std::vector<double> rows(2 * count);
-    Rng(seed).fill(0, rows);
-    relax_gaussian(rows, 2, steps, run.stage(0, 0.7));
-    std::vector<Point> points(count);
-    for (std::size_t i = 0; i < count; ++i)
-        points[i] = {std::floor(rows[2 * i] * grain) / grain,
-                     std::floor(rows[2 * i + 1] * grain) / grain};
-    return Ranking(std::move(points), run.stage(0.7, 0.99)).ranked();
-}
-
-/// row[j] = ((column + j + x) / side, y) for j < count.
+/// row[j] = ((column + j + x) / columns, y) for j < count.
 STIPPLE_WIDE void place_row(double* row, std::size_t count, double column, double x, double y,
-                            double side) {
+                            double columns) {
     for (std::size_t j = 0; j < count; ++j) {
-        row[2 * j] = ((column + static_cast<double>(j)) + x) / side;
+        row[2 * j] = ((column + static_cast<double>(j)) + x) / columns;
         row[2 * j + 1] = y;
     }
 }
 
 class Tiles final : public Sequence {
   public:
-    Tiles(std::vector<Point> tile, std::uint64_t side, std::uint64_t count)
+    Tiles(std::vector<Vec2> tile, const Tiling& tiling, std::uint64_t count)
         : tile_(std::move(tile)),
-          side_(side),
-          last_begin_(side * side * (tile_.size() - 1)),
+          tiling_(tiling),
+          last_begin_(tiling.tiles() * (tile_.size() - 1)),
           last_count_(count - last_begin_) {}
 
     void fill(std::uint64_t first, std::span<double> rows) override {
@@ -157,41 +99,110 @@ class Tiles final : public Sequence {
   private:
     /// Points of one rank in one row of tiles; returns their number.
     std::uint64_t fill_row(std::uint64_t first, std::uint64_t most, double* out) const {
-        const std::uint64_t row = first / side_;
-        const std::uint64_t column = first % side_;
-        const Point& point = tile_[row / side_];
-        const std::uint64_t count = std::min(most, side_ - column);
-        const auto side = static_cast<double>(side_);
-        const double y = (static_cast<double>(row % side_) + point.y) / side;
-        place_row(out, count, static_cast<double>(column), point.x, y, side);
+        const std::uint64_t row = first / tiling_.columns;
+        const std::uint64_t column = first % tiling_.columns;
+        const Vec2& point = tile_[row / tiling_.rows];
+        const std::uint64_t count = std::min(most, tiling_.columns - column);
+        const double y =
+            (static_cast<double>(row % tiling_.rows) + point.y) / static_cast<double>(tiling_.rows);
+        place_row(out, count, static_cast<double>(column), point.x, y,
+                  static_cast<double>(tiling_.columns));
         return count;
     }
 
     /// Point j of the last rank.
     std::uint64_t fill_last(std::uint64_t j, double* out) const {
         __extension__ using Product = unsigned __int128;
-        const auto place = static_cast<std::uint64_t>(Product{j} * (side_ * side_) / last_count_);
-        const auto side = static_cast<double>(side_);
-        out[0] = (static_cast<double>(place % side_) + tile_.back().x) / side;
-        out[1] = (static_cast<double>(place / side_) + tile_.back().y) / side;
+        const auto place = static_cast<std::uint64_t>(Product{j} * tiling_.tiles() / last_count_);
+        out[0] = (static_cast<double>(place % tiling_.columns) + tile_.back().x) /
+                 static_cast<double>(tiling_.columns);
+        out[1] = (static_cast<double>(place / tiling_.columns) + tile_.back().y) /
+                 static_cast<double>(tiling_.rows);
         return 1;
     }
 
-    std::vector<Point> tile_;
-    std::uint64_t side_;
+    std::vector<Vec2> tile_;
+    Tiling tiling_;
     std::uint64_t last_begin_;  ///< index of the first point of the last rank
     std::uint64_t last_count_;
 };
 
-std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext& run) {
+/// At least so many tiles, few more, and nearly squares where `sides` are those of the box.
+Tiling tiling_of(std::uint64_t least, Vec2 sides) {
+    const double longer = std::max(sides.x, sides.y) / std::min(sides.x, sides.y);
+    auto across =
+        static_cast<std::uint64_t>(std::ceil(std::sqrt(static_cast<double>(least) / longer)));
+    if (sides.x == sides.y) return {across, across};
+    const auto along = [&](std::uint64_t b) { return (least - 1) / b + 1; };
+    const auto badness = [&](std::uint64_t b) {
+        const double shape = longer * static_cast<double>(b) / static_cast<double>(along(b));
+        return std::pair(b * along(b), std::max(shape, 1 / shape));
+    };
+    if (across > 1 && badness(across - 1) <= badness(across)) --across;
+    return sides.x > sides.y ? Tiling{along(across), across} : Tiling{across, along(across)};
+}
+
+/// The tile for so many repetitions.
+std::vector<Vec2> tile_for(std::uint64_t points, const Tiling& tiling, Vec2 sides, const Plan& plan,
+                           const Values& options, const RunContext& run) {
+    const Vec2 own{sides.x / static_cast<double>(tiling.columns),
+                   sides.y / static_cast<double>(tiling.rows)};
+    return ranked_tile(points, static_cast<std::uint64_t>(options[iterations]), own, plan.seed,
+                       run);
+}
+
+std::unique_ptr<Sequence> make_even(const Plan& plan, const Values& options, Vec2 sides,
+                                    const RunContext& run) {
     const auto most = static_cast<std::uint64_t>(options[tile_points]);
-    const std::uint64_t full = (plan.count - 1) / most;  // K^2 > full
-    const std::uint64_t side = full == 0 ? 1 : floor_root(full, 2) + 1;
-    const std::uint64_t points = (plan.count - 1) / (side * side) + 1;
+    const Tiling tiling = tiling_of((plan.count - 1) / most + 1, sides);
+    const std::uint64_t points = (plan.count - 1) / tiling.tiles() + 1;
     return std::make_unique<Tiles>(
-        make_tile(static_cast<std::size_t>(points), static_cast<std::uint64_t>(options[iterations]),
-                  plan.seed, run),
-        side, plan.count);
+        tile_for(points, tiling, sides, plan, options, run.stage(0, 0.99)), tiling, plan.count);
+}
+
+std::unique_ptr<Sequence> make_thinned(const Plan& plan, const Values& options, Vec2 sides,
+                                       std::shared_ptr<const DensityMap> density,
+                                       const RunContext& run) {
+    const auto most = static_cast<double>(options[tile_points]);
+    const auto n = static_cast<double>(plan.count);
+    const double needed = (n + 2 * std::sqrt(n)) * density->largest();
+    if (!(needed < 0x1p53))
+        fail(ErrorKind::limit,
+             "{}: to thin to {} points takes {:.3g}, as the largest density is {:.3g} times the "
+             "mean; at most 2^53",
+             options[density_option], plan.count, needed, density->largest());
+    Tiling tiling = tiling_of(static_cast<std::uint64_t>(std::ceil(needed / most)), sides);
+    const double share = needed / static_cast<double>(tiling.tiles());
+    const RunContext steady = run.rising();
+    const auto tile = tile_for(static_cast<std::uint64_t>(std::ceil(share)), tiling, sides, plan,
+                               options, steady.stage(0, 0.7));
+    for (;;) {
+        if (auto made = thinned_tiles(tile, tiling, density, plan.count, plan.seed,
+                                      steady.stage(0.7, 0.99)))
+            return made;
+        tiling.columns += (tiling.columns + 7) / 8;
+        tiling.rows += (tiling.rows + 7) / 8;
+    }
+}
+
+bool is_constant(const DensityMap& density) {
+    const auto [least, largest] = std::ranges::minmax(density.values());
+    return least == largest;
+}
+
+std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext& run) {
+    const auto extents = proportions_of(plan);
+    const Vec2 sides = extents.empty() ? Vec2{1, 1} : Vec2{extents[0], extents[1]};
+    if (!options.given(density_option)) return make_even(plan, options, sides, run);
+    auto density = std::make_shared<const DensityMap>(
+        read_density(options[density_option], options[invert_option], run));
+    if (is_constant(*density)) return make_even(plan, options, sides, run);
+    return make_thinned(plan, options, sides, std::move(density), run);
+}
+
+Plan plan(const Request& request, const Values& options) {
+    check_invert(options);
+    return plan_in_proportion(request);
 }
 
 }  // namespace
@@ -201,7 +212,8 @@ Generator tiled() {
             .summary = "One tile of blue noise, repeated and thinned to any number of points",
             .source = "Cohen, Shade, Hiller, Deussen 2003, doi:10.1145/882262.882265",
             .traits = {.min_dimension = 2, .max_dimension = 2, .prefix = false},
-            .options = Schema(tile_points, iterations),
+            .options = Schema(tile_points, iterations, density_option, invert_option),
+            .plan = plan,
             .sequence = make};
 }
 

@@ -4,13 +4,15 @@
 //
 //     point i = (c_i + 1/2) / (W, H),    c_i the cell of rank i    (math/void_and_cluster.hpp)
 //
+// --bounds     distances hold in the box: cells need not be squares there.
 // --density    the picture as the ranks dither it: the n cells with the smallest
 //              (rank + 1/2) / density(centre of the cell), in that order.
 // --mask-image the ranks as a dither mask, 16 bits of grey: floor((rank + 1/2) 65536 / (W H)). A
 //              pixel of a picture, its grey in [0, 65536), is white where it is above the mask.
 //
 // Shape   2-D, n <= W H. Without --size: the smallest square of a power of two with at least 16
-//         cells a point; with a density 4, a point where it is largest.
+//         cells a point; with a density 4, a point where it is largest. In a box that is no square
+//         so many along its shorter side, and along the longer as many as make cells squares.
 // Promise point i does not depend on n when --size is given and --density is not.
 // Beware  points lie on cells: their spectrum repeats with periods W and H. --cell random mends
 //         that, and costs some evenness. Where n density(c) > W H no further point fits.
@@ -25,6 +27,7 @@
 
 #include "core/error.hpp"
 #include "core/rng.hpp"
+#include "generators/box_space.hpp"
 #include "generators/density_options.hpp"
 #include "generators/generator.hpp"
 #include "math/density_map.hpp"
@@ -35,8 +38,8 @@ namespace {
 
 constexpr Param<Extents> size{{.name = "size",
                                .unit = "cells",
-                               .help = "Cells of the torus, such as 256x256; without it 16 or more "
-                                       "a point"}};
+                               .help = "Cells of the torus, such as 256x256; without it squares, "
+                                       "16 or more a point"}};
 constexpr Param<Choice> cell{.name = "cell",
                              .fallback = "center",
                              .choices = "center|random",
@@ -48,6 +51,13 @@ struct Torus {
     std::size_t width;
     std::size_t height;
     [[nodiscard]] std::size_t cells() const { return width * height; }
+
+    /// Width over height of a cell, 1 on a box of equal sides (which has no proportions).
+    [[nodiscard]] double stretch(const std::vector<double>& proportions) const {
+        if (proportions.empty()) return 1;
+        return proportions[0] / static_cast<double>(width) /
+               (proportions[1] / static_cast<double>(height));
+    }
 };
 
 constexpr double most_cells = 0x1p31;
@@ -63,18 +73,24 @@ Torus torus_of(const std::vector<std::int64_t>& extents, const std::string& text
     return {static_cast<std::size_t>(extents[0]), static_cast<std::size_t>(extents[1])};
 }
 
-/// So many cells for each of `points`. @throws Error(limit)
-Torus torus_for(double points, double cells) {
+/// So many cells for each of `points`, squares in a box of these proportions. @throws Error(limit)
+Torus torus_for(double points, double cells, const std::vector<double>& proportions) {
+    const double longer = proportions.empty() ? 1 : std::ranges::max(proportions);
+    const auto along = [&](std::size_t side) {
+        return static_cast<std::size_t>(std::floor(static_cast<double>(side) * longer + 0.5));
+    };
+    const auto all = [&](std::size_t side) { return static_cast<double>(side * along(side)); };
     std::size_t side = 4;
-    while (static_cast<double>(side * side) < cells * points && side < 32768) side *= 2;
-    if (static_cast<double>(side * side) < points)
+    while (all(side) < cells * points && all(2 * side) < most_cells) side *= 2;
+    if (all(side) < points)
         fail(ErrorKind::limit, "void-and-cluster makes at most 2^30 points; {:.0f} are too many",
              points);
-    return {side, side};
+    if (proportions.empty() || proportions[1] == 1) return {along(side), side};
+    return {side, along(side)};
 }
 
 Plan plan(const Request& request, const Values& options) {
-    Plan plan = default_plan(request);
+    Plan plan = plan_in_proportion(request);
     check_invert(options);
     if (!options.given(size)) return plan;
     const std::string text = format_value(options.find(size.name).value);
@@ -83,6 +99,13 @@ Plan plan(const Request& request, const Values& options) {
     if (plan.count > torus.cells())
         fail(ErrorKind::usage, "--size: {} has {} cells, too few for {} points", text,
              torus.cells(), plan.count);
+    const double stretch = torus.stretch(proportions_of(plan));
+    if (!(stretch <= most_stretch && 1 / stretch <= most_stretch))
+        fail(ErrorKind::usage,
+             "--size: {} makes cells as wide as {:.4g} times their height in the box; expected "
+             "{:.2f} to "
+             "{:.0f} times",
+             text, stretch, 1 / most_stretch, most_stretch);
     return plan;
 }
 
@@ -145,18 +168,21 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     if (options.given(density_option))
         map = read_density(options[density_option], options[invert_option], run);
     const auto wanted = static_cast<double>(plan.count);
-    const Torus torus = options.given(size)
-                            ? torus_of(options[size], {})
-                            : torus_for(wanted * (map ? map->largest() : 1), map ? 4 : 16);
+    const auto proportions = proportions_of(plan);
+    const Torus torus = options.given(size) ? torus_of(options[size], {})
+                                            : torus_for(wanted * (map ? map->largest() : 1),
+                                                        map ? 4 : 16, proportions);
     const bool all = map || options.given(mask_image);
     const std::size_t count = plan.count;
-    const std::vector<std::uint32_t> order = void_and_cluster_order(
-        torus.width, torus.height, all ? torus.cells() : count, plan.seed, run.stage(0, 0.99));
+    const std::vector<std::uint32_t> order =
+        void_and_cluster_order(torus.width, torus.height, all ? torus.cells() : count, plan.seed,
+                               run.stage(0, 0.99), torus.stretch(proportions));
 
     const bool centered = options[cell] == "center";
     PointSet points =
         place(torus, map ? dithered(torus, order, *map, count, options[density_option]) : order,
               count, centered, plan.seed);
+    put_in_box(plan, points);
     const Value extents = std::vector<std::int64_t>{static_cast<std::int64_t>(torus.width),
                                                     static_cast<std::int64_t>(torus.height)};
     points.provenance.options = {{"size", format_value(extents)}, {"cell", options[cell]}};
@@ -174,7 +200,11 @@ Generator void_and_cluster() {
     return {.name = "void-and-cluster",
             .summary = "Cells of a torus in the order of void and cluster, and its dither mask",
             .source = "Ulichney 1993, doi:10.1117/12.152707",
-            .traits = {.min_dimension = 2, .max_dimension = 2, .sequence = false, .prefix = false},
+            .traits = {.min_dimension = 2,
+                       .max_dimension = 2,
+                       .sequence = false,
+                       .prefix = false,
+                       .boxed = true},
             .options = Schema(size, cell, density_option, invert_option, mask_image),
             .aliases = {"dither"},
             .writes = {std::string(mask_image.name)},

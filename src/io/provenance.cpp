@@ -64,13 +64,15 @@ void take_all(const Json& meta, Provenance& provenance) {
     take(meta, "domain", provenance.domain);
     take(meta, "bounds", provenance.bounds);
     take(meta, "shard", provenance.shard);
+    if (const auto it = meta.find("efficiency"); it != meta.end() && it->is_number())
+        provenance.efficiency = it->get<double>();
     take(meta, "command", provenance.command);
 }
 
 bool is_known(std::string_view key) {
-    constexpr std::array keys{"tool",   "version",   "generator", "options", "seed",
-                              "count",  "dimension", "start",     "warps",   "domain",
-                              "bounds", "shard",     "command"};
+    constexpr std::array keys{"tool",   "version",   "generator",  "options", "seed",
+                              "count",  "dimension", "start",      "warps",   "domain",
+                              "bounds", "shard",     "efficiency", "command"};
     return std::ranges::find(keys, key) != keys.end();
 }
 
@@ -89,6 +91,7 @@ Json to_json(const Provenance& provenance) {
     meta["domain"] = provenance.domain;
     if (!provenance.bounds.empty()) meta["bounds"] = provenance.bounds;
     if (!provenance.shard.empty()) meta["shard"] = provenance.shard;
+    if (provenance.efficiency < 1) meta["efficiency"] = provenance.efficiency;
     meta["command"] = provenance.command;
     return meta;
 }

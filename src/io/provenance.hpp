@@ -12,7 +12,7 @@
 namespace stipple::io {
 
 /// Keys tool, version, generator, options, seed, count, dimension, start, warps, domain, command;
-/// also bounds and shard where they are set.
+/// also bounds and shard where they are set, efficiency where points were dropped.
 nlohmann::ordered_json to_json(const Provenance& provenance);
 
 /// Takes what it knows and ignores the rest.

@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: MIT
 #include "math/density_map.hpp"
 
+#include <sys/mman.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "core/error.hpp"
 #include "core/file_bytes.hpp"
 #include "core/npy_header.hpp"
 #include "core/rng.hpp"
 #include "core/text.hpp"
+#include "math/pfm_picture.hpp"
 #include "math/png_picture.hpp"
 
 namespace stipple {
@@ -62,9 +67,8 @@ Cells cells_of_array(std::string_view bytes, const std::string& path, const RunC
     return cells;
 }
 
-Cells cells_of_npy(std::string_view bytes, const std::string& path, bool invert,
-                   const RunContext& run) {
-    Cells cells = cells_of_array(bytes, path, run);
+/// Densities that are not a picture's shades: they need to be checked, and have no white.
+Cells densities(Cells cells, const std::string& path, bool invert) {
     check_values(
         cells, path, [](double value) { return value >= 0 && std::isfinite(value); },
         "finite densities, none below 0");
@@ -75,30 +79,54 @@ Cells cells_of_npy(std::string_view bytes, const std::string& path, bool invert,
     return cells;
 }
 
+Cells cells_of_pfm(std::string_view bytes, const std::string& path, const RunContext& run) {
+    PfmPicture picture = read_pfm(bytes, path, run);
+    return {picture.width, picture.height, std::move(picture.grey)};
+}
+
 Cells read_cells(const std::string& path, bool invert, const RunContext& run) {
     const std::string bytes = read_file(path);
     if (bytes.empty())
-        fail(ErrorKind::input, "{}: the file is empty; expected a PNG picture or an NPY array",
-             path);
-    const bool png = bytes.starts_with(png_magic);
-    if (!png && !bytes.starts_with(npy_magic))
-        fail(ErrorKind::input, "{}: neither a PNG picture nor an NPY array", path);
-    Cells cells =
-        png ? cells_of_png(bytes, path, invert, run) : cells_of_npy(bytes, path, invert, run);
+        fail(ErrorKind::input,
+             "{}: the file is empty; expected a PNG or PFM picture or an NPY array", path);
+    Cells cells;
+    if (bytes.starts_with(png_magic))
+        cells = cells_of_png(bytes, path, invert, run);
+    else if (bytes.starts_with(npy_magic))
+        cells = densities(cells_of_array(bytes, path, run), path, invert);
+    else if (looks_like_pfm(bytes))
+        cells = densities(cells_of_pfm(bytes, path, run), path, invert);
+    else
+        fail(ErrorKind::input, "{}: neither a PNG or PFM picture nor an NPY array", path);
     if (std::ranges::all_of(cells.values, [](double value) { return value == 0; }))
         fail(ErrorKind::input, "{}: all densities are 0{}; there is no place for a point", path,
              invert ? " when inverted" : "");
     return cells;
 }
 
-/// Where `mass` falls among sums: the cell, and the fraction of it that lies before, below 1.
-std::pair<std::size_t, double> locate(std::span<const double> sums, double mass) {
-    const double most = std::nextafter(sums.back(), 0.0);  // a product may round up to the total
-    const double wanted = std::min(mass, most);
-    const auto above = std::ranges::upper_bound(sums, wanted);
-    const auto cell = static_cast<std::size_t>(above - sums.begin());
+/// The fraction of a cell that lies before `wanted`, below 1.
+double fraction_before(std::span<const double> sums, std::size_t cell, double wanted) {
     const double before = cell == 0 ? 0 : sums[cell - 1];
-    return {cell, std::min((wanted - before) / (*above - before), one_minus_ulp)};
+    return std::min((wanted - before) / (sums[cell] - before), one_minus_ulp);
+}
+
+/// The share of the total that lies before a place in a cell.
+double share_before(std::span<const double> sums, std::size_t cell, double fraction) {
+    if (!(sums.back() > 0)) return 0;
+    const double before = cell == 0 ? 0 : sums[cell - 1];
+    return std::min((before + fraction * (sums[cell] - before)) / sums.back(), 1.0);
+}
+
+/// Zeros in large pages, where the system has them: points fall anywhere, and looking up where a
+/// small page is takes as long as fetching from it.
+template <class Number>
+void fill_with_zeros(std::vector<Number>& numbers, std::size_t count) {
+    numbers.reserve(count);
+    constexpr std::uintptr_t page = 4096;
+    const auto from = (reinterpret_cast<std::uintptr_t>(numbers.data()) + page - 1) / page * page;
+    const auto to = reinterpret_cast<std::uintptr_t>(numbers.data() + count) / page * page;
+    if (to > from) madvise(reinterpret_cast<void*>(from), to - from, MADV_HUGEPAGE);
+    numbers.resize(count);
 }
 
 /// (cell + fraction) / cells, kept in that cell when rounding would leave it.
@@ -128,7 +156,8 @@ DensityLevel level_above(const DensityLevel& fine) {
 }  // namespace
 
 DensityMap::DensityMap(std::size_t width, std::size_t height, std::vector<double> values)
-    : width_(width), height_(height), values_(std::move(values)), row_sums_(width * height) {
+    : width_(width), height_(height), values_(std::move(values)) {
+    fill_with_zeros(row_sums_, width * height);
     // First to a largest value of 1, so that no sum is too large for a double.
     const double top = std::ranges::max(values_);
     double sum = 0;
@@ -144,13 +173,85 @@ DensityMap::DensityMap(std::size_t width, std::size_t height, std::vector<double
         column_.push_back(total += row);
     }
     largest_ = std::ranges::max(values_);
+    most_ = std::nextafter(total, 0.0);
+    lay_out_guides();
+}
+
+// A bucket of about 2 cells lies in one cache line of sums, mostly.
+void DensityMap::lay_out_guides() {
+    const std::size_t buckets = (width_ + 1) / 2;
+    column_buckets_ = Buckets(column_.back(), height_);
+    column_guide_.resize(height_ + 1);
+    fill_guide(column_, column_guide_);
+    row_guide_size_ = buckets + 1;
+    fill_with_zeros(row_guides_, height_ * row_guide_size_);
+    for (std::size_t j = 0; j < height_; ++j) {
+        const auto sums = std::span(row_sums_).subspan(j * width_, width_);
+        rows_.push_back({sums.back(), std::nextafter(sums.back(), 0.0), {sums.back(), buckets}});
+        fill_guide(sums, std::span(row_guides_).subspan(j * row_guide_size_, row_guide_size_));
+    }
+}
+
+DensityMap::Visit DensityMap::visit(double u, double v) const {
+    const double mass = std::min(v * column_.back(), most_);
+    const std::size_t bucket = column_buckets_.of(mass);
+    const std::size_t row =
+        first_above(column_, column_guide_[bucket], column_guide_[bucket + 1], mass);
+    const double wanted = std::min(u * rows_[row].total, rows_[row].most);
+    return {row, row * row_guide_size_ + rows_[row].buckets.of(wanted), wanted,
+            coordinate(row, fraction_before(column_, row, mass), height_)};
+}
+
+double DensityMap::across(const Visit& visit) const {
+    const auto sums = std::span(row_sums_).subspan(visit.row * width_, width_);
+    const std::size_t cell =
+        first_above(sums, row_guides_[visit.bucket], row_guides_[visit.bucket + 1], visit.wanted);
+    return coordinate(cell, fraction_before(sums, cell, visit.wanted), width_);
+}
+
+double DensityMap::largest_in(double x0, double x1, double y0, double y1) const {
+    double largest = 0;
+    for (std::size_t j = cell_of(y0, height_); j <= cell_of(y1, height_); ++j)
+        for (std::size_t i = cell_of(x0, width_); i <= cell_of(x1, width_); ++i)
+            largest = std::max(largest, values_[j * width_ + i]);
+    return largest;
 }
 
 std::array<double, 2> DensityMap::place(double u, double v) const {
-    const auto [j, above] = locate(column_, v * column_.back());
-    const auto row = std::span(row_sums_).subspan(j * width_, width_);
-    const auto [i, right] = locate(row, u * row.back());
-    return {coordinate(i, right, width_), coordinate(j, above, height_)};
+    const Visit visit = this->visit(u, v);
+    return {across(visit), visit.y};
+}
+
+/// In three steps, each some points ahead of the next, so that cells of many points are on their
+/// way from memory at a time.
+void DensityMap::place_all(std::span<const double> cube, std::span<double> image) const {
+    constexpr std::size_t ahead = 4;
+    constexpr std::size_t ring = 16;  // a power of two above 2 * ahead
+    std::array<Visit, ring> visits;
+    const std::size_t count = cube.size() / 2;
+    for (std::size_t i = 0; i < count + 2 * ahead; ++i) {
+        if (i < count) {
+            Visit& next = visits[i % ring] = visit(cube[2 * i], cube[2 * i + 1]);
+            __builtin_prefetch(&row_guides_[next.bucket]);
+        }
+        if (i >= ahead && i - ahead < count) {
+            const Visit& next = visits[(i - ahead) % ring];
+            __builtin_prefetch(&row_sums_[next.row * width_ + row_guides_[next.bucket]]);
+        }
+        if (i >= 2 * ahead) {
+            const std::size_t at = i - 2 * ahead;
+            image[2 * at] = across(visits[at % ring]);
+            image[2 * at + 1] = visits[at % ring].y;
+        }
+    }
+}
+
+std::array<double, 2> DensityMap::find(double x, double y) const {
+    const std::size_t j = cell_of(y, height_);
+    const std::size_t i = cell_of(x, width_);
+    const auto sums = std::span(row_sums_).subspan(j * width_, width_);
+    return {share_before(sums, i, x * static_cast<double>(width_) - static_cast<double>(i)),
+            share_before(column_, j, y * static_cast<double>(height_) - static_cast<double>(j))};
 }
 
 std::vector<DensityLevel> DensityMap::pyramid() const {

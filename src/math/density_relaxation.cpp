@@ -20,6 +20,16 @@ constexpr double leaf_mass = 0.5;  // of a point
 constexpr double window_mass = 2;  // points
 constexpr int deepest = 24;        // levels of the quadtree
 
+using Sides = std::array<double, 2>;
+
+/// Sides of the torus of area `count`, in proportion to `extents`; of a square without any.
+Sides sides_of(std::size_t count, std::span<const double> extents) {
+    const double side = std::sqrt(static_cast<double>(count));
+    if (extents.empty()) return {side, side};
+    const double stretch = std::sqrt(extents[0] / extents[1]);
+    return {side * stretch, side / stretch};
+}
+
 /// What acts on a point: another point, or what a leaf holds of the density.
 struct Body {
     double x;
@@ -98,17 +108,17 @@ STIPPLE_WIDE std::array<double, 2> force_at(double x, double y, double a, const 
     return {total(fx), total(fy)};
 }
 
-/// Bodies of the torus [0, side)^2 whose sigma^2 is in one octave, in cells of about sigma.
+/// Bodies of the torus whose sigma^2 is in one octave, in cells of about sigma.
 class Octave {
   public:
-    Octave(double side, int exponent, const std::vector<Body>& bodies)
-        : side_(side),
-          most_(std::ldexp(1.0, exponent + 1)),
-          along_(
-              std::clamp<std::size_t>(static_cast<std::size_t>(side / std::sqrt(most_)), 1, 4096)),
-          width_(side / static_cast<double>(along_)),
-          starts_(along_ * along_ + 1),
-          sorted_(bodies.size()) {
+    Octave(const Sides& sides, int exponent, const std::vector<Body>& bodies)
+        : sides_(sides), most_(std::ldexp(1.0, exponent + 1)), sorted_(bodies.size()) {
+        for (std::size_t k = 0; k < 2; ++k) {
+            const auto cells = static_cast<std::size_t>(sides[k] / std::sqrt(most_));
+            along_[k] = std::clamp<std::size_t>(cells, 1, 4096);
+            widths_[k] = sides[k] / static_cast<double>(along_[k]);
+        }
+        starts_.resize(along_[0] * along_[1] + 1);
         for (const Body& body : bodies) ++starts_[cell_of(body) + 1];
         for (std::size_t c = 0; c + 1 < starts_.size(); ++c) starts_[c + 1] += starts_[c];
         std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
@@ -119,59 +129,60 @@ class Octave {
     void gather(double x, double y, double a, Candidates& near) const {
         const double far = reach * std::sqrt((a + most_) / 2);
         const auto low = [&](double c) {
-            return static_cast<std::int64_t>((c - far) / width_) - 1;
+            return static_cast<std::int64_t>((c - far) / widths_[1]) - 1;
         };
         const auto high = [&](double c) {
-            return static_cast<std::int64_t>((c + far) / width_) + 1;
+            return static_cast<std::int64_t>((c + far) / widths_[1]) + 1;
         };
         for (std::int64_t row = low(y); row <= high(y); ++row) {
             // Rows of cells that lie far off in y are met in a shorter stretch of x.
-            const double below = static_cast<double>(row) * width_ - y;
-            const double gap = std::max({0.0, below, -below - width_});
+            const double below = static_cast<double>(row) * widths_[1] - y;
+            const double gap = std::max({0.0, below, -below - widths_[1]});
             if (gap >= far) continue;
             const double wide = std::sqrt(far * far - gap * gap);
-            add_row(row, static_cast<std::int64_t>(std::floor((x - wide) / width_)),
-                    static_cast<std::int64_t>(std::floor((x + wide) / width_)), near);
+            add_row(row, static_cast<std::int64_t>(std::floor((x - wide) / widths_[0])),
+                    static_cast<std::int64_t>(std::floor((x + wide) / widths_[0])), near);
         }
     }
 
   private:
     [[nodiscard]] std::size_t cell_of(const Body& body) const {
-        const auto i = std::min(along_ - 1, static_cast<std::size_t>(body.x / width_));
-        const auto j = std::min(along_ - 1, static_cast<std::size_t>(body.y / width_));
-        return j * along_ + i;
+        const auto i = std::min(along_[0] - 1, static_cast<std::size_t>(body.x / widths_[0]));
+        const auto j = std::min(along_[1] - 1, static_cast<std::size_t>(body.y / widths_[1]));
+        return j * along_[0] + i;
     }
 
     void add_row(std::int64_t row, std::int64_t first, std::int64_t last, Candidates& near) const {
-        const auto period = static_cast<std::int64_t>(along_);
-        const auto turns_of = [&](std::int64_t c) {
+        const auto columns = static_cast<std::int64_t>(along_[0]);
+        const auto rows = static_cast<std::int64_t>(along_[1]);
+        const auto turns_of = [](std::int64_t c, std::int64_t period) {
             return c >= 0 ? c / period : -((period - 1 - c) / period);
         };
-        const std::int64_t up = turns_of(row);
-        const auto base = static_cast<std::size_t>((row - up * period) * period);
+        const std::int64_t up = turns_of(row, rows);
+        const auto base = static_cast<std::size_t>((row - up * rows) * columns);
         while (first <= last) {
-            const std::int64_t across = turns_of(first);
-            const std::int64_t column = first - across * period;
-            const std::int64_t run = std::min(last - first + 1, period - column);
+            const std::int64_t across = turns_of(first, columns);
+            const std::int64_t column = first - across * columns;
+            const std::int64_t run = std::min(last - first + 1, columns - column);
             const std::size_t begin = base + static_cast<std::size_t>(column);
             const std::size_t from = starts_[begin];
             const std::size_t count = starts_[begin + static_cast<std::size_t>(run)] - from;
-            near.take(sorted_, from, count, side_ * static_cast<double>(across),
-                      side_ * static_cast<double>(up));
+            near.take(sorted_, from, count, sides_[0] * static_cast<double>(across),
+                      sides_[1] * static_cast<double>(up));
             first += run;
         }
     }
 
-    double side_;
-    double most_;  ///< sigma^2 of all bodies is at most this
-    std::size_t along_;
-    double width_;
+    Sides sides_;
+    double most_;                         ///< sigma^2 of all bodies is at most this
+    std::array<std::size_t, 2> along_{};  ///< cells along each side
+    Sides widths_{};                      ///< of a cell
     std::vector<std::uint32_t> starts_;
     Bodies sorted_;
 };
 
 /// Bodies by octaves of sigma^2.
-std::vector<Octave> octaves(double side, const std::vector<Body>& bodies) {
+std::vector<Octave> octaves(const Sides& sides, const std::vector<Body>& bodies) {
     constexpr int lowest = -60;
     constexpr int highest = 60;
     std::vector<std::vector<Body>> split(highest - lowest + 1);
@@ -181,7 +192,7 @@ std::vector<Octave> octaves(double side, const std::vector<Body>& bodies) {
     }
     std::vector<Octave> result;
     for (std::size_t i = 0; i < split.size(); ++i)
-        if (!split[i].empty()) result.emplace_back(side, static_cast<int>(i) + lowest, split[i]);
+        if (!split[i].empty()) result.emplace_back(sides, static_cast<int>(i) + lowest, split[i]);
     return result;
 }
 
@@ -236,59 +247,72 @@ class Masses {
 /// Squares of the density that hold at most leaf_mass points each.
 class Quadtree {
   public:
-    Quadtree(const DensityMap& map, double count, double side, const RunContext& run)
-        : masses_(map), count_(count), side_(side), run_(run) {
-        split({0, 0, 1}, 0);
+    Quadtree(const DensityMap& map, double count, const Sides& sides, const RunContext& run)
+        : masses_(map),
+          count_(count),
+          sides_(sides),
+          longest_(std::max(sides[0], sides[1])),
+          run_(run) {
+        // In a long box several roots side by side, each near to a square.
+        const double columns = std::max(1.0, std::floor(sides[0] / sides[1] + 0.5));
+        const double rows = std::max(1.0, std::floor(sides[1] / sides[0] + 0.5));
+        for (double j = 0; j < rows; ++j)
+            for (double i = 0; i < columns; ++i)
+                split({i / columns, j / rows, 1 / columns, 1 / rows}, 0);
     }
 
     [[nodiscard]] const std::vector<Body>& leaves() const { return leaves_; }
 
-    /// sigma^2 at a point of the unit square: the share of a point in the square about it that
-    /// holds window_mass points.
+    /// sigma^2 at a point of the unit square: the share of a point in the square of the box about
+    /// it that holds window_mass points.
     [[nodiscard]] double square_at(double x, double y) const {
         double low = 0;
         double high = 0.5;
         for (int i = 0; i < 60 && high - low > 1e-7 * high; ++i) {
             const double half = (low + high) / 2;
-            const double mass = count_ * masses_.of(x - half, x + half, y - half, y + half);
+            const double across = half * (longest_ / sides_[0]);
+            const double up = half * (longest_ / sides_[1]);
+            const double mass = count_ * masses_.of(x - across, x + across, y - up, y + up);
             (mass > window_mass ? high : low) = half;
         }
-        const double size = (low + high) * side_;
+        const double size = (low + high) * longest_;
         return size * size / std::min(window_mass, count_);
     }
 
   private:
-    struct Square {
-        double x, y, size;
+    struct Part {
+        double x, y, width, height;
     };
 
-    void split(const Square& s, int depth) {
+    void split(const Part& s, int depth) {
         run_.check_stop();
-        const double mass = count_ * masses_.of(s.x, s.x + s.size, s.y, s.y + s.size);
+        const double mass = count_ * masses_.of(s.x, s.x + s.width, s.y, s.y + s.height);
         constexpr double nothing = 1e-9;  // what rounding may leave of an empty square
         if (mass < nothing) return;
         if (mass > leaf_mass && depth < deepest) {
-            const double half = s.size / 2;
-            for (const double y : {s.y, s.y + half})
-                for (const double x : {s.x, s.x + half}) split({x, y, half}, depth + 1);
+            const double width = s.width / 2;
+            const double height = s.height / 2;
+            for (const double y : {s.y, s.y + height})
+                for (const double x : {s.x, s.x + width}) split({x, y, width, height}, depth + 1);
             return;
         }
-        const double x = s.x + s.size / 2;
-        const double y = s.y + s.size / 2;
-        leaves_.push_back({x * side_, y * side_, square_at(x, y), -mass});
+        const double x = s.x + s.width / 2;
+        const double y = s.y + s.height / 2;
+        leaves_.push_back({x * sides_[0], y * sides_[1], square_at(x, y), -mass});
     }
 
     Masses masses_;
     double count_;
-    double side_;
+    Sides sides_;
+    double longest_;
     const RunContext& run_;
     std::vector<Body> leaves_;
 };
 
 /// Forces on all points, from each other and from the density.
-void all_forces(const std::vector<Body>& points, const std::vector<Octave>& density, double side,
-                std::span<double> forces, const RunContext& run) {
-    const std::vector<Octave> moving = octaves(side, points);
+void all_forces(const std::vector<Body>& points, const std::vector<Octave>& density,
+                const Sides& sides, std::span<double> forces, const RunContext& run) {
+    const std::vector<Octave> moving = octaves(sides, points);
     for_each_block(
         run, points.size(), 32,
         [&](const Block& block) {
@@ -317,11 +341,11 @@ double density_relaxation_bytes(std::uint64_t count, const DensityMap& map) {
 }
 
 void relax_to_density(std::span<double> rows, const DensityMap& map, std::uint64_t steps,
-                      const RunContext& run) {
+                      const RunContext& run, std::span<const double> extents) {
     const std::size_t n = rows.size() / 2;
-    const double side = std::sqrt(static_cast<double>(n));
-    const Quadtree tree(map, static_cast<double>(n), side, run);
-    const std::vector<Octave> density = octaves(side, tree.leaves());
+    const Sides sides = sides_of(n, extents);
+    const Quadtree tree(map, static_cast<double>(n), sides, run);
+    const std::vector<Octave> density = octaves(sides, tree.leaves());
     const RunContext part = worth_threads(run, 3e-6 * static_cast<double>(n));
     std::vector<Body> points(n);
     std::vector<double> forces(2 * n);
@@ -330,9 +354,9 @@ void relax_to_density(std::span<double> rows, const DensityMap& map, std::uint64
     for (std::uint64_t step = 0; step < steps; ++step) {
         run.tick(step, steps);
         for (std::size_t i = 0; i < n; ++i)
-            points[i] = {rows[2 * i] * side, rows[2 * i + 1] * side,
+            points[i] = {rows[2 * i] * sides[0], rows[2 * i + 1] * sides[1],
                          tree.square_at(rows[2 * i], rows[2 * i + 1]), 1};
-        all_forces(points, density, side, forces, part);
+        all_forces(points, density, sides, forces, part);
         double along = 0;
         for (std::size_t i = 0; i < 2 * n; ++i) along += forces[i] * speeds[i];
         k = along < 0 ? 1 : k + 1;
@@ -342,7 +366,7 @@ void relax_to_density(std::span<double> rows, const DensityMap& map, std::uint64
             for (std::size_t c = 0; c < 2; ++c) {
                 double& speed = speeds[2 * i + c];
                 speed = 0.25 * forces[2 * i + c] + kept * speed;
-                const double x = rows[2 * i + c] + speed / side;
+                const double x = rows[2 * i + c] + speed / sides[c];
                 to[c] = std::min(x - std::floor(x), one_minus_ulp);
             }
             if (map.at(to[0], to[1]) > 0)

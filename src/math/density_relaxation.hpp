@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Points of the unit torus that come to follow a density, by Gaussian kernels as wide as points are
-// apart there. With lengths in units of n^(-1/2), n points and a density rho of mean 1,
+// Points of a torus that come to follow a density, by Gaussian kernels as wide as points are apart
+// there. With lengths in units of (area / n)^(1/2), n points and a density rho of mean 1,
 //
 //     f(x) = sum_i K_i(x) - integral rho(y) K_y(x) dy,    K_y(x) = exp(-|x - y|^2 / sigma(y)^2),
 //
@@ -18,7 +18,7 @@
 // none of an energy, and points drift. For the constant density this is the force of
 // gaussian_relaxation.
 //
-// Shape   2-D; a density of any contrast.
+// Shape   2-D; a density of any contrast; sides of proportions as those of gaussian_relaxation.
 // Cost    a step: some 10 times that of relax_gaussian, more where the contrast is high.
 // Promise the same bits on every machine and for any number of threads; no point comes to lie where
 //         the density is 0.
@@ -38,9 +38,10 @@ namespace stipple {
 /// Bytes that relax_to_density needs besides the rows and the map.
 double density_relaxation_bytes(std::uint64_t count, const DensityMap& map);
 
-/// Moves rows of [0, 1)^2, which lie where the density is not 0, `steps` times.
+/// Moves rows of [0, 1)^2, which lie where the density is not 0, `steps` times. Distances are those
+/// of a torus with sides in proportion to `extents`, of the unit torus without any.
 /// @throws Error(cancelled)
 void relax_to_density(std::span<double> rows, const DensityMap& map, std::uint64_t steps,
-                      const RunContext& run);
+                      const RunContext& run, std::span<const double> extents = {});
 
 }  // namespace stipple

@@ -32,6 +32,21 @@ double side_length(double count, std::size_t dimension) {
     return side;
 }
 
+using Sides = std::array<double, relaxation_dimensions>;
+
+/// Sides of the torus of volume `count`, in proportion to `extents`; of a cube without any.
+Sides sides_of(std::size_t count, std::size_t dimension, std::span<const double> extents) {
+    Sides sides{};
+    sides.fill(side_length(static_cast<double>(count), dimension));
+    if (extents.empty()) return sides;
+    const double shortest = std::ranges::min(extents);
+    double volume = 1;
+    for (const double extent : extents) volume *= extent / shortest;
+    const double mean = side_length(volume, dimension);
+    for (std::size_t k = 0; k < dimension; ++k) sides[k] *= extents[k] / shortest / mean;
+    return sides;
+}
+
 /// Places that may be near to the points of a cell, by coordinate, padded with places that are not.
 struct Candidates {
     std::array<std::vector<double>, relaxation_dimensions> places = {};
@@ -73,25 +88,36 @@ STIPPLE_WIDE double pull(const double* places, double x, const double* weights, 
     return sum_of(parts);
 }
 
-/// Points in [0, side)^d, sorted into cells.
+/// `x` moved by whole sides into [0, side), mostly one or none.
+double wrapped(double x, double side) {
+    if (x < 0) x += side;
+    if (x >= side) x -= side;
+    if (x >= 0 && x < side) return x;
+    x -= side * std::floor(x / side);
+    return x >= 0 && x < side ? x : 0;
+}
+
+/// Points of a torus, sorted into cells.
 class Kernels {
   public:
-    Kernels(std::span<const double> rows, std::size_t dimension)
+    Kernels(std::span<const double> rows, std::size_t dimension, std::span<const double> extents)
         : d_(dimension),
           n_(rows.size() / dimension),
-          side_(side_length(static_cast<double>(n_), dimension)),
-          along_(std::max<std::size_t>(1, static_cast<std::size_t>(side_ / cell_side))),
-          width_(side_ / static_cast<double>(along_)),
+          sides_(sides_of(n_, dimension, extents)),
           places_(rows.begin(), rows.end()),
           cell_of_(n_),
           sorted_(n_) {
-        for (double& x : places_) x *= side_;
         std::size_t cells = 1;
-        for (std::size_t k = 0; k < d_; ++k) cells *= along_;
+        for (std::size_t k = 0; k < d_; ++k) {
+            along_[k] = std::max<std::size_t>(1, static_cast<std::size_t>(sides_[k] / cell_side));
+            widths_[k] = sides_[k] / static_cast<double>(along_[k]);
+            cells *= along_[k];
+        }
+        for (std::size_t i = 0; i < places_.size(); ++i) places_[i] *= sides_[i % d_];
         starts_.resize(cells + 1);
     }
 
-    [[nodiscard]] double side() const { return side_; }
+    [[nodiscard]] const Sides& sides() const { return sides_; }
     [[nodiscard]] std::span<double> places() { return places_; }
     [[nodiscard]] std::size_t cells() const { return starts_.size() - 1; }
 
@@ -100,8 +126,8 @@ class Kernels {
         for (std::size_t i = 0; i < n_; ++i) {
             std::size_t cell = 0;
             for (std::size_t k = d_; k-- > 0;) {
-                const auto c = static_cast<std::size_t>(places_[i * d_ + k] / width_);
-                cell = cell * along_ + std::min(c, along_ - 1);
+                const auto c = static_cast<std::size_t>(places_[i * d_ + k] / widths_[k]);
+                cell = cell * along_[k] + std::min(c, along_[k] - 1);
             }
             cell_of_[i] = static_cast<std::uint32_t>(cell);
             ++starts_[cell + 1];
@@ -144,15 +170,18 @@ class Kernels {
     void gather(std::size_t cell, Candidates& near) const {
         for (auto& places : near.places) places.clear();
         Offsets center{};
-        for (std::size_t k = 0; k < d_; ++k, cell /= along_)
-            center[k] = static_cast<std::int64_t>(cell % along_);
-        const auto most = static_cast<std::int64_t>(reach / width_) + 1;
-        Offsets offset;
-        offset.fill(-most);
+        Offsets most{};
+        Offsets offset{};
+        for (std::size_t k = 0; k < d_; ++k) {
+            center[k] = static_cast<std::int64_t>(cell % along_[k]);
+            cell /= along_[k];
+            most[k] = static_cast<std::int64_t>(reach / widths_[k]) + 1;
+            offset[k] = -most[k];
+        }
         for (;;) {
-            add_row(center, offset, most, near);
+            add_row(center, offset, most[0], near);
             std::size_t k = 1;
-            while (k < d_ && offset[k] == most) offset[k++] = -most;
+            for (; k < d_ && offset[k] == most[k]; ++k) offset[k] = -most[k];
             if (k >= d_) break;
             ++offset[k];
         }
@@ -164,27 +193,27 @@ class Kernels {
     /// Collects the row of cells along the first coordinate at the offsets in the others.
     void add_row(const Offsets& center, const Offsets& offset, std::int64_t most,
                  Candidates& near) const {
-        const auto period = static_cast<std::int64_t>(along_);
         double left = reach * reach;
         std::size_t base = 0;
         std::array<double, relaxation_dimensions> shift{};
         for (std::size_t k = d_; k-- > 1;) {
-            const double gap =
-                width_ * static_cast<double>(std::max<std::int64_t>(0, std::abs(offset[k]) - 1));
+            const auto between = std::max<std::int64_t>(0, std::abs(offset[k]) - 1);
+            const double gap = widths_[k] * static_cast<double>(between);
             left -= gap * gap;
             const std::int64_t at = center[k] + offset[k];
-            const std::int64_t turns = floor_quotient(at, period);
-            shift[k] = side_ * static_cast<double>(turns);
-            base = (base + static_cast<std::size_t>(at - turns * period)) * along_;
+            const std::int64_t turns = floor_quotient(at, period(k));
+            shift[k] = sides_[k] * static_cast<double>(turns);
+            base = (base + static_cast<std::size_t>(at - turns * period(k))) * along_[k - 1];
         }
         if (left <= 0) return;
-        while (most > 1 && static_cast<double>((most - 1) * (most - 1)) * width_ * width_ >= left)
+        const double width = widths_[0];
+        while (most > 1 && static_cast<double>((most - 1) * (most - 1)) * width * width >= left)
             --most;
         for (std::int64_t at = center[0] - most; at <= center[0] + most;) {
-            const std::int64_t turns = floor_quotient(at, period);
-            const std::int64_t first = at - turns * period;
-            const std::int64_t run = std::min(center[0] + most - at + 1, period - first);
-            shift[0] = side_ * static_cast<double>(turns);
+            const std::int64_t turns = floor_quotient(at, period(0));
+            const std::int64_t first = at - turns * period(0);
+            const std::int64_t run = std::min(center[0] + most - at + 1, period(0) - first);
+            shift[0] = sides_[0] * static_cast<double>(turns);
             const std::size_t begin = base + static_cast<std::size_t>(first);
             for (std::size_t k = 0; k < d_; ++k)
                 for (std::uint32_t s = starts_[begin];
@@ -198,13 +227,17 @@ class Kernels {
         return a >= 0 ? a / b : -((b - 1 - a) / b);
     }
 
+    [[nodiscard]] std::int64_t period(std::size_t k) const {
+        return static_cast<std::int64_t>(along_[k]);
+    }
+
     std::uint32_t& end_of(std::size_t cell) { return starts_[cell + 1]; }
 
     std::size_t d_;
     std::size_t n_;
-    double side_;
-    std::size_t along_;
-    double width_;
+    Sides sides_;
+    std::array<std::size_t, relaxation_dimensions> along_{};  ///< cells along each side
+    Sides widths_{};                                          ///< of a cell
     std::vector<double> places_;
     std::array<std::vector<double>, relaxation_dimensions> by_cell_;  ///< coordinates, sorted
     std::vector<std::uint32_t> cell_of_;
@@ -244,10 +277,10 @@ double relaxation_bytes(std::uint64_t count, std::size_t dimension) {
 }
 
 void relax_gaussian(std::span<double> rows, std::size_t dimension, std::uint64_t steps,
-                    const RunContext& run) {
+                    const RunContext& run, std::span<const double> extents) {
     const std::size_t n = rows.size() / dimension;
     const RunContext part = for_step(run, n, dimension);
-    Kernels kernels(rows, dimension);
+    Kernels kernels(rows, dimension, extents);
     constexpr double stable[] = {0.6266570686577501, 0.25, 0.09973557010035818,
                                  0.039788735772973836};
     const double length = stable[dimension - 1];
@@ -264,19 +297,17 @@ void relax_gaussian(std::span<double> rows, std::size_t dimension, std::uint64_t
         const double kept = k > 1 ? 1 - 3 / (k + 2) : 0;
         for (std::size_t i = 0; i < speeds.size(); ++i) {
             speeds[i] = length * forces[i] + kept * speeds[i];
-            double x = places[i] + speeds[i];
-            if (x < 0) x += kernels.side();
-            if (x >= kernels.side()) x -= kernels.side();
-            places[i] = x;
+            places[i] = wrapped(places[i] + speeds[i], kernels.sides()[i % dimension]);
         }
     }
     for (std::size_t i = 0; i < rows.size(); ++i)
-        rows[i] = std::min(places[i] / kernels.side(), one_minus_ulp);
+        rows[i] = std::min(places[i] / kernels.sides()[i % dimension], one_minus_ulp);
     run.tick(1, 1);
 }
 
-double gaussian_energy(std::span<const double> rows, std::size_t dimension, const RunContext& run) {
-    Kernels kernels(rows, dimension);
+double gaussian_energy(std::span<const double> rows, std::size_t dimension, const RunContext& run,
+                       std::span<const double> extents) {
+    Kernels kernels(rows, dimension, extents);
     std::vector<double> forces(rows.size());
     return all_forces(kernels, forces, for_step(run, rows.size() / dimension, dimension));
 }

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
 //
-// Points of the unit torus that descend the energy of Gaussian kernels,
+// Points of a torus that descend the energy of Gaussian kernels,
 //
-//     E = sum over pairs i < j of  exp(-|x_i - x_j|^2 / 2),     lengths in units of n^(-1/d),
+//     E = sum over pairs i < j of  exp(-|x_i - x_j|^2 / 2),     lengths in units of (V / n)^(1/d),
 //
+// V the volume of the torus,
 // over all images of each pair nearer than 6 units. A step moves every point by s F + b (last
 // step), F = sum_j (x_i - x_j) exp(-|x_i - x_j|^2 / 2); s = (2 pi)^(1 - d/2) / 4, at which the
 // stiffest mode of an even set moves 1.16 times as far as to its rest. b is Nesterov's 1 - 3 / (k +
 // 2), from k = 1 again whenever the step goes against the force: the soft modes, whose wavelengths
 // are near the distance of neighbours, take some hundred steps so, and some ten thousand without.
 //
-// Shape   d = 1 ... 4.
+// Shape   d = 1 ... 4; sides of any proportions up to largest_proportion. Where a side is shorter
+//         than a unit, points feel their own images more than others, and stay irregular.
 // Cost    a step: O(n (14^d)), 1 microsecond a point and core in 2-D, 14 in 3-D.
 // Promise the same bits on every machine and for any number of threads.
 // Source  A. G. M. Ahmed, J. Ren, P. Wonka, "Gaussian blue noise", ACM Trans. Graph. 41(6), 260
@@ -27,15 +29,18 @@
 namespace stipple {
 
 inline constexpr std::size_t relaxation_dimensions = 4;  ///< at most
+inline constexpr double largest_proportion = 1000;       ///< of the longest side to the shortest
 
 /// Bytes that relax_gaussian needs besides the rows.
 double relaxation_bytes(std::uint64_t count, std::size_t dimension);
 
-/// Moves rows of [0, 1)^d, `steps` times. @throws Error(cancelled)
+/// Moves rows of [0, 1)^d, `steps` times. Distances are those of a torus with sides in proportion
+/// to `extents`, of the unit torus without any. @throws Error(cancelled)
 void relax_gaussian(std::span<double> rows, std::size_t dimension, std::uint64_t steps,
-                    const RunContext& run);
+                    const RunContext& run, std::span<const double> extents = {});
 
 /// E of the rows.
-double gaussian_energy(std::span<const double> rows, std::size_t dimension, const RunContext& run);
+double gaussian_energy(std::span<const double> rows, std::size_t dimension, const RunContext& run,
+                       std::span<const double> extents = {});
 
 }  // namespace stipple

@@ -191,6 +191,16 @@ class SortedPoints {
     [[nodiscard]] std::uint32_t original(std::size_t s) const { return order_[s]; }
     [[nodiscard]] const double* operator[](std::size_t s) const { return rows_.data() + s * D; }
 
+    /// Mean number of points in a point's cell, itself included.
+    [[nodiscard]] double mean_company() const {
+        double squares = 0;
+        for (std::size_t c = 0; c + 1 < starts_.size(); ++c) {
+            const double points = starts_[c + 1] - starts_[c];
+            squares += points * points;
+        }
+        return squares / static_cast<double>(std::max<std::size_t>(count(), 1));
+    }
+
     /// Takes point s out: nothing visits it any more.
     void remove(std::size_t s) {
         rows_[s * D] = std::numeric_limits<double>::quiet_NaN();  // is at no distance of anything

@@ -64,9 +64,15 @@ class LineReader {
     bool separated_ = false;  ///< no number stands before the place reached
 };
 
-}  // namespace
+/// Rows of numbers, and which of them begin a group.
+struct Lines {
+    std::vector<double> numbers;
+    std::size_t dimension = 0;
+    std::vector<std::size_t> groups;
+};
 
-PointSet read_points(TokenFile& file, const RunContext& run) {
+/// Passes the line of names that may be on top. @throws Error(input) where no points follow.
+void pass_names(TokenFile& file) {
     // A line that does not begin with a number is one of names; only the first may be.
     if (!file.at_end() && !parse_number(LineReader::first_field(file.peek()).text)) {
         const Token first = LineReader::first_field(file.peek());
@@ -76,23 +82,52 @@ PointSet read_points(TokenFile& file, const RunContext& run) {
         file.skip_line();
     }
     if (file.at_end()) file.refuse_whole("no points; expected a point a line");
-    std::vector<double> rows;
-    LineReader lines(file, rows);
-    const std::size_t dimension = lines.read();
+}
+
+Lines read_lines(TokenFile& file, const RunContext& run) {
+    pass_names(file);
+    Lines rows;
+    LineReader lines(file, rows.numbers);
+    rows.groups.push_back(0);
+    std::size_t last_line = file.peek().line;
+    rows.dimension = lines.read();
     for (std::size_t i = 1; !file.at_end(); ++i) {
         if (i % 4096 == 0) run.check_stop();
         const Token first = file.peek();
+        if (first.line > last_line + 1) rows.groups.push_back(i);
+        last_line = first.line;
         const std::size_t found = lines.read();
-        if (found != dimension)
+        if (found != rows.dimension)
             file.refuse(first, fmt::format("{} coordinates in this line; expected {}, as before",
-                                           found, dimension));
+                                           found, rows.dimension));
     }
-    return {std::move(rows), dimension};
+    return rows;
+}
+
+}  // namespace
+
+PointSet read_points(TokenFile& file, const RunContext& run) {
+    Lines rows = read_lines(file, run);
+    return {std::move(rows.numbers), rows.dimension};
 }
 
 PointSet read_points(const std::string& path, const RunContext& run) {
     TokenFile file(path);
     return read_points(file, run);
+}
+
+std::vector<PointSet> read_point_groups(TokenFile& file, const RunContext& run) {
+    const Lines rows = read_lines(file, run);
+    std::vector<PointSet> groups;
+    for (std::size_t g = 0; g < rows.groups.size(); ++g) {
+        const std::size_t first = rows.groups[g] * rows.dimension;
+        const std::size_t last =
+            g + 1 < rows.groups.size() ? rows.groups[g + 1] * rows.dimension : rows.numbers.size();
+        groups.emplace_back(std::vector(rows.numbers.begin() + static_cast<std::ptrdiff_t>(first),
+                                        rows.numbers.begin() + static_cast<std::ptrdiff_t>(last)),
+                            rows.dimension);
+    }
+    return groups;
 }
 
 }  // namespace stipple

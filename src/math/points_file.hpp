@@ -10,6 +10,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/point_set.hpp"
 #include "core/run_context.hpp"
@@ -22,5 +23,9 @@ PointSet read_points(const std::string& path, const RunContext& run);
 
 /// The same from a file that is open already.
 PointSet read_points(TokenFile& file, const RunContext& run);
+
+/// Points in groups: a blank line, or one of a comment alone, begins another. At least one group,
+/// none of them empty.
+std::vector<PointSet> read_point_groups(TokenFile& file, const RunContext& run);
 
 }  // namespace stipple

@@ -74,12 +74,19 @@ std::uint64_t TokenFile::number(std::string_view what, std::uint64_t low, std::u
     return value;
 }
 
+Token TokenFile::next_on_line(std::string_view what) {
+    if (line_is_short()) refuse_short(what);
+    return next(what);
+}
+
 std::uint64_t TokenFile::number_on_line(std::string_view what, std::uint64_t low,
                                         std::uint64_t high) {
-    if (at_line_end() && last_line_ > 0)
-        refuse({{}, last_line_, last_end_},
-               fmt::format("the line ends here; expected {}", expected(what, low, high)));
+    if (line_is_short()) refuse_short(expected(what, low, high));
     return number(what, low, high);
+}
+
+void TokenFile::refuse_short(std::string_view what) const {
+    refuse({{}, last_line_, last_end_}, fmt::format("the line ends here; expected {}", what));
 }
 
 void TokenFile::expect_line_end() const {

@@ -54,6 +54,9 @@ class TokenFile {
     /// Takes the next token. @throws Error(input) saying that `what` is missing at the end.
     Token next(std::string_view what);
 
+    /// As next(), of which at least one more must stand on the line of the last token taken.
+    Token next_on_line(std::string_view what);
+
     /// Takes a whole number in [low, high]. @throws Error(input) saying that `what` was expected.
     std::uint64_t number(std::string_view what, std::uint64_t low = 0,
                          std::uint64_t high = ~std::uint64_t{0});
@@ -80,6 +83,8 @@ class TokenFile {
   private:
     /// Stands at the next token, or at the end.
     void pass_blanks();
+    [[nodiscard]] bool line_is_short() const { return at_line_end() && last_line_ > 0; }
+    [[noreturn]] void refuse_short(std::string_view what) const;
     [[nodiscard]] Token here() const { return {{}, line_, at_ - line_begin_ + 1}; }
 
     std::string name_;

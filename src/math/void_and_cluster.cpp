@@ -120,9 +120,10 @@ Profile profile(std::size_t period, double width) {
 /// Filled and empty cells with their energies.
 class Pattern {
   public:
-    Pattern(std::size_t width, std::size_t height, std::uint64_t seed)
+    Pattern(std::size_t width, std::size_t height, double stretch, std::uint64_t seed)
         : width_(width),
           height_(height),
+          stretch_(std::sqrt(stretch)),
           energies_(width * height),
           filled_(width * height),
           ties_(width * height),
@@ -140,8 +141,8 @@ class Pattern {
     /// Works out the energies of all cells anew.
     void use_sigma(double width, const RunContext& run) {
         constexpr double unit = 0x1p38;
-        across_ = profile(width_, width);
-        along_ = profile(height_, width);
+        across_ = profile(width_, width / stretch_);
+        along_ = profile(height_, width * stretch_);
         kernel_.clear();
         for (const double y : along_.values)
             for (const double x : across_.values)
@@ -214,6 +215,7 @@ class Pattern {
 
     std::size_t width_;
     std::size_t height_;
+    double stretch_;  ///< a cell's width over the root of its area
     Profile across_;
     Profile along_;
     std::vector<std::uint64_t> kernel_;
@@ -251,7 +253,7 @@ void start(Pattern& pattern, std::size_t cells, std::size_t count, std::uint64_t
 
 std::vector<std::uint32_t> void_and_cluster_order(std::size_t width, std::size_t height,
                                                   std::size_t wanted, std::uint64_t seed,
-                                                  const RunContext& run) {
+                                                  const RunContext& run, double stretch) {
     const std::size_t cells = width * height;
     run.need_memory(45.0 * static_cast<double>(cells), "the torus of cells");
     const std::size_t tenth = std::max<std::size_t>(1, cells / 10);
@@ -260,7 +262,7 @@ std::vector<std::uint32_t> void_and_cluster_order(std::size_t width, std::size_t
     const RunContext rest = steady.stage(0.2, 1);
     const std::size_t steps = std::max(wanted, tenth);
 
-    Pattern pattern(width, height, seed);
+    Pattern pattern(width, height, stretch, seed);
     start(pattern, cells, tenth, seed, first);
     std::vector<std::uint32_t> order(steps);
     double wide = sigma;

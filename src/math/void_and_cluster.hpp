@@ -5,6 +5,9 @@
 //     E(c) = sum over filled cells f of  exp(-|c - f|^2 / (2 sigma^2)),    toroidal, sigma = 1.5
 //     cells.
 //
+// Cells may be wider than high, or higher than wide: lengths are in units of the root of a cell's
+// area then.
+//
 // A random tenth of the cells is filled, and its fullest cell ("tightest cluster") moves to the
 // emptiest ("largest void") until it would move back. Ranks downwards from a tenth go to the
 // fullest cells, one taken away after the other; ranks upwards to the emptiest, one filled after
@@ -16,7 +19,7 @@
 // the fixed sigma of the paper the last ones would feel nothing of each other, and so the first
 // ranks would lie at random.
 //
-// Shape   W, H >= 1, W H < 2^31.
+// Shape   W, H >= 1, W H < 2^31; cells of 1 : 100 to 100 : 1, beyond which sums could overflow.
 // Cost    O(1) a cell, some 6 microseconds, and 45 bytes.
 // Promise energies are whole numbers (multiples of 2^-38), so they do not drift, and the order is
 //         the same on every machine; equal energies are told apart at random.
@@ -32,10 +35,13 @@
 
 namespace stipple {
 
+inline constexpr double most_stretch = 100;
+
 /// Cells (x + W y) of ranks 0, 1, ..., wanted - 1.
+/// @param stretch a cell's width over its height, in [1 / most_stretch, most_stretch]
 /// @throws Error(limit), Error(cancelled)
 std::vector<std::uint32_t> void_and_cluster_order(std::size_t width, std::size_t height,
                                                   std::size_t wanted, std::uint64_t seed,
-                                                  const RunContext& run);
+                                                  const RunContext& run, double stretch = 1);
 
 }  // namespace stipple

@@ -68,6 +68,17 @@ void keep_rows(std::vector<double>& rows, std::size_t width, std::span<const std
     rows.resize(kept * width);
 }
 
+/// Where " x " parts a factor of a domain from the next; not in brackets, where a file's name may
+/// hold it.
+std::size_t end_of_factor(std::string_view text) {
+    bool bracketed = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '[' || text[i] == ']') bracketed = text[i] == '[';
+        if (!bracketed && text.substr(i).starts_with(" x ")) return i;
+    }
+    return std::string_view::npos;
+}
+
 std::vector<std::size_t> all_of(std::size_t dimension) {
     std::vector<std::size_t> all(dimension);
     std::iota(all.begin(), all.end(), std::size_t{0});
@@ -231,7 +242,7 @@ std::vector<double> WarpChain::density(std::span<const double> rows) const {
 DomainPtr parse_domain(std::string_view text, std::size_t dimension, const RunContext& run) {
     std::vector<Factor> factors;
     while (!text.empty()) {
-        const auto times = text.find(" x ");
+        const auto times = end_of_factor(text);
         Spec spec = parse_spec(text.substr(0, times));
         text = times == std::string_view::npos ? std::string_view() : text.substr(times + 3);
         const std::size_t given = spec.coordinates.empty() ? dimension : spec.coordinates.size();

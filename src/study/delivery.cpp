@@ -22,7 +22,7 @@ std::vector<double> travel(std::vector<double> rows, const WarpChain& chain, std
     if (route.inverse) return chain.inverse(std::move(rows));
     if (route.bounds) scale_into(*route.bounds, rows);
     rows = chain.forward(std::move(rows), first);
-    return route.with_pdf ? with_density(rows, chain) : std::move(rows);
+    return route.columns.any() ? with_columns(rows, chain, route) : std::move(rows);
 }
 
 /// A block of rows and, later, of bytes.
@@ -54,7 +54,7 @@ class Conveyor {
         else
             within_threads(run_, [this] { go_parallel(); });
         if (source_.read && !closed_ && !route_.inverse)
-            tell_dropped(at_, rows_out_, *source_.chain, run_);
+            tell_kept(at_, rows_out_, *source_.chain, run_);
         return !closed_;
     }
 
@@ -188,7 +188,7 @@ Layout layout_of(const Shipment& shipment, std::size_t first, std::size_t last,
                   .precision = target.precision,
                   .provenance = shipment.provenance(first),
                   .extent = shipment.extent(first)};
-    if (target.with_pdf) layout.extras = {"pdf"};
+    layout.extras = target.columns.names();
     for (std::size_t set = first; set < last; ++set) layout.counts.push_back(shipment.counts[set]);
     return layout;
 }
@@ -270,27 +270,37 @@ RunContext lane(const RunContext& run, std::size_t set, std::size_t sets) {
     return run.stage(static_cast<double>(set) / all, static_cast<double>(set + 1) / all);
 }
 
-void tell_dropped(std::uint64_t count, std::uint64_t kept, const WarpChain& chain,
-                  const RunContext& run) {
-    const auto dropped = static_cast<double>(count - kept);
-    if (dropped > 0)
-        run.tell(fmt::format("dropped {} of {} points ({:.1f} %): they have no image under {}",
-                             dropped, count, 100 * dropped / static_cast<double>(count),
-                             join(chain.specs(), ", ")));
+void tell_kept(std::uint64_t count, std::uint64_t kept, const WarpChain& chain,
+               const RunContext& run) {
+    if (chain.drops())
+        run.tell(
+            fmt::format("kept {} of {} points (efficiency {:.3g}): the others have no image "
+                        "under {}",
+                        kept, count, static_cast<double>(kept) / static_cast<double>(count),
+                        join(chain.specs(), ", ")));
     if (kept == 0)
         fail(ErrorKind::input, "none of {} points has an image under {}", count,
              join(chain.specs(), ", "));
 }
 
-std::vector<double> with_density(std::span<const double> rows, const WarpChain& chain) {
+std::vector<std::string> Columns::names() const {
+    std::vector<std::string> names;
+    if (pdf) names.emplace_back("pdf");
+    if (weight) names.emplace_back("weight");
+    return names;
+}
+
+std::vector<double> with_columns(std::span<const double> rows, const WarpChain& chain,
+                                 const Route& route) {
     const std::size_t d = chain.dimension_out();
     const auto density = chain.density(rows);
     std::vector<double> wide;
-    wide.reserve(rows.size() + density.size());
+    wide.reserve(rows.size() + 2 * density.size());
     for (std::size_t i = 0; i < density.size(); ++i) {
         const auto row = rows.subspan(i * d, d);
         wide.insert(wide.end(), row.begin(), row.end());
-        wide.push_back(density[i]);
+        if (route.columns.pdf) wide.push_back(density[i] / route.volume);
+        if (route.columns.weight) wide.push_back(route.volume / density[i]);
     }
     return wide;
 }

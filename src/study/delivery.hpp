@@ -33,7 +33,8 @@ struct Source {
 /// What happens to rows before and after their warps.
 struct Route {
     std::optional<Box> bounds = {};  ///< scales the unit cube to this box first
-    bool with_pdf = false;           ///< adds the density as a last number
+    Columns columns = {};            ///< added as last numbers
+    double volume = 1;               ///< measure of what the chain's unit cube was scaled to
     bool inverse = false;            ///< goes back to the unit cube
 };
 
@@ -48,7 +49,7 @@ struct Shipment {
     /// Files that come with the set, under their final names; empty: none.
     std::function<const std::vector<SideFile>&(std::size_t set)> side_files = {};
     std::vector<std::uint64_t> counts;
-    std::size_t dimension = 0;  ///< numbers of a row that is written, less the density
+    std::size_t dimension = 0;  ///< numbers of a row that is written, less the columns
     Route route;
 };
 
@@ -66,12 +67,13 @@ bool ship(const Shipment& shipment, const Target& target, const RunContext& run)
 /// The part of a run's progress that one of several sets is.
 RunContext lane(const RunContext& run, std::size_t set, std::size_t sets);
 
-/// Tells the user how many of `count` points have no image under the chain, if any.
-/// @throws Error(input) when none has
-void tell_dropped(std::uint64_t count, std::uint64_t kept, const WarpChain& chain,
-                  const RunContext& run);
+/// Tells the user how many of `count` points were kept by a chain that may drop some.
+/// @throws Error(input) when none was
+void tell_kept(std::uint64_t count, std::uint64_t kept, const WarpChain& chain,
+               const RunContext& run);
 
-/// Each row with its density on the chain's domain behind it.
-std::vector<double> with_density(std::span<const double> rows, const WarpChain& chain);
+/// Each row with the route's columns behind it.
+std::vector<double> with_columns(std::span<const double> rows, const WarpChain& chain,
+                                 const Route& route);
 
 }  // namespace stipple

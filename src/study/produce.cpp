@@ -44,7 +44,10 @@ PointSet image_of(const PointSet& points, const WarpChain& chain, bool inverse, 
     PointSet image(std::move(rows), inverse ? chain.dimension_in() : chain.dimension_out());
     image.provenance = points.provenance;
     if (!inverse) image.domain = chain.domain();
-    tell_dropped(points.count(), image.count(), chain, run);
+    tell_kept(points.count(), image.count(), chain, run);
+    image.provenance.efficiency = points.provenance.efficiency *
+                                  static_cast<double>(image.count()) /
+                                  static_cast<double>(points.count());
     return image;
 }
 
@@ -83,9 +86,13 @@ void ship_images(const std::vector<PointSet>& images, const WarpChain& chain, st
 };  // namespace
 for (const PointSet& set : images) shipment.counts.push_back(set.count());
 PointSet wide;
-if (target.with_pdf)
+if (target.columns.any())
     shipment.source = [&](std::size_t set, const RunContext&) {
-        wide = PointSet(with_density(images[set].flat(), chain), d + 1);
+        // Without warps, what the points are on is the unit cube, or what it was scaled to.
+        const double volume = chain.empty() ? images[set].domain->measure() : 1;
+        const Route route{.columns = target.columns, .volume = volume};
+        wide = PointSet(with_columns(images[set].flat(), chain, route),
+                        d + target.columns.names().size());
         return source_of(wide);
     };
 ship(shipment, target, run);
@@ -113,8 +120,9 @@ std::size_t dimension_before(const Spec& spec, std::size_t after, const RunConte
 }
 
 void refuse_inverse_density(bool inverse, const Target& target) {
-    if (inverse && target.with_pdf)
-        fail(ErrorKind::usage, "--with-pdf: the inverse gives points of the unit cube, density 1");
+    if (inverse && target.columns.any())
+        fail(ErrorKind::usage, "--with-{}: the inverse gives points of the unit cube, density 1",
+             target.columns.names().front());
 }
 
 /// The points of a stream before these are in the closed unit cube; so must these be.
@@ -248,7 +256,7 @@ class Producer {
               .extent = [this](std::size_t) { return domain()->bounding_box(); },
               .counts = std::vector<std::uint64_t>(job_.sets, count),
               .dimension = chain_->dimension_out(),
-              .route = {bounds_, target_.with_pdf}},
+              .route = {bounds_, target_.columns, chain_->empty() ? domain()->measure() : 1}},
              target_, run_);
     }
 
@@ -260,11 +268,14 @@ class Producer {
         PointSet points = make_points(generator_, request, job_.options, part_of_run);
         auto options = std::move(points.provenance.options);
         auto side_files = std::move(points.side_files);
+        double efficiency = 1;
         for (SideFile& file : side_files)
             file.path = path_of_set(std::move(file.path), set, plan_.seed + set);
         if (bounds_) scale_into(*bounds_, points.flat());
-        if (!chain_->empty())
+        if (!chain_->empty()) {
             points = image_of(points, *chain_for(set), false, job_.request.start, run_);
+            efficiency = points.provenance.efficiency;
+        }
         const auto [first, last] = part(points.count());
         if (job_.shard.of > 1) {
             const std::size_t d = points.dimension();
@@ -273,6 +284,7 @@ class Producer {
         }
         points.domain = domain();
         points.provenance = provenance(set, points.count());
+        points.provenance.efficiency = efficiency;
         if (!options.empty()) points.provenance.options = std::move(options);
         points.side_files = std::move(side_files);
         return points;
@@ -370,7 +382,7 @@ void write_warped(io::PointStream& stream, const Spec& warp, bool inverse, const
           .extent = [&](std::size_t) { return domain->bounding_box(); },
           .counts = std::vector<std::uint64_t>(sets, 0),
           .dimension = wide,
-          .route = {.bounds = {}, .with_pdf = target.with_pdf, .inverse = inverse}},
+          .route = {.bounds = {}, .columns = target.columns, .volume = 1, .inverse = inverse}},
          target, run);
 }
 

@@ -23,6 +23,15 @@ struct Shard {
     std::uint64_t of = 1;
 };
 
+/// Columns that are written behind the coordinates.
+struct Columns {
+    bool pdf = false;     ///< the density of each point
+    bool weight = false;  ///< 1 / density: the mean of f times weight estimates the integral of f
+
+    [[nodiscard]] bool any() const { return pdf || weight; }
+    [[nodiscard]] std::vector<std::string> names() const;
+};
+
 /// Where points go, and how they are written.
 struct Target {
     std::string path = "-";  ///< may hold {set} and {seed}: a file for each set
@@ -31,7 +40,7 @@ struct Target {
     bool meta = false;
     bool single = false;
     std::optional<int> precision = {};
-    bool with_pdf = false;
+    Columns columns = {};
 };
 
 /// Sets to make.

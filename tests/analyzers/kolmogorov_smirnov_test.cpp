@@ -5,6 +5,7 @@
 #include <stop_token>
 
 #include "analyzers/kolmogorov.hpp"
+#include "support/steps.hpp"
 #include "support/warping.hpp"
 
 using namespace stipple;
@@ -160,6 +161,16 @@ TEST(KolmogorovSmirnov, TakesEveryEvenDomainAndNamesPointsOutside) {
                   analyze("kolmogorov-smirnov", off);
               }).find("1 of 5000 points are outside the domain disk; the first is point 3"),
               std::string::npos);
+}
+
+TEST(KolmogorovSmirnov, NeedsCoordinatesThatPreserveProbability) {
+    PointSet set = make("random", {100, 1});
+    set.domain = std::make_shared<Steps>(std::vector<double>{0.5, 0.5});
+    for (const char* analyzer : {"kolmogorov-smirnov", "serial"})
+        EXPECT_EQ(error_of([&] { analyze(analyzer, set); }),
+                  std::string("input: ") + analyzer +
+                      " needs coordinates that preserve probability; steps has none | chi-square "
+                      "takes every domain");
 }
 
 TEST(KolmogorovSmirnov, SeveralSetsBecomeOneTest) {

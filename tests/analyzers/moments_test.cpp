@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analyzers/moment_sums.hpp"
+#include "support/steps.hpp"
 #include "support/warping.hpp"
 
 using namespace stipple;
@@ -138,6 +139,15 @@ TEST(Moments, CubeCoordinatesTellRightWarpsFromWrong) {
               50);
     EXPECT_EQ(analyze("moments", warped(*mapping("disk"), cube)).find("exact") != nullptr,
               mapping("disk")->domain()->moments().has_value());
+}
+
+TEST(Moments, LeaveOutWhatIsNotKnownOfADomain) {
+    PointSet set = make("random", {100, 1});
+    set.domain = std::make_shared<Steps>(std::vector<double>{0.5, 0.5});
+    const Report report = analyze("moments", set);
+    EXPECT_EQ(report.find("exact"), nullptr);
+    EXPECT_EQ(report.find("cube"), nullptr);
+    EXPECT_NE(report.find("standard_error.covariance"), nullptr);
 }
 
 TEST(Moments, NeedTwoPointsOnTheirDomain) {

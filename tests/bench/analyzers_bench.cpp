@@ -36,6 +36,9 @@ void periodogram_beside_direct(benchmark::State& state) {
 }
 void chi_square(benchmark::State& state) { measure(state, "chi-square", "random"); }
 void nearest_neighbor(benchmark::State& state) { measure(state, "nearest-neighbor", "random"); }
+void nearest_neighbor_halton(benchmark::State& state) {
+    measure(state, "nearest-neighbor", "halton");
+}
 void coverage(benchmark::State& state) { measure(state, "coverage", "random"); }
 void t_value_of_a_net(benchmark::State& state) { measure(state, "t-value", "hammersley"); }
 void t_value_of_halton(benchmark::State& state) { measure(state, "t-value", "halton"); }
@@ -60,8 +63,11 @@ BENCHMARK(chi_square)->Args({1'000'000, 2})->Unit(benchmark::kMillisecond);
 BENCHMARK(nearest_neighbor)
     ->Args({100'000, 2})
     ->Args({1'000'000, 2})
+    ->Args({1'000'000, 3})
+    ->Args({1'000'000, 5})
     ->Args({100'000, 6})
     ->Unit(benchmark::kMillisecond);
+BENCHMARK(nearest_neighbor_halton)->Args({1'000'000, 2})->Unit(benchmark::kMillisecond);
 BENCHMARK(coverage)
     ->Args({100'000, 2})
     ->Args({1'000'000, 2})

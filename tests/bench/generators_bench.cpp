@@ -124,7 +124,7 @@ void add_sets() {
     add("poisson-disk", "/1e5", {}, {{"radius", "0.00248"}});
     add("poisson-disk", "/1e5_exactly", {.count = 100'000}, {});
     add("poisson-disk", "/3d", {.dimension = 3}, {{"radius", "0.0179"}});
-    for (const char* name : {"dart-throwing", "sample-elimination"})
+    for (const char* name : {"best-candidate", "dart-throwing", "sample-elimination"})
         add(name, "/1e5", {.count = 100'000}, {});
     for (const char* name : {"lloyd", "farthest-point", "capacity-constrained",
                              "gaussian-blue-noise", "tiled", "void-and-cluster"})

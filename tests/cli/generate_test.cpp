@@ -175,14 +175,35 @@ TEST(Generate, AWarpOnSomeCoordinatesLeavesTheOthers) {
             EXPECT_EQ(warped["points"][i][k], plain["points"][i][k]);
 }
 
-TEST(Generate, RejectionSaysHowManyPointsItDropped) {
+TEST(Generate, RejectionSaysHowManyPointsItKept) {
     const Sandbox box;
     const Outcome outcome =
         box.run({"generate", "random", "-n", "1000", "-w", "disk:method=rejection", "--no-header"});
     EXPECT_EQ(outcome.code, 0);
     const auto kept = std::ranges::count(outcome.out, '\n');
     EXPECT_THAT(outcome.err,
-                HasSubstr("dropped " + std::to_string(1000 - kept) + " of 1000 points"));
+                HasSubstr("kept " + std::to_string(kept) + " of 1000 points (efficiency 0.8"));
+    const json meta = json::parse(
+        box.run({"generate", "random", "-n", "1000", "-w", "disk:method=rejection", "-f", "json"})
+            .out)["meta"];
+    EXPECT_EQ(meta["efficiency"], static_cast<double>(kept) / 1000);
+    EXPECT_EQ(meta["count"], kept);
+}
+
+// The mean of 1 times weight is the area, exactly where the density is one over it.
+TEST(Generate, WeightIsOneOverDensity) {
+    const Sandbox box;
+    EXPECT_EQ(good(box.run({"generate", "halton", "-n", "2", "-w", "triangle", "--with-pdf",
+                            "--with-weight"})),
+              "x,y,pdf,weight\n0,0,2,0.5\n0.23570226039551584,0.4714045207910318,2,0.5\n");
+    EXPECT_EQ(good(box.run({"generate", "grid", "-n", "1", "--bounds", "0..4,0..2", "--with-weight",
+                            "--with-pdf"})),
+              "x,y,pdf,weight\n2,1,0.125,8\n");
+    const std::string disks = good(box.run({"generate", "poisson-disk", "-n", "5", "--bounds",
+                                            "0..4,0..2", "--with-weight", "--no-header"}));
+    EXPECT_THAT(disks, ::testing::EndsWith(",8\n"));
+    EXPECT_THAT(box.run({"warp", "triangle", "--inverse", "--with-weight"}, "0.1,0.2\n").err,
+                HasSubstr("--with-weight: the inverse gives points of the unit cube"));
 }
 
 TEST(Generate, SinglePrecisionNeverHoldsOne) {

@@ -17,6 +17,7 @@
 #include "core/text.hpp"
 #include "study/chain.hpp"
 #include "support/contract.hpp"
+#include "support/warp_examples.hpp"
 
 using namespace stipple;
 using namespace stipple::testing;
@@ -104,13 +105,10 @@ std::string spec_name(const ::testing::TestParamInfo<std::string>& info) {
 class Uniformity : public ::testing::TestWithParam<std::string> {
   protected:
     void SetUp() override {
-        const Spec spec = parse_spec(GetParam());
+        Spec spec = parse_spec(GetParam());
         const Warp& warp = find_warp(spec.name);
-        try {
-            map_ = warp.make(spec.values(warp.options), 2, {});
-        } catch (const Error& e) {
-            GTEST_SKIP() << "needs options: " << e.what();
-        }
+        for (const auto& setting : needed_options(spec.name)) spec.settings.push_back(setting);
+        map_ = warp.make(spec.values(warp.options), 2, {});
         in_ = map_->cube_dimension();
     }
 

@@ -5,6 +5,7 @@
 
 #include "core/text.hpp"
 #include "support/pictures.hpp"
+#include "support/spacing.hpp"
 #include "support/units.hpp"
 
 using namespace stipple;
@@ -172,4 +173,86 @@ TEST(FarthestPoint, WorksForFewPointsInAnyBox) {
             EXPECT_TRUE(set[i][1] >= -3 && set[i][1] < 4);
         }
     }
+}
+
+// The farthest apart that 2 and 3 points of a square can be: a diagonal, and an equilateral
+// triangle with a corner of the square. In a long box they stand at its ends and in the middle.
+TEST(FarthestPoint, FewPointsBetweenWallsAreAsFarApartAsCanBe) {
+    const Settings walls{{"iterations", "500"}};
+    const Space square{{{0, 0}, {1, 1}}, false};
+    const double two = smallest_distance(make_in("farthest-point", square, 2, walls), square);
+    EXPECT_NEAR(two, std::sqrt(2.0), 1e-12);
+    const double three = smallest_distance(make_in("farthest-point", square, 3, walls), square);
+    EXPECT_NEAR(three, std::sqrt(6.0) - std::sqrt(2.0), 1e-6);
+    const Space wide{{{-3, 7}, {3, 7.001}}, false};
+    EXPECT_NEAR(smallest_distance(make_in("farthest-point", wide, 3, walls), wide), 3, 1e-6);
+}
+
+TEST(FarthestPoint, TheLeastDistanceNeverFallsInAnySpace) {
+    for (const Space& space : some_spaces()) {
+        if (space.box.dimension() != 2 || space.box.extent(0) > 1000 * space.box.extent(1))
+            continue;
+        for (const std::uint64_t n : {2, 3, 40}) {
+            double last = 0;
+            for (const char* steps : {"0", "1", "2", "5", "30"}) {
+                const PointSet set = make_in("farthest-point", space, n, {{"iterations", steps}});
+                expect_inside(set, space);
+                const double now = smallest_distance(set, space);
+                EXPECT_GE(now, last * (1 - 1e-9)) << space.name() << ", " << steps;
+                last = now;
+            }
+        }
+    }
+}
+
+// Oracle: no place of a fine grid is farther from the others than a point is.
+TEST(FarthestPoint, BetweenWallsEveryPointIsWhereItsGapIsLargest) {
+    const Space space{{{2, -1}, {4, 0}}, false};
+    for (const std::uint64_t n : {4, 7, 12}) {
+        const PointSet set = make_in("farthest-point", space, n, {{"iterations", "2000"}});
+        for (std::size_t i = 0; i < n; ++i) {
+            const auto clear = [&](std::span<const double> at) {
+                double least = 9;
+                for (std::size_t j = 0; j < n; ++j)
+                    if (j != i) least = std::min(least, distance(at, set[j], space));
+                return least;
+            };
+            const double own = clear(set[i]);
+            for (int x = 0; x <= 40; ++x)
+                for (int y = 0; y <= 20; ++y)
+                    EXPECT_LE(clear(std::array{2 + x / 20.0, -1 + y / 20.0}), own + 2e-3) << n;
+        }
+    }
+}
+
+// Hexagons of n points that fill the box and half a distance around it, d^2 sqrt(3) / 2 each.
+TEST(FarthestPoint, KeepsItsDistanceInAnyBox) {
+    for (const bool torus : {true, false}) {
+        const Space space{{{0, 0}, {5, 0.7}}, torus};
+        const std::uint64_t n = 150;
+        const PointSet set = make_in("farthest-point", space, n);
+        const double least = smallest_distance(set, space);
+        const double rim = torus ? 0 : least;
+        EXPECT_GT(static_cast<double>(n) * least * least * std::sqrt(3.0) / 2,
+                  0.8 * (5 + rim) * (0.7 + rim));
+    }
+}
+
+TEST(FarthestPoint, RefusesWallsOnATorus) {
+    EXPECT_EQ(error_of([] {
+                  make("farthest-point", points(9, 2), {{"torus", "true"}, {"bounded", "true"}});
+              }),
+              "usage: --torus contradicts --bounded; give one of them");
+}
+
+// Corners are as good as it gets for four points of a square; a move of any would be told.
+TEST(FarthestPoint, BetweenWallsARunEndsWhereNoPointMoves) {
+    const TemporaryFile file("0 0\n1 0\n0 1\n1 1\n");
+    int ticks = 0;
+    const RunContext run{.progress = [&](double) { ++ticks; }};
+    const PointSet set =
+        make("farthest-point", {},
+             {{"from", file.path()}, {"iterations", "100000"}, {"bounded", "true"}}, run);
+    EXPECT_NEAR(smallest_distance(set, {{{0, 0}, {1, 1}}, false}), 1, 1e-15);
+    EXPECT_LT(ticks, 10);
 }

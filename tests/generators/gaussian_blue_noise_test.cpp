@@ -7,6 +7,7 @@
 
 #include "core/rng.hpp"
 #include "support/pictures.hpp"
+#include "support/spacing.hpp"
 #include "support/units.hpp"
 
 using namespace stipple;
@@ -61,6 +62,12 @@ double smallest_distance(const PointSet& set) {
     return least;
 }
 
+PointSet make_in_box(const Box& box, const Settings& settings) {
+    Request request = points(300, 2);
+    request.bounds = box;
+    return make(name, request, settings);
+}
+
 }  // namespace
 
 // Half of sqrt(n) is 16 for 1024 points. White noise has 1 everywhere.
@@ -111,6 +118,32 @@ TEST(GaussianBlueNoise, MakesVeryFewPoints) {
     for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(std::abs(two[0][k] - two[1][k]), 0.5, 1e-3);
 }
 
+// Random points would be a tenth as far apart, and squashed ones closer by the root of a / b.
+TEST(GaussianBlueNoise, DistancesHoldInTheBox) {
+    for (const Box& box : std::vector<Box>{{{-4, 2}, {8, 3}}, {{1e3, 0}, {1e3 + 1, 7.3}}}) {
+        const PointSet plain = make_in_box(box, {{"iterations", "100"}});
+        const Space space{box, true};
+        expect_inside(plain, space);
+        const double spacing = std::sqrt(box.extent(0) * box.extent(1) / 300);
+        EXPECT_GT(stipple::testing::smallest_distance(plain, space), 0.5 * spacing);
+        const TemporaryFile file(png_of(2, 2, {200, 100, 100, 200}));
+        const PointSet dense = make_in_box(box, {{"iterations", "100"}, {"density", file.path()}});
+        expect_inside(dense, space);
+        EXPECT_GT(stipple::testing::smallest_distance(dense, space), 0.4 * spacing);
+    }
+}
+
+TEST(GaussianBlueNoise, ABoxOfEqualSidesIsAScaledSquare) {
+    const PointSet unit = make(name, points(100, 2), {{"iterations", "30"}});
+    Request request = points(100, 2);
+    request.bounds = Box{{0, 4}, {2, 6}};
+    const PointSet scaled = make(name, request, {{"iterations", "30"}});
+    for (std::size_t i = 0; i < 100; ++i) {
+        EXPECT_EQ(scaled[i][0], 2 * unit[i][0]);
+        EXPECT_EQ(scaled[i][1], 4 + 2 * unit[i][1]);
+    }
+}
+
 // Ink: the left half is black, the right white.
 TEST(GaussianBlueNoise, FollowsADensity) {
     const TemporaryFile file(png_of(2, 1, {0, 255}));
@@ -136,4 +169,11 @@ TEST(GaussianBlueNoise, RefusesWrongOptionsInOneLine) {
                   make(name, points(9, 2), {{"density", "/nowhere.png"}});
               }),
               "io: /nowhere.png: No such file or directory");
+    EXPECT_EQ(error_of([] {
+                  Request request = points(9, 2);
+                  request.bounds = Box{{0, 0}, {1, 1e4}};
+                  make(name, request);
+              }),
+              "usage: --bounds: 0..1,0..10000 has a side 10000 times as long as another; expected "
+              "1000 times at most");
 }

@@ -7,6 +7,7 @@
 
 #include "math/png_picture.hpp"
 #include "support/pictures.hpp"
+#include "support/spacing.hpp"
 #include "support/units.hpp"
 
 using namespace stipple;
@@ -141,4 +142,40 @@ TEST(VoidAndCluster, RefusesWrongOptionsInOneLine) {
               "input: " + file.path() +
                   ": only 64 of 16 x 16 cells have a density above 0; 100 points need a larger "
                   "--size");
+}
+
+TEST(VoidAndCluster, CellsAreSquaresInABox) {
+    Request request = points(100, 2);
+    request.bounds = Box{{2, -1}, {2.5, 0.5}};
+    const PointSet set = make(name, request);
+    EXPECT_EQ(set.provenance.options.front(),
+              (std::pair<std::string, std::string>("size", "32x96")));
+    for (std::size_t i = 0; i < 100; ++i)
+        for (std::size_t k = 0; k < 2; ++k) {
+            const double cell = (set[i][k] - request.bounds->low[k]) * 64 - 0.5;
+            EXPECT_NEAR(cell, std::round(cell), 1e-12);
+        }
+    EXPECT_EQ(set.domain->bounding_box(), *request.bounds);
+}
+
+// Squares that --size makes long and thin are seen as they are in the box.
+TEST(VoidAndCluster, DistancesHoldInABox) {
+    for (const Settings& settings : {Settings{}, Settings{{"size", "64x64"}}})
+        for (const Box& box : std::vector<Box>{{{0, 0}, {4, 1}}, {{0, 0}, {1, 9}}}) {
+            Request request = points(256, 2);
+            request.bounds = box;
+            const double spacing = std::sqrt(box.extent(0) * box.extent(1) / 256);
+            EXPECT_GT(smallest_distance(make(name, request, settings), {box, true}), 0.5 * spacing);
+        }
+}
+
+TEST(VoidAndCluster, RefusesCellsThatAreTooLong) {
+    Request request = points(9, 2);
+    request.bounds = Box{{0, 0}, {1, 200}};
+    EXPECT_EQ(
+        error_of([&] {
+            make(name, request, {{"size", "64x64"}});
+        }),
+        "usage: --size: 64x64 makes cells as wide as 0.005 times their height in the box; expected "
+        "0.01 to 100 times");
 }

@@ -117,6 +117,49 @@ TEST(DensityMap, PlacesTheRimOfCellsInsideThem) {
     }
 }
 
+// Batches must not depend on where they are cut; sides of 1 and of several buckets a row.
+TEST(DensityMap, PlacesBatchesAsSinglePoints) {
+    for (const auto& [width, height] : {std::pair{1, 1}, {300, 7}, {1, 50}, {5, 200}}) {
+        std::vector<double> values(static_cast<std::size_t>(width * height));
+        Rng(6).fill(0, values);
+        for (double& value : values) value = value < 0.3 ? 0 : std::pow(value, 20);
+        values.back() = 1;
+        const DensityMap map(static_cast<std::size_t>(width), static_cast<std::size_t>(height),
+                             values);
+        std::vector<double> cube(2 * 1003);
+        Rng(7).fill(0, cube);
+        std::vector<double> image(cube.size());
+        map.place_all(cube, image);
+        for (std::size_t i = 0; i < cube.size(); i += 2)
+            EXPECT_EQ(map.place(cube[i], cube[i + 1]), (std::array{image[i], image[i + 1]}));
+    }
+}
+
+TEST(DensityMap, FindsWhatItPlaced) {
+    const DensityMap map(2, 2, {3, 1, 0, 4});
+    EXPECT_EQ(map.find(1 / 3.0, 0.25), (std::array{0.5, 0.25}));
+    EXPECT_EQ(map.find(0.75, 0.75), (std::array{0.5, 0.75}));
+    EXPECT_EQ(map.find(0, 0), (std::array{0.0, 0.0}));
+    EXPECT_EQ(map.find(1, 1), (std::array{1.0, 1.0}));
+    EXPECT_EQ(map.find(0.3, 0.75), (std::array{0.0, 0.75})) << "an empty cell has no width";
+    EXPECT_EQ(DensityMap(2, 3, {1, 1, 0, 0, 1, 1}).find(0.7, 0.5), (std::array{0.0, 0.5}))
+        << "an empty row has no height";
+}
+
+TEST(ReadDensity, ReadsFloatPicturesFromTheBottom) {
+    const std::string bytes = pfm_of("Pf", 2, 2, {1, 2, 0, 5});
+    EXPECT_EQ(values_of(density(bytes)), values_of(DensityMap(2, 2, {1, 2, 0, 5})));
+    EXPECT_EQ(values_of(density(bytes, true)), values_of(DensityMap(2, 2, {4, 3, 5, 0})));
+    EXPECT_EQ(refused(pfm_of("Pf", 2, 1, {1, -2})),
+              "input: FILE: value -2 in row 0, column 1; expected finite densities, none below 0");
+    EXPECT_EQ(refused(pfm_of("Pf", 1, 2, {1, NAN})),
+              "input: FILE: value nan in row 1, column 0; expected finite densities, none below 0");
+    EXPECT_EQ(refused(pfm_of("PF", 1, 1, {1, -2, 5})),
+              "input: FILE: value -2 in row 0, column 0; expected finite densities, none below 0");
+    EXPECT_EQ(refused(pfm_of("PF", 1, 1, {1, NAN, 5})),
+              "input: FILE: value nan in row 0, column 0; expected finite densities, none below 0");
+}
+
 TEST(ReadDensity, TurnsPicturesTheRightWayUp) {
     const std::string bytes = png_of(2, 2, {0, 51, 102, 255});
     EXPECT_EQ(values_of(density(bytes)),
@@ -168,8 +211,8 @@ TEST(ReadDensity, RefusesBadFilesInOneLine) {
         return npy_of<double>("<f8", shape, values);
     };
     const std::vector<std::pair<std::string, std::string>> cases = {
-        {"", "FILE: the file is empty; expected a PNG picture or an NPY array"},
-        {"x,y\n0,1\n", "FILE: neither a PNG picture nor an NPY array"},
+        {"", "FILE: the file is empty; expected a PNG or PFM picture or an NPY array"},
+        {"x,y\n0,1\n", "FILE: neither a PNG or PFM picture nor an NPY array"},
         {array({1, -2, 3, 4}, "(2, 2)"),
          "FILE: value -2 in row 0, column 1; expected finite densities, none below 0"},
         {array({1, 2, not_a_number, 4}, "(2, 2)"),

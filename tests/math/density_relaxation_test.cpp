@@ -56,6 +56,32 @@ TEST(DensityRelaxation, AConstantDensityGivesThePlainSteps) {
     }
 }
 
+// 256 points on 32 x 8 squares: the leaves of four roots are equal, as above.
+TEST(DensityRelaxation, AConstantDensityGivesThePlainStepsInABox) {
+    const DensityMap map(3, 5, std::vector<double>(15, 2));
+    const std::vector<double> extents{4, 1};
+    auto rows = scattered(map, 256);
+    auto plain = rows;
+    relax_to_density(rows, map, 3, {}, extents);
+    relax_gaussian(plain, 2, 3, {}, extents);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const double difference = rows[i] - plain[i];
+        EXPECT_NEAR(difference, std::round(difference), 1e-4 / 8) << i;
+    }
+}
+
+// Four parts of a long box with 40, 120, 240 and 400 of 800 points.
+TEST(DensityRelaxation, EveryRegionOfABoxGetsItsShare) {
+    const DensityMap map(1, 4, {0.1, 0.3, 0.6, 1});
+    auto rows = scattered(map, 800);
+    relax_to_density(rows, map, 60, {}, std::vector<double>{1, 6.5});
+    const double expected[] = {40, 120, 240, 400};
+    for (std::size_t c = 0; c < 4; ++c) {
+        const double y = static_cast<double>(c) / 4;
+        EXPECT_NEAR(static_cast<double>(points_in(rows, 0, 1, y, y + 0.25)), expected[c], 3) << c;
+    }
+}
+
 // Four squares with 40, 120, 240 and 400 of 800 points. Random points would be off by some 15.
 TEST(DensityRelaxation, EveryRegionGetsItsShare) {
     const DensityMap map(2, 2, {0.1, 0.3, 0.6, 1});

@@ -28,17 +28,29 @@ double factor(double difference, double side) {
     return sum;
 }
 
+/// Sides of the torus in units of the points' distance, as its extents are to each other.
+std::vector<double> sides_of(std::size_t n, const std::vector<double>& extents) {
+    double volume = 1;
+    for (const double extent : extents) volume *= extent;
+    std::vector<double> sides;
+    for (const double extent : extents)
+        sides.push_back(extent * std::pow(static_cast<double>(n) / volume,
+                                          1 / static_cast<double>(extents.size())));
+    return sides;
+}
+
 /// Oracle: the energy by its definition, with images at any distance. A point's own images are of
 /// the pair that it is with itself.
-double energy(const std::vector<double>& rows, std::size_t d) {
+double energy(const std::vector<double>& rows, std::size_t d, std::vector<double> extents = {}) {
     const std::size_t n = rows.size() / d;
-    const double side = std::pow(static_cast<double>(n), 1 / static_cast<double>(d));
+    if (extents.empty()) extents.assign(d, 1);
+    const auto sides = sides_of(n, extents);
     double sum = 0;
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < n; ++j) {
             double product = 1;
             for (std::size_t k = 0; k < d; ++k)
-                product *= factor(rows[i * d + k] - rows[j * d + k], side);
+                product *= factor(rows[i * d + k] - rows[j * d + k], sides[k]);
             sum += product - (i == j ? 1 : 0);
         }
     return sum / 2;
@@ -102,6 +114,48 @@ TEST(GaussianRelaxation, StaysTheSameForAnyNumberOfThreads) {
     relax_gaussian(one, 2, 10, {.threads = 1});
     relax_gaussian(four, 2, 10, {.threads = 4});
     EXPECT_EQ(one, four);
+}
+
+TEST(GaussianRelaxation, EnergyAndStepsAreThoseOfABoxOfAnyProportions) {
+    for (const auto& extents : std::vector<std::vector<double>>{
+             {2, 1}, {0.1, 0.3}, {1, 25}, {5, 1, 2}, {1, 1.5, 0.5, 1}, {7}}) {
+        const std::size_t d = extents.size();
+        const std::size_t n = d == 4 ? 12 : 60;
+        const auto sides = sides_of(n, extents);
+        const auto start = random_rows(n, d, 7);
+        const double expected = energy(start, d, extents);
+        EXPECT_NEAR(gaussian_energy(start, d, {}, extents), expected, 1e-5 * (1 + expected));
+        auto moved = start;
+        relax_gaussian(moved, d, 1, {}, extents);
+        const double step = std::pow(2 * M_PI, 1 - static_cast<double>(d) / 2) / 4;
+        for (std::size_t c = 0; c < 3 * d; ++c) {
+            auto more = start, less = start;
+            more[c] += 1e-5;
+            less[c] -= 1e-5;
+            const double slope = (energy(more, d, extents) - energy(less, d, extents)) / 2e-5;
+            double shift = moved[c] - start[c];
+            shift -= std::round(shift);
+            const double side = sides[c % d];
+            EXPECT_NEAR(shift * side, -step * slope / side, 1e-5) << d << "-D, " << c;
+        }
+    }
+}
+
+// So thin that steps may be longer than a side.
+TEST(GaussianRelaxation, StaysInsideVeryThinBoxes) {
+    for (const std::size_t n : {1U, 2U, 5U, 200U}) {
+        auto rows = random_rows(n, 2, 3);
+        relax_gaussian(rows, 2, 20, {}, std::vector<double>{1, 1000});
+        for (const double x : rows) EXPECT_TRUE(x >= 0 && x < 1) << n;
+    }
+}
+
+TEST(GaussianRelaxation, EqualExtentsAreAsNone) {
+    auto with = random_rows(100, 3);
+    auto without = with;
+    relax_gaussian(with, 3, 5, {}, std::vector<double>{0.3, 0.3, 0.3});
+    relax_gaussian(without, 3, 5, {});
+    EXPECT_EQ(with, without);
 }
 
 // On the line the points come to rest at equal distances.

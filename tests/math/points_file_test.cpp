@@ -28,6 +28,19 @@ TEST(PointsFile, TakesCommasBlanksHeadersAndComments) {
     EXPECT_EQ(read("x\n5\n6").dimension(), 1);
 }
 
+TEST(PointsFile, BlankLinesAndCommentsBeginGroups) {
+    const auto groups = [](const std::string& text) {
+        TokenFile file(text, "f");
+        return read_point_groups(file, {});
+    };
+    const std::vector<PointSet> two = {points_of({{1, 2}, {3, 4}}), points_of({{5, 6}})};
+    for (const char* text :
+         {"1,2\n3,4\n\n5,6\n", "x,y\n1 2\n3 4\n#\n5 6",
+          "\n# a\n\nx,y\n\n1,2\n3,4 # b\n\n# c\n5,6\n\n", "1,2\r\n3,4\r\n\r\n5,6\r\n"})
+        EXPECT_EQ(groups(text), two) << text;
+    EXPECT_EQ(groups("1,2\n3,4").size(), 1U);
+}
+
 TEST(PointsFile, SaysWhereItIsWrong) {
     for (const auto& [text, message] : std::vector<std::pair<const char*, const char*>>{
              {"", "f: no points; expected a point a line"},

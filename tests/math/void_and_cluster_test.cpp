@@ -18,12 +18,13 @@ namespace {
 /// Oracle: the energies of all cells by their definition.
 class Energies {
   public:
-    Energies(std::size_t width, std::size_t height) : width_(width), height_(height) {}
+    Energies(std::size_t width, std::size_t height, double stretch = 1)
+        : width_(width), height_(height), stretch_(std::sqrt(stretch)) {}
 
     [[nodiscard]] std::vector<double> of(const std::vector<std::uint32_t>& filled,
                                          double sigma) const {
-        const auto across = images(width_, sigma);
-        const auto along = images(height_, sigma);
+        const auto across = images(width_, sigma / stretch_);
+        const auto along = images(height_, sigma * stretch_);
         std::vector<double> sums(width_ * height_);
         for (std::size_t c = 0; c < sums.size(); ++c)
             for (const std::uint32_t f : filled)
@@ -46,6 +47,7 @@ class Energies {
 
     std::size_t width_;
     std::size_t height_;
+    double stretch_;  ///< a cell's width over the root of its area
 };
 
 bool holds(const std::vector<std::uint32_t>& cells, std::uint32_t cell) {
@@ -88,12 +90,16 @@ TEST(VoidAndClusterOrder, FewerRanksAreTheFirstOfAll) {
 }
 
 TEST(VoidAndClusterOrder, EveryRankIsWhatTheDefinitionPicks) {
-    for (const auto& [width, height] :
-         std::vector<std::pair<std::size_t, std::size_t>>{{24, 20}, {13, 17}, {60, 5}}) {
+    struct Torus {
+        std::size_t width, height;
+        double stretch;
+    };
+    for (const auto& [width, height, stretch] : std::vector<Torus>{
+             {24, 20, 1}, {13, 17, 1}, {60, 5, 1}, {30, 10, 0.3}, {15, 20, 4}, {9, 90, 100}}) {
         const std::size_t cells = width * height;
         const std::size_t tenth = cells / 10;
-        const Energies energies(width, height);
-        const auto order = void_and_cluster_order(width, height, cells, 5, {});
+        const Energies energies(width, height, stretch);
+        const auto order = void_and_cluster_order(width, height, cells, 5, {}, stretch);
         for (std::size_t i = tenth; i < cells; i += 7) {
             const std::vector<std::uint32_t> filled(order.begin(),
                                                     order.begin() + static_cast<long>(i));

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <bit>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -61,6 +62,19 @@ std::string npy_of(const std::string& type, const std::string& shape, const std:
     const std::string_view bytes(reinterpret_cast<const char*>(numbers.data()),
                                  numbers.size() * sizeof(T));
     return npy_of(type, shape, bytes, columns_first);
+}
+
+/// A PFM file: kind "PF" (colour) or "Pf" (grey), rows from the bottom.
+inline std::string pfm_of(const std::string& kind, std::size_t width, std::size_t height,
+                          const std::vector<float>& samples, bool big_endian = false) {
+    std::string bytes = kind + "\n" + std::to_string(width) + " " + std::to_string(height) + "\n" +
+                        (big_endian ? "1.0" : "-1.0") + "\n";
+    for (const float sample : samples) {
+        const auto bits = std::bit_cast<std::uint32_t>(sample);
+        for (unsigned k = 0; k < 4; ++k)
+            bytes += static_cast<char>(bits >> 8 * (big_endian ? 3 - k : k) & 0xff);
+    }
+    return bytes;
 }
 
 /// How a picture is stored.

@@ -45,25 +45,28 @@ inline std::vector<double> inverse_of(const Mapping& map, const std::vector<doub
     return cube;
 }
 
-/// Corners, edges, centre and other lines of the unit square where warps turn, both sides of them,
+/// Corners, edges, centre and other planes of the unit cube where warps turn, both sides of them,
 /// and random points.
-inline PointSet telling_points() {
-    std::vector<double> lines = {0, 5e-324, 1e-300, 1e-20, 0x1p-53, one_minus_ulp};
+inline PointSet telling_points(std::size_t dimension = 2) {
+    std::vector<double> lines = {0, 5e-324, 1e-300, 1e-20, 0x1p-53, one_minus_ulp, 1};
     for (int k = 1; k < 8; ++k)
         for (const double x : {std::nextafter(k / 8.0, 0), k / 8.0, std::nextafter(k / 8.0, 1)})
             lines.push_back(x);
     std::vector<double> flat;
-    for (const double x : lines)
-        for (const double y : lines) flat.insert(flat.end(), {x, y});
+    std::vector<std::size_t> at(dimension, 0);
+    for (std::size_t k = 0; k < dimension;) {
+        for (const std::size_t place : at) flat.push_back(lines[place]);
+        for (k = 0; k < dimension && ++at[k] == lines.size(); ++k) at[k] = 0;
+    }
     const Rng rng(11);
-    for (std::uint64_t i = 0; i < 10'000; ++i) flat.push_back(rng.uniform(i));
-    return {std::move(flat), 2};
+    for (std::uint64_t i = 0; i < 5000 * dimension; ++i) flat.push_back(rng.uniform(i));
+    return {std::move(flat), dimension};
 }
 
 /// Holds that every image lies in the domain, and goes back into the closed cube, to a point whose
 /// image is the same within `tolerance`.
 inline void expect_round_trip(const Mapping& map, double tolerance) {
-    const PointSet image = warped(map, telling_points());
+    const PointSet image = warped(map, telling_points(map.cube_dimension()));
     const DomainPtr domain = map.domain();
     PointSet back(image.count(), map.cube_dimension());
     map.inverse(image.flat(), back.flat());
@@ -79,6 +82,67 @@ inline void expect_round_trip(const Mapping& map, double tolerance) {
         for (std::size_t k = 0; k < image.dimension(); ++k)
             ASSERT_NEAR(again[i][k], image[i][k], tolerance) << "coordinate " << k;
     }
+}
+
+/// The factor by which `map` stretches length, area or volume at a point of the cube, by central
+/// differences: the root of Gram's determinant.
+inline double stretch_at(const Mapping& map, std::vector<double> xi) {
+    const std::size_t d = map.cube_dimension();
+    const std::size_t m = map.domain()->dimension();
+    const double h = 1e-5;
+    std::vector<std::uint8_t> keep(1);
+    std::vector<std::vector<double>> tangents(d, std::vector<double>(m));
+    for (std::size_t k = 0; k < d; ++k) {
+        std::vector<double> ahead(m), behind(m);
+        xi[k] += h;
+        map.forward(xi, ahead, keep);
+        xi[k] -= 2 * h;
+        map.forward(xi, behind, keep);
+        xi[k] += h;
+        for (std::size_t j = 0; j < m; ++j) tangents[k][j] = (ahead[j] - behind[j]) / (2 * h);
+    }
+    double product = 1;  // of the tangents' lengths, each without what lies along earlier ones
+    for (std::size_t k = 0; k < d; ++k) {
+        double square = 0;
+        for (const double x : tangents[k]) square += x * x;
+        product *= std::sqrt(square);
+        for (std::size_t later = k + 1; later < d; ++later) {
+            double along = 0;
+            for (std::size_t j = 0; j < m; ++j) along += tangents[k][j] * tangents[later][j];
+            for (std::size_t j = 0; j < m; ++j)
+                tangents[later][j] -= along / square * tangents[k][j];
+        }
+    }
+    return product;
+}
+
+/// Holds that the density is 1 over the stretch, at 200 random points of the cube.
+inline void expect_density_is_one_over_stretch(const Mapping& map, double tolerance = 1e-6) {
+    const std::size_t d = map.cube_dimension();
+    const Rng rng(23);
+    for (std::uint64_t i = 0; i < 200; ++i) {
+        std::vector<double> xi(d);
+        for (std::size_t k = 0; k < d; ++k) xi[k] = 0.01 + 0.98 * rng.uniform(i * d + k);
+        std::vector<double> image(map.domain()->dimension());
+        std::vector<std::uint8_t> keep(1);
+        map.forward(xi, image, keep);
+        EXPECT_NEAR(map.density(image) * stretch_at(map, xi), 1, tolerance) << xi[0];
+    }
+}
+
+/// The two-sided p of chi-square for random points pushed through `map`, on its domain.
+inline double p_of_random(const Mapping& map, std::uint64_t count, std::uint64_t seed = 1) {
+    return measure(
+        "chi-square", "p_value",
+        warped(map, make("random", points(count, map.cube_dimension()), {}, {.seed = seed})));
+}
+
+/// The image of one point of the cube.
+inline std::vector<double> image_of(const Mapping& map, const std::vector<double>& xi) {
+    std::vector<double> image(map.domain()->dimension());
+    std::vector<std::uint8_t> keep(1);
+    map.forward(xi, image, keep);
+    return image;
 }
 
 }  // namespace stipple::testing

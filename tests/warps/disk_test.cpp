@@ -5,7 +5,7 @@
 #include <limits>
 #include <numbers>
 
-#include "support/warping.hpp"
+#include "support/planar.hpp"
 
 using namespace stipple;
 using namespace stipple::testing;
@@ -84,6 +84,17 @@ TEST(Disk, RoundTripOverTheWholeSquare) {
         expect_round_trip(*mapping("disk:radius=1e150,method=" + method), 1e136);
         expect_round_trip(*mapping("disk:radius=1e-150,method=" + method), 1e-164);
     }
+}
+
+TEST(Disk, StandsHostilePoints) {
+    for (const char* method : {"polar", "concentric", "naive"})
+        expect_stands_hostile_points(*mapping(std::string("disk:method=") + method), 1e-14);
+}
+
+TEST(Disk, DensityIsOneOverTheJacobian) {
+    for (const char* method : {"polar", "concentric", "naive"})
+        expect_density_is_one_over_jacobian(
+            *mapping(std::string("disk:radius=2,center=[1,0],method=") + method));
 }
 
 TEST(Disk, UnitCoordinatesComeBackAroundTheOrigin) {

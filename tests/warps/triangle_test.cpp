@@ -3,41 +3,89 @@
 
 #include <cmath>
 
-#include "support/warping.hpp"
+#include "support/planar.hpp"
 
 using namespace stipple;
 using namespace stipple::testing;
 
 namespace {
 
-std::vector<double> image_of(std::string_view spec, double u, double v) {
-    const auto map = mapping(spec);
-    std::vector<double> point(map->domain()->dimension());
-    map->forward(std::vector{u, v}, point, {});
-    return point;
-}
-
 const char* in_space = "triangle:vertices=[1,0,0 0,2,0 0,0,3]";
+
+const char* low_distortion = "triangle:method=low-distortion";
+const char* low_in_space = "triangle:method=low-distortion,vertices=[1,0,0 0,2,0 0,0,3]";
 
 }  // namespace
 
 TEST(Triangle, PointsByHand) {
-    EXPECT_EQ(image_of("triangle", 0, 0.7), (std::vector{0.0, 0.0}));
-    EXPECT_EQ(image_of("triangle", 0.25, 0), (std::vector{0.0, 0.5}));
-    EXPECT_EQ(image_of("triangle", 0.25, 0.25), (std::vector{0.125, 0.375}));
-    EXPECT_EQ(image_of("triangle:vertices=[1,1 5,1 1,9]", 0.25, 0.5), (std::vector{2.0, 3.0}));
-    EXPECT_EQ(image_of(in_space, 0.25, 0.5), (std::vector{0.5, 0.5, 0.75}));
+    EXPECT_EQ(image_at("triangle", 0, 0.7), (std::vector{0.0, 0.0}));
+    EXPECT_EQ(image_at("triangle", 0.25, 0), (std::vector{0.0, 0.5}));
+    EXPECT_EQ(image_at("triangle", 0.25, 0.25), (std::vector{0.125, 0.375}));
+    EXPECT_EQ(image_at("triangle:vertices=[1,1 5,1 1,9]", 0.25, 0.5), (std::vector{2.0, 3.0}));
+    EXPECT_EQ(image_at(in_space, 0.25, 0.5), (std::vector{0.5, 0.5, 0.75}));
 }
 
 TEST(Triangle, CornersAreTheVertices) {
     const double last = one_minus_ulp;
-    EXPECT_EQ(image_of("triangle:vertices=[3,4 7,4 3,6]", 0, 0), (std::vector{3.0, 4.0}));
-    const auto v1 = image_of("triangle:vertices=[3,4 7,4 3,6]", last, last);
+    EXPECT_EQ(image_at("triangle:vertices=[3,4 7,4 3,6]", 0, 0), (std::vector{3.0, 4.0}));
+    const auto v1 = image_at("triangle:vertices=[3,4 7,4 3,6]", last, last);
     EXPECT_NEAR(v1[0], 7, 2e-15);
     EXPECT_NEAR(v1[1], 4, 2e-15);
-    const auto v2 = image_of("triangle:vertices=[3,4 7,4 3,6]", last, 0);
+    const auto v2 = image_at("triangle:vertices=[3,4 7,4 3,6]", last, 0);
     EXPECT_NEAR(v2[0], 3, 2e-15);
     EXPECT_NEAR(v2[1], 6, 2e-15);
+}
+
+// The corners of the square are v0, v1, the middle of v1 v2, and v2; halves of the square are
+// halves of the triangle.
+TEST(Triangle, LowDistortionPointsByHand) {
+    EXPECT_EQ(image_at(low_distortion, 0, 0), (std::vector{0.0, 0.0}));
+    EXPECT_EQ(image_at(low_distortion, 1, 0), (std::vector{1.0, 0.0}));
+    EXPECT_EQ(image_at(low_distortion, 0, 1), (std::vector{0.0, 1.0}));
+    EXPECT_EQ(image_at(low_distortion, 1, 1), (std::vector{0.5, 0.5}));
+    EXPECT_EQ(image_at(low_distortion, 0.75, 0.5), (std::vector{0.5, 0.25}));
+    EXPECT_EQ(image_at(low_distortion, 0.25, 0.5), (std::vector{0.125, 0.375}));
+    EXPECT_EQ(image_at(low_distortion, 0.5, 0.5), (std::vector{0.25, 0.25}));
+    EXPECT_EQ(image_at(low_in_space, 0.75, 0.5), (std::vector{0.25, 1.0, 0.75}));
+}
+
+// On the right triangle no two points move apart by more than the larger singular value of the
+// linear map (1 -1/2; 0 1/2), 1.1441.
+TEST(Triangle, LowDistortionKeepsNeighbours) {
+    const auto map = mapping(low_distortion);
+    const PointSet cube = make("random", points(2000, 2));
+    const PointSet image = warped(*map, cube);
+    for (std::size_t i = 1; i < cube.count(); ++i) {
+        const double before = std::hypot(cube[i][0] - cube[i - 1][0], cube[i][1] - cube[i - 1][1]);
+        const double after =
+            std::hypot(image[i][0] - image[i - 1][0], image[i][1] - image[i - 1][1]);
+        EXPECT_LE(after, 1.1442 * before) << i;
+    }
+}
+
+TEST(Triangle, LowDistortionRoundTrip) {
+    expect_round_trip(*mapping(low_distortion), 1e-15);
+    expect_round_trip(*mapping(low_in_space), 3e-14);
+    const std::string low = low_distortion;
+    expect_round_trip(*mapping(low + ",vertices=[100,100 101,100 100.5,101]"), 100e-14);
+    expect_round_trip(*mapping(low + ",vertices=[0,0 1,0 0.3,1e-3]"), 1e-11);  // flat
+    expect_unit_coordinates_back(*mapping(low_distortion), 1e-15);
+    expect_unit_coordinates_back(*mapping(low_in_space), 1e-14);
+}
+
+TEST(Triangle, StandsHostilePoints) {
+    for (const char* spec : {"triangle", low_distortion})
+        expect_stands_hostile_points(*mapping(spec), 1e-14);
+    for (const char* spec : {in_space, low_in_space})
+        expect_stands_hostile_points(*mapping(spec), 3e-14);
+}
+
+TEST(Triangle, BothMethodsAreUniformByArea) {
+    for (const char* spec : {"triangle", in_space, low_distortion, low_in_space}) {
+        expect_density_is_one_over_jacobian(*mapping(spec));
+        expect_chi_square_can_tell(*mapping(spec));
+    }
+    expect_measure_is_share_of_box(*mapping("triangle:vertices=[0,0 3,1 1,4]")->domain());
 }
 
 TEST(Triangle, RoundTripOverTheWholeSquare) {
@@ -117,6 +165,7 @@ TEST(Triangle, MomentsAreThoseOfTheUniformDensity) {
 
 TEST(Triangle, DomainSaysWhatItIsAndParsesBack) {
     EXPECT_EQ(mapping("triangle")->domain()->spec(), "triangle");
+    EXPECT_EQ(mapping(low_distortion)->domain()->spec(), "triangle");
     const DomainPtr domain = mapping("triangle:vertices=[0,0 2,0 0,1]")->domain();
     EXPECT_EQ(domain->spec(), "triangle:vertices=[0,0 2,0 0,1]");
     EXPECT_EQ(mapping(domain->spec())->domain()->spec(), domain->spec());

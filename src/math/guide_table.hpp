@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+//
+// Where a number falls among rising sums, in constant expected time: the range of the sums is cut
+// into equal buckets, and for each is known how many sums lie in buckets before it. The search is
+// then among the sums of one bucket.
+//
+//     bucket(w) = floor(w * buckets / total),    the first sum above w lies in
+//     [starts[bucket(w)], starts[bucket(w) + 1]].
+//
+// Shape   sums >= 0, none below the one before; numbers in [0, total).
+// Cost    4 bytes a bucket; O(1 + log of the sums in the bucket) a search.
+// Promise the same answer as a binary search among all sums, whatever the rounding: bucket() rises
+//         with w, and sums and numbers go through the same.
+// Source  H.-C. Chen, Y. Asau, "On generating random variates from an empirical distribution", AIIE
+//         Trans. 6(2) (1974) 163-166, doi:10.1080/05695557408974949.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace stipple {
+
+/// Cuts [0, total] into buckets.
+class Buckets {
+  public:
+    Buckets() = default;
+    Buckets(double total, std::size_t count)
+        : scale_(static_cast<double>(count) / total), last_(count - 1) {
+        if (!std::isfinite(scale_)) scale_ = 0;  // all in the first: slower, and as right
+    }
+
+    [[nodiscard]] std::size_t of(double w) const {
+        return std::min(static_cast<std::size_t>(w * scale_), last_);
+    }
+
+  private:
+    double scale_ = 0;
+    std::size_t last_ = 0;
+};
+
+/// Fills the `starts`, one more than there are buckets, for sums whose last is the total.
+inline void fill_guide(std::span<const double> sums, std::span<std::uint32_t> starts) {
+    const Buckets buckets(sums.back(), starts.size() - 1);
+    std::ranges::fill(starts, 0);
+    for (const double sum : sums) ++starts[buckets.of(sum) + 1];
+    for (std::size_t b = 1; b < starts.size(); ++b) starts[b] += starts[b - 1];
+}
+
+/// The first of the sums above w < sums.back(), which lies in [low, high].
+inline std::size_t first_above(std::span<const double> sums, std::size_t low, std::size_t high,
+                               double w) {
+    const std::size_t last = sums.size() - 1;
+    constexpr std::size_t few = 16;
+    if (high - low < few) {
+        // Always as many steps, which the machine can do for several numbers at a time. What they
+        // meet beyond `high` is above w, too.
+        for (std::size_t step = few / 2; step > 0; step /= 2)
+            low += sums[std::min(low + step - 1, last)] <= w ? step : 0;
+        return low;
+    }
+    const auto from = sums.begin() + static_cast<std::ptrdiff_t>(low);
+    const auto to = sums.begin() + static_cast<std::ptrdiff_t>(std::min(high, last));
+    return static_cast<std::size_t>(std::upper_bound(from, to, w) - sums.begin());
+}
+
+}  // namespace stipple

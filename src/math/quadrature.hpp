@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+//
+// Integrals over intervals and boxes by the Gauss-Kronrod rule of 15 points, the interval with the
+// largest error halved first; over boxes, one coordinate inside the other.
+//
+//     error of an interval = |Kronrod - Gauss| + 1/200 of it times what f at its ends, which the
+//                            rule does not look at, differs from a parabola through the nodes there
+//
+// Shape   any finite f; jumps and corners are found by halving.
+// Cost    17 values an interval; at most `most` intervals a coordinate.
+// Promise the error told is that estimate, summed: no bound, but rarely exceeded. Not for making
+//         points: roundings may differ between machines.
+// Source  R. Piessens et al., QUADPACK (1983), for choosing the worst interval.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+
+#include "core/domain.hpp"
+
+namespace stipple {
+
+/// How far an integral is taken: to this error relative to its value, or so many intervals.
+struct Effort {
+    double tolerance = 1e-10;
+    std::size_t most = 200;
+};
+
+Estimate integrate_interval(const std::function<double(double)>& f, double low, double high,
+                            const Effort& effort = {});
+
+/// Of a function of a point, over a box of at least one dimension.
+Estimate integrate_box(const std::function<double(std::span<const double>)>& f, const Box& box,
+                       const Effort& effort = {});
+
+}  // namespace stipple

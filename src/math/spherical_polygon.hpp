@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+//
+// Convex polygons on the unit sphere, and the area of spherical triangles without loss of digits,
+// however small they are:
+//
+//     tan(area / 2) = |a . (b - a) x (c - a)| / (1 + a.b + b.c + c.a)
+//
+// Source  A. Van Oosterom, J. Strackee, "The solid angle of a plane triangle", IEEE Transactions on
+//         Biomedical Engineering 30 (1983) 125-126, doi:10.1109/TBME.1983.325207.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/domain.hpp"
+#include "math/vector3.hpp"
+
+namespace stipple {
+
+/// Half the area of the triangle of three unit vectors, in turns of 2 pi: in [0, 1/2].
+double half_area_turns(const Vector3& a, const Vector3& b, const Vector3& c);
+
+class SphericalPolygon {
+  public:
+    /// Corners in order, either way around; unit vectors, neighbours neither equal nor opposite.
+    explicit SphericalPolygon(std::vector<Vector3> corners);
+
+    /// Whether a vector is of length 1 and inside all edges, both up to `slack`.
+    [[nodiscard]] bool contains(const Vector3& v, double slack) const;
+
+    /// The smallest axis-parallel box around it.
+    [[nodiscard]] Box bounding_box() const;
+
+  private:
+    /// The highest that the edge after corner i reaches along `up`.
+    [[nodiscard]] double edge_top(std::size_t i, const Vector3& up) const;
+
+    std::vector<Vector3> corners_;
+    std::vector<Vector3> inward_;  ///< unit normal of the plane of the edge after each corner
+};
+
+}  // namespace stipple

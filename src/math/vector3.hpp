@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+//
+// Vectors in space, and right-handed frames of three orthogonal unit vectors.
+//
+// Promise no vector but what is written: plain + - * / and square roots, the same bits on every
+//         machine with IEEE 754 arithmetic.
+// Source  T. Duff, J. Burgess, P. Christensen, C. Hery, A. Kensler, M. Liani, R. Villemin,
+// "Building
+//         an orthonormal basis, revisited", J. Computer Graphics Techniques 6(1) (2017) 1-8.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace stipple {
+
+using Vector3 = std::array<double, 3>;
+
+inline Vector3 plus(const Vector3& a, const Vector3& b) {
+    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+inline Vector3 minus(const Vector3& a, const Vector3& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+inline Vector3 times(const Vector3& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
+inline double dot(const Vector3& a, const Vector3& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+inline Vector3 cross(const Vector3& a, const Vector3& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline double length(const Vector3& a) { return std::sqrt(dot(a, a)); }
+inline double largest(const Vector3& a) {
+    return std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
+}
+
+/// The unit vector along a finite vector that is not null, however long or short.
+inline Vector3 normalized(const Vector3& a) {
+    const double size = largest(a);
+    const Vector3 scaled = {a[0] / size, a[1] / size, a[2] / size};
+    return times(scaled, 1 / length(scaled));
+}
+
+/// Three axes in space.
+struct Frame {
+    Vector3 x{1, 0, 0};
+    Vector3 y{0, 1, 0};
+    Vector3 z{0, 0, 1};
+
+    /// The vector whose coordinates along the axes are `v`.
+    [[nodiscard]] Vector3 out(const Vector3& v) const {
+        return {v[0] * x[0] + v[1] * y[0] + v[2] * z[0] + 0.0,  // never -0
+                v[0] * x[1] + v[1] * y[1] + v[2] * z[1] + 0.0,
+                v[0] * x[2] + v[1] * y[2] + v[2] * z[2] + 0.0};
+    }
+
+    /// Coordinates of a vector along the axes.
+    [[nodiscard]] Vector3 in(const Vector3& v) const { return {dot(v, x), dot(v, y), dot(v, z)}; }
+};
+
+/// A frame about a unit vector z; for (0, 0, 1) the axes of space themselves.
+inline Frame frame_about(const Vector3& z) {
+    const double sign = std::copysign(1.0, z[2]);
+    const double a = -1 / (sign + z[2]);
+    const double b = z[0] * z[1] * a;
+    return {{1 + sign * z[0] * z[0] * a, sign * b, 0 - sign * z[0]},
+            {b, sign + z[1] * z[1] * a, 0 - z[1]},
+            z};
+}
+
+}  // namespace stipple

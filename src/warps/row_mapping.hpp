@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+//
+// A mapping made of a method that takes one point at a time; rows are looped over here, in one
+// function that compilers can widen.
+//
+//     struct Method {
+//         std::array<double, m> forward(const std::array<double, d>& xi) const;
+//         std::array<double, d> inverse(std::span<const double> point) const;   // if there is one
+//         bool keeps(const std::array<double, d>& xi) const;                    // if it drops
+//         points double density(std::span<const double> point) const;                  // if it is
+//         biased
+//     };
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/wide.hpp"
+#include "warps/warp.hpp"
+
+namespace stipple::warps {
+
+namespace detail {
+
+template <class Image, std::size_t d, class Method>
+struct Arity {
+    static constexpr std::size_t cube = d;
+    static constexpr std::size_t image = std::tuple_size_v<Image>;
+};
+template <class Image, std::size_t d, class Method>
+Arity<Image, d, Method> arity(Image (Method::*)(const std::array<double, d>&) const);
+
+}  // namespace detail
+
+/// @throws Error(input) naming the point.
+[[noreturn]] void refuse_outside(std::span<const double> point, const Domain& domain);
+
+template <class Method>
+using ArityOf = decltype(detail::arity(&Method::forward));
+
+template <class Method>
+concept DropsPoints = requires {
+    &Method::keeps;
+};
+
+// The method is taken by value: what is written to the image cannot change it, so that its
+// constants stay in registers.
+template <class Method>
+STIPPLE_WIDE void map_rows(const Method method, std::span<const double> cube,
+                           std::span<double> image) {
+    constexpr std::size_t d = ArityOf<Method>::cube;
+    constexpr std::size_t m = ArityOf<Method>::image;
+    for (std::size_t i = 0; i < cube.size() / d; ++i) {
+        std::array<double, d> xi;
+        for (std::size_t k = 0; k < d; ++k) xi[k] = cube[d * i + k];
+        const std::array<double, m> point = method.forward(xi);
+        for (std::size_t k = 0; k < m; ++k) image[m * i + k] = point[k];
+    }
+}
+
+template <class Method>
+class RowMapping final : public Mapping {
+  public:
+    RowMapping(DomainPtr domain, Method method)
+        : domain_(std::move(domain)), method_(std::move(method)) {}
+
+    DomainPtr domain() const override { return domain_; }
+    std::size_t cube_dimension() const override { return d; }
+    bool drops() const override { return DropsPoints<Method>; }
+
+    void forward(std::span<const double> cube, std::span<double> image,
+                 std::span<std::uint8_t> keep) const override {
+        map_rows(method_, cube, image);
+        if constexpr (DropsPoints<Method>) {
+            for (std::size_t i = 0; i < keep.size(); ++i) {
+                std::array<double, d> xi;
+                std::copy_n(&cube[d * i], d, xi.begin());
+                keep[i] = method_.keeps(xi);
+            }
+        }
+    }
+
+    void inverse(std::span<const double> image, std::span<double> cube) const override {
+        if constexpr (requires { &Method::inverse; }) {
+            for (std::size_t i = 0; i < image.size() / m; ++i) {
+                const auto point = image.subspan(m * i, m);
+                if (!domain_->contains(point)) refuse_outside(point, *domain_);
+                const std::array<double, d> xi = method_.inverse(point);
+                for (std::size_t k = 0; k < d; ++k) cube[d * i + k] = std::clamp(xi[k], 0.0, 1.0);
+            }
+        } else {
+            fail(ErrorKind::usage, "--inverse: {}", Method::no_way_back);
+        }
+    }
+
+    double density(std::span<const double> point) const override {
+        if constexpr (requires { &Method::density; })
+            return domain_->contains(point) ? method_.density(point) : 0;
+        else
+            return domain_->density(point);
+    }
+
+  private:
+    static constexpr std::size_t d = ArityOf<Method>::cube;
+    static constexpr std::size_t m = ArityOf<Method>::image;
+
+    DomainPtr domain_;
+    Method method_;
+};
+
+/// A mapping by `method` onto `domain`.
+template <class Method>
+std::unique_ptr<Mapping> row_mapping(DomainPtr domain, Method method) {
+    return std::make_unique<RowMapping<Method>>(std::move(domain), std::move(method));
+}
+
+}  // namespace stipple::warps
