@@ -37,7 +37,11 @@ def arguments():
         help="name of a curve; once, or once for each FILE (default: from the measured files)",
     )
     parser.add_argument("--key", help="which result (default: value, else the first KIND.value)")
-    options = parser.parse_args()
+    return checked(parser.parse_args())
+
+
+def checked(options):
+    """The options, if there are as many labels as files or one, and one standard input."""
     if options.label and len(options.label) not in (1, len(options.input)):
         labels, files = len(options.label), len(options.input)
         raise io.usage_error(f"--label: {labels} for {files} files; give one, or one for each")

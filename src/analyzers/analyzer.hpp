@@ -28,7 +28,7 @@ struct AnalyzerTraits {
 
 /// One key of the results, for help and `list`.
 struct ResultKey {
-    std::string key;
+    std::string key;  ///< dotted; a part in capitals stands for any name
     std::string help;
     bool always = true;  ///< false: some options give it
 };

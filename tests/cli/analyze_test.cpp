@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "support/program.hpp"
@@ -259,4 +260,36 @@ TEST(Analyze, VerifiesEverySetOfAFileByItsOwnRadius) {
         EXPECT_EQ(conflicts({"--radius", "0.07"}), std::vector<std::string>(3, "0 of 0.07"))
             << name;
     }
+}
+
+TEST(Analyze, IntegratesWithErrorsFromTheSpreadOfSets) {
+    const Sandbox box;
+    const auto one = report_of(
+        box.shell("stipple generate sobol -n 256 --meta | stipple analyze integration --integrand "
+                  "zone-plate,genz-gaussian:seed=3"));
+    ASSERT_EQ(one["results"].size(), 2U);
+    const auto& plate = one["results"]["zone-plate"];
+    EXPECT_EQ(plate["error"], plate["estimate"].get<double>() - plate["exact"].get<double>());
+    EXPECT_FALSE(plate.contains("standard_error"));
+    const auto random = report_of(
+        box.shell("stipple generate random -n 256 -w disk --meta | stipple analyze integration "
+                  "--expression 'x^2' --exact 0.7853981633974483"));
+    const auto& formula = random["results"]["expression"];
+    EXPECT_TRUE(formula["standard_error"].is_number());
+    EXPECT_LT(std::abs(formula["error"].get<double>()),
+              5 * formula["standard_error"].get<double>());
+    const auto mean = report_of(
+        box.shell("stipple generate sobol --scramble owen -n 64 -m 4 | stipple analyze integration "
+                  "--integrand owen --average"));
+    const auto& owen = mean["results"]["owen"];
+    EXPECT_EQ(owen["standard_error"], mean["standard_error"]["owen"]["estimate"]);
+    EXPECT_LT(owen["interval_low"], owen["interval_high"]);
+    EXPECT_GT(owen["rms_error"], 0);
+    EXPECT_EQ(box.shell("stipple generate grid -n 9 | stipple analyze integration --integrand "
+                        "sky-radiance")
+                  .code,
+              3);
+    EXPECT_EQ(
+        box.shell("stipple generate grid -n 9 | stipple analyze integration --integrand skye").code,
+        2);
 }

@@ -232,6 +232,52 @@ TEST(PlotDiscrepancy, RefusesBadInputInOneLine) {
     EXPECT_EQ(box.files(), (std::vector<std::string>{"a.json", "b.json", "p.csv"}));
 }
 
+TEST(PlotConvergence, DrawsACurveForEachGeneratorWithItsSlope) {
+    const Sandbox box;
+    expect_quiet(run(box,
+                     "for n in 16 64 256; do stipple generate sobol --scramble owen -n $n -m 3 -o "
+                     "sobol_$n.csv && stipple generate random -n $n -m 3 -o random_$n.csv; done; "
+                     "for f in json csv; do stipple analyze integration --integrand "
+                     "disk-indicator,owen sobol_*.csv random_*.csv -o all.$f; done"));
+    for (const std::string extension : {".png", ".svg", ".pdf"}) {
+        expect_quiet(run(box, "plot_convergence.py all.json -o a" + extension));
+        expect_picture(box, "a" + extension);
+    }
+    expect_quiet(run(box, "cat all.csv | plot_convergence.py -o b.svg"));
+    EXPECT_EQ(box.read("a.svg"), box.read("b.svg"));
+    const std::string words = texts(box.read("a.svg"));
+    for (const char* word : {"Integration of disk-indicator\n", "sobol, ", "random, ",
+                             "number of points n\n", "RMS error of 3 sets\n"})
+        EXPECT_THAT(words, HasSubstr(word));
+    // Means over sets tell the same root mean square, of all sets.
+    expect_quiet(run(box,
+                     "for n in 16 64 256; do stipple analyze integration --integrand "
+                     "owen,disk-indicator --average random_$n.csv; done | plot_convergence.py "
+                     "--integrand disk-indicator --label random --title '$x & y$' -o c.svg"));
+    EXPECT_THAT(texts(box.read("c.svg")), HasSubstr("RMS error of 3 sets\n"));
+    EXPECT_THAT(texts(box.read("c.svg")), HasSubstr("$x &amp; y$\n"));
+}
+
+TEST(PlotConvergence, RefusesBadInputInOneLine) {
+    const Sandbox box;
+    expect_quiet(run(box,
+                     "stipple generate grid -n 49 -o p.csv && stipple analyze integration p.csv -o "
+                     "a.json && stipple analyze chi-square p.csv -o b.json && stipple analyze "
+                     "integration p.csv --expression x*y -o c.json"));
+    const auto refuse = [&](int code, const std::string& words, const std::string& line) {
+        expect_refusal(run(box, "plot_convergence.py " + line), code, "plot_convergence.py", words);
+    };
+    refuse(2, "-o: is needed", "a.json a.json");
+    refuse(2, "--label: 2 for 1 files", "a.json --label x --label y");
+    refuse(3, "b.json: reports chi-square; expected integration", "b.json");
+    refuse(3, "has no error of any integrand", "c.json");
+    refuse(3, "has no error of 'oven'", "a.json --integrand oven");
+    refuse(3, "all errors are 0", "a.json --integrand measure");
+    refuse(3, "is not a report", "p.csv");
+    refuse(4, "none.json", "none.json");
+    EXPECT_EQ(box.files(), (std::vector<std::string>{"a.json", "b.json", "c.json", "p.csv"}));
+}
+
 TEST(Overview, IsDrawnFromTheProgram) {
     const Sandbox box;
     expect_quiet(run(box, "overview.py -o overview.png && overview.py -o overview.svg"));
@@ -274,7 +320,7 @@ TEST(BlueNoiseTable, HasARowForEachGenerator) {
 TEST(Scripts, ExplainThemselves) {
     const Sandbox box;
     for (const char* name : {"plot_points.py", "plot_spectrum.py", "plot_discrepancy.py",
-                             "overview.py", "plot_blue_noise.py"}) {
+                             "plot_convergence.py", "overview.py", "plot_blue_noise.py"}) {
         const Outcome outcome = run(box, std::string(name) + " --help");
         expect_quiet(outcome);
         EXPECT_THAT(outcome.out, HasSubstr("usage: " + std::string(name)));
@@ -283,6 +329,6 @@ TEST(Scripts, ExplainThemselves) {
     // Importing draws nothing and reads nothing.
     expect_quiet(run(box, "PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=" STIPPLE_SOURCE_DIR
                           "/scripts /usr/bin/python3 -c 'import plot_points, plot_spectrum, "
-                          "plot_discrepancy, overview, plot_blue_noise'"));
+                          "plot_discrepancy, plot_convergence, overview, plot_blue_noise'"));
     EXPECT_EQ(box.files(), std::vector<std::string>{});
 }
