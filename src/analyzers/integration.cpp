@@ -26,6 +26,9 @@
 // Shape   points n x d on any domain whose measure is finite; numbers for each integrand.
 // Cost    O(n d) for each integrand; about 10 to 50 ns a point in 2-D on one core.
 // Promise sums carry their rounding along; results are the same for any number of threads.
+// Beware  where p nears 0 and f does not, f / p may have no finite variance (`measure` on the
+// cosine
+//         hemisphere): a standard error of it is then a description of the points, not a bound.
 // Source  A. B. Owen, "Monte Carlo theory, methods and examples" (2013), chapters 9 (importance
 //         sampling) and 17 (error estimates by replication).
 

@@ -43,22 +43,6 @@ PointSet on_ramp(PointSet points, DomainPtr domain = std::make_shared<Ramp>()) {
 }
 
 /// Directions about y with density cos theta / pi.
-class CosineHemisphere : public Domain {
-  public:
-    std::string spec() const override { return "hemisphere:method=cosine,axis=[0,2,0]"; }
-    std::size_t dimension() const override { return 3; }
-    std::size_t cube_dimension() const override { return 2; }
-    double measure() const override { return 2 * std::numbers::pi; }
-    bool contains(std::span<const double> w) const override { return w[1] >= 0; }
-    Box bounding_box() const override { return {{-1, 0, -1}, {1, 1, 1}}; }
-    double density(std::span<const double> w) const override { return w[1] / std::numbers::pi; }
-    void to_cube(std::span<const double> w, std::span<double> cube) const override {
-        cube[0] = 1 - w[1] * w[1];
-        cube[1] = 0.5 + std::atan2(w[0], w[2]) / (2 * std::numbers::pi);
-    }
-    std::vector<std::string> cube_axes() const override { return {"u", "v"}; }
-};
-
 PointSet cosine_directions(const PointSet& square) {
     PointSet points(square.count(), 3);
     for (std::size_t i = 0; i < square.count(); ++i) {
@@ -68,7 +52,7 @@ PointSet cosine_directions(const PointSet& square) {
         points[i][1] = std::sqrt(1 - square[i][0]);
         points[i][2] = r * std::sin(turn);
     }
-    points.domain = std::make_shared<CosineHemisphere>();
+    points.domain = parse_domain("hemisphere:method=cosine,axis=[0,2,0]", 3);
     return points;
 }
 
