@@ -228,6 +228,7 @@ Warp disk() {
                 "they are; concentric: squares about the centre become rings, left stays left",
             .traits = {.invertible = true, .drops = true, .biased = true},
             .options = schema(),
+            .aliases = {"disc"},
             .make = make};
 }
 

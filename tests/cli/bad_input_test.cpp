@@ -139,7 +139,7 @@ TEST(BadInput, UnknownNamesMeetTheNearestKnownOne) {
     expect_refusal(box.run({"generate", "halton", "--cuont", "5"}), 2, "did you mean --count?");
     expect_refusal(box.run({"generate", "random", "--rngg", "philox"}), 2, "did you mean --rng?");
     expect_refusal(box.run({"generate", "random", "--rng", "filox"}), 2, "did you mean 'philox'?");
-    expect_refusal(box.run({"generate", "halton", "-w", "disc"}), 2, "did you mean 'disk'?");
+    expect_refusal(box.run({"generate", "halton", "-w", "dsik"}), 2, "did you mean 'disk'?");
     expect_refusal(box.run({"generate", "halton", "-w", "disk:radus=2"}), 2,
                    "did you mean 'radius'?");
     expect_refusal(box.run({"generate", "halton", "-f", "nppy"}), 2, "did you mean 'npy'?");

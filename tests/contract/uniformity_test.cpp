@@ -159,7 +159,9 @@ TEST_P(Uniformity, ATiltOfOnePercentIsFound) {
 TEST_P(Uniformity, AMissingCornerIsFound) {
     if (!is_right(map())) GTEST_SKIP();
     const PointSet& whole = cube_points("random", 100'000, in());
-    const double side = std::pow(0.01, 1 / static_cast<double>(in()));
+    // More of it, where other coordinates of the cube fill up what is missing.
+    const double share = in() > map().domain()->cube_dimension() ? 0.03 : 0.01;
+    const double side = std::pow(share, 1 / static_cast<double>(in()));
     const double low = map().drops() ? 0.6 : 1 - side;
     const auto kept = [&](double u) { return u < low || u >= low + side; };
     std::vector<double> flat;
@@ -312,7 +314,13 @@ double stretch_at(const Mapping& map, std::span<const double> cube) {
 TEST_P(Uniformity, DensityIsRightWithinTwoPercent) {
     const std::size_t d = map().domain()->dimension();
     const PointSet points = image("random", 200'000);
-    if (d == in()) {
+    const Domain& domain = *map().domain();
+    if (d == in() || d == domain.cube_dimension()) {
+        const Box box = domain.bounding_box();
+        double volume = 1.000001;
+        for (std::size_t k = 0; k < d; ++k) volume *= box.extent(k);
+        if (domain.measure() > volume && std::isfinite(domain.measure()))
+            GTEST_SKIP() << "no volume: a set of single points";
         std::vector<double> densities;
         for (std::size_t i = 0; i < 1001; ++i) densities.push_back(map().density(points[i]));
         std::ranges::nth_element(densities, densities.begin() + 500);
@@ -329,6 +337,8 @@ TEST_P(Uniformity, DensityIsRightWithinTwoPercent) {
         EXPECT_FALSE(agree(1.02)) << "blind";
         return;
     }
+    if (!find_warp(parse_spec(GetParam()).name).traits.invertible)
+        GTEST_SKIP() << "several points of the cube make the same one";
     std::vector<double> products;
     const PointSet& cube = cube_points("random", 1001, in());
     for (std::size_t i = 0; i < cube.count(); ++i) {

@@ -83,6 +83,7 @@ inline void expect_unit_coordinates_back(const Mapping& map, double tolerance,
     for (std::size_t i = 0; i < cube.count(); ++i) {
         EXPECT_NEAR(back[i][0], cube[i][0], tolerance) << cube[i][1];
         if (cube[i][0] < least_first) continue;
+        if (cube[i][1] == 1 && back[i][1] == 0) continue;  // a whole turn is none
         EXPECT_NEAR(back[i][1], cube[i][1], tolerance) << cube[i][0];
     }
 }
