@@ -76,8 +76,7 @@ struct Tabulated {
     double forward(double u) const {
         const double inside = std::min(u, one_minus_ulp);
         const std::size_t b = Buckets(1, of->starts.size() - 1).of(inside);
-        const std::size_t i =
-            first_above(of->sums, of->starts[b], of->starts[b + 1], inside);
+        const std::size_t i = first_above(of->sums, of->starts[b], of->starts[b + 1], inside);
         const double w = std::min((u - of->before(i)) / (of->sums[i] - of->before(i)), 1.0);
         const double f = of->from[i];
         const double g = of->to[i];
