@@ -8,9 +8,10 @@
 set -e
 stipple generate grid -n 1000 -d 1 -w 'discrete:probabilities=[0.2,0,0.3,0.5]' -o discrete.json
 
-# share EXACT OUTCOME: the mean of an indicator is the sum of indicator times probability.
+# share EXACT OUTCOME: the mean of an indicator is the sum of it times the probabilities p.
 share() {
-    stipple analyze integration discrete.json -f text --expression "(x == $2)*$1" --exact "$1" \
+    p='(x == 0 ? 0.2 : x == 2 ? 0.3 : x == 3 ? 0.5 : 0)'
+    stipple analyze integration discrete.json -f text --expression "(x == $2)*$p" --exact "$1" \
         --check 'expression.error>-1e-12' --check 'expression.error<1e-12'
 }
 
