@@ -20,7 +20,7 @@ radical_inverse 6 --check 'expression.estimate==0.375'
 radical_inverse 7 --check 'expression.estimate==0.875'
 
 # Together they are i/8 in another order, so their star discrepancy is 1/8; that of the
-# textbook's five, 1/2 1/4 3/4 1/8 5/8, is 1/4: three of five lie in [0, 1/2], none in (3/4, 1).
+# textbook's five, 1/2 1/4 3/4 1/8 5/8, is 1/4: all of them lie in [0, 3/4].
 stipple generate van-der-corput -n 8 |
     stipple analyze star-discrepancy -f text --check 'value==0.125'
 stipple generate van-der-corput -n 5 --start 1 |

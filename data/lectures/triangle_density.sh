@@ -1,8 +1,10 @@
 #!/bin/sh
 # Uniform points of the triangle x, y >= 0, x + y <= 1 by marginal and conditional:
 #
-#     p(x) = 2 - 2x         x = 1 - sqrt(xi), whatever uniform xi is called, or its 1 - xi
-#     p(y|x) = 1/(1 - x)    y = xi' (1 - x)
+#     p(x) = 2 - 2x         x = 1 - sqrt(xi1)
+#     p(y|x) = 1/(1 - x)    y = xi2 (1 - x)
+#
+# (1 - sqrt(1 - xi1) has the same density, but turns the order of the strata.)
 #
 # Means are 1/3, variances 1/18, and the covariance is -1/36.
 #

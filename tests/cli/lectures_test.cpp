@@ -3,6 +3,7 @@
 // The command files of data/lectures hold: each passes as it is, and fails with a changed number.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -58,8 +59,8 @@ std::string text_of(const std::filesystem::path& file) {
 class Lecture : public ::testing::TestWithParam<std::string> {
   protected:
     /// Runs a command file in a folder of its own.
-    [[nodiscard]] Outcome run(const std::string& text) const {
-        box_.write("lecture.sh", text);
+    [[nodiscard]] Outcome run(const std::string& commands) const {
+        box_.write("lecture.sh", commands);
         return box_.shell("sh lecture.sh");
     }
 
