@@ -1,0 +1,32 @@
+#!/bin/sh
+# A mixture: with probability 0.6 from one density, with 0.4 from another. The coordinate that
+# selects is stretched and used again, so that a point needs no more numbers than a component.
+set -e
+
+# Two components that do not meet: uniform on [0, 1] and on [2, 3]. The mean of f over the points
+# is the integral of f p, where p is 0.6 and 0.4. Tolerance: the share of an interval among 1024
+# points of the van der Corput sequence is off by at most two of them, 0.002.
+stipple generate van-der-corput -n 1024 -o mixture.json -w \
+    'mixture:weights=[0.6,0.4],components=[power:exponent=0,range=[0,1]|power:exponent=0,range=[2,3]]'
+
+# share EXACT CONDITION
+share() {
+    stipple analyze integration mixture.json -f text --exact "$1" \
+        --expression "($2)*(x < 3/2 ? 0.6 : 0.4)" \
+        --check 'expression.error>-0.002' --check 'expression.error<0.002'
+}
+
+share 0.6 'x < 3/2'
+share 0.4 'x > 3/2'
+share 0.3 'x < 1/2'
+share 0.8 'x < 5/2'
+
+# Two lobes of a phase function, g = 0.7 forward and g = -0.3 backward, whose mean cosines are
+# their g: E cos theta = 0.6 0.7 - 0.4 0.3 = 0.3. The density is 0.6 H(0.7) + 0.4 H(-0.3), where
+# H(g) = (1 - g^2)/(4 pi (1 + g^2 - 2 g z)^(3/2)). Tolerance: 4096 Halton points are off by 3e-4;
+# 0.002 leaves room.
+density='(0.6*0.51/(1.49 - 1.4*z)^1.5 + 0.4*0.91/(1.09 + 0.6*z)^1.5)/(4*pi)'
+stipple generate halton -n 4096 --start 1 --meta -w \
+    'mixture:weights=[0.6,0.4],components=[henyey-greenstein:g=0.7|henyey-greenstein:g=-0.3]' |
+    stipple analyze integration -f text --expression "z*$density" --exact 0.3 \
+        --check 'expression.error>-0.002' --check 'expression.error<0.002'
