@@ -284,7 +284,9 @@ const std::vector<CommonOption>& common_options() {
          analyze},
         {"--average", "", "", "one result: the mean over all sets, with standard errors", analyze},
         {"--check", "[KEY<VALUE]", "",
-         "exit with 1 unless it holds; also <= > >= == !=; alone: valid==true", analyze, true},
+         "exit with 1 unless it holds; also <= > >= == !=; of several numbers one: mean[0]; alone: "
+         "valid==true",
+         analyze, true},
         {"--column", "X,Y,...", "", "columns to read, by name or number (from 1)", readers},
         {"--from", "FORMAT", "", "format of the input; else from its extension or first bytes",
          readers},

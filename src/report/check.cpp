@@ -16,6 +16,24 @@ bool compare(double a, const std::string& op, double b) {
     return a != b;
 }
 
+/// The number that a key means: "value" or, of several, "mean[0]".
+double number_of(const Report& report, std::string_view key) {
+    const auto open = key.find('[');
+    const Report::Item* item = report.find(key.substr(0, open));
+    if (open == std::string_view::npos || !key.ends_with(']') || item == nullptr)
+        return report.number(key);
+    const auto index = parse_unsigned(key.substr(open + 1, key.size() - open - 2));
+    const auto pick = [&](const auto& numbers) {
+        if (!index || *index >= numbers.size())
+            fail(ErrorKind::usage, "--check: '{}' is no key; {} has {} numbers, [0] to [{}]", key,
+                 key.substr(0, open), numbers.size(), numbers.size() - 1);
+        return static_cast<double>(numbers[*index]);
+    };
+    if (const auto* curve = std::get_if<Report::Curve>(item)) return pick(*curve);
+    if (const auto* whole = std::get_if<Report::Integers>(item)) return pick(*whole);
+    return report.number(key);
+}
+
 }  // namespace
 
 Check parse_check(std::string_view text) {
@@ -48,7 +66,7 @@ bool Check::holds(const Report& report) const {
                  word);
         return (word == value) == (op == "==");
     }
-    const double found = report.number(key);
+    const double found = number_of(report, key);
     const auto wanted = parse_number(value);
     if (!wanted)
         fail(ErrorKind::usage, "--check: '{}' is not a number to compare '{}' with", value, key);

@@ -49,7 +49,7 @@ constexpr Param<Numbers> weights{
 constexpr Param<Text> components{
     {.name = "components",
      .fallback = "henyey-greenstein:g=0.7|henyey-greenstein:g=-0.3",
-     .help = "Warps as specs, with | between them: 'cone:angle=10|hemisphere:method=cosine'"}};
+     .help = "Warps as specs, with | between them: 'cone:half-angle=10|hemisphere:method=cosine'"}};
 
 constexpr Param<bool> normalize{.name = "normalize", .help = "Divide the weights by their sum"};
 

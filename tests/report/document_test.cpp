@@ -75,3 +75,14 @@ TEST(Check, ComparesNumbersWordsAndFlags) {
         EXPECT_TRUE(error_of([&] { (void)parse_check(text).holds(report); }).starts_with("usage: "))
             << text;
 }
+
+TEST(Check, TakesOneOfSeveralNumbers) {
+    Report report;
+    report.add("mean", Report::Curve{0.25, 0.5}).add("grid", Report::Integers{3, 5});
+    for (const char* text : {"mean[0]==0.25", "mean[1]>0.4", "grid[1]==5"})
+        EXPECT_TRUE(parse_check(text).holds(report)) << text;
+    EXPECT_FALSE(parse_check("mean[1]<0.5").holds(report));
+    for (const char* text : {"mean[2]<1", "mean[-1]<1", "mean[]<1", "mean<1", "mena[0]<1"})
+        EXPECT_TRUE(error_of([&] { (void)parse_check(text).holds(report); }).starts_with("usage: "))
+            << text;
+}
