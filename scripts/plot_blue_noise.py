@@ -21,18 +21,6 @@ EXAMPLES = """\
   scripts/plot_blue_noise.py lloyd 'lloyd --iterations 500' -o lloyd.png
 """
 
-GENERATORS = (
-    "dart-throwing",
-    "best-candidate",
-    "poisson-disk",
-    "sample-elimination",
-    "void-and-cluster",
-    "lloyd",
-    "farthest-point",
-    "capacity-constrained",
-    "gaussian-blue-noise",
-    "tiled",
-)
 IN_A_ROW = 5
 DOTS_PER_INCH = 100
 GREYS = 24  # noise is large in a file: few shades do
@@ -54,10 +42,10 @@ def arguments():
 
 
 def registered(folder):
-    """Those of GENERATORS that the program has."""
+    """Those of BLUE_NOISE that the program has."""
     listed = json.loads(stipple(folder, "list", "generators", "--json"))["generators"]
     known = {unit["name"] for unit in listed}
-    return [name for name in GENERATORS if name in known]
+    return [name for name in io.BLUE_NOISE if name in known]
 
 
 def measure(folder, name, options, frequency):

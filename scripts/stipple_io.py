@@ -31,6 +31,19 @@ USAGE, INPUT, IO, LIMIT, INTERRUPTED = 2, 3, 4, 5, 130
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 GREY = "#6b6b6b"
+# What is judged beside each other, from the plainest to the most laboured.
+BLUE_NOISE = (
+    "dart-throwing",
+    "best-candidate",
+    "poisson-disk",
+    "sample-elimination",
+    "void-and-cluster",
+    "lloyd",
+    "farthest-point",
+    "capacity-constrained",
+    "gaussian-blue-noise",
+    "tiled",
+)
 EXTENSIONS = {".png": "png", ".svg": "svg", ".pdf": "pdf"}
 
 

@@ -58,6 +58,7 @@
 #include "analyzers/cell_grid.hpp"
 #include "analyzers/outside.hpp"
 #include "analyzers/pearson.hpp"
+#include "analyzers/verdict.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 
@@ -82,18 +83,6 @@ constexpr Param<Choice> combination{
     .help =
         "What makes one p of several sets (--average): the sum of their statistics, the "
         "smallest p (Sidak), or the product of the p (Fisher)"};
-
-constexpr Param<double> level{.name = "level",
-                              .fallback = 0.001,
-                              .low = 0,
-                              .high = 0.5,
-                              .low_open = true,
-                              .help = "Significance: a p-value below it decides the verdict"};
-
-constexpr Param<Choice> expect{
-    .name = "expect",
-    .choices = "uniform|stratified",
-    .help = "Fail (exit code 1) when the verdict is another; stratified points are not 'uniform'"};
 
 constexpr std::uint64_t held_points = grid_counts[0];  ///< of a stream, before the grid is known
 
@@ -148,16 +137,13 @@ void conclude(Report& report, const Tails& plain, const std::optional<Tails>& se
     }
     const auto clumped = [&](const Tails& tails) {
         const double own = second ? sidak(tails.two_sided(), 2) : tails.two_sided();
-        return tails.upper < tails.lower && own < options[level];
+        return tails.upper < tails.lower && own < options[level_option];
     };
     const bool uneven = clumped(plain) || (second && clumped(*second));
-    const std::string verdict = p >= options[level] ? "uniform"
-                                : uneven            ? "non-uniform"
-                                                    : "stratified";
-    report.add("verdict", verdict);
-    const std::string wanted = options[expect];
-    if (!wanted.empty() && wanted != verdict)
-        report.unmet(fmt::format("expected {}, found {} (p = {:.3g})", wanted, verdict, p));
+    const std::string verdict = p >= options[level_option] ? "uniform"
+                                : uneven                   ? "non-uniform"
+                                                           : "stratified";
+    add_verdict(report, verdict, p, options[expect_uniformity_option]);
 }
 
 /// With points where none can be, nothing is left to chance.
@@ -264,7 +250,7 @@ class Counter final : public Accumulator {
         conclude(report, tails_of(plain), second, options_);
         report.add("cells", cell_count(tally.grid())).add("pooled_cells", plain.pooled);
         report.add("smallest_detectable_effect",
-                   std::sqrt(detectable_noncentrality(plain.freedom(), options_[level]) /
+                   std::sqrt(detectable_noncentrality(plain.freedom(), options_[level_option]) /
                              static_cast<double>(n_)));
         const auto& grid = tally.grid();
         report.add("grid", Report::Integers(grid.begin(), grid.end()));
@@ -305,8 +291,8 @@ void refine(Report& mean, std::size_t sets, const Values& options) {
             .add("p_lower", second->lower);
     }
     conclude(mean, sum_tails(mean, m), second, options);
-    const double shrink = detectable_noncentrality(m * freedom, options[level]) / m /
-                          detectable_noncentrality(freedom, options[level]);
+    const double shrink = detectable_noncentrality(m * freedom, options[level_option]) / m /
+                          detectable_noncentrality(freedom, options[level_option]);
     mean.add("smallest_detectable_effect",
              mean.number("smallest_detectable_effect") * std::sqrt(shrink));
 }
@@ -368,7 +354,7 @@ Analyzer chi_square() {
             .summary = "Two-sided test that points follow their domain's density",
             .source = "Pearson 1900, doi:10.1080/14786440009463897",
             .traits = {.unit_cube = false},
-            .options = Schema(cells, shifted, combination, level, expect),
+            .options = Schema(cells, shifted, combination, level_option, expect_uniformity_option),
             .results = results(),
             .accumulate =
                 [](const Arrival& arrival, const Values& options, const RunContext& run) {

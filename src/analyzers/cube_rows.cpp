@@ -41,9 +41,4 @@ std::vector<double> cube_rows(const Domain& domain, std::span<const double> rows
     return cubes;
 }
 
-std::string verdict_of(double upper, double lower, double level) {
-    if (2 * std::min(upper, lower) >= level) return "uniform";
-    return upper < lower ? "non-uniform" : "stratified";
-}
-
 }  // namespace stipple::analyzers

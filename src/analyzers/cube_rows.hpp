@@ -23,8 +23,4 @@ void require_even(const Domain& domain, std::string_view analyzer);
 std::vector<double> cube_rows(const Domain& domain, std::span<const double> rows,
                               std::uint64_t first, Outside& outside, const RunContext& run);
 
-/// As uniform, non-uniform or stratified: which tail of tests is the smaller, and whether its
-/// two-sided p is below the level.
-std::string verdict_of(double upper, double lower, double level);
-
 }  // namespace stipple::analyzers

@@ -25,24 +25,13 @@
 #include "analyzers/analyzer.hpp"
 #include "analyzers/cube_rows.hpp"
 #include "analyzers/kolmogorov.hpp"
+#include "analyzers/verdict.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "math/radix_sort.hpp"
 
 namespace stipple::analyzers {
 namespace {
-
-constexpr Param<double> level{.name = "level",
-                              .fallback = 0.001,
-                              .low = 0,
-                              .high = 0.5,
-                              .low_open = true,
-                              .help = "Significance: a p-value below it decides the verdict"};
-
-constexpr Param<Choice> expect{
-    .name = "expect",
-    .choices = "uniform|stratified",
-    .help = "Fail (exit code 1) when the verdict is another; stratified points are not 'uniform'"};
 
 double statistic_of(std::span<const Placed> sorted) {
     const auto n = static_cast<double>(sorted.size());
@@ -59,12 +48,8 @@ void conclude(Report& report, const Tails& all, const Values& options) {
     report.add("combined_p_value", all.two_sided())
         .add("combined_p_upper", all.upper)
         .add("combined_p_lower", all.lower);
-    const std::string verdict = verdict_of(all.upper, all.lower, options[level]);
-    report.add("verdict", verdict);
-    const std::string wanted = options[expect];
-    if (!wanted.empty() && wanted != verdict)
-        report.unmet(
-            fmt::format("expected {}, found {} (p = {:.3g})", wanted, verdict, all.two_sided()));
+    const std::string verdict = verdict_of(all.upper, all.lower, options[level_option]);
+    add_verdict(report, verdict, all.two_sided(), options[expect_uniformity_option]);
 }
 
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
@@ -118,7 +103,7 @@ Analyzer kolmogorov_smirnov() {
         .summary = "Two-sided test of each coordinate of the domain's cube for uniformity",
         .source = "Kolmogorov 1933; Marsaglia, Tsang, Wang 2003, doi:10.18637/jss.v008.i18",
         .traits = {.max_dimension = 10'000, .unit_cube = false},
-        .options = Schema(level, expect),
+        .options = Schema(level_option, expect_uniformity_option),
         .results = {{"statistic", "largest distance from the uniform distribution, for each axis"},
                     {"p_value", "for each axis: twice the smaller of both, at most 1"},
                     {"p_upper", "for each axis: chance of as large a statistic"},

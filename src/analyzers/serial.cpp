@@ -34,6 +34,7 @@
 #include "analyzers/analyzer.hpp"
 #include "analyzers/cube_rows.hpp"
 #include "analyzers/pearson.hpp"
+#include "analyzers/verdict.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 
@@ -46,13 +47,6 @@ constexpr Param<std::int64_t> lags{.name = "lags",
                                    .high = 1000,
                                    .unit = "points",
                                    .help = "Correlations with the points 1, 2, ... so many before"};
-
-constexpr Param<double> level{.name = "level",
-                              .fallback = 0.001,
-                              .low = 0,
-                              .high = 0.5,
-                              .low_open = true,
-                              .help = "Significance: a p-value below it decides the verdict"};
 
 constexpr Param<Choice> expect{.name = "expect",
                                .choices = "independent|dependent",
@@ -89,11 +83,9 @@ void sum_axis(std::span<const double> cubes, std::size_t axes, std::size_t axis,
 double two_sided_normal(double z) { return std::erfc(std::abs(z) / std::numbers::sqrt2); }
 
 void conclude(Report& report, double p, const Values& options) {
-    const std::string verdict = p < options[level] ? "dependent" : "independent";
-    report.add("combined_p_value", p).add("verdict", verdict);
-    const std::string wanted = options[expect];
-    if (!wanted.empty() && wanted != verdict)
-        report.unmet(fmt::format("expected {}, found {} (p = {:.3g})", wanted, verdict, p));
+    const std::string verdict = p < options[level_option] ? "dependent" : "independent";
+    report.add("combined_p_value", p);
+    add_verdict(report, verdict, p, options[expect]);
 }
 
 class Order final : public Accumulator {
@@ -201,7 +193,7 @@ Analyzer serial() {
         .summary = "Whether points depend on the ones before: lag correlations and runs",
         .source = "Levene, Wolfowitz 1944, doi:10.1214/aoms/1177731307; Knuth, TAOCP 2, 3.3.2",
         .traits = {.max_dimension = 10'000, .unit_cube = false},
-        .options = Schema(lags, level, expect),
+        .options = Schema(lags, level_option, expect),
         .results = {{"lags", "lags for each axis"},
                     {"correlation", "with the point L before, L = 1, 2, ...; axis after axis"},
                     {"correlation_z", "the same in standard deviations from its mean, 0"},

@@ -27,6 +27,7 @@ namespace stipple {
 
 /// A cell's parts that one disk covers, or those left open by all.
 using PartBits = std::uint64_t;
+inline constexpr std::size_t parts_of_cell = 8 * sizeof(PartBits);
 
 /// Number of ones; the instruction is not everywhere.
 inline std::size_t ones_of(PartBits bits) {

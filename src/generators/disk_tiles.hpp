@@ -304,7 +304,6 @@ class CellTiles : public TilesBase<D> {
   private:
     static constexpr std::size_t rows = power(5, D - 1);
     static constexpr std::size_t groups = rows / 5;
-    static constexpr std::size_t parts_of_cell = 8 * sizeof(PartBits);
     static constexpr std::size_t whole = parts_of_cell;
     static constexpr float not_one = std::numeric_limits<float>::quiet_NaN();  ///< place of several
 

@@ -68,8 +68,7 @@ class Rain {
     /// Windows of this level and beyond are too small for floats.
     static constexpr std::uint8_t deep = 7;
 
-    static constexpr std::size_t all_parts = lines<D> * parts<D>;       ///< of a window
-    static constexpr std::size_t parts_of_cell = 8 * sizeof(PartBits);  ///< where they are known
+    static constexpr std::size_t all_parts = lines<D> * parts<D>;  ///< of a window
 
     /// Darts to a cell, when one falls on a ball of the radius.
     static double one_to_a_ball() {

@@ -31,19 +31,10 @@ from pathlib import Path
 
 import numpy as np
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
+import stipple_io as io
+
 REFERENCES = ("random", "jittered")
-GENERATORS = (
-    "dart-throwing",
-    "best-candidate",
-    "poisson-disk",
-    "sample-elimination",
-    "void-and-cluster",
-    "lloyd",
-    "farthest-point",
-    "capacity-constrained",
-    "gaussian-blue-noise",
-    "tiled",
-)
 BAND = 8  # rings
 NEIGHBOURS = 32  # nearest points among which a point's Delaunay neighbours are
 
@@ -261,7 +252,7 @@ def main():
     program, names, count, sets = arguments(sys.argv[1:])
     if not names:
         known = registered(program)
-        names = [name for name in REFERENCES + GENERATORS if name in known]
+        names = [name for name in REFERENCES + io.BLUE_NOISE if name in known]
     with tempfile.TemporaryDirectory() as folder:
         rows = [row(program, name, count, sets, folder) for name in names]
     print_table(COLUMNS, rows)

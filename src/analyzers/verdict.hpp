@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+//
+// What tests of points have in common: the level that decides, and the end of their reports.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "core/options.hpp"
+#include "core/report.hpp"
+
+namespace stipple::analyzers {
+
+inline constexpr Param<double> level_option{
+    .name = "level",
+    .fallback = 0.001,
+    .low = 0,
+    .high = 0.5,
+    .low_open = true,
+    .help = "Significance: a p-value below it decides the verdict"};
+
+inline constexpr Param<Choice> expect_uniformity_option{
+    .name = "expect",
+    .choices = "uniform|stratified",
+    .help = "Fail (exit code 1) when the verdict is another; stratified points are not 'uniform'"};
+
+/// As uniform, non-uniform or stratified: which tail of tests is the smaller, and whether its
+/// two-sided p is below the level.
+inline std::string verdict_of(double upper, double lower, double level) {
+    if (2 * std::min(upper, lower) >= level) return "uniform";
+    return upper < lower ? "non-uniform" : "stratified";
+}
+
+/// Adds the verdict that a p-value led to, and complains if another one was wanted; no word: any.
+inline void add_verdict(Report& report, const std::string& verdict, double p,
+                        const std::string& wanted) {
+    report.add("verdict", verdict);
+    if (!wanted.empty() && wanted != verdict)
+        report.unmet(fmt::format("expected {}, found {} (p = {:.3g})", wanted, verdict, p));
+}
+
+}  // namespace stipple::analyzers
