@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-
 #include "support/exact.hpp"
 #include "support/nets.hpp"
 #include "support/scrambling.hpp"
 #include "support/sequences.hpp"
+#include "support/temporary_file.hpp"
 
 using namespace stipple;
 using namespace stipple::testing;
@@ -16,31 +14,14 @@ namespace {
 
 const std::string sobol_file = STIPPLE_SOURCE_DIR "/data/sobol_4d.txt";
 
-/// A file of matrices for one test.
-class Matrices {
-  public:
-    explicit Matrices(const std::string& text, const std::string& name = "matrices.txt")
-        : path_(std::filesystem::temp_directory_path() /
-                ("stipple-" + std::to_string(::getpid()) + "-" + name)) {
-        std::ofstream(path_, std::ios::binary) << text;
-    }
-    Matrices(const Matrices&) = delete;
-    Matrices& operator=(const Matrices&) = delete;
-    ~Matrices() { std::filesystem::remove(path_); }
-    [[nodiscard]] std::string path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
-
-PointSet net(const Matrices& file, Request request, Settings more = {}) {
+PointSet net(const TemporaryFile& file, Request request, Settings more = {}) {
     more.emplace_back("matrices", file.path());
     return make("digital-net", std::move(request), more);
 }
 
 /// The message, with the file's name cut to FILE.
 std::string refusal(const std::string& text, Settings more = {}, Request request = {}) {
-    const Matrices file(text);
+    const TemporaryFile file(text);
     std::string error = error_of([&] { net(file, request, more); });
     for (auto at = error.find(file.path()); at != std::string::npos; at = error.find(file.path()))
         error.replace(at, file.path().size(), "FILE");
@@ -88,7 +69,7 @@ TEST(DigitalNet, WithSobolsMatricesIsANetOfSobolsQuality) {
 }
 
 TEST(DigitalNet, WithFauresMatricesGivesFauresPoints) {
-    const Matrices file(pascal_digits);
+    const TemporaryFile file(pascal_digits);
     EXPECT_EQ(net(file, {.count = 27}), make("faure", points(27, 2), {{"base", "3"}}));
     EXPECT_EQ(net(file, points(7, 1, 20)), make("faure", points(7, 1, 20), {{"base", "3"}}));
 }
@@ -116,10 +97,10 @@ TEST(DigitalNet, ReadsEveryLayout) {
           {"2 2 3 3 # no keyword\n" + rows, "digits"},
           {"# a comment\n1 2 4\n\n1 3 5\n", "columns"},
           {rows, "rows"}}) {
-        const Matrices file(text);
+        const TemporaryFile file(text);
         EXPECT_EQ(net(file, {.count = 8}, {{"layout", layout}}), wanted) << text;
     }
-    const Matrices large("# dnet\n2\n1\n4294967296 # points\n32\n" + [] {
+    const TemporaryFile large("# dnet\n2\n1\n4294967296 # points\n32\n" + [] {
         std::string line;
         for (int j = 31; j >= 0; --j) line += std::to_string(std::uint64_t{1} << j) + " ";
         return line;
@@ -133,11 +114,11 @@ TEST(DigitalNet, ReadsColumnsAndRowsOfOtherBases) {
         return points_of({{0, 0}, {3 / 9., 6 / 9.}, {6 / 9., 3 / 9.}, {a / 9, b / 9}});
     };
     const PointSet set = wanted(4, 5);
-    EXPECT_EQ(net(Matrices("# dnet\n3 2 2 2\n3 4\n6 5\n"), {.count = 4}), set);
-    EXPECT_EQ(net(Matrices("# dnetup\n3 2 2 2\n1 4\n2 7\n"), {.count = 4}), set);
-    EXPECT_EQ(
-        net(Matrices("1 1\n0 1\n2 1\n0 2\n"), {.count = 4}, {{"layout", "rows"}, {"base", "3"}}),
-        set);
+    EXPECT_EQ(net(TemporaryFile("# dnet\n3 2 2 2\n3 4\n6 5\n"), {.count = 4}), set);
+    EXPECT_EQ(net(TemporaryFile("# dnetup\n3 2 2 2\n1 4\n2 7\n"), {.count = 4}), set);
+    EXPECT_EQ(net(TemporaryFile("1 1\n0 1\n2 1\n0 2\n"), {.count = 4},
+                  {{"layout", "rows"}, {"base", "3"}}),
+              set);
 }
 
 // Dick's interlacing of two coordinates, digit by digit: 0.x1 y1 x2 y2 ...
@@ -186,11 +167,11 @@ TEST(DigitalNet, WithSobolsMatricesIsSobolScrambledOrNot) {
             << scramble;
 }
 
-// Matrices of fewer rows than digits are filled up by scrambling.
+// TemporaryFile of fewer rows than digits are filled up by scrambling.
 TEST(DigitalNet, ScrambledPointsAreItsPointsScrambled) {
-    const Matrices file("# digits\n3 2 3 4\n1 2 0\n0 1 1\n2 2 2\n1 0 0\n" +
-                        std::string("1 1 1\n2 1 0\n2 0 1\n0 0 2\n"));
-    const Matrices long_file("# dnetup\n5 1 2 27\n7450580596923828124 3\n", "long.txt");
+    const TemporaryFile file("# digits\n3 2 3 4\n1 2 0\n0 1 1\n2 2 2\n1 0 0\n" +
+                             std::string("1 1 1\n2 1 0\n2 0 1\n0 0 2\n"));
+    const TemporaryFile long_file("# dnetup\n5 1 2 27\n7450580596923828124 3\n");
     for (const char* scramble : {"digital-shift", "matrix", "owen"}) {
         const Settings settings = {{"scramble", scramble}};
         EXPECT_EQ(net(file, {.count = 27, .seed = 1}, settings),
@@ -209,7 +190,7 @@ TEST(DigitalNet, AnyStretchIsThatOfTheWhole) {
 
 TEST(DigitalNet, MakesAllItsPointsAndNoMore) {
     const std::string text = "# digits\n3 1 2 4\n1 2\n0 1\n2 2\n1 0\n";
-    const Matrices file(text);
+    const TemporaryFile file(text);
     const PointSet all = net(file, {.count = 9});
     EXPECT_TRUE(is_net(all, 3, 0));
     EXPECT_EQ(net(file, points(1, 1, 8))[0][0], all[8][0]);
@@ -268,8 +249,8 @@ TEST(DigitalNet, SaysWhereAFileIsWrong) {
 }
 
 TEST(DigitalNet, TakesColumnsOfAll64Bits) {
-    const Matrices file("# dnet\n2 1 1 64\n18446744073709551615\n");
+    const TemporaryFile file("# dnet\n2 1 1 64\n18446744073709551615\n");
     EXPECT_EQ(net(file, {.count = 2})[1][0], 1 - 0x1p-53);
-    const Matrices bare("18446744073709551615 1\n");
+    const TemporaryFile bare("18446744073709551615 1\n");
     EXPECT_EQ(net(bare, {.count = 2}, {{"layout", "columns"}})[1][0], 1 - 0x1p-53);
 }

@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <numeric>
 #include <set>
@@ -12,6 +10,7 @@
 #include "support/contract.hpp"
 #include "support/exact.hpp"
 #include "support/sequences.hpp"
+#include "support/temporary_file.hpp"
 
 using namespace stipple;
 using namespace stipple::testing;
@@ -62,22 +61,6 @@ std::vector<double> decaying(std::size_t count, double exponent) {
         weights.push_back(std::pow(static_cast<double>(j), -exponent));
     return weights;
 }
-
-class TemporaryFile {
-  public:
-    explicit TemporaryFile(const std::string& text)
-        : path_(::testing::TempDir() + "stipple_vector_" +
-                ::testing::UnitTest::GetInstance()->current_test_info()->name()) {
-        std::ofstream(path_) << text;
-    }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-    ~TemporaryFile() { std::filesystem::remove(path_); }
-    [[nodiscard]] const std::string& path() const { return path_; }
-
-  private:
-    std::string path_;
-};
 
 }  // namespace
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <numeric>
 
 #include "core/rng.hpp"
 #include "generators/eliminator.hpp"
 #include "support/spacing.hpp"
+#include "support/temporary_file.hpp"
 
 using namespace stipple;
 using namespace stipple::testing;
@@ -16,24 +16,13 @@ namespace {
 constexpr const char* unit = "sample-elimination";
 const Space square{{{0, 0}, {1, 1}}, true};
 
-/// A file of points for one test.
-class PointsText {
-  public:
-    explicit PointsText(const PointSet& set, const std::string& name = "points")
-        : path_(::testing::TempDir() + "elimination_" + name + ".csv") {
-        std::ofstream out(path_);
-        for (std::size_t i = 0; i < set.count(); ++i)
-            for (std::size_t k = 0; k < set.dimension(); ++k)
-                out << format_number(set[i][k]) << (k + 1 < set.dimension() ? "," : "\n");
-    }
-    ~PointsText() { std::remove(path_.c_str()); }
-    PointsText(const PointsText&) = delete;
-    PointsText& operator=(const PointsText&) = delete;
-    [[nodiscard]] const std::string& path() const { return path_; }
-
-  private:
-    std::string path_;
-};
+std::string csv_of(const PointSet& set) {
+    std::string text;
+    for (std::size_t i = 0; i < set.count(); ++i)
+        for (std::size_t k = 0; k < set.dimension(); ++k)
+            text += format_number(set[i][k]) + (k + 1 < set.dimension() ? "," : "\n");
+    return text;
+}
 
 /// Oracle: the formula of eliminator.hpp, all weights from scratch for every point that goes. Sums
 /// of multiples of 2^-40 below 2^13 are exact in doubles.
@@ -212,7 +201,7 @@ TEST(SampleElimination, TorusSpreadsAcrossTheFaces) {
 TEST(SampleElimination, ChoosesFromTheSpecifiedFile) {
     const Space space{{{-3, 10}, {4, 12}}, false};
     const PointSet all = random_in(space, 300, 8);
-    const PointsText file(all);
+    const TemporaryFile file(csv_of(all));
     for (const bool torus : {false, true}) {
         Request request{.count = 60};
         request.bounds = space.box;
@@ -245,7 +234,7 @@ TEST(SampleElimination, SpreadsPointsOfASurface) {
         sphere[i][1] = across * std::sin(angle);
         sphere[i][2] = z;
     }
-    const PointsText file(sphere);
+    const TemporaryFile file(csv_of(sphere));
     const auto spread = [&](Settings settings) {
         settings.emplace_back("from", file.path());
         const PointSet set = make(unit, {.count = 200}, settings);
@@ -258,7 +247,7 @@ TEST(SampleElimination, SpreadsPointsOfASurface) {
 }
 
 TEST(SampleElimination, RefusesWhatCannotBe) {
-    const PointsText file(points_of({{0.1, 0.2}, {0.3, 0.4}, {1.5, 0.5}}));
+    const TemporaryFile file(csv_of(points_of({{0.1, 0.2}, {0.3, 0.4}, {1.5, 0.5}})));
     const auto refusal = [&](const Request& request, Settings settings) {
         for (auto& [name, value] : settings)
             if (value == "FILE") value = file.path();
@@ -287,7 +276,7 @@ TEST(SampleElimination, RefusesWhatCannotBe) {
     EXPECT_NE(refusal({}, {{"torus", "true"}, {"bounded", "true"}}), "");
     EXPECT_EQ(refusal({}, {{"from", "/no/such"}}), "io: /no/such: No such file or directory");
     EXPECT_EQ(refusal(points(10'000'000, 2), {}).substr(0, 6), "limit:");
-    const PointsText flat(points_of({{1, 1}, {1, 2}, {1, 3}}), "flat");
+    const TemporaryFile flat(csv_of(points_of({{1, 1}, {1, 2}, {1, 3}})));
     EXPECT_EQ(refusal({}, {{"from", flat.path()}}),
               "input: the points of " + flat.path() +
                   " lie in a box of no volume | --measure, with --manifold-dimension, tells what "

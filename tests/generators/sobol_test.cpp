@@ -3,14 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 #include "support/nets.hpp"
 #include "support/sequences.hpp"
+#include "support/temporary_file.hpp"
 
 using namespace stipple;
 using namespace stipple::testing;
@@ -41,27 +38,9 @@ const std::string published =
     "9       5       4       1 1 5 5 5 \n"
     "10      5       7       1 1 7 11 19 \n";
 
-/// A file that is there as long as the object.
-class TextFile {
-  public:
-    explicit TextFile(const std::string& text)
-        : path_(std::filesystem::temp_directory_path() /
-                ("stipple-directions-" + std::to_string(::getpid()) + ".txt")) {
-        std::ofstream(path_) << text;
-    }
-    TextFile(const TextFile&) = delete;
-    TextFile& operator=(const TextFile&) = delete;
-    ~TextFile() { std::filesystem::remove(path_); }
-
-    [[nodiscard]] std::string path() const { return path_.string(); }
-
-  private:
-    std::filesystem::path path_;
-};
-
 /// What is said of such a file, without its folder.
 std::string complaint(const std::string& text, std::size_t dimension = 2) {
-    const TextFile file(text);
+    const TemporaryFile file(text);
     std::string error = error_of([&] {
         make("sobol", points(4, dimension), {{"directions", file.path()}});
     });
@@ -223,10 +202,10 @@ TEST(Sobol, SaysWhereARequestMissesTheNets) {
 }
 
 TEST(Sobol, ReadsDirectionNumbersAsPublished) {
-    const TextFile file(published);
+    const TemporaryFile file(published);
     EXPECT_EQ(make("sobol", points(512, 10), {{"directions", file.path()}}),
               make("sobol", points(512, 10)));
-    const TextFile other("# mine\n2 1 0 1\n3 2 1 1 1\n");
+    const TemporaryFile other("# mine\n2 1 0 1\n3 2 1 1 1\n");
     const PointSet mine = make("sobol", points(8, 3), {{"directions", other.path()}});
     EXPECT_EQ(mine[2][2], 0.25);
     EXPECT_TRUE(is_net(mine, 2, 1));

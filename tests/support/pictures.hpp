@@ -4,12 +4,9 @@
 #pragma once
 
 #include <png.h>
-#include <unistd.h>
 
-#include <atomic>
 #include <bit>
 #include <cstdint>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -17,33 +14,9 @@
 #include <string_view>
 #include <vector>
 
+#include "support/temporary_file.hpp"
+
 namespace stipple::testing {
-
-/// A file that is there as long as the object.
-class TemporaryFile {
-  public:
-    explicit TemporaryFile(std::string_view bytes, const std::string& extension = "") {
-        static std::atomic<int> made{0};
-        path_ =
-            (std::filesystem::temp_directory_path() /
-             ("stipple-" + std::to_string(::getpid()) + "-" + std::to_string(made++) + extension))
-                .string();
-        std::ofstream(path_, std::ios::binary) << bytes;
-    }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-    ~TemporaryFile() { std::filesystem::remove(path_); }
-
-    [[nodiscard]] const std::string& path() const { return path_; }
-    [[nodiscard]] std::string bytes() const {
-        std::ostringstream all;
-        all << std::ifstream(path_, std::ios::binary).rdbuf();
-        return all.str();
-    }
-
-  private:
-    std::string path_;
-};
 
 /// An NPY file: the type as NumPy names it ("<f8"), the shape as Python writes it ("(2, 3)").
 inline std::string npy_of(const std::string& type, const std::string& shape,

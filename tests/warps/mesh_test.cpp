@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
+#include "support/temporary_file.hpp"
 #include "support/warping.hpp"
 
 using namespace stipple;
@@ -17,25 +15,10 @@ using Point = std::vector<double>;
 const std::string tetrahedron = "mesh:file=" STIPPLE_SOURCE_DIR "/tests/support/tetrahedron.obj";
 
 /// A file that is gone with the test.
-class MeshFile {
+class MeshFile : public TemporaryFile {
   public:
-    explicit MeshFile(const std::string& text)
-        : path_(std::filesystem::temp_directory_path() /
-                fmt::format("stipple_mesh_{}_{}.obj", getpid(), ++number_)) {
-        std::ofstream(path_) << text;
-    }
-    MeshFile(const MeshFile&) = delete;
-    MeshFile& operator=(const MeshFile&) = delete;
-    ~MeshFile() { std::filesystem::remove(path_); }
-
-    std::string spec(const std::string& more = "") const {
-        return "mesh:file=" + path_.string() + more;
-    }
-    std::string path() const { return path_.string(); }
-
-  private:
-    static inline int number_ = 0;
-    std::filesystem::path path_;
+    explicit MeshFile(const std::string& text) : TemporaryFile(text, ".obj") {}
+    std::string spec(const std::string& more = "") const { return "mesh:file=" + path() + more; }
 };
 
 void expect_near(const Point& p, const Point& q, double tolerance) {

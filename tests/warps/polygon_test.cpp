@@ -3,11 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 
 #include "support/planar.hpp"
+#include "support/temporary_file.hpp"
 
 using namespace stipple;
 using namespace stipple::testing;
@@ -79,18 +78,6 @@ bool inside(const Corners& p, double px, double py) {
     }
     return odd;
 }
-
-class PolygonFile : public ::testing::Test {
-  protected:
-    std::string write(const std::string& text) const {
-        std::ofstream(path_) << text;
-        return path_;
-    }
-    void TearDown() override { std::filesystem::remove(path_); }
-
-  private:
-    std::string path_ = ::testing::TempDir() + "stipple_polygon.csv";
-};
 
 }  // namespace
 
@@ -260,22 +247,25 @@ TEST(Polygon, RefusesWhatHasNoArea) {
               "usage: --vertices: the vertex 1e+200,0 is outside [-1e150, 1e150]");
 }
 
-TEST_F(PolygonFile, HoldsRingsBetweenBlankLinesOrComments) {
+TEST(PolygonFile, HoldsRingsBetweenBlankLinesOrComments) {
     const std::string rings = "# a frame\nx,y\n0,0\n4,0\n4,4\n0,4\n";
     const std::string hole = "1,1\n3 1\n3,3\n1,3\n1,1\n";
     const PointSet cube = telling_points();
     const PointSet expected = warped(*mapping(frame), cube);
     for (const std::string between : {"\n", "# the hole\n", "\n\n#\n"}) {
-        const auto map = mapping(fmt::format("polygon:file={}", write(rings + between + hole)));
+        const TemporaryFile both(rings + between + hole);
+        const auto map = mapping("polygon:file=" + both.path());
         EXPECT_TRUE(std::ranges::equal(warped(*map, cube).flat(), expected.flat())) << between;
     }
-    const std::string path = write(rings);
-    EXPECT_EQ(mapping("polygon:file=" + path)->domain()->spec(), "polygon:file=" + path);
+    const TemporaryFile one(rings);
+    const std::string spec = "polygon:file=" + one.path();
+    EXPECT_EQ(mapping(spec)->domain()->spec(), spec);
 }
 
-TEST_F(PolygonFile, ComplainsByItsName) {
+TEST(PolygonFile, ComplainsByItsName) {
     const auto complaint = [&](const std::string& text) {
-        const std::string path = write(text);
+        const TemporaryFile file(text);
+        const std::string& path = file.path();
         const std::string what = error("polygon:file=" + path);
         EXPECT_EQ(what.find("input: " + path + ":"), 0U) << what;
         return what.substr(std::min(what.size(), path.size() + 7));

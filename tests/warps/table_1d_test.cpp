@@ -3,9 +3,8 @@
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
+#include "support/temporary_file.hpp"
 #include "support/warping.hpp"
 
 using namespace stipple;
@@ -18,25 +17,6 @@ const std::string mixed = "table-1d:rows=[0,0 1,2 1,0 2,0 2,3 3,3 4,1]";
 const std::string steps = "table-1d:interpolation=constant,rows=[-1,2 0,0 2,6 3,0]";
 
 double at(const std::string& spec, double u) { return image_of(*mapping(spec), {u, 0.5})[0]; }
-
-/// A file of the test's own, removed at the end.
-class File {
-  public:
-    explicit File(const std::string& text)
-        : path_(std::filesystem::temp_directory_path() /
-                ("stipple_table_" +
-                 std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) +
-                 ".csv")) {
-        std::ofstream(path_) << text;
-    }
-    ~File() { std::filesystem::remove(path_); }
-    File(const File&) = delete;
-    File& operator=(const File&) = delete;
-    std::string name() const { return path_.string(); }
-
-  private:
-    std::filesystem::path path_;
-};
 
 }  // namespace
 
@@ -104,15 +84,15 @@ TEST(Table1d, ChiSquareAcceptsItAndRejectsWrongOnes) {
 }
 
 TEST(Table1d, ReadsFiles) {
-    const File file("x,density\n0,0\n1,2\n2,0\n");
-    EXPECT_DOUBLE_EQ(at("table-1d:file=" + file.name(), 0.125), 0.5);
-    EXPECT_EQ(mapping("table-1d:file=" + file.name())->domain()->spec(),
-              "table-1d:file=" + file.name());
-    EXPECT_EQ(error_of([&] { mapping("table-1d:rows=[0,1 1,1],file=" + file.name()); }),
+    const TemporaryFile file("x,density\n0,0\n1,2\n2,0\n");
+    EXPECT_DOUBLE_EQ(at("table-1d:file=" + file.path(), 0.125), 0.5);
+    EXPECT_EQ(mapping("table-1d:file=" + file.path())->domain()->spec(),
+              "table-1d:file=" + file.path());
+    EXPECT_EQ(error_of([&] { mapping("table-1d:rows=[0,1 1,1],file=" + file.path()); }),
               "usage: --rows: --file is given, too; one of them is allowed");
-    const File bad("0,1\n1,-2\n");
-    EXPECT_EQ(error_of([&] { mapping("table-1d:file=" + bad.name()); }),
-              "input: " + bad.name() + ": row 2 has the density -2; [0, 1e150] is allowed");
+    const TemporaryFile bad("0,1\n1,-2\n");
+    EXPECT_EQ(error_of([&] { mapping("table-1d:file=" + bad.path()); }),
+              "input: " + bad.path() + ": row 2 has the density -2; [0, 1e150] is allowed");
 }
 
 TEST(Table1d, RefusesWhatIsNoDensity) {
