@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "core/parallel.hpp"
 #include "math/radix_sort.hpp"
 
 namespace stipple::analyzers::star {
@@ -12,11 +13,24 @@ namespace {
 
 using Integer = WorstBox::Integer;
 
-/// Sorts one axis: its distinct values with 1, and the place of every point.
-void index_axis(const PointSet& points, std::size_t axis, CornerGrid& grid, const RunContext& run) {
+/// Points with a coordinate 1, for half-open boxes; none for closed ones.
+std::vector<std::uint32_t> in_no_box(const PointSet& points, Boxes boxes) {
+    std::vector<std::uint32_t> places;
+    if (boxes == Boxes::closed) return places;
+    for (std::size_t i = 0; i < points.count(); ++i)
+        if (std::ranges::find(points[i], 1.0) != points[i].end())
+            places.push_back(static_cast<std::uint32_t>(i));
+    return places;
+}
+
+/// Sorts one axis: its distinct values with 1, and the place of every point; `at_one` are taken to
+/// be at 1.
+void index_axis(const PointSet& points, std::size_t axis, const std::vector<std::uint32_t>& at_one,
+                CornerGrid& grid, const RunContext& run) {
     std::vector<Placed> items(points.count());
     for (std::size_t i = 0; i < items.size(); ++i)
         items[i] = {points[i][axis] + 0.0, static_cast<std::uint32_t>(i)};  // -0 becomes 0
+    for (const std::uint32_t i : at_one) items[i].value = 1;
     radix_sort(items, run);
     auto& values = grid.values[axis];
     auto& ranks = grid.ranks[axis];
@@ -67,12 +81,16 @@ double quotient(const Integer& above, std::uint64_t below, unsigned places) {
 
 }  // namespace
 
-CornerGrid corner_grid(const PointSet& points, const RunContext& run) {
+CornerGrid corner_grid(const PointSet& points, const RunContext& run, Boxes boxes) {
     CornerGrid grid{.count = points.count(), .values = {}, .ranks = {}};
     grid.values.resize(points.dimension());
     grid.ranks.resize(points.dimension());
-    for (std::size_t axis = 0; axis < points.dimension(); ++axis)
-        index_axis(points, axis, grid, run);
+    const auto at_one = in_no_box(points, boxes);
+    constexpr bool silent = true;
+    const double seconds = 1e-7 * static_cast<double>(points.flat().size());
+    for_each_block(
+        worth_threads(run, seconds), points.dimension(), 1,
+        [&](const Block& block) { index_axis(points, block.index, at_one, grid, run); }, silent);
     return grid;
 }
 

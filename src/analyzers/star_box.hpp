@@ -5,7 +5,10 @@
 //
 //     open box   [0,c):  vol(c) - #{x < c} / n         closed box  [0,c]:  #{x <= c} / n - vol(c)
 //
-// with c made of coordinates of points and of 1.
+// with c made of coordinates of points and of 1. Half-open boxes [0,c) alone have the same
+// supremum, but for points with a coordinate 1, which are in none of them: c is at most 1. The
+// closed box up to (1,...,1), which is never too full, is the one place where such a point does no
+// harm, so it is moved there.
 //
 // Source  H. Niederreiter, "Discrepancy and convex programming", Ann. Mat. Pura Appl. 93 (1972)
 //         89-97, doi:10.1007/BF02412017 (the finite grid).
@@ -24,6 +27,9 @@ namespace stipple::analyzers::star {
 
 enum class Side { open, closed };
 
+/// Which boxes count: those of both sides, or the half-open ones and their limits.
+enum class Boxes { closed, half_open };
+
 /// The distinct coordinates on each axis, and the points as places among them.
 struct CornerGrid {
     std::size_t count = 0;
@@ -36,7 +42,7 @@ struct CornerGrid {
 /// Bytes that a grid takes for each point and axis.
 constexpr std::size_t axis_bytes = sizeof(double) + sizeof(std::uint32_t);
 
-CornerGrid corner_grid(const PointSet& points, const RunContext& run);
+CornerGrid corner_grid(const PointSet& points, const RunContext& run, Boxes boxes = Boxes::closed);
 
 /// Places on the axes of a grid.
 using Corner = std::vector<std::uint32_t>;

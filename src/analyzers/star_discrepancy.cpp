@@ -9,6 +9,8 @@
 //
 //     D* = max over c of  max( vol(c) - #{x < c} / n,  #{x <= c} / n - vol(c) ).
 //
+// --boxes half-open takes the first line at its word: points with a coordinate 1 are in no box.
+//
 // Shape   points n x d in [0, 1];  result in [1/(2n), 1], a pure number, smaller is more even.
 // Cost    d = 1: O(n log n). d = 2: O(n log^2 n) time, O(n) memory.
 //         d > 2: exponential in d at worst (the problem is NP-hard); branch and bound, which gives
@@ -22,6 +24,7 @@
 
 #include "analyzers/analyzer.hpp"
 #include "analyzers/star_ascent.hpp"
+#include "analyzers/star_families.hpp"
 #include "analyzers/star_search.hpp"
 #include "analyzers/star_sweep.hpp"
 #include "core/error.hpp"
@@ -38,6 +41,14 @@ constexpr Param<std::int64_t> max_work{
     .help =
         "Give up when branch and bound (3 and more dimensions) has compared this many "
         "coordinates; 10^9 take about two seconds on one core"};
+
+constexpr Param<Choice> boxes{
+    .name = "boxes",
+    .fallback = "closed",
+    .choices = "closed|half-open",
+    .help =
+        "Whether boxes that end at 1 are closed there, or half-open as all others; they differ "
+        "for points with a coordinate 1"};
 
 /// More points than any machine's memory holds; counts of points stay far from 2^31.
 constexpr std::size_t max_count = std::size_t{1} << 29;
@@ -70,7 +81,7 @@ Report search_for_it(const star::CornerGrid& grid, std::int64_t work, const RunC
                    format_number(found.upper));
 }
 
-Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
+Report measure(const PointSet& points, const Values& options, const RunContext& run) {
     if (points.count() == 0) fail(ErrorKind::input, "star-discrepancy needs at least one point");
     if (points.count() > max_count)
         fail(ErrorKind::limit, "star-discrepancy takes up to {} points; these are {}", max_count,
@@ -78,10 +89,19 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     run.need_memory(static_cast<double>(points.count()) *
                         (static_cast<double>(points.dimension() * star::axis_bytes) + 32),
                     "the star discrepancy's grid of corners");
-    const star::CornerGrid grid = star::corner_grid(points, run);
+    const star::CornerGrid grid = star::corner_grid(
+        points, run, options[boxes] == "closed" ? star::Boxes::closed : star::Boxes::half_open);
     if (grid.dimension() == 1) return report(star::sweep_1d(grid, run), "sweep-1d");
     if (grid.dimension() == 2) return report(star::sweep_2d(grid, run), "sweep-2d");
     return search_for_it(grid, options[max_work], run);
+}
+
+Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
+    if (!star::wants_families(options)) return measure(points, options, run);
+    const auto one = [&options](const PointSet& part, const RunContext& part_run) {
+        return measure(part, options, part_run);
+    };
+    return star::families(points, options, one, run);
 }
 
 }  // namespace
@@ -91,7 +111,7 @@ Analyzer star_discrepancy() {
             .summary = "Star discrepancy, exact, with the worst box",
             .source = "Doerr, Gnewuch, Wahlstroem 2014, arXiv:1405.1653",
             .traits = {.max_dimension = 10'000},
-            .options = Schema(max_work),
+            .options = Schema(max_work, boxes, star::prefixes, star::every, star::projections),
             .results = {{"value", "the star discrepancy"},
                         {"lower", "it is at least this"},
                         {"upper", "it is at most this"},
@@ -100,7 +120,19 @@ Analyzer star_discrepancy() {
                         {"worst_box.corner", "upper corner of the box where it is reached"},
                         {"worst_box.closed", "whether points on the box's upper faces count"},
                         {"worst_box.points", "points in that box"},
-                        {"worst_box.volume", "its volume"}},
+                        {"worst_box.volume", "its volume"},
+                        {"prefixes.count", "points of each prefix", false},
+                        {"prefixes.value", "its star discrepancy", false},
+                        {"prefixes.lower", "which is at least this", false},
+                        {"prefixes.upper", "and at most this", false},
+                        {"projections.axis_1", "first axis of each projection, from 1", false},
+                        {"projections.axis_2", "the second, and so on", false},
+                        {"projections.value", "its star discrepancy", false},
+                        {"projections.lower", "which is at least this", false},
+                        {"projections.upper", "and at most this", false},
+                        {"projections.is_worst", "1 for the first with the largest value", false},
+                        {"projections.worst", "the axes of that one", false},
+                        {"projections.largest", "its value", false}},
             .analyze = analyze};
 }
 

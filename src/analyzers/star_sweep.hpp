@@ -11,7 +11,7 @@ namespace stipple::analyzers::star {
 /// O(n) after sorting.
 WorstBox sweep_1d(const CornerGrid& grid, const RunContext& run);
 
-/// O(n log^2 n) time in practice, O(n) memory; the two sides on two threads.
+/// O(n^(4/3)) time in practice, O(n) memory; see star_strips.hpp.
 WorstBox sweep_2d(const CornerGrid& grid, const RunContext& run);
 
 }  // namespace stipple::analyzers::star

@@ -25,6 +25,10 @@ Report star_report(const PointSet& points) { return analyze("star-discrepancy", 
 
 double star_of(const PointSet& points) { return star_report(points).number("value"); }
 
+double half_open_star_of(const PointSet& points) {
+    return analyze("star-discrepancy", points, {{"boxes", "half-open"}}).number("value");
+}
+
 /// By branch and bound alone, from nothing: a good start would hide what the search misses.
 double by_search(const PointSet& points) {
     const star::CornerGrid grid = star::corner_grid(points, {});
@@ -127,6 +131,32 @@ double by_definition(const PointSet& p, std::int64_t steps) {
     return static_cast<double>(worst) / static_cast<double>(n * cells);
 }
 
+/// Oracle: the same for half-open boxes alone. A box may end just behind a corner, in which case it
+/// has the points on its faces, but not behind 1.
+double by_half_open_definition(const PointSet& p, std::int64_t steps) {
+    const auto d = p.dimension();
+    const auto n = static_cast<std::int64_t>(p.count());
+    cpp_rational worst = 0;
+    each_corner(p, [&](const std::vector<double>& corner) {
+        cpp_rational volume = 1;
+        for (const double x : corner)
+            volume *= cpp_rational(std::llround(x * static_cast<double>(steps)), steps);
+        for (unsigned behind = 0; behind < 1U << d; ++behind) {
+            std::int64_t inside = 0;
+            for (std::size_t i = 0; i < p.count(); ++i) {
+                bool in = true;
+                for (std::size_t k = 0; k < d; ++k) {
+                    const bool face = (behind >> k & 1U) != 0 && corner[k] < 1;
+                    in = in && (p[i][k] < corner[k] || (face && p[i][k] == corner[k]));
+                }
+                inside += in;
+            }
+            worst = std::max<cpp_rational>(worst, abs(volume - cpp_rational(inside, n)));
+        }
+    });
+    return static_cast<double>(worst);
+}
+
 /// Counts the worst box anew and works out its discrepancy in rational numbers: the value is the
 /// nearest double to it.
 void expect_box_holds(const PointSet& p, const Report& report) {
@@ -210,7 +240,7 @@ TEST(StarDiscrepancy, CountsOpenAndClosedBoxes) {
     EXPECT_EQ(star_of(points_of({{0, 1}, {0, .5}})), 1);  // half-open boxes alone give 1/2
     EXPECT_EQ(star_of(points_of({{0, 1, 0}, {0, .5, 0}})), 1);
     EXPECT_EQ(star_of(points_of({{1}, {.5}})), 1. / 2);
-    const Report open = star_report(points_of({{.75, .75}, {.75, 1}}));
+    const Report open = star_report(points_of({{.75, .5}, {.75, 1}}));
     EXPECT_EQ(open.number("value"), 3. / 4);  // nothing to the left of 3/4
     EXPECT_FALSE(std::get<bool>(*open.find("worst_box.closed")));
     EXPECT_EQ(open.curve("worst_box.corner"), (std::vector<double>{.75, 1}));
@@ -222,6 +252,37 @@ TEST(StarDiscrepancy, CountsOpenAndClosedBoxes) {
     EXPECT_EQ(closed.curve("worst_box.corner"), (std::vector<double>{.25, .5}));
     EXPECT_EQ(closed.number("worst_box.points"), 2);
     EXPECT_EQ(closed.number("worst_box.volume"), .125);
+}
+
+TEST(StarDiscrepancy, OfHalfOpenBoxesLeavesOutWhatLiesAtOne) {
+    const PointSet edge = points_of({{0, 1}, {0, .5}});
+    EXPECT_EQ(star_of(edge), 1);
+    EXPECT_EQ(half_open_star_of(edge), 1. / 2);
+    EXPECT_EQ(half_open_star_of(points_of({{0, 1, 0}, {0, .5, 0}})), 1. / 2);
+    EXPECT_EQ(half_open_star_of(points_of({{0, 1}})), 1);  // holds no point
+    EXPECT_EQ(half_open_star_of(points_of({{.25}, {1}})), 1. / 2);
+    EXPECT_EQ(half_open_star_of(halton(100, 2)), star_of(halton(100, 2)));
+}
+
+// Values agree with the definition on sets with many points at 1, in every dimension and by every
+// method; on most of them the two conventions differ, so a wrong one can't pass.
+TEST(StarDiscrepancy, OfHalfOpenBoxesIsTheDefinitions) {
+    constexpr std::size_t most[] = {0, 20, 9, 6, 4, 3};
+    int different = 0;
+    for (std::size_t d = 1; d <= 5; ++d)
+        for (const std::int64_t steps : {2, 4, 64})
+            for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+                const std::size_t n = 1 + Rng(seed).below(d, most[d]);
+                PointSet p = on_lattice(n, d, static_cast<std::uint64_t>(steps), seed);
+                p[0][d - 1] = 1;
+                const double expected = by_half_open_definition(p, steps);
+                EXPECT_EQ(half_open_star_of(p), expected) << text_of(p);
+                const star::CornerGrid moved = star::corner_grid(p, {}, star::Boxes::half_open);
+                const auto found = star::search(moved, star::WorstBox(moved), 1U << 30, {});
+                EXPECT_EQ(found.worst.value(), expected) << text_of(p);
+                different += expected != star_of(p);
+            }
+    EXPECT_GE(different, 20);
 }
 
 // Exact to the last bit, with ties, duplicates, points on 0 and 1, and single points.
@@ -291,6 +352,34 @@ TEST(StarDiscrepancy, SearchFindsFromNothingWhatItFindsFromAGoodStart) {
                 make("random", points(static_cast<std::uint64_t>(n), dim), {}, {.seed = seed});
             EXPECT_EQ(star_of(p), by_search(p)) << "n " << n << ", d " << d << ", seed " << seed;
         }
+}
+
+// Sets whose places are hard to group: much on one line, far gaps, two points in every place, all
+// on a diagonal, and coordinates 2^-50 apart. The sweep knows no coordinates finer than groups.
+TEST(StarDiscrepancy, SweepAndSearchAgreeOnUnevenSets) {
+    const auto bent = [](std::size_t n, const auto& bend) {
+        PointSet p = make("random", points(n, 2), {}, {.seed = n});
+        for (std::size_t i = 0; i < n; ++i) bend(i, p[i]);
+        return p;
+    };
+    using Point = std::span<double>;
+    const PointSet sets[] = {
+        bent(500, [](std::size_t i, Point x) { x[0] = i % 3 == 0 ? x[0] : 0.25; }),
+        bent(501, [](std::size_t i, Point x) { x[1] = i % 3 == 0 ? x[1] : 1; }),
+        bent(502, [](std::size_t i, Point x) { x[i % 2] *= 0.01; }),
+        bent(503, [](std::size_t, Point x) { x[0] = x[0] < 0.5 ? x[0] * 0.1 : 1 - x[1] * 0.1; }),
+        bent(504, [](std::size_t, Point x) { x[1] = x[0]; }),
+        bent(505, [](std::size_t, Point x) { x[1] = 1 - x[0]; }),
+        bent(506, [](std::size_t i, Point x) { x[0] = 0.5 + 0x1p-50 * static_cast<double>(i); }),
+        bent(507, [](std::size_t, Point x) { x[0] *= x[0] * x[0] * x[0], x[1] = 1 - x[0] * x[1]; }),
+        bent(508, [](std::size_t, Point x) { x[0] = 0, x[1] = 1; }),
+        on_lattice(3000, 2, 16, 1),
+        on_lattice(1000, 2, 1024, 2),
+    };
+    for (const PointSet& p : sets) {
+        EXPECT_EQ(star_of(p), by_search(p)) << "of " << p.count();
+        expect_box_holds(p, star_report(p));
+    }
 }
 
 TEST(StarDiscrepancy, SweepAndSearchAgree) {
@@ -398,4 +487,99 @@ TEST(StarDiscrepancy, RefusesPointsOutsideTheCubeAndTooLittleMemory) {
     EXPECT_EQ(
         error_of([&] { analyze("star-discrepancy", halton(1000, 2), {}, run); }).substr(0, 50),
         "limit: the star discrepancy's grid of corners need");
+}
+
+TEST(StarDiscrepancy, TellsThatOfEveryPrefix) {
+    const PointSet whole = halton(100, 2);
+    const auto first = [&whole](std::size_t n) {
+        const auto rows = whole.flat().first(2 * n);
+        return PointSet(std::vector<double>(rows.begin(), rows.end()), 2);
+    };
+    const Report some = analyze("star-discrepancy", whole, {{"prefixes", "1,7,50,100"}});
+    EXPECT_EQ(std::get<Report::Integers>(*some.find("prefixes.count")),
+              (Report::Integers{1, 7, 50, 100}));
+    const std::size_t sizes[] = {1, 7, 50, 100};
+    for (std::size_t row = 0; row < 4; ++row) {
+        const double value = star_of(first(sizes[row]));
+        EXPECT_EQ(some.curve("prefixes.value")[row], value) << sizes[row];
+        EXPECT_EQ(some.curve("prefixes.lower")[row], value) << sizes[row];
+        EXPECT_EQ(some.curve("prefixes.upper")[row], value) << sizes[row];
+    }
+    EXPECT_EQ(some.find("value"), nullptr);
+    const Report steps = analyze("star-discrepancy", whole, {{"every", "30"}});
+    EXPECT_EQ(std::get<Report::Integers>(*steps.find("prefixes.count")),
+              (Report::Integers{30, 60, 90}));
+    EXPECT_EQ(steps.curve("prefixes.value")[1], star_of(first(60)));
+    const Report open = analyze("star-discrepancy", points_of({{0, 1}, {0, .5}}),
+                                {{"every", "1"}, {"boxes", "half-open"}});
+    EXPECT_EQ(open.curve("prefixes.value"), (Report::Curve{1, .5}));
+}
+
+TEST(StarDiscrepancy, TellsThatOfEveryProjectionAndTheWorst) {
+    const PointSet p = halton(64, 4);
+    const auto flat = [&p](std::size_t j, std::size_t k) {
+        PointSet q(p.count(), 2);
+        for (std::size_t i = 0; i < p.count(); ++i) q[i][0] = p[i][j], q[i][1] = p[i][k];
+        return q;
+    };
+    const Report report = analyze("star-discrepancy", p, {{"projections", "2"}});
+    const auto column = [&report](const char* name) {
+        return std::get<Report::Integers>(*report.find(name));
+    };
+    EXPECT_EQ(column("projections.axis_1"), (Report::Integers{1, 1, 2, 1, 2, 3}));
+    EXPECT_EQ(column("projections.axis_2"), (Report::Integers{2, 3, 3, 4, 4, 4}));
+    const auto value = report.curve("projections.value");
+    EXPECT_EQ(value[0], star_of(flat(0, 1)));
+    EXPECT_EQ(value[2], star_of(flat(1, 2)));
+    EXPECT_EQ(value[5], star_of(flat(2, 3)));
+    EXPECT_EQ(report.number("projections.largest"), std::ranges::max(value));
+    const auto marks = column("projections.is_worst");
+    EXPECT_EQ(std::ranges::count(marks, 1), 1);
+    const auto worst = static_cast<std::size_t>(std::ranges::find(marks, 1) - marks.begin());
+    EXPECT_EQ(value[worst], std::ranges::max(value));
+    EXPECT_EQ(column("projections.worst"), (Report::Integers{column("projections.axis_1")[worst],
+                                                             column("projections.axis_2")[worst]}));
+    EXPECT_EQ(analyze("star-discrepancy", p, {{"projections", "4"}}).curve("projections.value"),
+              Report::Curve{star_of(p)});
+}
+
+TEST(StarDiscrepancy, TablesAreTheSameForAnyNumberOfThreads) {
+    const Settings settings = {{"every", "13"}, {"projections", "2"}};
+    const PointSet p = halton(100, 3);
+    const Report one = analyze("star-discrepancy", p, settings, {.threads = 1});
+    EXPECT_EQ(one, analyze("star-discrepancy", p, settings, {.threads = 2}));
+    EXPECT_EQ(one, analyze("star-discrepancy", p, settings, {.threads = 5}));
+    std::vector<double> seen;
+    RunContext run{.threads = 2};
+    run.progress = [&](double done) { seen.push_back(done); };
+    analyze("star-discrepancy", p, settings, run);
+    EXPECT_TRUE(std::ranges::is_sorted(seen));
+    EXPECT_EQ(seen.back(), 1);
+}
+
+TEST(StarDiscrepancy, RefusesTablesThatTheSetDoesNotHave) {
+    const PointSet p = halton(50, 2);
+    const auto error = [&p](const Settings& settings) {
+        return error_of([&] { analyze("star-discrepancy", p, settings); });
+    };
+    EXPECT_EQ(error({{"prefixes", "16,64"}}),
+              "input: --prefixes: 64 is beyond the set's 50 points");
+    EXPECT_EQ(error({{"prefixes", "16,8"}}),
+              "usage: --prefixes: 8 stands behind 16; expected rising numbers");
+    EXPECT_EQ(error({{"prefixes", "8,8"}}),
+              "usage: --prefixes: 8 stands behind 8; expected rising numbers");
+    EXPECT_EQ(error({{"prefixes", "0,8"}}),
+              "usage: --prefixes: 0 is not a number of points; expected 1, 2, ...");
+    EXPECT_EQ(error({{"prefixes", "1.5"}}),
+              "usage: --prefixes: 1.5 is not a number of points; expected 1, 2, ...");
+    EXPECT_NE(error({{"prefixes", "sixteen"}}).find("--prefixes"), std::string::npos);
+    EXPECT_NE(error({{"prefixes", "8,,9"}}).find("--prefixes"), std::string::npos);
+    EXPECT_NE(error({{"every", "0"}}).find("--every"), std::string::npos);
+    EXPECT_EQ(error({{"every", "51"}}), "input: --every: 51 is beyond the set's 50 points");
+    EXPECT_EQ(error({{"every", "5"}, {"prefixes", "5"}}),
+              "usage: --prefixes and --every: give one of them");
+    EXPECT_EQ(error({{"projections", "3"}}),
+              "input: --projections: 3 is beyond the points' 2 coordinates");
+    EXPECT_NE(error({{"projections", "0"}}).find("--projections"), std::string::npos);
+    EXPECT_NE(error({{"boxes", "open"}}).find("--boxes"), std::string::npos);
 }

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+//
+// Tables of discrepancies: of the prefixes of a sequence, against their length, and of the
+// projections of a set to a few of its axes.
+#pragma once
+
+#include <functional>
+
+#include "core/options.hpp"
+#include "core/point_set.hpp"
+#include "core/report.hpp"
+#include "core/run_context.hpp"
+
+namespace stipple::analyzers::star {
+
+inline constexpr Param<Numbers> prefixes{
+    {.name = "prefixes",
+     .unit = "points",
+     .help = "Instead of the whole set, its first so many points, rising: 16,32,64; a table"}};
+
+inline constexpr Param<std::int64_t> every{
+    .name = "every",
+    .low = 1,
+    .optional = true,
+    .unit = "points",
+    .help = "The same for every multiple of this number up to the set's"};
+
+inline constexpr Param<std::int64_t> projections{
+    .name = "projections",
+    .low = 1,
+    .high = 8,
+    .optional = true,
+    .unit = "coordinates",
+    .help = "Instead of the whole set, all its projections to so many coordinates; a table"};
+
+/// Measures one set: its report has `value`, `lower` and `upper`.
+using Measure = std::function<Report(const PointSet&, const RunContext&)>;
+
+/// Whether tables are asked for. @throws Error(usage) for sizes that no set has prefixes of.
+bool wants_families(const Values& options);
+
+/// The tables, several sets at once on the run's threads; the same for any number of them.
+/// @throws Error(input) for prefixes and projections that these points do not have.
+Report families(const PointSet& points, const Values& options, const Measure& measure,
+                const RunContext& run);
+
+}  // namespace stipple::analyzers::star
