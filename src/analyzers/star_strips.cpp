@@ -159,6 +159,11 @@ class Sweep {
         std::uint32_t dot;
     };
 
+    struct Line {
+        std::uint32_t index;  ///< in its strip or block
+        double height;
+    };
+
     static std::size_t size_of(const Groups& groups, std::size_t g) {
         return groups.first[g + 1] - groups.first[g];
     }
@@ -328,28 +333,27 @@ class Sweep {
         if (room < 0) return;
         gather(&weight_[row_[u]], &points_[row_[u]], size_of(plane_.blocks, u), x, best_j - room,
                of_block_);
-        of_strip_.assign(1, 0);
+        of_strip_.assign(1, {0, best_a});
         if (const std::size_t size = size_of(plane_.strips, strip_); size > 1)
             gather(strip_weight_.data(), strip_points_.data(), size, y, best_a - room, of_strip_);
         const auto [first, last] = std::ranges::equal_range(entering_, u, {}, &Entering::block);
         const auto corner_points = static_cast<std::uint64_t>(std::abs(signed_points));
-        for (const std::uint32_t a : of_strip_)
-            for (const std::uint32_t j : of_block_) offer(u, a, j, corner_points, {first, last});
+        const double least = best_a + best_j - room;
+        for (const auto& [a, height_a] : of_strip_)
+            for (const auto& [j, height_j] : of_block_)
+                if (height_a + height_j >= least) offer(u, a, j, corner_points, {first, last});
     }
 
     /// The lines of at least some height at z, the highest first: once its box was offered, those
     /// of others seldom need to be compared exactly.
     static void gather(const float* w, const float* c, std::size_t size, float z, double least,
-                       std::vector<std::uint32_t>& lines) {
+                       std::vector<Line>& lines) {
         lines.clear();
-        double best = -std::numeric_limits<double>::infinity();
         for (std::uint32_t i = 0; i < size; ++i) {
             const double height = w[i] * z - c[i];
             if (height < least) continue;
-            lines.push_back(i);
-            if (height <= best) continue;
-            best = height;
-            std::swap(lines.front(), lines.back());
+            lines.push_back({i, height});
+            if (height > lines.front().height) std::swap(lines.front(), lines.back());
         }
     }
 
@@ -393,9 +397,9 @@ class Sweep {
     std::vector<float> strip_weight_;
     std::vector<float> strip_points_;
     std::vector<Entering> entering_;
-    std::size_t entered_ = 0;              ///< so many of them
-    std::vector<std::uint32_t> of_strip_;  ///< lines to look at
-    std::vector<std::uint32_t> of_block_;
+    std::size_t entered_ = 0;     ///< so many of them
+    std::vector<Line> of_strip_;  ///< to look at
+    std::vector<Line> of_block_;
 };
 
 Groups groups_of(const std::vector<double>& values, const std::vector<std::uint32_t>& points_at,

@@ -4,6 +4,7 @@
 #include <array>
 #include <mutex>
 
+#include "analyzers/star_scout.hpp"
 #include "analyzers/star_strips.hpp"
 #include "core/parallel.hpp"
 
@@ -55,7 +56,7 @@ WorstBox sweep_2d(const CornerGrid& grid, const RunContext& run) {
     const std::size_t strips = points.strips.count();
     // Each part takes in what lies left of it first, and has a worst box to find of its own.
     const std::size_t parts = grid.count < 100'000 ? 1 : 2;
-    std::vector<WorstBox> worst(2 * parts, WorstBox(grid));
+    std::vector<WorstBox> worst(2 * parts, scout(grid, run));
     SharedProgress progress(run, 2 * grid.count);
     constexpr bool silent = true;
     for_each_block(

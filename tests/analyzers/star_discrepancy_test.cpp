@@ -10,6 +10,7 @@
 
 #include "analyzers/star_ascent.hpp"
 #include "analyzers/star_search.hpp"
+#include "analyzers/star_strips.hpp"
 #include "analyzers/star_sweep.hpp"
 #include "core/rng.hpp"
 #include "support/units.hpp"
@@ -379,6 +380,29 @@ TEST(StarDiscrepancy, SweepAndSearchAgreeOnUnevenSets) {
     for (const PointSet& p : sets) {
         EXPECT_EQ(star_of(p), by_search(p)) << "of " << p.count();
         expect_box_holds(p, star_report(p));
+    }
+}
+
+// Wherever a sweep is cut in two, and with no good box to start from: so large sets are swept.
+TEST(StarDiscrepancy, SweepsFromAnyStripFindTheSame) {
+    for (const PointSet& p : {make("random", points(700, 2)), halton(400, 2),
+                              on_lattice(600, 2, 32, 1), on_lattice(300, 2, 4096, 2)}) {
+        const star::CornerGrid corners = star::corner_grid(p, {});
+        const star::Plane plane = star::plane(corners, {});
+        const std::size_t strips = plane.strips.count();
+        ASSERT_GT(strips, 20U);
+        const double value = by_search(p);
+        for (std::size_t cut = 0; cut <= strips; cut += 1 + strips / 12) {
+            star::WorstBox worst(corners);
+            for (const auto side : {star::Side::open, star::Side::closed})
+                for (const star::StripRange range : {star::StripRange{0, cut}, {cut, strips}}) {
+                    star::WorstBox part(corners);
+                    if (range.first < range.last)
+                        star::sweep_strips(plane, side, range, part, {}, [](std::uint64_t) {});
+                    worst.offer(part);
+                }
+            EXPECT_EQ(worst.value(), value) << "cut at " << cut;
+        }
     }
 }
 
