@@ -8,6 +8,7 @@
 #include <chrono>
 #include <optional>
 
+#include "cli/set_batch.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -111,7 +112,13 @@ class Analysis {
           options_(settings_of(analyzer_.options, arguments)),
           path_(arguments.get("output").value_or("-")),
           style_(style_of(arguments, path_)),
-          averaged_(arguments.has("average")) {
+          averaged_(arguments.has("average")),
+          batch_(
+              session.run(),
+              [this](const FoundSet& set, const RunContext& run) { return measured(set, run); },
+              [this](const FoundSet& set, Measurement m) {
+                  keep(std::move(m), arguments_.inputs.size() > 1 || set.of > 1);
+              }) {
         for (const auto& text : arguments.all("check"))
             checks_.push_back(check_of(text, analyzer_));
         for (const Option& option : analyzer_.options.options()) {
@@ -127,6 +134,8 @@ class Analysis {
         const bool in_blocks = analyzer_.accumulate && !arguments_.has("rescale");
         check_bounds(arguments_);
         for (const std::string& input : inputs) in_blocks ? add_stream(input) : add_sets(input);
+        batch_.finish();
+        session_.run().check_stop();
         if (averaged_) finish_average();
         const bool fine = verdict();
         print();
@@ -137,16 +146,30 @@ class Analysis {
     using Clock = std::chrono::steady_clock;
 
     void add_sets(const std::string& input) {
-        auto sets = read_input(input, arguments_, session_.run());
-        for (std::size_t set = 0; set < sets.size(); ++set)
-            naming(input, [&] {
-                add(prepared(std::move(sets[set]), arguments_), input, set, sets.size());
+        std::vector<PointSet> sets;
+        before_errors([&] { sets = read_input(input, arguments_, session_.run()); });
+        for (std::size_t set = 0; set < sets.size(); ++set) {
+            before_errors([&] {
+                naming(input, [&] { sets[set] = prepared(std::move(sets[set]), arguments_); });
             });
+            batch_.add({std::move(sets[set]), input, set, sets.size()});
+        }
+    }
+
+    /// What is wrong with an input is said when the sets before it have been measured.
+    template <class Work>
+    void before_errors(const Work& work) {
+        try {
+            work();
+        } catch (...) {
+            batch_.finish();
+            throw;
+        }
     }
 
     /// What is wrong with a set's points is said with the file that they are from.
     template <class Work>
-    void naming(const std::string& input, const Work& work) {
+    static void naming(const std::string& input, const Work& work) {
         try {
             work();
         } catch (const Error& e) {
@@ -200,18 +223,19 @@ class Analysis {
              arguments_.inputs.size() > 1 || set > 0);
     }
 
-    void add(const PointSet& points, const std::string& input, std::size_t set, std::size_t sets) {
+    [[nodiscard]] Measurement measured(const FoundSet& set, const RunContext& run) const {
         const auto start = Clock::now();
+        const PointSet& points = set.points;
         Measurement m{.analyzer = analyzer_.name,
-                      .source = input,
-                      .set = sets > 1 ? std::optional(set) : std::nullopt,
+                      .source = set.source,
+                      .set = set.of > 1 ? std::optional(set.number) : std::nullopt,
                       .count = points.count(),
                       .dimension = points.dimension(),
                       .domain = points.domain->spec(),
-                      .options = shown_options_,
-                      .results = stipple::analyze(analyzer_, points, options_, session_.run())};
+                      .options = shown_options_};
+        naming(set.source, [&] { m.results = stipple::analyze(analyzer_, points, options_, run); });
         m.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-        keep(std::move(m), arguments_.inputs.size() > 1 || sets > 1);
+        return m;
     }
 
     /// Takes one set's results, `several` if there are others.
@@ -304,6 +328,7 @@ class Analysis {
     std::vector<std::string> unmet_;
     ReportAverage average_;
     std::vector<Report> singles_;  ///< what was averaged, where it is needed
+    SetBatch batch_;
 };
 
 }  // namespace
