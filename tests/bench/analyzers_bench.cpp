@@ -3,6 +3,8 @@
 // Measuring point sets on one core: time a set, and how it grows with the number of points.
 #include <benchmark/benchmark.h>
 
+#include <cmath>
+
 #include "study/pipeline.hpp"
 
 namespace {
@@ -19,8 +21,13 @@ void measure(benchmark::State& state, const char* analyzer, const char* generato
     state.SetItemsProcessed(static_cast<std::int64_t>(count) * state.iterations());
 }
 
+/// In the square, where the time grows as n^(4/3).
 void star_discrepancy_random(benchmark::State& state) {
     measure(state, "star-discrepancy", "random");
+    state.SetComplexityN(state.range(0));
+}
+double to_the_four_thirds(benchmark::IterationCount n) {
+    return std::pow(static_cast<double>(n), 4.0 / 3);
 }
 void star_discrepancy_halton(benchmark::State& state) {
     measure(state, "star-discrepancy", "halton");
@@ -46,13 +53,15 @@ void t_value_of_halton(benchmark::State& state) { measure(state, "t-value", "hal
 }  // namespace
 
 BENCHMARK(star_discrepancy_random)
-    ->Args({10'000, 2})
-    ->Args({100'000, 2})
-    ->Args({1'000'000, 2})
+    ->RangeMultiplier(4)
+    ->Ranges({{1 << 10, 1 << 22}, {2, 2}})
+    ->Complexity(to_the_four_thirds)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(star_discrepancy_halton)
     ->Args({65'536, 2})
+    ->Args({1'000'000, 2})
     ->Args({4096, 3})
+    ->Args({16'384, 3})
     ->Args({1000, 4})
     ->Args({1000, 5})
     ->Unit(benchmark::kMillisecond);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -292,4 +294,74 @@ TEST(Analyze, IntegratesWithErrorsFromTheSpreadOfSets) {
     EXPECT_EQ(
         box.shell("stipple generate grid -n 9 | stipple analyze integration --integrand skye").code,
         2);
+}
+
+// Whether one thread measures them or several, in a single file or in many.
+TEST(Analyze, SpreadsSetsOverThreadsAndTellsTheSame) {
+    const Sandbox box;
+    good(
+        box.shell("stipple generate random -n 60 -d 3 -m 11 -o sets.csv && "
+                  "stipple generate random -n 70 -d 3 -m 5 -s 9 -o '{seed}.csv'"));
+    const auto told = [&box](const std::string& options, const std::string& threads) {
+        auto out =
+            report_of(box.shell("stipple analyze star-discrepancy sets.csv 9.csv 10.csv "
+                                "11.csv 12.csv 13.csv " +
+                                options + " --threads " + threads));
+        if (out.is_object()) out.erase("seconds");
+        if (out.is_array())
+            for (auto& one : out) one.erase("seconds");
+        return out;
+    };
+    for (const std::string options : {"", "--average", "--every 35 --boxes half-open"}) {
+        const json one = told(options, "1");
+        EXPECT_EQ(one, told(options, "2")) << options;
+        EXPECT_EQ(one, told(options, "3")) << options;
+    }
+    const json all = told("", "2");
+    ASSERT_EQ(all.size(), 16U);
+    EXPECT_EQ(all[10]["input"]["set"], 10);
+    EXPECT_EQ(all[11]["input"]["source"], "9.csv");
+    EXPECT_EQ(all[15]["input"]["source"], "13.csv");
+}
+
+// The first of several errors is the one that is told, as if sets came one after the other.
+TEST(Analyze, TellsTheFirstErrorOfManySetsForAnyNumberOfThreads) {
+    const Sandbox box;
+    good(box.shell("stipple generate random -n 50 -m 6 -o '{set}.csv'"));
+    box.write("far.csv", "0.5,0.5\n0.5,7\n");
+    box.write("wide.csv", "0.5,-2\n");
+    for (const char* threads : {"1", "2", "3"}) {
+        const std::string analyze =
+            fmt::format("stipple analyze star-discrepancy --threads {} ", threads);
+        const Outcome far = box.shell(analyze + "0.csv 1.csv far.csv wide.csv 2.csv none.csv");
+        EXPECT_EQ(far.code, 3);
+        EXPECT_THAT(far.err, HasSubstr("far.csv"));
+        EXPECT_EQ(far.out, "");
+        const Outcome none = box.shell(analyze + "0.csv 1.csv 2.csv none.csv far.csv");
+        EXPECT_EQ(none.code, 4);
+        EXPECT_THAT(none.err, HasSubstr("none.csv"));
+    }
+}
+
+TEST(Analyze, WritesDiscrepanciesOfPrefixesAndProjectionsAsTables) {
+    const Sandbox box;
+    const std::string table =
+        good(box.shell("stipple generate halton -n 64 -d 3 | stipple analyze star-discrepancy "
+                       "--prefixes 16,32,64 -f csv | cut -d , -f 1,4,7-10"));
+    EXPECT_THAT(table,
+                ::testing::StartsWith("analyzer,count,prefixes.count,prefixes.value,prefixes.lower,"
+                                      "prefixes.upper\nstar-discrepancy,64,16,0."));
+    EXPECT_EQ(std::ranges::count(table, '\n'), 4);
+    const auto out =
+        report_of(box.shell("stipple generate halton -n 64 -d 3 | stipple analyze "
+                            "star-discrepancy --projections 2 "
+                            "--check 'projections.largest<0.2'"));
+    EXPECT_EQ(out["results"]["projections"]["axis_1"], (json{1, 1, 2}));
+    EXPECT_EQ(out["results"]["projections"]["is_worst"].size(), 3U);
+    EXPECT_EQ(out["options"]["projections"], 2);
+    const Outcome beyond = box.shell(
+        "stipple generate halton -n 64 | stipple analyze "
+        "star-discrepancy --prefixes 32,128");
+    EXPECT_EQ(beyond.code, 3);
+    EXPECT_EQ(beyond.err, "stipple: stdin: --prefixes: 128 is beyond the set's 64 points\n");
 }
