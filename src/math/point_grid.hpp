@@ -191,6 +191,9 @@ class SortedPoints {
     [[nodiscard]] std::uint32_t original(std::size_t s) const { return order_[s]; }
     [[nodiscard]] const double* operator[](std::size_t s) const { return rows_.data() + s * D; }
 
+    /// The first point of cell c, or of those behind it; count() behind the last cell.
+    [[nodiscard]] std::uint32_t start(std::size_t c) const { return starts_[c]; }
+
     /// Mean number of points in a point's cell, itself included.
     [[nodiscard]] double mean_company() const {
         double squares = 0;
