@@ -20,9 +20,9 @@ namespace {
 using Long = long double;
 
 constexpr std::size_t lanes = 4;
-constexpr std::size_t width = 128;  ///< points of a block; its columns stay in the nearest cache
-constexpr std::size_t tall = 32;    ///< points of a tile that meets blocks
-constexpr std::size_t group = 4;    ///< points of a tile that are worked on together
+constexpr std::size_t width = 96;  ///< points of a block; its columns stay in the nearest cache
+constexpr std::size_t tall = 48;    ///< points of a tile that meets blocks
+constexpr std::size_t group = 3;    ///< points of a tile that are worked on together
 
 using Four [[gnu::vector_size(8 * lanes)]] = double;
 using Bits [[gnu::vector_size(8 * lanes)]] = std::int64_t;
@@ -98,37 +98,66 @@ struct Sums {
     }
 };
 
-/// Adds the products of `rows` points, each number of which is there four times, with a block's.
+/// Some points and twice four points of a block: a number for each pair.
+template <std::size_t rows>
+struct Pairs {
+    Four at[rows][2];
+};
+
+/// What meets: points, each number of which is there four times, and a block.
+struct Meeting {
+    const Table* table;
+    const double* points;
+    std::size_t count;
+    const double* block;
+    bool full;  ///< no places without points in the block
+};
+
+/// The factors of an axis.
 template <class Kernel, std::size_t rows>
-STIPPLE_INLINE void meet(const double* points, const double* block, const double* constants,
-                         std::size_t axes, Sums& sums) {
+STIPPLE_INLINE Pairs<rows> factors(const double* points, const double* columns,
+                                   const double* constants) {
     constexpr std::size_t c = Kernel::columns;
+    const Four a = load(constants);
+    const Four s = load(constants + lanes);
+    Four y[2][c];
+    for (std::size_t v = 0; v < 2; ++v)
+        for (std::size_t q = 0; q < c; ++q) y[v][q] = load(columns + q * width + v * lanes);
+    Pairs<rows> out;
+    for (std::size_t r = 0; r < rows; ++r) {
+        Four x[c];
+        for (std::size_t q = 0; q < c; ++q) x[q] = load(points + (q * rows + r) * lanes);
+        for (std::size_t v = 0; v < 2; ++v) out.at[r][v] = Kernel::factor(x, y[v], a, s);
+    }
+    return out;
+}
+
+/// Adds the products of `rows` points with a block's.
+template <class Kernel, std::size_t rows>
+STIPPLE_INLINE void meet(const Meeting& m, const double* points, Sums& sums) {
+    constexpr std::size_t c = Kernel::columns;
+    const std::size_t axes = m.table->columns / c;
+    const double* const constants = m.table->constants.data();
     Four sum = load(sums.sum);
     Four lost = load(sums.lost);
     for (std::size_t k = 0; k < width; k += 2 * lanes) {
-        const double* column = block + k;
-        Four p[rows][2];
-        for (std::size_t r = 0; r < rows; ++r)
-            for (std::size_t v = 0; v < 2; ++v)
-                p[r][v] = load(column + axes * c * width + v * lanes);
-        for (std::size_t j = 0; j < axes; ++j, column += c * width) {
-            Four y[2][c];
-            for (std::size_t v = 0; v < 2; ++v)
-                for (std::size_t q = 0; q < c; ++q) y[v][q] = load(column + q * width + v * lanes);
-            const Four a = load(constants + 2 * lanes * j);
-            const Four s = load(constants + 2 * lanes * j + lanes);
-            for (std::size_t r = 0; r < rows; ++r) {
-                Four x[c];
-                for (std::size_t q = 0; q < c; ++q)
-                    x[q] = load(points + ((j * c + q) * rows + r) * lanes);
-                for (std::size_t v = 0; v < 2; ++v) p[r][v] *= Kernel::factor(x, y[v], a, s);
-            }
+        const double* const columns = m.block + k;
+        Pairs<rows> p = factors<Kernel, rows>(points, columns, constants);
+#pragma GCC unroll 2
+        for (std::size_t j = 1; j < axes; ++j) {
+            const Pairs<rows> more = factors<Kernel, rows>(
+                points + j * c * rows * lanes, columns + j * c * width, constants + j * 2 * lanes);
+            for (std::size_t r = 0; r < rows; ++r)
+                for (std::size_t v = 0; v < 2; ++v) p.at[r][v] *= more.at[r][v];
         }
-        Four more = p[0][0] + p[0][1];
-        for (std::size_t r = 1; r < rows; ++r) more += p[r][0] + p[r][1];
+        if (!m.full)
+            for (std::size_t r = 0; r < rows; ++r)
+                for (std::size_t v = 0; v < 2; ++v)
+                    p.at[r][v] *= load(columns + axes * c * width + v * lanes);
+        Four more = p.at[0][0] + p.at[0][1];
+        for (std::size_t r = 1; r < rows; ++r) more += p.at[r][0] + p.at[r][1];
         const Four next = sum + more;
-        const Four part = next - sum;
-        lost += (sum - (next - part)) + (more - part);
+        lost += more - (next - sum);
         sum = next;
     }
     std::memcpy(sums.sum, &sum, sizeof sum);
@@ -137,46 +166,29 @@ STIPPLE_INLINE void meet(const double* points, const double* block, const double
 
 /// As many groups of points as there are, then the points left over one by one.
 template <class Kernel>
-STIPPLE_INLINE void meet_all(const double* points, std::size_t count, const double* block,
-                             const double* constants, std::size_t axes, Sums& sums) {
-    const std::size_t point = axes * Kernel::columns * lanes;
+STIPPLE_INLINE void meet_all(const Meeting& m, Sums& sums) {
+    const std::size_t point = m.table->columns * lanes;
     std::size_t i = 0;
-    for (; i + group <= count; i += group)
-        meet<Kernel, group>(points + i * point, block, constants, axes, sums);
-    for (; i < count; ++i) meet<Kernel, 1>(points + i * point, block, constants, axes, sums);
+    for (; i + group <= m.count; i += group) meet<Kernel, group>(m, m.points + i * point, sums);
+    for (; i < m.count; ++i) meet<Kernel, 1>(m, m.points + i * point, sums);
 }
 
-using Meeting = void(const double*, std::size_t, const double*, const double*, std::size_t, Sums&);
+STIPPLE_WIDE void meet_least(const Meeting& m, Sums& sums) { meet_all<Least>(m, sums); }
+STIPPLE_WIDE void meet_excess(const Meeting& m, Sums& sums) { meet_all<Excess>(m, sums); }
+STIPPLE_WIDE void meet_bend(const Meeting& m, Sums& sums) { meet_all<Bend>(m, sums); }
+STIPPLE_WIDE void meet_mixture(const Meeting& m, Sums& sums) { meet_all<Mixture>(m, sums); }
 
-STIPPLE_WIDE void meet_least(const double* points, std::size_t count, const double* block,
-                             const double* constants, std::size_t axes, Sums& sums) {
-    meet_all<Least>(points, count, block, constants, axes, sums);
-}
-STIPPLE_WIDE void meet_excess(const double* points, std::size_t count, const double* block,
-                              const double* constants, std::size_t axes, Sums& sums) {
-    meet_all<Excess>(points, count, block, constants, axes, sums);
-}
-STIPPLE_WIDE void meet_bend(const double* points, std::size_t count, const double* block,
-                            const double* constants, std::size_t axes, Sums& sums) {
-    meet_all<Bend>(points, count, block, constants, axes, sums);
-}
-STIPPLE_WIDE void meet_mixture(const double* points, std::size_t count, const double* block,
-                               const double* constants, std::size_t axes, Sums& sums) {
-    meet_all<Mixture>(points, count, block, constants, axes, sums);
-}
-
-Meeting* meeting(Form form) {
+auto* meeting(Form form) {
     switch (form) {
-        case Form::least:
-            return meet_least;
         case Form::excess:
             return meet_excess;
         case Form::bend:
             return meet_bend;
         case Form::mixture:
             return meet_mixture;
+        default:
+            return meet_least;
     }
-    return nullptr;
 }
 
 /// The numbers of points [first, first + count) of a block, four times each, in the order in which
@@ -196,8 +208,7 @@ void spread(const Table& table, const double* block, std::size_t first, std::siz
 
 /// Sum over all ordered pairs of points.
 Long sum_over_pairs(const Table& table, const RunContext& run) {
-    const std::size_t axes = table.columns / columns_of(table.form);
-    Meeting* const meet_block = meeting(table.form);
+    auto* const meet_block = meeting(table.form);
     std::vector<Long> sums(block_count(table.count, width));
     for_each_block(run, table.count, width, [&](const Block& rows) {
         std::vector<double> tile;
@@ -209,7 +220,8 @@ Long sum_over_pairs(const Table& table, const RunContext& run) {
             spread(table, table.block(rows.index), i, size, tile);
             for (std::size_t b = 0; b <= rows.index; ++b) {
                 if (b % 64 == 0) run.check_stop();
-                meet_block(tile.data(), size, table.block(b), table.constants.data(), axes,
+                const bool full = (b + 1) * width <= table.count;
+                meet_block({&table, tile.data(), size, table.block(b), full},
                            b < rows.index ? below : own);
             }
         }
