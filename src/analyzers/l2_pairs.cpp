@@ -21,8 +21,8 @@ using Long = long double;
 
 constexpr std::size_t lanes = 4;
 constexpr std::size_t width = 96;  ///< points of a block; its columns stay in the nearest cache
-constexpr std::size_t tall = 48;    ///< points of a tile that meets blocks
-constexpr std::size_t group = 3;    ///< points of a tile that are worked on together
+constexpr std::size_t tall = 48;   ///< points of a tile that meets blocks
+constexpr std::size_t group = 3;   ///< points of a tile that are worked on together
 
 using Four [[gnu::vector_size(8 * lanes)]] = double;
 using Bits [[gnu::vector_size(8 * lanes)]] = std::int64_t;

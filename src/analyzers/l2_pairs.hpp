@@ -17,10 +17,9 @@
 // Shape   points n x d in [0, 1].
 // Cost    n^2 d / 2 factors; about 0.11 ns each for the star and 0.2 ns for the wraparound on one
 //         core with 256-bit vectors.
-// Promise the same for any number of threads and any width of vectors. Each product is off by a few
-//         2^-53 of itself for each axis; sums over pairs and all else are carried in more digits,
-//         so that `error` is a bound for the whole. Roundings of many pairs make up for each other:
-//         the error seen is smaller by orders of magnitude.
+// Promise the same for any number of threads and any width of vectors. `error` bounds what rounding
+//         did: a few 2^-53 of the sum over pairs for each axis. It is seldom more than a hundredth
+//         of that.
 #pragma once
 
 #include <vector>
