@@ -25,7 +25,8 @@
 //
 // Shape   points n x d in [0, 1];  results >= 0, pure numbers, smaller is more even.
 // Cost    d <= 2: O(n log n) for all kinds together (about 0.4 s at n = 10^6 on one core).
-//         d > 2: O(n^2 d) for each kind.
+//         d > 2: O(n^2 d) for each kind; in three and four dimensions O(n log^(d-1) n) for many
+//         points and the kinds star, extreme, centered and modified.
 // Promise the same for any number of threads. d <= 2: exact sums, rounded once at the end (of
 //         coordinates to multiples of 2^-63). d > 2: value is off by at most `error`.
 // Beware  SciPy's CD, WD and MD are `squared` of centered, wraparound and mixture; its L2-star is
@@ -42,6 +43,7 @@
 #include <cmath>
 
 #include "analyzers/analyzer.hpp"
+#include "analyzers/l2_divide.hpp"
 #include "analyzers/l2_kind.hpp"
 #include "analyzers/l2_pairs.hpp"
 #include "analyzers/l2_plane.hpp"
@@ -77,6 +79,12 @@ std::vector<double> checked_weights(const Values& options, std::size_t dimension
     return weights;
 }
 
+Report result_of(double squared, const char* method) {
+    Report result;
+    const double square = std::max(squared, 0.0);
+    return result.add("value", std::sqrt(square)).add("squared", square).add("method", method);
+}
+
 Report in_plane(const PointSet& points, const std::vector<l2::Kind>& kinds,
                 const std::vector<double>& weights, const RunContext& run) {
     run.need_memory(static_cast<double>(points.count()) * 48, "the sums of l2-discrepancy");
@@ -84,9 +92,7 @@ Report in_plane(const PointSet& points, const std::vector<l2::Kind>& kinds,
     Report results;
     for (const l2::Kind which : kinds) {
         const double squared = l2::plane_square(sums, points.dimension(), which, weights);
-        Report result;
-        result.add("value", std::sqrt(squared)).add("squared", squared);
-        results.add(l2::record_of(which).name, std::move(result));
+        results.add(l2::record_of(which).name, result_of(squared, "exact-sums"));
     }
     return results;
 }
@@ -97,22 +103,31 @@ double error_of_root(double squared, double error) {
     return std::sqrt(std::max(squared, 0.0) + error);
 }
 
-Report by_pairs(const PointSet& points, const std::vector<l2::Kind>& kinds,
-                const std::vector<double>& weights, const RunContext& run) {
-    const auto size = static_cast<double>(points.flat().size() + points.count());
-    run.need_memory(size * 16, "the tables of l2-discrepancy");
+Report in_space(const PointSet& points, l2::Kind which, const std::vector<double>& weights,
+                const RunContext& run) {
+    const std::size_t n = points.count();
+    const std::size_t d = points.dimension();
+    if (l2::divides(d, which, weights) && l2::divide_wins(n, d)) {
+        run.need_memory(l2::divide_memory(n, d), "the tables of l2-discrepancy");
+        const double squared = l2::divide_square(points, which, weights, run);
+        const double error = 0x1p-52 * squared + 0x1p-80;
+        return result_of(squared, "divide-and-conquer").add("error", error_of_root(squared, error));
+    }
+    run.need_memory(static_cast<double>(2 * points.flat().size() + n) * 8,
+                    "the tables of l2-discrepancy");
+    const l2::PairSquare square = l2::pair_square(points, which, weights, run);
+    return result_of(square.squared, "all-pairs")
+        .add("error", error_of_root(square.squared, square.error));
+}
+
+Report in_spaces(const PointSet& points, const std::vector<l2::Kind>& kinds,
+                 const std::vector<double>& weights, const RunContext& run) {
     Report results;
     const auto parts = static_cast<double>(kinds.size());
     for (std::size_t i = 0; i < kinds.size(); ++i) {
         const auto at = static_cast<double>(i);
-        const l2::PairSquare square =
-            l2::pair_square(points, kinds[i], weights, run.stage(at / parts, (at + 1) / parts));
-        const double squared = std::max(square.squared, 0.0);
-        Report result;
-        result.add("value", std::sqrt(squared))
-            .add("squared", squared)
-            .add("error", error_of_root(square.squared, square.error));
-        results.add(l2::record_of(kinds[i]).name, std::move(result));
+        const RunContext part = run.stage(at / parts, (at + 1) / parts);
+        results.add(l2::record_of(kinds[i]).name, in_space(points, kinds[i], weights, part));
     }
     run.tick(1, 1);
     return results;
@@ -126,7 +141,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     const std::vector<l2::Kind> kinds = l2::parse_kinds(options[kind]);
     const std::vector<double> weights = checked_weights(options, points.dimension());
     return points.dimension() <= 2 ? in_plane(points, kinds, weights, run)
-                                   : by_pairs(points, kinds, weights, run);
+                                   : in_spaces(points, kinds, weights, run);
 }
 
 }  // namespace
@@ -143,6 +158,7 @@ Analyzer l2_discrepancy() {
             .options = Schema(kind, axis_weights),
             .results = {{"KIND.value", "the discrepancy of that kind"},
                         {"KIND.squared", "its square"},
+                        {"KIND.method", "exact-sums, divide-and-conquer or all-pairs"},
                         {"KIND.error",
                          "the value is off by at most this (three and more "
                          "dimensions; fewer are exact)",

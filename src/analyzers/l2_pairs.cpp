@@ -87,6 +87,22 @@ struct Table {
     }
 };
 
+/// A sum, with what rounding took from it.
+class CarriedSum {
+  public:
+    void add(Long x) {
+        const Long next = sum_ + x;
+        const Long part = next - sum_;
+        lost_ += (sum_ - (next - part)) + (x - part);
+        sum_ = next;
+    }
+    [[nodiscard]] Long value() const { return sum_ + lost_; }
+
+  private:
+    Long sum_ = 0;
+    Long lost_ = 0;
+};
+
 /// Sums of four numbers at a time, with what rounding took from them.
 struct Sums {
     double sum[lanes] = {};
@@ -227,9 +243,9 @@ Long sum_over_pairs(const Table& table, const RunContext& run) {
         }
         sums[rows.index] = 2 * below.total() + own.total();
     });
-    Long total = 0;
-    for (const Long sum : sums) total += sum;
-    return total;
+    CarriedSum total;
+    for (const Long sum : sums) total.add(sum);
+    return total.value();
 }
 
 /// What K is on an axis: its columns, f and C.
@@ -413,6 +429,7 @@ Prepared prepare(const PointSet& points, Kind kind, const std::vector<double>& w
         out.total *= form.axis().total;
         out.most *= std::max(1.0, form.axis().a);
     }
+    CarriedSum means;
     for (std::size_t i = 0; i < n; ++i) {
         if (i % 4096 == 0) run.check_stop();
         Long mean = 1;
@@ -424,8 +441,9 @@ Prepared prepare(const PointSet& points, Kind kind, const std::vector<double>& w
             if (forms[j].columns() == 2) table.at(i, column++) = c.h;
         }
         table.at(i, column) = 1;
-        out.means += mean;
+        means.add(mean);
     }
+    out.means = means.value();
     return out;
 }
 

@@ -5,62 +5,16 @@
 #include <utility>
 #include <vector>
 
+#include "analyzers/l2_numbers.hpp"
 #include "core/parallel.hpp"
 #include "math/radix_sort.hpp"
 
 namespace stipple::analyzers::l2 {
 namespace {
 
-__extension__ using Wide = unsigned __int128;
 using Integer = PlaneSums::Integer;
 
-constexpr unsigned place = 63;  // bits behind the point
 constexpr std::uint64_t half = std::uint64_t{1} << (place - 1);
-
-std::uint64_t low(Wide value) { return static_cast<std::uint64_t>(value); }
-std::uint64_t high(Wide value) { return static_cast<std::uint64_t>(value >> 64); }
-Wide product(std::uint64_t a, std::uint64_t b) { return static_cast<Wide>(a) * b; }
-
-/// The multiple of 2^-63 nearest to x in [0, 1].
-std::uint64_t fixed(double x) {
-    const double scaled = x * 0x1p63;
-    const auto whole = static_cast<std::uint64_t>(scaled);
-    return scaled < 0x1p52 ? static_cast<std::uint64_t>(scaled + 0.5) : whole;
-}
-
-/// Sum of whole numbers below 2^256, its carries left for the end.
-class LongSum {
-  public:
-    void add(Wide value) {
-        parts_[0] += low(value);
-        parts_[1] += high(value);
-    }
-    void add_product(Wide a, std::uint64_t b) { add_product(a, b, 0); }
-    void add_product(Wide a, Wide b) {
-        add_product(a, low(b), 0);
-        add_product(a, high(b), 1);
-    }
-    void add(const LongSum& other) {
-        for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i] += other.parts_[i];
-    }
-    [[nodiscard]] Integer value() const {
-        Integer sum = 0;
-        for (std::size_t i = parts_.size(); i-- > 0;)
-            sum = (sum << 64) + (Integer(high(parts_[i])) << 64) + low(parts_[i]);
-        return sum;
-    }
-
-  private:
-    void add_product(Wide a, std::uint64_t b, std::size_t at) {
-        const Wide lower = product(low(a), b);
-        const Wide upper = product(high(a), b);
-        parts_[at] += low(lower);
-        parts_[at + 1] += high(lower);
-        parts_[at + 1] += low(upper);
-        parts_[at + 2] += high(upper);
-    }
-    std::array<Wide, 4> parts_{};
-};
 
 /// A point, along the axis that orders it and across.
 struct Item {

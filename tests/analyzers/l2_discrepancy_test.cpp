@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "analyzers/l2_divide.hpp"
 #include "analyzers/l2_pairs.hpp"
 #include "core/rng.hpp"
 #include "support/exact.hpp"
@@ -65,6 +66,10 @@ const Definition definitions[] = {
     {"modified", true, falling, falling_mean, Fraction(1, 3)},
 };
 
+const Definition& definition(std::string_view name) {
+    return *std::ranges::find(definitions, name, &Definition::name);
+}
+
 /// Oracle: the square by its definition, in fractions.
 Fraction exact_square(const PointSet& set, const Definition& kind, const Weights& weights = {}) {
     const std::size_t n = set.count();
@@ -88,6 +93,27 @@ Fraction exact_square(const PointSet& set, const Definition& kind, const Weights
     }
     const Fraction count = n;
     return total - 2 * means / count + pairs / (count * count);
+}
+
+/// Oracle: the square of the product of d sets on a line, from sums over the line.
+Fraction product_square(std::span<const double> line, const Definition& kind, int d) {
+    const Fraction one = kind.projections ? 1 : 0;
+    const Fraction n = line.size();
+    Fraction mean = 0;
+    Fraction pairs = 0;
+    for (const double x : line) {
+        mean += (one + kind.mean(exactly(x))) / n;
+        for (const double y : line) pairs += (one + kind.kernel(exactly(x), exactly(y))) / (n * n);
+    }
+    Fraction totals = 1;
+    Fraction means = 1;
+    Fraction products = 1;
+    for (int j = 0; j < d; ++j) {
+        totals *= one + kind.total;
+        means *= mean;
+        products *= pairs;
+    }
+    return totals - 2 * means + products;
 }
 
 Settings settings_of(const char* kinds, const Weights& weights) {
@@ -143,6 +169,9 @@ PointSet mapped(PointSet set, double (*map)(double)) {
 
 constexpr Kind reflectable[] = {Kind::extreme,    Kind::periodic, Kind::centered,
                                 Kind::wraparound, Kind::mixture,  Kind::diaphony};
+
+/// Kinds that divide and conquer takes.
+constexpr Kind divisible[] = {Kind::star, Kind::extreme, Kind::centered, Kind::modified};
 
 std::string name_of(Kind kind) { return std::string(analyzers::l2::record_of(kind).name); }
 
@@ -342,19 +371,9 @@ TEST(L2Discrepancy, OfAProductOfGridsIsAProductOfSums) {
         }
     }
     const Report report = report_of(square);
-    for (const Definition& kind : definitions) {
-        const Fraction one = kind.projections ? 1 : 0;
-        Fraction mean = 0;
-        Fraction pairs = 0;
-        for (const double x : line.flat()) {
-            mean += (one + kind.mean(exactly(x))) / side;
-            for (const double y : line.flat())
-                pairs += (one + kind.kernel(exactly(x), exactly(y))) / (side * side);
-        }
-        const Fraction total = one + kind.total;
-        const Fraction exact = total * total - 2 * mean * mean + pairs * pairs;
-        EXPECT_LE(off(squared(report, kind.name), exact), 0x1p-51) << kind.name;
-    }
+    for (const Definition& kind : definitions)
+        EXPECT_LE(off(squared(report, kind.name), product_square(line.flat(), kind, 2)), 0x1p-51)
+            << kind.name;
 }
 
 TEST(L2Discrepancy, OfThePlaneIsThatOfAllPairs) {
@@ -368,6 +387,56 @@ TEST(L2Discrepancy, OfThePlaneIsThatOfAllPairs) {
                 EXPECT_LE(pairs.error, 1e-9 * pairs.squared) << name_of(kind);
             }
         }
+}
+
+TEST(L2Discrepancy, OfDividedSetsIsExact) {
+    const Weights weights{0.25, 1.5, 0, 2};
+    for (const std::size_t d : {3, 4})
+        for (const PointSet& set : small_sets(d))
+            for (const Kind kind : divisible) {
+                if (d == 4 && set.count() > 7) continue;
+                const auto& by_definition = definition(name_of(kind));
+                EXPECT_LE(off(analyzers::l2::divide_square(set, kind, {}, {}),
+                              exact_square(set, by_definition)),
+                          0x1p-51)
+                    << name_of(kind) << ", n = " << set.count() << ", d = " << d;
+                if (kind == Kind::extreme || set.count() > 7) continue;
+                const Weights mine(weights.begin(),
+                                   weights.begin() + static_cast<std::ptrdiff_t>(d));
+                EXPECT_LE(off(analyzers::l2::divide_square(set, kind, mine, {}),
+                              exact_square(set, by_definition, mine)),
+                          0x1p-51)
+                    << name_of(kind) << ", n = " << set.count() << ", d = " << d;
+            }
+}
+
+TEST(L2Discrepancy, OfDividedSetsIsThatOfAllPairs) {
+    for (const auto& [n, d] : {std::pair<std::size_t, std::size_t>{5000, 3}, {700, 4}})
+        for (const PointSet& set : {random_set(n, d, n), on_lattice(n, d, 20, n)})
+            for (const Kind kind : divisible) {
+                const double divided = analyzers::l2::divide_square(set, kind, {}, {.threads = 1});
+                const auto pairs = analyzers::l2::pair_square(set, kind, {}, {});
+                EXPECT_NEAR(divided, pairs.squared, pairs.error) << name_of(kind) << ", d = " << d;
+                EXPECT_EQ(divided, analyzers::l2::divide_square(set, kind, {}, {.threads = 3}));
+            }
+}
+
+TEST(L2Discrepancy, DividesManyPointsInThreeDimensions) {
+    const std::size_t side = 32;
+    std::vector<double> line;
+    for (std::size_t i = 0; i < side; ++i)
+        line.push_back(static_cast<double>(2 * i + 1) / (2 * side));
+    PointSet cube(side * side * side, 3);
+    for (std::size_t i = 0; i < cube.count(); ++i) {
+        cube[i][0] = line[i % side];
+        cube[i][1] = line[i / side % side];
+        cube[i][2] = line[i / side / side];
+    }
+    const Report report = report_of(cube, {}, "star,centered");
+    for (const char* name : {"star", "centered"}) {
+        EXPECT_EQ(report.text(std::string(name) + ".method"), "divide-and-conquer");
+        EXPECT_LE(off(squared(report, name), product_square(line, definition(name), 3)), 0x1p-51);
+    }
 }
 
 TEST(L2Discrepancy, DoesNotDependOnTheOrderOfPointsAndAxes) {
