@@ -32,6 +32,19 @@ double to_the_four_thirds(benchmark::IterationCount n) {
 void star_discrepancy_halton(benchmark::State& state) {
     measure(state, "star-discrepancy", "halton");
 }
+void l2_discrepancy(benchmark::State& state) { measure(state, "l2-discrepancy", "sobol"); }
+void l2_star(benchmark::State& state) {
+    measure(state, "l2-discrepancy", "sobol", {{"kind", "star"}});
+}
+void l2_centered(benchmark::State& state) {
+    measure(state, "l2-discrepancy", "sobol", {{"kind", "centered"}});
+}
+void l2_wraparound(benchmark::State& state) {
+    measure(state, "l2-discrepancy", "sobol", {{"kind", "wraparound"}});
+}
+void l2_mixture(benchmark::State& state) {
+    measure(state, "l2-discrepancy", "sobol", {{"kind", "mixture"}});
+}
 void periodogram(benchmark::State& state) {
     measure(state, "periodogram", "random", {{"max-frequency", "512"}});
 }
@@ -65,6 +78,27 @@ BENCHMARK(star_discrepancy_halton)
     ->Args({1000, 4})
     ->Args({1000, 5})
     ->Unit(benchmark::kMillisecond);
+BENCHMARK(l2_discrepancy)
+    ->Args({1024, 2})
+    ->Args({16'384, 2})
+    ->Args({262'144, 2})
+    ->Args({1'000'000, 2})
+    ->Args({4'194'304, 2})
+    ->Unit(benchmark::kMillisecond);
+// Curves over n in five dimensions, and the sizes that are compared with SciPy's.
+BENCHMARK(l2_star)
+    ->Args({1024, 5})
+    ->Args({4096, 5})
+    ->Args({16'384, 5})
+    ->Args({65'536, 5})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(l2_centered)->Args({16'384, 5})->Unit(benchmark::kMillisecond);
+BENCHMARK(l2_wraparound)
+    ->Args({1024, 5})
+    ->Args({4096, 5})
+    ->Args({16'384, 5})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(l2_mixture)->Args({16'384, 5})->Unit(benchmark::kMillisecond);
 BENCHMARK(periodogram)->Args({4096, 2})->Args({1'000'000, 2})->Unit(benchmark::kMillisecond);
 BENCHMARK(periodogram_direct)->Args({4096, 2})->Unit(benchmark::kMillisecond);
 BENCHMARK(periodogram_beside_direct)->Args({4096, 2})->Unit(benchmark::kMillisecond);

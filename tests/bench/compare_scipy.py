@@ -1,10 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT
-"""Compares generators with SciPy's and NumPy's: whole arrays of 2^20 points, on one core.
+"""Compares generators with SciPy's and NumPy's: whole arrays of 2^20 points, on one core; and L2
+discrepancies of 16 384 points in five dimensions.
 
 Usage: compare_scipy.py build/release/tests/bench/stipple_bench
 
-Prints millions of points a second of both, medians of several runs that take turns, and the ratio.
+Prints millions of points a second of both, or seconds a set, medians of several runs that take
+turns, and the ratio.
 """
 
 import json
@@ -34,20 +36,45 @@ PEERS = {
 }
 
 
-def seconds_of_peer(name, dimension):
+# Benchmark of ours, method of qmc.discrepancy.
+DISCREPANCIES = {
+    "l2_star": "L2-star",
+    "l2_centered": "CD",
+    "l2_wraparound": "WD",
+    "l2_mixture": "MD",
+}
+DISCREPANCY_COUNT = 2**14
+DISCREPANCY_DIMENSION = 5
+DISCREPANCY_ROUNDS = 3
+
+
+def seconds_of(work):
     begin = time.process_time()
-    PEERS[name](dimension)
+    work()
     return time.process_time() - begin
 
 
-def seconds_of_ours(bench, name, dimension):
-    """Processor time of one array, by the benchmark of the same name."""
+def seconds_of_ours(bench, name, count):
+    """Processor time of one set of so many points, by the benchmark of that name."""
     report = subprocess.run(
-        [bench, f"--benchmark_filter=^array/{name}/{dimension}d$", "--benchmark_format=json",
+        [bench, f"--benchmark_filter=^{name}$", "--benchmark_format=json",
          "--benchmark_min_time=0.2"],
         check=True, capture_output=True, text=True)
     run = json.loads(report.stdout)["benchmarks"][0]
-    return COUNT / run["items_per_second"]
+    return count / run["items_per_second"]
+
+
+def compare_discrepancies(bench):
+    n, d = DISCREPANCY_COUNT, DISCREPANCY_DIMENSION
+    points = qmc.Sobol(d, scramble=False).random(n)
+    print(f"\n{'discrepancy':<22}{'d':>4}{'stipple':>10}{'peer':>10}{'ratio':>8}   seconds a set")
+    for name, method in DISCREPANCIES.items():
+        ours, theirs = [], []
+        for _ in range(DISCREPANCY_ROUNDS):
+            ours.append(seconds_of_ours(bench, f"{name}/{n}/{d}", n))
+            theirs.append(seconds_of(lambda: qmc.discrepancy(points, method=method, workers=1)))
+        mine, peer = statistics.median(ours), statistics.median(theirs)
+        print(f"{method:<22}{d:>4}{mine:>10.4f}{peer:>10.3f}{peer / mine:>8.1f}")
 
 
 def main():
@@ -58,11 +85,12 @@ def main():
         for dimension in (2, 20):
             ours, theirs = [], []
             for _ in range(ROUNDS):
-                ours.append(seconds_of_ours(sys.argv[1], name, dimension))
-                theirs.append(seconds_of_peer(name, dimension))
+                ours.append(seconds_of_ours(sys.argv[1], f"array/{name}/{dimension}d", COUNT))
+                theirs.append(seconds_of(lambda: PEERS[name](dimension)))
             rate = COUNT / statistics.median(ours) / 1e6
             peer = COUNT / statistics.median(theirs) / 1e6
             print(f"{name:<22}{dimension:>4}{rate:>10.1f}{peer:>10.2f}{rate / peer:>8.1f}")
+    compare_discrepancies(sys.argv[1])
 
 
 if __name__ == "__main__":

@@ -1,0 +1,558 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "analyzers/l2_divide.hpp"
+#include "analyzers/l2_pairs.hpp"
+#include "core/rng.hpp"
+#include "support/exact.hpp"
+#include "support/units.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+using analyzers::l2::Kind;
+
+namespace {
+
+using Weights = std::vector<double>;
+
+const Fraction half(1, 2);
+Fraction bend(const Fraction& x) { return abs(x - half); }
+
+/// A kind by its definition: its kernel on an axis, the kernel's mean and the mean of that.
+struct Definition {
+    const char* name;
+    bool projections;
+    Fraction (*kernel)(const Fraction&, const Fraction&);
+    Fraction (*mean)(const Fraction&);
+    Fraction total;
+};
+
+Fraction falling(const Fraction& x, const Fraction& y) { return 1 - std::max(x, y); }
+Fraction falling_mean(const Fraction& x) { return (1 - x * x) / 2; }
+Fraction wrapped(const Fraction& x, const Fraction& y) {
+    const Fraction t = abs(x - y);
+    return half - t + t * t;
+}
+Fraction third(const Fraction&) { return Fraction(1, 3); }
+
+const Definition definitions[] = {
+    {"star", false, falling, falling_mean, Fraction(1, 3)},
+    {"extreme", false,
+     [](const Fraction& x, const Fraction& y) -> Fraction { return std::min(x, y) - x * y; },
+     [](const Fraction& x) -> Fraction { return x * (1 - x) / 2; }, Fraction(1, 12)},
+    {"periodic", false, wrapped, third, Fraction(1, 3)},
+    {"centered", true,
+     [](const Fraction& x, const Fraction& y) -> Fraction {
+         return (bend(x) + bend(y) - abs(x - y)) / 2;
+     },
+     [](const Fraction& x) -> Fraction { return (bend(x) - bend(x) * bend(x)) / 2; },
+     Fraction(1, 12)},
+    {"wraparound", true, wrapped, third, Fraction(1, 3)},
+    {"mixture", true,
+     [](const Fraction& x, const Fraction& y) -> Fraction {
+         const Fraction t = abs(x - y);
+         return Fraction(7, 8) - bend(x) / 4 - bend(y) / 4 - t * 3 / 4 + t * t / 2;
+     },
+     [](const Fraction& x) -> Fraction {
+         return Fraction(2, 3) - bend(x) / 4 - bend(x) * bend(x) / 4;
+     },
+     Fraction(7, 12)},
+    {"modified", true, falling, falling_mean, Fraction(1, 3)},
+};
+
+const Definition& definition(std::string_view name) {
+    return *std::ranges::find(definitions, name, &Definition::name);
+}
+
+/// Oracle: the square by its definition, in fractions.
+Fraction exact_square(const PointSet& set, const Definition& kind, const Weights& weights = {}) {
+    const std::size_t n = set.count();
+    const std::size_t d = set.dimension();
+    const Fraction one = kind.projections || !weights.empty() ? 1 : 0;
+    const auto w = [&](std::size_t j) { return weights.empty() ? 1 : exactly(weights[j]); };
+    Fraction total = 1;
+    for (std::size_t j = 0; j < d; ++j) total *= one + w(j) * kind.total;
+    Fraction means = 0;
+    Fraction pairs = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        Fraction mean = 1;
+        for (std::size_t j = 0; j < d; ++j) mean *= one + w(j) * kind.mean(exactly(set[i][j]));
+        means += mean;
+        for (std::size_t k = 0; k < n; ++k) {
+            Fraction product = 1;
+            for (std::size_t j = 0; j < d; ++j)
+                product *= one + w(j) * kind.kernel(exactly(set[i][j]), exactly(set[k][j]));
+            pairs += product;
+        }
+    }
+    const Fraction count = n;
+    return total - 2 * means / count + pairs / (count * count);
+}
+
+/// Oracle: the square of the product of d sets on a line, from sums over the line.
+Fraction product_square(std::span<const double> line, const Definition& kind, int d) {
+    const Fraction one = kind.projections ? 1 : 0;
+    const Fraction n = line.size();
+    Fraction mean = 0;
+    Fraction pairs = 0;
+    for (const double x : line) {
+        mean += (one + kind.mean(exactly(x))) / n;
+        for (const double y : line) pairs += (one + kind.kernel(exactly(x), exactly(y))) / (n * n);
+    }
+    Fraction totals = 1;
+    Fraction means = 1;
+    Fraction products = 1;
+    for (int j = 0; j < d; ++j) {
+        totals *= one + kind.total;
+        means *= mean;
+        products *= pairs;
+    }
+    return totals - 2 * means + products;
+}
+
+Settings settings_of(const char* kinds, const Weights& weights) {
+    std::string text;
+    for (const double w : weights) text += fmt::format("{}{}", text.empty() ? "" : ",", w);
+    Settings settings{{"kind", kinds}};
+    if (!weights.empty()) settings.push_back({"weights", text});
+    return settings;
+}
+
+Report report_of(const PointSet& set, const Weights& weights = {}, const char* kinds = "all") {
+    return analyze("l2-discrepancy", set, settings_of(kinds, weights));
+}
+
+double squared(const Report& report, std::string_view kind) {
+    return report.number(fmt::format("{}.squared", kind));
+}
+
+/// |a - b| / b
+double off(double a, const Fraction& b) {
+    return std::abs(static_cast<double>((exactly(a) - b) / b));
+}
+
+/// Coordinates are multiples of 1/steps from 0 to 1: ties, duplicates, points on both bounds.
+PointSet on_lattice(std::size_t n, std::size_t d, std::uint64_t steps, std::uint64_t seed) {
+    const Rng rng(seed, 17);
+    PointSet set(n, d);
+    for (std::size_t i = 0; i < n * d; ++i)
+        set.flat()[i] = static_cast<double>(rng.below(i, steps + 1)) / static_cast<double>(steps);
+    return set;
+}
+
+PointSet random_set(std::size_t n, std::size_t d, std::uint64_t seed) {
+    return make("random", points(n, d), {}, {.seed = seed});
+}
+
+/// Random sets, sets with ties, points in corners.
+std::vector<PointSet> small_sets(std::size_t d) {
+    std::vector<PointSet> sets;
+    for (const std::size_t n : {1, 2, 3, 7, 20}) {
+        sets.push_back(random_set(n, d, n));
+        for (const std::uint64_t steps : {1, 2, 5}) sets.push_back(on_lattice(n, d, steps, n));
+    }
+    sets.push_back(PointSet(3, d));
+    sets.push_back(PointSet(std::vector<double>(3 * d, 1.0), d));
+    return sets;
+}
+
+PointSet mapped(PointSet set, double (*map)(double)) {
+    for (double& x : set.flat()) x = map(x);
+    return set;
+}
+
+constexpr Kind reflectable[] = {Kind::extreme,    Kind::periodic, Kind::centered,
+                                Kind::wraparound, Kind::mixture,  Kind::diaphony};
+
+/// Kinds that divide and conquer takes.
+constexpr Kind divisible[] = {Kind::star, Kind::extreme, Kind::centered, Kind::modified};
+
+std::string name_of(Kind kind) { return std::string(analyzers::l2::record_of(kind).name); }
+
+}  // namespace
+
+TEST(L2Discrepancy, IsExactOnALineAndInThePlane) {
+    for (const std::size_t d : {1, 2})
+        for (const PointSet& set : small_sets(d)) {
+            const Report report = report_of(set);
+            for (const Definition& kind : definitions) {
+                const Fraction exact = exact_square(set, kind);
+                EXPECT_LE(off(squared(report, kind.name), exact), 0x1p-51)
+                    << kind.name << ", n = " << set.count() << ", d = " << d;
+            }
+        }
+}
+
+TEST(L2Discrepancy, IsWithinItsErrorInMoreDimensions) {
+    for (const std::size_t d : {3, 4})
+        for (const PointSet& set : small_sets(d)) {
+            if (d == 4 && set.count() > 7) continue;
+            const Report report = report_of(set);
+            for (const Definition& kind : definitions) {
+                const std::string key = kind.name;
+                const double value = std::sqrt(static_cast<double>(exact_square(set, kind)));
+                const double error = report.number(key + ".error");
+                EXPECT_NEAR(report.number(key + ".value"), value, error) << key;
+                EXPECT_LE(error, 2e-13 * value) << key << ", n = " << set.count();
+            }
+        }
+}
+
+TEST(L2Discrepancy, WeighsProjectionsByTheProductOfTheirWeights) {
+    const Weights weights{0.25, 1.5, 0, 3};
+    for (const std::size_t d : {1, 2, 4}) {
+        const PointSet set = on_lattice(12, d, 7, d);
+        const Weights mine(weights.begin(), weights.begin() + static_cast<std::ptrdiff_t>(d));
+        const Report report = report_of(set, mine);
+        for (const Definition& kind : definitions) {
+            const Fraction exact = exact_square(set, kind, mine);
+            EXPECT_LE(off(squared(report, kind.name), exact), 1e-14) << kind.name << ", d = " << d;
+        }
+    }
+}
+
+TEST(L2Discrepancy, WithWeightsOfOneStarIsModifiedAndPeriodicIsWraparound) {
+    for (const std::size_t d : {1, 2, 3}) {
+        const PointSet set = random_set(50, d, 3);
+        const Report plain = report_of(set);
+        const Report ones = report_of(set, Weights(d, 1));
+        for (const char* kind : {"centered", "wraparound", "mixture", "modified", "diaphony"})
+            EXPECT_DOUBLE_EQ(squared(ones, kind), squared(plain, kind)) << kind;
+        EXPECT_DOUBLE_EQ(squared(ones, "star"), squared(plain, "modified"));
+        EXPECT_DOUBLE_EQ(squared(ones, "periodic"), squared(plain, "wraparound"));
+    }
+}
+
+TEST(L2Discrepancy, WeightsOfZeroLeaveNothing) {
+    for (const std::size_t d : {2, 3})
+        for (const Definition& kind : definitions)
+            EXPECT_EQ(squared(report_of(random_set(9, d, 1), Weights(d, 0)), kind.name), 0);
+}
+
+// scipy.stats.qmc.discrepancy(x, method=...), SciPy 1.10, of the first example of its documentation
+// and of qmc.Halton(3, scramble=False).random(100).
+TEST(L2Discrepancy, AgreesWithSciPy) {
+    PointSet set = points_of({{1, 3}, {2, 6}, {3, 2}, {4, 5}, {5, 1}, {6, 4}});
+    for (double& x : set.flat()) x = (2.0 * x - 1.0) / 12.0;
+    const Report small = report_of(set);
+    EXPECT_NEAR(squared(small, "centered"), 0.008142039609053464, 2e-15);
+    EXPECT_NEAR(squared(small, "wraparound"), 0.01684670781892894, 2e-15);
+    EXPECT_NEAR(squared(small, "mixture"), 0.014895592206789487, 2e-15);
+    EXPECT_NEAR(small.number("star.value"), 0.06833606212558091, 2e-15);
+
+    const Report halton = report_of(make("halton", points(100, 3)));
+    EXPECT_NEAR(squared(halton, "centered"), 0.000761690509242019, 1e-14);
+    EXPECT_NEAR(squared(halton, "wraparound"), 0.0006200154844040462, 1e-14);
+    EXPECT_NEAR(squared(halton, "mixture"), 0.0010599037156469038, 1e-14);
+    EXPECT_NEAR(halton.number("star.value"), 0.013345897863399583, 1e-14);
+}
+
+// On a line the star discrepancy of the centered grid is least: 1 / (n sqrt 12).
+TEST(L2Discrepancy, OfACenteredGridOnALineIsKnown) {
+    for (const std::size_t n : {1, 2, 5, 4096, 100'000}) {
+        PointSet set(n, 1);
+        for (std::size_t i = 0; i < n; ++i)
+            set[i][0] = (static_cast<double>(i) + 0.5) / static_cast<double>(n);
+        const auto count = static_cast<double>(n);
+        // coordinates that are no multiples of a power of two are off by 2^-54
+        EXPECT_NEAR(measure("l2-discrepancy", "star.value", set) * count * std::sqrt(12), 1, 1e-13)
+            << n;
+    }
+}
+
+// sum over m != 0 divisible by n of 1/m^2 = pi^2 / (3 n^2); divided by 2 pi^2, that of B_2.
+TEST(L2Discrepancy, OfARegularGridOnALineIsKnownForPeriodicKinds) {
+    for (const std::size_t n : {1, 8, 1024}) {
+        const Report report = report_of(make("grid", points(n, 1)));
+        const double square = static_cast<double>(n) * static_cast<double>(n);
+        EXPECT_DOUBLE_EQ(squared(report, "diaphony"),
+                         std::numbers::pi * std::numbers::pi / (3 * square));
+        EXPECT_DOUBLE_EQ(squared(report, "periodic"), 1 / (6 * square));
+    }
+}
+
+TEST(L2Discrepancy, OfOnePointIsTheDiaphonysLargest) {
+    const double factor = 1 + std::numbers::pi * std::numbers::pi / 3;
+    for (const std::size_t d : {1, 2, 3, 6})
+        EXPECT_NEAR(squared(report_of(random_set(1, d, d)), "diaphony") /
+                        (std::pow(factor, static_cast<double>(d)) - 1),
+                    1, 1e-14);
+}
+
+/// The diaphony's square by cosines, without those beyond `most`.
+double cosine_square(const PointSet& set, int most) {
+    const auto n = static_cast<double>(set.count());
+    double sum = 0;
+    for (int f = -most; f <= most; ++f)
+        for (int g = -most; g <= most; ++g) {
+            if (f == 0 && g == 0) continue;
+            double real = 0;
+            double imaginary = 0;
+            for (std::size_t i = 0; i < set.count(); ++i) {
+                const double at = 2 * std::numbers::pi * (f * set[i][0] + g * set[i][1]);
+                real += std::cos(at);
+                imaginary += std::sin(at);
+            }
+            const double size = std::max(1, std::abs(f)) * std::max(1, std::abs(g));
+            sum += (real * real + imaginary * imaginary) / (n * n * size * size);
+        }
+    return sum;
+}
+
+// What is left out is at most the tail of 1/m^2 on each axis, and is random in sign of its phase:
+// 2 / most (1 + pi^2/3) 2 / n on average for random points.
+TEST(L2Discrepancy, IsTheDiaphonyOfItsFourierSeries) {
+    const PointSet set = random_set(8, 2, 4);
+    const double whole = squared(report_of(set), "diaphony");
+    const double part = cosine_square(set, 200);
+    EXPECT_LT(part, whole);
+    EXPECT_LT(whole - part, 0.02);
+    EXPECT_GT(whole, 1);
+}
+
+// J. H. Halton, S. K. Zaremba, Monatsh. Math. 73 (1969) 316-328: Hammersley sets in base 2. At
+// 2^20 points the square is 10^-11 of the terms that make it.
+TEST(L2Discrepancy, OfHammersleySetsIsHaltonsAndZarembas) {
+    for (const int m : {0, 1, 2, 3, 10, 20}) {
+        const Fraction n = exactly(std::ldexp(1, m));
+        const Fraction scaled = Fraction(m * m, 64) + Fraction(29 * m, 192) + Fraction(3, 8) -
+                                Fraction(m, 16) / n + Fraction(1, 4) / n -
+                                Fraction(1, 72) / (n * n);
+        const PointSet set = make("hammersley", points(std::uint64_t{1} << m, 2));
+        EXPECT_LE(off(measure("l2-discrepancy", "star.squared", set), scaled / (n * n)), 0x1p-51)
+            << m;
+    }
+}
+
+// On a lattice all points see the same: one sum in place of two. 2^20 points, exact fractions.
+TEST(L2Discrepancy, OfALatticeIsASingleSum) {
+    const std::uint64_t n = 1 << 20;
+    const std::uint64_t step = 443'165;
+    PointSet set(n, 2);
+    using boost::multiprecision::cpp_int;
+    cpp_int periodic = 0;  // sum of (n^2/2 - k n + k^2) on both axes, doubled
+    cpp_int wraparound = 0;
+    for (std::uint64_t i = 0; i < n; ++i) {
+        const std::uint64_t j = i * step % n;
+        set[i][0] = std::ldexp(static_cast<double>(i), -20);
+        set[i][1] = std::ldexp(static_cast<double>(j), -20);
+        __extension__ using Long = __int128;
+        const auto a = static_cast<Long>(n * n - 2 * i * (n - i));
+        const auto b = static_cast<Long>(n * n - 2 * j * (n - j));
+        const auto whole = static_cast<Long>(2 * n * n);
+        periodic += cpp_int(a * b);
+        wraparound += cpp_int((a + whole) * (b + whole));
+    }
+    const Fraction size = cpp_int(4) << 100;  // n^4 of the kernels times n, and 4
+    const Report report = report_of(set);
+    EXPECT_LE(off(squared(report, "periodic"), Fraction(periodic) / size - Fraction(1, 9)),
+              0x1p-51);
+    EXPECT_LE(off(squared(report, "wraparound"), Fraction(wraparound) / size - Fraction(16, 9)),
+              0x1p-51);
+    EXPECT_LT(report.number("star.value"), 1e-5);
+}
+
+// The kernels of a product of two grids are products of sums over the line.
+TEST(L2Discrepancy, OfAProductOfGridsIsAProductOfSums) {
+    const std::size_t side = 64;
+    PointSet line(side, 1);
+    PointSet square(side * side, 2);
+    for (std::size_t i = 0; i < side; ++i) {
+        line[i][0] = static_cast<double>(2 * i + 1) / 128;
+        for (std::size_t j = 0; j < side; ++j) {
+            square[i * side + j][0] = static_cast<double>(2 * i + 1) / 128;
+            square[i * side + j][1] = static_cast<double>(2 * j + 1) / 128;
+        }
+    }
+    const Report report = report_of(square);
+    for (const Definition& kind : definitions)
+        EXPECT_LE(off(squared(report, kind.name), product_square(line.flat(), kind, 2)), 0x1p-51)
+            << kind.name;
+}
+
+TEST(L2Discrepancy, OfThePlaneIsThatOfAllPairs) {
+    for (const std::size_t n : {1000, 3001})
+        for (const PointSet& set : {random_set(n, 2, n), on_lattice(n, 2, 40, n)}) {
+            const Report report = report_of(set);
+            for (const Kind kind : analyzers::l2::all_kinds) {
+                const auto pairs = analyzers::l2::pair_square(set, kind, {}, {});
+                EXPECT_NEAR(squared(report, name_of(kind)), pairs.squared, pairs.error)
+                    << name_of(kind) << ", n = " << n;
+                EXPECT_LE(pairs.error, 1e-9 * pairs.squared) << name_of(kind);
+            }
+        }
+}
+
+TEST(L2Discrepancy, OfDividedSetsIsExact) {
+    const Weights weights{0.25, 1.5, 0, 2};
+    for (const std::size_t d : {3, 4})
+        for (const PointSet& set : small_sets(d))
+            for (const Kind kind : divisible) {
+                if (d == 4 && set.count() > 7) continue;
+                const auto& by_definition = definition(name_of(kind));
+                EXPECT_LE(off(analyzers::l2::divide_square(set, kind, {}, {}),
+                              exact_square(set, by_definition)),
+                          0x1p-51)
+                    << name_of(kind) << ", n = " << set.count() << ", d = " << d;
+                if (kind == Kind::extreme || set.count() > 7) continue;
+                const Weights mine(weights.begin(),
+                                   weights.begin() + static_cast<std::ptrdiff_t>(d));
+                EXPECT_LE(off(analyzers::l2::divide_square(set, kind, mine, {}),
+                              exact_square(set, by_definition, mine)),
+                          0x1p-51)
+                    << name_of(kind) << ", n = " << set.count() << ", d = " << d;
+            }
+}
+
+TEST(L2Discrepancy, OfDividedSetsIsThatOfAllPairs) {
+    for (const auto& [n, d] : {std::pair<std::size_t, std::size_t>{5000, 3}, {700, 4}})
+        for (const PointSet& set : {random_set(n, d, n), on_lattice(n, d, 20, n)})
+            for (const Kind kind : divisible) {
+                const double divided = analyzers::l2::divide_square(set, kind, {}, {.threads = 1});
+                const auto pairs = analyzers::l2::pair_square(set, kind, {}, {});
+                EXPECT_NEAR(divided, pairs.squared, pairs.error) << name_of(kind) << ", d = " << d;
+                EXPECT_EQ(divided, analyzers::l2::divide_square(set, kind, {}, {.threads = 3}));
+            }
+}
+
+TEST(L2Discrepancy, DividesManyPointsInThreeDimensions) {
+    const std::size_t side = 32;
+    std::vector<double> line;
+    for (std::size_t i = 0; i < side; ++i)
+        line.push_back(static_cast<double>(2 * i + 1) / (2 * side));
+    PointSet cube(side * side * side, 3);
+    for (std::size_t i = 0; i < cube.count(); ++i) {
+        cube[i][0] = line[i % side];
+        cube[i][1] = line[i / side % side];
+        cube[i][2] = line[i / side / side];
+    }
+    const Report report = report_of(cube, {}, "star,centered");
+    for (const char* name : {"star", "centered"}) {
+        EXPECT_EQ(report.text(std::string(name) + ".method"), "divide-and-conquer");
+        EXPECT_LE(off(squared(report, name), product_square(line, definition(name), 3)), 0x1p-51);
+    }
+}
+
+TEST(L2Discrepancy, DoesNotDependOnTheOrderOfPointsAndAxes) {
+    for (const std::size_t d : {2, 3}) {
+        const PointSet set = random_set(700, d, 5);
+        PointSet turned = set;
+        for (std::size_t i = 0; i < set.count(); ++i)
+            for (std::size_t j = 0; j < d; ++j) turned[699 - i][d - 1 - j] = set[i][j];
+        const Report before = report_of(set);
+        const Report after = report_of(turned);
+        for (const Kind kind : analyzers::l2::all_kinds)
+            EXPECT_NEAR(squared(after, name_of(kind)) / squared(before, name_of(kind)), 1,
+                        d == 2 ? 0 : 1e-11)
+                << name_of(kind);
+    }
+}
+
+TEST(L2Discrepancy, DoesNotChangeUnderReflectionsButForTheCornerKinds) {
+    const PointSet set = on_lattice(300, 2, 1 << 20, 6);
+    const PointSet mirror = mapped(set, [](double x) { return 1 - x; });
+    const Report before = report_of(set);
+    const Report after = report_of(mirror);
+    for (const Kind kind : reflectable)
+        EXPECT_EQ(squared(after, name_of(kind)), squared(before, name_of(kind))) << name_of(kind);
+    EXPECT_NE(squared(after, "star"), squared(before, "star"));
+    EXPECT_NE(squared(after, "modified"), squared(before, "modified"));
+}
+
+TEST(L2Discrepancy, OfPeriodicKindsDoesNotChangeUnderShiftsOfTheTorus) {
+    const PointSet set = on_lattice(300, 2, 1 << 20, 7);
+    const PointSet moved =
+        mapped(set, [](double x) { return x + 0.3125 < 1 ? x + 0.3125 : x + 0.3125 - 1; });
+    const Report before = report_of(set);
+    const Report after = report_of(moved);
+    for (const char* kind : {"periodic", "wraparound", "diaphony"})
+        EXPECT_EQ(squared(after, kind), squared(before, kind)) << kind;
+    EXPECT_NE(squared(after, "centered"), squared(before, "centered"));
+}
+
+// E squared = (2^-d - 3^-d) / n for n independent points. The mean of 400 squares is normal enough;
+// each test is off by chance at 4.5 standard errors: 7e-6.
+TEST(L2Discrepancy, OfRandomSetsHasItsExpectation) {
+    for (const std::size_t d : {2, 3}) {
+        double sum = 0;
+        double squares = 0;
+        double stratified = 0;
+        const int sets = 400;
+        for (int s = 0; s < sets; ++s) {
+            const std::uint64_t seed = 100 + static_cast<std::uint64_t>(s);
+            const double x = measure("l2-discrepancy", "star.squared", random_set(64, d, seed));
+            sum += x;
+            squares += x * x;
+            stratified += measure("l2-discrepancy", "star.squared",
+                                  make("jittered", points(64, d), {}, {.seed = seed}));
+        }
+        const double mean = sum / sets;
+        const double error = std::sqrt((squares / sets - mean * mean) / sets);
+        const auto power = static_cast<double>(d);
+        const double expected = (std::pow(2, -power) - std::pow(3, -power)) / 64;
+        EXPECT_NEAR(mean, expected, 4.5 * error) << d;
+        EXPECT_LT(stratified / sets, expected - 4.5 * error) << "blind, " << d;
+    }
+}
+
+TEST(L2Discrepancy, DoesNotDependOnTheNumberOfThreads) {
+    for (const auto& [n, d] : {std::pair{100'001, 2}, {1001, 4}}) {
+        const PointSet set =
+            random_set(static_cast<std::size_t>(n), static_cast<std::size_t>(d), 8);
+        const Report one = analyze("l2-discrepancy", set, {}, {.threads = 1});
+        for (const unsigned threads : {2U, 5U})
+            EXPECT_EQ(one, analyze("l2-discrepancy", set, {}, {.threads = threads})) << threads;
+    }
+}
+
+TEST(L2Discrepancy, TakesTinyCoordinatesAndNegativeZero) {
+    const PointSet set = points_of({{1e-300, -0.0}, {0x1p-64, 0.25}, {1, 0x1p-70}});
+    const PointSet near = points_of({{0, 0}, {0, 0.25}, {1, 0}});
+    const Report a = report_of(set);
+    const Report b = report_of(near);
+    for (const Kind kind : analyzers::l2::all_kinds)
+        EXPECT_NEAR(squared(a, name_of(kind)), squared(b, name_of(kind)), 1e-15);
+}
+
+TEST(L2Discrepancy, GivesTheKindsAskedForInTheOrderOfItsList) {
+    const Report report = report_of(random_set(10, 2, 1), {}, "mixture, star,mixture");
+    ASSERT_EQ(report.entries().size(), 2U);
+    EXPECT_EQ(report.entries()[0].name, "star");
+    EXPECT_EQ(report.entries()[1].name, "mixture");
+}
+
+TEST(L2Discrepancy, RefusesWrongOptionsAndSaysWhy) {
+    const PointSet set = random_set(10, 3, 1);
+    const auto error = [&](const Settings& settings) {
+        return error_of([&] { analyze("l2-discrepancy", set, settings); });
+    };
+    EXPECT_EQ(error({{"kind", "star,centred"}}),
+              "usage: --kind: 'centred' is none of all, star, extreme, periodic, centered, "
+              "wraparound, mixture, modified, diaphony | did you mean 'centered'?");
+    EXPECT_TRUE(error({{"kind", ""}}).starts_with("usage: --kind: "));
+    EXPECT_EQ(error({{"weights", "1,2"}}),
+              "usage: --weights: 2 numbers for points of 3 coordinates; one for each");
+    EXPECT_EQ(error({{"weights", "1,-0.5,2"}}), "usage: --weights: -0.5 is outside [0, 1e6]");
+    EXPECT_EQ(error({{"weights", "1,1e7,2"}}), "usage: --weights: 10000000 is outside [0, 1e6]");
+    EXPECT_TRUE(error({{"weights", "1,nan,2"}}).starts_with("usage: --weights: "));
+    RunContext small;
+    small.max_memory = 100;
+    for (const std::size_t d : {2, 3})
+        EXPECT_TRUE(error_of([&] {
+                        analyze("l2-discrepancy", random_set(99, d, 1), {}, small);
+                    }).starts_with("limit: "));
+}
+
+TEST(L2Discrepancy, StopsAtOnceInManyDimensions) {
+    const PointSet set = random_set(20'000, 6, 1);
+    std::stop_source source;
+    RunContext run{.threads = 2, .stop = source.get_token()};
+    run.progress = [&](double) { source.request_stop(); };
+    EXPECT_EQ(error_of([&] { analyze("l2-discrepancy", set, {}, run); }), "cancelled: interrupted");
+}
