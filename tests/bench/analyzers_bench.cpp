@@ -25,6 +25,15 @@ void star_discrepancy_random(benchmark::State& state) {
 void star_discrepancy_halton(benchmark::State& state) {
     measure(state, "star-discrepancy", "halton");
 }
+void extreme_discrepancy_random(benchmark::State& state) {
+    measure(state, "star-discrepancy", "random", {{"kind", "extreme"}});
+}
+void extreme_discrepancy_halton(benchmark::State& state) {
+    measure(state, "star-discrepancy", "halton", {{"kind", "extreme"}});
+}
+void periodic_discrepancy_halton(benchmark::State& state) {
+    measure(state, "star-discrepancy", "halton", {{"kind", "periodic"}});
+}
 void periodogram(benchmark::State& state) {
     measure(state, "periodogram", "random", {{"max-frequency", "512"}});
 }
@@ -55,6 +64,23 @@ BENCHMARK(star_discrepancy_halton)
     ->Args({4096, 3})
     ->Args({1000, 4})
     ->Args({1000, 5})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(extreme_discrepancy_random)
+    ->Args({1024, 2})
+    ->Args({4096, 2})
+    ->Args({16'384, 2})
+    ->Args({32, 3})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(extreme_discrepancy_halton)
+    ->Args({512, 2})
+    ->Args({1024, 2})
+    ->Args({2048, 2})
+    ->Args({4096, 2})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(periodic_discrepancy_halton)
+    ->Args({256, 2})
+    ->Args({512, 2})
+    ->Args({1024, 2})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(periodogram)->Args({4096, 2})->Args({1'000'000, 2})->Unit(benchmark::kMillisecond);
 BENCHMARK(periodogram_direct)->Args({4096, 2})->Unit(benchmark::kMillisecond);
