@@ -2,16 +2,13 @@
 #include "analyzers/star_box.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
 
 #include "core/parallel.hpp"
+#include "math/dyadic.hpp"
 #include "math/radix_sort.hpp"
 
 namespace stipple::analyzers::star {
 namespace {
-
-using Integer = WorstBox::Integer;
 
 /// Points with a coordinate 1, for half-open boxes; none for closed ones.
 std::vector<std::uint32_t> in_no_box(const PointSet& points, Boxes boxes) {
@@ -44,39 +41,10 @@ void index_axis(const PointSet& points, std::size_t axis, const std::vector<std:
     if (values.back() != 1) values.push_back(1);
 }
 
-/// A double in [0, 1] as mantissa * 2^-places, with an odd mantissa or 0.
-struct Dyadic {
-    std::uint64_t mantissa;
-    unsigned places;
-};
-
-Dyadic dyadic(double x) {
-    int exponent = 0;
-    const auto mantissa = static_cast<std::uint64_t>(std::ldexp(std::frexp(x, &exponent), 53));
-    if (mantissa == 0) return {0, 0};
-    const int zeros = std::countr_zero(mantissa);
-    return {mantissa >> zeros, static_cast<unsigned>(53 - exponent - zeros)};
-}
-
 unsigned places_of(const std::vector<double>& values) {
     unsigned most = 0;
     for (const double x : values) most = std::max(most, dyadic(x).places);
     return most;
-}
-
-/// above / (below * 2^places), rounded to the nearest double, ties to even.
-double quotient(const Integer& above, std::uint64_t below, unsigned places) {
-    if (above == 0) return 0;
-    const unsigned shift = 128;  // so that the quotient has 64 bits and more
-    Integer rest = 0;
-    Integer whole = 0;
-    divide_qr(Integer(above << shift), Integer(below), whole, rest);
-    const auto spare = static_cast<unsigned>(msb(whole)) - 54;
-    const bool inexact = rest != 0 || lsb(whole) < spare;
-    // 55 bits: those of the double, the next one, and whether anything follows.
-    const auto top = static_cast<std::uint64_t>(Integer(whole >> spare)) | (inexact ? 1U : 0U);
-    return std::ldexp(static_cast<double>(top),
-                      static_cast<int>(spare) - static_cast<int>(shift + places));
 }
 
 }  // namespace

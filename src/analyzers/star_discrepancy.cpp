@@ -25,6 +25,7 @@
 //         Complexity 25 (2009) 115-127 (NP-hard).
 
 #include "analyzers/analyzer.hpp"
+#include "analyzers/extreme_discrepancy.hpp"
 #include "analyzers/star_ascent.hpp"
 #include "analyzers/star_families.hpp"
 #include "analyzers/star_search.hpp"
@@ -51,6 +52,13 @@ constexpr Param<Choice> boxes{
     .help =
         "Whether boxes that end at 1 are closed there, or half-open as all others; they differ "
         "for points with a coordinate 1"};
+
+constexpr Param<Choice> kind{
+    .name = "kind",
+    .fallback = "star",
+    .choices = "star|extreme|periodic",
+    .help =
+        "Boxes from the origin, all axis-parallel boxes, or those of the torus, which may wrap"};
 
 /// More points than any machine's memory holds; counts of points stay far from 2^31.
 constexpr std::size_t max_count = std::size_t{1} << 29;
@@ -88,6 +96,12 @@ Report measure(const PointSet& points, const Values& options, const RunContext& 
     if (points.count() > max_count)
         fail(ErrorKind::limit, "star-discrepancy takes up to {} points; these are {}", max_count,
              points.count());
+    if (options[kind] != "star" && options.given(boxes))
+        fail(ErrorKind::usage, "--boxes is of --kind star");
+    if (options[kind] != "star")
+        return extreme::discrepancy(
+            points, options[kind] == "extreme" ? extreme::Space::cube : extreme::Space::torus,
+            static_cast<std::uint64_t>(options[max_work]), run);
     run.need_memory(static_cast<double>(points.count()) *
                         (static_cast<double>(points.dimension() * star::axis_bytes) + 32),
                     "the star discrepancy's grid of corners");
@@ -109,33 +123,38 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
 }  // namespace
 
 Analyzer star_discrepancy() {
-    return {.name = "star-discrepancy",
-            .summary = "Star discrepancy, exact, with the worst box",
-            .source = "Doerr, Gnewuch, Wahlstroem 2014, arXiv:1405.1653",
-            .traits = {.max_dimension = 10'000},
-            .options = Schema(max_work, boxes, star::prefixes, star::every, star::projections),
-            .results = {{"value", "the star discrepancy"},
-                        {"lower", "it is at least this"},
-                        {"upper", "it is at most this"},
-                        {"exact", "whether the two bounds are the same"},
-                        {"method", "sweep-1d, sweep-2d or branch-and-bound"},
-                        {"worst_box.corner", "upper corner of the box where it is reached"},
-                        {"worst_box.closed", "whether points on the box's upper faces count"},
-                        {"worst_box.points", "points in that box"},
-                        {"worst_box.volume", "its volume"},
-                        {"prefixes.count", "points of each prefix", false},
-                        {"prefixes.value", "its star discrepancy", false},
-                        {"prefixes.lower", "which is at least this", false},
-                        {"prefixes.upper", "and at most this", false},
-                        {"projections.axis_1", "first axis of each projection, from 1", false},
-                        {"projections.axis_2", "the second, and so on", false},
-                        {"projections.value", "its star discrepancy", false},
-                        {"projections.lower", "which is at least this", false},
-                        {"projections.upper", "and at most this", false},
-                        {"projections.is_worst", "1 for the first with the largest value", false},
-                        {"projections.worst", "the axes of that one", false},
-                        {"projections.largest", "its value", false}},
-            .analyze = analyze};
+    return {
+        .name = "star-discrepancy",
+        .summary = "Star discrepancy, exact, with the worst box",
+        .source = "Doerr, Gnewuch, Wahlstroem 2014, arXiv:1405.1653",
+        .traits = {.max_dimension = 10'000},
+        .options = Schema(kind, boxes, max_work, star::prefixes, star::every, star::projections),
+        .results = {{"value", "the star discrepancy"},
+                    {"lower", "it is at least this"},
+                    {"upper", "it is at most this"},
+                    {"exact", "whether the two bounds are the same"},
+                    {"method", "sweep-1d, sweep-2d or branch-and-bound"},
+                    {"worst_box.corner", "upper corner of the box where it is reached"},
+                    {"worst_box.lower_corner",
+                     "lower corner, for the kinds extreme and periodic; where it is above the "
+                     "upper one, the box wraps",
+                     false},
+                    {"worst_box.closed", "whether points on the box's upper faces count"},
+                    {"worst_box.points", "points in that box"},
+                    {"worst_box.volume", "its volume"},
+                    {"prefixes.count", "points of each prefix", false},
+                    {"prefixes.value", "its star discrepancy", false},
+                    {"prefixes.lower", "which is at least this", false},
+                    {"prefixes.upper", "and at most this", false},
+                    {"projections.axis_1", "first axis of each projection, from 1", false},
+                    {"projections.axis_2", "the second, and so on", false},
+                    {"projections.value", "its star discrepancy", false},
+                    {"projections.lower", "which is at least this", false},
+                    {"projections.upper", "and at most this", false},
+                    {"projections.is_worst", "1 for the first with the largest value", false},
+                    {"projections.worst", "the axes of that one", false},
+                    {"projections.largest", "its value", false}},
+        .analyze = analyze};
 }
 
 }  // namespace stipple::analyzers

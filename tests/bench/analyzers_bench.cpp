@@ -45,6 +45,19 @@ void l2_wraparound(benchmark::State& state) {
 void l2_mixture(benchmark::State& state) {
     measure(state, "l2-discrepancy", "sobol", {{"kind", "mixture"}});
 }
+void extreme_discrepancy_random(benchmark::State& state) {
+    measure(state, "star-discrepancy", "random", {{"kind", "extreme"}});
+}
+void extreme_discrepancy_halton(benchmark::State& state) {
+    measure(state, "star-discrepancy", "halton", {{"kind", "extreme"}});
+}
+void periodic_discrepancy_halton(benchmark::State& state) {
+    measure(state, "star-discrepancy", "halton", {{"kind", "periodic"}});
+}
+void dispersion_random(benchmark::State& state) { measure(state, "dispersion", "random"); }
+void dispersion_on_torus(benchmark::State& state) {
+    measure(state, "dispersion", "random", {{"torus", "true"}});
+}
 void periodogram(benchmark::State& state) {
     measure(state, "periodogram", "random", {{"max-frequency", "512"}});
 }
@@ -99,6 +112,33 @@ BENCHMARK(l2_wraparound)
     ->Args({16'384, 5})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(l2_mixture)->Args({16'384, 5})->Unit(benchmark::kMillisecond);
+BENCHMARK(extreme_discrepancy_random)
+    ->Args({1024, 2})
+    ->Args({4096, 2})
+    ->Args({16'384, 2})
+    ->Args({32, 3})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(extreme_discrepancy_halton)
+    ->Args({512, 2})
+    ->Args({1024, 2})
+    ->Args({2048, 2})
+    ->Args({4096, 2})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(periodic_discrepancy_halton)
+    ->Args({256, 2})
+    ->Args({512, 2})
+    ->Args({1024, 2})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(dispersion_random)
+    ->Args({10'000, 2})
+    ->Args({100'000, 2})
+    ->Args({1'000'000, 2})
+    ->Args({100, 3})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(dispersion_on_torus)
+    ->Args({10'000, 2})
+    ->Args({100'000, 2})
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(periodogram)->Args({4096, 2})->Args({1'000'000, 2})->Unit(benchmark::kMillisecond);
 BENCHMARK(periodogram_direct)->Args({4096, 2})->Unit(benchmark::kMillisecond);
 BENCHMARK(periodogram_beside_direct)->Args({4096, 2})->Unit(benchmark::kMillisecond);
