@@ -72,6 +72,11 @@ void nearest_neighbor(benchmark::State& state) { measure(state, "nearest-neighbo
 void nearest_neighbor_halton(benchmark::State& state) {
     measure(state, "nearest-neighbor", "halton");
 }
+/// 10^6 points to 10 mean distances: 1.6e8 pairs.
+void pair_correlation(benchmark::State& state) {
+    measure(state, "pair-correlation", "random",
+            {{"max-distance", "10"}, {"normalize-distance", "true"}});
+}
 void coverage(benchmark::State& state) { measure(state, "coverage", "random"); }
 void t_value_of_a_net(benchmark::State& state) { measure(state, "t-value", "hammersley"); }
 void t_value_of_halton(benchmark::State& state) { measure(state, "t-value", "halton"); }
@@ -151,6 +156,11 @@ BENCHMARK(nearest_neighbor)
     ->Args({100'000, 6})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(nearest_neighbor_halton)->Args({1'000'000, 2})->Unit(benchmark::kMillisecond);
+BENCHMARK(pair_correlation)
+    ->Args({10'000, 2})
+    ->Args({1'000'000, 2})
+    ->Args({10'000, 3})
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(coverage)
     ->Args({100'000, 2})
     ->Args({1'000'000, 2})
