@@ -189,11 +189,10 @@ class Sweep {
         std::vector<std::uint64_t> points_in(y_.size());
         for (std::size_t i = 0; i < plane_.dots_from[strip]; ++i) {
             if (i % checks_apart == 0) run.check_stop();
-            const std::uint32_t place = plane_.dots[i].second;
-            const std::uint32_t u = plane_.block_of[place];
-            ++points_in[u];
-            if (size_of(plane_.blocks, u) > 1)
-                points_[row_[u] + place - plane_.blocks.first[u]] += 1;
+            const Dot& dot = plane_.dots[i];
+            ++points_in[dot.block];
+            if (size_of(plane_.blocks, dot.block) > 1)
+                points_[row_[dot.block] + dot.second - plane_.blocks.first[dot.block]] += 1;
         }
         std::uint64_t below = 0;
         for (std::size_t u = 0; u < y_.size(); ++u) {
@@ -216,7 +215,7 @@ class Sweep {
         for (std::size_t s = last + std::size_t{1}; s-- > strip;) {
             if (s % 256 == 0) run.check_stop();
             for (auto i = plane_.dots_from[s]; i < plane_.dots_from[s + 1]; ++i)
-                next[plane_.block_of[plane_.dots[i].second]] = static_cast<std::uint32_t>(s);
+                next[plane_.dots[i].block] = static_cast<std::uint32_t>(s);
         }
         return next;
     }
@@ -261,7 +260,7 @@ class Sweep {
         corner_ = width * plane_.widest + margin;
         entering_.clear();
         for (auto i = plane_.dots_from[strip]; i < plane_.dots_from[strip + 1]; ++i)
-            entering_.push_back({plane_.block_of[plane_.dots[i].second], i});
+            entering_.push_back({plane_.dots[i].block, i});
         std::ranges::sort(entering_, {}, &Entering::block);
     }
 
@@ -274,9 +273,20 @@ class Sweep {
                      side == Side::open ? 1.0F : -1.0F);
     }
 
+    /// Asks for the lines of a block, which are seldom in a cache, some time before they are used.
+    void fetch(std::size_t u) const {
+        constexpr std::size_t together = 64 / sizeof(float);  // in a line of the cache
+        for (std::size_t k = row_[u]; k < row_[u + 1]; k += together) {
+            __builtin_prefetch(&points_[k], 1);
+            __builtin_prefetch(&weight_[k]);
+        }
+    }
+
     /// The strip's points enter their blocks.
     void enter_blocks(std::size_t strip) {
         for (std::size_t i = 0; i < entering_.size(); ++i) {
+            constexpr std::size_t ahead = 3;
+            if (i + ahead < entering_.size()) fetch(entering_[i + ahead].block);
             const auto [u, dot] = entering_[i];
             const std::size_t size = size_of(plane_.blocks, u);
             const std::size_t at = plane_.dots[dot].second - plane_.blocks.first[u];
@@ -428,10 +438,16 @@ void place_dots(const CornerGrid& grid, std::vector<std::uint32_t> points, Plane
                 const RunContext& run) {
     std::uint32_t before = 0;
     for (auto& at : points) before += std::exchange(at, before);
+    std::vector<std::uint32_t> block_of(grid.values[1].size());
+    for (std::uint32_t u = 0; u < plane.blocks.count(); ++u)
+        std::fill(block_of.begin() + plane.blocks.first[u],
+                  block_of.begin() + plane.blocks.first[u + 1], u);
     plane.dots.resize(grid.count);
     for (std::size_t i = 0; i < grid.count; ++i) {
         if (i % checks_apart == 0) run.check_stop();
-        plane.dots[points[grid.ranks[0][i]]++] = {grid.ranks[0][i], grid.ranks[1][i]};
+        const std::uint32_t first = grid.ranks[0][i];
+        const std::uint32_t second = grid.ranks[1][i];
+        plane.dots[points[first]++] = {first, second, block_of[second]};
     }
     // Each entry of `points` is now where the dots of the next place begin.
     plane.dots_from.push_back(0);
@@ -447,9 +463,8 @@ void find_next(Plane& plane, const RunContext& run) {
         if (s % 256 == 0) run.check_stop();
         const auto from = plane.dots_from[s];
         const auto to = plane.dots_from[s + 1];
-        for (auto i = from; i < to; ++i) plane.next[i] = next[plane.block_of[plane.dots[i].second]];
-        for (auto i = from; i < to; ++i)
-            next[plane.block_of[plane.dots[i].second]] = static_cast<std::uint32_t>(s);
+        for (auto i = from; i < to; ++i) plane.next[i] = next[plane.dots[i].block];
+        for (auto i = from; i < to; ++i) next[plane.dots[i].block] = static_cast<std::uint32_t>(s);
     }
 }
 
@@ -476,10 +491,6 @@ Plane plane(const CornerGrid& grid, const RunContext& run) {
     plane.strips = groups_of(grid.values[0], on_first, most_points, plane.widest);
     plane.blocks = groups_of(grid.values[1], points_at(grid, 1), most_points, plane.widest);
     run.check_stop();
-    plane.block_of.resize(grid.values[1].size());
-    for (std::uint32_t u = 0; u < plane.blocks.count(); ++u)
-        std::fill(plane.block_of.begin() + plane.blocks.first[u],
-                  plane.block_of.begin() + plane.blocks.first[u + 1], u);
     place_dots(grid, std::move(on_first), plane, run);
     find_next(plane, run);
     return plane;

@@ -48,6 +48,7 @@ struct Groups {
 struct Dot {
     std::uint32_t first;
     std::uint32_t second;
+    std::uint32_t block;  ///< that `second` is in
 };
 
 /// The points in order of their first coordinate, in strips.
@@ -57,7 +58,6 @@ struct Plane {
     Groups strips;
     Groups blocks;
     double widest = 0;                     ///< group, from its first value to its last
-    std::vector<std::uint32_t> block_of;   ///< of each place on the second axis
     std::vector<Dot> dots;                 ///< rising by `first`
     std::vector<std::uint32_t> dots_from;  ///< of each strip: its first dot; behind them, n
     std::vector<std::uint32_t> next;       ///< of each dot: next strip with a dot in its block
