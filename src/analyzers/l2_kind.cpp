@@ -40,8 +40,6 @@ constexpr AxisKernel mixture_kernel{.s00 = 42,
 constexpr AxisKernel bernoulli_kernel{
     .s00 = 8, .s02 = 48, .s11 = -96, .sigma = -48, .mean = {}, .total = 0};
 
-constexpr double diaphony_scale = 2 * std::numbers::pi * std::numbers::pi;
-
 constexpr KindRecord records[] = {
     {"star", star_kernel, 1, false},
     {"extreme", extreme_kernel, 1, false},
@@ -50,7 +48,7 @@ constexpr KindRecord records[] = {
     {"wraparound", periodic_kernel},
     {"mixture", mixture_kernel},
     {"modified", star_kernel},
-    {"diaphony", bernoulli_kernel, diaphony_scale},
+    {"diaphony", bernoulli_kernel, diaphony},
 };
 
 }  // namespace

@@ -19,6 +19,9 @@ inline constexpr Kind all_kinds[] = {Kind::star,     Kind::extreme,    Kind::per
                                      Kind::centered, Kind::wraparound, Kind::mixture,
                                      Kind::modified, Kind::diaphony};
 
+/// The diaphony's kernel over the second Bernoulli polynomial.
+inline constexpr double diaphony = 2 * std::numbers::pi * std::numbers::pi;
+
 struct KindRecord {
     std::string_view name;
     AxisKernel kernel;  ///< k, or k / scale

@@ -2,6 +2,7 @@
 #include "analyzers/l2_pairs.hpp"
 
 #include <algorithm>
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -18,6 +19,7 @@ namespace stipple::analyzers::l2 {
 namespace {
 
 using Long = long double;
+using Quad = boost::multiprecision::cpp_bin_float_quad;  // where everything cancels
 
 constexpr std::size_t lanes = 4;
 constexpr std::size_t width = 96;  ///< points of a block; its columns stay in the nearest cache
@@ -96,7 +98,7 @@ class CarriedSum {
         lost_ += (sum_ - (next - part)) + (x - part);
         sum_ = next;
     }
-    [[nodiscard]] Long value() const { return sum_ + lost_; }
+    [[nodiscard]] Quad value() const { return Quad(sum_) + lost_; }
 
   private:
     Long sum_ = 0;
@@ -107,9 +109,9 @@ class CarriedSum {
 struct Sums {
     double sum[lanes] = {};
     double lost[lanes] = {};
-    [[nodiscard]] Long total() const {
-        Long all = 0;
-        for (std::size_t l = 0; l < lanes; ++l) all += static_cast<Long>(sum[l]) + lost[l];
+    [[nodiscard]] Quad total() const {
+        Quad all = 0;
+        for (std::size_t l = 0; l < lanes; ++l) all += Quad(sum[l]) + lost[l];
         return all;
     }
 };
@@ -223,9 +225,9 @@ void spread(const Table& table, const double* block, std::size_t first, std::siz
 }
 
 /// Sum over all ordered pairs of points.
-Long sum_over_pairs(const Table& table, const RunContext& run) {
+Quad sum_over_pairs(const Table& table, const RunContext& run) {
     auto* const meet_block = meeting(table.form);
-    std::vector<Long> sums(block_count(table.count, width));
+    std::vector<Quad> sums(block_count(table.count, width));
     for_each_block(run, table.count, width, [&](const Block& rows) {
         std::vector<double> tile;
         Sums below;
@@ -243,30 +245,30 @@ Long sum_over_pairs(const Table& table, const RunContext& run) {
         }
         sums[rows.index] = 2 * below.total() + own.total();
     });
-    CarriedSum total;
-    for (const Long sum : sums) total.add(sum);
-    return total.value();
+    Quad total = 0;
+    for (const Quad& sum : sums) total += sum;
+    return total;
 }
 
 /// What K is on an axis: its columns, f and C.
 struct Axis {
     double a = 0;
     double s = 0;
-    Long total = 0;
+    Quad total = 0;
 };
 
 struct Columns {
     double g = 0;
     double h = 0;
-    Long mean = 0;  ///< f
+    Long mean = 0;  ///< f; 1 where f is the same everywhere
 };
 
 /// A kind with the weight of an axis; no weight: the kernel k alone instead of 1 + weight k.
 class AxisForm {
   public:
     AxisForm(Kind kind, bool alone, double weight) : kind_(kind), alone_(alone), weight_(weight) {
-        const Long w = weight;
-        const Long one = alone ? 0 : 1;
+        const Quad w = weight;
+        const Quad one = alone ? 0 : 1;
         switch (kind) {
             case Kind::star:
             case Kind::modified:
@@ -281,16 +283,14 @@ class AxisForm {
             case Kind::wraparound:
                 bend(one + w / 2, weight);
                 break;
-            case Kind::diaphony: {
-                const Long scale = 2 * w * std::numbers::pi_v<Long> * std::numbers::pi_v<Long>;
-                bend(one + scale / 6, static_cast<double>(scale));
+            case Kind::diaphony:
+                bend(1 + diaphony * w / 6, diaphony * weight);
                 break;
-            }
             case Kind::mixture:
                 scale_ = std::sqrt(weight / 2);
                 axis_.s = 1.5 * scale_;
                 height_ = static_cast<double>((one + w * 7 / 8) / 2);
-                axis_.total = 2 * (static_cast<Long>(height_) - w / 16) - square() / 3;
+                axis_.total = 2 * (height_ - w / 16) - Quad(scale_) * scale_ / 3;
                 break;
         }
     }
@@ -330,18 +330,18 @@ class AxisForm {
             case Kind::mixture:
                 return mixed(x);
             default:
-                return {scale_ * x, 0, axis_.total};
+                return {scale_ * x, 0, 1};
         }
     }
 
   private:
     [[nodiscard]] Long square() const { return static_cast<Long>(scale_) * scale_; }
 
-    void bend(Long at_zero, double curvature) {
+    void bend(const Quad& at_zero, double curvature) {
         scale_ = std::sqrt(curvature);
         axis_.s = scale_;
         axis_.a = static_cast<double>(at_zero);
-        axis_.total = static_cast<Long>(axis_.a) - square() / 6;
+        axis_.total = axis_.a - Quad(scale_) * scale_ / 6;
     }
 
     // The means are those of the coordinates that the rounded columns stand for.
@@ -397,8 +397,8 @@ double roundings(Kind kind) {
 
 struct Prepared {
     Table table;
-    Long means = 0;   ///< sum of the products of f
-    Long total = 1;   ///< C
+    Quad means = 0;   ///< mean of the products of f
+    Quad total = 1;   ///< C
     double most = 1;  ///< no product is larger
 };
 
@@ -443,7 +443,7 @@ Prepared prepare(const PointSet& points, Kind kind, const std::vector<double>& w
         table.at(i, column) = 1;
         means.add(mean);
     }
-    out.means = means.value();
+    out.means = table.form == Form::bend ? out.total : means.value() / n;
     return out;
 }
 
@@ -456,15 +456,15 @@ PairSquare pair_square(const PointSet& points, Kind kind, const std::vector<doub
         run.tick(1, 1);
         return {0, 0};
     }
-    const auto n = static_cast<Long>(points.count());
-    const Long pairs = sum_over_pairs(set.table, run) / (n * n);
-    const Long squared = set.total - 2 * set.means / n + pairs;
+    const Quad n = points.count();
+    const Quad pairs = sum_over_pairs(set.table, run) / (n * n);
+    const Quad squared = set.total - 2 * set.means + pairs;
 
-    const auto axes = static_cast<Long>(set.table.columns);
-    const Long products = kind == Kind::diaphony ? static_cast<Long>(set.most) : pairs;
-    const Long error = 0x1p-53L * (roundings(kind) * axes + 8) * products +
-                       0x1p-62L * (axes + 4) * (set.total + 2 * set.means / n + pairs);
-    return {static_cast<double>(squared), static_cast<double>(error)};
+    const auto axes = static_cast<double>(set.table.columns);
+    const auto products = kind == Kind::diaphony ? set.most : static_cast<double>(pairs);
+    const double error = 0x1p-53 * (roundings(kind) * axes + 8) * products +
+                         0x1p-62 * (axes + 4) * static_cast<double>(set.means);
+    return {static_cast<double>(squared), error};
 }
 
 }  // namespace stipple::analyzers::l2
