@@ -37,12 +37,12 @@ constexpr Param<bool> torus{.name = "torus",
 
 constexpr Param<std::int64_t> max_work{
     .name = "max-work",
-    .fallback = 10'000'000'000,
+    .fallback = 100'000'000'000,
     .low = 1,
-    .unit = "points",
+    .unit = "comparisons",
     .help =
-        "Stop branch and bound (3 and more dimensions) when it has looked at this many points, "
-        "with the bounds that it has; 10^9 take some five seconds on one core"};
+        "Stop branch and bound (3 and more dimensions) when it has compared this many coordinates, "
+        "with the bounds that it has; 10^9 take about four seconds on one core"};
 
 /// More points than any machine's memory holds; keys of points stay below 2^31.
 constexpr std::size_t max_count = std::size_t{1} << 29;

@@ -54,10 +54,11 @@ class Explorer {
         descend(std::move(smaller), depth + 1);
     }
 
+    /// Counts two comparisons for each point and axis.
     void spend(std::size_t points) {
-        constexpr std::uint64_t often = 1U << 16;
+        constexpr std::uint64_t often = 1U << 18;
         const std::uint64_t before = task_.work;
-        task_.work += points + 1;
+        task_.work += 2 * grid_.dimension() * (points + 1);
         if (before / often != task_.work / often) run_.check_stop();
     }
 
@@ -107,7 +108,8 @@ std::uint64_t explore_some(const BoxGrid& grid, Cells& cells, WorstBox& worst, s
 
 SearchResult search(const BoxGrid& grid, WorstBox worst, std::uint64_t max_work,
                     const RunContext& run) {
-    const std::uint64_t most = std::max<std::uint64_t>(1U << 22, 64 * grid.count);
+    const std::uint64_t most =
+        std::max<std::uint64_t>(1U << 24, 256 * grid.count * grid.dimension());
     Cells cells;
     cells.push(whole_cell(grid, Side::open));
     if (grid.measure == Measure::discrepancy) cells.push(whole_cell(grid, Side::closed));

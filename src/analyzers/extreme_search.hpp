@@ -13,8 +13,9 @@ struct SearchResult {
     bool complete;  ///< nothing is worse than the worst box
 };
 
-/// Searches on from a box found before; looks at about `max_work` points of lines and then gives
-/// up. Looks at open boxes alone for the largest empty box. Never depends on the number of threads.
+/// Searches on from a box found before; gives up after about `max_work` comparisons of
+/// coordinates. Looks at open boxes alone for the largest empty box. Never depends on the number of
+/// threads.
 SearchResult search(const BoxGrid& grid, WorstBox worst, std::uint64_t max_work,
                     const RunContext& run);
 
