@@ -65,16 +65,18 @@ struct Shape {
     std::size_t dimension() const { return mean.size(); }
     bool diagonal() const { return factor.size() == mean.size(); }
     double scale(std::size_t k) const { return factor[diagonal() ? k : k * dimension() + k]; }
-    double reach(std::size_t k) const;
+    double covariance(std::size_t i, std::size_t j) const;
+    /// Standard deviation of coordinate k.
+    double reach(std::size_t k) const { return std::sqrt(covariance(k, k)); }
 };
 
-/// Standard deviation of coordinate k.
-double Shape::reach(std::size_t k) const {
-    if (diagonal()) return factor[k];
-    double square = 0;
-    for (std::size_t j = 0; j <= k; ++j)
-        square += factor[k * dimension() + j] * factor[k * dimension() + j];
-    return std::sqrt(square);
+/// (L L^T)_ij.
+double Shape::covariance(std::size_t i, std::size_t j) const {
+    if (diagonal()) return i == j ? factor[i] * factor[i] : 0;
+    double sum = 0;
+    for (std::size_t k = 0; k <= std::min(i, j); ++k)
+        sum += factor[i * dimension() + k] * factor[j * dimension() + k];
+    return sum;
 }
 
 /// Phi(z), accurate in both tails.
@@ -119,6 +121,13 @@ class NormalDomain final : public Domain {
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         standardise(point, cube);
         for (double& x : cube) x = normal_below(x);
+    }
+    std::optional<Moments> moments() const override {
+        const std::size_t d = dimension();
+        Moments m{shape_.mean, std::vector<double>(d * d), std::vector<double>(d)};
+        for (std::size_t i = 0; i < d; ++i)
+            for (std::size_t j = 0; j < d; ++j) m.covariance[i * d + j] = shape_.covariance(i, j);
+        return m;
     }
     std::vector<std::string> cube_axes() const override {
         std::vector<std::string> axes;

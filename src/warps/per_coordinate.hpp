@@ -10,6 +10,7 @@
 //         bool contains(double x) const;
 //         double measure() const;                   // of all that it contains
 //         std::pair<double, double> range() const;  // what a picture shows
+//         LineMoments moments() const;              // if they are known
 //         double mass(double low, double high) const;   // only if places are not even
 //     };
 #pragma once
@@ -23,6 +24,7 @@
 
 #include "core/error.hpp"
 #include "core/wide.hpp"
+#include "math/law_moments.hpp"
 #include "warps/row_mapping.hpp"
 
 namespace stipple::warps {
@@ -75,6 +77,15 @@ class LineDomain final : public Domain {
                 product *= cell.extent(k);
         }
         return {product, 0};
+    }
+    std::optional<Moments> moments() const override {
+        if constexpr (requires { &Law::moments; }) {
+            std::vector<LineMoments> each;
+            for (const Law& law : laws_) each.push_back(law.moments());
+            return independent_moments(each);
+        } else {
+            return std::nullopt;
+        }
     }
     std::vector<std::string> cube_axes() const override {
         std::vector<std::string> axes;

@@ -8,9 +8,8 @@
 //         std::array<double, d> inverse(std::span<const double> point) const;   // if there is one
 //         bool keeps(const std::array<double, d>& xi) const;                    // if it drops some
 //         double density(std::span<const double> point) const;                  // if it is biased
-//         double start(const std::array<double, d>& xi) const;                  // if it has two
-//         std::array<double, m> finish(const std::array<double, d>& xi, double start) const; //
-//         steps
+//         double start(const std::array<double, d>& xi) const;      // if it has two steps
+//         std::array<double, m> finish(const std::array<double, d>& xi, double start) const;
 //     };
 //
 // A long forward() is quicker as finish(xi, start(xi)), each in a loop of its own: processors look

@@ -29,6 +29,7 @@
 #include <limits>
 #include <numbers>
 
+#include "math/law_moments.hpp"
 #include "math/roots.hpp"
 #include "math/trigonometry.hpp"
 #include "warps/placement.hpp"
@@ -185,6 +186,11 @@ class TorusDomain final : public Domain {
         const auto [tube, around] = torus_.shares(point);
         cube[0] = std::clamp(tube, 0.0, 1.0);
         cube[1] = around;
+    }
+    std::optional<Moments> moments() const override {
+        const double e = torus_.minor / torus_.major;
+        const AxialMoments round{.along = {0, 0.5 * e * e, 0}, .across = 0.5 + 0.75 * e * e};
+        return axial_moments(round, torus_.frame, torus_.center, torus_.major);
     }
     std::vector<std::string> cube_axes() const override {
         return {"area fraction around the tube", "angle around the axis in turns"};
