@@ -19,7 +19,8 @@
 //
 // --compare: beside the estimate by importance sampling with density p, that by uniform sampling
 // with the same points of the cube: x_i goes back to the cube by the domain's coordinates, in which
-// p is uniform, and from there to the box or hemisphere by its measure. Variances are those of one
+// p is uniform, and from there to the box, hemisphere or sphere by its measure. Where p is level,
+// on any domain, both are the same points. Variances are those of one
 // sample, f / p and measure x f, over the set; their ratio says how many times as many uniform
 // points would be needed, were they independent.
 //
@@ -76,7 +77,7 @@ constexpr Param<bool> compare{
     .name = "compare",
     .help =
         "Also integrate by uniform points, made from the same points of the cube, and compare "
-        "the variances; on boxes and hemispheres"};
+        "the variances; on boxes, hemispheres, lobes on the sphere, and where points are uniform"};
 
 struct Task {
     std::string name;
@@ -269,8 +270,12 @@ class Evaluation {
     void add_uniform(std::uint64_t i, std::span<const double> point) {
         cube_.resize(domain_.cube_dimension());
         even_.resize(point.size());
-        domain_.to_cube(point, cube_);
-        view_.uniform(cube_, even_);
+        if (view_.has_uniform()) {
+            domain_.to_cube(point, cube_);
+            view_.uniform(cube_, even_);
+        } else {  // the density is level: the point is uniform as it is
+            std::ranges::copy(point, even_.begin());
+        }
         const double measure = domain_.measure();
         each(even_, [&](std::size_t k, double value) {
             if (std::isfinite(measure * value))
@@ -320,7 +325,9 @@ Sums sums_over(const PointSet& points, const RegionView& view, const std::vector
 /// Whether the points are known to be independent of one another.
 bool independent(const PointSet& points) { return points.provenance.generator == "random"; }
 
-double ratio_of(double uniform, double importance) { return uniform / importance; }
+double ratio_of(double uniform, double importance) {
+    return uniform == importance ? 1 : uniform / importance;  // 0 / 0 where f is level, too
+}
 
 Report comparison(const std::vector<Task>& tasks, const Sums& sums) {
     Report all;
@@ -341,9 +348,12 @@ Report comparison(const std::vector<Task>& tasks, const Sums& sums) {
 void require_comparable(const PointSet& points, const RegionView& view) {
     if (points.count() < 2) fail(ErrorKind::input, "--compare: needs at least 2 points, not 1");
     if (view.has_uniform()) return;
-    fail(ErrorKind::input,
-         "--compare: no uniform points can be made on {}; it takes boxes and hemispheres",
-         points.domain->spec());
+    for (std::size_t i = 0; i < points.count(); ++i)
+        if (points.domain->contains(points[i]) && !view.level_at(points[i]))
+            fail(ErrorKind::input,
+                 "--compare: no uniform points can be made on {}; it takes boxes, hemispheres, "
+                 "lobes on the sphere, and domains that are uniform",
+                 points.domain->spec());
 }
 
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
@@ -389,8 +399,17 @@ void replicate(Report& mean, const std::string& name, std::span<const Report> se
     if (squares.count() > 0) mean.add("rms_error", std::sqrt(squares.mean()));
 }
 
+/// Of one set, the spread is not known.
+void combine_one(Report& mean) {
+    for (auto& entry : mean.entries()) {
+        auto* group = std::get_if<Report>(&entry.value);
+        if (group != nullptr && group->find("error"))
+            group->add("rms_error", std::abs(group->number("error")));
+    }
+}
+
 void combine(Report& mean, std::span<const Report> sets, const Values&) {
-    if (sets.size() < 2) return;
+    if (sets.size() < 2) return combine_one(mean);
     for (auto& [name, value, unit] : mean.entries()) {
         auto* group = std::get_if<Report>(&value);
         if (group == nullptr) continue;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Mean, variance, skewness and covariances of the coordinates, with standard errors, beside the
-// exact values of the domain where these are known in closed form:
+// exact values of the domain's law where these are known (exact.known says whether):
 //
 //     mean = (1/n) sum x,                           error sqrt(variance / n)
 //     variance = 1/(n - 1) sum (x - mean)^2,        error sqrt((m4 - m2^2 (n - 3)/(n - 1)) / n)
@@ -25,6 +25,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "analyzers/analyzer.hpp"
 #include "analyzers/cube_rows.hpp"
@@ -92,7 +93,9 @@ class Summation final : public Accumulator {
         const SampleAndErrors found = raw_->moments();
         Report report = report_of(found.value);
         report.add("standard_error", report_of(found.error));
-        if (const auto exact = domain_->moments()) report.add("exact", report_of(exact_of(*exact)));
+        const auto exact = domain_->moments();
+        Report law = exact ? report_of(exact_of(*exact)) : Report();
+        report.add("exact", std::move(law.add("known", exact.has_value())));
         if (cube_) report.add("cube", cube_report());
         return report;
     }
@@ -123,6 +126,7 @@ std::vector<ResultKey> results() {
     group("", "");
     group("standard_error.", "standard error: ");
     group("exact.", "of the domain's law, where a closed form is known: ");
+    keys.push_back({"exact.known", "whether the exact values of the domain's law are known"});
     group("cube.", "on the domain's cube: ");
     keys.push_back(
         {"cube.largest_z",

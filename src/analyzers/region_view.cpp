@@ -51,12 +51,19 @@ std::array<Vector, 3> axes_about(const Vector& z) {
         x, {z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0]}, z};
 }
 
+/// Laws of unit vectors whose cube is a share from the axis on and a longitude.
+bool on_the_sphere(std::string_view name) {
+    return name == "henyey-greenstein" || name == "von-mises-fisher";
+}
+
 }  // namespace
 
 RegionView::RegionView(const Domain& domain) : domain_(domain), box_(filled_box(domain)) {
     const std::string spec = domain.spec();
-    const bool hemisphere = spec.substr(0, spec.find(':')) == "hemisphere";
-    if (hemisphere && domain.dimension() == 3) axes_ = axes_about(axis_of(spec));
+    const std::string name = spec.substr(0, spec.find(':'));
+    if (domain.dimension() != 3) return;
+    if (name == "hemisphere") axes_ = axes_about(axis_of(spec));
+    if (on_the_sphere(name)) pole_ = axes_about(axis_of(spec));
 }
 
 bool RegionView::has(Region region) const {
@@ -81,7 +88,12 @@ void RegionView::see(Region region, std::span<const double> point, std::span<dou
     }
 }
 
-bool RegionView::has_uniform() const { return domain_.even() && (box_ || axes_); }
+bool RegionView::has_uniform() const { return domain_.even() && (box_ || axes_ || pole_); }
+
+bool RegionView::level_at(std::span<const double> point) const {
+    const double ratio = domain_.density(point) * domain_.measure();
+    return std::abs(ratio - 1) <= 1e-12;
+}
 
 void RegionView::uniform(std::span<const double> cube, std::span<double> point) const {
     if (box_) {
@@ -89,12 +101,14 @@ void RegionView::uniform(std::span<const double> cube, std::span<double> point) 
             point[k] = box_->low[k] + cube[k] * box_->extent(k);
         return;
     }
-    const double z = 1 - cube[0];
-    const double r = std::sqrt(cube[0] * (2 - cube[0]));
+    const auto& axes = axes_ ? *axes_ : *pole_;
+    const double drop = axes_ ? cube[0] : 2 * cube[0];
+    const double z = 1 - drop;
+    const double r = std::sqrt(drop * (2 - drop));
     const double turn = 2 * std::numbers::pi * cube[1];
     const Vector v{r * std::cos(turn), r * std::sin(turn), z};
     for (std::size_t k = 0; k < 3; ++k)
-        point[k] = v[0] * (*axes_)[0][k] + v[1] * (*axes_)[1][k] + v[2] * (*axes_)[2][k];
+        point[k] = v[0] * axes[0][k] + v[1] * axes[1][k] + v[2] * axes[2][k];
 }
 
 }  // namespace stipple::analyzers

@@ -27,12 +27,15 @@ class RegionView {
     /// A point of the domain in the coordinates of the region.
     void see(Region region, std::span<const double> point, std::span<double> seen) const;
 
-    /// Whether `uniform` can be asked.
+    /// Whether `uniform` can be asked: of boxes, hemispheres and lobes on the whole sphere.
     [[nodiscard]] bool has_uniform() const;
 
     /// The point of the domain that its measure alone, without its density, gives to a point of the
     /// unit cube.
     void uniform(std::span<const double> cube, std::span<double> point) const;
+
+    /// Whether the density at the point is 1 / measure.
+    [[nodiscard]] bool level_at(std::span<const double> point) const;
 
   private:
     using Vector = std::array<double, 3>;
@@ -40,6 +43,7 @@ class RegionView {
     const Domain& domain_;
     std::optional<Box> box_;                     ///< of a domain that fills it
     std::optional<std::array<Vector, 3>> axes_;  ///< of a hemisphere; the last one is its own
+    std::optional<std::array<Vector, 3>> pole_;  ///< the same, of a law on the whole sphere
 };
 
 }  // namespace stipple::analyzers

@@ -67,9 +67,10 @@ constexpr Param<std::int64_t> about{.name = "n-approx",
                                         "--count"};
 constexpr Param<Path> density{
     {.name = "density",
-     .help = "Picture (PNG) or array (NPY): points per area go by its values, none where it is 0. "
-             "The densest place has --radius; two points keep the smaller of their radii. In 2-D, "
-             "as the next three"}};
+     .help =
+         "Picture (PNG, PFM) or array (NPY): points per area go by its values, none where it is 0. "
+         "The densest place has --radius; two points keep the smaller of their radii. In 2-D, "
+         "as the next three"}};
 constexpr Param<Path> radius_map{
     {.name = "radius-map",
      .help = "Array (NPY) of radii; two points keep the smaller of theirs. Scaled to a least one "

@@ -3,8 +3,13 @@
 // A picture: every point a disk on a light ground, y upward, the longer side 1000 units. A disk's
 // radius is 0.15 of the mean distance sqrt(area / n), between 0.5 and 10 units.
 //
-// Shape   one set of 2-D points; extras are left out. Write only.
-// Beware  a tenth of a unit is what a point's place is cut to: for eyes, not for numbers.
+// Of more coordinates than two, every pair in a panel of its own, side by side for as many as make
+// one point: x_i to the right and x_j > x_i upward in column i and row j - 1. Each coordinate is
+// stretched to its panel: pixel, time and lens of one row have different units.
+//
+// Shape   one set of points of 2 to 8 coordinates; extras are left out. Write only.
+// Beware  a tenth of a unit is what a point's place is cut to: for eyes, not for numbers. Disks of
+//         d coordinates are d (d - 1) / 2 a point.
 // Source  W3C, Scalable Vector Graphics 1.1.
 #include <fmt/format.h>
 
@@ -20,25 +25,80 @@ namespace {
 constexpr double margin = 20;
 constexpr double longer_side = 1000;
 
-/// Where the points stand, and how they are scaled.
-struct Frame {
-    Box box;
-    double scale;
-    double width;
-    double height;
-    double radius;
+/// The panel of two coordinates: where it stands, and how points are scaled into it.
+struct Panel {
+    std::size_t i = 0;
+    std::size_t j = 1;
+    double left = margin;
+    double top = margin;
+    double width = longer_side;
+    double height = longer_side;
+    double low_x = 0;
+    double high_y = 1;
+    double scale_x = 1;
+    double scale_y = 1;
 };
 
-Frame frame_of(const Layout& layout) {
-    Box box{{0, 0}, {1, 1}};
-    if (!layout.provenance.bounds.empty()) box = parse_box(layout.provenance.bounds, 2);
-    if (layout.extent) box = *layout.extent;
+/// All panels, and the size of a disk.
+struct Sheet {
+    std::vector<Panel> panels;
+    double width = 0;
+    double height = 0;
+    double radius = 0;
+};
+
+Box box_of(const Layout& layout) {
+    if (layout.extent) return *layout.extent;
+    const std::size_t d = layout.dimension;
+    if (!layout.provenance.bounds.empty()) return parse_box(layout.provenance.bounds, d);
+    return {std::vector<double>(d, 0.0), std::vector<double>(d, 1.0)};
+}
+
+/// One panel that shows lengths along x and y alike.
+Panel only_panel(const Box& box) {
     const double side = std::max(box.extent(0), box.extent(1));
     const double scale = longer_side / (side > 0 ? side : 1);
-    const double width = box.extent(0) * scale;
-    const double height = box.extent(1) * scale;
+    return {.width = box.extent(0) * scale,
+            .height = box.extent(1) * scale,
+            .low_x = box.low[0],
+            .high_y = box.high[1],
+            .scale_x = scale,
+            .scale_y = scale};
+}
+
+Panel panel_of(const Box& box, std::size_t i, std::size_t j) {
+    const auto columns = static_cast<double>(box.dimension() - 1);
+    const double side = (longer_side - (columns - 1) * margin) / columns;
+    const auto scale = [&](std::size_t k) { return box.extent(k) > 0 ? side / box.extent(k) : 0; };
+    return {.i = i,
+            .j = j,
+            .left = margin + static_cast<double>(i) * (side + margin),
+            .top = margin + static_cast<double>(j - 1) * (side + margin),
+            .width = side,
+            .height = side,
+            .low_x = box.low[i],
+            .high_y = box.high[j],
+            .scale_x = scale(i),
+            .scale_y = scale(j)};
+}
+
+Sheet sheet_of(const Layout& layout) {
+    const Box box = box_of(layout);
+    Sheet sheet;
+    if (box.dimension() == 2) {
+        sheet.panels.push_back(only_panel(box));
+    } else {
+        for (std::size_t j = 1; j < box.dimension(); ++j)
+            for (std::size_t i = 0; i < j; ++i) sheet.panels.push_back(panel_of(box, i, j));
+    }
+    for (const Panel& panel : sheet.panels) {
+        sheet.width = std::max(sheet.width, panel.left + panel.width + margin);
+        sheet.height = std::max(sheet.height, panel.top + panel.height + margin);
+    }
     const auto n = static_cast<double>(std::max<std::uint64_t>(layout.counts.at(0), 1));
-    return {box, scale, width, height, std::clamp(0.15 * std::sqrt(width * height / n), 0.5, 10.0)};
+    const Panel& first = sheet.panels[0];
+    sheet.radius = std::clamp(0.15 * std::sqrt(first.width * first.height / n), 0.5, 10.0);
+    return sheet;
 }
 
 /// What a picture is called: letters that mean something to XML are left out.
@@ -50,34 +110,48 @@ std::string title_of(const Layout& layout) {
     return title;
 }
 
+/// What is on the axes of a panel, in the margin below it.
+std::string caption_of(const Layout& layout, const Panel& panel) {
+    const auto names = coordinate_names(layout.dimension);
+    return fmt::format(
+        "<text x=\"{:.6g}\" y=\"{:.6g}\" font-size=\"14\" fill=\"#555\">{} right, {} up</text>\n",
+        panel.left, panel.top + panel.height + 15, names[panel.i], names[panel.j]);
+}
+
 void head(const Layout& layout, std::string& out) {
-    const Frame frame = frame_of(layout);
-    const double width = frame.width + 2 * margin;
-    const double height = frame.height + 2 * margin;
+    const Sheet sheet = sheet_of(layout);
     out += fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.6g}\" height=\"{1:.6g}\" "
         "viewBox=\"0 0 {0:.6g} {1:.6g}\">\n"
         "<title>{2}</title>\n"
-        "<rect width=\"{0:.6g}\" height=\"{1:.6g}\" fill=\"#fcfcfa\"/>\n"
-        "<rect x=\"{3}\" y=\"{3}\" width=\"{4:.6g}\" height=\"{5:.6g}\" fill=\"#fff\" "
-        "stroke=\"#c8c8c4\"/>\n"
-        "<g fill=\"#1d4f91\">\n",
-        width, height, title_of(layout), margin, frame.width, frame.height);
+        "<rect width=\"{0:.6g}\" height=\"{1:.6g}\" fill=\"#fcfcfa\"/>\n",
+        sheet.width, sheet.height, title_of(layout));
+    for (const Panel& panel : sheet.panels) {
+        out += fmt::format(
+            "<rect x=\"{:.6g}\" y=\"{:.6g}\" width=\"{:.6g}\" height=\"{:.6g}\" fill=\"#fff\" "
+            "stroke=\"#c8c8c4\"/>\n",
+            panel.left, panel.top, panel.width, panel.height);
+        if (sheet.panels.size() > 1) out += caption_of(layout, panel);
+    }
+    out += "<g fill=\"#1d4f91\">\n";
 }
 
 void rows(const Layout& layout, std::size_t, std::uint64_t, std::span<const double> numbers,
           std::string& out) {
-    const Frame frame = frame_of(layout);
+    const Sheet sheet = sheet_of(layout);
     std::string close = "\" r=\"";
-    append_number(close, frame.radius, 2);
+    append_number(close, sheet.radius, 2);
     close += "\"/>\n";
-    for (std::size_t i = 0; i < numbers.size(); i += layout.width()) {
-        out += "<circle cx=\"";
-        append_number(out, margin + (numbers[i] - frame.box.low[0]) * frame.scale, 1);
-        out += "\" cy=\"";
-        append_number(out, margin + (frame.box.high[1] - numbers[i + 1]) * frame.scale, 1);
-        out += close;
-    }
+    for (std::size_t at = 0; at < numbers.size(); at += layout.width())
+        for (const Panel& panel : sheet.panels) {
+            const double x = numbers[at + panel.i] - panel.low_x;
+            const double y = panel.high_y - numbers[at + panel.j];
+            out += "<circle cx=\"";
+            append_number(out, panel.left + x * panel.scale_x, 1);
+            out += "\" cy=\"";
+            append_number(out, panel.top + y * panel.scale_y, 1);
+            out += close;
+        }
 }
 
 void tail(const Layout&, std::string& out) { out += "</g>\n</svg>\n"; }
@@ -91,7 +165,7 @@ Format svg() {
             .extensions = {".svg"},
             .traits = {.many_sets = false,
                        .counts_first = true,
-                       .max_dimension = 2,
+                       .max_dimension = 8,
                        .min_dimension = 2},
             .head = head,
             .rows = rows,

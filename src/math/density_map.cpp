@@ -192,7 +192,7 @@ void DensityMap::lay_out_guides() {
     }
 }
 
-DensityMap::Visit DensityMap::visit(double u, double v) const {
+inline DensityMap::Visit DensityMap::visit(double u, double v) const {
     const double mass = std::min(v * column_.back(), most_);
     const std::size_t bucket = column_buckets_.of(mass);
     const std::size_t row =
@@ -202,7 +202,7 @@ DensityMap::Visit DensityMap::visit(double u, double v) const {
             coordinate(row, fraction_before(column_, row, mass), height_)};
 }
 
-double DensityMap::across(const Visit& visit) const {
+inline double DensityMap::across(const Visit& visit) const {
     const auto sums = std::span(row_sums_).subspan(visit.row * width_, width_);
     const std::size_t cell =
         first_above(sums, row_guides_[visit.bucket], row_guides_[visit.bucket + 1], visit.wanted);
@@ -224,14 +224,16 @@ std::array<double, 2> DensityMap::place(double u, double v) const {
 
 /// In three steps, each some points ahead of the next, so that cells of many points are on their
 /// way from memory at a time.
-void DensityMap::place_all(std::span<const double> cube, std::span<double> image) const {
+[[gnu::flatten]] void DensityMap::place_all(std::span<const double> cube,
+                                            std::span<double> image) const {
     constexpr std::size_t ahead = 4;
     constexpr std::size_t ring = 16;  // a power of two above 2 * ahead
     std::array<Visit, ring> visits;
     const std::size_t count = cube.size() / 2;
     for (std::size_t i = 0; i < count + 2 * ahead; ++i) {
         if (i < count) {
-            Visit& next = visits[i % ring] = visit(cube[2 * i], cube[2 * i + 1]);
+            Visit& next = visits[i % ring];
+            next = visit(cube[2 * i], cube[2 * i + 1]);
             __builtin_prefetch(&row_guides_[next.bucket]);
         }
         if (i >= ahead && i - ahead < count) {

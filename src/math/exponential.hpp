@@ -61,7 +61,7 @@ constexpr double least_exponent = -708;
 }  // namespace detail
 
 /// exp(x) for x <= 709.
-inline double exponential(double x) {
+[[gnu::always_inline]] inline double exponential(double x) {
     const bool inside = x >= detail::least_exponent;
     const auto [power, high, low, square] =
         detail::exponential_parts(inside ? x : detail::least_exponent);
@@ -69,7 +69,7 @@ inline double exponential(double x) {
 }
 
 /// exp(x) - 1 for x <= 709.
-inline double exp_minus_1(double x) {
+[[gnu::always_inline]] inline double exp_minus_1(double x) {
     const bool inside = x >= detail::least_exponent;
     const auto [power, high, low, square] =
         detail::exponential_parts(inside ? x : detail::least_exponent);

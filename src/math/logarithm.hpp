@@ -92,10 +92,10 @@ inline Fraction fraction_of(double x) {
 }  // namespace detail
 
 /// log(x) for finite x > 0.
-inline double logarithm(double x) { return detail::log_near(x, 0); }
+[[gnu::always_inline]] inline double logarithm(double x) { return detail::log_near(x, 0); }
 
 /// log(1 + x) for finite x > -1, accurate also where 1 + x is rounded.
-inline double log_1p(double x) {
+[[gnu::always_inline]] inline double log_1p(double x) {
     const double sum = 1 + x;
     const double part = sum - 1;
     const double lost = (1 - (sum - part)) + (x - part);

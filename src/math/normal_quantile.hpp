@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "math/logarithm.hpp"
 
@@ -75,6 +76,19 @@ inline double normal_quantile(double q, double m) {
     return std::abs(q) <= 0.425 ? middle : tail;
 }
 
+/// The same for m of at least exp(-25) = 1.39e-11, without the far tail.
+[[gnu::always_inline]] inline double near_normal_quantile(double q, double m) {
+    const double middle = q * quantile_middle(0.180625 - q * q);
+    const double tail = std::copysign(quantile_tail(std::sqrt(-logarithm(m)) - 1.6), q);
+    return std::abs(q) <= 0.425 ? middle : tail;
+}
+
+/// p, but at least 2^-54, or its complement, but at least 2^-55.
+inline double bounded_tail(double p) {
+    const double least = p < 0.5 ? 0x1p-54 : 0x1p-55;
+    return std::max(std::min(p, 1 - p), least);
+}
+
 }  // namespace detail
 
 /// The x with Phi(x) = p, for p in (0, 1).
@@ -85,8 +99,10 @@ inline double normal_quantile(double p) {
 /// The same for p in [0, 1]. Below 2^-54, the middle of the step of random numbers at 0, p is taken
 /// as 2^-54: -8.2924. 1, which random numbers never are, is taken as 1 - 2^-55: 8.3744.
 inline double bounded_normal_quantile(double p) {
-    const double least = p < 0.5 ? 0x1p-54 : 0x1p-55;
-    return detail::normal_quantile(p - 0.5, std::max(std::min(p, 1 - p), least));
+    return detail::normal_quantile(p - 0.5, detail::bounded_tail(p));
 }
+
+/// The same for many numbers p, in place; the far tails, where few are, by themselves.
+void bounded_normal_quantiles(std::span<double> p);
 
 }  // namespace stipple

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "math/law_moments.hpp"
+
 namespace stipple {
 namespace {
 
@@ -174,6 +176,21 @@ double PolygonRows::row_at(const Slab& slab, double u) const {
     const double way = height_share(f, up ? low : high, up ? high : low) * slab.height();
     const double y = up ? slab.bottom + way : slab.top - way;
     return std::max(slab.bottom, std::min(y, slab.top));
+}
+
+Moments PolygonRows::moments() const {
+    MixedMoments all({0.5 * (box_.low[0] + box_.high[0]), 0.5 * (box_.low[1] + box_.high[1])});
+    for (const Slab& slab : slabs_)
+        for (const Part& part : parts_of(slab)) {
+            const std::vector<double> low = {part.left_bottom, slab.bottom};
+            const std::vector<double> high = {part.right_top, slab.top};
+            // Weights are widths at the sides: both triangles are as high.
+            all.add((part.right_bottom - part.left_bottom) * slab.height(),
+                    triangle_moments({low, {part.right_bottom, slab.bottom}, high}));
+            all.add((part.right_top - part.left_top) * slab.height(),
+                    triangle_moments({low, {part.left_top, slab.top}, high}));
+        }
+    return all.moments();
 }
 
 PlanePoint PolygonRows::forward(double u, double v) const {

@@ -47,6 +47,9 @@ class PolygonRows {
     /// Whether the point is inside, or within slack() of the rim.
     [[nodiscard]] bool contains(PlanePoint p) const;
 
+    /// Of the uniform law.
+    [[nodiscard]] Moments moments() const;
+
     [[nodiscard]] PlanePoint forward(double u, double v) const;
 
     /// Into the closed square, for points that it contains.

@@ -35,31 +35,54 @@ inline double nth_root(double value, std::size_t degree) {
     return std::ldexp(root, whole);
 }
 
-/// The cube root of any finite number, with its sign; no branch, so that loops are vectorised.
-inline double cube_root(double value) {
+namespace detail {
+
+/// size = t 8^(third - 341) with t in [1/2, 4), and a first guess of the cube root of t.
+struct CubeRootStart {
+    double t;
+    double root;          ///< within 2e-7 of itself
+    std::uint64_t third;  ///< 341 is a third of the exponent's bias 1023
+};
+
+/// For a number that is at least 2^-1022.
+[[gnu::always_inline]] inline CubeRootStart cube_root_start(double size) {
     constexpr double round = 0x1.8p52;  // adding it leaves the nearest whole number in the low bits
-    const double size = std::abs(value);
-    const bool tiny = size < 0x1p-1022;
-    const auto bits = std::bit_cast<std::uint64_t>(tiny ? size * 0x1p54 : size);
-    // size = t 8^(third - 341) with t in [1/2, 4); 341 is a third of the exponent's bias 1023.
+    const auto bits = std::bit_cast<std::uint64_t>(size);
     const std::uint64_t exponent = bits >> 52;
     const double sum =
         (std::bit_cast<double>(0x4330000000000000 | exponent) - 0x1p52) * (1 / 3.0) + round;
     const std::uint64_t third = std::bit_cast<std::uint64_t>(sum) & 0x7ff;
     const auto t = std::bit_cast<double>(bits - ((3 * third - 1023) << 52));
-
-    // Within 0.6 %, then by Halley's steps, each of which cubes the error. The last one starts from
-    // 26 bits, whose square is exact.
-    double y = 0.541053 + t * (0.578653 + t * (-0.137501 + t * 0.0146881));
+    // Within 0.6 %, then by a step of Halley's, which cubes the error.
+    const double y = 0.541053 + t * (0.578653 + t * (-0.137501 + t * 0.0146881));
     const double cube = y * y * y;
-    y = y * (cube + 2 * t) / (2 * cube + t);
-    y = std::bit_cast<double>(std::bit_cast<std::uint64_t>(y) & ~0x7ffffffULL);
+    return {t, y * (cube + 2 * t) / (2 * cube + t), third};
+}
+
+inline double cube_root_power(std::uint64_t third) {
+    return std::bit_cast<double>((third + 1023 - 341) << 52);
+}
+
+}  // namespace detail
+
+/// The cube root of any finite number, with its sign; no branch, so that loops are vectorised.
+inline double cube_root(double value) {
+    const double size = std::abs(value);
+    const bool tiny = size < 0x1p-1022;
+    const auto [t, near, third] = detail::cube_root_start(tiny ? size * 0x1p54 : size);
+    // The last step starts from 26 bits, whose square is exact.
+    double y = std::bit_cast<double>(std::bit_cast<std::uint64_t>(near) & ~0x7ffffffULL);
     const double ratio = t / (y * y);
     y += y * ((ratio - y) / (2 * y + ratio));
-
-    const auto power = std::bit_cast<double>((third + 1023 - 341) << 52);
+    const double power = detail::cube_root_power(third);
     const double root = y * (tiny ? power * 0x1p-18 : power);
     return std::copysign(size > 0 ? root : 0, value);
+}
+
+/// The cube root of a number that is at least 2^-1022, within 2e-7 of itself: for a start.
+inline double rough_cube_root(double value) {
+    const auto [t, root, third] = detail::cube_root_start(value);
+    return root * detail::cube_root_power(third);
 }
 
 }  // namespace stipple

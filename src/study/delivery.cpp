@@ -272,7 +272,7 @@ RunContext lane(const RunContext& run, std::size_t set, std::size_t sets) {
 
 void tell_kept(std::uint64_t count, std::uint64_t kept, const WarpChain& chain,
                const RunContext& run) {
-    if (chain.drops())
+    if (chain.drops() && kept < count)
         run.tell(
             fmt::format("kept {} of {} points (efficiency {:.3g}): the others have no image "
                         "under {}",

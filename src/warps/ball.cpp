@@ -22,6 +22,7 @@
 #include <limits>
 #include <numbers>
 
+#include "math/law_moments.hpp"
 #include "math/polar_direction.hpp"
 #include "math/roots.hpp"
 #include "warps/placement.hpp"
@@ -63,6 +64,10 @@ class BallDomain final : public Domain {
     Box bounding_box() const override { return sphere_.bounding_box(); }
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         std::ranges::copy(shares(sphere_.unit(point)), cube.begin());
+    }
+    std::optional<Moments> moments() const override {
+        const AxialMoments unit{.along = {0, 0.2, 0}, .across = 0.2};
+        return axial_moments(unit, {}, sphere_.center, sphere_.radius);
     }
     std::vector<std::string> cube_axes() const override {
         return {"volume fraction r^3/R^3", "share of the shell (1 - z/r) / 2",

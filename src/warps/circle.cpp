@@ -25,6 +25,7 @@
 #include <numbers>
 
 #include "core/spec.hpp"
+#include "math/law_moments.hpp"
 #include "math/trigonometry.hpp"
 #include "warps/placement.hpp"
 #include "warps/row_mapping.hpp"
@@ -89,6 +90,10 @@ class CircleDomain final : public Domain {
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         const auto [x, y] = ring_.unit(point);
         cube[0] = turns_of(x, y);
+    }
+    std::optional<Moments> moments() const override {
+        const PlanePlace at{{ring_.center[0], ring_.center[1]}, ring_.radius};
+        return placed_moments({.xx = 0.5, .yy = 0.5}, at);
     }
     std::vector<std::string> cube_axes() const override { return {"angle in turns"}; }
 

@@ -99,6 +99,16 @@ struct Drawn {
     std::pair<double, double> range() const {
         return {of->value[of->order.front()], of->value[of->order.back()]};
     }
+    LineMoments moments() const {
+        LineMoments m;
+        for (std::size_t i = 0; i < of->count(); ++i) m.mean += of->probability[i] * of->value[i];
+        for (std::size_t i = 0; i < of->count(); ++i) {
+            const double from = of->value[i] - m.mean;
+            m.variance += of->probability[i] * from * from;
+            m.third += of->probability[i] * from * from * from;
+        }
+        return m;
+    }
     /// Probability of the outcomes whose places are in [low, high).
     double mass(double low, double high) const {
         double sum = 0;

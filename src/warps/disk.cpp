@@ -34,6 +34,7 @@
 #include "core/spec.hpp"
 #include "core/wide.hpp"
 #include "math/disk_maps.hpp"
+#include "math/law_moments.hpp"
 #include "warps/inside.hpp"
 #include "warps/warp.hpp"
 
@@ -97,6 +98,9 @@ class DiskDomain final : public Domain {
         const auto [x, y] = in_unit_disk(point);
         cube[0] = std::min(x * x + y * y, 1.0);
         cube[1] = turns_of(x, y);
+    }
+    std::optional<Moments> moments() const override {
+        return placed_moments({.xx = 0.25, .yy = 0.25}, {center_, radius_});
     }
     std::vector<std::string> cube_axes() const override {
         return {"area fraction r^2/R^2", "angle in turns"};

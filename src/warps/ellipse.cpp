@@ -86,6 +86,7 @@ struct Ellipse {
         }
         return points;
     }
+    PlaneMoments moments() const { return {.xx = 0.25 * a * a, .yy = 0.25 * b * b}; }
     std::vector<std::string> axes() const {
         return {"area fraction", "angle in turns on the unit disk"};
     }

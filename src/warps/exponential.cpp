@@ -49,6 +49,7 @@ struct Decay {
     double density(double x) const { return contains(x) ? rate * std::exp(-rate * x) : 0; }
     bool contains(double x) const { return x >= 0 && std::isfinite(x); }
     double measure() const { return std::numeric_limits<double>::infinity(); }
+    LineMoments moments() const { return {1 / rate, 1 / (rate * rate), 2 / (rate * rate * rate)}; }
     std::pair<double, double> range() const { return {0, 10 / rate}; }
 };
 

@@ -25,6 +25,7 @@
 #include "core/error.hpp"
 #include "core/spec.hpp"
 #include "math/density_map.hpp"
+#include "math/law_moments.hpp"
 #include "warps/warp.hpp"
 
 namespace stipple::warps {
@@ -61,6 +62,18 @@ class ImageDomain final : public Domain {
         const auto [u, v] = map_.find(point[0], point[1]);
         cube[0] = u;
         cube[1] = v;
+    }
+    std::optional<Moments> moments() const override {
+        const auto w = static_cast<double>(map_.width());
+        const auto h = static_cast<double>(map_.height());
+        Moments pixel{{0, 0}, {1 / (12 * w * w), 0, 0, 1 / (12 * h * h)}, {0, 0}};
+        MixedMoments all({0.5, 0.5});
+        for (std::size_t i = 0; i < map_.values().size(); ++i) {
+            pixel.mean = {(static_cast<double>(i % map_.width()) + 0.5) / w,
+                          (static_cast<double>(i / map_.width()) + 0.5) / h};
+            all.add(map_.values()[i], pixel);
+        }
+        return all.moments();
     }
     std::vector<std::string> cube_axes() const override {
         return {"share of the row's mass left of x", "share of the mass below y"};

@@ -7,6 +7,7 @@
 //         Tilt forward(double u) const;           // cosine and sine of theta
 //         double share(double v, double c) const; // u, from v = 1 - cos theta and c = 1 + cos
 //         theta double density(double v, double c) const;   // by solid angle
+//         AxialMoments moments() const;
 //     };
 //
 // v and c are both given since each loses digits where the other is small.
@@ -18,6 +19,7 @@
 #include <string>
 #include <utility>
 
+#include "math/law_moments.hpp"
 #include "math/trigonometry.hpp"
 #include "math/vector3.hpp"
 #include "warps/row_mapping.hpp"
@@ -71,6 +73,9 @@ class LobeDomain final : public Domain {
         const auto [v, c] = versines_of(local);
         cube[0] = std::clamp(lobe_.share(v, c), 0.0, 1.0);
         cube[1] = turns_of(local[0], local[1]);
+    }
+    std::optional<Moments> moments() const override {
+        return axial_moments(lobe_.moments(), frame_);
     }
     std::vector<std::string> cube_axes() const override {
         return {"probability of the cone about the axis", "longitude in turns"};

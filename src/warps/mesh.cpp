@@ -27,6 +27,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "math/law_moments.hpp"
 #include "math/triangle_mesh.hpp"
 #include "math/triangle_tree.hpp"
 #include "warps/placement.hpp"
@@ -184,6 +185,19 @@ class MeshDomain final : public Domain {
     }
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         std::ranges::copy(find(point).value_or(Pair{}), cube.begin());
+    }
+    std::optional<Moments> moments() const override {
+        if (gives_ != Gives::position) return std::nullopt;
+        const Box box = positions();
+        MixedMoments all(box.low);
+        for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+            const auto [a, b, c] = mesh_.corners(i);
+            all.add(length(cross(minus(b, a), minus(c, a))),
+                    triangle_moments({std::vector<double>{a.begin(), a.end()},
+                                      {b.begin(), b.end()},
+                                      {c.begin(), c.end()}}));
+        }
+        return all.moments();
     }
     std::vector<std::string> cube_axes() const override {
         return {"share of the area in the order of the file", "place between corners 2 and 1"};

@@ -33,6 +33,7 @@
 #include "core/rng.hpp"
 #include "core/spec.hpp"
 #include "core/text.hpp"
+#include "math/law_moments.hpp"
 #include "math/normal_quantile.hpp"
 #include "math/running_sums.hpp"
 #include "math/trigonometry.hpp"
@@ -115,6 +116,15 @@ class MixtureDomain final : public Domain {
     Estimate probability(const Box& cell) const override {
         std::vector<double> at(cube_dimension());
         return integral(cell, at, 0);
+    }
+    std::optional<Moments> moments() const override {
+        MixedMoments all(std::vector<double>(dimension(), 0.0));
+        for (std::size_t i = 0; i < parts_.size(); ++i) {
+            const auto part = parts_[i]->moments();
+            if (!part) return std::nullopt;
+            all.add(weights_[i], *part);
+        }
+        return all.moments();
     }
     std::vector<std::string> cube_axes() const override {
         if (directions() && dimension() == 3) return {"(1 - z) / 2", "longitude in turns"};

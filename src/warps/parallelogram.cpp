@@ -111,6 +111,17 @@ class ParallelogramDomain final : public Domain {
         cube[0] = std::clamp(s, 0.0, 1.0);
         cube[1] = std::clamp(t, 0.0, 1.0);
     }
+    std::optional<Moments> moments() const override {
+        const std::size_t d = dimension_;
+        Moments m{std::vector<double>(d), std::vector<double>(d * d), std::vector<double>(d)};
+        for (std::size_t k = 0; k < d; ++k) {
+            m.mean[k] = corner_[k] + 0.5 * (edges_[0][k] + edges_[1][k]);
+            for (std::size_t j = 0; j < d; ++j)
+                m.covariance[k * d + j] =
+                    (edges_[0][k] * edges_[0][j] + edges_[1][k] * edges_[1][j]) / 12;
+        }
+        return m;
+    }
     std::vector<std::string> cube_axes() const override {
         return {"place along the first edge", "place along the second edge"};
     }

@@ -10,6 +10,7 @@
 //         bool contains(double x) const;
 //         double measure() const;                   // of all that it contains
 //         std::pair<double, double> range() const;  // what a picture shows
+//         LineMoments moments() const;              // if they are known
 //         double mass(double low, double high) const;   // only if places are not even
 //     };
 #pragma once
@@ -23,6 +24,7 @@
 
 #include "core/error.hpp"
 #include "core/wide.hpp"
+#include "math/law_moments.hpp"
 #include "warps/row_mapping.hpp"
 
 namespace stipple::warps {
@@ -76,6 +78,15 @@ class LineDomain final : public Domain {
         }
         return {product, 0};
     }
+    std::optional<Moments> moments() const override {
+        if constexpr (requires { &Law::moments; }) {
+            std::vector<LineMoments> each;
+            for (const Law& law : laws_) each.push_back(law.moments());
+            return independent_moments(each);
+        } else {
+            return std::nullopt;
+        }
+    }
     std::vector<std::string> cube_axes() const override {
         std::vector<std::string> axes;
         for (std::size_t k = 0; k < laws_.size(); ++k)
@@ -94,16 +105,17 @@ class LineDomain final : public Domain {
 };
 
 // The law is taken by value: what is written to the image cannot change it, so that its constants
-// stay in registers.
+// stay in registers. All calls are inlined: one that is not keeps the loop from being widened.
 template <class Law>
-STIPPLE_WIDE void map_numbers(const Law law, std::span<const double> cube,
-                              std::span<double> image) {
+STIPPLE_WIDE [[gnu::flatten]] void map_numbers(const Law law, std::span<const double> cube,
+                                               std::span<double> image) {
     for (std::size_t i = 0; i < cube.size(); ++i) image[i] = law.forward(cube[i]);
 }
 
 template <class Law>
-STIPPLE_WIDE void map_column(const Law law, std::span<const double> cube, std::span<double> image,
-                             std::size_t first, std::size_t step) {
+STIPPLE_WIDE [[gnu::flatten]] void map_column(const Law law, std::span<const double> cube,
+                                              std::span<double> image, std::size_t first,
+                                              std::size_t step) {
     for (std::size_t i = first; i < cube.size(); i += step) image[i] = law.forward(cube[i]);
 }
 

@@ -13,6 +13,7 @@
 //     std::vector<PlanePoint> hull() const             points whose box is the shape's, once
 //     turned;
 //                                                      `turn` is given in turns
+//     PlaneMoments moments() const                     of its uniform law, in its own frame
 //     std::vector<std::string> axes() const            what its coordinates u and v mean
 //
 // Promise points lie in the closed shape up to 16 epsilon (R + |cx| + |cy|): the rounding of a
@@ -29,6 +30,7 @@
 
 #include "core/options.hpp"
 #include "core/wide.hpp"
+#include "math/law_moments.hpp"
 #include "math/plane_point.hpp"
 #include "math/trigonometry.hpp"
 #include "warps/inside.hpp"
@@ -103,6 +105,9 @@ class PlacedDomain final : public Domain {
         const auto [u, v] = shape_.inverse(x, y);
         cube[0] = std::clamp(u, 0.0, 1.0);
         cube[1] = std::clamp(v, 0.0, 1.0);
+    }
+    std::optional<Moments> moments() const override {
+        return placed_moments(shape_.moments(), {at_.center, at_.size, at_.cos, at_.sin});
     }
     std::vector<std::string> cube_axes() const override { return shape_.axes(); }
 

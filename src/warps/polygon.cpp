@@ -152,6 +152,7 @@ class PolygonDomain final : public Domain {
         cube[0] = u;
         cube[1] = v;
     }
+    std::optional<Moments> moments() const override { return rows_.moments(); }
     std::vector<std::string> cube_axes() const override {
         return {"area fraction below", "place along the row"};
     }

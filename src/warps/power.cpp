@@ -18,14 +18,17 @@
 //         an even k; one that contains 0 needs k > -1.
 // Strata  xi is taken as it is, not as 1 - xi: xi = 0 is a, and strata become intervals of equal
 //         probability in the same order.
-// Cost    O(1) a coordinate; on one core about 4 ns for k = 1 and 2, 33 ns for others.
+// Cost    O(1) a coordinate; on one core about 1 ns for k = 1, 4 for k = 2, 10 for others.
 // Promise x in [a, b]. Forward and back again is the same xi within 1e-14 (1 + |k| / 10), times
 //         1 + |log(b / a)| where the range does not contain 0, and max(|a|, |b|) / (b - a). The
 //         same bits on every machine.
 
+#include <array>
+#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "math/law_moments.hpp"
 #include "math/logarithm.hpp"
 #include "math/real_power.hpp"
 #include "math/roots.hpp"
@@ -86,7 +89,54 @@ struct Interval {
     double density(double x) const {
         return contains(x) ? peak * std::pow(std::abs(x) / size, p - 1) : 0;
     }
+    LineMoments moments() const;
+
+  private:
+    /// E (x / unit)^n times a constant, of an interval on one side of 0; `other` is the end that is
+    /// not 1.
+    static double one_sided_sum(double s, double other) {
+        if (other == 0) return 1 / s;
+        return std::abs(s == 0 ? std::log(other) : std::expm1(s * std::log(other)) / s);
+    }
+    double two_sided_sum(double s, double sign) const {
+        return (std::pow(b / size, s) + sign * std::pow(-a / size, s)) / s;
+    }
+    LineMoments narrow_moments() const;
 };
+
+/// By Gauss's rule, where the ends are so near each other that powers would lose digits.
+LineMoments Interval::narrow_moments() const {
+    using Rule = boost::math::quadrature::gauss<double, 15>;
+    const double middle = 0.5 * (a + b);
+    const auto sum = [&](int n, double about) {
+        return Rule::integrate(
+            [&](double x) {
+                return std::pow(x - about, n) * std::pow(std::abs(x / middle), p - 1);
+            },
+            a, b);
+    };
+    const double mass = sum(0, 0);
+    const double mean = middle + sum(1, middle) / mass;
+    return {mean, sum(2, mean) / mass, sum(3, mean) / mass};
+}
+
+LineMoments Interval::moments() const {
+    const bool around_0 = a < 0 && b > 0;
+    const double near = std::min(std::abs(a), std::abs(b));
+    if (!around_0 && near > 0.5 * size && std::abs(p) * std::log(size / near) < 1)
+        return narrow_moments();
+    const double unit = around_0 || p > 0 ? size : near;  // the end where the density is larger
+    const double other = (p > 0 ? near : size) / unit;
+    const double sign = b <= 0 ? -1 : 1;
+    std::array<double, 4> sums;
+    for (int n = 0; n < 4; ++n)
+        sums[static_cast<std::size_t>(n)] =
+            around_0 ? two_sided_sum(p + n, n % 2 == 0 ? 1 : -1) : one_sided_sum(p + n, other);
+    const double m = sums[1] / sums[0];
+    const double mm = sums[2] / sums[0];
+    const double third = sums[3] / sums[0] - 3 * m * mm + 2 * m * m * m;
+    return {sign * unit * m, unit * unit * (mm - m * m), sign * unit * unit * unit * third};
+}
 
 /// An interval on one side of 0, measured from its heavier end.
 template <Root root>

@@ -96,6 +96,12 @@ class RegularPolygon {
         return x * nx + y * ny - apothem_;
     }
 
+    /// The same in all directions: of the second order always, of the third from 4 sides on.
+    PlaneMoments moments() const {
+        const double across = (2 + (*vertices_)[1].x) / 12;
+        const double third = n_ == 3 ? 0.025 : 0;
+        return {.xx = across, .yy = across, .xxx = third, .xyy = -third};
+    }
     std::vector<PlanePoint> hull(double /*turn*/) const { return *vertices_; }
     std::vector<std::string> axes() const {
         return {"area fraction within a polygon of the same shape", "way around it"};

@@ -39,6 +39,28 @@ std::vector<PlanePoint> RingSector::hull(double turn) const {
     return points;
 }
 
+/// E r^n times the means of cos^i sin^j between the sides, i + j = n.
+PlaneMoments RingSector::moments() const {
+    const double q = inner;
+    const double r = 2 / 3.0 * (1 + q + q * q) / (1 + q);
+    const double rr = 0.5 * (1 + q * q);
+    const double rrr = 0.4 * (1 + q * (1 + q * (1 + q * (1 + q)))) / (1 + q);
+    const double angle = 2 * std::numbers::pi * width;
+    const auto [c, s] = cos_sin_turns(width);
+    const double less = 1 - c;
+    const double less_cube = less * (1 + c + c * c);  // 1 - c^3
+    const double half = 0.5 * c * s / angle;
+    const PlaneMoments raw{.mean = {r * s / angle, r * less / angle},
+                           .xx = rr * (0.5 + half),
+                           .xy = rr * 0.5 * s * s / angle,
+                           .yy = rr * (0.5 - half),
+                           .xxx = rrr * (s - s * s * s / 3) / angle,
+                           .xxy = rrr * less_cube / 3 / angle,
+                           .xyy = rrr * s * s * s / 3 / angle,
+                           .yyy = rrr * (less - less_cube / 3) / angle};
+    return about_the_mean(raw);
+}
+
 std::vector<std::string> RingSector::axes() const {
     const std::string area =
         inner > 0 ? "area fraction (r^2-q^2)/(R^2-q^2)" : "area fraction r^2/R^2";

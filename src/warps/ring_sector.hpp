@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "math/law_moments.hpp"
 #include "math/plane_point.hpp"
 #include "math/trigonometry.hpp"
 
@@ -45,6 +46,7 @@ struct RingSector {
     [[nodiscard]] double area() const;
     [[nodiscard]] double beyond(double x, double y) const;
     [[nodiscard]] std::vector<PlanePoint> hull(double turn) const;
+    [[nodiscard]] PlaneMoments moments() const;
     [[nodiscard]] std::vector<std::string> axes() const;
 };
 

@@ -26,6 +26,7 @@
 
 #include <numbers>
 
+#include "math/law_moments.hpp"
 #include "math/polar_direction.hpp"
 #include "warps/placement.hpp"
 #include "warps/row_mapping.hpp"
@@ -76,6 +77,9 @@ class SphereDomain final : public Domain {
         const Vector3 v = sphere_.unit(point);
         cube[0] = 0.5 * drop_of(v);
         cube[1] = turns_of(v[0], v[1]);
+    }
+    std::optional<Moments> moments() const override {
+        return axial_moments(direction_moments(0, 1 / 3.0, 0), {}, sphere_.center, sphere_.radius);
     }
     std::vector<std::string> cube_axes() const override {
         return {"area fraction (1 - z/R) / 2", "longitude in turns"};

@@ -25,6 +25,7 @@
 #include "core/error.hpp"
 #include "core/spec.hpp"
 #include "core/wide.hpp"
+#include "math/law_moments.hpp"
 #include "warps/inside.hpp"
 #include "warps/warp.hpp"
 
@@ -109,6 +110,11 @@ class TentDomain final : public Domain {
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         for (std::size_t k = 0; k < axes_.size(); ++k)
             cube[k] = unit_of((point[k] - axes_[k].center) / axes_[k].radius);
+    }
+    std::optional<Moments> moments() const override {
+        std::vector<LineMoments> each;
+        for (const auto& [r, c] : axes_) each.push_back({c, r * r / 6, 0});
+        return independent_moments(each);
     }
     std::vector<std::string> cube_axes() const override {
         std::vector<std::string> names;

@@ -8,25 +8,28 @@
 //     (R theta + r sin theta) / (2 pi R) = xi0
 //
 // With E = pi - theta, M = pi - 2 pi xi0 and e = r / R <= 1 that is Kepler's equation
-// E - e sin E = M. For M in [0, pi] its left side is convex, so that Newton's steps fall to the
-// root from any start above; they end when one was so small that no other would count. E - sin E is
-// summed as a power series below 1, so that no digits are lost where e is near 1.
+// E - e sin E = M. Markley's rational approximation of the sine makes it a cubic equation, whose
+// root is within 1e-3 of E, and one step of fifth order does the rest. E - sin E is summed as a
+// power series below 1/2, so that no digits are lost where e is near 1.
 //
 // Shape   2 unit coordinates, 3 coordinates; r <= R.
 // Strata  xi0 turns around the tube, from the outermost point upwards and in; xi1 turns from x
 //         towards y when the axis is z; both as they are, not as 1 - xi. Strata become rectangles
 //         bent around the tube, longer inside.
-// Cost    O(1) a point; on one core about 190 ns forward, 80 ns back.
+// Cost    O(1) a point; on one core about 27 ns forward, 80 ns back.
 // Promise density 1 / (4 pi^2 R r). Points lie on the surface up to the rounding stated at
 //         contains(). Forward and back again is the same point within 1e-14 of |c| + R. The same
 //         bits on every machine.
 // Beware  uniform angles are not uniform by area: they are dense inside.
 // Source  P. Diaconis, S. Holmes, M. Shahshahani, "Sampling from a manifold", IMS Collections 10
 //         (2013) 102-125, doi:10.1214/12-IMSCOLL1006 (the density; inverted here, not rejected).
+//         F. L. Markley, "Kepler equation solver", Celestial Mechanics and Dynamical Astronomy 63
+//         (1995) 101-111, doi:10.1007/BF00691917.
 
 #include <limits>
 #include <numbers>
 
+#include "math/law_moments.hpp"
 #include "math/roots.hpp"
 #include "math/trigonometry.hpp"
 #include "warps/placement.hpp"
@@ -36,6 +39,7 @@ namespace stipple::warps {
 namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
+constexpr double least = 1e-150;  ///< in place of a divisor that is 0
 
 constexpr Param<double> major_radius{.name = "major-radius",
                                      .fallback = 1,
@@ -55,19 +59,17 @@ const Schema& schema() {
 }
 
 /// E - sin E for E in [0, pi], to its last digits.
-double less_sine(double angle, double sine) {
-    if (angle >= 1) return angle - sine;
+inline double less_sine(double angle, double sine) {
     const double z = angle * angle;
-    double sum = -1 / 121645100408832000.0;  // 1/19!, then 1/17!, ...
-    sum = sum * z + 1 / 355687428096000.0;
-    sum = sum * z - 1 / 1307674368000.0;
+    double sum = -1 / 1307674368000.0;  // 1/15!, then 1/13!, ...
     sum = sum * z + 1 / 6227020800.0;
     sum = sum * z - 1 / 39916800.0;
     sum = sum * z + 1 / 362880.0;
     sum = sum * z - 1 / 5040.0;
     sum = sum * z + 1 / 120.0;
     sum = sum * z - 1 / 6.0;
-    return 0 - angle * z * sum;
+    const double series = 0 - angle * z * sum;
+    return angle >= 0.5 ? angle - sine : series;
 }
 
 struct Torus {
@@ -102,23 +104,50 @@ struct Torus {
         return (major - minor) / major * angle + minor / major * less_sine(angle, s);
     }
 
-    /// The angle in turns whose mean anomaly is M in [0, pi]; Newton's steps from above.
-    double eccentric_turns(double mean) const {
+    /// Markley's start for the angle in [0, pi] whose mean anomaly is M in [0, pi].
+    double first_angle(double mean) const {
+        constexpr double pi = std::numbers::pi;
         const double e = minor / major;
         const double lacks = (major - minor) / major;
-        // E - sin E >= E^3 / pi^2 bounds it where e is near 1.
-        const double cubic = cube_root(std::numbers::pi * std::numbers::pi * mean / e);
-        double turns = std::min({mean + e, cubic, std::numbers::pi}) / two_pi;
-        for (bool more = turns > 0; more;) {
-            const auto [c, s] = cos_sin_turns(0.5 * turns);
-            const double angle = two_pi * turns;
-            const double excess = lacks * angle + e * less_sine(angle, 2 * s * c) - mean;
-            const double step = excess / ((lacks + 2 * e * s * s) * two_pi);
-            // Each step squares what is left.
-            more = step > 1e-9 * turns;
-            turns = std::max(turns - step, 0.0);
-        }
-        return turns;
+        constexpr double share = 1 / (pi * pi - 6);
+        const double alpha = 3 * pi * pi * share + 1.6 * pi * share / (1 + e) * (pi - mean);
+        const double d = 3 * lacks + alpha * e;
+        const double q = 2 * alpha * d * lacks - mean * mean;
+        const double r = mean * (3 * alpha * d * (d - lacks) + mean * mean);
+        const double root =
+            rough_cube_root(std::max(r + std::sqrt(std::max(q * q * q + r * r, 0.0)), least));
+        const double w = root * root;
+        // 0 / 0 for M = 0 and e = 1.
+        const double below = std::max(w * w + w * q + q * q, least);
+        return std::min((2 * r * w + mean * below) / (below * d), pi);
+    }
+
+    /// Cosine and sine of half the angle whose mean anomaly is M in [0, pi].
+    CosSin half_angle(double mean, double angle) const {
+        const double e = minor / major;
+        const double lacks = (major - minor) / major;
+        const auto [c, s] = cos_sin_turns(0.25 * std::numbers::inv_pi * angle);
+        const double sine = 2 * s * c;
+        const double excess = lacks * angle + e * less_sine(angle, sine) - mean;
+        // The left side about the angle is the excess plus first (x + a x^2 + b x^3 + ...).
+        const double inverse = 1 / std::max(lacks + 2 * e * s * s, least);
+        const double sines = e * sine * inverse;
+        const double cosines = e * (1 - 2 * s * s) * inverse;
+        const double a = sines * (1 / 2.0);
+        const double b = cosines * (1 / 6.0);
+        const double wanted = 0 - excess * inverse;
+        const double near = wanted * (1 - wanted * (a - wanted * (2 * a * a - b)));
+        const double rest = near * (b - near * (sines * (1 / 24.0) + near * cosines * (1 / 120.0)));
+        const double miss = near * (1 + near * (a + rest)) - wanted;
+        const double step = near - miss * (1 - 2 * a * near);
+        // On by half of the step, which is below 1e-3: by the power series.
+        const double h = 0.5 * step;
+        const double hh = h * h;
+        const double sine_h = h * (1 - hh * (1 / 6.0) * (1 - hh * (1 / 20.0)));
+        const double less_h = 0.5 * hh * (1 - hh * (1 / 12.0));
+        const bool outermost = mean >= std::numbers::pi;
+        const double cosine = std::max(c - (s * sine_h + c * less_h), 0.0);
+        return {outermost ? 0 : cosine, outermost ? 1 : s + (c * sine_h - s * less_h)};
     }
 
     std::array<double, 2> shares(std::span<const double> point) const {
@@ -158,6 +187,11 @@ class TorusDomain final : public Domain {
         cube[0] = std::clamp(tube, 0.0, 1.0);
         cube[1] = around;
     }
+    std::optional<Moments> moments() const override {
+        const double e = torus_.minor / torus_.major;
+        const AxialMoments round{.along = {0, 0.5 * e * e, 0}, .across = 0.5 + 0.75 * e * e};
+        return axial_moments(round, torus_.frame, torus_.center, torus_.major);
+    }
     std::vector<std::string> cube_axes() const override {
         return {"area fraction around the tube", "angle around the axis in turns"};
     }
@@ -170,16 +204,18 @@ class TorusDomain final : public Domain {
 struct ByArea {
     Torus torus;
 
-    Vector3 forward(const std::array<double, 2>& xi) const {
-        const bool below = xi[0] > 0.5;
-        const double from_inside = below ? xi[0] - 0.5 : 0.5 - xi[0];
-        const double turns = torus.eccentric_turns(two_pi * from_inside);
-        const auto [c, s] = cos_sin_turns(0.5 * turns);
+    static double mean_anomaly(double xi0) { return two_pi * (xi0 > 0.5 ? xi0 - 0.5 : 0.5 - xi0); }
+    Vector3 forward(const std::array<double, 2>& xi) const { return finish(xi, start(xi)); }
+    double start(const std::array<double, 2>& xi) const {
+        return torus.first_angle(mean_anomaly(xi[0]));
+    }
+    Vector3 finish(const std::array<double, 2>& xi, double angle) const {
+        const auto [c, s] = torus.half_angle(mean_anomaly(xi[0]), angle);
         const auto [cos_around, sin_around] = cos_sin_turns(xi[1]);
         const double distance = (torus.major - torus.minor) + 2 * torus.minor * s * s;
         const double z = torus.minor * (2 * s * c);
         return plus(torus.center, torus.frame.out({distance * cos_around, distance * sin_around,
-                                                   below ? 0 - z : z}));
+                                                   xi[0] > 0.5 ? 0 - z : z}));
     }
     std::array<double, 2> inverse(std::span<const double> point) const {
         return torus.shares(point);

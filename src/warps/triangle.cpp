@@ -36,6 +36,7 @@
 #include "core/spec.hpp"
 #include "core/wide.hpp"
 #include "math/edge_frame.hpp"
+#include "math/law_moments.hpp"
 #include "math/plane_point.hpp"
 #include "warps/inside.hpp"
 #include "warps/warp.hpp"
@@ -124,6 +125,9 @@ class TriangleDomain final : public Domain {
         const double rest = std::min(from_0 + from_2, 1.0);
         cube[0] = rest * rest;
         cube[1] = rest > 0 ? std::min(from_2 / (from_0 + from_2), 1.0) : 0.0;
+    }
+    std::optional<Moments> moments() const override {
+        return triangle_moments({corners_[0], corners_[1], corners_[2]});
     }
     std::vector<std::string> cube_axes() const override {
         return {"area fraction (1 - lambda1)^2", "lambda2 / (lambda0 + lambda2)"};

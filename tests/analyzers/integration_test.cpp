@@ -7,7 +7,7 @@
 #include "core/text.hpp"
 #include "math/integrand.hpp"
 #include "study/chain.hpp"
-#include "support/units.hpp"
+#include "support/warping.hpp"
 
 using namespace stipple;
 using namespace stipple::testing;
@@ -252,6 +252,46 @@ TEST(Integration, CosineSamplingOfASkyReducesTheVarianceByWhatTheoryTells) {
     EXPECT_NEAR(found.number("sky-radiance.error"), 0, 5 * std::sqrt(cosine / 1e5));
 }
 
+// f = 1 + z by a lobe about x: uniformly, 4 pi f has the variance 16 pi^2 / 3.
+TEST(Integration, ComparesALobeWithTheWholeSphere) {
+    const PointSet cube = random_points(100'000, 2, 7);
+    for (const char* spec :
+         {"henyey-greenstein:g=0.3,axis=[1,0,0]", "von-mises-fisher:kappa=0.5,axis=[0,1,1]"}) {
+        const Report found = analyze("integration", warped(*mapping(spec), cube),
+                                     {{"expression", "1+z"}, {"compare", "true"}});
+        const auto number = [&](const std::string& key) {
+            return found.number("compare.expression." + key);
+        };
+        const double pi = std::numbers::pi;
+        const double variance = 16 * pi * pi / 3;
+        EXPECT_NEAR(number("uniform_variance") / variance, 1, 0.02) << spec;
+        EXPECT_NEAR(number("uniform_estimate"), 4 * pi, 5 * std::sqrt(variance / 1e5)) << spec;
+        EXPECT_NEAR(number("importance_estimate"), 4 * pi, 0.2) << spec;
+    }
+}
+
+TEST(Integration, ComparesUniformPointsWithThemselves) {
+    const PointSet cube = random_points(1000, 2, 8);
+    for (const char* spec : {"disk:radius=2", "sphere", "triangle", "spherical-triangle"}) {
+        const Report found = analyze("integration", warped(*mapping(spec), cube),
+                                     {{"expression", "x^2"}, {"compare", "true"}});
+        EXPECT_NEAR(found.number("compare.expression.uniform_estimate"),
+                    found.number("expression.estimate"), 1e-12)
+            << spec;
+        EXPECT_NEAR(found.number("compare.expression.variance_ratio"), 1, 1e-9) << spec;
+    }
+}
+
+// Of one set there is no spread, but an error.
+TEST(Integration, OneSetsAverageHasItsErrorAsRootMeanSquare) {
+    const Analyzer& unit = find_analyzer("integration");
+    Report one = integrate(random_points(64, 2), "owen");
+    const Report sets[] = {one};
+    unit.combine(one, sets, unit.options.defaults());
+    EXPECT_EQ(one.number("owen.rms_error"), std::abs(one.number("owen.error")));
+    EXPECT_EQ(one.find("owen.interval_low"), nullptr);
+}
+
 TEST(Integration, NamesASecondIntegrandOfAKind) {
     const Report found = integrate(random_points(64, 2),
                                    "genz-gaussian:seed=3,owen,genz-gaussian:seed=4,"
@@ -286,9 +326,16 @@ TEST(Integration, RefusesWhatItCannotIntegrateInOneLine) {
               "input: --integrand: genz-gaussian takes points of a box; these live on disk");
     EXPECT_EQ(refusal(random_points(64, 3), "zone-plate"),
               "input: --integrand: zone-plate takes points of dimension 2; these have 3");
-    EXPECT_EQ(refusal(disk, "measure", {{"compare", "true"}}),
-              "input: --compare: no uniform points can be made on disk; it takes boxes and "
-              "hemispheres");
+    PointSet decay = random_points(64, 1);
+    decay.domain = parse_domain("mixture:components=[tent|tent:center=1]", 1);
+    EXPECT_EQ(refusal(decay, "measure", {{"expression", "x"}, {"compare", "true"}}).substr(0, 40),
+              "input: --integrand: measure takes points");
+    EXPECT_EQ(error_of([&] {
+                  analyze("integration", decay, {{"expression", "x"}, {"compare", "true"}});
+              }),
+              "input: --compare: no uniform points can be made on "
+              "mixture:components=tent|tent:center=1; it takes boxes, hemispheres, lobes on the "
+              "sphere, and domains that are uniform");
     EXPECT_EQ(refusal(points_of({{0.5}}), "owen", {{"compare", "true"}}),
               "input: --compare: needs at least 2 points, not 1");
 }

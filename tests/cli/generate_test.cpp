@@ -188,6 +188,11 @@ TEST(Generate, RejectionSaysHowManyPointsItKept) {
             .out)["meta"];
     EXPECT_EQ(meta["efficiency"], static_cast<double>(kept) / 1000);
     EXPECT_EQ(meta["count"], kept);
+    // Where none was dropped, there is nothing to say: the middle of the square is in the disk.
+    EXPECT_EQ(
+        box.run({"generate", "halton", "--start", "1", "-n", "1", "-w", "disk:method=rejection"})
+            .err,
+        "");
 }
 
 // The mean of 1 times weight is the area, exactly where the density is one over it.

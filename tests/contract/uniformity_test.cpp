@@ -18,6 +18,7 @@
 #include "study/chain.hpp"
 #include "support/contract.hpp"
 #include "support/warp_examples.hpp"
+#include "support/warping.hpp"
 
 using namespace stipple;
 using namespace stipple::testing;
@@ -37,26 +38,6 @@ const PointSet& cube_points(const std::string& generator, std::size_t n, std::si
     return set;
 }
 
-/// The image of points of the cube, on the map's domain.
-PointSet image_of(const Mapping& map, const PointSet& cube) {
-    const std::size_t d = map.domain()->dimension();
-    std::vector<double> image(cube.count() * d);
-    std::vector<std::uint8_t> keep(cube.count(), 1);
-    map.forward(cube.flat(), image, keep);
-    if (map.drops()) {
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < keep.size(); ++i) {
-            if (!keep[i]) continue;
-            std::copy_n(image.begin() + static_cast<std::ptrdiff_t>(i * d), d,
-                        image.begin() + static_cast<std::ptrdiff_t>(kept++ * d));
-        }
-        image.resize(kept * d);
-    }
-    PointSet out(std::move(image), d);
-    out.domain = map.domain();
-    return out;
-}
-
 std::string verdict(const PointSet& points, const Settings& settings = strict) {
     return analyze("chi-square", points, settings).text("verdict");
 }
@@ -71,7 +52,7 @@ bool rejected(const PointSet& points, const Settings& settings = strict) {
 
 /// Whether the method makes its domain's density, by what it says of itself.
 bool is_right(const Mapping& map) {
-    const PointSet image = image_of(map, cube_points("random", 100, map.cube_dimension()));
+    const PointSet image = warped(map, cube_points("random", 100, map.cube_dimension()));
     const DomainPtr domain = map.domain();
     for (std::size_t i = 0; i < image.count(); ++i)
         if (std::abs(map.density(image[i]) / domain->density(image[i]) - 1) > 1e-6) return false;
@@ -115,7 +96,7 @@ class Uniformity : public ::testing::TestWithParam<std::string> {
     const Mapping& map() const { return *map_; }
     std::size_t in() const { return in_; }
     PointSet image(const std::string& generator, std::size_t n) const {
-        return image_of(map(), cube_points(generator, n, in_));
+        return warped(map(), cube_points(generator, n, in_));
     }
 
   private:
@@ -152,7 +133,7 @@ TEST_P(Uniformity, ATiltOfOnePercentIsFound) {
     constexpr double tilt = sanitized ? 0.03 : 0.01;
     PointSet cube = cube_points("random", in() == 1 || map().drops() ? 2 * many : many, in());
     for (double& u : cube.flat()) u *= 1 - tilt + tilt * u;
-    EXPECT_TRUE(rejected(image_of(map(), cube), {{"level", "1e-5"}, {"cells", "3"}}));
+    EXPECT_TRUE(rejected(warped(map(), cube), {{"level", "1e-5"}, {"cells", "3"}}));
 }
 
 // A corner of 1 % of the cube; of methods that drop corners anyway, as much beside its middle.
@@ -168,7 +149,7 @@ TEST_P(Uniformity, AMissingCornerIsFound) {
     for (std::size_t i = 0; i < whole.count(); ++i)
         if (std::ranges::any_of(whole[i], kept))
             flat.insert(flat.end(), whole[i].begin(), whole[i].end());
-    EXPECT_TRUE(rejected(image_of(map(), PointSet(std::move(flat), in()))));
+    EXPECT_TRUE(rejected(warped(map(), PointSet(std::move(flat), in()))));
 }
 
 /// Whether a change of points takes the density to another one for many of them.
@@ -271,42 +252,6 @@ std::pair<Mean, Mean> measures_above(const Mapping& map, const PointSet& image, 
     return {point_mean, box_mean};
 }
 
-/// sqrt det of J^T J for the map's derivative at a point of the cube, by central differences.
-double stretch_at(const Mapping& map, std::span<const double> cube) {
-    const std::size_t in = cube.size();
-    const std::size_t out = map.domain()->dimension();
-    constexpr double step = 1e-6;
-    std::vector<std::vector<double>> columns;
-    for (std::size_t k = 0; k < in; ++k) {
-        std::vector<double> ends(2 * in);
-        for (std::size_t e = 0; e < 2; ++e) {
-            std::ranges::copy(cube, ends.begin() + static_cast<std::ptrdiff_t>(e * in));
-            ends[e * in + k] += e == 0 ? -step : step;
-        }
-        std::vector<double> image(2 * out);
-        std::vector<std::uint8_t> keep(2, 1);
-        map.forward(ends, image, keep);
-        std::vector<double> column(out);
-        for (std::size_t j = 0; j < out; ++j) column[j] = (image[out + j] - image[j]) / (2 * step);
-        // Gram-Schmidt: the lengths that are left multiply to the volume.
-        for (const auto& other : columns) {
-            double along = 0, length = 0;
-            for (std::size_t j = 0; j < out; ++j)
-                along += column[j] * other[j], length += other[j] * other[j];
-            for (std::size_t j = 0; j < out && length > 0; ++j)
-                column[j] -= along / length * other[j];
-        }
-        columns.push_back(std::move(column));
-    }
-    double product = 1;
-    for (const auto& column : columns) {
-        double squares = 0;
-        for (const double x : column) squares += x * x;
-        product *= std::sqrt(squares);
-    }
-    return product;
-}
-
 }  // namespace
 
 // On domains of as many numbers as coordinates: the integral of 1 over the places of high density,
@@ -342,9 +287,10 @@ TEST_P(Uniformity, DensityIsRightWithinTwoPercent) {
     std::vector<double> products;
     const PointSet& cube = cube_points("random", 1001, in());
     for (std::size_t i = 0; i < cube.count(); ++i) {
-        const auto here = image_of(map(), PointSet({cube[i].begin(), cube[i].end()}, in()));
+        const auto here = warped(map(), PointSet({cube[i].begin(), cube[i].end()}, in()));
         if (here.count() == 1)
-            products.push_back(map().density(here[0]) * stretch_at(map(), cube[i]));
+            products.push_back(map().density(here[0]) *
+                               stretch_at(map(), {cube[i].begin(), cube[i].end()}, 1e-6));
     }
     const double kept = static_cast<double>(products.size()) / static_cast<double>(cube.count());
     const auto middle = products.begin() + static_cast<std::ptrdiff_t>(products.size() / 2);

@@ -42,9 +42,25 @@ TEST(Svg, ExtrasAreLeftOutAndTitlesAreSafe) {
     EXPECT_NE(text.find("cx=\"520.0\" cy=\"520.0\""), std::string::npos);
 }
 
-TEST(Svg, IsWriteOnlyAndFlat) {
+// Three panels of 490 units, 20 between them: x and y on top, x and z and then y and z below.
+TEST(Svg, EachPairOfCoordinatesHasItsPanel) {
+    Layout layout;
+    layout.extent = Box{{0, 0, -1}, {1, 10, 1}};
+    const std::string text = written("svg", {points_of({{0.5, 10, 0}})}, layout);
+    EXPECT_NE(text.find("viewBox=\"0 0 1040 1040\""), std::string::npos) << text;
+    EXPECT_NE(text.find("<circle cx=\"265.0\" cy=\"20.0\" r=\"10.00\"/>\n"
+                        "<circle cx=\"265.0\" cy=\"775.0\" r=\"10.00\"/>\n"
+                        "<circle cx=\"1020.0\" cy=\"775.0\" r=\"10.00\"/>\n</g>\n"),
+              std::string::npos)
+        << text;
+    for (const char* words : {">x right, y up<", ">x right, z up<", ">y right, z up<"})
+        EXPECT_NE(text.find(words), std::string::npos) << words;
+    EXPECT_NE(written("svg", {random_points(3, 8)}).find(">x7 right, x8 up<"), std::string::npos);
+}
+
+TEST(Svg, IsWriteOnlyAndOfFewCoordinates) {
     const Format& format = io::format_named("svg");
     EXPECT_FALSE(format.read);
     EXPECT_EQ(format.traits.min_dimension, 2U);
-    EXPECT_EQ(format.traits.max_dimension, 2U);
+    EXPECT_EQ(format.traits.max_dimension, 8U);
 }

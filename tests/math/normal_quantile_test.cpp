@@ -5,6 +5,7 @@
 
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
+#include <vector>
 
 #include "core/rng.hpp"
 #include "support/ulps.hpp"
@@ -69,4 +70,17 @@ TEST(NormalQuantile, BoundedIsTheSameButForTheEnds) {
     EXPECT_EQ(bounded_normal_quantile(0), normal_quantile(0x1p-54));
     EXPECT_EQ(bounded_normal_quantile(5e-324), normal_quantile(0x1p-54));
     EXPECT_EQ(bounded_normal_quantile(1), -normal_quantile(0x1p-55));
+}
+
+// In blocks with and without far tails, and of a last block that is not whole.
+TEST(NormalQuantile, OfManyNumbersAreThoseOfEach) {
+    for (const double far : {0.25, 0x1p-60, 1e-11, 1.4e-11, 0.0, 1.0}) {
+        std::vector<double> p(1000);
+        Rng(4).fill(0, p);
+        p[700] = far;
+        std::vector<double> x = p;
+        bounded_normal_quantiles(x);
+        for (std::size_t i = 0; i < p.size(); ++i)
+            ASSERT_EQ(x[i], bounded_normal_quantile(p[i])) << p[i];
+    }
 }

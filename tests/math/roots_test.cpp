@@ -54,3 +54,8 @@ TEST(CubeRoot, OfCubesIsExactAndKeepsTheSign) {
     EXPECT_FALSE(std::signbit(cube_root(0)));
     EXPECT_DOUBLE_EQ(cube_root(std::numeric_limits<double>::max()), 5.643803094122362e102);
 }
+
+TEST(Roots, RoughCubeRootsAreWithinTheirPromise) {
+    for (double x = 1e-300; x < 1e300; x *= 1.0301)
+        ASSERT_NEAR(rough_cube_root(x) / cube_root(x), 1, 2e-7) << x;
+}

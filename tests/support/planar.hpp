@@ -14,17 +14,6 @@
 
 namespace stipple::testing {
 
-/// The image of one point of the square, which must have one.
-inline std::vector<double> image_at(const Mapping& map, double u, double v) {
-    std::vector<double> point(map.domain()->dimension());
-    std::vector<std::uint8_t> keep(1, 1);
-    map.forward(std::vector{u, v}, point, keep);
-    return point;
-}
-inline std::vector<double> image_at(std::string_view spec, double u, double v) {
-    return image_at(*mapping(spec), u, v);
-}
-
 /// A number of [0, 1] that warps may stumble over: an end, next to one at any scale, next to a
 /// simple fraction, or any.
 inline double hostile_number(std::uint64_t bits) {
@@ -89,27 +78,13 @@ inline void expect_unit_coordinates_back(const Mapping& map, double tolerance,
     }
 }
 
-/// Length, or area, that the map stretches a small piece of the square by, by central differences.
-inline double stretch_at(const Mapping& map, double u, double v) {
-    const double h = 1e-6;
-    std::vector<double> a(3), b(3);
-    const auto left = image_at(map, u - h, v), right = image_at(map, u + h, v);
-    const auto below = image_at(map, u, v - h), above = image_at(map, u, v + h);
-    for (std::size_t k = 0; k < left.size(); ++k) {
-        a[k] = (right[k] - left[k]) / (2 * h);
-        b[k] = (above[k] - below[k]) / (2 * h);
-    }
-    return std::hypot(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                      a[0] * b[1] - a[1] * b[0]);
-}
-
 /// Holds that the density is 1 over the stretch of area, away from the lines where maps bend.
 inline void expect_density_is_one_over_jacobian(const Mapping& map) {
     const Rng rng(5);
     for (std::uint64_t i = 0; i < 200; ++i) {
         const double u = 0.01 + 0.98 * rng.uniform(2 * i);
         const double v = 0.01 + 0.98 * rng.uniform(2 * i + 1);
-        EXPECT_NEAR(map.density(image_at(map, u, v)) * stretch_at(map, u, v), 1, 2e-7)
+        EXPECT_NEAR(map.density(image_of(map, {u, v})) * stretch_at(map, {u, v}, 1e-6), 1, 2e-7)
             << map.domain()->spec() << ": " << u << ", " << v;
     }
 }

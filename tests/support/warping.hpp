@@ -38,6 +38,17 @@ inline PointSet warped(const Mapping& map, const PointSet& points) {
     return out;
 }
 
+/// The image of one point of the cube.
+inline std::vector<double> image_of(const Mapping& map, const std::vector<double>& xi) {
+    std::vector<double> image(map.domain()->dimension());
+    std::vector<std::uint8_t> keep(1);
+    map.forward(xi, image, keep);
+    return image;
+}
+inline std::vector<double> image_of(std::string_view spec, const std::vector<double>& xi) {
+    return image_of(*mapping(spec), xi);
+}
+
 /// The point of the square that `map` takes to this point.
 inline std::vector<double> inverse_of(const Mapping& map, const std::vector<double>& point) {
     std::vector<double> cube(map.cube_dimension());
@@ -86,10 +97,9 @@ inline void expect_round_trip(const Mapping& map, double tolerance) {
 
 /// The factor by which `map` stretches length, area or volume at a point of the cube, by central
 /// differences: the root of Gram's determinant.
-inline double stretch_at(const Mapping& map, std::vector<double> xi) {
+inline double stretch_at(const Mapping& map, std::vector<double> xi, double h = 1e-5) {
     const std::size_t d = map.cube_dimension();
     const std::size_t m = map.domain()->dimension();
-    const double h = 1e-5;
     std::vector<std::uint8_t> keep(1);
     std::vector<std::vector<double>> tangents(d, std::vector<double>(m));
     for (std::size_t k = 0; k < d; ++k) {
@@ -106,7 +116,7 @@ inline double stretch_at(const Mapping& map, std::vector<double> xi) {
         double square = 0;
         for (const double x : tangents[k]) square += x * x;
         product *= std::sqrt(square);
-        for (std::size_t later = k + 1; later < d; ++later) {
+        for (std::size_t later = k + 1; later < d && square > 0; ++later) {
             double along = 0;
             for (std::size_t j = 0; j < m; ++j) along += tangents[k][j] * tangents[later][j];
             for (std::size_t j = 0; j < m; ++j)
@@ -135,14 +145,6 @@ inline double p_of_random(const Mapping& map, std::uint64_t count, std::uint64_t
     return measure(
         "chi-square", "p_value",
         warped(map, make("random", points(count, map.cube_dimension()), {}, {.seed = seed})));
-}
-
-/// The image of one point of the cube.
-inline std::vector<double> image_of(const Mapping& map, const std::vector<double>& xi) {
-    std::vector<double> image(map.domain()->dimension());
-    std::vector<std::uint8_t> keep(1);
-    map.forward(xi, image, keep);
-    return image;
 }
 
 }  // namespace stipple::testing

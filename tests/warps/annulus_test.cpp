@@ -10,11 +10,11 @@ using namespace stipple;
 using namespace stipple::testing;
 
 TEST(Annulus, PointsByHand) {
-    EXPECT_EQ(image_at("annulus", 0, 0), (std::vector{0.5, 0.0}));
-    EXPECT_EQ(image_at("annulus", 0, 0.25), (std::vector{0.0, 0.5}));
-    EXPECT_EQ(image_at("annulus", 1, 0.5), (std::vector{-1.0, 0.0}));
+    EXPECT_EQ(image_of("annulus", {0, 0}), (std::vector{0.5, 0.0}));
+    EXPECT_EQ(image_of("annulus", {0, 0.25}), (std::vector{0.0, 0.5}));
+    EXPECT_EQ(image_of("annulus", {1, 0.5}), (std::vector{-1.0, 0.0}));
     // r^2 = 9 + 0.4375 (25 - 9) = 16
-    EXPECT_EQ(image_at("annulus:inner=3,radius=5,center=[10,20]", 0.4375, 0.75),
+    EXPECT_EQ(image_of("annulus:inner=3,radius=5,center=[10,20]", {0.4375, 0.75}),
               (std::vector{10.0, 16.0}));
 }
 

@@ -20,14 +20,14 @@ std::string tilted(const std::string& method) {
 }  // namespace
 
 TEST(Ellipse, PointsByHand) {
-    EXPECT_EQ(image_at("ellipse", 0, 0.3), (std::vector{0.0, 0.0}));
-    EXPECT_EQ(image_at("ellipse", 1, 0), (std::vector{1.0, 0.0}));
-    EXPECT_EQ(image_at("ellipse", 0.25, 0.25), (std::vector{0.0, 0.25}));
-    EXPECT_EQ(image_at("ellipse:axes=[4,2],center=[10,20]", 0.25, 0.5), (std::vector{8.0, 20.0}));
-    EXPECT_EQ(image_at("ellipse:axes=[4,2],rotation=90", 0.25, 0.5), (std::vector{0.0, -2.0}));
-    EXPECT_EQ(image_at("ellipse:axes=[4,2],rotation=90", 0.25, 0.25), (std::vector{-1.0, 0.0}));
-    EXPECT_EQ(image_at("ellipse:method=concentric", 0.5, 1), (std::vector{0.0, 0.5}));
-    EXPECT_EQ(image_at("ellipse:method=concentric,axes=[2,3]", 0, 0.5), (std::vector{-2.0, 0.0}));
+    EXPECT_EQ(image_of("ellipse", {0, 0.3}), (std::vector{0.0, 0.0}));
+    EXPECT_EQ(image_of("ellipse", {1, 0}), (std::vector{1.0, 0.0}));
+    EXPECT_EQ(image_of("ellipse", {0.25, 0.25}), (std::vector{0.0, 0.25}));
+    EXPECT_EQ(image_of("ellipse:axes=[4,2],center=[10,20]", {0.25, 0.5}), (std::vector{8.0, 20.0}));
+    EXPECT_EQ(image_of("ellipse:axes=[4,2],rotation=90", {0.25, 0.5}), (std::vector{0.0, -2.0}));
+    EXPECT_EQ(image_of("ellipse:axes=[4,2],rotation=90", {0.25, 0.25}), (std::vector{-1.0, 0.0}));
+    EXPECT_EQ(image_of("ellipse:method=concentric", {0.5, 1}), (std::vector{0.0, 0.5}));
+    EXPECT_EQ(image_of("ellipse:method=concentric,axes=[2,3]", {0, 0.5}), (std::vector{-2.0, 0.0}));
 }
 
 TEST(Ellipse, WithEqualAxesIsTheDisk) {

@@ -16,12 +16,12 @@ const char* in_space = "parallelogram:corner=[1,0,0],edges=[-1,2,0 -1,0,3]";
 }  // namespace
 
 TEST(Parallelogram, PointsByHand) {
-    EXPECT_EQ(image_at("parallelogram", 0.25, 0.75), (std::vector{0.25, 0.75}));
-    EXPECT_EQ(image_at(skew, 0, 0), (std::vector{10.0, 20.0}));
-    EXPECT_EQ(image_at(skew, 1, 1), (std::vector{12.0, 23.0}));
-    EXPECT_EQ(image_at(skew, 0.5, 0.25), (std::vector{11.25, 21.0}));
-    EXPECT_EQ(image_at(in_space, 0.5, 0.25), (std::vector{0.25, 1.0, 0.75}));
-    EXPECT_EQ(image_at("parallelogram:edges=[1,0,0 0,0,1]", 0.5, 0.25),
+    EXPECT_EQ(image_of("parallelogram", {0.25, 0.75}), (std::vector{0.25, 0.75}));
+    EXPECT_EQ(image_of(skew, {0, 0}), (std::vector{10.0, 20.0}));
+    EXPECT_EQ(image_of(skew, {1, 1}), (std::vector{12.0, 23.0}));
+    EXPECT_EQ(image_of(skew, {0.5, 0.25}), (std::vector{11.25, 21.0}));
+    EXPECT_EQ(image_of(in_space, {0.5, 0.25}), (std::vector{0.25, 1.0, 0.75}));
+    EXPECT_EQ(image_of("parallelogram:edges=[1,0,0 0,0,1]", {0.5, 0.25}),
               (std::vector{0.5, 0.0, 0.25}))
         << "the origin of space, when the corner is not given";
 }

@@ -10,9 +10,9 @@ using namespace stipple;
 using namespace stipple::testing;
 
 TEST(Pixel, PointsByHand) {
-    EXPECT_EQ(image_at("pixel", 0.25, 0.75), (std::vector{0.25, 0.75})) << "one pixel";
-    EXPECT_EQ(image_at("pixel:resolution=640x480", 0.5, 0.25), (std::vector{320.0, 120.0}));
-    EXPECT_EQ(image_at("pixel:resolution=640x480,pixel=[639,0]", 0.5, 0.25),
+    EXPECT_EQ(image_of("pixel", {0.25, 0.75}), (std::vector{0.25, 0.75})) << "one pixel";
+    EXPECT_EQ(image_of("pixel:resolution=640x480", {0.5, 0.25}), (std::vector{320.0, 120.0}));
+    EXPECT_EQ(image_of("pixel:resolution=640x480,pixel=[639,0]", {0.5, 0.25}),
               (std::vector{639.5, 0.25}));
 }
 
@@ -21,7 +21,7 @@ TEST(Pixel, GridOfStrataIsAGridInEachPixel) {
     const auto map = mapping("pixel:resolution=3x2");
     for (int i = 0; i < 6; ++i)
         for (int j = 0; j < 4; ++j) {
-            const auto p = image_at(*map, (i + 0.5) / 6, (j + 0.5) / 4);
+            const auto p = image_of(*map, {(i + 0.5) / 6, (j + 0.5) / 4});
             EXPECT_NEAR(p[0], i / 2 + (i % 2 == 0 ? 0.25 : 0.75), 1e-15);
             EXPECT_NEAR(p[1], j / 2 + (j % 2 == 0 ? 0.25 : 0.75), 1e-15);
         }
@@ -31,14 +31,14 @@ TEST(Pixel, NeverReachesTheNextPixel) {
     for (const std::string side : {"1", "2", "3", "640", "1920", "65537", "2147483648"}) {
         const double size = std::stod(side);
         const auto p =
-            image_at("pixel:resolution=" + side + "x" + side, one_minus_ulp, one_minus_ulp);
+            image_of("pixel:resolution=" + side + "x" + side, {one_minus_ulp, one_minus_ulp});
         EXPECT_LT(p[0], size);
         for (const double at : {0.0, 1.0, std::floor(size / 2), size - 1}) {
             if (at >= size) continue;
             const auto map = mapping("pixel:resolution=" + side + "x" + side + ",pixel=[" +
                                      std::to_string(static_cast<long long>(at)) + ",0]");
             for (const double u : {0.0, 5e-324, 0x1p-60, 0.1, 0.7, one_minus_ulp}) {
-                const double x = image_at(*map, u, 0)[0];
+                const double x = image_of(*map, {u, 0})[0];
                 EXPECT_EQ(std::floor(x), at) << side << " " << u;
                 EXPECT_NEAR(x - at, u, at * 0x1p-52) << side;
             }

@@ -83,25 +83,25 @@ bool inside(const Corners& p, double px, double py) {
 
 // Of the L the lower two thirds are a 2 x 1 box, the upper third is the 1 x 1 box on its left.
 TEST(Polygon, PointsByHand) {
-    EXPECT_EQ(image_at("polygon", 0, 0), (std::vector{0.0, 0.0}));
-    EXPECT_EQ(image_at("polygon", 1. / 3, 0.25), (std::vector{0.5, 0.5}));
-    EXPECT_DOUBLE_EQ(image_at("polygon", 5. / 6, 0.25)[0], 0.25);
-    EXPECT_DOUBLE_EQ(image_at("polygon", 5. / 6, 0.25)[1], 1.5);
-    EXPECT_EQ(image_at("polygon", 1, 1), (std::vector{1.0, 2.0}));
+    EXPECT_EQ(image_of("polygon", {0, 0}), (std::vector{0.0, 0.0}));
+    EXPECT_EQ(image_of("polygon", {1. / 3, 0.25}), (std::vector{0.5, 0.5}));
+    EXPECT_DOUBLE_EQ(image_of("polygon", {5. / 6, 0.25})[0], 0.25);
+    EXPECT_DOUBLE_EQ(image_of("polygon", {5. / 6, 0.25})[1], 1.5);
+    EXPECT_EQ(image_of("polygon", {1, 1}), (std::vector{1.0, 2.0}));
     // The area below y is 1 - (1 - y)^2.
-    EXPECT_EQ(image_at(peak, 0.75, 0.5), (std::vector{1.0, 0.5}));
-    EXPECT_EQ(image_at(peak, 0.4375, 0), (std::vector{0.25, 0.25}));
-    EXPECT_EQ(image_at(peak, 1, 0.3), (std::vector{1.0, 1.0}));
+    EXPECT_EQ(image_of(peak, {0.75, 0.5}), (std::vector{1.0, 0.5}));
+    EXPECT_EQ(image_of(peak, {0.4375, 0}), (std::vector{0.25, 0.25}));
+    EXPECT_EQ(image_of(peak, {1, 0.3}), (std::vector{1.0, 1.0}));
 }
 
 TEST(Polygon, RowsLeaveOutHolesAndGaps) {
-    EXPECT_EQ(image_at(frame, 0.5, 0.25), (std::vector{0.5, 2.0}));
-    EXPECT_EQ(image_at(frame, 0.5, 0.75), (std::vector{3.5, 2.0}));
-    EXPECT_EQ(image_at(apart, 0.5, 0.25), (std::vector{0.5, 0.5}));
-    EXPECT_EQ(image_at(apart, 0.5, 0.75), (std::vector{3.5, 0.5}));
+    EXPECT_EQ(image_of(frame, {0.5, 0.25}), (std::vector{0.5, 2.0}));
+    EXPECT_EQ(image_of(frame, {0.5, 0.75}), (std::vector{3.5, 2.0}));
+    EXPECT_EQ(image_of(apart, {0.5, 0.25}), (std::vector{0.5, 0.5}));
+    EXPECT_EQ(image_of(apart, {0.5, 0.75}), (std::vector{3.5, 0.5}));
     const auto middle = mapping(island);  // 6 - 4 + 2 along the row y = 3
-    EXPECT_EQ(image_at(*middle, 0.5, 0.5), (std::vector{3.0, 3.0}));
-    EXPECT_EQ(image_at(*middle, 0.5, 0.125), (std::vector{0.5, 3.0}));
+    EXPECT_EQ(image_of(*middle, {0.5, 0.5}), (std::vector{3.0, 3.0}));
+    EXPECT_EQ(image_of(*middle, {0.5, 0.125}), (std::vector{0.5, 3.0}));
 }
 
 TEST(Polygon, RoundTripOverTheWholeSquare) {
@@ -124,7 +124,7 @@ TEST(Polygon, PointsOnLevelEdgesComeBack) {
         const auto back = inverse_of(*map, {2 * v, 1});
         EXPECT_NEAR(back[0], u, 1e-15);
         EXPECT_NEAR(back[1], v, 1e-15);
-        EXPECT_EQ(image_at(*map, back[0], back[1])[0], 2 * v) << "not on the short row above";
+        EXPECT_EQ(image_of(*map, {back[0], back[1]})[0], 2 * v) << "not on the short row above";
         EXPECT_NEAR(inverse_of(*upside_down, {2 * v, 1})[0], 1 - u, 1e-15);
     }
     EXPECT_EQ(inverse_of(*mapping(peak), {1, 1}), (std::vector{1.0, 0.0})) << "the tip";
@@ -137,7 +137,7 @@ TEST(Polygon, EndsOfPartsComeBack) {
         for (const double x : {1.0, 3.0}) {
             const auto back = inverse_of(*map, {x, spec == frame ? 1.5 : 0.5});
             EXPECT_NEAR(back[1], 0.5, 1e-15);
-            EXPECT_NEAR(image_at(*map, back[0], back[1])[0], x, 1e-15) << spec;
+            EXPECT_NEAR(image_of(*map, {back[0], back[1]})[0], x, 1e-15) << spec;
         }
     }
 }

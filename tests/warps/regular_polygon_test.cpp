@@ -22,24 +22,24 @@ const std::vector<std::string> shapes = {
 }  // namespace
 
 TEST(RegularPolygon, PointsByHand) {
-    EXPECT_EQ(image_at("regular-polygon", 0, 0.3), (std::vector{0.0, 0.0}));
-    EXPECT_EQ(image_at("regular-polygon", 0.25, 0), (std::vector{0.5, 0.0}));
+    EXPECT_EQ(image_of("regular-polygon", {0, 0.3}), (std::vector{0.0, 0.0}));
+    EXPECT_EQ(image_of("regular-polygon", {0.25, 0}), (std::vector{0.5, 0.0}));
     const auto at = [](double u, double v) {
-        return image_at("regular-polygon:sides=4,radius=2,center=[10,20]", u, v);
+        return image_of("regular-polygon:sides=4,radius=2,center=[10,20]", {u, v});
     };
     EXPECT_EQ(at(1, 0.25), (std::vector{10.0, 22.0}));
     EXPECT_EQ(at(1, 0.125), (std::vector{11.0, 21.0})) << "the middle of a side";
     EXPECT_EQ(at(0.25, 0.8125), (std::vector{10.25, 19.25})) << "a quarter of the way";
     EXPECT_EQ(at(1, 1), (std::vector{12.0, 20.0})) << "once around";
-    const auto top = image_at("regular-polygon:sides=3,rotation=90", 1, 0);
+    const auto top = image_of("regular-polygon:sides=3,rotation=90", {1, 0});
     EXPECT_EQ(top, (std::vector{0.0, 1.0}));
 }
 
 TEST(RegularPolygon, IsContinuousWhereSidesMeet) {
     const auto map = mapping("regular-polygon:sides=5");
     for (int k = 1; k < 5; ++k) {
-        const auto before = image_at(*map, 0.7, std::nextafter(k / 5.0, 0));
-        const auto behind = image_at(*map, 0.7, std::nextafter(k / 5.0, 1));
+        const auto before = image_of(*map, {0.7, std::nextafter(k / 5.0, 0)});
+        const auto behind = image_of(*map, {0.7, std::nextafter(k / 5.0, 1)});
         for (const int axis : {0, 1}) EXPECT_NEAR(before[axis], behind[axis], 1e-14) << k;
     }
 }

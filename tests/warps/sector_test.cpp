@@ -24,14 +24,14 @@ const std::vector<std::string> shapes = {
 
 TEST(Sector, PointsByHand) {
     const double h = std::sqrt(0.5);
-    EXPECT_EQ(image_at("sector", 0, 0.3), (std::vector{0.0, 0.0}));
-    EXPECT_EQ(image_at("sector", 0.25, 0), (std::vector{0.5, 0.0}));
-    EXPECT_EQ(image_at("sector", 0.25, 1), (std::vector{0.0, 0.5}));
-    EXPECT_EQ(image_at("sector", 1, 0.5), (std::vector{h, h}));
-    EXPECT_EQ(image_at("sector:angles=[90,270]", 1, 0.5), (std::vector{-1.0, 0.0}));
-    EXPECT_EQ(image_at("sector:angles=[-90,90],radius=2,center=[1,1]", 1, 0),
+    EXPECT_EQ(image_of("sector", {0, 0.3}), (std::vector{0.0, 0.0}));
+    EXPECT_EQ(image_of("sector", {0.25, 0}), (std::vector{0.5, 0.0}));
+    EXPECT_EQ(image_of("sector", {0.25, 1}), (std::vector{0.0, 0.5}));
+    EXPECT_EQ(image_of("sector", {1, 0.5}), (std::vector{h, h}));
+    EXPECT_EQ(image_of("sector:angles=[90,270]", {1, 0.5}), (std::vector{-1.0, 0.0}));
+    EXPECT_EQ(image_of("sector:angles=[-90,90],radius=2,center=[1,1]", {1, 0}),
               (std::vector{1.0, -1.0}));
-    EXPECT_EQ(image_at("sector:inner=3,radius=5", 0.4375, 1), (std::vector{0.0, 4.0}));
+    EXPECT_EQ(image_of("sector:inner=3,radius=5", {0.4375, 1}), (std::vector{0.0, 4.0}));
 }
 
 TEST(Sector, WholeTurnIsTheAnnulus) {

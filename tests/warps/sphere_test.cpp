@@ -15,10 +15,6 @@ namespace {
 constexpr double pi = std::numbers::pi;
 using Point = std::vector<double>;
 
-Point image_of(std::string_view spec, const Point& xi) {
-    return stipple::testing::image_of(*mapping(spec), xi);
-}
-
 }  // namespace
 
 TEST(Sphere, PointsByHand) {
@@ -60,7 +56,7 @@ TEST(Sphere, UnitCoordinatesComeBackAroundTheOrigin) {
             const auto map = mapping("sphere:method=" + method + ",radius=" + size);
             for (std::size_t i = 0; i < cube.count(); ++i) {
                 const Point xi(cube[i].begin(), cube[i].end());
-                const Point image = stipple::testing::image_of(*map, xi);
+                const Point image = image_of(*map, xi);
                 const Point back = inverse_of(*map, image);
                 EXPECT_NEAR(back[0], xi[0], 1e-14) << method << " " << xi[1];
                 if (image[0] == 0 && image[1] == 0) {

@@ -98,6 +98,28 @@ TEST(SphericalRectangle, RoundTripOverTheWholeSquare) {
     expect_round_trip(*mapping("spherical-rectangle:corner=[1,2,1e-6],edges=[2,0,0 0,2,0]"), 1e-14);
 }
 
+// Seen at a flat angle from beside it, and from above it, where only xi is to come back.
+TEST(SphericalRectangle, NearlyFlatRectanglesKeepTheirDigits) {
+    const PointSet cube = telling_points();
+    const std::pair<const char*, bool> places[] = {
+        {"2,-1,1e-3", false}, {"2,-1,1e-9", false}, {"-4,-1.7,1e-6", false}, {"-1,2,1e-9", false},
+        {"1,2,1e-9", false},  {"-1,-1,1e-6", true}, {"-0.3,-1.5,1e-9", true}};
+    for (const auto& [at, above] : places) {
+        const std::string spec =
+            std::string("spherical-rectangle:corner=[") + at + "],edges=[2,0,0 0,2,0]";
+        SCOPED_TRACE(spec);
+        const auto map = mapping(spec);
+        if (!above) expect_round_trip(*map, 3e-15);
+        double worst = 0;
+        for (std::size_t i = 0; i < cube.count(); ++i) {
+            const Point back = inverse_of(*map, image_of(*map, {cube[i][0], cube[i][1]}));
+            for (std::size_t k = 0; k < 2; ++k)
+                worst = std::max(worst, std::abs(back[k] - cube[i][k]));
+        }
+        EXPECT_LT(worst, 4e-15);
+    }
+}
+
 TEST(SphericalRectangle, UnitCoordinatesComeBack) {
     const PointSet cube = telling_points();
     for (std::size_t shape = 0; shape < 5; ++shape) {

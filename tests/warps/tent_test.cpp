@@ -21,12 +21,12 @@ std::unique_ptr<Mapping> tent_of(std::string_view text, std::size_t given) {
 
 // F(x) = (1 + x)^2 / 2 on the left: 1/8 at -1/2, 1/2 at 0, and its mirror image.
 TEST(Tent, PointsByHand) {
-    EXPECT_EQ(image_at("tent", 0, 1), (std::vector{-1.0, 1.0}));
-    EXPECT_EQ(image_at("tent", 0.5, 0.125), (std::vector{0.0, -0.5}));
-    EXPECT_EQ(image_at("tent", 0.875, 0.125), (std::vector{0.5, -0.5}));
-    EXPECT_EQ(image_at("tent:radius=[2,4],center=[10,20]", 0.875, 0.125),
+    EXPECT_EQ(image_of("tent", {0, 1}), (std::vector{-1.0, 1.0}));
+    EXPECT_EQ(image_of("tent", {0.5, 0.125}), (std::vector{0.0, -0.5}));
+    EXPECT_EQ(image_of("tent", {0.875, 0.125}), (std::vector{0.5, -0.5}));
+    EXPECT_EQ(image_of("tent:radius=[2,4],center=[10,20]", {0.875, 0.125}),
               (std::vector{11.0, 18.0}));
-    EXPECT_EQ(image_at("tent:radius=2,center=1", 0, 0.5), (std::vector{-1.0, 1.0}));
+    EXPECT_EQ(image_of("tent:radius=2,center=1", {0, 0.5}), (std::vector{-1.0, 1.0}));
 }
 
 TEST(Tent, IsSymmetricToTheLastBit) {
@@ -34,13 +34,13 @@ TEST(Tent, IsSymmetricToTheLastBit) {
     for (const double x : cube.flat()) {
         const double mirrored = 1 - x;
         if (1 - mirrored != x) continue;  // the mirror image is no double
-        EXPECT_EQ(image_at("tent", x, 0)[0], -image_at("tent", mirrored, 0)[0]) << x;
+        EXPECT_EQ(image_of("tent", {x, 0})[0], -image_of("tent", {mirrored, 0})[0]) << x;
     }
 }
 
 TEST(Tent, NextToTheMiddleNothingIsLost) {
     const double xi = 0.5 + 0x1p-40;  // x = 2^-40 (1 + 2^-41 ...)
-    EXPECT_DOUBLE_EQ(image_at("tent", xi, 0)[0], 0x1p-40 * (1 + 0x1p-41));
+    EXPECT_DOUBLE_EQ(image_of("tent", {xi, 0})[0], 0x1p-40 * (1 + 0x1p-41));
 }
 
 TEST(Tent, RoundTripOverTheWholeSquare) {

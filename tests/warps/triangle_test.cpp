@@ -18,20 +18,20 @@ const char* low_in_space = "triangle:method=low-distortion,vertices=[1,0,0 0,2,0
 }  // namespace
 
 TEST(Triangle, PointsByHand) {
-    EXPECT_EQ(image_at("triangle", 0, 0.7), (std::vector{0.0, 0.0}));
-    EXPECT_EQ(image_at("triangle", 0.25, 0), (std::vector{0.0, 0.5}));
-    EXPECT_EQ(image_at("triangle", 0.25, 0.25), (std::vector{0.125, 0.375}));
-    EXPECT_EQ(image_at("triangle:vertices=[1,1 5,1 1,9]", 0.25, 0.5), (std::vector{2.0, 3.0}));
-    EXPECT_EQ(image_at(in_space, 0.25, 0.5), (std::vector{0.5, 0.5, 0.75}));
+    EXPECT_EQ(image_of("triangle", {0, 0.7}), (std::vector{0.0, 0.0}));
+    EXPECT_EQ(image_of("triangle", {0.25, 0}), (std::vector{0.0, 0.5}));
+    EXPECT_EQ(image_of("triangle", {0.25, 0.25}), (std::vector{0.125, 0.375}));
+    EXPECT_EQ(image_of("triangle:vertices=[1,1 5,1 1,9]", {0.25, 0.5}), (std::vector{2.0, 3.0}));
+    EXPECT_EQ(image_of(in_space, {0.25, 0.5}), (std::vector{0.5, 0.5, 0.75}));
 }
 
 TEST(Triangle, CornersAreTheVertices) {
     const double last = one_minus_ulp;
-    EXPECT_EQ(image_at("triangle:vertices=[3,4 7,4 3,6]", 0, 0), (std::vector{3.0, 4.0}));
-    const auto v1 = image_at("triangle:vertices=[3,4 7,4 3,6]", last, last);
+    EXPECT_EQ(image_of("triangle:vertices=[3,4 7,4 3,6]", {0, 0}), (std::vector{3.0, 4.0}));
+    const auto v1 = image_of("triangle:vertices=[3,4 7,4 3,6]", {last, last});
     EXPECT_NEAR(v1[0], 7, 2e-15);
     EXPECT_NEAR(v1[1], 4, 2e-15);
-    const auto v2 = image_at("triangle:vertices=[3,4 7,4 3,6]", last, 0);
+    const auto v2 = image_of("triangle:vertices=[3,4 7,4 3,6]", {last, 0});
     EXPECT_NEAR(v2[0], 3, 2e-15);
     EXPECT_NEAR(v2[1], 6, 2e-15);
 }
@@ -39,14 +39,14 @@ TEST(Triangle, CornersAreTheVertices) {
 // The corners of the square are v0, v1, the middle of v1 v2, and v2; halves of the square are
 // halves of the triangle.
 TEST(Triangle, LowDistortionPointsByHand) {
-    EXPECT_EQ(image_at(low_distortion, 0, 0), (std::vector{0.0, 0.0}));
-    EXPECT_EQ(image_at(low_distortion, 1, 0), (std::vector{1.0, 0.0}));
-    EXPECT_EQ(image_at(low_distortion, 0, 1), (std::vector{0.0, 1.0}));
-    EXPECT_EQ(image_at(low_distortion, 1, 1), (std::vector{0.5, 0.5}));
-    EXPECT_EQ(image_at(low_distortion, 0.75, 0.5), (std::vector{0.5, 0.25}));
-    EXPECT_EQ(image_at(low_distortion, 0.25, 0.5), (std::vector{0.125, 0.375}));
-    EXPECT_EQ(image_at(low_distortion, 0.5, 0.5), (std::vector{0.25, 0.25}));
-    EXPECT_EQ(image_at(low_in_space, 0.75, 0.5), (std::vector{0.25, 1.0, 0.75}));
+    EXPECT_EQ(image_of(low_distortion, {0, 0}), (std::vector{0.0, 0.0}));
+    EXPECT_EQ(image_of(low_distortion, {1, 0}), (std::vector{1.0, 0.0}));
+    EXPECT_EQ(image_of(low_distortion, {0, 1}), (std::vector{0.0, 1.0}));
+    EXPECT_EQ(image_of(low_distortion, {1, 1}), (std::vector{0.5, 0.5}));
+    EXPECT_EQ(image_of(low_distortion, {0.75, 0.5}), (std::vector{0.5, 0.25}));
+    EXPECT_EQ(image_of(low_distortion, {0.25, 0.5}), (std::vector{0.125, 0.375}));
+    EXPECT_EQ(image_of(low_distortion, {0.5, 0.5}), (std::vector{0.25, 0.25}));
+    EXPECT_EQ(image_of(low_in_space, {0.75, 0.5}), (std::vector{0.25, 1.0, 0.75}));
 }
 
 // On the right triangle no two points move apart by more than the larger singular value of the
