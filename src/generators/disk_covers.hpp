@@ -91,7 +91,7 @@ class DiskCovers {
     using Point = typename Grid::Point;
     using Place = std::array<float, D>;
 
-    explicit DiskCovers(const Grid& grid) : grid_(grid), covered_(grid.cell_count) {
+    explicit DiskCovers(const Grid& grid) : grid_(grid), covered_(grid.spots) {
         for (std::size_t k = 0; k < D; ++k) {
             plain_ = plain_ && grid.reach[k] == 2;
             parts_[k] = static_cast<float>(grid.scales[k] / static_cast<double>(cell_parts<D>));
@@ -126,7 +126,7 @@ class DiskCovers {
     void add(const Index& cell, const Place& off, bool shared) {
         if (grid_.interior(cell)) {
             const Row* stamp = stamps_.data() + rows * place_of(off);
-            const std::size_t number = grid_.number_of(cell);
+            const std::size_t number = grid_.spot_of(cell);
             for (const std::ptrdiff_t step : steps_) {
                 const std::size_t to = number + static_cast<std::size_t>(step);
                 if (shared)
@@ -142,14 +142,14 @@ class DiskCovers {
                 for (std::size_t k = D; k-- > 1;)
                     row = 5 * row + static_cast<std::size_t>(steps[k] + 2);
                 const PartBits bits = stamp[row][static_cast<std::size_t>(steps[0] + 2)];
-                if (bits != 0) set_shared(grid_.number_of(there), bits);
+                if (bits != 0) set_shared(grid_.spot_of(there), bits);
             });
         } else {
             grid_.around(cell, [&](const Index& there, const Point& steps) {
                 Place center;
                 for (std::size_t k = 0; k < D; ++k)
                     center[k] = off[k] - static_cast<float>(steps[k] * grid_.scales[k]);
-                set_shared(grid_.number_of(there), covered_parts(center, {}));
+                set_shared(grid_.spot_of(there), covered_parts(center, {}));
             });
         }
     }
@@ -158,7 +158,7 @@ class DiskCovers {
     static constexpr std::size_t rows = power(5, D - 1);
     using Row = std::array<PartBits, 5>;
 
-    static constexpr std::size_t most_places = D == 2 ? 32 : 8;
+    static constexpr std::size_t most_places = D == 2 ? 32 : 16;
 
     void set_shared(std::size_t cell, PartBits bits) {
         if (bits == 0) return;
@@ -199,11 +199,9 @@ class DiskCovers {
     void make_stamps() {
         for (std::size_t row = 0; row < rows; ++row) {
             steps_[row] = -2;
-            std::ptrdiff_t stride = grid_.cells[0];
-            for (std::size_t k = 1, rest = row; k < D; ++k, rest /= 5) {
-                steps_[row] += (static_cast<std::ptrdiff_t>(rest % 5) - 2) * stride;
-                stride *= grid_.cells[k];
-            }
+            for (std::size_t k = 1, rest = row; k < D; ++k, rest /= 5)
+                steps_[row] += (static_cast<std::ptrdiff_t>(rest % 5) - 2) *
+                               static_cast<std::ptrdiff_t>(grid_.strides[k]);
         }
         stamps_.reserve(power(places_, D) * rows);
         for (std::size_t place = 0; place < power(places_, D); ++place)

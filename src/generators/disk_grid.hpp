@@ -44,15 +44,18 @@ struct DiskGrid {
             reach[k] = across < cells[k] ? static_cast<std::uint32_t>(across) + 1 : cells[k];
             inner[k] = reach[k] == 2 && cells[k] > 4 ? cells[k] - 4 : 0;
             tiles[k] = (cells[k] + tile_side - 1) >> tile_bits;
+            strides[k] = spots;
+            spots *= cells[k] + 4;
             cell_count *= cells[k];
             tile_count *= tiles[k];
         }
     }
 
-    [[nodiscard]] std::size_t number_of(const Index& cell) const {
-        std::size_t number = 0;
-        for (std::size_t k = D; k-- > 0;) number = number * cells[k] + cell[k];
-        return number;
+    /// A cell's number, where two more are counted before the first and behind the last.
+    [[nodiscard]] std::size_t spot_of(const Index& cell) const {
+        std::size_t spot = 0;
+        for (std::size_t k = 0; k < D; ++k) spot += (cell[k] + 2) * strides[k];
+        return spot;
     }
 
     [[nodiscard]] std::size_t tile_of(const Index& cell) const {
@@ -115,6 +118,8 @@ struct DiskGrid {
     Index reach{};  ///< cells that a distance of the radius can lead across
     Index inner{};  ///< cells from the third to the last but two, if these are what it cannot leave
     Index tiles{};
+    std::array<std::size_t, D> strides{};
+    std::size_t spots = 1;  ///< numbers of cells
     std::size_t cell_count = 1;
     std::size_t tile_count = 1;
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/parallel.hpp"
+#include "generators/disk_bits.hpp"
 #include "generators/disk_covers.hpp"
 #include "generators/disk_grid.hpp"
 #include "generators/disk_window.hpp"
@@ -100,23 +101,19 @@ class CellTiles : public TilesBase<D> {
 
     static constexpr bool knows_parts = true;
 
-    explicit CellTiles(const Grid& grid)
-        : Base(grid),
-          pitch_((grid.cells[0] + 63) / 64 * 8),
-          heads_(grid.cell_count),
-          places_(grid.cell_count),
-          taken_(grid.cell_count / grid.cells[0] * pitch_ + 8),
-          pending_(taken_),
-          covers_(grid) {
-        for (std::size_t k = 0; k < D; ++k)
+    explicit CellTiles(const Grid& grid) : Base(grid), taken_(grid), pending_(grid), covers_(grid) {
+        for (std::size_t k = 0; k < D; ++k) {
             to_parts_[k] = static_cast<float>(double{cell_parts<D>} / grid.scales[k]);
+            plain_ = plain_ && grid.reach[k] == 2 && grid.cells[k] > 4;
+        }
+        heads_.resize(grid.spots);
+        places_.resize(grid.spots);
         for (std::size_t b = 0; b < about_.size(); ++b) look_at(b);
         for (std::size_t part = 0; part < parts_of_cell; ++part)
             for (std::size_t b = 0; b < about_.size(); ++b)
-                if (reaches(b, part)) masks_[part][b / 25] |= 1U << (b % 25);
+                if (reaches(b, part)) masks_[part][b / layer] |= Word{1} << (b % layer);
         for (const auto& masks : masks_)
-            for (std::size_t group = 0; group < groups; ++group)
-                masks_[whole][group] |= masks[group];
+            for (std::size_t z = 0; z < layers; ++z) masks_[whole][z] |= masks[z];
     }
 
     /// Asks for the cells of a row that is soon reached from this one; always inline, since GCC
@@ -128,11 +125,12 @@ class CellTiles : public TilesBase<D> {
         there[1] += ahead;
         if (there[1] >= grid_.cells[1]) return;
         there[0] = tile.first[0];
-        const std::size_t at = grid_.number_of(there);
-        const std::size_t end = at + tile.last[0] - tile.first[0];
-        for (std::size_t i = at; i < end; i += line / sizeof(PartBits)) covers_.fetch(i);
-        for (std::size_t i = at; i < end; i += line / sizeof(Off)) __builtin_prefetch(&places_[i]);
-        for (std::size_t i = at; i < end; i += line / 2) __builtin_prefetch(&heads_[i]);
+        const std::size_t length = tile.last[0] - tile.first[0];
+        const std::size_t spot = grid_.spot_of(there);
+        for (std::size_t i = 0; i < length; i += line / sizeof(PartBits)) covers_.fetch(spot + i);
+        for (std::size_t i = 0; i < length; i += line / sizeof(Off))
+            __builtin_prefetch(&places_[spot + i]);
+        for (std::size_t i = 0; i < length; i += line / 2) __builtin_prefetch(&heads_[spot + i]);
     }
 
     /// The same for candidates, which lie in order of their rows, as the i-th is reached.
@@ -144,24 +142,24 @@ class CellTiles : public TilesBase<D> {
 
     /// Parts that a point covers alone, of a cell and those behind it along the first direction.
     [[nodiscard]] const PartBits* covered(const Index& cell) const {
-        return covers_.row(grid_.number_of(cell));
+        return covers_.row(grid_.spot_of(cell));
     }
 
     /// Whether a point is known to cover a place of a cell.
     [[nodiscard]] bool covers(const Index& cell, const Point& place) const {
-        return covers_.covers(grid_.number_of(cell), place);
+        return covers_.covers(grid_.spot_of(cell), place);
     }
 
     /// Gets a desk ready for a tile.
     void prepare(const Tile&, Desk<D>&) const {}
 
-    [[nodiscard]] bool taken(const Index& cell) const { return has(taken_, cell); }
+    [[nodiscard]] bool taken(const Index& cell) const { return taken_.has(cell); }
 
     /// Points that reach into a cell, and some more.
     void gather(const Tile&, const Index& cell, const Desk<D>&, NearDisks<D, float>& near) const {
         near.clear();
-        if (grid_.interior(cell)) {
-            const std::size_t at = grid_.number_of(cell);
+        if (plain_) {
+            const std::size_t at = grid_.spot_of(cell);
             for_bits(taken_, cell, whole, [&](const Neighbour& n) {
                 auto p = places_[at + static_cast<std::size_t>(n.cells)];
                 for (std::size_t k = 0; k < D; ++k) p[k] += n.off[k];
@@ -171,7 +169,7 @@ class CellTiles : public TilesBase<D> {
         } else {
             grid_.around(cell, [&](const Index& there, const Point& steps) {
                 if (!taken(there)) return;
-                auto p = places_[grid_.number_of(there)];
+                auto p = places_[grid_.spot_of(there)];
                 for (std::size_t k = 0; k < D; ++k)
                     p[k] += static_cast<float>(steps[k] * grid_.scales[k]);
                 near.add(p);
@@ -183,11 +181,11 @@ class CellTiles : public TilesBase<D> {
     /// Whether a point covers the place at `off` from a cell's corner.
     [[nodiscard]] Hit hit_at(const Tile& tile, const Index& cell, const Off& off,
                              Desk<D>& desk) const {
-        if (!grid_.interior(cell)) {
+        if (!plain_) {
             gather(tile, cell, desk, desk.near);
             return stipple::hits<D, float>(desk.near, off, float_slack);
         }
-        const std::size_t at = grid_.number_of(cell);
+        const std::size_t at = grid_.spot_of(cell);
         Hit hit = Hit::no;
         for_bits(taken_, cell, part_of(off), [&](const Neighbour& n) {
             const float squared = squared_from(at, n, off);
@@ -228,27 +226,18 @@ class CellTiles : public TilesBase<D> {
         covers_.clear();
     }
 
-    /// Forgets the candidates of the shower before.
-    void start_over(Tile& tile) {
-        tile.candidates.clear();
-        Index row = tile.first;
-        while (true) {
-            std::memset(&pending_[byte_of(row)], 0, Grid::tile_side / 8);
-            std::size_t k = 1;
-            for (; k < D && ++row[k] == tile.last[k]; ++k) row[k] = tile.first[k];
-            if (k == D) return;
-        }
-    }
+    /// Forgets the candidates of the shower before, in all tiles; in one.
+    void start_over() { pending_.clear(); }
+    void start_over(Tile& tile) const { tile.candidates.clear(); }
 
     /// Adds a candidate, for others to find.
-    void add(Tile& tile, const Index& cell, const Off& off, Candidate<D> c) {
-        const std::size_t number = grid_.number_of(cell);
-        if (!has(pending_, cell)) {
-            flip(pending_, cell);
-            places_[number] = off;
+    void add(Tile& tile, const Index& cell, const Off& off, Candidate<D> c, bool shared) {
+        const std::size_t number = grid_.spot_of(cell);
+        if (!pending_.has_meanwhile(cell)) {
+            mark(pending_, cell, number, off, shared);
             heads_[number] = 0;
         } else {
-            places_[number][0] = not_one;
+            mark(pending_, cell, number, {not_one}, shared);
         }
         auto& all = tile.candidates;
         std::uint16_t* link = &heads_[number];
@@ -264,22 +253,19 @@ class CellTiles : public TilesBase<D> {
     [[nodiscard]] bool any_before(const Tile& tile, const Candidate<D>& c, const Visit& visit) {
         const Index cell = Grid::cell_at(tile.first, c.place);
         bool found = false;
-        if (grid_.interior(cell)) {
-            const std::size_t at = grid_.number_of(cell);
+        if (plain_) {
+            const std::size_t at = grid_.spot_of(cell);
             const Off off = off_of(cell, at, c);
             const bool alone = !std::isnan(places_[at][0]);
             for_bits(pending_, cell, part_of(off), [&](const Neighbour& n) {
                 if (squared_from(at, n, off) > 1 + float_slack) return true;
                 if (n.cells == 0 && alone) return true;
-                Index there;
-                for (std::size_t k = 0; k < D; ++k)
-                    there[k] = cell[k] + static_cast<std::uint32_t>(n.steps[k]);
-                found = any_in(there, c, visit);
+                found = any_in(stepped(cell, n), c, visit);
                 return !found;
             });
         } else {
             grid_.around(cell, [&](const Index& there, const Point&) {
-                found = found || (has(pending_, there) && any_in(there, c, visit));
+                found = found || (pending_.has(there) && any_in(there, c, visit));
             });
         }
         return found;
@@ -292,18 +278,19 @@ class CellTiles : public TilesBase<D> {
             if (tile.fates[i] != stays) continue;
             const Candidate<D>& c = tile.candidates[i];
             const Index cell = Grid::cell_at(tile.first, c.place);
-            const std::size_t number = grid_.number_of(cell);
+            const std::size_t number = grid_.spot_of(cell);
             heads_[number] = static_cast<std::uint16_t>(tile.points.size() / D);
             tile.points.insert(tile.points.end(), c.at.begin(), c.at.end());
-            places_[number] = off_of(cell, number, c);
-            flip(taken_, cell);
-            covers_.add(cell, places_[number], shared && !inside(tile, cell));
+            const Off off = off_of(cell, number, c);
+            mark(taken_, cell, number, off, shared);
+            covers_.add(cell, off, shared && !inside(tile, cell));
         }
     }
 
   private:
-    static constexpr std::size_t rows = power(5, D - 1);
-    static constexpr std::size_t groups = rows / 5;
+    using Word = typename CellBits<D>::Word;
+    static constexpr std::size_t layers = CellBits<D>::layers;
+    static constexpr std::size_t layer = CellBits<D>::layer_bits;
     static constexpr std::size_t whole = parts_of_cell;
     static constexpr float not_one = std::numeric_limits<float>::quiet_NaN();  ///< place of several
 
@@ -311,25 +298,17 @@ class CellTiles : public TilesBase<D> {
     struct Neighbour {
         std::array<int, D> steps;
         std::array<float, D> off;  ///< of its corner, in radii
-        std::ptrdiff_t cells;      ///< the same as a difference of numbers
+        std::ptrdiff_t cells = 0;  ///< the same as a difference of spots
     };
 
     void look_at(std::size_t b) {
         Neighbour& n = about_[b];
-        std::size_t rest = b;
-        std::ptrdiff_t row = 0;
-        std::ptrdiff_t stride = 1;
-        for (std::size_t k = 0; k < D; ++k, rest /= 5) {
-            const int step = static_cast<int>(rest % 5) - 2;
-            n.steps[k] = step;
-            n.off[k] = static_cast<float>(step * grid_.scales[k]);
-            if (k > 0) {
-                row += step * stride;
-                stride *= grid_.cells[k];
-            }
+        const std::array<std::size_t, 3> along{b % 8, b % layer / 8, b / layer};
+        for (std::size_t k = 0; k < D; ++k) {
+            n.steps[k] = static_cast<int>(along[k]) - 2;
+            n.off[k] = static_cast<float>(n.steps[k] * grid_.scales[k]);
+            n.cells += n.steps[k] * static_cast<std::ptrdiff_t>(grid_.strides[k]);
         }
-        n.cells = row * static_cast<std::ptrdiff_t>(grid_.cells[0]) + n.steps[0];
-        rows_[b / 5] = row;
     }
 
     /// Whether a disk in a neighbour can reach into a part of a cell.
@@ -355,39 +334,61 @@ class CellTiles : public TilesBase<D> {
         return part;
     }
 
-    [[nodiscard]] std::size_t byte_of(const Index& cell) const {
-        std::size_t row = 0;
-        for (std::size_t k = D; k-- > 1;) row = row * grid_.cells[k] + cell[k];
-        return row * pitch_ + cell[0] / 8;
-    }
-    [[nodiscard]] bool has(const std::vector<std::uint8_t>& bits, const Index& cell) const {
-        return (bits[byte_of(cell)] >> (cell[0] % 8) & 1) != 0;
-    }
-    void flip(std::vector<std::uint8_t>& bits, const Index& cell) {
-        bits[byte_of(cell)] ^= static_cast<std::uint8_t>(1U << (cell[0] % 8));
+    /// Where a step leads, around the torus.
+    [[nodiscard]] Index stepped(const Index& cell, const Neighbour& n) const {
+        Index there;
+        for (std::size_t k = 0; k < D; ++k) {
+            there[k] = cell[k] + static_cast<std::uint32_t>(n.steps[k]);
+            if (there[k] >= grid_.cells[k])
+                there[k] += n.steps[k] < 0 ? grid_.cells[k] : -grid_.cells[k];
+        }
+        return there;
     }
 
-    /// Calls visit(neighbour) where the bit is set, about an interior cell, as long as that is
-    /// true.
+    /// Keeps the place of a cell's point or candidate, and sets its bit.
+    void mark(CellBits<D>& bits, const Index& cell, std::size_t spot, const Off& off, bool shared) {
+        Index counted;
+        for (std::size_t k = 0; k < D; ++k) counted[k] = cell[k] + 2;
+        places_[spot] = off;
+        bits.set(counted, shared);
+        if (!grid_.interior(cell))
+            for_images(counted, [&](const Index& image, std::size_t at) {
+                places_[at] = off;
+                bits.set(image, shared);
+            });
+    }
+
+    /// Calls visit(counted, spot) where a cell appears again beyond the faces of a torus.
     template <class Visit>
-    void for_bits(const std::vector<std::uint8_t>& bits, const Index& cell, std::size_t part,
+    [[gnu::noinline]] void for_images(const Index& counted, const Visit& visit) const {
+        if (plain_ && grid_.torus) images<D>(counted, false, visit);
+    }
+    template <std::size_t K, class Visit>
+    void images(const Index& counted, bool moved, const Visit& visit) const {
+        if constexpr (K == 0) {
+            std::size_t spot = 0;
+            for (std::size_t k = 0; k < D; ++k) spot += counted[k] * grid_.strides[k];
+            if (moved) visit(counted, spot);
+        } else {
+            images<K - 1>(counted, moved, visit);
+            const std::uint32_t all = grid_.cells[K - 1];
+            if (counted[K - 1] >= 4 && counted[K - 1] < all) return;
+            Index other = counted;
+            other[K - 1] += other[K - 1] < 4 ? all : -all;
+            images<K - 1>(other, true, visit);
+        }
+    }
+
+    /// Calls visit(neighbour) where the bit is set, as long as that is true.
+    template <class Visit>
+    void for_bits(const CellBits<D>& bits, const Index& cell, std::size_t part,
                   const Visit& visit) const {
-        Index start = cell;
-        start[0] -= 2;
-        const std::size_t from = byte_of(start);
-        const unsigned shift = start[0] % 8;
-        for (std::size_t group = 0; group < rows; group += 5) {
-            std::uint32_t found = 0;
-            for (std::size_t r = 0; r < 5; ++r) {
-                std::uint16_t word;
-                const std::ptrdiff_t off = rows_[group + r] * static_cast<std::ptrdiff_t>(pitch_);
-                std::memcpy(&word, bits.data() + from + static_cast<std::size_t>(off), sizeof word);
-                found |= (word >> shift & 31U) << (5 * r);
-            }
-            found &= masks_[part][group / 5];
+        const auto around = bits.about(cell);
+        for (std::size_t z = 0; z < layers; ++z) {
+            Word found = bits.layer(around, z) & masks_[part][z];
             for (; found != 0; found &= found - 1) {
                 const auto bit = static_cast<std::size_t>(std::countr_zero(found));
-                if (!visit(about_[5 * group + bit])) return;
+                if (!visit(about_[layer * z + bit])) return;
             }
         }
     }
@@ -424,14 +425,14 @@ class CellTiles : public TilesBase<D> {
     /// The point of a cell, or nullptr.
     [[nodiscard]] const double* point_in(const Index& cell) const {
         if (!taken(cell)) return nullptr;
-        return tiles_[grid_.tile_of(cell)].points.data() + heads_[grid_.number_of(cell)] * D;
+        return tiles_[grid_.tile_of(cell)].points.data() + heads_[grid_.spot_of(cell)] * D;
     }
 
     template <class Visit>
     [[nodiscard]] bool any_in(const Index& cell, const Candidate<D>& c, const Visit& visit) {
         Tile& tile = tiles_[grid_.tile_of(cell)];
         const auto& all = tile.candidates;
-        for (std::uint16_t i = heads_[grid_.number_of(cell)]; i != 0; i = all[i - 1U].next) {
+        for (std::uint16_t i = heads_[grid_.spot_of(cell)]; i != 0; i = all[i - 1U].next) {
             const Candidate<D>& other = all[i - 1U];
             if (!other.before(c)) return false;
             if (this->too_near(other.at.data(), c.at.data()) && visit(tile, i - 1U)) return true;
@@ -439,18 +440,17 @@ class CellTiles : public TilesBase<D> {
         return false;
     }
 
-    std::size_t pitch_;  ///< bytes of bits to a row of cells; tiles never share a byte
+    bool plain_ = true;  ///< a radius leads across two cells, along all directions
     std::vector<std::uint16_t>
         heads_;                ///< of a cell: its point's number, or that of its first candidate
     std::vector<Off> places_;  ///< of a cell's point or only candidate, from its corner, in radii
-    std::vector<std::uint8_t> taken_;
-    std::vector<std::uint8_t> pending_;
+    CellBits<D> taken_;
+    CellBits<D> pending_;
     DiskCovers<D> covers_;
-    std::array<Neighbour, rows * 5> about_{};
-    std::array<std::ptrdiff_t, rows> rows_{};
+    std::array<Neighbour, layers * layer> about_{};
     Off to_parts_{};  ///< from radii
     /// For each part of a cell, and for the whole, from which neighbours a disk reaches into it.
-    std::array<std::array<std::uint32_t, groups>, parts_of_cell + 1> masks_{};
+    std::array<std::array<Word, layers>, parts_of_cell + 1> masks_{};
 };
 
 /// For many dimensions.
@@ -521,12 +521,14 @@ class FewTiles : public TilesBase<D> {
     }
 
     void clear_cells() const {}
+    void start_over() const {}
     void start_over(Tile& tile) const { tile.candidates.clear(); }
 
     void fetch_row(const Tile&, const Index&) const {}
     void fetch_about(const Tile&, std::size_t) const {}
 
-    void add(Tile& tile, const Index&, const std::array<float, D>&, const Candidate<D>& c) const {
+    void add(Tile& tile, const Index&, const std::array<float, D>&, const Candidate<D>& c,
+             bool) const {
         tile.candidates.push_back(c);
     }
 

@@ -141,6 +141,7 @@ class Rain {
     /// One shower: fall(tile, key, desk) makes a tile's candidates, of which some become points.
     template <class Fall>
     void rain(std::uint64_t key, const Fall& fall) {
+        tiles_.start_over();
         for_tiles([&](Tile& tile, std::uint32_t number) {
             thread_local Desk<D> desk;
             tiles_.prepare(tile, desk);
@@ -157,8 +158,7 @@ class Rain {
                 decide(tile, i);
             }
         });
-        const bool shared = run_.thread_count() > 1;
-        for_tiles([&](Tile& tile, std::uint32_t) { tiles_.settle(tile, stays, shared); });
+        for_tiles([&](Tile& tile, std::uint32_t) { tiles_.settle(tile, stays, shared_); });
         std::size_t points = 0;
         for (const Tile& tile : tiles_.all()) points += tile.points.size() / D;
         run_.tick(std::min<std::uint64_t>(points, expected_), expected_);
@@ -252,7 +252,7 @@ class Rain {
             return;
         c.time = static_cast<std::uint32_t>(mixer.next() >> 32);
         c.place = Grid::place_of(cell);
-        tiles_.add(tile, cell, off, c);
+        tiles_.add(tile, cell, off, c, shared_);
     }
 
     /// Darts fall on the parts of cells that no point covers alone.
@@ -401,8 +401,9 @@ class Rain {
     Rng keys_;
     std::uint64_t expected_;
     RunContext run_;
-    double slack_;                     ///< of distances that doubles hold, in radii
-    std::vector<std::uint32_t> live_;  ///< tiles with something open
+    bool shared_ = run_.thread_count() > 1;  ///< several threads work on the tiles
+    double slack_;                           ///< of distances that doubles hold, in radii
+    std::vector<std::uint32_t> live_;        ///< tiles with something open
     std::uint64_t showers_ = 0;
 };
 
@@ -410,14 +411,18 @@ class Rain {
 void check_size(const BoxSpace& space, double radius, const RunContext& run) {
     const std::size_t d = space.box.dimension();
     double cells = 1;
-    for (const double along : cells_along(space.box, radius)) cells *= along;
+    double spots = 1;  // cells, and two more at each end
+    for (const double along : cells_along(space.box, radius)) {
+        cells *= along;
+        spots *= along + 4;
+    }
     const double points = expected_disks(space, radius);
     const double n = static_cast<double>(d);
     // A cell's head, place and bits; a point, its copy and the candidates of a shower; windows.
-    const double to_a_cell = d <= 3 ? 10.25 + 4 * n : 0;
+    const double to_a_cell = d <= 3 ? 11 + 4 * n : 0;
     const double to_a_point = 2 * 8 * n + 0.6 * (8 * n + 9);
     const double windows = cells * (d == 2 ? 0.7 : d == 3 ? 1 : 1.5) * (8 * n + 8);
-    const double bytes = cells * to_a_cell + points * to_a_point + windows;
+    const double bytes = spots * to_a_cell + points * to_a_point + windows;
     run.need_memory(bytes, fmt::format("a radius of {}, with about {:.3g} points,",
                                        format_number(radius), points));
     if (cells >= 0xffff'fffe)

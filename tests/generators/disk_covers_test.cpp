@@ -55,19 +55,23 @@ void expect_right_bits(const BoxSpace& space, double radius, double cell_radius,
     constexpr std::size_t p = cell_parts<D>;
     std::array<double, D> sides;
     for (std::size_t k = 0; k < D; ++k) sides[k] = grid.widths[k] / double{p};
-    for (std::size_t c = 0; c < grid.cell_count; ++c)
+    for (std::size_t c = 0; c < grid.cell_count; ++c) {
+        typename DiskGrid<D>::Index cell;
+        for (std::size_t k = 0, n = c; k < D; n /= grid.cells[k], ++k)
+            cell[k] = static_cast<std::uint32_t>(n % grid.cells[k]);
         for (std::size_t bit = 0; bit < 64; ++bit) {
             std::array<double, D> low;
-            for (std::size_t k = 0, n = c, b = bit; k < D; n /= grid.cells[k], b /= p, ++k)
-                low[k] = grid.low[k] + static_cast<double>(n % grid.cells[k]) * grid.widths[k] +
-                         static_cast<double>(b % p) * sides[k];
+            for (std::size_t k = 0, b = bit; k < D; b /= p, ++k)
+                low[k] =
+                    grid.low[k] + cell[k] * grid.widths[k] + static_cast<double>(b % p) * sides[k];
             double least = INFINITY;
             for (const auto& point : points)
                 least = std::min(least, farthest<D>(space, point, low, sides));
-            const bool covered = (*covers.row(c) >> bit & 1) != 0;
+            const bool covered = (*covers.row(grid.spot_of(cell)) >> bit & 1) != 0;
             EXPECT_TRUE(covered ? least < radius : least > radius - quarter)
                 << "cell " << c << ", part " << bit << ": " << covered << ", " << least;
         }
+    }
 }
 
 BoxSpace space_of(const std::vector<double>& high, bool torus) {
