@@ -104,7 +104,8 @@ void improve(const CornerGrid& grid, Side side, std::size_t axis, Climb& climb,
     }
 }
 
-WorstBox climbed(const CornerGrid& grid, Side side, const Place& from, const RunContext& run) {
+void climb_from(const Place& from, const CornerGrid& grid, Side side, WorstBox& worst,
+                const RunContext& run) {
     constexpr int rounds = 4;
     Climb climb{from, 0, -static_cast<double>(grid.count) - 1};
     double before = climb.badness;
@@ -113,22 +114,20 @@ WorstBox climbed(const CornerGrid& grid, Side side, const Place& from, const Run
         improve(grid, side, 1, climb, run);
         if (climb.badness == std::exchange(before, climb.badness)) break;
     }
-    WorstBox worst(grid);
     worst.offer(side, climb.corner, climb.points);
-    return worst;
 }
 
 }  // namespace
 
 WorstBox scout(const CornerGrid& grid, const RunContext& run) {
     const Coarse coarse(grid, run);
-    std::array worst{WorstBox(grid), WorstBox(grid)};
+    std::vector<WorstBox> worst(2, WorstBox(grid));
     constexpr bool silent = true;
     for_each_block(
         worth_threads(run, 1e-7 * static_cast<double>(grid.count)), 2, 1,
         [&](const Block& block) {
             const Side side = block.index == 0 ? Side::open : Side::closed;
-            worst[block.index] = climbed(grid, side, coarse.worst(side), run);
+            climb_from(coarse.worst(side), grid, side, worst[block.index], run);
         },
         silent);
     worst[0].offer(worst[1]);
