@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/parallel.hpp"
+
 namespace stipple::analyzers::star {
 namespace {
 
@@ -102,23 +104,34 @@ void improve(const CornerGrid& grid, Side side, std::size_t axis, Climb& climb,
     }
 }
 
+void climb_from(const Place& from, const CornerGrid& grid, Side side, WorstBox& worst,
+                const RunContext& run) {
+    constexpr int rounds = 4;
+    Climb climb{from, 0, -static_cast<double>(grid.count) - 1};
+    double before = climb.badness;
+    for (int round = 0; round < rounds; ++round) {
+        improve(grid, side, 0, climb, run);
+        improve(grid, side, 1, climb, run);
+        if (climb.badness == std::exchange(before, climb.badness)) break;
+    }
+    worst.offer(side, climb.corner, climb.points);
+}
+
 }  // namespace
 
 WorstBox scout(const CornerGrid& grid, const RunContext& run) {
-    constexpr int rounds = 4;
     const Coarse coarse(grid, run);
-    WorstBox worst(grid);
-    for (const Side side : {Side::open, Side::closed}) {
-        Climb climb{coarse.worst(side), 0, -static_cast<double>(grid.count) - 1};
-        double before = climb.badness;
-        for (int round = 0; round < rounds; ++round) {
-            improve(grid, side, 0, climb, run);
-            improve(grid, side, 1, climb, run);
-            if (climb.badness == std::exchange(before, climb.badness)) break;
-        }
-        worst.offer(side, climb.corner, climb.points);
-    }
-    return worst;
+    std::vector<WorstBox> worst(2, WorstBox(grid));
+    constexpr bool silent = true;
+    for_each_block(
+        worth_threads(run, 1e-7 * static_cast<double>(grid.count)), 2, 1,
+        [&](const Block& block) {
+            const Side side = block.index == 0 ? Side::open : Side::closed;
+            climb_from(coarse.worst(side), grid, side, worst[block.index], run);
+        },
+        silent);
+    worst[0].offer(worst[1]);
+    return worst[0];
 }
 
 }  // namespace stipple::analyzers::star

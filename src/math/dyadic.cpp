@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "math/dyadic.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
 namespace stipple {
 
 Dyadic dyadic(double x) {
-    int exponent = 0;
-    const auto mantissa = static_cast<std::uint64_t>(std::ldexp(std::frexp(x, &exponent), 53));
+    constexpr std::uint64_t implicit = std::uint64_t{1} << 52;
+    const auto bits = std::bit_cast<std::uint64_t>(x + 0.0);  // -0 becomes 0
+    const auto exponent = static_cast<unsigned>(bits >> 52);
+    const std::uint64_t mantissa = bits % implicit + (exponent > 0 ? implicit : 0);
     if (mantissa == 0) return {0, 0};
-    const int zeros = std::countr_zero(mantissa);
-    return {mantissa >> zeros, static_cast<unsigned>(53 - exponent - zeros)};
+    const auto zeros = static_cast<unsigned>(std::countr_zero(mantissa));
+    return {mantissa >> zeros, 1075 - std::max(exponent, 1U) - zeros};
 }
 
 Integer scaled(double x, unsigned places) {
