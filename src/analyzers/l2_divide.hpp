@@ -19,7 +19,8 @@
 //
 // Numbers are fixed: weights have 96 bits behind the point, sums of their products are exact.
 //
-// Cost    O(n log^(d-1) n) time, about 20 ns n log2^2(n) / 2 in three dimensions; 128 d bytes a
+// Cost    O(n log^(d-1) n) time: on one core 0.3 s for 65 536 points in three dimensions and 8 s
+//         for 10^6 (all pairs: 0.6 s and 140 s), 8 s for 200 000 in four. 128 (d - 1) bytes a
 //         point.
 // Promise the same for any number of threads. Off by less than 2^-80 of what random points have in
 //         three dimensions, coordinates being multiples of 2^-63.
@@ -40,7 +41,7 @@ namespace stipple::analyzers::l2 {
 bool divides(std::size_t dimension, Kind kind, const std::vector<double>& weights);
 
 /// Whether it is faster than all pairs are.
-bool divide_wins(std::size_t count, std::size_t dimension);
+bool divide_wins(std::size_t count, std::size_t dimension, Kind kind);
 
 /// Bytes that it needs.
 double divide_memory(std::size_t count, std::size_t dimension);

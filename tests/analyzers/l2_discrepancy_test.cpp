@@ -533,8 +533,7 @@ TEST(L2Discrepancy, RefusesWrongOptionsAndSaysWhy) {
         return error_of([&] { analyze("l2-discrepancy", set, settings); });
     };
     EXPECT_EQ(error({{"kind", "star,centred"}}),
-              "usage: --kind: 'centred' is none of all, star, extreme, periodic, centered, "
-              "wraparound, mixture, modified, diaphony | did you mean 'centered'?");
+              "usage: --kind: 'centred' is no kind of L2 discrepancy | did you mean 'centered'?");
     EXPECT_TRUE(error({{"kind", ""}}).starts_with("usage: --kind: "));
     EXPECT_EQ(error({{"weights", "1,2"}}),
               "usage: --weights: 2 numbers for points of 3 coordinates; one for each");
