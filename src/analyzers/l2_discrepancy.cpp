@@ -120,14 +120,14 @@ Report in_space(const PointSet& points, l2::Kind which, const std::vector<double
     const std::size_t d = points.dimension();
     if (l2::divides(d, which, weights) && l2::divide_wins(n, d, which)) {
         run.need_memory(l2::divide_memory(n, d), "the tables of l2-discrepancy");
-        const double squared = l2::divide_square(points, which, weights, run);
-        const double error = 0x1p-52 * squared + 0x1p-80;
-        return result_of(squared, "divide-and-conquer").add("error", error_of_root(squared, error));
+        const l2::Square square = l2::divide_square(points, which, weights, run);
+        return result_of(square.squared, "divide-and-conquer")
+            .add("error", error_of_root(square.squared, square.error));
     }
     warn_of_pairs(n, d, which, run);
     run.need_memory(static_cast<double>(2 * points.flat().size() + n) * 8,
                     "the tables of l2-discrepancy");
-    const l2::PairSquare square = l2::pair_square(points, which, weights, run);
+    const l2::Square square = l2::pair_square(points, which, weights, run);
     return result_of(square.squared, "all-pairs")
         .add("error", error_of_root(square.squared, square.error));
 }

@@ -449,8 +449,8 @@ Prepared prepare(const PointSet& points, Kind kind, const std::vector<double>& w
 
 }  // namespace
 
-PairSquare pair_square(const PointSet& points, Kind kind, const std::vector<double>& weights,
-                       const RunContext& run) {
+Square pair_square(const PointSet& points, Kind kind, const std::vector<double>& weights,
+                   const RunContext& run) {
     const Prepared set = prepare(points, kind, weights, run);
     if (set.table.count == 0) {  // all weights are 0
         run.tick(1, 1);

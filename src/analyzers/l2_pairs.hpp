@@ -30,13 +30,8 @@
 
 namespace stipple::analyzers::l2 {
 
-struct PairSquare {
-    double squared;
-    double error;  ///< `squared` is off by at most this
-};
-
 /// @param weights of the axes, or none
-PairSquare pair_square(const PointSet& points, Kind kind, const std::vector<double>& weights,
-                       const RunContext& run);
+Square pair_square(const PointSet& points, Kind kind, const std::vector<double>& weights,
+                   const RunContext& run);
 
 }  // namespace stipple::analyzers::l2

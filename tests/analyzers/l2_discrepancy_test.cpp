@@ -396,14 +396,14 @@ TEST(L2Discrepancy, OfDividedSetsIsExact) {
             for (const Kind kind : divisible) {
                 if (d == 4 && set.count() > 7) continue;
                 const auto& by_definition = definition(name_of(kind));
-                EXPECT_LE(off(analyzers::l2::divide_square(set, kind, {}, {}),
+                EXPECT_LE(off(analyzers::l2::divide_square(set, kind, {}, {}).squared,
                               exact_square(set, by_definition)),
                           0x1p-51)
                     << name_of(kind) << ", n = " << set.count() << ", d = " << d;
                 if (kind == Kind::extreme || set.count() > 7) continue;
                 const Weights mine(weights.begin(),
                                    weights.begin() + static_cast<std::ptrdiff_t>(d));
-                EXPECT_LE(off(analyzers::l2::divide_square(set, kind, mine, {}),
+                EXPECT_LE(off(analyzers::l2::divide_square(set, kind, mine, {}).squared,
                               exact_square(set, by_definition, mine)),
                           0x1p-51)
                     << name_of(kind) << ", n = " << set.count() << ", d = " << d;
@@ -414,10 +414,12 @@ TEST(L2Discrepancy, OfDividedSetsIsThatOfAllPairs) {
     for (const auto& [n, d] : {std::pair<std::size_t, std::size_t>{5000, 3}, {700, 4}})
         for (const PointSet& set : {random_set(n, d, n), on_lattice(n, d, 20, n)})
             for (const Kind kind : divisible) {
-                const double divided = analyzers::l2::divide_square(set, kind, {}, {.threads = 1});
+                const double divided =
+                    analyzers::l2::divide_square(set, kind, {}, {.threads = 1}).squared;
                 const auto pairs = analyzers::l2::pair_square(set, kind, {}, {});
                 EXPECT_NEAR(divided, pairs.squared, pairs.error) << name_of(kind) << ", d = " << d;
-                EXPECT_EQ(divided, analyzers::l2::divide_square(set, kind, {}, {.threads = 3}));
+                EXPECT_EQ(divided,
+                          analyzers::l2::divide_square(set, kind, {}, {.threads = 3}).squared);
             }
 }
 
