@@ -550,6 +550,14 @@ TEST(L2Discrepancy, RefusesWrongOptionsAndSaysWhy) {
                     }).starts_with("limit: "));
 }
 
+TEST(L2Discrepancy, RefusesWhatNoDoubleHolds) {
+    const PointSet set = random_set(5, 2000, 1);
+    EXPECT_EQ(error_of([&] { report_of(set, {}, "wraparound"); }),
+              "limit: the wraparound discrepancy of points in 2000 dimensions is made of numbers "
+              "beyond the largest double");
+    EXPECT_TRUE(std::isfinite(squared(report_of(set, {}, "star"), "star")));
+}
+
 TEST(L2Discrepancy, StopsAtOnceInManyDimensions) {
     const PointSet set = random_set(20'000, 6, 1);
     std::stop_source source;
