@@ -103,19 +103,31 @@ double error_of_root(double squared, double error) {
     return std::sqrt(std::max(squared, 0.0) + error);
 }
 
+/// Says so where all pairs take more than some ten minutes on one core.
+void warn_of_pairs(std::size_t n, std::size_t d, l2::Kind which, const RunContext& run) {
+    const double pairs = static_cast<double>(n) * static_cast<double>(n) / 2;
+    const double seconds = 0.15e-9 * pairs * static_cast<double>(d);
+    if (seconds < 600) return;
+    run.tell(
+        fmt::format("{} l2-discrepancy takes all pairs of {} points in {} dimensions, some "
+                    "{:.0f} minutes on one core",
+                    l2::record_of(which).name, n, d, seconds / 60));
+}
+
 Report in_space(const PointSet& points, l2::Kind which, const std::vector<double>& weights,
                 const RunContext& run) {
     const std::size_t n = points.count();
     const std::size_t d = points.dimension();
-    if (l2::divides(d, which, weights) && l2::divide_wins(n, d)) {
+    if (l2::divides(d, which, weights) && l2::divide_wins(n, d, which)) {
         run.need_memory(l2::divide_memory(n, d), "the tables of l2-discrepancy");
-        const double squared = l2::divide_square(points, which, weights, run);
-        const double error = 0x1p-52 * squared + 0x1p-80;
-        return result_of(squared, "divide-and-conquer").add("error", error_of_root(squared, error));
+        const l2::Square square = l2::divide_square(points, which, weights, run);
+        return result_of(square.squared, "divide-and-conquer")
+            .add("error", error_of_root(square.squared, square.error));
     }
+    warn_of_pairs(n, d, which, run);
     run.need_memory(static_cast<double>(2 * points.flat().size() + n) * 8,
                     "the tables of l2-discrepancy");
-    const l2::PairSquare square = l2::pair_square(points, which, weights, run);
+    const l2::Square square = l2::pair_square(points, which, weights, run);
     return result_of(square.squared, "all-pairs")
         .add("error", error_of_root(square.squared, square.error));
 }

@@ -19,10 +19,11 @@
 //
 // Numbers are fixed: weights have 96 bits behind the point, sums of their products are exact.
 //
-// Cost    O(n log^(d-1) n) time, about 20 ns n log2^2(n) / 2 in three dimensions; 128 d bytes a
+// Cost    O(n log^(d-1) n) time: on one core 0.3 s for 65 536 points in three dimensions and 8 s
+//         for 10^6 (all pairs: 0.6 s and 140 s), 8 s for 200 000 in four. 128 (d - 1) bytes a
 //         point.
-// Promise the same for any number of threads. Off by less than 2^-80 of what random points have in
-//         three dimensions, coordinates being multiples of 2^-63.
+// Promise the same for any number of threads. The square is off by less than 2^-80 and its own
+//         rounding; and by what coordinates lose that are no multiples of 2^-63, most below 2^-10.
 // Source  S. Heinrich, Math. Comp. 65 (1996) 1621-1633, doi:10.1090/S0025-5718-96-00756-4;
 //         K. Frank, S. Heinrich, J. Complexity 12 (1996) 287-314.
 #pragma once
@@ -40,13 +41,13 @@ namespace stipple::analyzers::l2 {
 bool divides(std::size_t dimension, Kind kind, const std::vector<double>& weights);
 
 /// Whether it is faster than all pairs are.
-bool divide_wins(std::size_t count, std::size_t dimension);
+bool divide_wins(std::size_t count, std::size_t dimension, Kind kind);
 
 /// Bytes that it needs.
 double divide_memory(std::size_t count, std::size_t dimension);
 
 /// The squared discrepancy. @param weights of the axes, or none
-double divide_square(const PointSet& points, Kind kind, const std::vector<double>& weights,
+Square divide_square(const PointSet& points, Kind kind, const std::vector<double>& weights,
                      const RunContext& run);
 
 }  // namespace stipple::analyzers::l2

@@ -31,6 +31,11 @@ struct KindRecord {
 
 const KindRecord& record_of(Kind kind);
 
+struct Square {
+    double squared;
+    double error;  ///< `squared` is off by at most this
+};
+
 /// Of words separated by commas, each kind once and in the order of all_kinds; `all` is every kind.
 /// @throws Error(usage) naming the word that is none
 std::vector<Kind> parse_kinds(std::string_view words);

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/wide.hpp"
 
@@ -402,6 +403,26 @@ struct Prepared {
     double most = 1;  ///< no product is larger
 };
 
+/// Writes the columns of all points on these axes; gives the sum of the products of f.
+Quad fill(Table& table, const PointSet& points, const std::vector<std::size_t>& axes,
+          const std::vector<AxisForm>& forms, const RunContext& run) {
+    CarriedSum means;
+    for (std::size_t i = 0; i < table.count; ++i) {
+        if (i % 4096 == 0) run.check_stop();
+        Long mean = 1;
+        std::size_t column = 0;
+        for (std::size_t j = 0; j < axes.size(); ++j) {
+            const Columns c = forms[j].columns(points[i][axes[j]] + 0.0);
+            mean *= c.mean;
+            table.at(i, column++) = c.g;
+            if (forms[j].columns() == 2) table.at(i, column++) = c.h;
+        }
+        table.at(i, column) = 1;
+        means.add(mean);
+    }
+    return means.value();
+}
+
 Prepared prepare(const PointSet& points, Kind kind, const std::vector<double>& weights,
                  const RunContext& run) {
     const std::size_t n = points.count();
@@ -429,28 +450,15 @@ Prepared prepare(const PointSet& points, Kind kind, const std::vector<double>& w
         out.total *= form.axis().total;
         out.most *= std::max(1.0, form.axis().a);
     }
-    CarriedSum means;
-    for (std::size_t i = 0; i < n; ++i) {
-        if (i % 4096 == 0) run.check_stop();
-        Long mean = 1;
-        std::size_t column = 0;
-        for (std::size_t j = 0; j < axes.size(); ++j) {
-            const Columns c = forms[j].columns(points[i][axes[j]] + 0.0);
-            mean *= c.mean;
-            table.at(i, column++) = c.g;
-            if (forms[j].columns() == 2) table.at(i, column++) = c.h;
-        }
-        table.at(i, column) = 1;
-        means.add(mean);
-    }
-    out.means = table.form == Form::bend ? out.total : means.value() / n;
+    const Quad means = fill(table, points, axes, forms, run);
+    out.means = table.form == Form::bend ? out.total : means / n;
     return out;
 }
 
 }  // namespace
 
-PairSquare pair_square(const PointSet& points, Kind kind, const std::vector<double>& weights,
-                       const RunContext& run) {
+Square pair_square(const PointSet& points, Kind kind, const std::vector<double>& weights,
+                   const RunContext& run) {
     const Prepared set = prepare(points, kind, weights, run);
     if (set.table.count == 0) {  // all weights are 0
         run.tick(1, 1);
@@ -459,6 +467,11 @@ PairSquare pair_square(const PointSet& points, Kind kind, const std::vector<doub
     const Quad n = points.count();
     const Quad pairs = sum_over_pairs(set.table, run) / (n * n);
     const Quad squared = set.total - 2 * set.means + pairs;
+    if (!std::isfinite(static_cast<double>(squared)) || !std::isfinite(set.most))
+        fail(ErrorKind::limit,
+             "the {} discrepancy of points in {} dimensions is made of numbers "
+             "beyond the largest double",
+             record_of(kind).name, points.dimension());
 
     const auto axes = static_cast<double>(set.table.columns);
     const auto products = kind == Kind::diaphony ? set.most : static_cast<double>(pairs);
