@@ -21,6 +21,7 @@
 //         Complexity 25 (2009) 115-127 (NP-hard).
 
 #include "analyzers/analyzer.hpp"
+#include "analyzers/extreme_discrepancy.hpp"
 #include "analyzers/star_ascent.hpp"
 #include "analyzers/star_search.hpp"
 #include "analyzers/star_sweep.hpp"
@@ -75,6 +76,11 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     if (points.count() > max_count)
         fail(ErrorKind::limit, "star-discrepancy takes up to {} points; these are {}", max_count,
              points.count());
+    if (options[extreme::kind] != "star")
+        return extreme::discrepancy(
+            points,
+            options[extreme::kind] == "extreme" ? extreme::Space::cube : extreme::Space::torus,
+            static_cast<std::uint64_t>(options[max_work]), run);
     run.need_memory(static_cast<double>(points.count()) *
                         (static_cast<double>(points.dimension() * star::axis_bytes) + 32),
                     "the star discrepancy's grid of corners");
@@ -91,13 +97,17 @@ Analyzer star_discrepancy() {
             .summary = "Star discrepancy, exact, with the worst box",
             .source = "Doerr, Gnewuch, Wahlstroem 2014, arXiv:1405.1653",
             .traits = {.max_dimension = 10'000},
-            .options = Schema(max_work),
+            .options = Schema(max_work, extreme::kind),
             .results = {{"value", "the star discrepancy"},
                         {"lower", "it is at least this"},
                         {"upper", "it is at most this"},
                         {"exact", "whether the two bounds are the same"},
                         {"method", "sweep-1d, sweep-2d or branch-and-bound"},
                         {"worst_box.corner", "upper corner of the box where it is reached"},
+                        {"worst_box.lower_corner",
+                         "lower corner, for the kinds extreme and periodic; where it is above the "
+                         "upper one, the box wraps",
+                         false},
                         {"worst_box.closed", "whether points on the box's upper faces count"},
                         {"worst_box.points", "points in that box"},
                         {"worst_box.volume", "its volume"}},
