@@ -51,6 +51,10 @@ void extreme_discrepancy_halton(benchmark::State& state) {
 void periodic_discrepancy_halton(benchmark::State& state) {
     measure(state, "star-discrepancy", "halton", {{"kind", "periodic"}});
 }
+void dispersion_random(benchmark::State& state) { measure(state, "dispersion", "random"); }
+void dispersion_on_torus(benchmark::State& state) {
+    measure(state, "dispersion", "random", {{"torus", "true"}});
+}
 
 }  // namespace
 
@@ -101,4 +105,14 @@ BENCHMARK(periodic_discrepancy_halton)
     ->Args({256, 2})
     ->Args({512, 2})
     ->Args({1024, 2})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(dispersion_random)
+    ->Args({10'000, 2})
+    ->Args({100'000, 2})
+    ->Args({1'000'000, 2})
+    ->Args({100, 3})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(dispersion_on_torus)
+    ->Args({10'000, 2})
+    ->Args({100'000, 2})
     ->Unit(benchmark::kMillisecond);
