@@ -85,16 +85,29 @@ class Climber {
     std::vector<std::uint32_t> line_;     ///< places on an axis of points inside on the others
 };
 
-GridBox random_box(const BoxGrid& grid, Side side, std::uint64_t stream) {
+/// Where a climb starts: an open box between any places, the first one as large as can be, as most
+/// have no volume to speak of in many dimensions; a closed one around two points, for the same
+/// reason.
+GridBox first_box(const BoxGrid& grid, Side side, std::uint64_t stream) {
     const Rng rng(0, stream);
+    const bool cube = grid.space == Space::cube;
+    const std::uint64_t one = rng.below(0, grid.count);
+    const std::uint64_t other = rng.below(1, grid.count);
     GridBox box{.side = side, .axes = {}};
     for (std::size_t k = 0; k < grid.dimension(); ++k) {
-        const auto places = grid.values[k].size();
-        auto lower = static_cast<std::uint32_t>(rng.below(2 * k, places));
-        auto upper = static_cast<std::uint32_t>(rng.below(2 * k + 1, places));
-        if (grid.space == Space::cube && lower > upper) std::swap(lower, upper);
+        const auto places = static_cast<std::uint32_t>(grid.values[k].size());
+        auto lower = static_cast<std::uint32_t>(rng.below(2 * k + 2, places));
+        auto upper = static_cast<std::uint32_t>(rng.below(2 * k + 3, places));
+        if (side == Side::closed) {
+            lower = grid.ranks[k][one];
+            upper = grid.ranks[k][other];
+        } else if (stream == 0) {
+            lower = 0;
+            upper = cube ? places - 1 : 0;
+        }
+        if (cube && lower > upper) std::swap(lower, upper);
         // On the cube an open interval needs two ends.
-        if (grid.space == Space::cube && lower == upper) lower == 0 ? ++upper : --lower;
+        if (cube && side == Side::open && lower == upper) lower == 0 ? ++upper : --lower;
         box.axes.push_back({lower, upper});
     }
     return box;
@@ -114,9 +127,9 @@ WorstBox ascend(const BoxGrid& grid, const RunContext& run) {
         [&](const Block& block) {
             Climber climber(grid, run);
             for (std::uint64_t start = block.first; start < block.last; ++start) {
-                climber.climb(random_box(grid, Side::open, start), found[block.index]);
+                climber.climb(first_box(grid, Side::open, start), found[block.index]);
                 if (grid.measure == Measure::emptiness) continue;
-                climber.climb(random_box(grid, Side::closed, start), found[block.index]);
+                climber.climb(first_box(grid, Side::closed, start), found[block.index]);
             }
         },
         silent);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// A bad box found fast: from random boxes, one axis after the other takes the worst interval there
+// A bad box found fast: from some boxes, one axis after the other takes the worst interval there
 // is with the box's other sides, until none gets worse.
 #pragma once
 

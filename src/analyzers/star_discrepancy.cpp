@@ -52,13 +52,6 @@ constexpr Param<Choice> boxes{
         "Whether boxes that end at 1 are closed there, or half-open as all others; they differ "
         "for points with a coordinate 1"};
 
-constexpr Param<Choice> kind{
-    .name = "kind",
-    .fallback = "star",
-    .choices = "star|extreme|periodic",
-    .help =
-        "Boxes from the origin, all axis-parallel boxes, or those of the torus, which may wrap"};
-
 /// More points than any machine's memory holds; counts of points stay far from 2^31.
 constexpr std::size_t max_count = std::size_t{1} << 29;
 
@@ -95,11 +88,11 @@ Report measure(const PointSet& points, const Values& options, const RunContext& 
     if (points.count() > max_count)
         fail(ErrorKind::limit, "star-discrepancy takes up to {} points; these are {}", max_count,
              points.count());
-    if (options[kind] != "star" && options.given(boxes))
+    if (options[extreme::kind] != "star" && options.given(boxes))
         fail(ErrorKind::usage, "--boxes is of --kind star");
-    if (options[kind] != "star")
+    if (options[extreme::kind] != "star")
         return extreme::discrepancy(
-            points, options[kind] == "extreme" ? extreme::Space::cube : extreme::Space::torus,
+            points, options[extreme::kind] == "extreme" ? extreme::Space::cube : extreme::Space::torus,
             static_cast<std::uint64_t>(options[max_work]), run);
     run.need_memory(static_cast<double>(points.count()) *
                         (static_cast<double>(points.dimension() * star::axis_bytes) + 32),
@@ -127,7 +120,7 @@ Analyzer star_discrepancy() {
         .summary = "Star discrepancy, exact, with the worst box",
         .source = "Doerr, Gnewuch, Wahlstroem 2014, arXiv:1405.1653",
         .traits = {.max_dimension = 10'000},
-        .options = Schema(kind, boxes, max_work, star::prefixes, star::every, star::projections),
+        .options = Schema(extreme::kind, boxes, max_work, star::prefixes, star::every, star::projections),
         .results = {{"value", "the star discrepancy"},
                     {"lower", "it is at least this"},
                     {"upper", "it is at most this"},

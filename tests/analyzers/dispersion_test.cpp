@@ -258,6 +258,10 @@ TEST(Dispersion, BoundsWhatItHasNoTimeFor) {
     EXPECT_LT(report.number("lower"), report.number("upper"));
     EXPECT_EQ(report.text("method"), "branch-and-bound");
     expect_box_holds(p, report, false);
+    // Across the whole cube there is a slab without a point.
+    const PointSet many = make("random", points(40, 100));
+    for (const bool torus : {false, true})
+        EXPECT_GE(report_of(many, torus, {{"max-work", "1"}}).number("lower"), 1. / 41);
     const PointSet small = make("random", points(20, 3));
     const double value = value_of(small);
     for (const char* work : {"1", "1000", "100000"}) {

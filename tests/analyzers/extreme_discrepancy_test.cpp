@@ -362,6 +362,9 @@ TEST(ExtremeDiscrepancy, BoundsWhatItHasNoTimeFor) {
         EXPECT_FALSE(std::get<bool>(*part.find("exact")));
         EXPECT_LT(part.number("lower"), part.number("upper"));
         expect_box_holds(make("random", points(200, 5)), part, kind == kinds[1]);
+        // A point by itself is a closed box.
+        const PointSet many = make("random", points(40, 100));
+        EXPECT_GE(report_of(many, kind, {{"max-work", "1"}}).number("lower"), 1. / 40 - 1e-15);
     }
 }
 

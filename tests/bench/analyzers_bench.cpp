@@ -80,6 +80,19 @@ void pair_correlation(benchmark::State& state) {
 void coverage(benchmark::State& state) { measure(state, "coverage", "random"); }
 void t_value_of_a_net(benchmark::State& state) { measure(state, "t-value", "hammersley"); }
 void t_value_of_halton(benchmark::State& state) { measure(state, "t-value", "halton"); }
+void extreme_discrepancy_random(benchmark::State& state) {
+    measure(state, "star-discrepancy", "random", {{"kind", "extreme"}});
+}
+void extreme_discrepancy_halton(benchmark::State& state) {
+    measure(state, "star-discrepancy", "halton", {{"kind", "extreme"}});
+}
+void periodic_discrepancy_halton(benchmark::State& state) {
+    measure(state, "star-discrepancy", "halton", {{"kind", "periodic"}});
+}
+void dispersion_random(benchmark::State& state) { measure(state, "dispersion", "random"); }
+void dispersion_on_torus(benchmark::State& state) {
+    measure(state, "dispersion", "random", {{"torus", "true"}});
+}
 
 }  // namespace
 
@@ -169,3 +182,30 @@ BENCHMARK(coverage)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(t_value_of_a_net)->Args({16'384, 2})->Args({1 << 20, 2})->Unit(benchmark::kMillisecond);
 BENCHMARK(t_value_of_halton)->Args({16'384, 2})->Args({16'384, 10})->Unit(benchmark::kMillisecond);
+BENCHMARK(extreme_discrepancy_random)
+    ->Args({1024, 2})
+    ->Args({4096, 2})
+    ->Args({16'384, 2})
+    ->Args({32, 3})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(extreme_discrepancy_halton)
+    ->Args({512, 2})
+    ->Args({1024, 2})
+    ->Args({2048, 2})
+    ->Args({4096, 2})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(periodic_discrepancy_halton)
+    ->Args({256, 2})
+    ->Args({512, 2})
+    ->Args({1024, 2})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(dispersion_random)
+    ->Args({10'000, 2})
+    ->Args({100'000, 2})
+    ->Args({1'000'000, 2})
+    ->Args({100, 3})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(dispersion_on_torus)
+    ->Args({10'000, 2})
+    ->Args({100'000, 2})
+    ->Unit(benchmark::kMillisecond);
