@@ -10,7 +10,7 @@
 // a time.
 //
 // Shape   D = 2: 8 x 8 parts of a cell; D = 3: 4 x 4 x 4. Bit x + P y + P^2 z.
-// Cost    5^D words a disk; 8 bytes a cell, and 200 kB (D = 2) or 500 kB (3) for a table.
+// Cost    5^D words a disk; 8 bytes a cell, and 200 kB (D = 2) or up to 4 MB (3) for a table.
 // Promise what has its bit set is covered by one disk alone, and not within float_slack of its rim.
 #pragma once
 
@@ -96,7 +96,7 @@ class DiskCovers {
             plain_ = plain_ && grid.reach[k] == 2;
             parts_[k] = static_cast<float>(grid.scales[k] / static_cast<double>(cell_parts<D>));
         }
-        while (places_ * 2 <= most_places && power(places_, D) * 128 < grid.cell_count)
+        while (places_ * 2 <= most_places && power(places_, D) * worth < grid.cell_count)
             places_ *= 2;
         for (std::size_t k = 0; k < D; ++k)
             to_places_[k] = static_cast<float>(static_cast<double>(places_) / grid.scales[k]);
@@ -158,6 +158,9 @@ class DiskCovers {
     static constexpr std::size_t rows = power(5, D - 1);
     using Row = std::array<PartBits, 5>;
 
+    /// A table takes its time as well: cells for each place of a centre that make the next finer
+    /// one worth it.
+    static constexpr std::size_t worth = D == 2 ? 128 : 2048;
     static constexpr std::size_t most_places = D == 2 ? 32 : 16;
 
     void set_shared(std::size_t cell, PartBits bits) {

@@ -223,6 +223,8 @@ class CellTiles : public TilesBase<D> {
     void clear_cells() {
         heads_ = {};
         places_ = {};
+        taken_.drop();
+        pending_.drop();
         covers_.clear();
     }
 

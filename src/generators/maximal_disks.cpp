@@ -419,7 +419,7 @@ void check_size(const BoxSpace& space, double radius, const RunContext& run) {
     const double points = expected_disks(space, radius);
     const double n = static_cast<double>(d);
     // A cell's head, place and bits; a point, its copy and the candidates of a shower; windows.
-    const double to_a_cell = d <= 3 ? 11 + 4 * n : 0;
+    const double to_a_cell = d <= 3 ? 10.5 + 4 * n : 0;
     const double to_a_point = 2 * 8 * n + 0.6 * (8 * n + 9);
     const double windows = cells * (d == 2 ? 0.7 : d == 3 ? 1 : 1.5) * (8 * n + 8);
     const double bytes = spots * to_a_cell + points * to_a_point + windows;

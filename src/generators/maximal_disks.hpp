@@ -17,7 +17,7 @@
 // dart to dart. That has one answer, whatever the order of asking, so that threads do not matter.
 //
 // Shape   d = 2 ... 6; any box; r up to its diagonal.
-// Cost    O(n) time for fixed d: on one core 0.8 us a point (d = 2), 6 us (3), 0.5 ms (4), 2.5 ms
+// Cost    O(n) time for fixed d: on one core 0.8 us a point (d = 2), 5 us (3), 0.5 ms (4), 2.5 ms
 //         (5), 30 ms (6). Memory: 100 bytes a point (d = 2), 300 (3).
 // Promise squared_distance (math/spaced_points.hpp) of the numbers that come out is at least r^2
 //         for every pair. Every place of the box is nearer than r to a point, but for gaps so
