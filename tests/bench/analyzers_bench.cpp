@@ -25,6 +25,12 @@ void star_discrepancy_random(benchmark::State& state) {
 void star_discrepancy_halton(benchmark::State& state) {
     measure(state, "star-discrepancy", "halton");
 }
+void star_discrepancy_sobol(benchmark::State& state) {
+    measure(state, "star-discrepancy", "sobol");
+}
+void star_discrepancy_bounds(benchmark::State& state) {
+    measure(state, "star-discrepancy", "sobol", {{"method", "bounds"}, {"tolerance", "0.1"}});
+}
 void periodogram(benchmark::State& state) {
     measure(state, "periodogram", "random", {{"max-frequency", "512"}});
 }
@@ -49,13 +55,25 @@ BENCHMARK(star_discrepancy_random)
     ->Args({10'000, 2})
     ->Args({100'000, 2})
     ->Args({1'000'000, 2})
+    ->Args({50, 20})
+    ->Args({100, 20})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(star_discrepancy_halton)
     ->Args({65'536, 2})
     ->Args({4096, 3})
     ->Args({1000, 4})
     ->Args({1000, 5})
+    ->Args({16'384, 3})
+    ->Args({1000, 6})
+    ->Args({300, 8})
+    ->Args({200, 10})
     ->Unit(benchmark::kMillisecond);
+BENCHMARK(star_discrepancy_sobol)
+    ->Args({128, 9})
+    ->Args({128, 12})
+    ->Args({100, 15})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(star_discrepancy_bounds)->Args({128, 12})->Args({256, 12})->Unit(benchmark::kMillisecond);
 BENCHMARK(periodogram)->Args({4096, 2})->Args({1'000'000, 2})->Unit(benchmark::kMillisecond);
 BENCHMARK(periodogram_direct)->Args({4096, 2})->Unit(benchmark::kMillisecond);
 BENCHMARK(periodogram_beside_direct)->Args({4096, 2})->Unit(benchmark::kMillisecond);
