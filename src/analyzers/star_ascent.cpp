@@ -2,12 +2,12 @@
 #include "analyzers/star_ascent.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/parallel.hpp"
 #include "core/rng.hpp"
 
 namespace stipple::analyzers::star {
-namespace {
 
 /// One climb at a time from given corners; keeps its buffers between climbs.
 class Climber {
@@ -15,7 +15,8 @@ class Climber {
     Climber(const CornerGrid& grid, Side side, const RunContext& run)
         : grid_(grid), side_(side), run_(run), outside_(grid.count) {}
 
-    void climb(Corner corner, WorstBox& worst) {
+    /// Gives how bad the box is that it reaches.
+    double climb(Corner corner, WorstBox& worst) {
         corner_ = std::move(corner);
         count_outside();
         std::size_t idle = 0;  // axes in a row that gave nothing
@@ -25,7 +26,17 @@ class Climber {
         }
         const auto inside = std::ranges::count(outside_, 0U);
         worst.offer(side_, corner_, static_cast<std::uint64_t>(inside));
+        double volume = 1;
+        for (std::size_t k = 0; k < corner_.size(); ++k) volume *= grid_.values[k][corner_[k]];
+        const double share = static_cast<double>(inside) / static_cast<double>(grid_.count);
+        return side_ == Side::open ? volume - share : share - volume;
     }
+
+    /// Where the last climb ended.
+    [[nodiscard]] const Corner& corner() const { return corner_; }
+
+    /// Comparisons of coordinates until now.
+    [[nodiscard]] std::uint64_t work() const { return work_; }
 
   private:
     /// Whether a place is outside a box that ends at `end` on the same axis.
@@ -34,6 +45,7 @@ class Climber {
     }
 
     void count_outside() {
+        work_ += grid_.count * corner_.size();
         std::ranges::fill(outside_, 0U);
         for (std::size_t k = 0; k < corner_.size(); ++k)
             for (std::size_t i = 0; i < grid_.count; ++i)
@@ -42,6 +54,7 @@ class Climber {
 
     /// Moves the corner to the best place on the axis; false if it is there already.
     bool improve(std::size_t axis) {
+        work_ += 2 * grid_.count + grid_.values[axis].size();
         const auto& ranks = grid_.ranks[axis];
         const std::uint32_t from = corner_[axis];
         points_at_.assign(grid_.values[axis].size(), 0);
@@ -87,10 +100,13 @@ class Climber {
     const CornerGrid& grid_;
     Side side_;
     const RunContext& run_;
+    std::uint64_t work_ = 0;
     Corner corner_;
     std::vector<std::uint32_t> outside_;    ///< for each point, axes on which it is outside
     std::vector<std::uint32_t> points_at_;  ///< inside on the other axes, at each place of this one
 };
+
+namespace {
 
 /// Each coordinate is distributed as u^(1/d), so that the box's volume is not tiny.
 Corner random_corner(const CornerGrid& grid, std::uint64_t stream) {
@@ -107,23 +123,81 @@ Corner random_corner(const CornerGrid& grid, std::uint64_t stream) {
     return corner;
 }
 
+/// Moves the corner a bit on two to four axes, one of them maybe twice; the first of `drawn`
+/// numbers of the generator are used.
+void shake(const CornerGrid& grid, const Rng& rng, std::uint64_t drawn, Corner& corner) {
+    const std::size_t d = grid.dimension();
+    const std::uint64_t axes = 2 + rng.below(drawn, 3);
+    for (std::uint64_t i = 0; i < axes; ++i) {
+        const std::size_t axis = rng.below(drawn + 1 + 2 * i, d);
+        const std::uint64_t last = grid.values[axis].size() - 1;
+        const std::uint64_t reach = last / 8 + 1;
+        const std::uint64_t moved = corner[axis] + rng.below(drawn + 2 + 2 * i, 2 * reach + 1);
+        corner[axis] = static_cast<std::uint32_t>(std::clamp(moved, reach, last + reach) - reach);
+    }
+}
+
+constexpr std::uint64_t draws_of_a_shake = 9;
+
 }  // namespace
 
-WorstBox ascend(const CornerGrid& grid, const RunContext& run) {
+void BoxHunt::walk(Climber& climber, std::uint64_t number, WorstBox& worst,
+                   const Late& late) const {
+    constexpr std::uint64_t effort = 1U << 23;
+    const std::uint64_t size = grid_.count * grid_.dimension();
+    const std::uint64_t steps = std::clamp<std::uint64_t>(effort / size, 4, 64);
+    constexpr std::uint64_t other_streams = 1U << 20;  // than those of ascend()
+    double here = climber.climb(random_corner(grid_, other_streams + number), worst);
+    Corner corner = climber.corner();
+    const Rng rng(1, number);
+    for (std::uint64_t step = 0; step < steps && !(late && late()); ++step) {
+        Corner next = corner;
+        shake(grid_, rng, step * draws_of_a_shake, next);
+        const double reached = climber.climb(std::move(next), worst);
+        const double left = 1 - static_cast<double>(step + 1) / static_cast<double>(steps);
+        if (reached < here - 0.1 * left * here) continue;  // the first threshold found by trial
+        here = reached;
+        corner = climber.corner();
+    }
+}
+
+std::uint64_t BoxHunt::go(WorstBox& worst, const RunContext& run, const Late& late) {
+    constexpr std::size_t chains = 8;
+    std::vector<WorstBox> found(chains, WorstBox(grid_));
+    std::vector<std::uint64_t> work(chains);
+    constexpr bool silent = true;
+    for_each_block(
+        run, chains, 1,
+        [&](const Block& block) {
+            Climber climber(grid_, block.index % 2 == 0 ? Side::open : Side::closed, run);
+            walk(climber, round_ * chains + block.index, found[block.index], late);
+            work[block.index] = climber.work();
+        },
+        silent);
+    ++round_;
+    for (const WorstBox& box : found) worst.offer(box);
+    return std::accumulate(work.begin(), work.end(), std::uint64_t{0});
+}
+
+WorstBox ascend(const CornerGrid& grid, const RunContext& run, const Late& late) {
     constexpr std::uint64_t effort = 1U << 24;  // a fraction of a second
     const std::uint64_t starts =
         std::clamp<std::uint64_t>(effort / (grid.count * grid.dimension()), 8, 200);
-    constexpr std::size_t together = 8;  // starts in one block
+    constexpr std::size_t together = 4;  // starts in one block
     std::vector<WorstBox> found(block_count(starts, together), WorstBox(grid));
+    const auto climb_all = [&](const Block& block, Side side) {
+        Climber climber(grid, side, run);
+        for (std::uint64_t start = block.first; start < block.last; ++start) {
+            if (start > 0 && late && late()) return;  // one box there must be
+            climber.climb(random_corner(grid, start), found[block.index]);
+        }
+    };
     constexpr bool silent = true;
     for_each_block(
         run, starts, together,
         [&](const Block& block) {
-            for (const Side side : {Side::open, Side::closed}) {
-                Climber climber(grid, side, run);
-                for (std::uint64_t start = block.first; start < block.last; ++start)
-                    climber.climb(random_corner(grid, start), found[block.index]);
-            }
+            climb_all(block, Side::open);
+            climb_all(block, Side::closed);
         },
         silent);
     WorstBox worst(grid);

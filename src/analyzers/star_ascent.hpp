@@ -1,16 +1,44 @@
 // SPDX-License-Identifier: MIT
 //
-// A good lower bound quickly: coordinate ascent from random corners.
+// Good lower bounds quickly: coordinate ascent from random corners, and from corners that are near
+// those where it ended.
 #pragma once
+
+#include <functional>
 
 #include "analyzers/star_box.hpp"
 #include "core/run_context.hpp"
 
 namespace stipple::analyzers::star {
 
+/// Whether it is time to end.
+using Late = std::function<bool()>;
+
 /// The worst box that ascents from up to 200 corners on each side reach, fewer for large sets;
 /// every ascent takes the best place on one axis with the others fixed, until none helps.
-/// Deterministic.
-WorstBox ascend(const CornerGrid& grid, const RunContext& run);
+/// Deterministic, unless `late` ends it.
+WorstBox ascend(const CornerGrid& grid, const RunContext& run, const Late& late = {});
+
+/// A search for bad boxes without end: ascents whose starts are the ends of others, moved a bit on
+/// some axes; a worse end is taken for one that is better by less than a threshold, which falls.
+///
+/// Source  M. Gnewuch, M. Wahlstroem, C. Winzen, SIAM J. Numer. Anal. 50 (2012) 781-807 (threshold
+///         accepting for star discrepancies, there without ascents).
+class BoxHunt {
+  public:
+    /// Keeps a reference to the grid.
+    explicit BoxHunt(const CornerGrid& grid) : grid_(grid) {}
+
+    /// Some walks more; offers what they find. Deterministic, unless `late` ends it.
+    /// @returns the comparisons of coordinates that it took.
+    std::uint64_t go(WorstBox& worst, const RunContext& run, const Late& late);
+
+  private:
+    void walk(class Climber& climber, std::uint64_t number, WorstBox& worst,
+              const Late& late) const;
+
+    const CornerGrid& grid_;
+    std::uint64_t round_ = 0;
+};
 
 }  // namespace stipple::analyzers::star

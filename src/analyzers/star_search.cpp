@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// Cells with the highest bounds are explored first, a few at a time, each depth first until its
-// budget is used up; what is left goes back to the heap. Those few know of each other's finds only
-// when all are done, so that what happens does not depend on the number of threads.
+// The cells with the highest bounds are explored first, some at a time: each is split, depth first,
+// until its parts have bounds below a target between the known bounds of the discrepancy, or its
+// budget is used up; what is left goes back to the heap. So the upper bound falls steadily, and
+// cells that only an exact answer asks for come last. Those explored together know of each other's
+// finds only when all are done, so that what happens does not depend on the number of threads.
+//
+// From time to time climbs look for a worse box: one that the cells would give only late.
 //
 // Source  the bounds are this program's own; earlier exact methods are surveyed in C. Doerr,
 //         M. Gnewuch, M. Wahlstroem, arXiv:1405.1653.
@@ -10,9 +14,12 @@
 #include "analyzers/star_search.hpp"
 
 #include <algorithm>
-#include <queue>
+#include <deque>
+#include <optional>
 
+#include "analyzers/star_ascent.hpp"
 #include "analyzers/star_cell.hpp"
+#include "core/error.hpp"
 #include "core/parallel.hpp"
 
 namespace stipple::analyzers::star {
@@ -20,106 +27,215 @@ namespace {
 
 using Logs = std::vector<std::vector<double>>;
 
+/// What all tasks share.
+struct Field {
+    const CornerGrid& grid;
+    const Logs logs;
+    const Active points;
+    const RunContext& run;
+    double deadline;
+
+    [[nodiscard]] bool late() const {
+        return run.seconds && deadline < std::numeric_limits<double>::infinity() &&
+               run.seconds() >= deadline;
+    }
+};
+
 /// A cell to explore, and what came of it.
 struct Task {
     Cell cell;
     WorstBox worst;
-    std::vector<Cell> rest;  ///< parts that are still open
-    std::uint64_t work;
+    double target;             ///< parts with lower bounds are left for later
+    std::uint64_t budget;      ///< of comparisons
+    std::vector<Cell> rest{};  ///< parts that are still open
+    std::uint64_t work = 0;
 };
 
-/// Explores the cell of a task depth first, within a budget.
+/// Explores the cell of a task depth first.
 template <Side side>
 class Explorer {
   public:
-    Explorer(const CornerGrid& grid, const Logs& logs, Task& task, std::uint64_t budget,
-             const RunContext& run)
-        : bounder_(grid, logs, task.worst, run), task_(task), budget_(budget) {
-        points_.push_back(all_points(grid));
-    }
+    Explorer(const Field& field, Task& task)
+        : field_(field), bounder_(field.grid, field.logs, task.worst, field.run), task_(task) {}
 
     void explore() {
-        descend(std::move(task_.cell), 0);
+        descend(task_.cell, field_.points, 0);
         task_.work = bounder_.work();
     }
 
   private:
-    void descend(Cell cell, std::size_t depth) {
-        if (bounder_.work() >= budget_ && depth > 0) {
-            task_.rest.push_back(std::move(cell));
-            return;
+    /// `from` is this call's to use up, but for the points of the field.
+    void descend(Cell cell, const Active& from, std::size_t depth) {
+        if (points_.size() < depth + 1) points_.emplace_back();
+        Active& mine = points_[depth];
+        for (const Active* source = &from;; source = &mine) {
+            const bool whole = source == &field_.points;
+            if ((bounder_.work() >= task_.budget && !whole) || field_.late())
+                return task_.rest.push_back(std::move(cell));
+            if (!bounder_.tighten(cell, *source, mine)) return;
+            if (cell.bound <= task_.target) return task_.rest.push_back(std::move(cell));
+            const auto [axis, middle, below] = bounder_.split(cell);
+            Cell lower = cell;
+            lower.hi[axis] = below;
+            descend(std::move(lower), mine, depth + 1);
+            cell.lo[axis] = middle;
         }
-        if (points_.size() < depth + 2) points_.resize(depth + 2);
-        if (!bounder_.tighten(cell, points_[depth], points_[depth + 1])) return;
-        const auto [axis, middle, below] = bounder_.split(cell);
-        Cell upper = cell;
-        upper.lo[axis] = middle;
-        descend(std::move(upper), depth + 1);
-        cell.hi[axis] = below;
-        descend(std::move(cell), depth + 1);
     }
 
+    const Field& field_;
     CellBounder<side> bounder_;
     Task& task_;
-    std::uint64_t budget_;
-    std::vector<Active> points_;  ///< of the cells on the way down to this one
+    std::deque<Active> points_;  ///< of the cells on the way down to this one
 };
 
-void explore(const CornerGrid& grid, const Logs& logs, Task& task, std::uint64_t budget,
-             const RunContext& run) {
+void explore(const Field& field, Task& task) {
     if (task.cell.side == Side::open)
-        Explorer<Side::open>(grid, logs, task, budget, run).explore();
+        Explorer<Side::open>(field, task).explore();
     else
-        Explorer<Side::closed>(grid, logs, task, budget, run).explore();
+        Explorer<Side::closed>(field, task).explore();
 }
 
-struct LowerBound {
-    bool operator()(const Cell& a, const Cell& b) const { return a.bound < b.bound; }
-};
+bool lower_bound(const Cell& a, const Cell& b) { return a.bound < b.bound; }
 
 std::size_t cell_bytes(const CornerGrid& grid) {
-    return sizeof(Cell) + 2 * sizeof(std::uint32_t) * grid.dimension();
+    constexpr std::size_t of_two_blocks = 32;
+    return sizeof(Cell) + of_two_blocks + 2 * sizeof(std::uint32_t) * grid.dimension();
 }
 
-/// Progress is how much of the gap between the bounds is closed.
-void report_gap(double lower, double upper, const RunContext& run) {
-    constexpr std::uint64_t parts = 1'000'000;
-    const double open = lower < 1 ? (upper - lower) / (1 - lower) : 0;
-    run.tick(parts - static_cast<std::uint64_t>(open * static_cast<double>(parts)), parts);
-}
+class Search {
+  public:
+    Search(const CornerGrid& grid, WorstBox worst, const SearchLimits& limits,
+           const RunContext& run)
+        : limits_(limits),
+          run_(run),
+          field_{grid, logarithms(grid), all_points(grid), run_, limits.deadline},
+          worst_(std::move(worst)),
+          hunt_(grid),
+          cells_{whole_cell(grid, Side::open), whole_cell(grid, Side::closed)} {
+        const double room = std::min(0.25 * static_cast<double>(run.max_memory), 0x1p30);
+        most_cells_ = static_cast<std::size_t>(room / static_cast<double>(cell_bytes(grid)));
+    }
+
+    SearchResult go() {
+        while (!ending()) try {
+                round();
+            } catch (const Error& e) {
+                if (e.kind() != ErrorKind::cancelled) throw;
+                return {worst_, upper_, Ending::stopped};
+            }
+        return {worst_, upper_, *ending()};
+    }
+
+  private:
+    /// Comparisons; a quarter of a second of them.
+    static constexpr std::uint64_t short_work = 1U << 28;
+
+    [[nodiscard]] std::optional<Ending> ending() const {
+        if (cells_.empty() || upper_ <= worst_.value()) return Ending::complete;
+        if (upper_ - worst_.value() <= limits_.tolerance * worst_.value()) return Ending::tolerance;
+        if (work_ >= limits_.work) return Ending::work;
+        if (field_.late()) return Ending::time;
+        return {};
+    }
+
+    void round() {
+        constexpr std::uint64_t hunts_apart = 16;  // in units of what they cost
+        if (work_ > short_work && hunts_apart * hunted_ < work_) hunt();
+        std::vector<Task> tasks = next_tasks();
+        constexpr bool silent = true;
+        for_each_block(
+            run_, tasks.size(), 1, [&](const Block& block) { explore(field_, tasks[block.index]); },
+            silent);
+        for (Task& task : tasks) {
+            work_ += task.work;
+            worst_.offer(task.worst);
+            for (Cell& cell : task.rest) push(std::move(cell));
+        }
+        settle();
+    }
+
+    /// The cells with the highest bounds, each with a share of what work is left.
+    std::vector<Task> next_tasks() {
+        constexpr std::size_t together = 64;
+        const std::uint64_t size = field_.grid.count * field_.grid.dimension();
+        const double target = next_target();
+        std::vector<Task> tasks;
+        while (tasks.size() < together && !cells_.empty() && cells_.front().bound > target)
+            tasks.push_back({pop(), worst_, target, 0});
+        const std::uint64_t share = (limits_.work - std::min(work_, limits_.work)) / tasks.size();
+        const std::uint64_t budget = std::max(std::uint64_t{1} << 22, 16 * size);
+        for (Task& task : tasks) task.budget = std::min(budget, share);
+        return tasks;
+    }
+
+    /// 0 when cells are to be explored to the end: it is least work on the whole, but leaves the
+    /// upper bound where it is.
+    [[nodiscard]] double next_target() const {
+        constexpr double step = 0.6;
+        constexpr double close = 0.1;  // relative; not far from the end
+        const bool steadily = limits_.tolerance > 0 || limits_.work < 4 * short_work ||
+                              limits_.deadline < std::numeric_limits<double>::infinity();
+        const double lower = worst_.value();
+        const double gap = upper_ - lower;
+        const bool may_be_short = !steadily && work_ < short_work;
+        if (may_be_short || cells_.size() >= most_cells_ || gap < close * lower) return 0;
+        return lower + step * gap;
+    }
+
+    void push(Cell cell) {
+        cells_.push_back(std::move(cell));
+        std::ranges::push_heap(cells_, lower_bound);
+    }
+
+    Cell pop() {
+        std::ranges::pop_heap(cells_, lower_bound);
+        Cell cell = std::move(cells_.back());
+        cells_.pop_back();
+        return cell;
+    }
+
+    /// Drops what can't matter any more and says what is certain now.
+    void settle() {
+        if (!cells_.empty() && cells_.front().bound < worst_.value()) cells_.clear();
+        upper_ = cells_.empty() ? worst_.value()
+                                : std::max(worst_.value(), std::min(upper_, cells_.front().bound));
+        constexpr std::uint64_t parts = 1'000'000;
+        const double lower = worst_.value();
+        const double open = lower < 1 ? (upper_ - lower) / (1 - lower) : 0;
+        run_.tick(parts - static_cast<std::uint64_t>(open * static_cast<double>(parts)), parts);
+    }
+
+    /// Climbs, and what they cost.
+    void hunt() {
+        const std::uint64_t cost = hunt_.go(worst_, run_, [this] { return field_.late(); });
+        hunted_ += cost;
+        work_ += cost;
+    }
+
+    const SearchLimits& limits_;
+    const RunContext& run_;
+    Field field_;
+    WorstBox worst_;
+    BoxHunt hunt_;
+    std::vector<Cell> cells_;  ///< that are open; a heap, the highest bound first
+    std::size_t most_cells_;   ///< to keep; with more, cells are explored to the end
+    double upper_ = 1;
+    std::uint64_t work_ = 0;
+    std::uint64_t hunted_ = 0;  ///< part of work_
+};
 
 }  // namespace
 
-SearchResult search(const CornerGrid& grid, WorstBox worst, std::uint64_t max_work,
+SearchResult search(const CornerGrid& grid, WorstBox worst, const SearchLimits& limits,
                     const RunContext& run) {
-    constexpr std::size_t together = 16;
-    const std::uint64_t size = grid.count * grid.dimension();
-    const std::uint64_t budget = std::max(std::uint64_t{1} << 22, 16 * size);
-    const Logs logs = logarithms(grid);
-    std::priority_queue<Cell, std::vector<Cell>, LowerBound> cells;
-    cells.push(whole_cell(grid, Side::open));
-    cells.push(whole_cell(grid, Side::closed));
-    std::uint64_t work = 0;
-    double upper = 1;
-    while (!cells.empty() && work < max_work) {
-        std::vector<Task> tasks;
-        for (; tasks.size() < together && !cells.empty(); cells.pop())
-            tasks.push_back({cells.top(), worst, {}, 0});
-        constexpr bool silent = true;
-        for_each_block(
-            run, tasks.size(), 1,
-            [&](const Block& block) { explore(grid, logs, tasks[block.index], budget, run); },
-            silent);
-        for (Task& task : tasks) {
-            work += task.work;
-            worst.offer(task.worst);
-            for (Cell& cell : task.rest) cells.push(std::move(cell));
-        }
-        upper = cells.empty() ? worst.value() : std::max(worst.value(), cells.top().bound);
-        report_gap(worst.value(), upper, run);
-        run.need_memory(static_cast<double>(cells.size() * cell_bytes(grid)), "the open cells");
-    }
-    return {worst, upper, cells.empty()};
+    return Search(grid, std::move(worst), limits, run).go();
+}
+
+double search_bytes(std::size_t count, std::size_t dimension, unsigned threads) {
+    // On the way down to a cell, about as many points again as it has stay behind.
+    constexpr double copies = 3;
+    return (1 + copies * threads) * static_cast<double>(count) * static_cast<double>(dimension) *
+           sizeof(std::int32_t);
 }
 
 }  // namespace stipple::analyzers::star

@@ -133,9 +133,10 @@ class Analysis {
         if (inputs.empty()) inputs.emplace_back("-");
         const bool in_blocks = analyzer_.accumulate && !arguments_.has("rescale");
         check_bounds(arguments_);
-        for (const std::string& input : inputs) in_blocks ? add_stream(input) : add_sets(input);
+        for (const std::string& input : inputs)
+            if (!interrupted()) in_blocks ? add_stream(input) : add_sets(input);
         batch_.finish();
-        session_.run().check_stop();
+        if (interrupted()) return print_what_is_known();
         if (averaged_) finish_average();
         const bool fine = verdict();
         print();
@@ -148,7 +149,7 @@ class Analysis {
     void add_sets(const std::string& input) {
         std::vector<PointSet> sets;
         before_errors([&] { sets = read_input(input, arguments_, session_.run()); });
-        for (std::size_t set = 0; set < sets.size(); ++set) {
+        for (std::size_t set = 0; set < sets.size() && !interrupted(); ++set) {
             before_errors([&] {
                 naming(input, [&] { sets[set] = prepared(std::move(sets[set]), arguments_); });
             });
@@ -306,6 +307,18 @@ class Analysis {
         }
         for (const auto& sentence : unmet_) fmt::print(stderr, "stipple: {}\n", sentence);
         return unmet_.empty();
+    }
+
+    [[nodiscard]] bool interrupted() const { return session_.run().stop.stop_requested(); }
+
+    /// Results that came back although a stop was requested are as good as was possible till then;
+    /// a mean of some sets would not be what was asked for, nor would a file.
+    int print_what_is_known() const {
+        if (averaged_ || path_ != "-") session_.run().check_stop();
+        print();
+        fmt::print(stderr, "stipple: interrupted\n");
+        constexpr int exit_code = 130;
+        return exit_code;
     }
 
     void print() const {

@@ -122,6 +122,9 @@ Session::Session(const Arguments& arguments)
     run_.threads = static_cast<unsigned>(arguments.integer("threads", 0, 4096).value_or(0));
     run_.max_memory = memory_limit(arguments);
     run_.stop = interrupts().get_token();
+    run_.seconds = [start = std::chrono::steady_clock::now()] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
     run_.progress = [this](double fraction) { bar_.show(fraction); };
     run_.warn = [this](const std::string& sentence) { warn(sentence); };
 }

@@ -26,6 +26,9 @@ struct RunContext {
 
     std::stop_token stop = {};
 
+    /// Seconds that have passed since some moment; empty where nobody keeps time.
+    std::function<double()> seconds = {};
+
     /// Bytes that a computation may plan to use.
     std::uint64_t max_memory = std::numeric_limits<std::uint64_t>::max();
 

@@ -34,6 +34,20 @@ double number_of(const Report& report, std::string_view key) {
     return report.number(key);
 }
 
+/// What a condition on `value` is about: where that is only known to lie between two bounds, it
+/// must hold for both.
+double bounded(const Report& report, const std::string& key, const std::string& op, double found) {
+    const auto* exact = report.find("exact");
+    const bool known = exact == nullptr || !std::holds_alternative<bool>(*exact) ||
+                       std::get<bool>(*exact) || !report.find("lower") || !report.find("upper");
+    if (key != "value" || known) return found;
+    if (op == "<" || op == "<=") return report.number("upper");
+    if (op == ">" || op == ">=") return report.number("lower");
+    fail(ErrorKind::usage,
+         "--check: 'value' is only known to be between {} and {}; compare it with <, <=, > or >=",
+         format_number(report.number("lower")), format_number(report.number("upper")));
+}
+
 }  // namespace
 
 Check parse_check(std::string_view text) {
@@ -66,7 +80,7 @@ bool Check::holds(const Report& report) const {
                  word);
         return (word == value) == (op == "==");
     }
-    const double found = number_of(report, key);
+    const double found = bounded(report, key, op, number_of(report, key));
     const auto wanted = parse_number(value);
     if (!wanted)
         fail(ErrorKind::usage, "--check: '{}' is not a number to compare '{}' with", value, key);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <functional>
@@ -19,6 +21,7 @@ using namespace stipple;
 using namespace stipple::testing;
 using namespace stipple::analyzers;
 using boost::multiprecision::cpp_rational;
+using ::testing::HasSubstr;
 
 namespace {
 
@@ -33,7 +36,7 @@ double half_open_star_of(const PointSet& points) {
 /// By branch and bound alone, from nothing: a good start would hide what the search misses.
 double by_search(const PointSet& points) {
     const star::CornerGrid grid = star::corner_grid(points, {});
-    return star::search(grid, star::WorstBox(grid), std::uint64_t{1} << 40, {}).worst.value();
+    return star::search(grid, star::WorstBox(grid), {}, {}).worst.value();
 }
 
 /// Radical inverse, rounded once.
@@ -309,7 +312,7 @@ TEST(StarDiscrepancy, OfHalfOpenBoxesIsTheDefinitions) {
                 const double expected = by_half_open_definition(p, steps);
                 EXPECT_EQ(half_open_star_of(p), expected) << text_of(p);
                 const star::CornerGrid moved = star::corner_grid(p, {}, star::Boxes::half_open);
-                const auto found = star::search(moved, star::WorstBox(moved), 1U << 30, {});
+                const auto found = star::search(moved, star::WorstBox(moved), {}, {});
                 EXPECT_EQ(found.worst.value(), expected) << text_of(p);
                 different += expected != star_of(p);
             }
@@ -494,41 +497,203 @@ TEST(StarDiscrepancy, IsTheSameForAnyNumberOfThreads) {
     }
 }
 
-TEST(StarDiscrepancy, GivesUpAtItsLimitAndSaysWhatIsCertain) {
+// The exact values are those of searches to the end; here most end early, somewhere.
+TEST(StarDiscrepancy, BoundsHoldTheExactValueWhereverTheyEnd) {
+    for (const auto& [n, d] : {std::pair{60, 3}, {40, 5}, {40, 8}})
+        for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+            const PointSet p =
+                make("random", points(static_cast<std::uint64_t>(n), static_cast<std::size_t>(d)),
+                     {}, {.seed = seed});
+            const double value = star_of(p);
+            const star::CornerGrid corners = star::corner_grid(p, {});
+            double upper = 1;
+            for (std::uint64_t work = 1; work < std::uint64_t{1} << 40; work *= 4) {
+                const auto part =
+                    star::search(corners, star::WorstBox(corners), {.work = work}, {});
+                EXPECT_LE(part.worst.value(), value) << work;
+                EXPECT_GE(part.upper, value) << work;
+                upper = std::min(upper, part.upper);
+                if (part.ending != star::Ending::complete) continue;
+                EXPECT_EQ(part.worst.value(), value) << work;
+                EXPECT_EQ(part.upper, value) << work;
+                break;
+            }
+            EXPECT_EQ(upper, value);
+        }
+}
+
+// With few points, a brute force in integers, also with ties and points on 0 and 1.
+TEST(StarDiscrepancy, BoundsHoldTheDefinitionsValue) {
+    for (std::size_t d = 2; d <= 6; ++d)
+        for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+            const PointSet p = on_lattice(6, d, 8, seed);
+            const double value = by_definition(p, 8);
+            for (const char* work : {"1", "1000", "100000000"}) {
+                const Report report =
+                    analyze("star-discrepancy", p, {{"method", "bounds"}, {"max-work", work}});
+                EXPECT_LE(report.number("lower"), value) << text_of(p);
+                EXPECT_GE(report.number("upper"), value) << text_of(p);
+                EXPECT_EQ(report.number("value"), report.number("lower"));
+                const bool exact = report.number("upper") == report.number("lower");
+                EXPECT_EQ(std::get<bool>(*report.find("exact")), exact);
+                if (exact) {
+                    EXPECT_EQ(report.number("value"), value) << text_of(p);
+                }
+            }
+        }
+}
+
+TEST(StarDiscrepancy, ToleranceIsHonouredAndNotOvershotByFar) {
+    const PointSet p = halton(100, 9);
+    const double value = star_of(p);
+    for (const double tolerance : {1.0, 0.5, 0.1, 0.0}) {
+        const Report report =
+            analyze("star-discrepancy", p,
+                    {{"method", "bounds"}, {"tolerance", fmt::format("{}", tolerance)}});
+        const double lower = report.number("lower");
+        EXPECT_LE(lower, value);
+        EXPECT_GE(report.number("upper"), value);
+        EXPECT_LE(report.number("upper") - lower, tolerance * lower);
+        EXPECT_EQ(std::get<bool>(*report.find("exact")), tolerance == 0);
+    }
+    const Report usual = analyze("star-discrepancy", p, {{"method", "bounds"}});
+    EXPECT_LE(usual.number("upper"), 1.1 * usual.number("lower"));
+    EXPECT_GT(usual.number("upper"), usual.number("lower"));
+    const Report automatic = analyze("star-discrepancy", p, {{"tolerance", "0.5"}});
+    EXPECT_GT(automatic.number("upper"), automatic.number("lower"));
+}
+
+TEST(StarDiscrepancy, ExactOrNothingExceptWhatIsCertain) {
     const PointSet p = halton(150, 10);
     const double value = star_of(p);
     const star::CornerGrid corners = star::corner_grid(p, {});
     const star::SearchResult part =
-        star::search(corners, star::ascend(corners, {}), 20'000'000, {});
-    EXPECT_FALSE(part.complete);
+        star::search(corners, star::ascend(corners, {}), {.work = 20'000'000}, {});
+    EXPECT_EQ(part.ending, star::Ending::work);
     EXPECT_LE(part.worst.value(), value);
     EXPECT_GE(part.upper, value);
-    EXPECT_LT(part.upper, 1);
+    EXPECT_LT(part.upper, 0.7);
+    const Settings few = {{"max-work", "20000000"}};
     const std::string message = error_of([&] {
-        analyze("star-discrepancy", p, {{"max-work", "20000000"}});
+        analyze("star-discrepancy", p, {{"method", "exact"}, {"max-work", "20000000"}});
     });
-    EXPECT_EQ(
-        message,
-        fmt::format("limit: the star discrepancy of 150 points in 10 dimensions takes more "
-                    "than 20000000 comparisons (--max-work); certain so far: it is between {} and "
-                    "{} | a larger --max-work, or fewer points, may give the exact value",
-                    part.worst.value(), part.upper));
+    EXPECT_EQ(message,
+              fmt::format("limit: the star discrepancy of 150 points in 10 dimensions takes more "
+                          "than 20000000 comparisons (--max-work); certain so far: it is between "
+                          "{} and {} | a larger --max-work, or fewer points, may give the exact "
+                          "value; --method bounds is content with bounds",
+                          part.worst.value(), part.upper));
+    std::vector<std::string> told;
+    RunContext run;
+    run.warn = [&](const std::string& sentence) { told.push_back(sentence); };
+    const Report bounds = analyze("star-discrepancy", p, few, run);
+    EXPECT_FALSE(std::get<bool>(*bounds.find("exact")));
+    EXPECT_EQ(bounds.number("value"), part.worst.value());
+    EXPECT_EQ(bounds.number("lower"), part.worst.value());
+    EXPECT_EQ(bounds.number("upper"), part.upper);
+    expect_box_holds(p, bounds);
+    ASSERT_EQ(told.size(), 1U);
+    EXPECT_EQ(told[0],
+              fmt::format("the star discrepancy is not exact, but between {} and {}; the value "
+                          "given is the lower of these",
+                          part.worst.value(), part.upper));
 }
 
-TEST(StarDiscrepancy, StopsWhenAskedAndTellsItsProgress) {
-    for (const PointSet& p :
-         {make("random", points(100'000, 2)), make("random", points(2000, 6))}) {
+// A clock that goes on by a hundredth of a second whenever it is looked at.
+TEST(StarDiscrepancy, EndsAtTheTimeLimitWithBounds) {
+    for (const auto& p : {halton(3000, 2), halton(300, 6)}) {
+        std::atomic<int> looks = 0;
+        RunContext run{.threads = 1};
+        run.seconds = [&] { return 0.01 * static_cast<double>(++looks); };
+        const Report report = analyze("star-discrepancy", p, {{"time-limit", "0.05"}}, run);
+        EXPECT_LE(looks, 200);
+        EXPECT_FALSE(std::get<bool>(*report.find("exact")));
+        EXPECT_LT(report.number("lower"), report.number("upper"));
+        expect_box_holds(p, report);
+        const double value = star_of(p);
+        EXPECT_LE(report.number("lower"), value);
+        EXPECT_GE(report.number("upper"), value);
+        looks = 0;
+        EXPECT_EQ(
+            error_of([&] {
+                analyze("star-discrepancy", p, {{"time-limit", "0.05"}, {"method", "exact"}}, run);
+            }).substr(0, 30),
+            "limit: the star discrepancy of");
+        looks = 0;
+        const Report enough = analyze("star-discrepancy", p, {{"time-limit", "1e6"}}, run);
+        EXPECT_EQ(enough.number("value"), value);
+        EXPECT_TRUE(std::get<bool>(*enough.find("exact")));
+    }
+}
+
+TEST(StarDiscrepancy, MethodsAgreeInTheSquareAndOnTheLine) {
+    for (const auto& p : {halton(500, 2), on_lattice(200, 2, 16, 3), halton(500, 1)}) {
+        const Report searched =
+            analyze("star-discrepancy", p, {{"method", "bounds"}, {"tolerance", "0"}});
+        EXPECT_EQ(searched.number("value"), star_of(p));
+        EXPECT_TRUE(std::get<bool>(*searched.find("exact")));
+        const Report exact = analyze("star-discrepancy", p, {{"method", "exact"}});
+        EXPECT_EQ(exact, star_report(p));
+    }
+}
+
+TEST(StarDiscrepancy, BoundsAreTheSameForAnyNumberOfThreads) {
+    const PointSet p = halton(150, 10);
+    const Settings settings = {{"max-work", "20000000"}};
+    const Report one = analyze("star-discrepancy", p, settings, {.threads = 1});
+    EXPECT_FALSE(std::get<bool>(*one.find("exact")));
+    EXPECT_EQ(one, analyze("star-discrepancy", p, settings, {.threads = 3}));
+}
+
+TEST(StarDiscrepancy, RefusesLimitsThatMakeNoSense) {
+    const PointSet p = halton(5, 3);
+    const auto refusal = [&](const char* name, const char* value) {
+        return error_of([&] { analyze("star-discrepancy", p, {{name, value}}); });
+    };
+    EXPECT_THAT(refusal("time-limit", "0"), HasSubstr("usage: --time-limit: 0 is outside"));
+    EXPECT_THAT(refusal("time-limit", "-1"), HasSubstr("usage: --time-limit: -1 is outside"));
+    EXPECT_THAT(refusal("tolerance", "-0.1"), HasSubstr("usage: --tolerance: -0.1 is outside"));
+    EXPECT_THAT(refusal("method", "approximate"), HasSubstr("not one of auto, exact, bounds"));
+    EXPECT_EQ(error_of([&] {
+                  analyze("star-discrepancy", p, {{"method", "exact"}, {"tolerance", "0.1"}});
+              }),
+              "usage: --tolerance: has no meaning with --method exact");
+}
+
+TEST(StarDiscrepancy, BoundsHoldWhereNoSearchGetsThrough) {
+    const PointSet q = make("random", points(50, 60));
+    const Report report = analyze("star-discrepancy", q, {{"max-work", "5000000"}});
+    EXPECT_LE(report.number("lower"), report.number("upper"));
+    EXPECT_LE(report.number("upper"), 1);
+    EXPECT_GT(report.number("lower"), 0.5);
+    expect_box_holds(q, report);
+}
+
+TEST(StarDiscrepancy, ASweepStopsWhenAskedAndASearchSaysWhatIsCertain) {
+    const auto stopped = [](const PointSet& p) {
         std::stop_source source;
-        std::vector<double> seen;
+        int reports = 0;
         RunContext run{.stop = source.get_token()};
-        run.progress = [&](double done) {
-            seen.push_back(done);
+        run.progress = [&](double) {
+            ++reports;
             source.request_stop();
         };
-        EXPECT_EQ(error_of([&] { analyze("star-discrepancy", p, {}, run); }),
-                  "cancelled: interrupted");
-        EXPECT_EQ(seen.size(), 1U);
-    }
+        Report report;
+        const std::string error =
+            error_of([&] { report = analyze("star-discrepancy", p, {}, run); });
+        EXPECT_EQ(reports, 1);
+        EXPECT_EQ(error, p.dimension() == 2 ? "cancelled: interrupted" : "");
+        return report;
+    };
+    stopped(make("random", points(100'000, 2)));
+    const PointSet p = halton(1000, 6);
+    const Report report = stopped(p);
+    EXPECT_FALSE(std::get<bool>(*report.find("exact")));
+    EXPECT_LT(report.number("lower"), report.number("upper"));
+    expect_box_holds(p, report);
+}
+
+TEST(StarDiscrepancy, TellsItsProgress) {
     for (const PointSet& p : {halton(20'000, 1), halton(20'000, 2), halton(300, 4)}) {
         std::vector<double> seen;
         RunContext run;
@@ -545,8 +710,11 @@ TEST(StarDiscrepancy, RefusesPointsOutsideTheCubeAndTooLittleMemory) {
     RunContext run;
     run.max_memory = 1000;
     EXPECT_EQ(
-        error_of([&] { analyze("star-discrepancy", halton(1000, 2), {}, run); }).substr(0, 50),
-        "limit: the star discrepancy's grid of corners need");
+        error_of([&] { analyze("star-discrepancy", halton(1000, 2), {}, run); }),
+        "limit: the star discrepancy of 1000 points in 2 dimensions needs 54.7 KiB of memory; "
+        "the limit is 1000 bytes | 17 points would do; or raise the limit with --max-memory");
+    EXPECT_THAT(error_of([&] { analyze("star-discrepancy", halton(1000, 5), {}, run); }),
+                HasSubstr("points would do"));
 }
 
 TEST(StarDiscrepancy, TellsThatOfEveryPrefix) {

@@ -58,6 +58,15 @@ void dispersion_random(benchmark::State& state) { measure(state, "dispersion", "
 void dispersion_on_torus(benchmark::State& state) {
     measure(state, "dispersion", "random", {{"torus", "true"}});
 }
+void star_discrepancy_sobol(benchmark::State& state) {
+    measure(state, "star-discrepancy", "sobol");
+}
+void star_discrepancy_of_many_axes(benchmark::State& state) {
+    measure(state, "star-discrepancy", "random");
+}
+void star_discrepancy_bounds(benchmark::State& state) {
+    measure(state, "star-discrepancy", "sobol", {{"method", "bounds"}, {"tolerance", "0.1"}});
+}
 void periodogram(benchmark::State& state) {
     measure(state, "periodogram", "random", {{"max-frequency", "512"}});
 }
@@ -80,19 +89,6 @@ void pair_correlation(benchmark::State& state) {
 void coverage(benchmark::State& state) { measure(state, "coverage", "random"); }
 void t_value_of_a_net(benchmark::State& state) { measure(state, "t-value", "hammersley"); }
 void t_value_of_halton(benchmark::State& state) { measure(state, "t-value", "halton"); }
-void extreme_discrepancy_random(benchmark::State& state) {
-    measure(state, "star-discrepancy", "random", {{"kind", "extreme"}});
-}
-void extreme_discrepancy_halton(benchmark::State& state) {
-    measure(state, "star-discrepancy", "halton", {{"kind", "extreme"}});
-}
-void periodic_discrepancy_halton(benchmark::State& state) {
-    measure(state, "star-discrepancy", "halton", {{"kind", "periodic"}});
-}
-void dispersion_random(benchmark::State& state) { measure(state, "dispersion", "random"); }
-void dispersion_on_torus(benchmark::State& state) {
-    measure(state, "dispersion", "random", {{"torus", "true"}});
-}
 
 }  // namespace
 
@@ -108,6 +104,9 @@ BENCHMARK(star_discrepancy_halton)
     ->Args({16'384, 3})
     ->Args({1000, 4})
     ->Args({1000, 5})
+    ->Args({1000, 6})
+    ->Args({300, 8})
+    ->Args({200, 10})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(l2_discrepancy)
     ->Args({1024, 2})
@@ -157,6 +156,16 @@ BENCHMARK(dispersion_on_torus)
     ->Args({10'000, 2})
     ->Args({100'000, 2})
     ->Unit(benchmark::kMillisecond);
+BENCHMARK(star_discrepancy_sobol)
+    ->Args({128, 9})
+    ->Args({128, 12})
+    ->Args({100, 15})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(star_discrepancy_of_many_axes)
+    ->Args({50, 20})
+    ->Args({100, 20})
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(star_discrepancy_bounds)->Args({128, 12})->Args({256, 12})->Unit(benchmark::kMillisecond);
 BENCHMARK(periodogram)->Args({4096, 2})->Args({1'000'000, 2})->Unit(benchmark::kMillisecond);
 BENCHMARK(periodogram_direct)->Args({4096, 2})->Unit(benchmark::kMillisecond);
 BENCHMARK(periodogram_beside_direct)->Args({4096, 2})->Unit(benchmark::kMillisecond);
@@ -182,30 +191,3 @@ BENCHMARK(coverage)
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(t_value_of_a_net)->Args({16'384, 2})->Args({1 << 20, 2})->Unit(benchmark::kMillisecond);
 BENCHMARK(t_value_of_halton)->Args({16'384, 2})->Args({16'384, 10})->Unit(benchmark::kMillisecond);
-BENCHMARK(extreme_discrepancy_random)
-    ->Args({1024, 2})
-    ->Args({4096, 2})
-    ->Args({16'384, 2})
-    ->Args({32, 3})
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(extreme_discrepancy_halton)
-    ->Args({512, 2})
-    ->Args({1024, 2})
-    ->Args({2048, 2})
-    ->Args({4096, 2})
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(periodic_discrepancy_halton)
-    ->Args({256, 2})
-    ->Args({512, 2})
-    ->Args({1024, 2})
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(dispersion_random)
-    ->Args({10'000, 2})
-    ->Args({100'000, 2})
-    ->Args({1'000'000, 2})
-    ->Args({100, 3})
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(dispersion_on_torus)
-    ->Args({10'000, 2})
-    ->Args({100'000, 2})
-    ->Unit(benchmark::kMillisecond);

@@ -209,6 +209,22 @@ TEST(BadInput, CtrlCLeavesNothingBehind) {
     EXPECT_THAT(waiting.err, HasSubstr("stipple: interrupted"));
 }
 
+// The exact value would take hours.
+TEST(BadInput, CtrlCDuringASearchPrintsTheBoundsFoundSoFarButWritesNoFile) {
+    const Sandbox box;
+    const std::string search =
+        "stipple generate halton -n 2000 -d 8 -o p.npy; stipple analyze star-discrepancy p.npy ";
+    const std::string interrupt = " & sleep 3; kill -INT $!; wait $!";
+    const Outcome printed = box.shell(search + interrupt);
+    EXPECT_EQ(printed.code, 130);
+    EXPECT_THAT(printed.err, HasSubstr("stipple: interrupted"));
+    EXPECT_THAT(printed.out, HasSubstr("\"exact\": false"));
+    EXPECT_THAT(printed.out, HasSubstr("\"upper\": "));
+    const Outcome written = box.shell(search + "-o report.json" + interrupt);
+    expect_refusal(written, 130, "interrupted");
+    EXPECT_EQ(box.files(), std::vector<std::string>{"p.npy"});
+}
+
 TEST(BadInput, TooMuchMemoryIsRefusedBeforeStarting) {
     const Sandbox box;
     const Outcome outcome =

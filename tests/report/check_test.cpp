@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "report/check.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/units.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+/// A discrepancy between 0.2 and 0.3.
+Report between_bounds(bool exact) {
+    Report report;
+    report.add("value", 0.2);
+    report.add("lower", 0.2);
+    report.add("upper", exact ? 0.2 : 0.3);
+    report.add("exact", exact);
+    return report;
+}
+
+bool holds(const char* check, const Report& report) { return parse_check(check).holds(report); }
+
+}  // namespace
+
+TEST(Check, OfAValueBetweenBoundsHoldsForBoth) {
+    EXPECT_TRUE(holds("value<0.25", between_bounds(true)));
+    EXPECT_FALSE(holds("value<0.25", between_bounds(false)));
+    EXPECT_TRUE(holds("value<=0.3", between_bounds(false)));
+    EXPECT_TRUE(holds("value>0.19", between_bounds(false)));
+    EXPECT_FALSE(holds("value>=0.25", between_bounds(false)));
+    EXPECT_TRUE(holds("lower==0.2", between_bounds(false)));
+    EXPECT_TRUE(holds("value==0.2", between_bounds(true)));
+    EXPECT_EQ(error_of([] { holds("value==0.2", between_bounds(false)); }),
+              "usage: --check: 'value' is only known to be between 0.2 and 0.3; compare it with <, "
+              "<=, > or >=");
+}
