@@ -160,7 +160,7 @@ void tail(const Layout&, std::string& out) { out += "</g>\n</svg>\n"; }
 
 Format svg() {
     return {.name = "svg",
-            .summary = "A picture of 2-D points; write only",
+            .summary = "A picture of the points, of every pair of their coordinates",
             .source = "W3C, Scalable Vector Graphics 1.1",
             .extensions = {".svg"},
             .traits = {.many_sets = false,

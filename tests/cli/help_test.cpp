@@ -119,7 +119,8 @@ TEST(Help, SaysWhatDomainsAnAnalyzerTakes) {
     }
     const auto all = nlohmann::json::parse(box.run({"list", "--json"}).out);
     for (const auto& unit : all["analyzers"])
-        EXPECT_EQ(unit["traits"]["boxed"],
-                  unit["name"] == "coverage" || unit["name"] == "poisson-disk")
+        EXPECT_EQ(unit["traits"]["boxed"], unit["name"] == "coverage" ||
+                                               unit["name"] == "poisson-disk" ||
+                                               unit["name"] == "pair-correlation")
             << unit["name"];
 }
