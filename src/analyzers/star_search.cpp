@@ -6,7 +6,9 @@
 // cells that only an exact answer asks for come last. Those explored together know of each other's
 // finds only when all are done, so that what happens does not depend on the number of threads.
 //
-// From time to time climbs look for a worse box: one that the cells would give only late.
+// A cover by a grid gives a first upper bound where there are many points: cells of these take long
+// to get small. From time to time climbs look for a worse box: one that the cells would give only
+// late.
 //
 // Source  the bounds are this program's own; earlier exact methods are surveyed in C. Doerr,
 //         M. Gnewuch, M. Wahlstroem, arXiv:1405.1653.
@@ -19,6 +21,7 @@
 
 #include "analyzers/star_ascent.hpp"
 #include "analyzers/star_cell.hpp"
+#include "analyzers/star_cover.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 
@@ -141,6 +144,7 @@ class Search {
     void round() {
         constexpr std::uint64_t hunts_apart = 16;  // in units of what they cost
         if (work_ > short_work && hunts_apart * hunted_ < work_) hunt();
+        if (!covered_ && (steadily() || work_ > short_work)) cover();
         std::vector<Task> tasks = next_tasks();
         constexpr bool silent = true;
         for_each_block(
@@ -168,16 +172,20 @@ class Search {
         return tasks;
     }
 
+    /// Whether bounds may be all that is wanted.
+    [[nodiscard]] bool steadily() const {
+        return limits_.tolerance > 0 || limits_.work < 4 * short_work ||
+               limits_.deadline < std::numeric_limits<double>::infinity();
+    }
+
     /// 0 when cells are to be explored to the end: it is least work on the whole, but leaves the
     /// upper bound where it is.
     [[nodiscard]] double next_target() const {
         constexpr double step = 0.6;
         constexpr double close = 0.1;  // relative; not far from the end
-        const bool steadily = limits_.tolerance > 0 || limits_.work < 4 * short_work ||
-                              limits_.deadline < std::numeric_limits<double>::infinity();
         const double lower = worst_.value();
         const double gap = upper_ - lower;
-        const bool may_be_short = !steadily && work_ < short_work;
+        const bool may_be_short = !steadily() && work_ < short_work;
         if (may_be_short || cells_.size() >= most_cells_ || gap < close * lower) return 0;
         return lower + step * gap;
     }
@@ -205,6 +213,22 @@ class Search {
         run_.tick(parts - static_cast<std::uint64_t>(open * static_cast<double>(parts)), parts);
     }
 
+    /// An upper bound for about an eighth of the work or time that is left.
+    void cover() {
+        covered_ = true;
+        constexpr double corners_a_second = 1e8;
+        const std::uint64_t d = field_.grid.dimension();
+        std::uint64_t corners = std::uint64_t{1} << 25;
+        corners = std::min(corners, (limits_.work - std::min(work_, limits_.work)) / (8 * d));
+        corners = std::min(corners, run_.max_memory / 16);
+        if (steadily() && run_.seconds)
+            corners = static_cast<std::uint64_t>(
+                std::clamp((limits_.deadline - run_.seconds()) / 8 * corners_a_second, 0.0,
+                           static_cast<double>(corners)));
+        upper_ = std::min(upper_, cover_bound(field_.grid, corners, run_));
+        work_ += corners * d;
+    }
+
     /// Climbs, and what they cost.
     void hunt() {
         const std::uint64_t cost = hunt_.go(worst_, run_, [this] { return field_.late(); });
@@ -220,6 +244,7 @@ class Search {
     std::vector<Cell> cells_;  ///< that are open; a heap, the highest bound first
     std::size_t most_cells_;   ///< to keep; with more, cells are explored to the end
     double upper_ = 1;
+    bool covered_ = false;
     std::uint64_t work_ = 0;
     std::uint64_t hunted_ = 0;  ///< part of work_
 };

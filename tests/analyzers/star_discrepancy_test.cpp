@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "analyzers/star_ascent.hpp"
+#include "analyzers/star_cover.hpp"
 #include "analyzers/star_search.hpp"
 #include "analyzers/star_strips.hpp"
 #include "analyzers/star_sweep.hpp"
@@ -520,6 +521,29 @@ TEST(StarDiscrepancy, BoundsHoldTheExactValueWhereverTheyEnd) {
             }
             EXPECT_EQ(upper, value);
         }
+}
+
+// On a grid of nearly all corners, and on coarse ones; delta is about 1.1 ln(d) d / (d - 1) / side.
+TEST(StarDiscrepancy, CoversBoundItFromAboveAndNotByFar) {
+    for (std::size_t d = 2; d <= 5; ++d)
+        for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+            const PointSet p = seed % 2 ? on_lattice(150, d, 8, seed)
+                                        : make("random", points(150, d), {}, {.seed = seed});
+            const star::CornerGrid corners = star::corner_grid(p, {});
+            const double value = star_of(p);
+            for (const double side : {6, 9, 15, 17}) {
+                const auto axes = static_cast<double>(d);
+                const auto most = static_cast<std::uint64_t>(std::pow(side, axes) + 0.5);
+                const double delta = 1.25 * std::log(axes) * axes / (axes - 1) / (side - 2);
+                const double bound = star::cover_bound(corners, most, {});
+                EXPECT_GE(bound, value) << d << ' ' << seed << ' ' << side;
+                EXPECT_LE(bound, std::min(1.0, value + delta)) << d << ' ' << seed << ' ' << side;
+            }
+            EXPECT_EQ(star::cover_bound(corners, 20, {}), 1);
+        }
+    // All points at 0: the closed box up to 0 is as bad as can be.
+    const PointSet zeros = points_of({{0, 0, 0}, {0, 0, 0}});
+    EXPECT_EQ(star::cover_bound(star::corner_grid(zeros, {}), 1 << 15, {}), 1);
 }
 
 // With few points, a brute force in integers, also with ties and points on 0 and 1.
