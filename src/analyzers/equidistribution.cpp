@@ -232,4 +232,15 @@ std::unique_ptr<Probe> rank_probe(const Matrices& matrices, const RunContext& ru
     return std::make_unique<RankProbe>(matrices, run);
 }
 
+bool all_equal(Probe& probe, std::span<const std::size_t> along, std::size_t depth,
+               std::size_t digits) {
+    const std::size_t others = along.size() - depth - 1;
+    if (others == 0) return probe.equal(depth, along[depth], digits);
+    for (std::size_t q = 1; q + others <= digits; ++q) {
+        probe.cut(depth, along[depth], q);
+        if (!all_equal(probe, along, depth + 1, digits - q)) return false;
+    }
+    return true;
+}
+
 }  // namespace stipple::equidistribution

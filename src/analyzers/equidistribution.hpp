@@ -74,4 +74,9 @@ class Probe {
 std::unique_ptr<Probe> counting_probe(const Net& net, const RunContext& run);
 std::unique_ptr<Probe> rank_probe(const Matrices& matrices, const RunContext& run);
 
+/// Whether boxes are equal however `digits` digits are dealt to the coordinates from the depth-th
+/// on, each getting some.
+bool all_equal(Probe& probe, std::span<const std::size_t> along, std::size_t depth,
+               std::size_t digits);
+
 }  // namespace stipple::equidistribution

@@ -6,8 +6,8 @@
 // cells that only an exact answer asks for come last. Those explored together know of each other's
 // finds only when all are done, so that what happens does not depend on the number of threads.
 //
-// A cover by a grid gives a first upper bound where there are many points: cells of these take long
-// to get small. From time to time climbs look for a worse box: one that the cells would give only
+// A cover by a grid, or that the points are a net, gives a first upper bound where there are many
+// points: cells of these take long to get small. From time to time climbs look for a worse box: one that the cells would give only
 // late.
 //
 // Source  the bounds are this program's own; earlier exact methods are surveyed in C. Doerr,
@@ -22,6 +22,7 @@
 #include "analyzers/star_ascent.hpp"
 #include "analyzers/star_cell.hpp"
 #include "analyzers/star_cover.hpp"
+#include "analyzers/star_net.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 
@@ -219,14 +220,15 @@ class Search {
         constexpr double corners_a_second = 1e8;
         const std::uint64_t d = field_.grid.dimension();
         std::uint64_t corners = std::uint64_t{1} << 25;
-        corners = std::min(corners, (limits_.work - std::min(work_, limits_.work)) / (8 * d));
+        corners = std::min(corners, (limits_.work - std::min(work_, limits_.work)) / (16 * d));
         corners = std::min(corners, run_.max_memory / 16);
         if (steadily() && run_.seconds)
             corners = static_cast<std::uint64_t>(
-                std::clamp((limits_.deadline - run_.seconds()) / 8 * corners_a_second, 0.0,
+                std::clamp((limits_.deadline - run_.seconds()) / 16 * corners_a_second, 0.0,
                            static_cast<double>(corners)));
         upper_ = std::min(upper_, cover_bound(field_.grid, corners, run_));
-        work_ += corners * d;
+        upper_ = std::min(upper_, net_bound(field_.grid, upper_, corners * d, run_));
+        work_ += 2 * corners * d;
     }
 
     /// Climbs, and what they cost.

@@ -57,25 +57,13 @@ constexpr Param<std::int64_t> projections{
     .unit = "coordinates",
     .help = "Gives the t of all projections to up to so many coordinates"};
 
-/// Whether boxes are equal however `digits` digits are dealt to the coordinates from the depth-th
-/// on, each getting some.
-bool all_equal(Probe& probe, const Combination& along, std::size_t depth, std::size_t digits) {
-    const std::size_t others = along.size() - depth - 1;
-    if (others == 0) return probe.equal(depth, along[depth], digits);
-    for (std::size_t q = 1; q + others <= digits; ++q) {
-        probe.cut(depth, along[depth], q);
-        if (!all_equal(probe, along, depth + 1, digits - q)) return false;
-    }
-    return true;
-}
-
 /// Least number of digits along all of the coordinates that gives unequal boxes; `most` if less
 /// does not. What is equal stays so with fewer digits.
 std::size_t least_unequal(Probe& probe, const Combination& along, std::size_t most) {
     std::size_t equal = along.size() - 1;
     while (equal + 1 < most) {
         const std::size_t middle = (equal + most) / 2;
-        (all_equal(probe, along, 0, middle) ? equal : most) = middle;
+        (equidistribution::all_equal(probe, along, 0, middle) ? equal : most) = middle;
     }
     return most;
 }
@@ -185,7 +173,8 @@ class Search {
         for_each(level.size, ways, run,
                  [&](const Combination& along, std::size_t way, auto& probe) {
                      probe.cut(0, along[0], 1 + way);
-                     if (all_equal(probe, along, 1, level.digits - 1 - way)) return;
+                     if (equidistribution::all_equal(probe, along, 1, level.digits - 1 - way))
+                         return;
                      const std::lock_guard lock(finding);
                      found.along.push_back(along);
                  });

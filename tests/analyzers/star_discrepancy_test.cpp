@@ -12,6 +12,7 @@
 
 #include "analyzers/star_ascent.hpp"
 #include "analyzers/star_cover.hpp"
+#include "analyzers/star_net.hpp"
 #include "analyzers/star_search.hpp"
 #include "analyzers/star_strips.hpp"
 #include "analyzers/star_sweep.hpp"
@@ -544,6 +545,37 @@ TEST(StarDiscrepancy, CoversBoundItFromAboveAndNotByFar) {
     // All points at 0: the closed box up to 0 is as bad as can be.
     const PointSet zeros = points_of({{0, 0, 0}, {0, 0, 0}});
     EXPECT_EQ(star::cover_bound(star::corner_grid(zeros, {}), 1 << 15, {}), 1);
+}
+
+// Niederreiter's bound for t = 0 in the square is (1 + m) / 2^m, in the cube (1 + m (m + 1) / 2) /
+// 2^m.
+TEST(StarDiscrepancy, NetsBoundItByTheirQuality) {
+    const auto bound = [](const PointSet& p, double most = 1) {
+        return star::net_bound(star::corner_grid(p, {}), most, std::uint64_t{1} << 40, {});
+    };
+    for (std::size_t m = 1; m <= 12; ++m) {
+        const std::uint64_t n = std::uint64_t{1} << m;
+        const auto count = static_cast<double>(n);
+        const auto digits = static_cast<double>(m);
+        const PointSet flat = make("sobol", points(n, 2));
+        EXPECT_EQ(bound(flat), std::min(1.0, (1 + digits) / count)) << m;
+        EXPECT_EQ(bound(flat, (1 + digits) / count), 1) << m;
+        EXPECT_GE(bound(flat), star_of(flat)) << m;
+        const PointSet net = make("hammersley", points(n, 2));
+        EXPECT_EQ(bound(net), std::min(1.0, (1 + digits) / count)) << m;
+    }
+    const PointSet solid = make("niederreiter", points(1024, 3), {{"scramble", "owen"}});
+    EXPECT_LT(bound(solid), 0.2);
+    EXPECT_GE(bound(solid), star_of(solid));
+    EXPECT_EQ(bound(make("random", points(1024, 3))), 1);
+    EXPECT_EQ(bound(make("sobol", points(1023, 3))), 1);
+}
+
+// Thiemard's program of 2001, as J. Burkardt prints its output for these points.
+TEST(StarDiscrepancy, IsBetweenThePrintedBoundsOfTenHaltonPoints) {
+    const double value = star_of(halton(10, 2, 0));
+    EXPECT_GE(value, 0.2666665);
+    EXPECT_LE(value, 0.2674435);
 }
 
 // With few points, a brute force in integers, also with ties and points on 0 and 1.
