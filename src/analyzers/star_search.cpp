@@ -7,8 +7,8 @@
 // finds only when all are done, so that what happens does not depend on the number of threads.
 //
 // A cover by a grid, or that the points are a net, gives a first upper bound where there are many
-// points: cells of these take long to get small. From time to time climbs look for a worse box: one that the cells would give only
-// late.
+// points: cells of these take long to get small. From time to time climbs look for a worse box: one
+// that the cells would give only late.
 //
 // Source  the bounds are this program's own; earlier exact methods are surveyed in C. Doerr,
 //         M. Gnewuch, M. Wahlstroem, arXiv:1405.1653.
