@@ -207,8 +207,8 @@ std::optional<star::WorstBox> sweep_in_time(const star::CornerGrid& grid, const 
 Report other_kind(const PointSet& points, const Values& options, const RunContext& run) {
     const auto refuse = [&](const auto& option) {
         if (options.given(option))
-            fail(ErrorKind::usage, "--{}: is of --kind star; --kind {} ends after --max-work",
-                 option.name, options[extreme::kind]);
+            fail(ErrorKind::usage, "--{} is of --kind star; --max-work is of all kinds",
+                 option.name);
     };
     refuse(boxes);
     refuse(method);

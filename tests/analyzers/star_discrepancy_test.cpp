@@ -714,6 +714,14 @@ TEST(StarDiscrepancy, RefusesLimitsThatMakeNoSense) {
                   analyze("star-discrepancy", p, {{"method", "exact"}, {"tolerance", "0.1"}});
               }),
               "usage: --tolerance: has no meaning with --method exact");
+    for (const auto& [name, value] : {std::pair{"boxes", "half-open"},
+                                      {"method", "exact"},
+                                      {"time-limit", "1"},
+                                      {"tolerance", "0.1"}})
+        EXPECT_EQ(error_of([&] {
+                      analyze("star-discrepancy", p, {{"kind", "extreme"}, {name, value}});
+                  }),
+                  fmt::format("usage: --{} is of --kind star; --max-work is of all kinds", name));
 }
 
 TEST(StarDiscrepancy, BoundsHoldWhereNoSearchGetsThrough) {
