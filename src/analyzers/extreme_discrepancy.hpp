@@ -32,7 +32,8 @@ inline constexpr Param<Choice> kind{
     .fallback = "star",
     .choices = "star|extreme|periodic",
     .help =
-        "Boxes from the origin, all axis-parallel boxes, or those of the torus, which may wrap"};
+        "Boxes from the origin, all axis-parallel boxes, or those of the torus, which may wrap; "
+        "the last two end after --max-work only"};
 
 /// Value, bounds and worst box, as star-discrepancy reports them; the box's lower corner, too.
 Report discrepancy(const PointSet& points, Space space, std::uint64_t max_work,

@@ -60,8 +60,9 @@ constexpr Param<Text> kind{{.name = "kind",
 
 constexpr Param<Numbers> axis_weights{
     {.name = "weights",
-     .help = "Product weights, one for each coordinate, at least 0: K = prod (1 + weight k) for "
-             "every kind, so that projections count by the product of their weights"}};
+     .help =
+         "Product weights, one for each coordinate, from 0 to 10^6: K = prod (1 + weight k) for "
+         "every kind, so that projections count by the product of their weights"}};
 
 /// More points than any machine's memory holds; places of points fit 32 bits.
 constexpr std::size_t max_count = std::size_t{1} << 29;

@@ -468,10 +468,10 @@ Square pair_square(const PointSet& points, Kind kind, const std::vector<double>&
     const Quad pairs = sum_over_pairs(set.table, run) / (n * n);
     const Quad squared = set.total - 2 * set.means + pairs;
     if (!std::isfinite(static_cast<double>(squared)) || !std::isfinite(set.most))
-        fail(ErrorKind::limit,
-             "the {} discrepancy of points in {} dimensions is made of numbers "
-             "beyond the largest double",
-             record_of(kind).name, points.dimension());
+        fail_with_hint(ErrorKind::limit, "--kind chooses others",
+                       "the {} discrepancy of points in {} dimensions is made of numbers "
+                       "beyond the largest double",
+                       record_of(kind).name, points.dimension());
 
     const auto axes = static_cast<double>(set.table.columns);
     const auto products = kind == Kind::diaphony ? set.most : static_cast<double>(pairs);

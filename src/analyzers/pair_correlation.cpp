@@ -18,8 +18,8 @@
 //
 //     sqrt( E[w^2] / E[w]^2 - 1 ) / sqrt( n (n - 1) / 2 ),
 //
-// which is exact on the torus, where distances of different pairs are independent, and a little
-// too small for straight distances.
+// on the torus, where the distances of different pairs are independent; for straight ones they are
+// not, and it is left out.
 //
 // Shape   n >= 2 points of the unit cube or a box, d = 1, 2, 3.
 // Units   distances in those of the points; with --normalize-distance in (V / n)^(1/d), so that
@@ -111,6 +111,8 @@ Plan plan_for(const PointSet& points, const Values& options) {
         .pairs = 0};
     if (options.given(bandwidth) && plan.spread == 0)
         fail(ErrorKind::usage, "--bandwidth is of --kernel epanechnikov");
+    if (plan.spread > plan.bins)
+        fail(ErrorKind::usage, "--bandwidth: {} is more than the {} bins", plan.spread, plan.bins);
     const auto n = static_cast<double>(points.count());
     const Box& box = *plan.distances.box;
     const double mean = mean_distance(box, n);
@@ -245,7 +247,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     Report results;
     results.add("distance", std::move(curves.distance), unit);
     results.add("density", std::move(curves.density));
-    results.add("deviation", std::move(curves.deviation));
+    if (plan.distances.torus) results.add("deviation", std::move(curves.deviation));
     if (plan.spread == 0) results.add("pairs", std::move(pairs));
     results.add("max_distance", static_cast<double>(plan.bins) * plan.width / plan.unit, unit);
     results.add("bin_width", plan.width / plan.unit, unit);
@@ -276,7 +278,9 @@ Analyzer pair_correlation() {
             .options = Schema(max_distance, bin_count, kernel, bandwidth, normalize, metric),
             .results = {{"distance", "middles of the bins (epanechnikov: their rims, from 0)"},
                         {"density", "pairs at that distance over those of uniform points"},
-                        {"deviation", "standard deviation of the density of uniform points"},
+                        {"deviation",
+                         "standard deviation of the density of one set of uniform points; on the "
+                         "torus only"},
                         {"pairs", "in each bin; kernel histogram only"},
                         {"max_distance", "the last bin's upper rim"},
                         {"bin_width", "of each bin"},

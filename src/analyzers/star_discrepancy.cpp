@@ -78,8 +78,9 @@ constexpr Param<std::int64_t> max_work{
     .low = 1,
     .unit = "comparisons",
     .help =
-        "Stop when branch and bound (3 and more dimensions) has compared this many "
-        "coordinates, the same on any machine; 10^9 take one to two seconds on one core"};
+        "Stop when branch and bound (3 and more dimensions; 2 for other kinds than star) has "
+        "compared this many coordinates, the same on any machine, for each prefix and projection; "
+        "10^9 take one to two seconds on one core"};
 
 constexpr Param<Choice> boxes{
     .name = "boxes",
@@ -207,8 +208,7 @@ std::optional<star::WorstBox> sweep_in_time(const star::CornerGrid& grid, const 
 Report other_kind(const PointSet& points, const Values& options, const RunContext& run) {
     const auto refuse = [&](const auto& option) {
         if (options.given(option))
-            fail(ErrorKind::usage, "--{} is of --kind star; --max-work is of all kinds",
-                 option.name);
+            fail(ErrorKind::usage, "--{} applies to --kind star only", option.name);
     };
     refuse(boxes);
     refuse(method);
@@ -276,8 +276,10 @@ Analyzer star_discrepancy() {
                         {"projections.lower", "which is at least this", false},
                         {"projections.upper", "and at most this", false},
                         {"projections.is_worst", "1 for the first with the largest value", false},
+                        {"projections.largest.value", "the largest value", false},
+                        {"projections.largest.lower", "the largest of all is at least this", false},
                         {"projections.worst", "the axes of that one", false},
-                        {"projections.largest", "its value", false}},
+                        {"projections.largest.upper", "and at most this", false}},
             .analyze = analyze};
 }
 

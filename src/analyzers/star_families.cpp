@@ -141,10 +141,12 @@ void mark_worst(Report& table, std::size_t size) {
     Report::Integers axes;
     for (const std::size_t k : combination(worst, size))
         axes.push_back(static_cast<std::int64_t>(k + 1));
-    const double largest = value[worst];
+    Report largest;
+    for (const char* name : {"value", "lower", "upper"})
+        largest.add(name, std::ranges::max(table.curve(name)));
     table.add("is_worst", std::move(marks));
     table.add("worst", std::move(axes));
-    table.add("largest", largest);
+    table.add("largest", std::move(largest));
 }
 
 Report of_projections(const PointSet& points, std::size_t size, const Measure& measure,

@@ -246,6 +246,9 @@ class Analysis {
             measurements_.push_back(std::move(m));
             return;
         }
+        if (!measurements_.empty() && measurements_[0].dimension != m.dimension)
+            fail(ErrorKind::usage, "--average: the sets have points of {} and of {} coordinates",
+                 measurements_[0].dimension, m.dimension);
         average_.add(m.results);
         if (analyzer_.combine) singles_.push_back(numbers_only(m.results));
         if (average_.count() == 1) {

@@ -20,6 +20,14 @@ bool compare(double a, const std::string& op, double b) {
 double number_of(const Report& report, std::string_view key) {
     const auto open = key.find('[');
     const Report::Item* item = report.find(key.substr(0, open));
+    const auto refuse_list = [&](const auto& numbers) {
+        fail(ErrorKind::usage, "--check: '{}' has {} numbers; one of them is {}[0]", key,
+             numbers.size(), key);
+    };
+    if (item != nullptr && open == std::string_view::npos) {
+        if (const auto* curve = std::get_if<Report::Curve>(item)) refuse_list(*curve);
+        if (const auto* whole = std::get_if<Report::Integers>(item)) refuse_list(*whole);
+    }
     if (open == std::string_view::npos || !key.ends_with(']') || item == nullptr)
         return report.number(key);
     const auto index = parse_unsigned(key.substr(open + 1, key.size() - open - 2));
@@ -34,18 +42,22 @@ double number_of(const Report& report, std::string_view key) {
     return report.number(key);
 }
 
-/// What a condition on `value` is about: where that is only known to lie between two bounds, it
-/// must hold for both.
+/// What a condition on a `value` is about: where it stands beside a `lower` and an `upper` bound,
+/// it must hold for both.
 double bounded(const Report& report, const std::string& key, const std::string& op, double found) {
-    const auto* exact = report.find("exact");
-    const bool known = exact == nullptr || !std::holds_alternative<bool>(*exact) ||
-                       std::get<bool>(*exact) || !report.find("lower") || !report.find("upper");
-    if (key != "value" || known) return found;
-    if (op == "<" || op == "<=") return report.number("upper");
-    if (op == ">" || op == ">=") return report.number("lower");
+    const std::string path = key.substr(0, key.find('['));
+    const std::string index = key.substr(path.size());
+    const std::string group = path.substr(0, path.rfind('.') + 1);
+    const auto has = [&](const char* name) { return report.find(group + name) != nullptr; };
+    if (path != group + "value" || !has("lower") || !has("upper")) return found;
+    const double lower = number_of(report, group + "lower" + index);
+    const double upper = number_of(report, group + "upper" + index);
+    if (op == "<" || op == "<=") return upper;
+    if (op == ">" || op == ">=") return lower;
+    if (lower == upper) return found;
     fail(ErrorKind::usage,
-         "--check: 'value' is only known to be between {} and {}; compare it with <, <=, > or >=",
-         format_number(report.number("lower")), format_number(report.number("upper")));
+         "--check: '{}' is only known to be between {} and {}; compare it with <, <=, > or >=", key,
+         format_number(lower), format_number(upper));
 }
 
 }  // namespace

@@ -290,6 +290,16 @@ std::vector<std::string> Columns::names() const {
     return names;
 }
 
+/// Files hold no infinite numbers: no reader would take them.
+static double finite(const char* column, double value, std::span<const double> point) {
+    if (std::isfinite(value)) return value;
+    std::vector<std::string> words;
+    for (const double x : point) words.push_back(format_number(x));
+    fail_with_hint(ErrorKind::input,
+                   "--start 1 leaves out a sequence's first point, where coordinates are 0",
+                   "--with-{}: it is infinite at the point ({})", column, join(words, ", "));
+}
+
 std::vector<double> with_columns(std::span<const double> rows, const WarpChain& chain,
                                  const Route& route) {
     const std::size_t d = chain.dimension_out();
@@ -299,8 +309,10 @@ std::vector<double> with_columns(std::span<const double> rows, const WarpChain& 
     for (std::size_t i = 0; i < density.size(); ++i) {
         const auto row = rows.subspan(i * d, d);
         wide.insert(wide.end(), row.begin(), row.end());
-        if (route.columns.pdf) wide.push_back(density[i] / route.volume);
-        if (route.columns.weight) wide.push_back(route.volume / density[i]);
+        const double pdf = density[i] / route.volume;
+        const double weight = route.volume / density[i];
+        if (route.columns.pdf) wide.push_back(finite("pdf", pdf, row));
+        if (route.columns.weight) wide.push_back(finite("weight", weight, row));
     }
     return wide;
 }

@@ -79,9 +79,14 @@ class MixtureDomain final : public Domain {
     std::string spec() const override { return spec_; }
     std::size_t dimension() const override { return parts_[0]->dimension(); }
     std::size_t cube_dimension() const override { return parts_[0]->cube_dimension(); }
+    /// That of all directions where a part has them all; else what the parts cover together is not
+    /// known, and integrals over it are not.
     double measure() const override {
-        if (!directions()) return std::numeric_limits<double>::infinity();
-        return dimension() == 3 ? 4 * std::numbers::pi : 2 * std::numbers::pi;
+        const auto has_all = [&](const DomainPtr& part) {
+            return part->measure() > (1 - 1e-12) * all_directions();
+        };
+        if (directions() && std::ranges::any_of(parts_, has_all)) return all_directions();
+        return std::numeric_limits<double>::infinity();
     }
 
     /// Unit vectors, up to 16 epsilon; else all that is finite.
@@ -137,6 +142,9 @@ class MixtureDomain final : public Domain {
 
   private:
     bool directions() const { return cube_dimension() < dimension(); }
+    double all_directions() const {
+        return dimension() == 3 ? 4 * std::numbers::pi : 2 * std::numbers::pi;
+    }
     double middle(std::size_t k) const { return box_.low[k] + 0.5 * box_.extent(k); }
     double scale(std::size_t k) const { return box_.extent(k) > 0 ? 0.25 * box_.extent(k) : 1; }
 
@@ -145,9 +153,9 @@ class MixtureDomain final : public Domain {
         if (!directions()) return density(at);
         const double turn = 2 * std::numbers::pi * at.back();
         if (dimension() == 2)
-            return measure() * density(std::vector{std::cos(turn), std::sin(turn)});
+            return all_directions() * density(std::vector{std::cos(turn), std::sin(turn)});
         const double r = 2 * std::sqrt(at[0] * (1 - at[0]));
-        return measure() *
+        return all_directions() *
                density(std::vector{r * std::cos(turn), r * std::sin(turn), 1 - 2 * at[0]});
     }
 

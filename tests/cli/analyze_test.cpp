@@ -355,7 +355,7 @@ TEST(Analyze, WritesDiscrepanciesOfPrefixesAndProjectionsAsTables) {
     const auto out =
         report_of(box.shell("stipple generate halton -n 64 -d 3 | stipple analyze "
                             "star-discrepancy --projections 2 "
-                            "--check 'projections.largest<0.2'"));
+                            "--check 'projections.largest.value<0.2'"));
     EXPECT_EQ(out["results"]["projections"]["axis_1"], (json{1, 1, 2}));
     EXPECT_EQ(out["results"]["projections"]["is_worst"].size(), 3U);
     EXPECT_EQ(out["options"]["projections"], 2);
@@ -364,4 +364,14 @@ TEST(Analyze, WritesDiscrepanciesOfPrefixesAndProjectionsAsTables) {
         "star-discrepancy --prefixes 32,128");
     EXPECT_EQ(beyond.code, 3);
     EXPECT_EQ(beyond.err, "stipple: stdin: --prefixes: 128 is beyond the set's 64 points\n");
+}
+
+TEST(Analyze, AveragesOnlySetsOfOneDimension) {
+    const Sandbox box;
+    const Outcome outcome = box.shell(
+        "stipple generate random -n 9 -d 2 -o a.csv && stipple generate random -n 9 -d 3 -o b.csv "
+        "&& stipple analyze nearest-neighbor a.csv b.csv --average");
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err,
+                HasSubstr("--average: the sets have points of 2 and of 3 coordinates"));
 }

@@ -299,3 +299,16 @@ TEST(Generate, HaltonAgreesWithSciPyToItsRounding) {
         " a = np.load(\"a.npy\"); b = qmc.Halton(20, scramble=False).random(65536);"
         " assert a.shape == b.shape and abs(a - b).max() < 4e-16 and (a == b).mean() > 0.5'"));
 }
+
+// The density x^2 is 0 at 0, where Sobol's first point is; no reader takes an infinite weight.
+TEST(Generate, RefusesColumnsThatNoReaderTakes) {
+    const Sandbox box;
+    const auto run = [&](const char* start) {
+        return box.run({"generate", "sobol", "-n", "2", "-d", "1", "-w", "power:exponent=2",
+                        "--with-weight", "--start", start});
+    };
+    const Outcome refused = run("0");
+    EXPECT_EQ(refused.code, 3);
+    EXPECT_THAT(refused.err, HasSubstr("--with-weight: it is infinite at the point (0)"));
+    EXPECT_EQ(run("1").code, 0);
+}

@@ -36,3 +36,17 @@ TEST(Check, OfAValueBetweenBoundsHoldsForBoth) {
               "usage: --check: 'value' is only known to be between 0.2 and 0.3; compare it with <, "
               "<=, > or >=");
 }
+
+TEST(Check, OfATablesValuesHoldsForBothBounds) {
+    Report table;
+    table.add("value", Report::Curve{0.1, 0.2});
+    table.add("lower", Report::Curve{0.1, 0.2});
+    table.add("upper", Report::Curve{0.1, 0.9});
+    Report report;
+    report.add("prefixes", table);
+    EXPECT_TRUE(holds("prefixes.value[0]<0.5", report));
+    EXPECT_FALSE(holds("prefixes.value[1]<0.5", report));
+    EXPECT_TRUE(holds("prefixes.value[1]<0.95", report));
+    EXPECT_EQ(error_of([&] { holds("prefixes.value<0.5", report); }),
+              "usage: --check: 'prefixes.value' has 2 numbers; one of them is prefixes.value[0]");
+}
