@@ -68,8 +68,11 @@ double within_ball(const Axis& a, const Axis& b, const Axis& c, double r) {
     // Beyond a cut the disk's share begins with a broken power, which this rule takes well.
     thread_local boost::math::quadrature::tanh_sinh<double> rule;
     double sum = 0;
-    for (std::size_t i = 0; i + 1 < cuts.size(); ++i)
-        if (cuts[i] < cuts[i + 1]) sum += rule.integrate(slice, cuts[i], cuts[i + 1], 1e-13);
+    for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+        const double width = cuts[i + 1] - cuts[i];
+        const auto part = [&](double share) { return slice(cuts[i] + share * width); };
+        if (width > 0) sum += width * rule.integrate(part, 0.0, 1.0, 1e-13);
+    }
     return sum;
 }
 
