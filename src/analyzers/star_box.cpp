@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "core/parallel.hpp"
-#include "math/dyadic.hpp"
 #include "math/radix_sort.hpp"
 
 namespace stipple::analyzers::star {

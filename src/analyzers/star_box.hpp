@@ -14,7 +14,6 @@
 //         89-97, doi:10.1007/BF02412017 (the finite grid).
 #pragma once
 
-#include <boost/multiprecision/cpp_int.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,6 +21,7 @@
 
 #include "core/point_set.hpp"
 #include "core/run_context.hpp"
+#include "math/dyadic.hpp"
 
 namespace stipple::analyzers::star {
 
@@ -50,8 +50,6 @@ using Corner = std::vector<std::uint32_t>;
 /// The worst box offered so far; of boxes that are equally bad, the first.
 class WorstBox {
   public:
-    using Integer = boost::multiprecision::cpp_int;
-
     /// Keeps a reference to the grid.
     explicit WorstBox(const CornerGrid& grid);
 

@@ -60,9 +60,8 @@ constexpr Param<double> time_limit{
     .unit = "seconds",
     .help =
         "Stop after this time, in place of --max-work; what bounds it gives depends on the "
-        "machine and its load, and the sorting of millions of points is not cut short; for each of "
-        "the "
-        "prefixes and projections"};
+        "machine and its load, and the sorting of millions of points is not cut short; for each "
+        "prefix and projection"};
 
 constexpr Param<double> tolerance{
     .name = "tolerance",
@@ -163,8 +162,7 @@ Report search_for_it(const star::CornerGrid& grid, const Limits& limits, const R
     if (found.ending == star::Ending::work || found.ending == star::Ending::time)
         run.tell(
             fmt::format("the star discrepancy is not exact, but between {} and {}; the value given "
-                        "is the lower "
-                        "of these",
+                        "is the lower of these",
                         format_number(found.worst.value()), format_number(found.upper)));
     return report(found.worst, found.upper, "branch-and-bound");
 }
@@ -276,9 +274,9 @@ Analyzer star_discrepancy() {
                         {"projections.lower", "which is at least this", false},
                         {"projections.upper", "and at most this", false},
                         {"projections.is_worst", "1 for the first with the largest value", false},
+                        {"projections.worst", "the axes of that one", false},
                         {"projections.largest.value", "the largest value", false},
                         {"projections.largest.lower", "the largest of all is at least this", false},
-                        {"projections.worst", "the axes of that one", false},
                         {"projections.largest.upper", "and at most this", false}},
             .analyze = analyze};
 }
