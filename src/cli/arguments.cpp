@@ -19,9 +19,10 @@ constexpr unsigned warp = static_cast<unsigned>(Verb::warp);
 constexpr unsigned analyze = static_cast<unsigned>(Verb::analyze);
 constexpr unsigned convert = static_cast<unsigned>(Verb::convert);
 constexpr unsigned list = static_cast<unsigned>(Verb::list);
+constexpr unsigned plot = static_cast<unsigned>(Verb::plot);
 constexpr unsigned writers = generate | warp | convert;
-constexpr unsigned readers = warp | analyze | convert;
-constexpr unsigned workers = writers | analyze;
+constexpr unsigned readers = warp | analyze | convert | plot;
+constexpr unsigned workers = writers | analyze | plot;
 
 /// Long name of "-n,--count": "count".
 std::string long_name(std::string_view names) {
@@ -243,6 +244,29 @@ const std::vector<VerbInfo>& verbs() {
          "  stipple convert points.csv -o points.npy\n"
          "  stipple convert points.bin -d 3 -o points.json\n"
          "  stipple convert table.csv --column 3,1 -o points.csv\n"},
+        {Verb::plot, "plot", "stipple plot [INPUT...] [OPTIONS]",
+         "a picture of points, or of an analyzer's JSON",
+         "INPUTs are files of points or the JSON of 'stipple analyze'; standard input by default. "
+         "What\n"
+         "is drawn of points, --chart says; of reports, their curves, one for each: radial power "
+         "and\n"
+         "anisotropy, pair correlation, discrepancy of prefixes. Of several reports without curves "
+         "one\n"
+         "number (--key) is drawn over the number of points or, where that is the same, as a "
+         "histogram.\n"
+         "The NPY table of 'periodogram --grid' is drawn as a spectrum. Without -o, standard "
+         "output "
+         "gets\n"
+         "SVG or, on a terminal, a quick picture in letters. The same input gives the same bytes.",
+         "  stipple generate halton -n 2000 -f json | stipple plot\n"
+         "  stipple plot points.csv --domain disk -o points.svg\n"
+         "  stipple plot points.csv --chart spectrum -o spectrum.png --theme dark\n"
+         "  stipple generate jittered -n 4096 -m 10 -f json | stipple analyze periodogram "
+         "--average "
+         "|\n"
+         "      stipple plot -o power.svg\n"
+         "  stipple analyze star-discrepancy halton.csv sobol.csv --every 64 | stipple plot -o "
+         "star.svg\n"},
         {Verb::list, "list", "stipple list [KIND] [OPTIONS]", "every unit with its options",
          "KIND is generators, scrambles, warps, analyzers or formats; all of them by default.",
          "  stipple list generators\n"
@@ -279,7 +303,7 @@ const std::vector<CommonOption>& common_options() {
         {"--domain", "SPEC", "",
          "what the points live on: unit-cube, disk, triangle:vertices=[...], ...; else as the file "
          "says",
-         analyze},
+         analyze | plot},
         {"--rescale", "", "", "map the bounding box of the points to the unit cube before",
          analyze},
         {"--average", "", "", "one result: the mean over all sets, with standard errors", analyze},
@@ -292,11 +316,25 @@ const std::vector<CommonOption>& common_options() {
          readers},
         {"-o,--output", "FILE", "-",
          "- is standard output; {set} and {seed} in the name make a file for each set", writers},
-        {"-o,--output", "FILE", "-", "- is standard output", analyze | list},
+        {"-o,--output", "FILE", "-", "- is standard output", analyze | list | plot},
         {"-f,--format", "FORMAT", "", "file format; else from the extension, else csv", writers},
         {"-f,--format", "text|json|csv", "", "how results are printed", analyze},
+        {"-f,--format", "svg|png|text", "",
+         "of the picture; else from the extension; text is Braille, as wide as the terminal", plot},
+        {"--chart", "KIND", "points",
+         "of points: points, density (counts), histogram, distances (to the nearest neighbour), "
+         "spectrum, radial (power), pair-correlation; these three as analyze has them by default",
+         plot},
+        {"--key", "KEY", "", "of a report: what to draw, such as prefixes.value or minimum", plot},
+        {"--set", "K", "", "which of several sets or reports, from 0; else all of them", plot},
+        {"--theme", "light|dark", "light", "colours", plot},
+        {"--width", "W", "", "pixels, or letters of text; else as suits the picture", plot},
+        {"--height", "H", "", "pixels, or lines of text; else as suits the picture", plot},
+        {"--title", "TEXT", "", "instead of what the provenance says; '' is none", plot},
+        {"--x-scale", "linear|log", "", "else as suits the curves", plot},
+        {"--y-scale", "linear|log", "", "else as suits the curves", plot},
         {"--dtype", "f64|f32", "f64", "number type of binary formats", writers},
-        {"--dtype", "f64|f32", "f64", "number type of raw binary input", analyze},
+        {"--dtype", "f64|f32", "f64", "number type of raw binary input", analyze | plot},
         {"--precision", "P", "",
          "digits after the point, cut off; else the shortest text that reads back the same",
          writers},

@@ -66,6 +66,8 @@ int dispatch(const Arguments& arguments, const std::vector<Kind>& kinds) {
             return warp(arguments, session);
         case Verb::convert:
             return convert(arguments, session);
+        case Verb::plot:
+            return plot(arguments, session);
         default:
             return analyze(arguments, session);
     }

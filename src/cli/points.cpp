@@ -184,6 +184,12 @@ std::vector<PointSet> read_input(const std::string& path, const Arguments& argum
     return named(io::read_points(path, options, run, format), arguments, run);
 }
 
+std::vector<PointSet> read_input(std::string_view bytes, const std::string& path,
+                                 const Arguments& arguments, const RunContext& run) {
+    const auto [options, format] = reading_of(path, arguments);
+    return named(io::read_sets(bytes, path, options, run, format), arguments, run);
+}
+
 std::unique_ptr<io::PointStream> open_input(const std::string& path, const Arguments& arguments,
                                             const RunContext& run) {
     const auto [options, format] = reading_of(path, arguments);

@@ -14,6 +14,7 @@ int generate(const Arguments& arguments, Session& session);
 int warp(const Arguments& arguments, Session& session);
 int analyze(const Arguments& arguments, Session& session);
 int convert(const Arguments& arguments, Session& session);
+int plot(const Arguments& arguments, Session& session);
 int list(const Arguments& arguments, const std::vector<Kind>& kinds);
 
 /// Where points go, as -o, -f, --dtype, --precision, --meta and --no-header say.
@@ -22,6 +23,10 @@ Target target_of(const Arguments& arguments);
 /// The sets of an input file, with their domain; --from, -d, --column, --dtype are heeded.
 std::vector<PointSet> read_input(const std::string& path, const Arguments& arguments,
                                  const RunContext& run);
+
+/// The same of the bytes of a file that was read already.
+std::vector<PointSet> read_input(std::string_view bytes, const std::string& path,
+                                 const Arguments& arguments, const RunContext& run);
 
 /// The same in blocks, where they are many; their domain is input_domain.
 std::unique_ptr<io::PointStream> open_input(const std::string& path, const Arguments& arguments,

@@ -14,9 +14,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "io/decimal.hpp"
+#include "io/disk_size.hpp"
 #include "io/format.hpp"
 
 namespace stipple::io {
@@ -95,9 +95,9 @@ Sheet sheet_of(const Layout& layout) {
         sheet.width = std::max(sheet.width, panel.left + panel.width + margin);
         sheet.height = std::max(sheet.height, panel.top + panel.height + margin);
     }
-    const auto n = static_cast<double>(std::max<std::uint64_t>(layout.counts.at(0), 1));
     const Panel& first = sheet.panels[0];
-    sheet.radius = std::clamp(0.15 * std::sqrt(first.width * first.height / n), 0.5, 10.0);
+    sheet.radius =
+        disk_radius(first.width * first.height, static_cast<double>(layout.counts.at(0)));
     return sheet;
 }
 

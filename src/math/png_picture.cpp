@@ -105,6 +105,56 @@ class Samples {
     std::size_t size_;
 };
 
+/// The way back; the same care about long jumps.
+class Encoder {
+  public:
+    Encoder() {
+        png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, this, take_error, ignore_warning);
+        if (png_ != nullptr) info_ = png_create_info_struct(png_);
+    }
+    Encoder(const Encoder&) = delete;
+    Encoder& operator=(const Encoder&) = delete;
+    ~Encoder() { png_destroy_write_struct(&png_, &info_); }
+
+    /// Writes it all. False: error().
+    bool write(std::size_t width, std::size_t height, std::span<png_text> texts,
+               std::span<png_bytep> rows) {
+        if (info_ == nullptr) return false;
+        if (setjmp(png_jmpbuf(png_)) != 0) return false;
+        png_set_write_fn(png_, this, take_bytes, nullptr);
+        png_set_IHDR(png_, info_, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height),
+                     8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+                     PNG_FILTER_TYPE_DEFAULT);
+        png_set_text(png_, info_, texts.data(), static_cast<int>(texts.size()));
+        png_write_info(png_, info_);
+        png_write_image(png_, rows.data());
+        png_write_end(png_, nullptr);
+        return true;
+    }
+
+    [[nodiscard]] const char* error() const { return error_.data(); }
+
+    std::string bytes;
+
+  private:
+    [[noreturn]] static void take_error(png_structp png, png_const_charp message) {
+        auto& self = *static_cast<Encoder*>(png_get_error_ptr(png));
+        std::strncpy(self.error_.data(), message, self.error_.size() - 1);
+        png_longjmp(png, 1);
+    }
+
+    static void ignore_warning(png_structp, png_const_charp) {}
+
+    static void take_bytes(png_structp png, png_bytep from, std::size_t size) {
+        auto& self = *static_cast<Encoder*>(png_get_io_ptr(png));
+        self.bytes.append(static_cast<const char*>(static_cast<const void*>(from)), size);
+    }
+
+    png_structp png_ = nullptr;
+    png_infop info_ = nullptr;
+    std::array<char, 128> error_{"libpng cannot be used"};
+};
+
 }  // namespace
 
 PngPicture read_png(std::string_view bytes, const std::string& source, const RunContext& run) {
@@ -152,6 +202,27 @@ std::string png_of_grey(std::size_t width, std::size_t height,
         fail(ErrorKind::limit, "a PNG picture of {} x {} pixels: {}", width, height, image.message);
     bytes.resize(size);
     return bytes;
+}
+
+std::string png_of_colour(std::size_t width, std::size_t height, std::string_view samples,
+                          std::span<const std::pair<std::string, std::string>> texts) {
+    // libpng takes rows and texts that it could write to, and does not.
+    std::vector<png_text> chunks(texts.size());
+    std::vector<std::pair<std::string, std::string>> held(texts.begin(), texts.end());
+    for (std::size_t i = 0; i < held.size(); ++i) {
+        chunks[i].compression = PNG_ITXT_COMPRESSION_NONE;
+        chunks[i].key = held[i].first.data();
+        chunks[i].text = held[i].second.data();
+        chunks[i].itxt_length = held[i].second.size();
+    }
+    std::vector<unsigned char> pixels(samples.begin(), samples.end());
+    std::vector<png_bytep> rows(height);
+    for (std::size_t i = 0; i < height; ++i) rows[i] = pixels.data() + 3 * i * width;
+    Encoder encoder;
+    if (!encoder.write(width, height, chunks, rows))
+        fail(ErrorKind::limit, "a PNG picture of {} x {} pixels: {}", width, height,
+             encoder.error());
+    return std::move(encoder.bytes);
 }
 
 }  // namespace stipple

@@ -17,6 +17,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/run_context.hpp"
@@ -40,5 +41,11 @@ PngPicture read_png(std::string_view bytes, const std::string& source, const Run
 /// @throws Error(limit) for a picture too large for PNG.
 std::string png_of_grey(std::size_t width, std::size_t height,
                         std::span<const std::uint16_t> samples);
+
+/// A picture of 8 bits of red, green and blue; samples row after row from the top. Texts are pairs
+/// of a keyword (1 to 79 letters of Latin-1) and UTF-8, in iTXt chunks before the pixels.
+/// @throws Error(limit) for a picture too large for PNG.
+std::string png_of_colour(std::size_t width, std::size_t height, std::string_view samples,
+                          std::span<const std::pair<std::string, std::string>> texts);
 
 }  // namespace stipple

@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: MIT
+//
+// The verb `plot`: points or reports in, a picture out.
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "cli/verbs.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "io/files.hpp"
+#include "io/provenance.hpp"
+#include "report/average.hpp"
+#include "report/distance_chart.hpp"
+#include "report/picture_title.hpp"
+#include "report/points_picture.hpp"
+#include "report/read_document.hpp"
+#include "report/report_charts.hpp"
+#include "report/spectrum_picture.hpp"
+#include "report/text_picture.hpp"
+#include "study/chain.hpp"
+#include "study/pipeline.hpp"
+
+namespace stipple::cli {
+namespace {
+
+enum class Medium { svg, png, text };
+
+constexpr std::size_t most_sets = 7;  ///< of points, in one picture: as many as there are colours
+
+const std::vector<std::string>& chart_kinds() {
+    static const std::vector<std::string> kinds = {
+        "points", "density", "histogram", "distances", "spectrum", "radial", "pair-correlation"};
+    return kinds;
+}
+
+Medium medium_named(const std::string& name) {
+    if (name == "svg") return Medium::svg;
+    if (name == "png") return Medium::png;
+    if (name == "text") return Medium::text;
+    fail(ErrorKind::usage, "--format: '{}' is not one of svg, png, text", name);
+}
+
+Medium medium_of(const Arguments& arguments, const std::string& path) {
+    const bool terminal = path == "-" && isatty(STDOUT_FILENO) == 1;
+    if (const auto named = arguments.get("format")) {
+        const Medium medium = medium_named(*named);
+        if (medium == Medium::png && terminal)
+            fail_with_hint(ErrorKind::usage, "name a file with -o, or pipe it on",
+                           "--format: png is binary, and standard output is a terminal");
+        return medium;
+    }
+    if (path == "-") return terminal ? Medium::text : Medium::svg;
+    const auto dot = path.rfind('.');
+    const std::string extension = dot == std::string::npos ? "" : path.substr(dot);
+    if (extension == ".svg") return Medium::svg;
+    if (extension == ".png") return Medium::png;
+    if (extension == ".txt") return Medium::text;
+    if (path.starts_with("/dev/")) return Medium::svg;
+    fail_with_hint(ErrorKind::usage, "or name the format with -f svg, png or text",
+                   "--output: {} has no extension of a picture; expected .svg, .png or .txt", path);
+}
+
+/// Letters of the terminal; what a terminal does not tell is as usual.
+TextRoom terminal_room() {
+    TextRoom room;
+    winsize size{};
+    if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0) return {.columns = 80, .rows = 40};
+    if (size.ws_col > 0) room.columns = size.ws_col;
+    if (size.ws_row > 0) room.rows = size.ws_row;
+    return room;
+}
+
+std::optional<bool> scale_of(const Arguments& arguments, const char* name) {
+    const auto text = arguments.get(name);
+    if (!text) return std::nullopt;
+    if (*text != "linear" && *text != "log")
+        fail(ErrorKind::usage, "--{}: '{}' is not one of linear, log", name, *text);
+    return *text == "log";
+}
+
+/// A set of points with the file that it is from.
+struct Loaded {
+    PointSet points;
+    std::string source;
+    std::optional<std::size_t> number;  ///< in its file, of several
+};
+
+/// One call: what was read, and what is drawn of it.
+class Plot {
+  public:
+    Plot(const Arguments& arguments, Session& session)
+        : arguments_(arguments),
+          session_(session),
+          path_(arguments.get("output").value_or("-")),
+          medium_(medium_of(arguments, path_)),
+          chart_(arguments.get("chart").value_or("")) {
+        if (!chart_.empty() && std::ranges::find(chart_kinds(), chart_) == chart_kinds().end())
+            fail(ErrorKind::usage, "--chart: '{}' is not one of {}", chart_,
+                 join(chart_kinds(), ", "));
+        take_style();
+    }
+
+    int go() {
+        auto inputs = arguments_.inputs;
+        if (inputs.empty()) inputs.emplace_back("-");
+        for (const std::string& input : inputs) read(input);
+        if (!reports_.empty() && !sets_.empty())
+            fail(ErrorKind::input, "points and reports are not drawn in one picture");
+        pick_set();
+        const std::string bytes = reports_.empty() ? picture_of_points() : picture_of_reports();
+        session_.run().check_stop();
+        write_text(path_, bytes);
+        return 0;
+    }
+
+  private:
+    void take_style() {
+        const std::string theme = arguments_.get("theme").value_or("light");
+        if (theme != "light" && theme != "dark")
+            fail(ErrorKind::usage, "--theme: '{}' is not one of light, dark", theme);
+        style_.theme = theme == "dark" ? &dark_theme : &light_theme;
+        style_.title = arguments_.get("title");
+        style_.log_x = scale_of(arguments_, "x-scale");
+        style_.log_y = scale_of(arguments_, "y-scale");
+        const bool letters = medium_ == Medium::text;
+        const std::uint64_t least = letters ? 20 : 120;
+        const std::uint64_t most = letters ? 1000 : 20000;
+        const auto width = arguments_.integer("width", least, most);
+        const auto height = arguments_.integer("height", letters ? 8 : 90, most);
+        if (letters) {
+            room_ = terminal_room();
+            if (width) room_.columns = *width;
+            if (height) room_.rows = *height;
+            return;
+        }
+        // Text keeps its size in small pictures, and grows with large ones.
+        constexpr double usual = 800;
+        const double wide = static_cast<double>(width.value_or(0));
+        const double high = static_cast<double>(height.value_or(0));
+        if (wide > 0)
+            scale_ = std::max(1.0, wide / usual);
+        else if (high > 0)
+            scale_ = std::max(1.0, high / usual);
+        else if (medium_ == Medium::png)
+            scale_ = 2;
+        style_.width = wide / scale_;
+        style_.height = high / scale_;
+    }
+
+    void read(const std::string& input) {
+        const RunContext& run = session_.run();
+        const std::string name = input == "-" ? "stdin" : input;
+        const io::Input file(input, run);
+        if (!arguments_.has("from") && looks_like_reports(file.bytes())) {
+            for (Measurement& m : read_reports(file.bytes(), name))
+                reports_.push_back(std::move(m));
+            return;
+        }
+        auto sets = read_input(file.bytes(), input, arguments_, run);
+        for (std::size_t i = 0; i < sets.size(); ++i) {
+            if (const auto domain = arguments_.get("domain"))
+                sets[i].domain = parse_domain(*domain, sets[i].dimension());
+            sets_.push_back(
+                {std::move(sets[i]), input, sets.size() > 1 ? std::optional(i) : std::nullopt});
+        }
+    }
+
+    /// --set: one of several, from 0 as the files number them.
+    void pick_set() {
+        const std::size_t there = std::max(sets_.size(), reports_.size());
+        const auto wanted = arguments_.integer("set", 0, there - 1);
+        if (!wanted) return;
+        const auto pick = [&wanted](auto& all) {
+            auto one = std::move(all[*wanted]);
+            all.clear();
+            all.push_back(std::move(one));
+        };
+        reports_.empty() ? pick(sets_) : pick(reports_);
+    }
+
+    // ---------------------------------------------------------------- what is drawn
+
+    std::string picture_of_reports() {
+        if (!chart_.empty())
+            fail(ErrorKind::usage, "--chart: is for points; a report of {} is drawn as what it is",
+                 reports_[0].analyzer);
+        return drawn(chart_of(reports_, arguments_.get("key").value_or("")));
+    }
+
+    std::string picture_of_points() {
+        if (arguments_.has("key"))
+            fail(ErrorKind::usage, "--key: is for reports; these are points");
+        if (chart_ == "radial") return drawn(chart_of(analyzed("periodogram")));
+        if (chart_ == "pair-correlation") return drawn(chart_of(analyzed("pair-correlation")));
+        if (chart_ == "spectrum" || (chart_.empty() && holds_spectrum())) return spectrum();
+        check_dimensions();
+        if (chart_ == "distances") return distances();
+        const PointsPicture picture = points_picture();
+        if (chart_ == "histogram") return drawn(histogram_chart(picture));
+        if (medium_ == Medium::text) return points_as_text(picture, room_);
+        return finished(draw_points(picture, style_, session_.run()));
+    }
+
+    std::string drawn(const Chart& chart) {
+        if (medium_ == Medium::text) return chart_as_text(chart, style_, room_);
+        return finished(draw_chart(chart, style_));
+    }
+
+    std::string finished(const Drawing& drawing) {
+        const PictureNotes notes = notes_of();
+        return medium_ == Medium::svg ? svg_bytes(drawing, scale_, notes)
+                                      : png_bytes_of(drawing, scale_, notes);
+    }
+
+    /// Whether the one table that was read is the 2-D power that --grid saves.
+    [[nodiscard]] bool holds_spectrum() const {
+        if (sets_.size() != 1 || !sets_[0].points.provenance.generator.empty()) return false;
+        return looks_like_power(grid_of(sets_[0].points));
+    }
+
+    static Grid grid_of(const PointSet& table) {
+        return {.rows = table.count(),
+                .columns = table.dimension(),
+                .values = {table.flat().begin(), table.flat().end()}};
+    }
+
+    std::string spectrum() {
+        std::string title = arguments_.get("title").value_or("");
+        Grid power;
+        std::string subtitle;
+        if (holds_spectrum()) {
+            power = grid_of(sets_[0].points);
+            if (title.empty()) title = title_of_points(sets_[0].points, sets_[0].source);
+        } else {
+            const auto spectra = analyzed("periodogram");
+            if (spectra.size() > 1)
+                fail_with_hint(ErrorKind::usage, "draw one at a time, or --chart radial",
+                               "--chart: one spectrum makes a picture; there are {} inputs",
+                               spectra.size());
+            if (spectra[0].dimension != 2)
+                fail_with_hint(ErrorKind::input, "--chart radial draws its radial mean",
+                               "--chart: a spectrum in the plane needs points of 2 coordinates; "
+                               "these have {}",
+                               spectra[0].dimension);
+            power = std::get<Grid>(*spectra[0].results.find("grid"));
+            if (title.empty())
+                title = "Power spectrum of " + title_of_points(sets_[0].points, sets_[0].source);
+            subtitle = subtitle_of(sets_[0]);
+        }
+        if (medium_ == Medium::text) return spectrum_as_text(power, title, room_);
+        return finished(draw_spectrum(power, title, subtitle, style_));
+    }
+
+    std::string distances() {
+        std::vector<const PointSet*> sets;
+        for (const Loaded& set : sets_) sets.push_back(&set.points);
+        Chart chart = distance_chart(sets, names(), session_.run());
+        if (sets_.size() == 1) {
+            chart.title += " of " + title_of_points(sets_[0].points, sets_[0].source);
+            chart.subtitle = subtitle_of(sets_[0]);
+        }
+        return drawn(chart);
+    }
+
+    /// The analyzer's results, by its default options: one for each input, the mean of its sets.
+    std::vector<Measurement> analyzed(const char* name) {
+        const Analyzer& analyzer = find_analyzer(name);
+        const Values options = analyzer.options.defaults();
+        std::vector<Measurement> found;
+        for (std::size_t first = 0; first < sets_.size();) {
+            std::size_t last = first;
+            while (last < sets_.size() && sets_[last].source == sets_[first].source) ++last;
+            found.push_back(analyzed(analyzer, options, first, last));
+            first = last;
+        }
+        return found;
+    }
+
+    Measurement analyzed(const Analyzer& analyzer, const Values& options, std::size_t first,
+                         std::size_t last) {
+        ReportAverage average;
+        std::vector<Report> singles;
+        for (std::size_t i = first; i < last; ++i) {
+            average.add(stipple::analyze(analyzer, sets_[i].points, options, session_.run()));
+            singles.push_back(numbers_only(average.mean()));
+        }
+        const PointSet& points = sets_[first].points;
+        Measurement m{.analyzer = analyzer.name,
+                      .source = title_of_points(points, sets_[first].source),
+                      .sets = last - first,
+                      .count = points.count(),
+                      .dimension = points.dimension(),
+                      .domain = points.domain->spec(),
+                      .results = average.mean()};
+        if (analyzer.refine) analyzer.refine(m.results, average.count(), options);
+        if (average.count() > 1) m.standard_error = only_of(m.results, average.standard_error());
+        return m;
+    }
+
+    void check_dimensions() {
+        for (const Loaded& set : sets_)
+            if (set.points.dimension() != sets_[0].points.dimension())
+                fail(ErrorKind::input,
+                     "points of {} and of {} coordinates are not drawn in one picture",
+                     sets_[0].points.dimension(), set.points.dimension());
+        if (sets_.size() > most_sets) {
+            session_.warn(fmt::format("the first {} of {} sets are drawn; --set picks one",
+                                      most_sets, sets_.size()));
+            sets_.resize(most_sets);
+        }
+    }
+
+    PointsPicture points_picture() {
+        const std::size_t d = sets_[0].points.dimension();
+        if (d > most_pair_coordinates && chart_ != "histogram")
+            session_.warn(
+                fmt::format("the first {} of {} coordinates are drawn; --column picks "
+                            "others",
+                            most_pair_coordinates, d));
+        PointsPicture picture{.sets = {}, .names = names(), .title = {}};
+        for (const Loaded& set : sets_) picture.sets.push_back(&set.points);
+        if (chart_ == "points") picture.marking = Marking::disks;
+        if (chart_ == "density") picture.marking = Marking::density;
+        picture.title =
+            arguments_.get("title").value_or(title_of_points(sets_[0].points, sets_[0].source));
+        if (sets_.size() > 1 && different_titles()) picture.title = "points";
+        picture.subtitle = subtitle_of(sets_[0]);
+        if (sets_.size() > 1) picture.subtitle.clear();
+        return picture;
+    }
+
+    [[nodiscard]] bool different_titles() const {
+        const auto title = [](const Loaded& set) {
+            return title_of_points(set.points, set.source);
+        };
+        return std::ranges::any_of(
+            sets_, [&](const Loaded& set) { return title(set) != title(sets_[0]); });
+    }
+
+    [[nodiscard]] std::vector<std::string> names() const {
+        const bool different = different_titles();
+        std::vector<std::string> found;
+        for (const Loaded& set : sets_) {
+            std::string name = different ? title_of_points(set.points, set.source) : "";
+            if (set.number) name += fmt::format("{}set {}", name.empty() ? "" : ", ", *set.number);
+            if (name.empty()) name = set.source;
+            found.push_back(name);
+        }
+        return found;
+    }
+
+    static std::string subtitle_of(const Loaded& set) {
+        std::string text = subtitle_of_points(set.points);
+        if (set.number) text += fmt::format(" (set {})", *set.number);
+        return text;
+    }
+
+    // ---------------------------------------------------------------- where it comes from
+
+    /// The command that draws this, less what cannot change it.
+    [[nodiscard]] std::string command() const {
+        const std::vector<std::string> silent = {"output", "threads", "quiet", "progress",
+                                                 "max-memory"};
+        std::string text = "stipple plot";
+        for (const std::string& input : arguments_.inputs) text += " " + input;
+        for (const auto& [name, value] : arguments_.common)
+            if (std::ranges::find(silent, name) == silent.end())
+                text += fmt::format(" --{} {}", name, value);
+        return text;
+    }
+
+    [[nodiscard]] PictureNotes notes_of() const {
+        nlohmann::ordered_json note = {
+            {"tool", "stipple"}, {"version", STIPPLE_VERSION}, {"command", command()}};
+        if (sets_.size() == 1 && !sets_[0].points.provenance.generator.empty())
+            note["meta"] = io::to_json(sets_[0].points.provenance);
+        const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+        return {{"Software", fmt::format("stipple {}", STIPPLE_VERSION)},
+                {"stipple", note.dump(-1, ' ', false, replace)}};
+    }
+
+    const Arguments& arguments_;
+    Session& session_;
+    std::string path_;
+    Medium medium_;
+    std::string chart_;
+    PictureStyle style_;
+    TextRoom room_;
+    double scale_ = 1;
+    std::vector<Loaded> sets_;
+    std::vector<Measurement> reports_;
+};
+
+}  // namespace
+
+int plot(const Arguments& arguments, Session& session) { return Plot(arguments, session).go(); }
+
+}  // namespace stipple::cli

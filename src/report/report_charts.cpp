@@ -1,0 +1,502 @@
+// SPDX-License-Identifier: MIT
+#include "report/report_charts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "report/ticks.hpp"
+
+namespace stipple {
+namespace {
+
+using Curve = Report::Curve;
+using Measurements = std::span<const Measurement>;
+
+constexpr double log_above = 12;    ///< radial power: a higher peak gets a logarithmic axis
+constexpr double log_floor = 1e-4;  ///< of that axis: what is lower is rounding
+
+/// A list of numbers under a key; nothing where there is none.
+std::optional<Curve> curve_at(const Report& report, std::string_view key) {
+    const Report::Item* item = report.find(key);
+    if (item == nullptr) return std::nullopt;
+    if (const auto* curve = std::get_if<Curve>(item)) return *curve;
+    if (const auto* whole = std::get_if<Report::Integers>(item))
+        return Curve(whole->begin(), whole->end());
+    return std::nullopt;
+}
+
+std::optional<double> number_at(const Report& report, std::string_view key) {
+    const Report::Item* item = report.find(key);
+    if (item == nullptr) return std::nullopt;
+    if (const auto* number = std::get_if<double>(item)) return *number;
+    if (const auto* whole = std::get_if<std::int64_t>(item)) return static_cast<double>(*whole);
+    return std::nullopt;
+}
+
+Curve plus(const Curve& a, const Curve& b, double sign) {
+    Curve sum = a;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) sum[i] += sign * b[i];
+    return sum;
+}
+
+/// Gives the series the band that its report knows: its standard error, or bounds beside it.
+void add_band(Series& series, const Measurement& m, const std::string& group,
+              const std::string& key) {
+    if (m.standard_error) {
+        const auto error = curve_at(*m.standard_error, group + key);
+        if (error && error->size() == series.y.size()) {
+            series.low = plus(series.y, *error, -1);
+            series.high = plus(series.y, *error, 1);
+            return;
+        }
+    }
+    if (key != "value") return;
+    const auto low = curve_at(m.results, group + "lower");
+    const auto high = curve_at(m.results, group + "upper");
+    if (!low || !high || low == high || low->size() != series.y.size()) return;
+    series.low = *low;
+    series.high = *high;
+}
+
+/// One curve for each measurement that has it.
+std::vector<Series> series_of(Measurements ms, const std::string& group, const std::string& x,
+                              const std::string& y) {
+    const auto names = names_of_inputs(ms);
+    std::vector<Series> found;
+    for (std::size_t i = 0; i < ms.size(); ++i) {
+        const auto xs = curve_at(ms[i].results, group + x);
+        const auto ys = curve_at(ms[i].results, group + y);
+        if (!xs || !ys || xs->empty() || xs->size() != ys->size()) continue;
+        Series series{.name = names[i], .x = *xs, .y = *ys};
+        add_band(series, ms[i], group, y);
+        found.push_back(std::move(series));
+    }
+    return found;
+}
+
+/// "n = 1024, d = 2", as far as all have the same.
+std::string size_of(Measurements ms) {
+    const Measurement& first = ms[0];
+    std::string text;
+    if (std::ranges::all_of(ms, [&](const auto& m) { return m.count == first.count; }))
+        text = fmt::format("n = {}", first.count);
+    if (std::ranges::all_of(ms, [&](const auto& m) { return m.dimension == first.dimension; }))
+        text += fmt::format("{}d = {}", text.empty() ? "" : ", ", first.dimension);
+    return text;
+}
+
+/// "Radial power of halton.csv", and of how many points.
+Chart titled(const std::string& what, Measurements ms) {
+    const std::string name = name_of_input(ms[0]);
+    Chart chart{.title = ms.size() > 1 || name.empty() ? what : fmt::format("{} of {}", what, name),
+                .subtitle = size_of(ms),
+                .panels = {}};
+    return chart;
+}
+
+std::string noted(const std::string& subtitle, const std::string& more) {
+    return subtitle.empty() ? more : more.empty() ? subtitle : subtitle + " · " + more;
+}
+
+bool finite_in(const std::vector<Series>& all, double& top) {
+    top = -std::numeric_limits<double>::infinity();
+    for (const Series& series : all)
+        for (const double y : series.y)
+            if (std::isfinite(y)) top = std::max(top, y);
+    return std::isfinite(top);
+}
+
+/// The band of white noise, where one holds for all measurements.
+std::vector<Background> noise_band(Measurements ms) {
+    const auto frequency = curve_at(ms[0].results, "radial.frequency");
+    const auto cells = curve_at(ms[0].results, "radial.cells");
+    const bool same = std::ranges::all_of(ms, [&](const Measurement& m) {
+        return m.sets == ms[0].sets && curve_at(m.results, "radial.cells") == cells;
+    });
+    if (!same || !frequency || !cells) return {};
+    Background band{.name = "white noise, 95 %", .x = *frequency, .low = {}, .high = {}};
+    for (const double ring : *cells) {
+        const auto [low, high] = white_noise_band(ring, static_cast<double>(ms[0].sets));
+        band.low.push_back(low);
+        band.high.push_back(high);
+    }
+    return {band};
+}
+
+Guide noise_anisotropy(Measurements ms) {
+    const bool same =
+        std::ranges::all_of(ms, [&](const Measurement& m) { return m.sets == ms[0].sets; });
+    if (!same) return {};
+    const double expected = -10 * std::log10(static_cast<double>(ms[0].sets)) + 0.0;
+    return {
+        .name = fmt::format("white noise: {} dB", rounded(expected, 3)), .x = {}, .y = {expected}};
+}
+
+/// Effective Nyquist frequency and oscillation, of a single measurement.
+std::string summary_of_spectrum(Measurements ms) {
+    if (ms.size() > 1) return {};
+    std::string text;
+    const auto nyquist = number_at(ms[0].results, "effective_nyquist");
+    const auto oscillation = number_at(ms[0].results, "oscillation");
+    if (nyquist && std::isfinite(*nyquist))
+        text += fmt::format("effective Nyquist frequency {}", rounded(*nyquist));
+    if (oscillation && std::isfinite(*oscillation))
+        text += fmt::format("{}oscillation {}", text.empty() ? "" : ", ", rounded(*oscillation));
+    return text;
+}
+
+Chart spectrum_chart(Measurements ms) {
+    Chart chart = titled("Power spectrum", ms);
+    chart.subtitle = noted(chart.subtitle, summary_of_spectrum(ms));
+    ChartPanel power{.x_name = "frequency",
+                     .y_name = "radial power",
+                     .series = series_of(ms, "radial.", "frequency", "power"),
+                     .backgrounds = noise_band(ms),
+                     .guides = {{.name = {}, .x = {}, .y = {1}}},
+                     .from_zero = true,
+                     .least_y = log_floor,
+                     .share = 1.5};
+    double top = 0;
+    if (power.series.empty() || !finite_in(power.series, top))
+        fail(ErrorKind::input, "the report of periodogram has no curve radial.power");
+    power.log_y = top > log_above;
+    ChartPanel anisotropy{.x_name = "frequency",
+                          .y_name = "anisotropy (dB)",
+                          .series = series_of(ms, "radial.", "frequency", "anisotropy_db")};
+    for (Series& series : anisotropy.series) series.low = series.high = {};
+    if (const Guide guide = noise_anisotropy(ms); !guide.y.empty())
+        anisotropy.guides.push_back(guide);
+    const bool drawn = finite_in(anisotropy.series, top);
+    chart.panels.push_back(std::move(power));
+    if (drawn) chart.panels.push_back(std::move(anisotropy));
+    return chart;
+}
+
+Chart pair_correlation_chart(Measurements ms) {
+    Chart chart = titled("Pair correlation", ms);
+    const Measurement& first = ms[0];
+    const auto scaled = std::ranges::find(first.options, "normalize-distance",
+                                          &std::pair<std::string, std::string>::first);
+    const bool normalized = scaled != first.options.end() && scaled->second == "true";
+    ChartPanel panel{.x_name = normalized ? "distance / mean distance" : "distance",
+                     .y_name = "pair correlation g",
+                     .series = series_of(ms, "", "distance", "density"),
+                     .guides = {{.name = {}, .x = {}, .y = {1}}},
+                     .from_zero = true};
+    if (panel.series.empty())
+        fail(ErrorKind::input, "the report of pair-correlation has no curve density");
+    const auto distance = curve_at(first.results, "distance");
+    const auto deviation = curve_at(first.results, "deviation");
+    if (ms.size() == 1 && deviation && deviation->size() == distance->size()) {
+        // Two standard deviations of a mean of independent sets.
+        const double width = 2 / std::sqrt(static_cast<double>(first.sets));
+        Background band{
+            .name = "uniform points, ± 2 deviations", .x = *distance, .low = {}, .high = {}};
+        for (const double s : *deviation) {
+            band.low.push_back(std::max(0.0, 1 - width * s));
+            band.high.push_back(1 + width * s);
+        }
+        panel.backgrounds.push_back(std::move(band));
+    } else {
+        panel.guides[0].name = "uniform points";
+    }
+    chart.panels.push_back(std::move(panel));
+    return chart;
+}
+
+// ---------------------------------------------------------------- any analyzer's lists
+
+bool rises(const Curve& curve) {
+    return std::ranges::adjacent_find(curve, [](double a, double b) { return !(a < b); }) ==
+           curve.end();
+}
+
+/// Lists that others are drawn over, by their names.
+bool names_abscissa(const std::string& name) {
+    static const std::set<std::string> known = {
+        "count",  "distance", "frequency", "radius",  "window", "lag",       "size",       "length",
+        "time",   "x",        "n",         "valence", "sides",  "neighbors", "neighbours", "side",
+        "points", "edge",     "value_at",  "area",    "degree", "bin"};
+    return known.contains(name);
+}
+
+struct CurveGroup {
+    std::string prefix;  ///< "prefixes."
+    std::string x;
+    std::vector<std::string> ys;
+};
+
+/// Lists of one group as long as its rising first one.
+std::optional<CurveGroup> curves_in(const Report& group, const std::string& prefix) {
+    constexpr std::size_t plainly_curves = 16;
+    CurveGroup found{.prefix = prefix, .x = {}, .ys = {}};
+    std::size_t size = 0;
+    for (const auto& entry : group.entries()) {
+        const auto curve = curve_at(group, entry.name);
+        if (!curve) continue;
+        const bool first = found.x.empty();
+        if (first && curve->size() > 1 && rises(*curve) &&
+            (names_abscissa(entry.name) || curve->size() >= plainly_curves)) {
+            found.x = entry.name;
+            size = curve->size();
+        } else if (!first && curve->size() == size) {
+            found.ys.push_back(entry.name);
+        }
+    }
+    return found.ys.empty() ? std::nullopt : std::optional(found);
+}
+
+void collect_groups(const Report& report, const std::string& prefix,
+                    std::vector<CurveGroup>& found) {
+    if (auto group = curves_in(report, prefix)) found.push_back(*std::move(group));
+    for (const auto& entry : report.entries())
+        if (const auto* inner = std::get_if<Report>(&entry.value))
+            collect_groups(*inner, prefix + entry.name + ".", found);
+}
+
+/// Bounds and deviations belong to another curve.
+bool accompanies(const CurveGroup& group, const std::string& y) {
+    const bool bound = y == "lower" || y == "upper";
+    return bound && std::ranges::find(group.ys, "value") != group.ys.end();
+}
+
+std::string words_of(std::string name) {
+    std::ranges::replace(name, '_', ' ');
+    std::ranges::replace(name, '.', ' ');
+    return name;
+}
+
+/// Lines through the first value that fall as n^(-1/2) and n^(-1).
+std::vector<Guide> slopes(const std::vector<Series>& all) {
+    const Series& series = all[0];
+    const auto first = std::ranges::find_if(series.y, [](double y) { return y > 0; });
+    if (first == series.y.end() || series.x.size() < 3) return {};
+    const double n = series.x[static_cast<std::size_t>(first - series.y.begin())];
+    if (!(n > 0)) return {};
+    std::vector<Guide> guides;
+    for (const double power : {0.5, 1.0}) {
+        Guide guide{.name = guides.empty() ? "falling as 1/√n and as 1/n" : "", .x = {}, .y = {}};
+        for (const double x : {n, series.x.back()}) {
+            guide.x.push_back(x);
+            guide.y.push_back(*first * std::pow(n / x, power));
+        }
+        guides.push_back(std::move(guide));
+    }
+    return guides;
+}
+
+/// Positive and over more than a decade: what is seen on a logarithmic axis only.
+bool wants_log(const std::vector<Series>& all, bool of_x) {
+    double low = std::numeric_limits<double>::infinity();
+    double high = 0;
+    for (const Series& series : all)
+        for (const double v : of_x ? series.x : series.y) {
+            if (!std::isfinite(v)) continue;
+            if (v <= 0) return false;
+            low = std::min(low, v);
+            high = std::max(high, v);
+        }
+    return high > 20 * low;
+}
+
+ChartPanel curve_panel(Measurements ms, const CurveGroup& group, const std::string& y) {
+    ChartPanel panel{.x_name = words_of(group.x),
+                     .y_name = y == "value" ? words_of(ms[0].analyzer) : words_of(y),
+                     .series = series_of(ms, group.prefix, group.x, y)};
+    const bool counts = group.x == "count" || group.x == "n";
+    if (counts) panel.x_name = "points n";
+    panel.log_x = counts || wants_log(panel.series, true);
+    panel.log_y = panel.log_x && wants_log(panel.series, false);
+    if (counts)
+        panel.log_y = std::ranges::all_of(panel.series, [](const Series& s) {
+            return std::ranges::none_of(s.y, [](double v) { return v <= 0; });
+        });
+    for (Series& series : panel.series) series.marks = series.x.size() <= 40;
+    if (counts && panel.log_y && !panel.series.empty()) panel.guides = slopes(panel.series);
+    return panel;
+}
+
+bool wanted(const CurveGroup& group, const std::string& y, const std::string& key) {
+    if (key.empty()) return !accompanies(group, y);
+    return key == group.prefix + y || key + "." == group.prefix;
+}
+
+std::string sentence_case(std::string text) {
+    if (!text.empty())
+        text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+    return text;
+}
+
+std::optional<Chart> curves_chart(Measurements ms, const std::string& key) {
+    constexpr std::size_t most_panels = 4;
+    std::vector<CurveGroup> groups;
+    collect_groups(ms[0].results, "", groups);
+    Chart chart = titled(sentence_case(words_of(ms[0].analyzer)), ms);
+    std::string x;
+    for (const CurveGroup& group : groups)
+        for (const std::string& y : group.ys) {
+            const bool fits = x.empty() || x == group.prefix + group.x;
+            if (!wanted(group, y, key) || !fits || chart.panels.size() == most_panels) continue;
+            ChartPanel panel = curve_panel(ms, group, y);
+            if (panel.series.empty()) continue;
+            x = group.prefix + group.x;
+            chart.panels.push_back(std::move(panel));
+        }
+    if (chart.panels.empty()) return std::nullopt;
+    // Panels above each other share one x axis.
+    for (ChartPanel& panel : chart.panels) panel.log_x = chart.panels.back().log_x;
+    return chart;
+}
+
+// ---------------------------------------------------------------- one number of many reports
+
+/// The number that stands for a report: "value", or its first number.
+std::string main_number(const Report& report) {
+    if (number_at(report, "value")) return "value";
+    for (const std::string& key : report.keys())
+        if (number_at(report, key)) return key;
+    return {};
+}
+
+Chart number_over_count(Measurements ms, const std::string& key) {
+    Series series{.name = {}, .x = {}, .y = {}, .marks = true};
+    std::vector<std::pair<double, double>> values;
+    for (const Measurement& m : ms)
+        if (const auto value = number_at(m.results, key); value && std::isfinite(*value))
+            values.emplace_back(static_cast<double>(m.count), *value);
+    std::ranges::sort(values);
+    for (const auto& [n, value] : values) {
+        series.x.push_back(n);
+        series.y.push_back(value);
+    }
+    // Several values at one n are a cloud, not a curve.
+    series.line = rises(series.x);
+    ChartPanel panel{.x_name = "points n",
+                     .y_name = key == "value" ? words_of(ms[0].analyzer) : words_of(key),
+                     .series = {std::move(series)},
+                     .log_x = true};
+    panel.log_y = std::ranges::none_of(panel.series[0].y, [](double v) { return v <= 0; });
+    if (panel.log_y) panel.guides = slopes(panel.series);
+    Chart chart = titled(sentence_case(words_of(ms[0].analyzer)), ms);
+    chart.panels.push_back(std::move(panel));
+    return chart;
+}
+
+Chart number_histogram(Measurements ms, const std::string& key) {
+    std::vector<double> values;
+    for (const Measurement& m : ms)
+        if (const auto value = number_at(m.results, key); value && std::isfinite(*value))
+            values.push_back(*value);
+    auto [low, high] = std::ranges::minmax(values);
+    if (!(low < high)) {
+        Axis axis{.low = low, .high = high};
+        axis.mend();
+        low = axis.low;
+        high = axis.high;
+    }
+    // Bins as wide as Sturges has them, for some ten to some thousand values.
+    const auto bins =
+        static_cast<std::size_t>(std::ceil(std::log2(static_cast<double>(values.size())))) + 3;
+    Bars bars = histogram_of(values, low, high, bins);
+    const double width = bars.edges[1] - bars.edges[0];
+    for (double& height : bars.heights)
+        height = std::round(height * width * static_cast<double>(values.size()));
+    Chart chart = titled(sentence_case(words_of(ms[0].analyzer)), ms);
+    chart.subtitle = noted(chart.subtitle, fmt::format("{} sets", values.size()));
+    chart.panels.push_back({.x_name = key == "value" ? words_of(ms[0].analyzer) : words_of(key),
+                            .y_name = "sets",
+                            .bars = {std::move(bars)},
+                            .rug = values.size() <= 100 ? values : std::vector<double>{},
+                            .from_zero = true});
+    return chart;
+}
+
+/// Keys under which there is something to draw.
+std::vector<std::string> drawable(Measurements ms) {
+    std::vector<CurveGroup> groups;
+    collect_groups(ms[0].results, "", groups);
+    std::vector<std::string> keys;
+    for (const CurveGroup& group : groups)
+        for (const std::string& y : group.ys) keys.push_back(group.prefix + y);
+    if (ms.size() == 1) return keys;
+    for (const std::string& key : ms[0].results.keys())
+        if (number_at(ms[0].results, key)) keys.push_back(key);
+    return keys;
+}
+
+[[noreturn]] void refuse(Measurements ms, const std::string& key) {
+    const auto keys = drawable(ms);
+    if (!key.empty() && !keys.empty())
+        fail_with_hint(ErrorKind::usage, "there is " + join(keys, ", "),
+                       "--key: the report of {} has no '{}' to draw", ms[0].analyzer, key);
+    fail_with_hint(
+        ErrorKind::input,
+        "curves can be drawn (periodogram, pair-correlation, star-discrepancy --every), and one "
+        "number of several reports",
+        "a single report of {} has nothing to draw but numbers", ms[0].analyzer);
+}
+
+Chart any_chart(Measurements ms, const std::string& key) {
+    if (auto chart = curves_chart(ms, key)) return *std::move(chart);
+    if (ms.size() == 1) refuse(ms, key);
+    const std::string number = key.empty() ? main_number(ms[0].results) : key;
+    const auto has = [&](const Measurement& m) {
+        const auto value = number_at(m.results, number);
+        return value && std::isfinite(*value);
+    };
+    if (std::ranges::count_if(ms, has) < 2) refuse(ms, key);
+    const bool same_count =
+        std::ranges::all_of(ms, [&](const Measurement& m) { return m.count == ms[0].count; });
+    return same_count ? number_histogram(ms, number) : number_over_count(ms, number);
+}
+
+std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+}  // namespace
+
+std::pair<double, double> white_noise_band(double cells, double sets) {
+    const double spread = 2 / (9 * std::max(1.0, cells * sets));
+    const auto point = [spread](double z) {
+        const double root = std::max(0.0, 1 - spread + z * std::sqrt(spread));
+        return root * root * root;
+    };
+    return {point(-1.96), point(1.96)};
+}
+
+std::string name_of_input(const Measurement& m) {
+    std::string name = m.source == "-" ? "" : file_name(m.source);
+    if (m.set) name += fmt::format("{}set {}", name.empty() ? "" : ", ", *m.set);
+    if (m.sets > 1) name = fmt::format("{} sets{}{}", m.sets, name.empty() ? "" : ": ", name);
+    return name;
+}
+
+std::vector<std::string> names_of_inputs(Measurements ms) {
+    std::vector<std::string> names;
+    std::set<std::string> seen;
+    for (const Measurement& m : ms) seen.insert(names.emplace_back(name_of_input(m)));
+    if (seen.size() == ms.size()) return names;
+    for (std::size_t i = 0; i < ms.size(); ++i) {
+        if (ms[i].source != "-") names[i] = ms[i].source;
+        if (ms[i].set)
+            names[i] += fmt::format("{}set {}", names[i].empty() ? "" : ", ", *ms[i].set);
+        if (names[i].empty()) names[i] = fmt::format("input {}", i + 1);
+    }
+    return names;
+}
+
+Chart chart_of(Measurements ms, const std::string& key) {
+    for (const Measurement& m : ms)
+        if (m.analyzer != ms[0].analyzer)
+            fail(ErrorKind::input, "reports of {} and of {} are not drawn in one picture",
+                 ms[0].analyzer, m.analyzer);
+    if (key.empty() && ms[0].analyzer == "periodogram") return spectrum_chart(ms);
+    if (key.empty() && ms[0].analyzer == "pair-correlation") return pair_correlation_chart(ms);
+    return any_chart(ms, key);
+}
+
+}  // namespace stipple

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+//
+// The power spectrum in the plane, frequency zero in the middle:
+//
+//     grey = P / (1 + P),
+//
+// so that white noise (P = 1) is middle grey in every picture, what a set lacks is darker, what it
+// repeats lighter, and no peak is cut off. Frequency zero is left out: black.
+#pragma once
+
+#include "core/report.hpp"
+#include "report/chart.hpp"
+
+namespace stipple {
+
+/// Whether a table of numbers can be the power at frequencies -F to F: square, of an odd side,
+/// nowhere negative, and P(-f) = P(f).
+bool looks_like_power(const Grid& grid);
+
+/// @throws Error(input) for what is not square, of an odd side, and without negative numbers.
+Drawing draw_spectrum(const Grid& power, const std::string& title, const std::string& subtitle,
+                      const PictureStyle& style);
+
+}  // namespace stipple
