@@ -64,6 +64,15 @@ Distances distances_in_box(const PointSet& points, const std::string& asked, con
          points.domain->spec());
 }
 
+void require_places(const PointSet& points, const char* analyzer) {
+    if (points.count() < 2)
+        fail(ErrorKind::input, "{} needs at least two points; this is one", analyzer);
+    for (std::size_t i = 1; i < points.count(); ++i)
+        if (!std::ranges::equal(points[i], points[0])) return;
+    fail(ErrorKind::input, "{} needs points at two places at least; all {} are at one", analyzer,
+         points.count());
+}
+
 std::vector<Neighbor> nearest_neighbors(const PointSet& points, const Distances& distances,
                                         const RunContext& run) {
     if (points.count() == 1) {

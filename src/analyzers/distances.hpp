@@ -41,6 +41,9 @@ Distances distances_of(const PointSet& points, const std::string& asked);
 /// The same for measures that need to know the box. @throws Error(input) as well without one
 Distances distances_in_box(const PointSet& points, const std::string& asked, const char* analyzer);
 
+/// @throws Error(input) unless there are points at two places at least
+void require_places(const PointSet& points, const char* analyzer);
+
 /// Every point's nearest other one. A single point is its own neighbour on the torus, across the
 /// shortest side; elsewhere it has none, at an infinite distance. @throws Error(limit, cancelled)
 std::vector<Neighbor> nearest_neighbors(const PointSet& points, const Distances& distances,

@@ -297,6 +297,32 @@ struct KdTree::Nearest {
 };
 
 template <class Metric>
+struct KdTree::NearestOfOthers {
+    const KdTree& tree;
+    const Metric& metric;
+    const Groups& groups;
+    const double* place;
+    std::uint32_t own;
+    Neighbor best;  ///< at a finite distance: those of the own group are at none
+
+    [[nodiscard]] double bound(const double* box) const {
+        const auto node =
+            static_cast<std::size_t>(box - tree.boxes_.data()) / (2 * tree.dimension_);
+        if (groups.nodes[node] == own) return std::numeric_limits<double>::infinity();
+        return metric.nearest(box, place);
+    }
+    [[nodiscard]] bool wants(const Neighbor& bound) const { return bound < best; }
+    void visit(std::size_t leaf) {
+        const auto [first, last] = tree.range_of(leaf);
+        for (std::size_t i = first; i < last; ++i) {
+            if (groups.places[i] == own) continue;
+            const Neighbor point{metric.distance(place, tree.row(i)), tree.indices_[i]};
+            if (point < best) best = point;
+        }
+    }
+};
+
+template <class Metric>
 struct KdTree::Several {
     const KdTree& tree;
     const Metric& metric;
@@ -379,6 +405,34 @@ struct KdTree::NearestOfLeaf {
 Neighbor KdTree::nearest(std::span<const double> place, std::size_t except) const {
     return with_metric([&](const auto metric) {
         Nearest query{*this, metric, place.data(), except};
+        search(query);
+        return query.best;
+    });
+}
+
+void KdTree::spread(Groups& groups) const {
+    groups.nodes.resize(2 * leaves_);
+    for (std::size_t node = 2 * leaves_ - 1; node > 0; --node) {
+        if (node < leaves_) {
+            const std::uint32_t left = groups.nodes[2 * node];
+            groups.nodes[node] = left == groups.nodes[2 * node + 1] ? left : Groups::mixed;
+            continue;
+        }
+        const auto [first, last] = range_of(node);
+        groups.nodes[node] = groups.places[first];
+        for (std::size_t i = first + 1; i < last; ++i)
+            if (groups.places[i] != groups.places[first]) groups.nodes[node] = Groups::mixed;
+    }
+}
+
+Neighbor KdTree::nearest_of_others(std::size_t place, const Groups& groups, double squared) const {
+    return with_metric([&](const auto metric) {
+        NearestOfOthers query{*this,
+                              metric,
+                              groups,
+                              row(place),
+                              groups.places[place],
+                              {std::min(squared, std::numeric_limits<double>::max()), none}};
         search(query);
         return query.best;
     });

@@ -80,6 +80,22 @@ class KdTree {
     /// Number of points with distance^2 < squared; whole nodes are counted at once.
     [[nodiscard]] std::size_t count_nearer(std::span<const double> place, double squared) const;
 
+    /// Groups of points, one number a place; of a node it is the group of all its points, or
+    /// `mixed`.
+    struct Groups {
+        static constexpr std::uint32_t mixed = 0xffff'ffff;
+        std::vector<std::uint32_t> places;
+        std::vector<std::uint32_t> nodes;
+    };
+
+    /// Works out the nodes' groups from those of the places.
+    void spread(Groups& groups) const;
+
+    /// The point nearest to the one at `place` of all those of other groups that have distance^2 <=
+    /// squared; index `none` if there is none.
+    [[nodiscard]] Neighbor nearest_of_others(std::size_t place, const Groups& groups,
+                                             double squared) const;
+
     /// Every point's nearest other one, in parallel.
     [[nodiscard]] std::vector<Neighbor> all_nearest(const RunContext& run) const;
 
@@ -116,6 +132,8 @@ class KdTree {
 
     template <class Metric>
     struct Nearest;
+    template <class Metric>
+    struct NearestOfOthers;
     template <class Metric>
     struct Several;
     template <class Metric>

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/text.hpp"
+#include "support/units.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+constexpr const char* unit = "hyperuniformity";
+
+Report report(const PointSet& set, const Settings& settings = {}) {
+    return analyze(unit, set, settings);
+}
+
+/// Volume that two balls share, in slices across the line between their centres.
+double overlap_by_slices(std::size_t d, double r, double radius) {
+    if (r >= 2 * radius) return 0;
+    if (d == 1) return 2 * radius - r;
+    constexpr int slices = 20'000;
+    const double low = std::asin(r / 2 / radius);
+    const double step = (std::numbers::pi / 2 - low) / slices;
+    double sum = 0;
+    for (int i = 0; i < slices; ++i) {
+        const double half = radius * std::cos(low + step * (i + 0.5));
+        sum += half * step * (d == 2 ? 2 * half : std::numbers::pi * half * half);
+    }
+    return 2 * sum;
+}
+
+double volume_of_ball(std::size_t d, double radius) { return overlap_by_slices(d, 0, radius); }
+
+PointSet in_box(std::size_t n, const Box& box) {
+    PointSet set = make("random", points(n, box.dimension()));
+    scale_into(box, set.flat());
+    set.domain = box_domain(box);
+    return set;
+}
+
+}  // namespace
+
+TEST(Hyperuniformity, VarianceIsTheSumOverPairsOfTheirOverlaps) {
+    for (const Box& box : {Box{{-1}, {3}}, Box{{0, 2}, {1, 3.5}}, Box{{0, 0, -1}, {1, 2, 0.5}}}) {
+        PointSet set = in_box(60, box);
+        std::ranges::copy(set[3], set[5].begin());
+        for (std::size_t k = 0; k < box.dimension(); ++k) set[7][k] = box.high[k];
+        const Report found = report(set, {{"radii", "3"}});
+        double volume = 1;
+        for (std::size_t k = 0; k < box.dimension(); ++k) volume *= box.extent(k);
+        for (std::size_t at = 0; at < 3; ++at) {
+            const double radius = found.curve("radius")[at] * found.number("mean_distance");
+            const double ball = volume_of_ball(box.dimension(), radius);
+            const double mean = 60 * ball / volume;
+            double squares = mean;
+            for (std::size_t i = 0; i < 60; ++i)
+                for (std::size_t j = 0; j < i; ++j) {
+                    double squared = 0;
+                    for (std::size_t k = 0; k < box.dimension(); ++k) {
+                        const double gap = std::abs(set[i][k] - set[j][k]);
+                        squared += std::pow(std::min(gap, box.extent(k) - gap), 2);
+                    }
+                    squares +=
+                        2 / volume * overlap_by_slices(box.dimension(), std::sqrt(squared), radius);
+                }
+            const double variance = squares - mean * mean;
+            const double tolerance = 1e-7 * mean * mean + 1e-8;
+            EXPECT_NEAR(found.curve("mean")[at], mean, 1e-7 * mean) << box.dimension();
+            EXPECT_NEAR(found.curve("variance")[at], variance, tolerance) << box.dimension();
+            EXPECT_NEAR(found.curve("dispersion")[at], variance / mean / (1 - ball / volume),
+                        tolerance / mean)
+                << box.dimension();
+        }
+    }
+}
+
+// As defined: windows at many places, here on a lattice of centres that is in step with nothing.
+TEST(Hyperuniformity, VarianceIsThatOfCountsInWindows) {
+    const PointSet set = make("random", points(200, 2));
+    const Report found = report(set);
+    for (const std::size_t at : {0U, 20U, 39U}) {
+        const double radius = found.curve("radius")[at] * found.number("mean_distance");
+        double sum = 0, squares = 0;
+        constexpr int side = 211;
+        for (int u = 0; u < side; ++u)
+            for (int v = 0; v < side; ++v) {
+                int count = 0;
+                for (std::size_t i = 0; i < set.count(); ++i) {
+                    double x = std::abs(set[i][0] - u / double{side});
+                    double y = std::abs(set[i][1] - v / double{side});
+                    x = std::min(x, 1 - x);
+                    y = std::min(y, 1 - y);
+                    count += x * x + y * y <= radius * radius ? 1 : 0;
+                }
+                sum += count;
+                squares += count * count;
+            }
+        const double mean = sum / (side * side);
+        EXPECT_NEAR(found.curve("mean")[at], mean, 0.01 * mean);
+        EXPECT_NEAR(found.curve("variance")[at], squares / (side * side) - mean * mean,
+                    0.02 * found.curve("variance")[at]);
+    }
+}
+
+// n points on a circle, 1 / n apart: a window of f places and a bit has f or f + 1.
+TEST(Hyperuniformity, LatticeOnALineByHand) {
+    const Report found = report(make("regular", points(400, 1)));
+    for (std::size_t i = 0; i < found.curve("radius").size(); ++i) {
+        const double places = 2 * found.curve("radius")[i];
+        const double part = places - std::floor(places);
+        EXPECT_NEAR(found.curve("variance")[i], part * (1 - part), 1e-9) << places;
+    }
+    EXPECT_LT(std::abs(found.number("exponent")), 0.3);
+}
+
+// The mean over radii of variance / R is 0.4577 for the square lattice, R in its spacing; Torquato
+// and Stillinger (2003, table II) have 0.516401 over the root of the packing's share pi / 4.
+TEST(Hyperuniformity, SquareLatticeAsPrinted) {
+    const Report found = report(make("regular", points(128 * 128, 2)),
+                                {{"min-radius", "10"}, {"max-radius", "14"}, {"radii", "1000"}});
+    const auto& radius = found.curve("radius");
+    const auto& variance = found.curve("variance");
+    double area = 0;
+    for (std::size_t i = 1; i < radius.size(); ++i)
+        area += (variance[i] / radius[i] + variance[i - 1] / radius[i - 1]) / 2 *
+                (radius[i] - radius[i - 1]);
+    EXPECT_NEAR(area / (radius.back() - radius.front()), 0.516401 * std::sqrt(std::numbers::pi / 4),
+                0.01);
+}
+
+// Exponents over 10 sets scatter by 0.03 for independent points (seen over 50 such means): the
+// bounds are 5 of it. Dispersions average to 1, by 200 sets' scatter of 0.1 each at the radius.
+TEST(Hyperuniformity, ExponentTellsIndependentPointsFromEvenOnes) {
+    for (const std::size_t d : {1U, 2U, 3U}) {
+        const auto side = static_cast<std::size_t>(d == 1 ? 4096 : d == 2 ? 64 : 16);
+        const auto n = static_cast<std::size_t>(std::pow(side, d));
+        double independent = 0, even = 0, dispersion = 0;
+        for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+            const Report found = report(make("random", points(n, d), {}, {.seed = seed}));
+            independent += found.number("exponent") / 10;
+            dispersion += found.curve("dispersion")[10] / 10;
+            const auto jittered = make("jittered", points(n, d), {}, {.seed = seed});
+            even += report(jittered).number("exponent") / 10;
+        }
+        const auto dimension = static_cast<double>(d);
+        EXPECT_NEAR(independent, dimension, 0.15) << d;
+        EXPECT_NEAR(dispersion, 1, 0.1) << d;
+        EXPECT_NEAR(even, dimension - 1, 0.25) << d;
+    }
+}
+
+TEST(Hyperuniformity, PointsAtFewPlacesAreCountedToo) {
+    // Half of the points at each of two places that no window has both of: N is 50 or 0.
+    PointSet set(100, 2);
+    for (std::size_t i = 50; i < 100; ++i) set[i][0] = set[i][1] = 0.5;
+    const Report found = report(set);
+    for (std::size_t i = 0; i < found.curve("radius").size(); ++i) {
+        const double share = found.curve("mean")[i] / 50;
+        EXPECT_NEAR(found.curve("variance")[i], 2500 * share * (1 - share), 1e-5);
+    }
+}
+
+TEST(Hyperuniformity, AverageHasTheSlopeOfTheMeanVariance) {
+    const Analyzer& analyzer = find_analyzer(unit);
+    Report mean = report(make("random", points(500, 2)));
+    const double slope = mean.number("exponent");
+    auto* variance = std::get_if<Report::Curve>(mean.find("variance"));
+    auto* dispersion = std::get_if<Report::Curve>(mean.find("dispersion"));
+    for (std::size_t i = 0; i < variance->size(); ++i) {
+        const double radius = mean.curve("radius")[i];
+        (*variance)[i] *= radius;
+        (*dispersion)[i] *= radius;
+    }
+    analyzer.refine(mean, 2, analyzer.options.defaults());
+    EXPECT_NEAR(mean.number("exponent"), slope + 1, 1e-9);
+}
+
+TEST(Hyperuniformity, RefusesWhatHasNoWindows) {
+    const auto refusal = [](const PointSet& set, const Settings& settings = {}) {
+        return error_of([&] { report(set, settings); });
+    };
+    const PointSet set = make("random", points(100, 2));
+    EXPECT_EQ(refusal(points_of({{0.5, 0.5}})),
+              "input: hyperuniformity needs at least two points; this is one");
+    EXPECT_EQ(refusal(points_of({{0.5, 0.5}, {0.5, 0.5}})),
+              "input: hyperuniformity needs points at two places at least; all 2 are at one");
+    EXPECT_EQ(refusal(make("random", points(10, 4))),
+              "input: hyperuniformity takes points of dimension 1 to 3; these have 4");
+    EXPECT_EQ(refusal(set, {{"max-radius", "2.6"}}),
+              "usage: --max-radius: 2.6 is more than a quarter of the shortest side, which is 2.5 "
+              "mean distances");
+    EXPECT_EQ(refusal(set, {{"min-radius", "2"}, {"max-radius", "1"}}),
+              "usage: --min-radius: 2 is not below the largest radius, 1");
+    EXPECT_EQ(refusal(set, {{"min-radius", "0.9999"}, {"max-radius", "1"}}),
+              "usage: --min-radius: 0.9999 is too near to the largest radius, 1, for a slope");
+}
