@@ -25,7 +25,7 @@
 //     independent points, m -> inf      0.529      0.361  0       1 / (2 pi)
 //
 // Shape   n >= 2 points of the unit square or a rectangle, at two places at least.
-// Cost    O(n log n) where points are spread about evenly: 10^6 random points take 2.8 s on one
+// Cost    O(n log n) where points are spread about evenly: 10^6 random points take 3.4 s on one
 //         core, 90 bytes each. Where m points share a cell of the grid, O(m^2).
 // Promise never depends on the number of threads, nor on the order of the points.
 // Source  B. I. Halperin, D. R. Nelson, Phys. Rev. Lett. 41 (1978) 121-124,

@@ -46,7 +46,7 @@ PointSet in_box(std::size_t n, const Box& box) {
 
 TEST(Hyperuniformity, VarianceIsTheSumOverPairsOfTheirOverlaps) {
     for (const Box& box : {Box{{-1}, {3}}, Box{{0, 2}, {1, 3.5}}, Box{{0, 0, -1}, {1, 2, 0.5}}}) {
-        PointSet set = in_box(60, box);
+        PointSet set = in_box(40, box);
         std::ranges::copy(set[3], set[5].begin());
         for (std::size_t k = 0; k < box.dimension(); ++k) set[7][k] = box.high[k];
         const Report found = report(set, {{"radii", "3"}});
@@ -55,9 +55,9 @@ TEST(Hyperuniformity, VarianceIsTheSumOverPairsOfTheirOverlaps) {
         for (std::size_t at = 0; at < 3; ++at) {
             const double radius = found.curve("radius")[at] * found.number("mean_distance");
             const double ball = volume_of_ball(box.dimension(), radius);
-            const double mean = 60 * ball / volume;
+            const double mean = 40 * ball / volume;
             double squares = mean;
-            for (std::size_t i = 0; i < 60; ++i)
+            for (std::size_t i = 0; i < 40; ++i)
                 for (std::size_t j = 0; j < i; ++j) {
                     double squared = 0;
                     for (std::size_t k = 0; k < box.dimension(); ++k) {
@@ -132,24 +132,24 @@ TEST(Hyperuniformity, SquareLatticeAsPrinted) {
                 0.01);
 }
 
-// Exponents over 10 sets scatter by 0.03 for independent points (seen over 50 such means): the
-// bounds are 5 of it. Dispersions average to 1, by 200 sets' scatter of 0.1 each at the radius.
+// Exponents of independent points scatter by 0.09 from set to set, the dispersions by 0.04 (seen
+// over 60 sets): the bounds are 5 standard deviations of a mean of 5. False alarm: 1e-6 each.
 TEST(Hyperuniformity, ExponentTellsIndependentPointsFromEvenOnes) {
     for (const std::size_t d : {1U, 2U, 3U}) {
         const auto side = static_cast<std::size_t>(d == 1 ? 4096 : d == 2 ? 64 : 16);
         const auto n = static_cast<std::size_t>(std::pow(side, d));
         double independent = 0, even = 0, dispersion = 0;
-        for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+        for (std::uint64_t seed = 1; seed <= 5; ++seed) {
             const Report found = report(make("random", points(n, d), {}, {.seed = seed}));
-            independent += found.number("exponent") / 10;
-            dispersion += found.curve("dispersion")[10] / 10;
+            independent += found.number("exponent") / 5;
+            dispersion += found.curve("dispersion")[10] / 5;
             const auto jittered = make("jittered", points(n, d), {}, {.seed = seed});
-            even += report(jittered).number("exponent") / 10;
+            even += report(jittered).number("exponent") / 5;
         }
         const auto dimension = static_cast<double>(d);
-        EXPECT_NEAR(independent, dimension, 0.15) << d;
+        EXPECT_NEAR(independent, dimension, 0.2) << d;
         EXPECT_NEAR(dispersion, 1, 0.1) << d;
-        EXPECT_NEAR(even, dimension - 1, 0.25) << d;
+        EXPECT_NEAR(even, dimension - 1, 0.15) << d;
     }
 }
 

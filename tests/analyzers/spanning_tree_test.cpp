@@ -61,15 +61,15 @@ TEST(SpanningTree, LatticesHaveEdgesOfOneLength) {
 }
 
 // On a line the tree is the gaps but for the largest: independent points' are 1 / n on average,
-// and scatter as much. In the plane the limit of L / sqrt(n) is 0.6331 (Cortina-Borja, Robinson
-// 2000). Every bound is 5 standard deviations over seeds or more.
+// and scatter as much. In the plane 50,000 of NumPy's points, SciPy's triangles and its tree have
+// 0.6463 and 0.2960. Every bound is 4 standard deviations over seeds or more.
 TEST(SpanningTree, IndependentPointsAsTheBooksHaveThem) {
-    const Report line = report(make("random", points(100'000, 1)));
+    const Report line = report(make("random", points(40'000, 1)));
     EXPECT_NEAR(line.number("normalized_mean"), 1, 0.001);
-    EXPECT_NEAR(line.number("normalized_deviation"), 1, 0.02);
+    EXPECT_NEAR(line.number("normalized_deviation"), 1, 0.03);
     const Report plane = report(make("random", points(50'000, 2)));
-    EXPECT_NEAR(plane.number("normalized_mean"), 0.6331, 0.006);
-    EXPECT_NEAR(plane.number("normalized_deviation"), 0.309, 0.005);
+    EXPECT_NEAR(plane.number("normalized_mean"), 0.6463, 0.006);
+    EXPECT_NEAR(plane.number("normalized_deviation"), 0.2960, 0.005);
     const Report even = report(make("jittered", points(50'176, 2)));
     EXPECT_GT(even.number("normalized_mean"), 0.66);
 }
