@@ -12,8 +12,8 @@
 // Cost    d = 1: O(n log n). d = 2: O((n + s) log n), where s rectangles cannot grow; s is about
 //         n log n for random points and n^2 at worst; 10^5 random points take 0.4 s on one core,
 //         on the torus 0.5 s.
-//         d > 2: branch and bound over the boxes' sides, which stops at --max-work with bounds that
-//         hold; it grows as fast as n^(2(d - 1)) at worst. 4000 random points in
+//         d > 2: branch and bound over the boxes' sides, which stops at --max-work or --time-limit
+//         with bounds that hold; it grows as fast as n^(2(d - 1)) at worst. 4000 random points in
 //         3-D take 0.4 s, 200 in 5-D 0.6 s.
 // Promise exact where it says so: boxes are compared without rounding, and the value is the double
 //         nearest to the box's volume. Never depends on the number of threads.
@@ -24,9 +24,10 @@
 //         and the dispersion of point sequences", Math. Comput. Modelling 23 (1996) 9-23,
 //         doi:10.1016/0895-7177(96)00155-3 (the measure).
 
+#include <fmt/format.h>
+
 #include "analyzers/analyzer.hpp"
 #include "analyzers/empty_box.hpp"
-#include "analyzers/extreme_ascent.hpp"
 #include "analyzers/extreme_discrepancy.hpp"
 #include "analyzers/extreme_search.hpp"
 #include "core/error.hpp"
@@ -37,26 +38,17 @@ namespace {
 constexpr Param<bool> torus{.name = "torus",
                             .help = "Join opposite faces of the cube, so that boxes may wrap"};
 
-constexpr Param<std::int64_t> max_work{
-    .name = "max-work",
-    .fallback = 100'000'000'000,
-    .low = 1,
-    .unit = "comparisons",
-    .help =
-        "Stop branch and bound (3 and more dimensions) when it has compared this many coordinates, "
-        "with the bounds that it has; 10^9 take about four seconds on one core"};
-
 /// More points than any machine's memory holds; keys of points stay below 2^31.
 constexpr std::size_t max_count = std::size_t{1} << 29;
 
-extreme::SearchResult largest_empty_box(const extreme::BoxGrid& grid, std::uint64_t work,
+extreme::SearchResult largest_empty_box(const extreme::BoxGrid& grid, const SearchLimits& limits,
                                         const RunContext& run) {
-    if (grid.dimension() != 2) return extreme::search(grid, extreme::ascend(grid, run), work, run);
+    if (grid.dimension() != 2) return extreme::find_worst(grid, limits, run);
     const extreme::WorstBox worst = extreme::largest_empty_rectangle(grid, run);
-    return {worst, worst.value(), true};
+    return {worst, worst.value(), Ending::complete};
 }
 
-const char* method(std::size_t dimension) {
+const char* how(std::size_t dimension) {
     constexpr const char* names[] = {"sweep-1d", "maximal-rectangles"};
     return dimension <= 2 ? names[dimension - 1] : "branch-and-bound";
 }
@@ -67,14 +59,16 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     if (points.count() > max_count)
         fail(ErrorKind::limit, "dispersion takes up to {} points; these are {}", max_count,
              points.count());
+    const Limits limits(options, run);
     const double lines = extreme::search_memory(points, d > 2 ? run.thread_count() : 0);
     run.need_memory(lines + static_cast<double>(points.count() * extreme::rectangle_bytes),
                     "the search for the largest empty box");
     const extreme::BoxGrid grid =
         extreme::box_grid(points, options[torus] ? extreme::Space::torus : extreme::Space::cube,
                           extreme::Measure::emptiness, run);
-    const auto work = static_cast<std::uint64_t>(options[max_work]);
-    const auto [worst, upper, complete] = largest_empty_box(grid, work, run);
+    const auto [worst, upper, ending] = largest_empty_box(grid, limits.search, run);
+    limits.judge({worst.value(), upper, ending}, "the largest empty box",
+                 fmt::format("{} points in {} dimensions", points.count(), d), run);
     Report box;
     box.add("lower_corner", worst.lower_corner());
     box.add("upper_corner", worst.upper_corner());
@@ -82,8 +76,8 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     results.add("value", worst.value());
     results.add("lower", worst.value());
     results.add("upper", upper);
-    results.add("exact", complete);
-    results.add("method", method(d));
+    results.add("exact", upper == worst.value());
+    results.add("method", how(d));
     results.add("box", std::move(box));
     return results;
 }
@@ -100,7 +94,8 @@ Analyzer dispersion() {
             .summary = "Volume of the largest empty axis-parallel box, and where it is",
             .source = "Naamad, Lee, Hsu 1984, doi:10.1016/0166-218X(84)90124-0",
             .traits = {.max_dimension = 1000},
-            .options = Schema(torus, max_work),
+            .options =
+                Schema(torus, limit::method, limit::time_limit, limit::tolerance, limit::max_work),
             .results = {{"value", "volume of the largest empty box that was found"},
                         {"lower", "some box is at least so large"},
                         {"upper", "none is larger"},

@@ -2,6 +2,7 @@
 #include "analyzers/extreme_ascent.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "analyzers/extreme_line.hpp"
 #include "core/parallel.hpp"
@@ -13,24 +14,30 @@ namespace {
 /// One climb at a time from given boxes; keeps its buffers between climbs.
 class Climber {
   public:
-    Climber(const BoxGrid& grid, const RunContext& run)
-        : grid_(grid), run_(run), outside_(grid.count) {}
+    /// Climbs end where they are when it is over, or after `most` comparisons.
+    Climber(const BoxGrid& grid, std::uint64_t most, std::function<bool()> over)
+        : grid_(grid), most_(most), over_(std::move(over)), outside_(grid.count) {}
 
     void climb(GridBox box, WorstBox& worst) {
+        const std::uint64_t before = work_;
         box_ = std::move(box);
         worth_ = -static_cast<double>(grid_.scale + grid_.weight * grid_.count);
         count_outside();
         std::size_t idle = 0;  // axes in a row that gave nothing
         for (std::size_t axis = 0; idle < grid_.dimension();
              axis = (axis + 1) % grid_.dimension()) {
-            run_.check_stop();
             idle = improve(axis) ? 0 : idle + 1;
+            if (work_ - before > most_ || over_()) break;
         }
         worst.offer(box_);
     }
 
+    /// Comparisons of coordinates until now.
+    [[nodiscard]] std::uint64_t work() const { return work_; }
+
   private:
     void count_outside() {
+        work_ += grid_.count * grid_.dimension();
         std::ranges::fill(outside_, 0U);
         for (std::size_t k = 0; k < grid_.dimension(); ++k)
             for (std::size_t i = 0; i < grid_.count; ++i)
@@ -39,6 +46,7 @@ class Climber {
 
     /// Moves the box to the worst interval of the axis; false if that gains nothing.
     bool improve(std::size_t axis) {
+        work_ += 3 * grid_.count;
         const auto& ranks = grid_.ranks[axis];
         const Interval from = box_.axes[axis];
         const auto elsewhere = [&](std::uint32_t i, Interval interval) {
@@ -78,7 +86,9 @@ class Climber {
     }
 
     const BoxGrid& grid_;
-    const RunContext& run_;
+    std::uint64_t most_;
+    std::function<bool()> over_;
+    std::uint64_t work_ = 0;
     GridBox box_;
     double worth_ = 0;
     std::vector<std::uint32_t> outside_;  ///< for each point, axes on which it is outside
@@ -115,27 +125,41 @@ GridBox first_box(const BoxGrid& grid, Side side, std::uint64_t stream) {
 
 }  // namespace
 
-WorstBox ascend(const BoxGrid& grid, const RunContext& run) {
+Ascent ascend(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run) {
     constexpr std::uint64_t effort = 1U << 24;  // a fraction of a second
-    const std::uint64_t starts =
-        std::clamp<std::uint64_t>(effort / (grid.count * grid.dimension()), 8, 200);
+    constexpr std::uint64_t share = 8;          // of the work, at most
+    constexpr std::uint64_t cost = 16;          // of a climb, in sizes, for both sides
+    const std::uint64_t size = grid.count * grid.dimension();
+    const std::uint64_t affordable = limits.work / (share * cost * size);
+    const std::uint64_t wanted = std::clamp<std::uint64_t>(effort / size, 8, 200);
+    const std::uint64_t starts = std::clamp<std::uint64_t>(affordable, 1, wanted);
+    const std::uint64_t most = limits.work / (2 * share * starts);
     constexpr std::size_t together = 8;  // starts in one block
-    std::vector<WorstBox> found(block_count(starts, together), WorstBox(grid));
+    Ascent all{WorstBox(grid), 0};
+    std::vector<Ascent> found(block_count(starts, together), all);
+    const auto over = [&] { return limits.over(run); };
+    RunContext unstopped = run;  // climbs end by themselves, with what they found
+    unstopped.stop = {};
     constexpr bool silent = true;
     for_each_block(
-        run, starts, together,
+        unstopped, starts, together,
         [&](const Block& block) {
-            Climber climber(grid, run);
+            Climber climber(grid, most, over);
+            Ascent& mine = found[block.index];
             for (std::uint64_t start = block.first; start < block.last; ++start) {
-                climber.climb(first_box(grid, Side::open, start), found[block.index]);
+                if (start > 0 && over()) break;  // one box there must be
+                climber.climb(first_box(grid, Side::open, start), mine.worst);
                 if (grid.measure == Measure::emptiness) continue;
-                climber.climb(first_box(grid, Side::closed, start), found[block.index]);
+                climber.climb(first_box(grid, Side::closed, start), mine.worst);
             }
+            mine.work = climber.work();
         },
         silent);
-    WorstBox worst(grid);
-    for (const WorstBox& box : found) worst.offer(box);
-    return worst;
+    for (const Ascent& part : found) {
+        all.worst.offer(part.worst);
+        all.work += part.work;
+    }
+    return all;
 }
 
 }  // namespace stipple::analyzers::extreme

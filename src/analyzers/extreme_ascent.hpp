@@ -5,11 +5,18 @@
 #pragma once
 
 #include "analyzers/extreme_box.hpp"
+#include "analyzers/search_limits.hpp"
 
 namespace stipple::analyzers::extreme {
 
+struct Ascent {
+    WorstBox worst;
+    std::uint64_t work;  ///< comparisons of coordinates
+};
+
 /// The worst box that the climbs find; a lower bound, often the worst of all. Open boxes alone for
-/// the largest empty box. Depends on the grid only.
-WorstBox ascend(const BoxGrid& grid, const RunContext& run);
+/// the largest empty box. Depends on the grid and the limit of work only, unless the time or a stop
+/// ends it: then with what it has.
+Ascent ascend(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run);
 
 }  // namespace stipple::analyzers::extreme

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "math/radix_sort.hpp"
+#include "analyzers/axis_places.hpp"
 
 namespace stipple::analyzers::extreme {
 namespace {
@@ -17,19 +17,11 @@ void index_axis(const PointSet& points, std::size_t axis, BoxGrid& grid, const R
         const double x = points[i][axis] + 0.0;  // -0 becomes 0
         items[i] = {torus && x == 1 ? 0.0 : x, static_cast<std::uint32_t>(i)};
     }
-    radix_sort(items, run);
     auto& values = grid.values[axis];
-    auto& ranks = grid.ranks[axis];
-    auto& order = grid.order[axis];
-    ranks.resize(items.size());
-    order.reserve(items.size());
     if (!torus) values.push_back(0);
-    for (const auto& [value, place] : items) {
-        if (order.size() % 65536 == 0) run.check_stop();
-        if (values.empty() || values.back() != value) values.push_back(value);
-        ranks[place] = static_cast<std::uint32_t>(values.size() - 1);
-        order.push_back(place);
-    }
+    grid.ranks[axis] = places_on_axis(items, values, run);
+    grid.order[axis].reserve(items.size());
+    for (const Placed& item : items) grid.order[axis].push_back(item.place);
     if (!torus && values.back() != 1) values.push_back(1);
     for (const double x : values) grid.places[axis] = std::max(grid.places[axis], dyadic(x).places);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "analyzers/extreme_discrepancy.hpp"
 
-#include "analyzers/extreme_ascent.hpp"
 #include "analyzers/extreme_cell.hpp"
 #include "analyzers/extreme_search.hpp"
 
@@ -15,11 +14,11 @@ double search_memory(const PointSet& points, unsigned threads) {
     return static_cast<double>(points.count()) * per_point;
 }
 
-Report discrepancy(const PointSet& points, Space space, std::uint64_t max_work,
-                   const RunContext& run) {
+Findings discrepancy(const PointSet& points, Space space, const SearchLimits& limits,
+                     const RunContext& run) {
     run.need_memory(search_memory(points, run.thread_count()), "the search for the worst box");
     const BoxGrid grid = box_grid(points, space, Measure::discrepancy, run);
-    const SearchResult found = search(grid, ascend(grid, run), max_work, run);
+    const SearchResult found = find_worst(grid, limits, run);
     const WorstBox& worst = found.worst;
     Report box;
     box.add("lower_corner", worst.lower_corner());
@@ -31,10 +30,10 @@ Report discrepancy(const PointSet& points, Space space, std::uint64_t max_work,
     results.add("value", worst.value());
     results.add("lower", worst.value());
     results.add("upper", found.upper);
-    results.add("exact", found.complete);
+    results.add("exact", found.upper == worst.value());
     results.add("method", grid.dimension() == 1 ? "sweep-1d" : "branch-and-bound");
     results.add("worst_box", std::move(box));
-    return results;
+    return {std::move(results), {worst.value(), found.upper, found.ending}};
 }
 
 }  // namespace stipple::analyzers::extreme

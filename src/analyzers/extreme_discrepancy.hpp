@@ -14,7 +14,7 @@
 //         worst, of a few points each. On one core 1024 points take 0.1 s (random) to 0.4 s
 //         (Hammersley), 4096 points 0.5 s to 9 s; the periodic kind of even points takes ten times
 //         as long. d > 2: up to n^(2(d - 1)) cells; 1000 random points in 3-D take 10 s, 128 in 5-D
-//         5 s. It stops at --max-work, with bounds that hold.
+//         5 s. It stops at --max-work or --time-limit, with bounds that hold.
 // Promise exact: counts are integers, boxes are compared without rounding, and the value is the
 //         double nearest to that of the box. Never depends on the number of threads.
 // Source  W. J. Morokoff, R. E. Caflisch, SIAM J. Sci. Comput. 15 (1994) 1251-1279,
@@ -22,6 +22,7 @@
 #pragma once
 
 #include "analyzers/extreme_box.hpp"
+#include "analyzers/search_limits.hpp"
 #include "core/options.hpp"
 #include "core/report.hpp"
 
@@ -32,12 +33,16 @@ inline constexpr Param<Choice> kind{
     .fallback = "star",
     .choices = "star|extreme|periodic",
     .help =
-        "Boxes from the origin, all axis-parallel boxes, or those of the torus, which may wrap; "
-        "the last two end after --max-work only"};
+        "Boxes from the origin, all axis-parallel boxes, or those of the torus, which may wrap"};
 
 /// Value, bounds and worst box, as star-discrepancy reports them; the box's lower corner, too.
-Report discrepancy(const PointSet& points, Space space, std::uint64_t max_work,
-                   const RunContext& run);
+struct Findings {
+    Report report;
+    Bounds bounds;
+};
+
+Findings discrepancy(const PointSet& points, Space space, const SearchLimits& limits,
+                     const RunContext& run);
 
 /// Bytes that a search with so many threads takes, the grid included.
 double search_memory(const PointSet& points, unsigned threads);

@@ -7,9 +7,12 @@
 #include "analyzers/extreme_search.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <queue>
 
+#include "analyzers/extreme_ascent.hpp"
 #include "analyzers/extreme_cell.hpp"
+#include "core/error.hpp"
 #include "core/parallel.hpp"
 
 namespace stipple::analyzers::extreme {
@@ -26,8 +29,9 @@ struct Task {
 /// Explores the cell of a task depth first, within a budget.
 class Explorer {
   public:
-    Explorer(const BoxGrid& grid, Task& task, std::uint64_t budget, const RunContext& run)
-        : grid_(grid), run_(run), bounder_(grid), task_(task), budget_(budget) {
+    Explorer(const BoxGrid& grid, Task& task, std::uint64_t budget, const SearchLimits& limits,
+             const RunContext& run)
+        : grid_(grid), run_(run), limits_(limits), bounder_(grid), task_(task), budget_(budget) {
         lines_.push_back(whole_line(grid));
     }
 
@@ -59,11 +63,14 @@ class Explorer {
         constexpr std::uint64_t often = 1U << 18;
         const std::uint64_t before = task_.work;
         task_.work += 2 * grid_.dimension() * (points + 1);
-        if (before / often != task_.work / often) run_.check_stop();
+        if (before / often == task_.work / often) return;
+        run_.check_stop();
+        if (limits_.late(run_)) budget_ = 0;
     }
 
     const BoxGrid& grid_;
     const RunContext& run_;
+    const SearchLimits& limits_;
     CellBounder bounder_;
     Task& task_;
     std::uint64_t budget_;
@@ -83,50 +90,94 @@ void report_gap(double lower, double upper, const RunContext& run) {
     run.tick(parts - static_cast<std::uint64_t>(open * static_cast<double>(parts)), parts);
 }
 
-/// Explores a few cells; returns the work that it took.
-std::uint64_t explore_some(const BoxGrid& grid, Cells& cells, WorstBox& worst, std::uint64_t budget,
-                           const RunContext& run) {
-    constexpr std::size_t together = 16;
-    std::vector<Task> tasks;
-    for (; tasks.size() < together && !cells.empty(); cells.pop())
-        tasks.push_back({cells.top(), worst, {}, 0});
-    constexpr bool silent = true;
-    for_each_block(
-        run, tasks.size(), 1,
-        [&](const Block& block) { Explorer(grid, tasks[block.index], budget, run).explore(); },
-        silent);
-    std::uint64_t work = 0;
-    for (Task& task : tasks) {
-        work += task.work;
-        worst.offer(task.worst);
-        for (Cell& cell : task.rest) cells.push(std::move(cell));
+class Search {
+  public:
+    Search(const BoxGrid& grid, WorstBox worst, const SearchLimits& limits, const RunContext& run)
+        : grid_(grid),
+          limits_(limits),
+          run_(run),
+          most_(std::max<std::uint64_t>(1U << 24, 256 * grid.count * grid.dimension())),
+          worst_(std::move(worst)) {
+        cells_.push(whole_cell(grid, Side::open));
+        if (grid.measure == Measure::discrepancy) cells_.push(whole_cell(grid, Side::closed));
     }
-    return work;
-}
+
+    SearchResult go() {
+        while (!ending()) try {
+                explore_some();
+                settle();
+            } catch (const Error& e) {
+                if (e.kind() != ErrorKind::cancelled) throw;
+                return {worst_, upper_, Ending::stopped};
+            }
+        return {worst_, upper_, *ending()};
+    }
+
+  private:
+    [[nodiscard]] std::optional<Ending> ending() const {
+        const double lower = worst_.value();
+        if (cells_.empty()) return Ending::complete;
+        if (limits_.tolerance > 0 && upper_ - lower <= limits_.tolerance * lower)
+            return Ending::tolerance;
+        if (work_ >= limits_.work) return Ending::work;
+        if (limits_.late(run_)) return Ending::time;
+        return {};
+    }
+
+    void explore_some() {
+        constexpr std::size_t together = 16;
+        const std::uint64_t budget = std::min(most_, limits_.work - work_);
+        std::vector<Task> tasks;
+        for (; tasks.size() < together && !cells_.empty(); cells_.pop())
+            tasks.push_back({cells_.top(), worst_, {}, 0});
+        constexpr bool silent = true;
+        for_each_block(
+            run_, tasks.size(), 1,
+            [&](const Block& block) {
+                Explorer(grid_, tasks[block.index], budget, limits_, run_).explore();
+            },
+            silent);
+        for (Task& task : tasks) {
+            work_ += task.work;
+            worst_.offer(task.worst);
+            for (Cell& cell : task.rest) cells_.push(std::move(cell));
+        }
+    }
+
+    /// Says what is certain now.
+    void settle() {
+        const auto scale = static_cast<double>(grid_.scale);
+        upper_ = worst_.value();
+        if (!cells_.empty())
+            upper_ = std::clamp((cells_.top().bound + grid_.rounding()) * (1 + 0x1p-50) / scale,
+                                upper_, 1.0);
+        report_gap(worst_.value(), upper_, run_);
+        const auto bytes = static_cast<double>(sizeof(Cell) + grid_.dimension() * sizeof(Ends));
+        run_.need_memory(static_cast<double>(cells_.size()) * bytes, "the open cells");
+    }
+
+    const BoxGrid& grid_;
+    const SearchLimits& limits_;
+    const RunContext& run_;
+    std::uint64_t most_;  ///< work on a cell at a time
+    WorstBox worst_;
+    Cells cells_;
+    double upper_ = 1;
+    std::uint64_t work_ = 0;
+};
 
 }  // namespace
 
-SearchResult search(const BoxGrid& grid, WorstBox worst, std::uint64_t max_work,
+SearchResult search(const BoxGrid& grid, WorstBox worst, const SearchLimits& limits,
                     const RunContext& run) {
-    const std::uint64_t most =
-        std::max<std::uint64_t>(1U << 24, 256 * grid.count * grid.dimension());
-    Cells cells;
-    cells.push(whole_cell(grid, Side::open));
-    if (grid.measure == Measure::discrepancy) cells.push(whole_cell(grid, Side::closed));
-    const auto scale = static_cast<double>(grid.scale);
-    const auto bytes = static_cast<double>(sizeof(Cell) + grid.dimension() * sizeof(Ends));
-    std::uint64_t work = 0;
-    double upper = 1;
-    while (!cells.empty() && work < max_work) {
-        work += explore_some(grid, cells, worst, std::min(most, max_work - work), run);
-        upper = worst.value();
-        if (!cells.empty())
-            upper = std::clamp((cells.top().bound + grid.rounding()) * (1 + 0x1p-50) / scale, upper,
-                               1.0);
-        report_gap(worst.value(), upper, run);
-        run.need_memory(static_cast<double>(cells.size()) * bytes, "the open cells");
-    }
-    return {worst, upper, cells.empty()};
+    return Search(grid, std::move(worst), limits, run).go();
+}
+
+SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run) {
+    const Ascent first = ascend(grid, limits, run);
+    if (limits.over(run))
+        return {first.worst, 1, limits.late(run) ? Ending::time : Ending::stopped};
+    return search(grid, first.worst, limits.after(first.work), run);
 }
 
 }  // namespace stipple::analyzers::extreme

@@ -4,19 +4,23 @@
 #pragma once
 
 #include "analyzers/extreme_box.hpp"
+#include "analyzers/search_limits.hpp"
 
 namespace stipple::analyzers::extreme {
 
 struct SearchResult {
     WorstBox worst;
     double upper;   ///< no box is worth more, over the scale
-    bool complete;  ///< nothing is worse than the worst box
+    Ending ending;  ///< if `complete`, nothing is worse than the worst box
 };
 
-/// Searches on from a box found before; gives up after about `max_work` comparisons of
-/// coordinates. Looks at open boxes alone for the largest empty box. Never depends on the number of
-/// threads.
-SearchResult search(const BoxGrid& grid, WorstBox worst, std::uint64_t max_work,
+/// Searches on from a box found before. Looks at open boxes alone for the largest empty box. Once a
+/// stop is requested, it ends with what is certain. Does not depend on the number of threads unless
+/// a deadline or a stop ends it.
+SearchResult search(const BoxGrid& grid, WorstBox worst, const SearchLimits& limits,
                     const RunContext& run);
+
+/// The same from nothing: climbs first, which are a part of the work.
+SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run);
 
 }  // namespace stipple::analyzers::extreme

@@ -5,19 +5,31 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
+#include "analyzers/search_limits.hpp"
 #include "analyzers/star_box.hpp"
 #include "core/run_context.hpp"
 
 namespace stipple::analyzers::star {
 
-/// Whether it is time to end.
-using Late = std::function<bool()>;
+/// A box found bad in a set that is much the same.
+struct Hint {
+    Side side;
+    std::vector<double> corner;
+};
 
-/// The worst box that ascents from up to 200 corners on each side reach, fewer for large sets;
-/// every ascent takes the best place on one axis with the others fixed, until none helps.
-/// Deterministic, unless `late` ends it.
-WorstBox ascend(const CornerGrid& grid, const RunContext& run, const Late& late = {});
+struct Ascent {
+    WorstBox worst;
+    std::uint64_t work;  ///< comparisons of coordinates
+};
+
+/// The worst box that ascents from up to 200 corners on each side reach, fewer for large sets, for
+/// little work, and where there is a hint to start from; every ascent takes the best place on one
+/// axis with the others fixed, until none helps. One step there is at least. Deterministic, unless
+/// the time or a stop ends it: then with what it has.
+Ascent ascend(const CornerGrid& grid, const SearchLimits& limits, const RunContext& run,
+              const Hint* hint = nullptr);
 
 /// A search for bad boxes without end: ascents whose starts are the ends of others, moved a bit on
 /// some axes; a worse end is taken for one that is better by less than a threshold, which falls.
@@ -29,13 +41,13 @@ class BoxHunt {
     /// Keeps a reference to the grid.
     explicit BoxHunt(const CornerGrid& grid) : grid_(grid) {}
 
-    /// Some walks more; offers what they find. Deterministic, unless `late` ends it.
+    /// Some walks more; offers what they find. Deterministic, unless the time ends it.
     /// @returns the comparisons of coordinates that it took.
-    std::uint64_t go(WorstBox& worst, const RunContext& run, const Late& late);
+    std::uint64_t go(WorstBox& worst, const SearchLimits& limits, const RunContext& run);
 
   private:
     void walk(class Climber& climber, std::uint64_t number, WorstBox& worst,
-              const Late& late) const;
+              const std::function<bool()>& late) const;
 
     const CornerGrid& grid_;
     std::uint64_t round_ = 0;

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "analyzers/axis_places.hpp"
 #include "core/parallel.hpp"
-#include "math/radix_sort.hpp"
 
 namespace stipple::analyzers::star {
 namespace {
@@ -27,16 +27,8 @@ void index_axis(const PointSet& points, std::size_t axis, const std::vector<std:
     for (std::size_t i = 0; i < items.size(); ++i)
         items[i] = {points[i][axis] + 0.0, static_cast<std::uint32_t>(i)};  // -0 becomes 0
     for (const std::uint32_t i : at_one) items[i].value = 1;
-    radix_sort(items, run);
     auto& values = grid.values[axis];
-    auto& ranks = grid.ranks[axis];
-    ranks.resize(items.size());
-    std::size_t seen = 0;
-    for (const auto& [value, place] : items) {
-        if (++seen % 65536 == 0) run.check_stop();
-        if (values.empty() || values.back() != value) values.push_back(value);
-        ranks[place] = static_cast<std::uint32_t>(values.size() - 1);
-    }
+    grid.ranks[axis] = places_on_axis(items, values, run);
     if (values.back() != 1) values.push_back(1);
 }
 
@@ -64,8 +56,11 @@ CornerGrid corner_grid(const PointSet& points, const RunContext& run, Boxes boxe
 WorstBox::WorstBox(const CornerGrid& grid)
     : grid_(&grid),
       rounding_(static_cast<double>(grid.dimension() + 4) * 0x1p-52),
-      corner_(grid.dimension()) {
-    for (const auto& values : grid.values) places_.push_back(places_of(values));
+      points_(grid.count) {
+    for (const auto& values : grid.values) {
+        places_.push_back(places_of(values));
+        corner_.push_back(static_cast<std::uint32_t>(values.size() - 1));
+    }
     for (const unsigned places : places_) all_places_ += places;
 }
 

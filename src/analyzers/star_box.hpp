@@ -47,7 +47,8 @@ CornerGrid corner_grid(const PointSet& points, const RunContext& run, Boxes boxe
 /// Places on the axes of a grid.
 using Corner = std::vector<std::uint32_t>;
 
-/// The worst box offered so far; of boxes that are equally bad, the first.
+/// The worst box offered so far; of boxes that are equally bad, the first. Before any offer: the
+/// cube, closed, with a discrepancy of 0.
 class WorstBox {
   public:
     /// Keeps a reference to the grid.
@@ -59,7 +60,7 @@ class WorstBox {
     /// Takes the other's box if it is worse.
     void offer(const WorstBox& other);
 
-    /// Discrepancy of the box, rounded to the nearest double; 0 before the first offer.
+    /// Discrepancy of the box, rounded to the nearest double.
     [[nodiscard]] double value() const { return value_; }
 
     /// A box whose discrepancy comes out smaller than this in floating point is not worse.

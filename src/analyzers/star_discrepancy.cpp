@@ -29,12 +29,12 @@
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <optional>
+#include <string>
 
 #include "analyzers/analyzer.hpp"
 #include "analyzers/extreme_discrepancy.hpp"
-#include "analyzers/star_ascent.hpp"
+#include "analyzers/search_limits.hpp"
 #include "analyzers/star_families.hpp"
 #include "analyzers/star_search.hpp"
 #include "analyzers/star_sweep.hpp"
@@ -43,43 +43,6 @@
 
 namespace stipple::analyzers {
 namespace {
-
-constexpr Param<Choice> method{
-    .name = "method",
-    .fallback = "auto",
-    .choices = "auto|exact|bounds",
-    .help =
-        "auto: exact, or where a limit comes first, certain bounds; exact: that, or an error; "
-        "bounds: certain bounds that meet within --tolerance"};
-
-constexpr Param<double> time_limit{
-    .name = "time-limit",
-    .low = 0,
-    .low_open = true,
-    .optional = true,
-    .unit = "seconds",
-    .help =
-        "Stop after this time, in place of --max-work; what bounds it gives depends on the "
-        "machine and its load, and the sorting of millions of points is not cut short; for each "
-        "prefix and projection"};
-
-constexpr Param<double> tolerance{
-    .name = "tolerance",
-    .low = 0,
-    .optional = true,
-    .help =
-        "Enough if upper - lower is at most this, relative to lower [default: 0.1 for bounds, "
-        "else 0]"};
-
-constexpr Param<std::int64_t> max_work{
-    .name = "max-work",
-    .fallback = 100'000'000'000,
-    .low = 1,
-    .unit = "comparisons",
-    .help =
-        "Stop when branch and bound (3 and more dimensions; 2 for other kinds than star) has "
-        "compared this many coordinates, the same on any machine, for each prefix and projection; "
-        "10^9 take one to two seconds on one core"};
 
 constexpr Param<Choice> boxes{
     .name = "boxes",
@@ -108,63 +71,9 @@ Report report(const star::WorstBox& worst, double upper, const char* how) {
     return results;
 }
 
-Report exact_report(const star::WorstBox& worst, const char* how) {
-    return report(worst, worst.value(), how);
-}
-
-/// What the options say, for a run whose clock is at `start`.
-struct Limits {
-    Limits(const Values& options, const RunContext& run) : exact(options[method] == "exact") {
-        const bool bounds = options[method] == "bounds";
-        if (exact && options.given(tolerance))
-            fail(ErrorKind::usage, "--tolerance: has no meaning with --method exact");
-        search.tolerance = options.given(tolerance) ? options[tolerance] : bounds ? 0.1 : 0;
-        sweeps = !bounds;
-        if (!options.given(time_limit) || options.given(max_work))
-            search.work = static_cast<std::uint64_t>(options[max_work]);
-        if (options.given(time_limit) && run.seconds) {
-            seconds = options[time_limit];
-            start = run.seconds();
-            search.deadline = start + seconds;
-        }
-    }
-
-    star::SearchLimits search;
-    bool exact;
-    bool sweeps = true;
-    double start = 0;
-    double seconds = std::numeric_limits<double>::infinity();
-};
-
-[[noreturn]] void give_up(const star::CornerGrid& grid, const star::SearchResult& found,
-                          const Limits& limits) {
-    const bool time = found.ending == star::Ending::time;
-    fail_with_hint(
-        ErrorKind::limit,
-        fmt::format("a larger {}, or fewer points, may give the exact value; --method bounds is "
-                    "content with bounds",
-                    time ? "--time-limit" : "--max-work"),
-        "the star discrepancy of {} points in {} dimensions takes more than {}; certain so far: it "
-        "is between {} and {}",
-        grid.count, grid.dimension(),
-        time ? fmt::format("{} seconds (--time-limit)", limits.seconds)
-             : fmt::format("{} comparisons (--max-work)", limits.search.work),
-        format_number(found.worst.value()), format_number(found.upper));
-}
-
-Report search_for_it(const star::CornerGrid& grid, const Limits& limits, const RunContext& run) {
-    const auto late = [&] { return run.seconds && run.seconds() >= limits.search.deadline; };
-    const star::SearchResult found =
-        star::search(grid, star::ascend(grid, run, late), limits.search, run);
-    const bool complete = found.ending == star::Ending::complete;
-    if (limits.exact && !complete && found.ending != star::Ending::stopped)
-        give_up(grid, found, limits);
-    if (found.ending == star::Ending::work || found.ending == star::Ending::time)
-        run.tell(
-            fmt::format("the star discrepancy is not exact, but between {} and {}; the value given "
-                        "is the lower of these",
-                        format_number(found.worst.value()), format_number(found.upper)));
-    return report(found.worst, found.upper, "branch-and-bound");
+/// "100 points in 7 dimensions"
+std::string size_of(const PointSet& points) {
+    return fmt::format("{} points in {} dimensions", points.count(), points.dimension());
 }
 
 /// @throws Error(limit) saying how many points would do.
@@ -183,102 +92,137 @@ void need_room(const PointSet& points, const RunContext& run) {
                    points.count(), d, format_bytes(all), format_bytes(room));
 }
 
-/// Ends a sweep.
-struct OutOfTime {};
-
-/// The square's worst box, or none if that takes longer than a part of the time limit.
-std::optional<star::WorstBox> sweep_in_time(const star::CornerGrid& grid, const Limits& limits,
-                                            const RunContext& run) {
+/// The square's worst box; bounds alone where the sweep takes longer than a part of the time.
+star::SearchResult sweep_or_search(const star::CornerGrid& grid, const Limits& limits,
+                                   const RunContext& run, std::string& how) {
     constexpr double part = 0.7;  // what is left is for bounds
-    RunContext timed = run;
-    timed.progress = [&](double done) {
-        if (run.seconds && run.seconds() > limits.start + part * limits.seconds) throw OutOfTime{};
-        if (run.progress) run.progress(done);
-    };
-    try {
-        return star::sweep_2d(grid, timed);
-    } catch (const OutOfTime&) {
-        return {};
+    SearchLimits first = limits.search;
+    first.deadline = limits.start + part * (first.deadline - limits.start);
+    const star::Sweep sweep = star::sweep_2d(grid, first, run);
+    how = "sweep-2d";
+    if (sweep.complete) return {sweep.worst, sweep.worst.value(), Ending::complete};
+    if (run.stop.stop_requested()) return {sweep.worst, 1, Ending::stopped};
+    how = "branch-and-bound";
+    return star::search(grid, sweep.worst, limits.search, run);
+}
+
+/// A box that another set's report calls the worst.
+std::optional<star::Hint> hint_from(const Report* like) {
+    if (like == nullptr || like->find("worst_box") == nullptr) return {};
+    const bool closed = std::get<bool>(*like->find("worst_box.closed"));
+    return star::Hint{closed ? star::Side::closed : star::Side::open,
+                      like->curve("worst_box.corner")};
+}
+
+Report star_kind(const star::Member& set, const Values& options, const RunContext& run) {
+    need_room(set.points, run);
+    const star::CornerGrid grid = star::corner_grid(
+        set.points, run, options[boxes] == "closed" ? star::Boxes::closed : star::Boxes::half_open);
+    if (grid.dimension() == 1) {
+        const star::WorstBox worst = star::sweep_1d(grid, run);
+        return report(worst, worst.value(), "sweep-1d");
     }
+    std::string how = "branch-and-bound";
+    const auto hint = hint_from(set.like);
+    const star::SearchResult found =
+        grid.dimension() == 2 && !set.limits.bounded
+            ? sweep_or_search(grid, set.limits, run, how)
+            : star::find_worst(grid, set.limits.search, run, hint ? &*hint : nullptr);
+    set.limits.judge({found.worst.value(), found.upper, found.ending}, "the star discrepancy",
+                     size_of(set.points), run);
+    return report(found.worst, found.upper, how.c_str());
 }
 
 /// The kinds extreme and periodic.
-Report other_kind(const PointSet& points, const Values& options, const RunContext& run) {
-    const auto refuse = [&](const auto& option) {
-        if (options.given(option))
-            fail(ErrorKind::usage, "--{} applies to --kind star only", option.name);
-    };
-    refuse(boxes);
-    refuse(method);
-    refuse(time_limit);
-    refuse(tolerance);
-    return extreme::discrepancy(
-        points, options[extreme::kind] == "extreme" ? extreme::Space::cube : extreme::Space::torus,
-        static_cast<std::uint64_t>(options[max_work]), run);
+Report other_kind(const star::Member& set, const Values& options, const RunContext& run) {
+    const std::string& kind = options[extreme::kind];
+    if (options.given(boxes))
+        fail(ErrorKind::usage, "--{} applies to --kind star only", boxes.name);
+    const auto space = kind == "extreme" ? extreme::Space::cube : extreme::Space::torus;
+    extreme::Findings found = extreme::discrepancy(set.points, space, set.limits.search, run);
+    set.limits.judge(found.bounds, fmt::format("the {} discrepancy", kind), size_of(set.points),
+                     run);
+    return std::move(found.report);
 }
 
-Report measure(const PointSet& points, const Values& options, const RunContext& run) {
-    if (points.count() == 0) fail(ErrorKind::input, "star-discrepancy needs at least one point");
-    if (points.count() > max_count)
+Report measure(const star::Member& set, const Values& options, const RunContext& run) {
+    if (set.points.count() == 0)
+        fail(ErrorKind::input, "star-discrepancy needs at least one point");
+    if (set.points.count() > max_count)
         fail(ErrorKind::limit, "star-discrepancy takes up to {} points; these are {}", max_count,
-             points.count());
-    if (options[extreme::kind] != "star") return other_kind(points, options, run);
-    const Limits limits(options, run);
-    need_room(points, run);
-    const star::CornerGrid grid = star::corner_grid(
-        points, run, options[boxes] == "closed" ? star::Boxes::closed : star::Boxes::half_open);
-    if (grid.dimension() == 1) return exact_report(star::sweep_1d(grid, run), "sweep-1d");
-    if (grid.dimension() == 2 && limits.sweeps)
-        if (const auto worst = sweep_in_time(grid, limits, run))
-            return exact_report(*worst, "sweep-2d");
-    return search_for_it(grid, limits, run);
+             set.points.count());
+    return options[extreme::kind] == "star" ? star_kind(set, options, run)
+                                            : other_kind(set, options, run);
 }
 
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
-    if (!star::wants_families(options)) return measure(points, options, run);
-    const auto one = [&options](const PointSet& part, const RunContext& part_run) {
+    const Limits limits(options, run);
+    if (!star::wants_families(options)) return measure({points, limits}, options, run);
+    const auto one = [&options](const star::Member& part, const RunContext& part_run) {
         return measure(part, options, part_run);
     };
-    return star::families(points, options, one, run);
+    return star::families(points, options, limits, one, run);
+}
+
+/// A mean of boxes is none, nor is one of axes.
+void refine(Report& mean, std::size_t sets, const Values&) {
+    if (sets < 2) return;
+    const auto drop = [](Report& from, std::string_view name) {
+        std::erase_if(from.entries(), [&](const auto& entry) { return entry.name == name; });
+    };
+    drop(mean, "worst_box");
+    if (auto* item = mean.find("projections"))
+        for (const char* name : {"is_worst", "worst"}) drop(std::get<Report>(*item), name);
 }
 
 }  // namespace
 
 Analyzer star_discrepancy() {
-    return {.name = "star-discrepancy",
-            .summary = "Star discrepancy, exact or between bounds, with the worst box",
-            .source = "Doerr, Gnewuch, Wahlstroem 2014, arXiv:1405.1653",
-            .traits = {.max_dimension = 10'000},
-            .options = Schema(extreme::kind, boxes, method, time_limit, tolerance, max_work,
-                              star::prefixes, star::every, star::projections),
-            .results = {{"value", "the star discrepancy; where exact is false, lower"},
-                        {"lower", "it is at least this"},
-                        {"upper", "it is at most this"},
-                        {"exact", "whether the two bounds are the same"},
-                        {"method", "sweep-1d, sweep-2d or branch-and-bound"},
-                        {"worst_box.corner", "upper corner of the box where it is reached"},
-                        {"worst_box.lower_corner",
-                         "lower corner, for the kinds extreme and periodic; where it is above the "
-                         "upper one, the box wraps",
-                         false},
-                        {"worst_box.closed", "whether points on the box's upper faces count"},
-                        {"worst_box.points", "points in that box"},
-                        {"worst_box.volume", "its volume"},
-                        {"prefixes.count", "points of each prefix", false},
-                        {"prefixes.value", "its star discrepancy", false},
-                        {"prefixes.lower", "which is at least this", false},
-                        {"prefixes.upper", "and at most this", false},
-                        {"projections.axis_1", "first axis of each projection, from 1", false},
-                        {"projections.axis_2", "the second, and so on", false},
-                        {"projections.value", "its star discrepancy", false},
-                        {"projections.lower", "which is at least this", false},
-                        {"projections.upper", "and at most this", false},
-                        {"projections.is_worst", "1 for the first with the largest value", false},
-                        {"projections.worst", "the axes of that one", false},
-                        {"projections.largest.value", "the largest value", false},
-                        {"projections.largest.lower", "the largest of all is at least this", false},
-                        {"projections.largest.upper", "and at most this", false}},
-            .analyze = analyze};
+    return {
+        .name = "star-discrepancy",
+        .summary = "Star discrepancy, exact or between bounds, with the worst box",
+        .source = "Doerr, Gnewuch, Wahlstroem 2014, arXiv:1405.1653",
+        .traits = {.max_dimension = 10'000},
+        .options = Schema(extreme::kind, boxes, limit::method, limit::time_limit, limit::tolerance,
+                          limit::max_work, star::prefixes, star::every, star::projections),
+        .results = {{"value", "the star discrepancy; where exact is false, lower"},
+                    {"lower", "it is at least this"},
+                    {"upper", "it is at most this"},
+                    {"exact", "whether the two bounds are the same"},
+                    {"method", "sweep-1d, sweep-2d or branch-and-bound"},
+                    {"worst_box.corner",
+                     "upper corner of the box where the value is reached (of all boxes from "
+                     "the origin, or of all that the kind has)"},
+                    {"worst_box.lower_corner",
+                     "its lower corner, for the kinds extreme and periodic; on an axis where "
+                     "it is above the upper one, the box goes from there across 1 to 0 and on "
+                     "(and all round where an open box has both the same)",
+                     false},
+                    {"worst_box.closed",
+                     "whether points on the box's faces count (upper faces for the kind star)"},
+                    {"worst_box.points", "points in that box"},
+                    {"worst_box.volume", "its volume"},
+                    {"prefixes.count", "points of each prefix", false},
+                    {"prefixes.value", "its star discrepancy", false},
+                    {"prefixes.lower", "which is at least this", false},
+                    {"prefixes.upper", "and at most this", false},
+                    {"projections.axis_1", "first axis of each projection, from 1", false},
+                    {"projections.axis_2", "the second, and so on", false},
+                    {"projections.value", "its star discrepancy", false},
+                    {"projections.lower", "which is at least this", false},
+                    {"projections.upper", "and at most this", false},
+                    {"projections.is_worst",
+                     "1 for the first with the largest value; among bounds, with the largest "
+                     "lower one",
+                     false},
+                    {"projections.worst", "the axes of that one", false},
+                    {"projections.worst_is_certain",
+                     "whether the bounds of no other projection reach above its value", false},
+                    {"projections.largest.value", "the largest value", false},
+                    {"projections.largest.lower", "the largest of all is at least this", false},
+                    {"projections.largest.upper", "and at most this", false}},
+        .analyze = analyze,
+        .refine = refine};
 }
 
 }  // namespace stipple::analyzers

@@ -34,28 +34,85 @@ struct Columns {
     Report::Curve upper;
 };
 
-/// A run whose warnings may come from several threads at once, and that tells no progress.
-class Together {
+/// The limits of a table, shared out among its sets.
+class Shares {
   public:
-    explicit Together(const RunContext& run) : quiet_(run) {
-        quiet_.progress = {};
-        if (run.warn)
-            quiet_.warn = [this, tell = run.warn](const std::string& sentence) {
-                const std::lock_guard lock(telling_);
-                tell(sentence);
-            };
-    }
+    Shares(const Limits& all, double weight) : all_(all), weight_(weight), left_(weight) {}
 
-    [[nodiscard]] RunContext each(unsigned threads) const {
-        RunContext one = quiet_;
-        one.threads = threads;
-        return one;
+    /// For a set that begins, of so many that are measured at a time.
+    Limits next(double weight, double together, const RunContext& run) {
+        const std::lock_guard lock(mutex_);
+        const double of_time = std::min(1.0, together * weight / left_);
+        left_ = std::max(left_ - weight, weight_ * 1e-12);
+        return all_.part(weight / weight_, of_time, run);
     }
 
   private:
-    RunContext quiet_;
-    std::mutex telling_;
+    const Limits& all_;
+    double weight_;
+    double left_;  ///< weight of sets that have not begun
+    std::mutex mutex_;
 };
+
+/// Measures the sets of a table.
+class Table {
+  public:
+    Table(std::size_t rows, double weight, const Limits& limits, const Measure& measure,
+          const RunContext& run)
+        : columns(rows), rows_(rows), measure_(measure), run_(run), shares_(limits, weight) {}
+
+    /// One of `together` that are measured at a time, each on so many threads.
+    Report fill(std::size_t row, const PointSet& points, double weight, double together,
+                const Report* like) {
+        RunContext mine = run_;
+        mine.progress = {};
+        mine.warn = {};  // bounds are told of once for the table
+        mine.threads = together > 1 ? 1 : run_.threads;
+        const Limits limits = shares_.next(weight, together, run_);
+        Report found;
+        try {
+            found = measure_({points, limits, like}, mine);
+        } catch (const Error& e) {
+            if (e.kind() != ErrorKind::cancelled) throw;
+            found.add("value", 0.0).add("lower", 0.0).add("upper", 1.0);
+        }
+        columns.put(row, found);
+        const std::lock_guard lock(counting_);
+        if (!run_.stop.stop_requested()) run_.tick(++done_, rows_);
+        return found;
+    }
+
+    /// Warns of values that are bounds; name(row) is "the first 64 points".
+    void tell_of_bounds(const std::function<std::string(std::size_t)>& name) const {
+        std::size_t open = 0;
+        std::size_t first = 0;
+        for (std::size_t row = rows_; row-- > 0;)
+            if (columns.lower[row] < columns.upper[row]) ++open, first = row;
+        if (open == 0 || run_.stop.stop_requested()) return;
+        run_.tell(fmt::format(
+            "{} of {} discrepancies are not exact, but between bounds, of which the lower is given "
+            "as the value; the first, of {}, is between {} and {}",
+            open, rows_, name(first), format_number(columns.lower[first]),
+            format_number(columns.upper[first])));
+    }
+
+    Columns columns;
+
+  private:
+    std::size_t rows_;
+    const Measure& measure_;
+    const RunContext& run_;
+    Shares shares_;
+    std::size_t done_ = 0;
+    std::mutex counting_;
+};
+
+/// A run that goes on with what each set makes of a stop.
+RunContext unstopped(const RunContext& run) {
+    RunContext all = run;
+    all.stop = {};
+    return all;
+}
 
 std::vector<std::size_t> given_sizes(const Values& options) {
     constexpr double most = 0x1p53;
@@ -102,41 +159,52 @@ PointSet projection(const PointSet& points, const Combination& along) {
 }
 
 /// Prefixes that are a large part of all the work use all threads, one after the other; the others
-/// a thread each.
+/// go over the threads in chains of a few.
 Report of_prefixes(const PointSet& points, const std::vector<std::size_t>& sizes,
-                   const Measure& measure, const RunContext& run) {
+                   const Limits& limits, const Measure& measure, const RunContext& run) {
+    constexpr std::size_t chain = 8;
     double total = 0;
     for (const std::size_t size : sizes) total += static_cast<double>(size);
-    const double share = total / (2 * run.thread_count());
+    const double threads = run.thread_count();
     const auto small = static_cast<std::size_t>(
-        std::ranges::upper_bound(sizes, share, {},
+        std::ranges::upper_bound(sizes, total / (2 * threads), {},
                                  [](std::size_t size) { return static_cast<double>(size); }) -
         sizes.begin());
-    Columns columns(sizes.size());
-    const Together together(run);
-    std::size_t done = 0;
-    std::mutex counting;
-    const auto fill = [&](std::size_t row, unsigned threads) {
-        columns.put(row, measure(prefix(points, sizes[row]), together.each(threads)));
-        const std::lock_guard lock(counting);
-        run.tick(++done, sizes.size());
+    Table table(sizes.size(), total, limits, measure, run);
+    const auto fill = [&](std::size_t row, double together, Report& before) {
+        const Report* like = row % chain == 0 ? nullptr : &before;
+        before = table.fill(row, prefix(points, sizes[row]), static_cast<double>(sizes[row]),
+                            together, like);
     };
+    Report last;
     constexpr bool silent = true;
     for_each_block(
-        run, small, 1, [&](const Block& block) { fill(block.index, 1); }, silent);
-    for (std::size_t row = small; row < sizes.size(); ++row) fill(row, run.threads);
+        unstopped(run), small, chain,
+        [&](const Block& block) {
+            Report before;
+            for (std::size_t row = block.first; row < block.last; ++row) fill(row, threads, before);
+            if (block.last == small) last = std::move(before);
+        },
+        silent);
+    for (std::size_t row = small; row < sizes.size(); ++row) fill(row, 1, last);
+    table.tell_of_bounds(
+        [&](std::size_t row) { return fmt::format("the first {} points", sizes[row]); });
 
-    Report table;
-    table.add("count", Report::Integers(sizes.begin(), sizes.end()));
-    std::move(columns).add_to(table);
-    return table;
+    Report result;
+    result.add("count", Report::Integers(sizes.begin(), sizes.end()));
+    std::move(table.columns).add_to(result);
+    return result;
 }
 
 /// The first of the projections with the largest value; the table marks it.
 void mark_worst(Report& table, std::size_t size) {
-    const auto& value = table.curve("value");
-    const auto worst = static_cast<std::size_t>(std::ranges::max_element(value) - value.begin());
-    Report::Integers marks(value.size());
+    const auto& lower = table.curve("lower");
+    const auto& upper = table.curve("upper");
+    const auto worst = static_cast<std::size_t>(std::ranges::max_element(lower) - lower.begin());
+    bool certain = true;
+    for (std::size_t row = 0; row < upper.size(); ++row)
+        certain = certain && (row == worst || upper[row] <= lower[worst]);
+    Report::Integers marks(lower.size());
     marks[worst] = 1;
     Report::Integers axes;
     for (const std::size_t k : combination(worst, size))
@@ -146,11 +214,20 @@ void mark_worst(Report& table, std::size_t size) {
         largest.add(name, std::ranges::max(table.curve(name)));
     table.add("is_worst", std::move(marks));
     table.add("worst", std::move(axes));
+    table.add("worst_is_certain", certain);
     table.add("largest", std::move(largest));
 }
 
-Report of_projections(const PointSet& points, std::size_t size, const Measure& measure,
-                      const RunContext& run) {
+/// "the projection to axes 1, 3"
+std::string axes_of(const Combination& along) {
+    std::vector<std::string> axes;
+    for (const std::size_t k : along) axes.push_back(fmt::format("{}", k + 1));
+    return fmt::format("the projection to {} {}", along.size() == 1 ? "axis" : "axes",
+                       join(axes, ", "));
+}
+
+Report of_projections(const PointSet& points, std::size_t size, const Limits& limits,
+                      const Measure& measure, const RunContext& run) {
     if (size > points.dimension())
         fail(ErrorKind::input, "--projections: {} is beyond the points' {} coordinates", size,
              points.dimension());
@@ -159,23 +236,27 @@ Report of_projections(const PointSet& points, std::size_t size, const Measure& m
     run.need_memory(static_cast<double>(count) * row_bytes +
                         static_cast<double>(8 * points.count() * size) * run.thread_count(),
                     "the table of projections");
-    Columns columns(count);
+    Table table(count, static_cast<double>(count), limits, measure, run);
     std::vector<Report::Integers> axes(size, Report::Integers(count));
-    const Together together(run);
-    const unsigned threads = count > 1 ? 1 : run.threads;
-    for_each_block(run, count, 1, [&](const Block& block) {
-        const Combination along = combination(block.index, size);
-        for (std::size_t k = 0; k < size; ++k)
-            axes[k][block.index] = static_cast<std::int64_t>(along[k] + 1);
-        columns.put(block.index, measure(projection(points, along), together.each(threads)));
-    });
+    const double together = std::min<double>(run.thread_count(), static_cast<double>(count));
+    constexpr bool silent = true;
+    for_each_block(
+        unstopped(run), count, 1,
+        [&](const Block& block) {
+            const Combination along = combination(block.index, size);
+            for (std::size_t k = 0; k < size; ++k)
+                axes[k][block.index] = static_cast<std::int64_t>(along[k] + 1);
+            table.fill(block.index, projection(points, along), 1, together, nullptr);
+        },
+        silent);
+    table.tell_of_bounds([&](std::size_t row) { return axes_of(combination(row, size)); });
 
-    Report table;
+    Report result;
     for (std::size_t k = 0; k < size; ++k)
-        table.add(fmt::format("axis_{}", k + 1), std::move(axes[k]));
-    std::move(columns).add_to(table);
-    mark_worst(table, size);
-    return table;
+        result.add(fmt::format("axis_{}", k + 1), std::move(axes[k]));
+    std::move(table.columns).add_to(result);
+    mark_worst(result, size);
+    return result;
 }
 
 }  // namespace
@@ -187,17 +268,19 @@ bool wants_families(const Values& options) {
     return options.given(prefixes) || options.given(every) || options.given(projections);
 }
 
-Report families(const PointSet& points, const Values& options, const Measure& measure,
-                const RunContext& run) {
+Report families(const PointSet& points, const Values& options, const Limits& limits,
+                const Measure& measure, const RunContext& run) {
     const auto sizes = prefix_sizes(points.count(), options);
     const bool both = !sizes.empty() && options.given(projections);
+    const double half = both ? 0.5 : 1;
     Report results;
     if (!sizes.empty())
-        results.add("prefixes", of_prefixes(points, sizes, measure, run.stage(0, both ? 0.5 : 1)));
+        results.add("prefixes", of_prefixes(points, sizes, limits.part(half, half, run), measure,
+                                            run.stage(0, half)));
     if (options.given(projections))
         results.add("projections",
-                    of_projections(points, static_cast<std::size_t>(options[projections]), measure,
-                                   run.stage(both ? 0.5 : 0, 1)));
+                    of_projections(points, static_cast<std::size_t>(options[projections]),
+                                   limits.part(half, 1, run), measure, run.stage(1 - half, 1)));
     return results;
 }
 

@@ -6,6 +6,7 @@
 
 #include <functional>
 
+#include "analyzers/search_limits.hpp"
 #include "core/options.hpp"
 #include "core/point_set.hpp"
 #include "core/report.hpp"
@@ -31,17 +32,29 @@ inline constexpr Param<std::int64_t> projections{
     .high = 8,
     .optional = true,
     .unit = "coordinates",
-    .help = "Instead of the whole set, all its projections to so many coordinates; a table"};
+    .help =
+        "Instead of the whole set, all its projections to so many coordinates; a table, in the "
+        "order 1-2, 1-3, 2-3, 1-4, 2-4, ...: sorted by the last axis, then by the one before"};
+
+/// A set to measure.
+struct Member {
+    const PointSet& points;
+    const Limits& limits;
+    const Report* like = nullptr;  ///< that of a set which is much the same, where there is one
+};
 
 /// Measures one set: its report has `value`, `lower` and `upper`.
-using Measure = std::function<Report(const PointSet&, const RunContext&)>;
+using Measure = std::function<Report(const Member&, const RunContext&)>;
 
 /// Whether tables are asked for. @throws Error(usage) for sizes that no set has prefixes of.
 bool wants_families(const Values& options);
 
-/// The tables, several sets at once on the run's threads; the same for any number of them.
+/// The tables, several sets at once on the run's threads; the same for any number of them unless
+/// the time ends it. The limits are for all together: work goes by the numbers of points, time by
+/// the same to those not yet begun. Each prefix starts from the worst box of the one before. Sets
+/// that a stop leaves out have the bounds 0 and 1.
 /// @throws Error(input) for prefixes and projections that these points do not have.
-Report families(const PointSet& points, const Values& options, const Measure& measure,
-                const RunContext& run);
+Report families(const PointSet& points, const Values& options, const Limits& limits,
+                const Measure& measure, const RunContext& run);
 
 }  // namespace stipple::analyzers::star

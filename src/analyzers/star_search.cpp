@@ -19,7 +19,6 @@
 #include <deque>
 #include <optional>
 
-#include "analyzers/star_ascent.hpp"
 #include "analyzers/star_cell.hpp"
 #include "analyzers/star_cover.hpp"
 #include "analyzers/star_net.hpp"
@@ -37,12 +36,9 @@ struct Field {
     const Logs logs;
     const Active points;
     const RunContext& run;
-    double deadline;
+    const SearchLimits& limits;
 
-    [[nodiscard]] bool late() const {
-        return run.seconds && deadline < std::numeric_limits<double>::infinity() &&
-               run.seconds() >= deadline;
-    }
+    [[nodiscard]] bool late() const { return limits.late(run); }
 };
 
 /// A cell to explore, and what came of it.
@@ -112,7 +108,7 @@ class Search {
            const RunContext& run)
         : limits_(limits),
           run_(run),
-          field_{grid, logarithms(grid), all_points(grid), run_, limits.deadline},
+          field_{grid, logarithms(grid), all_points(grid), run_, limits_},
           worst_(std::move(worst)),
           hunt_(grid),
           cells_{whole_cell(grid, Side::open), whole_cell(grid, Side::closed)} {
@@ -175,8 +171,7 @@ class Search {
 
     /// Whether bounds may be all that is wanted.
     [[nodiscard]] bool steadily() const {
-        return limits_.tolerance > 0 || limits_.work < 4 * short_work ||
-               limits_.deadline < std::numeric_limits<double>::infinity();
+        return limits_.tolerance > 0 || limits_.work < 4 * short_work || limits_.timed();
     }
 
     /// 0 when cells are to be explored to the end: it is least work on the whole, but leaves the
@@ -233,7 +228,7 @@ class Search {
 
     /// Climbs, and what they cost.
     void hunt() {
-        const std::uint64_t cost = hunt_.go(worst_, run_, [this] { return field_.late(); });
+        const std::uint64_t cost = hunt_.go(worst_, limits_, run_);
         hunted_ += cost;
         work_ += cost;
     }
@@ -256,6 +251,15 @@ class Search {
 SearchResult search(const CornerGrid& grid, WorstBox worst, const SearchLimits& limits,
                     const RunContext& run) {
     return Search(grid, std::move(worst), limits, run).go();
+}
+
+SearchResult find_worst(const CornerGrid& grid, const SearchLimits& limits, const RunContext& run,
+                        const Hint* hint) {
+    const Ascent first = ascend(grid, limits, run, hint);
+    if (limits.over(run))
+        return {first.worst, 1, limits.late(run) ? Ending::time : Ending::stopped};
+    const SearchLimits left = limits.after(first.work);
+    return search(grid, first.worst, left, run);
 }
 
 double search_bytes(std::size_t count, std::size_t dimension, unsigned threads) {

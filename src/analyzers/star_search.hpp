@@ -3,21 +3,15 @@
 // The worst box in any dimension, by branch and bound; stopped early, bounds that are certain.
 #pragma once
 
-#include <limits>
-
+#include "analyzers/search_limits.hpp"
+#include "analyzers/star_ascent.hpp"
 #include "analyzers/star_box.hpp"
 #include "core/run_context.hpp"
 
 namespace stipple::analyzers::star {
 
-/// When to stop before the worst box is found.
-struct SearchLimits {
-    std::uint64_t work = std::numeric_limits<std::uint64_t>::max();  ///< comparisons of coordinates
-    double deadline = std::numeric_limits<double>::infinity();       ///< in the run's seconds
-    double tolerance = 0;  ///< enough if upper - lower <= tolerance * lower
-};
-
-enum class Ending { complete, tolerance, work, time, stopped };
+using analyzers::Ending;
+using analyzers::SearchLimits;
 
 struct SearchResult {
     WorstBox worst;
@@ -30,6 +24,10 @@ struct SearchResult {
 /// unless a deadline or a stop ends it.
 SearchResult search(const CornerGrid& grid, WorstBox worst, const SearchLimits& limits,
                     const RunContext& run);
+
+/// The same from nothing, or from a hint: climbs first, which are a part of the work.
+SearchResult find_worst(const CornerGrid& grid, const SearchLimits& limits, const RunContext& run,
+                        const Hint* hint = nullptr);
 
 /// Bytes that the search takes, with these points, beside the grid.
 double search_bytes(std::size_t count, std::size_t dimension, unsigned threads);

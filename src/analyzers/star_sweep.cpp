@@ -6,6 +6,7 @@
 
 #include "analyzers/star_scout.hpp"
 #include "analyzers/star_strips.hpp"
+#include "core/error.hpp"
 #include "core/parallel.hpp"
 
 namespace stipple::analyzers::star {
@@ -49,18 +50,21 @@ WorstBox sweep_1d(const CornerGrid& grid, const RunContext& run) {
     return worst;
 }
 
-WorstBox sweep_2d(const CornerGrid& grid, const RunContext& run) {
-    const double each = 24 + 12 * std::min(4.0, static_cast<double>(run.thread_count()));
-    run.need_memory(each * static_cast<double>(grid.count), "the sweep over the square");
-    const Plane points = plane(grid, run);
+namespace {
+
+/// Thrown where a sweep is out of time.
+struct Halt {};
+
+/// All strips, in a few parts; worst[i] is what part i finds.
+void sweep_parts(const Plane& points, std::vector<WorstBox>& worst, const SearchLimits& limits,
+                 const RunContext& run) {
+    const std::size_t n = points.grid->count;
     const std::size_t strips = points.strips.count();
-    // Each part takes in what lies left of it first, and has a worst box to find of its own.
-    const std::size_t parts = grid.count < 100'000 ? 1 : 2;
-    std::vector<WorstBox> worst(2 * parts, scout(grid, run));
-    SharedProgress progress(run, 2 * grid.count);
+    const std::size_t parts = worst.size() / 2;
+    SharedProgress progress(run, 2 * n);
     constexpr bool silent = true;
     for_each_block(
-        worth_threads(run, 3e-7 * static_cast<double>(grid.count)), 2 * parts, 1,
+        worth_threads(run, 3e-7 * static_cast<double>(n)), worst.size(), 1,
         [&](const Block& block) {
             const std::size_t part = block.index / 2;
             std::uint64_t passed = 0;
@@ -68,13 +72,35 @@ WorstBox sweep_2d(const CornerGrid& grid, const RunContext& run) {
                          {strips * part / parts, strips * (part + 1) / parts}, worst[block.index],
                          run, [&](std::uint64_t dots) {
                              passed += dots;
-                             if (passed >= ticks_apart) progress.add(std::exchange(passed, 0));
+                             if (passed < ticks_apart) return;
+                             if (limits.over(run)) throw Halt{};
+                             progress.add(std::exchange(passed, 0));
                          });
             progress.add(passed);
         },
         silent);
+}
+
+}  // namespace
+
+Sweep sweep_2d(const CornerGrid& grid, const SearchLimits& limits, const RunContext& run) {
+    const double each = 24 + 12 * std::min(4.0, static_cast<double>(run.thread_count()));
+    run.need_memory(each * static_cast<double>(grid.count), "the sweep over the square");
+    // Each part takes in what lies left of it first, and has a worst box to find of its own.
+    const std::size_t parts = grid.count < 100'000 ? 1 : 2;
+    std::vector<WorstBox> worst(2 * parts, WorstBox(grid));
+    bool complete = true;
+    try {
+        worst.assign(2 * parts, scout(grid, run));
+        sweep_parts(plane(grid, run), worst, limits, run);
+    } catch (const Halt&) {
+        complete = false;
+    } catch (const Error& e) {
+        if (e.kind() != ErrorKind::cancelled) throw;
+        complete = false;
+    }
     for (std::size_t i = 1; i < worst.size(); ++i) worst[0].offer(worst[i]);
-    return worst[0];
+    return {worst[0], complete};
 }
 
 }  // namespace stipple::analyzers::star

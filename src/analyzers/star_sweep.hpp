@@ -3,6 +3,7 @@
 // The worst box in one and two dimensions, by a sweep over the coordinates.
 #pragma once
 
+#include "analyzers/search_limits.hpp"
 #include "analyzers/star_box.hpp"
 #include "core/run_context.hpp"
 
@@ -11,7 +12,13 @@ namespace stipple::analyzers::star {
 /// O(n) after sorting.
 WorstBox sweep_1d(const CornerGrid& grid, const RunContext& run);
 
-/// O(n^(4/3)) time in practice, O(n) memory; see star_strips.hpp.
-WorstBox sweep_2d(const CornerGrid& grid, const RunContext& run);
+struct Sweep {
+    WorstBox worst;
+    bool complete;  ///< nothing is worse
+};
+
+/// O(n^(4/3)) time in practice, O(n) memory; see star_strips.hpp. Ends early at the deadline, or
+/// when a stop is requested, with what it has.
+Sweep sweep_2d(const CornerGrid& grid, const SearchLimits& limits, const RunContext& run);
 
 }  // namespace stipple::analyzers::star

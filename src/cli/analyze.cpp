@@ -89,6 +89,16 @@ Check check_of(const std::string& text, const Analyzer& analyzer) {
                    analyzer.name);
 }
 
+/// @throws Error(usage) for a domain that the analyzer would not heed.
+void check_domain(const Arguments& arguments, const Analyzer& analyzer) {
+    const auto named = arguments.get("domain");
+    const bool moved = arguments.has("bounds") || arguments.has("rescale");
+    if (!named || *named == "unit-cube" || moved || !analyzer.traits.unit_cube) return;
+    fail_with_hint(ErrorKind::usage, "--rescale or --bounds lo..hi moves points into the cube",
+                   "--domain: {} measures points against the unit cube, not against {}",
+                   analyzer.name, *named);
+}
+
 enum class Style { text, json, csv };
 
 Style style_of(const Arguments& arguments, const std::string& path) {
@@ -133,6 +143,7 @@ class Analysis {
         if (inputs.empty()) inputs.emplace_back("-");
         const bool in_blocks = analyzer_.accumulate && !arguments_.has("rescale");
         check_bounds(arguments_);
+        check_domain(arguments_, analyzer_);
         for (const std::string& input : inputs)
             if (!interrupted()) in_blocks ? add_stream(input) : add_sets(input);
         batch_.finish();
@@ -293,9 +304,16 @@ class Analysis {
     }
 
     /// What averaged sets disagree on is not in their mean, and holds for none of it.
+    bool lost(const Check& check, const Report& results) const {
+        return averaged_ && !results.find(check.key) && tells(analyzer_, check.key);
+    }
+
     bool holds(const Check& check, const Report& results) const {
-        const bool lost = averaged_ && !results.find(check.key) && tells(analyzer_, check.key);
-        return !lost && check.holds(results);
+        return !lost(check, results) && check.holds(results);
+    }
+
+    std::string found(const Check& check, const Report& results) const {
+        return lost(check, results) ? "not the same for all sets" : check.found(results);
     }
 
     /// Whether all checks and expectations hold; says which do not.
@@ -305,8 +323,9 @@ class Analysis {
                 unmet_.push_back(fmt::format("{}: {}", m.source, sentence));
             for (const Check& check : checks_)
                 if (!holds(check, m.results))
-                    unmet_.push_back(fmt::format("{}: {}{}{} does not hold", m.source, check.key,
-                                                 check.op, check.value));
+                    unmet_.push_back(fmt::format("{}: {}{}{} does not hold: it is {}", m.source,
+                                                 check.key, check.op, check.value,
+                                                 found(check, m.results)));
         }
         for (const auto& sentence : unmet_) fmt::print(stderr, "stipple: {}\n", sentence);
         return unmet_.empty();

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "report/check.hpp"
 
+#include <fmt/format.h>
+
+#include <optional>
+
 #include "core/error.hpp"
 #include "core/text.hpp"
 
@@ -42,22 +46,41 @@ double number_of(const Report& report, std::string_view key) {
     return report.number(key);
 }
 
-/// What a condition on a `value` is about: where it stands beside a `lower` and an `upper` bound,
-/// it must hold for both.
-double bounded(const Report& report, const std::string& key, const std::string& op, double found) {
+struct Range {
+    double lower;
+    double upper;
+};
+
+/// The bounds beside a `value`, where it stands beside a `lower` and an `upper` one.
+std::optional<Range> bounds_of(const Report& report, const std::string& key) {
     const std::string path = key.substr(0, key.find('['));
     const std::string index = key.substr(path.size());
     const std::string group = path.substr(0, path.rfind('.') + 1);
     const auto has = [&](const char* name) { return report.find(group + name) != nullptr; };
-    if (path != group + "value" || !has("lower") || !has("upper")) return found;
-    const double lower = number_of(report, group + "lower" + index);
-    const double upper = number_of(report, group + "upper" + index);
-    if (op == "<" || op == "<=") return upper;
-    if (op == ">" || op == ">=") return lower;
-    if (lower == upper) return found;
+    if (path != group + "value" || !has("lower") || !has("upper")) return {};
+    return Range{number_of(report, group + "lower" + index),
+                 number_of(report, group + "upper" + index)};
+}
+
+/// What a condition on a `value` is about: it must hold for both bounds.
+double bounded(const Report& report, const std::string& key, const std::string& op, double found) {
+    const auto range = bounds_of(report, key);
+    if (!range) return found;
+    if (op == "<" || op == "<=") return range->upper;
+    if (op == ">" || op == ">=") return range->lower;
+    if (range->lower == range->upper) return found;
     fail(ErrorKind::usage,
          "--check: '{}' is only known to be between {} and {}; compare it with <, <=, > or >=", key,
-         format_number(lower), format_number(upper));
+         format_number(range->lower), format_number(range->upper));
+}
+
+/// The word or flag under a key; empty if it is none.
+std::string word_of(const Report& report, const std::string& key) {
+    const Report::Item* item = report.find(key);
+    if (item == nullptr) return {};
+    if (const auto* text = std::get_if<std::string>(item)) return *text;
+    if (const auto* flag = std::get_if<bool>(item)) return *flag ? "true" : "false";
+    return {};
 }
 
 }  // namespace
@@ -80,12 +103,7 @@ Check parse_check(std::string_view text) {
 }
 
 bool Check::holds(const Report& report) const {
-    const Report::Item* item = report.find(key);
-    std::string word;
-    if (item)
-        if (const auto* text = std::get_if<std::string>(item)) word = *text;
-    if (item)
-        if (const auto* flag = std::get_if<bool>(item)) word = *flag ? "true" : "false";
+    const std::string word = word_of(report, key);
     if (!word.empty()) {
         if (op != "==" && op != "!=")
             fail(ErrorKind::usage, "--check: '{}' is '{}', a word; compare it with == or !=", key,
@@ -97,6 +115,16 @@ bool Check::holds(const Report& report) const {
     if (!wanted)
         fail(ErrorKind::usage, "--check: '{}' is not a number to compare '{}' with", value, key);
     return compare(found, op, *wanted);
+}
+
+std::string Check::found(const Report& report) const {
+    std::string word = word_of(report, key);
+    if (!word.empty()) return word;
+    const auto range = bounds_of(report, key);
+    if (range && range->lower < range->upper)
+        return fmt::format("between {} and {}", format_number(range->lower),
+                           format_number(range->upper));
+    return format_number(number_of(report, key));
 }
 
 }  // namespace stipple

@@ -17,6 +17,9 @@ struct Check {
 
     /// Whether it holds. @throws Error(usage): no such key, or no number where one is compared.
     [[nodiscard]] bool holds(const Report& report) const;
+
+    /// What there is under the key, in words: "0.25", "false", "between 0.1 and 0.2".
+    [[nodiscard]] std::string found(const Report& report) const;
 };
 
 /// @throws Error(usage)

@@ -8,6 +8,7 @@
 #include "analyzers/extreme_search.hpp"
 #include "core/rng.hpp"
 #include "support/exact.hpp"
+#include "support/lattices.hpp"
 #include "support/units.hpp"
 
 using namespace stipple;
@@ -34,17 +35,9 @@ double value_of(const PointSet& p, bool torus = false) {
 double by_search(const PointSet& p, bool torus) {
     const extreme::BoxGrid grid = extreme::box_grid(
         p, torus ? extreme::Space::torus : extreme::Space::cube, extreme::Measure::emptiness, {});
-    const auto found = extreme::search(grid, extreme::WorstBox(grid), std::uint64_t{1} << 40, {});
-    EXPECT_TRUE(found.complete);
+    const auto found = extreme::search(grid, extreme::WorstBox(grid), {}, {});
+    EXPECT_EQ(found.ending, Ending::complete);
     return found.worst.value();
-}
-
-PointSet on_lattice(std::size_t n, std::size_t d, std::uint64_t steps, std::uint64_t seed) {
-    const Rng rng(seed, 23);
-    PointSet p(n, d);
-    for (std::size_t i = 0; i < n * d; ++i)
-        p.flat()[i] = static_cast<double>(rng.below(i, steps + 1)) / static_cast<double>(steps);
-    return p;
 }
 
 /// Whether x is inside (a, b), or, on the torus, in (a, 1 + b) if b <= a.

@@ -9,8 +9,10 @@
 
 #include "analyzers/l2_divide.hpp"
 #include "analyzers/l2_pairs.hpp"
+#include "analyzers/l2_twins.hpp"
 #include "core/rng.hpp"
 #include "support/exact.hpp"
+#include "support/lattices.hpp"
 #include "support/units.hpp"
 
 using namespace stipple;
@@ -135,15 +137,6 @@ double squared(const Report& report, std::string_view kind) {
 /// |a - b| / b
 double off(double a, const Fraction& b) {
     return std::abs(static_cast<double>((exactly(a) - b) / b));
-}
-
-/// Coordinates are multiples of 1/steps from 0 to 1: ties, duplicates, points on both bounds.
-PointSet on_lattice(std::size_t n, std::size_t d, std::uint64_t steps, std::uint64_t seed) {
-    const Rng rng(seed, 17);
-    PointSet set(n, d);
-    for (std::size_t i = 0; i < n * d; ++i)
-        set.flat()[i] = static_cast<double>(rng.below(i, steps + 1)) / static_cast<double>(steps);
-    return set;
 }
 
 PointSet random_set(std::size_t n, std::size_t d, std::uint64_t seed) {
@@ -387,6 +380,52 @@ TEST(L2Discrepancy, OfThePlaneIsThatOfAllPairs) {
                 EXPECT_LE(pairs.error, 1e-9 * pairs.squared) << name_of(kind);
             }
         }
+}
+
+// In the plane and by division it is exact; on even sets most of the digits cancel.
+TEST(L2Discrepancy, OfTwinsIsExactWhereMuchCancels) {
+    for (const PointSet& set :
+         {random_set(1000, 2, 1), on_lattice(777, 2, 40, 2), make("sobol", points(4096, 2)),
+          make("sobol", points(2048, 3)), make("halton", points(1000, 4))})
+        for (const Kind kind : analyzers::l2::all_kinds) {
+            if (set.dimension() > 2 && std::ranges::find(divisible, kind) == std::end(divisible))
+                continue;
+            const auto twins = analyzers::l2::twin_square(set, kind, {}, {.threads = 2});
+            const double exact = set.dimension() == 2
+                                     ? squared(report_of(set), name_of(kind))
+                                     : analyzers::l2::divide_square(set, kind, {}, {}).squared;
+            EXPECT_NEAR(twins.squared, exact, 0x1p-51 * exact) << name_of(kind);
+            EXPECT_LE(twins.error, 1e-13 * exact) << name_of(kind) << set.dimension();
+            EXPECT_EQ(twins.squared,
+                      analyzers::l2::twin_square(set, kind, {}, {.threads = 1}).squared);
+        }
+}
+
+TEST(L2Discrepancy, OfTwinsIsExactWithWeights) {
+    const Weights weights{0.25, 1.5, 0, 3};
+    for (const PointSet& set : small_sets(4)) {
+        if (set.count() > 7) continue;
+        for (const Definition& kind : definitions) {
+            const auto which = analyzers::l2::parse_kinds(kind.name).front();
+            EXPECT_LE(off(analyzers::l2::twin_square(set, which, weights, {}).squared,
+                          exact_square(set, kind, weights)),
+                      0x1p-51)
+                << kind.name << ", n = " << set.count();
+        }
+    }
+}
+
+// Far more pairs than are worked out in twice the digits unasked.
+TEST(L2Discrepancy, PreciseIsPreciseForManyPoints) {
+    const PointSet set = make("sobol", points(6000, 4));
+    const Settings kind = {{"kind", "modified"}};
+    const Report quick = analyze("l2-discrepancy", set, kind);
+    const Report precise =
+        analyze("l2-discrepancy", set, {{"kind", "modified"}, {"precise", "true"}});
+    EXPECT_GT(quick.number("modified.error"), 1e-12 * quick.number("modified.value"));
+    EXPECT_LE(precise.number("modified.error"), 1e-13 * precise.number("modified.value"));
+    EXPECT_NEAR(quick.number("modified.value"), precise.number("modified.value"),
+                quick.number("modified.error"));
 }
 
 TEST(L2Discrepancy, OfDividedSetsIsExact) {

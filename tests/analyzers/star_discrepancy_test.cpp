@@ -17,6 +17,7 @@
 #include "analyzers/star_strips.hpp"
 #include "analyzers/star_sweep.hpp"
 #include "core/rng.hpp"
+#include "support/lattices.hpp"
 #include "support/units.hpp"
 
 using namespace stipple;
@@ -77,15 +78,6 @@ PointSet grid(std::size_t k, std::size_t d, double offset) {
         for (std::size_t j = 0; j < d; ++j, rest /= k)
             p[i][j] = (static_cast<double>(rest % k) + offset) / static_cast<double>(k);
     }
-    return p;
-}
-
-/// Coordinates are multiples of 1/steps from 0 to 1: many ties, and points on both bounds.
-PointSet on_lattice(std::size_t n, std::size_t d, std::uint64_t steps, std::uint64_t seed) {
-    const Rng rng(seed, 17);
-    PointSet p(n, d);
-    for (std::size_t i = 0; i < n * d; ++i)
-        p.flat()[i] = static_cast<double>(rng.below(i, steps + 1)) / static_cast<double>(steps);
     return p;
 }
 
@@ -571,6 +563,51 @@ TEST(StarDiscrepancy, NetsBoundItByTheirQuality) {
     EXPECT_EQ(bound(make("sobol", points(1023, 3))), 1);
 }
 
+// M. Gnewuch, M. Wahlstroem, C. Winzen, SIAM J. Numer. Anal. 50 (2012) 781-807,
+// doi:10.1137/110833865 (arXiv:1103.2102), print exact values of Faure sets, from index 0, to four
+// digits; these are five of them.
+TEST(StarDiscrepancy, OfFaureSetsIsThePublishedOne) {
+    const auto of_faure = [](std::size_t n, std::size_t d) {
+        return star_of(make("faure", points(n, d)));
+    };
+    EXPECT_NEAR(of_faure(343, 7), 0.1298, 0.5e-4);
+    EXPECT_NEAR(of_faure(121, 8), 0.1702, 0.5e-4);
+    EXPECT_NEAR(of_faure(121, 9), 0.2121, 0.5e-4);
+    EXPECT_NEAR(of_faure(121, 10), 0.2574, 0.5e-4);
+    EXPECT_NEAR(of_faure(121, 11), 0.3010, 0.5e-4);
+}
+
+// The Fibonacci column of the tables that F. Clement, C. Doerr, K. Klamroth, L. Paquete
+// (arXiv:2311.17463) and, for n >= 30, T. K. Rusch and others (arXiv:2405.15059) compare their sets
+// with, as the README of github.com/hockeyguy123/openevolve-star-discrepancy collects them: points
+// (i/n, {i phi}), i = 0 .. n - 1, phi the golden ratio. Some digits are cut off, not rounded. For n
+// = 4 they print 0.4910; it is 3/4 - {phi}/2 = 0.4410, of the box up to (1/2, {phi}).
+TEST(StarDiscrepancy, OfFibonacciSetsIsThePublishedOne) {
+    const double phi = (1 + std::sqrt(5.0)) / 2;
+    const auto of_fibonacci = [phi](std::size_t n) {
+        PointSet p(n, 2);
+        for (std::size_t i = 0; i < n; ++i) {
+            p[i][0] = static_cast<double>(i) / static_cast<double>(n);
+            p[i][1] = std::fmod(static_cast<double>(i) * phi, 1);
+        }
+        return star_of(p);
+    };
+    const double few[] = {1.0000, 0.6909, 0.5880, 0.4410, 0.3528, 0.3183, 0.2728,
+                          0.2553, 0.2270, 0.2042, 0.1857, 0.1702, 0.1571, 0.1459,
+                          0.1390, 0.1486, 0.1398, 0.1320, 0.1251, 0.1188};
+    for (std::size_t n = 1; n <= std::size(few); ++n)
+        EXPECT_NEAR(of_fibonacci(n), few[n - 1], 1e-4) << n;
+    EXPECT_NEAR(of_fibonacci(4), 0.75 - (phi - 1) / 2, 1e-15);
+    const double many[] = {0.02128, 0.01655, 0.01354, 0.01200, 0.01054, 0.00957, 0.00857, 0.00775,
+                           0.00708, 0.00651, 0.00603, 0.00561, 0.00525, 0.00509, 0.00480, 0.00484,
+                           0.00459, 0.00436, 0.00416, 0.00398, 0.00381, 0.00365, 0.00351};
+    for (std::size_t i = 0; i < std::size(many); ++i)
+        EXPECT_NEAR(of_fibonacci(140 + 40 * i), many[i], 1e-5) << 140 + 40 * i;
+    const std::pair<std::size_t, double> between[] = {
+        {30, 0.07923}, {40, 0.06384}, {50, 0.05307}, {60, 0.04422}, {100, 0.02749}};
+    for (const auto& [n, value] : between) EXPECT_NEAR(of_fibonacci(n), value, 1e-5) << n;
+}
+
 // Thiemard's program of 2001, as J. Burkardt prints its output for these points.
 TEST(StarDiscrepancy, IsBetweenThePrintedBoundsOfTenHaltonPoints) {
     const double value = star_of(halton(10, 2, 0));
@@ -623,8 +660,7 @@ TEST(StarDiscrepancy, ExactOrNothingExceptWhatIsCertain) {
     const PointSet p = halton(150, 10);
     const double value = star_of(p);
     const star::CornerGrid corners = star::corner_grid(p, {});
-    const star::SearchResult part =
-        star::search(corners, star::ascend(corners, {}), {.work = 20'000'000}, {});
+    const star::SearchResult part = star::find_worst(corners, {.work = 20'000'000}, {});
     EXPECT_EQ(part.ending, star::Ending::work);
     EXPECT_LE(part.worst.value(), value);
     EXPECT_GE(part.upper, value);
@@ -714,14 +750,10 @@ TEST(StarDiscrepancy, RefusesLimitsThatMakeNoSense) {
                   analyze("star-discrepancy", p, {{"method", "exact"}, {"tolerance", "0.1"}});
               }),
               "usage: --tolerance: has no meaning with --method exact");
-    for (const auto& [name, value] : {std::pair{"boxes", "half-open"},
-                                      {"method", "exact"},
-                                      {"time-limit", "1"},
-                                      {"tolerance", "0.1"}})
-        EXPECT_EQ(error_of([&] {
-                      analyze("star-discrepancy", p, {{"kind", "extreme"}, {name, value}});
-                  }),
-                  fmt::format("usage: --{} applies to --kind star only", name));
+    EXPECT_EQ(error_of([&] {
+                  analyze("star-discrepancy", p, {{"kind", "extreme"}, {"boxes", "half-open"}});
+              }),
+              "usage: --boxes applies to --kind star only");
 }
 
 TEST(StarDiscrepancy, BoundsHoldWhereNoSearchGetsThrough) {
@@ -733,8 +765,8 @@ TEST(StarDiscrepancy, BoundsHoldWhereNoSearchGetsThrough) {
     expect_box_holds(q, report);
 }
 
-TEST(StarDiscrepancy, ASweepStopsWhenAskedAndASearchSaysWhatIsCertain) {
-    const auto stopped = [](const PointSet& p) {
+TEST(StarDiscrepancy, SaysWhatIsCertainWhenAskedToStop) {
+    const auto stopped = [](const PointSet& p, const char* kind) {
         std::stop_source source;
         int reports = 0;
         RunContext run{.stop = source.get_token()};
@@ -742,19 +774,40 @@ TEST(StarDiscrepancy, ASweepStopsWhenAskedAndASearchSaysWhatIsCertain) {
             ++reports;
             source.request_stop();
         };
-        Report report;
-        const std::string error =
-            error_of([&] { report = analyze("star-discrepancy", p, {}, run); });
+        const Report report = analyze("star-discrepancy", p, {{"kind", kind}}, run);
         EXPECT_EQ(reports, 1);
-        EXPECT_EQ(error, p.dimension() == 2 ? "cancelled: interrupted" : "");
         return report;
     };
-    stopped(make("random", points(100'000, 2)));
-    const PointSet p = halton(1000, 6);
-    const Report report = stopped(p);
-    EXPECT_FALSE(std::get<bool>(*report.find("exact")));
-    EXPECT_LT(report.number("lower"), report.number("upper"));
-    expect_box_holds(p, report);
+    for (const auto& p : {make("random", points(100'000, 2)), halton(1000, 6)}) {
+        const Report report = stopped(p, "star");
+        EXPECT_FALSE(std::get<bool>(*report.find("exact")));
+        EXPECT_GT(report.number("lower"), 0);
+        EXPECT_LT(report.number("lower"), report.number("upper"));
+        expect_box_holds(p, report);
+    }
+    for (const char* kind : {"extreme", "periodic"}) {
+        const Report report = stopped(halton(300, 4), kind);
+        EXPECT_FALSE(std::get<bool>(*report.find("exact")));
+        EXPECT_GT(report.number("lower"), 0);
+        EXPECT_LT(report.number("lower"), report.number("upper"));
+    }
+}
+
+// Before anything was looked at, too.
+TEST(StarDiscrepancy, SaysSomethingCertainWhenStoppedAtOnce) {
+    std::stop_source source;
+    const RunContext run{.threads = 1, .stop = source.get_token()};
+    const PointSet p = halton(500, 5);
+    const star::CornerGrid corners = star::corner_grid(p, run);
+    source.request_stop();
+    const star::SearchResult found = star::find_worst(corners, {}, run);
+    EXPECT_EQ(found.ending, star::Ending::stopped);
+    EXPECT_EQ(found.upper, 1);
+    EXPECT_LE(found.worst.value(), star_of(p));
+    EXPECT_EQ(star::WorstBox(corners).corner(), std::vector<double>(5, 1.0));
+    EXPECT_EQ(star::WorstBox(corners).points(), 500U);
+    const Report table = analyze("star-discrepancy", p, {{"every", "100"}}, run);
+    EXPECT_EQ(table.curve("prefixes.upper"), Report::Curve(5, 1.0));
 }
 
 TEST(StarDiscrepancy, TellsItsProgress) {
@@ -847,6 +900,101 @@ TEST(StarDiscrepancy, TablesAreTheSameForAnyNumberOfThreads) {
     analyze("star-discrepancy", p, settings, run);
     EXPECT_TRUE(std::ranges::is_sorted(seen));
     EXPECT_EQ(seen.back(), 1);
+}
+
+// A table has the limits of one set; all that it does not work out stays between bounds that hold.
+TEST(StarDiscrepancy, LimitsAreForAllRowsOfATable) {
+    const PointSet p = halton(160, 8);
+    const auto rows = [&p](const Settings& settings, const RunContext& run = {}) {
+        return analyze("star-discrepancy", p, settings, run);
+    };
+    const Report exact = rows({{"every", "20"}});
+    std::vector<std::string> told;
+    RunContext run{.threads = 1};
+    run.warn = [&](const std::string& sentence) { told.push_back(sentence); };
+    const Report part = rows({{"every", "20"}, {"max-work", "4000000"}}, run);
+    std::size_t open = 0;
+    for (std::size_t row = 0; row < 8; ++row) {
+        const double value = exact.curve("prefixes.value")[row];
+        EXPECT_LE(part.curve("prefixes.lower")[row], value) << row;
+        EXPECT_GE(part.curve("prefixes.upper")[row], value) << row;
+        open += part.curve("prefixes.lower")[row] < part.curve("prefixes.upper")[row] ? 1U : 0U;
+    }
+    EXPECT_GT(open, 0U);
+    EXPECT_LT(open, 8U);
+    ASSERT_EQ(told.size(), 1U);
+    EXPECT_THAT(told[0], HasSubstr(fmt::format("{} of 8 discrepancies are not exact", open)));
+    EXPECT_THAT(told[0], HasSubstr("the first, of the first "));
+    EXPECT_EQ(part, rows({{"every", "20"}, {"max-work", "4000000"}}, {.threads = 3}));
+    // A clock that goes on by a hundredth of a second whenever it is looked at.
+    std::atomic<int> looks = 0;
+    run.seconds = [&] { return 0.01 * static_cast<double>(++looks); };
+    const Report timed = rows({{"projections", "6"}, {"time-limit", "2"}}, run);
+    EXPECT_LE(looks, 5000);
+    EXPECT_EQ(told.size(), 2U);
+    EXPECT_THAT(told[1], HasSubstr("the first, of the projection to axes 1, 2, 3, 4, 5, "));
+    EXPECT_FALSE(std::get<bool>(*timed.find("projections.worst_is_certain")));
+}
+
+TEST(StarDiscrepancy, OtherKindsEndAtLimitsWithBounds) {
+    const PointSet p = halton(60, 3);
+    for (const char* kind : {"extreme", "periodic"}) {
+        const double value =
+            analyze("star-discrepancy", p, {{"kind", kind}, {"method", "exact"}}).number("value");
+        const auto with = [&](const char* name, const char* limit, const RunContext& run = {}) {
+            return analyze("star-discrepancy", p, {{"kind", kind}, {name, limit}}, run);
+        };
+        std::atomic<int> looks = 0;
+        RunContext run{.threads = 1};
+        run.seconds = [&] { return 0.01 * static_cast<double>(++looks); };
+        for (const Report& report : {with("time-limit", "0.05", run), with("max-work", "2000"),
+                                     with("tolerance", "0.3"), with("method", "bounds")}) {
+            EXPECT_LE(report.number("lower"), value);
+            EXPECT_GE(report.number("upper"), value);
+            EXPECT_GT(report.number("lower"), 0);
+        }
+        EXPECT_THAT(error_of([&] {
+                        analyze("star-discrepancy", p,
+                                {{"kind", kind}, {"method", "exact"}, {"max-work", "2000"}});
+                    }),
+                    HasSubstr(fmt::format("limit: the {} discrepancy of 60 points in 3 dimensions "
+                                          "takes more than 2000 comparisons (--max-work)",
+                                          kind)));
+    }
+}
+
+// The first climbs count, and a time limit cuts them short, in ten thousand dimensions too.
+TEST(StarDiscrepancy, LimitsHoldForTheFirstClimbs) {
+    const PointSet p = make("random", points(20, 2000));
+    const star::CornerGrid corners = star::corner_grid(p, {});
+    const std::uint64_t all = star::ascend(corners, {}, {}).work;
+    for (const std::uint64_t most : {1UL, 1'000'000UL, 20'000'000UL}) {
+        const star::Ascent part = star::ascend(corners, {.work = most}, {});
+        EXPECT_LE(part.work, most / 4 + 2 * (20 * 2000 + 61 + 42)) << most;
+        EXPECT_LT(part.work, all);
+    }
+    std::atomic<int> looks = 0;
+    RunContext run{.threads = 1};
+    run.seconds = [&] { return 0.01 * static_cast<double>(++looks); };
+    const Report report = analyze("star-discrepancy", p, {{"time-limit", "0.05"}}, run);
+    EXPECT_LE(looks, 200);
+    EXPECT_GE(report.number("upper"), report.number("lower"));
+    expect_box_holds(p, report);
+}
+
+TEST(StarDiscrepancy, MeansHaveNoWorstBox) {
+    const Analyzer& analyzer = find_analyzer("star-discrepancy");
+    const Values options = analyzer.options.defaults();
+    Report mean = star_report(halton(20, 3));
+    analyzer.refine(mean, 1, options);
+    EXPECT_NE(mean.find("worst_box"), nullptr);
+    analyzer.refine(mean, 2, options);
+    EXPECT_EQ(mean.find("worst_box"), nullptr);
+    EXPECT_NE(mean.find("value"), nullptr);
+    Report table = analyze("star-discrepancy", halton(20, 3), {{"projections", "2"}});
+    analyzer.refine(table, 2, options);
+    EXPECT_EQ(table.find("projections.worst"), nullptr);
+    EXPECT_NE(table.find("projections.value"), nullptr);
 }
 
 TEST(StarDiscrepancy, RefusesTablesThatTheSetDoesNotHave) {

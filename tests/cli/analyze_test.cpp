@@ -115,7 +115,7 @@ TEST(Analyze, ChecksAndExpectationsSetTheExitCode) {
     EXPECT_EQ(code({"chi-square", "--expect", "uniform"}), 1);
     const Outcome failed = box.run({"analyze", "star-discrepancy", "h.csv", "--check", "value<0"});
     EXPECT_EQ(json::parse(failed.out)["analyzer"], "star-discrepancy");
-    EXPECT_THAT(failed.err, HasSubstr("value<0 does not hold"));
+    EXPECT_THAT(failed.err, HasSubstr("h.csv: value<0 does not hold: it is 0."));
 }
 
 TEST(Analyze, SeveralInputsAndSetsAreAnArrayOrAMean) {

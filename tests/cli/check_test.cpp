@@ -52,7 +52,7 @@ TEST(Check, AloneAsksWhetherTheSetIsValid) {
             EXPECT_EQ(outcome.code, file == "good.csv" ? 0 : 1) << shown;
             ASSERT_EQ(json::parse(outcome.out)["input"]["source"], file) << shown;
             if (file == "bad.csv")
-                EXPECT_THAT(outcome.err, HasSubstr("bad.csv: valid==true does not hold\n"));
+                EXPECT_THAT(outcome.err, HasSubstr("bad.csv: valid==true does not hold: it is false\n"));
             else
                 EXPECT_EQ(outcome.err, "") << shown;
         }
@@ -63,7 +63,7 @@ TEST(Check, AloneTakesAllInputsAndStandardInput) {
     const Outcome both = sets.verify({"--radius=0.1", "good.csv", "--check", "bad.csv"});
     EXPECT_EQ(both.code, 1);
     EXPECT_EQ(json::parse(both.out).size(), 2U);
-    EXPECT_EQ(both.err, "stipple: bad.csv: valid==true does not hold\n");
+    EXPECT_EQ(both.err, "stipple: bad.csv: valid==true does not hold: it is false\n");
     const std::string verify = "cat good.csv | stipple analyze poisson-disk --radius 0.1 --check";
     EXPECT_EQ(sets.box.shell(verify + " -").code, 0);
     EXPECT_EQ(sets.box.shell(verify).code, 0);
