@@ -20,9 +20,10 @@ constexpr unsigned analyze = static_cast<unsigned>(Verb::analyze);
 constexpr unsigned convert = static_cast<unsigned>(Verb::convert);
 constexpr unsigned list = static_cast<unsigned>(Verb::list);
 constexpr unsigned plot = static_cast<unsigned>(Verb::plot);
+constexpr unsigned study = static_cast<unsigned>(Verb::study);
 constexpr unsigned writers = generate | warp | convert;
 constexpr unsigned readers = warp | analyze | convert | plot;
-constexpr unsigned workers = writers | analyze | plot;
+constexpr unsigned workers = writers | analyze | plot | study;
 
 /// Long name of "-n,--count": "count".
 std::string long_name(std::string_view names) {
@@ -267,6 +268,56 @@ const std::vector<VerbInfo>& verbs() {
          "      stipple plot -o power.svg\n"
          "  stipple analyze star-discrepancy halton.csv sobol.csv --every 64 | stipple plot -o "
          "star.svg\n"},
+        {Verb::study, "study",
+         "stipple study --generators SPECS -n COUNTS --seeds R --analyze SPECS [OPTIONS]",
+         "compares generators over counts, seeds and measures: one tidy table, with statistics",
+         "Every set (generator, dimension, count, seed) is made once and measured by every "
+         "analyzer, "
+         "on all\n"
+         "cores. The table has a row for each number: generator, generator_options, dimension, "
+         "warps,\n"
+         "count, points (that were measured), seed, measure, measure_options, domain, key, value, "
+         "status,\n"
+         "reason, study (a hash of all settings), generate_seconds and seconds. Its rows are in "
+         "the "
+         "order\n"
+         "of the options; but for the two columns of seconds its bytes are the same for any number "
+         "of\n"
+         "threads and ranks, and with --no-seconds they are the same altogether.\n"
+         "\n"
+         "Rows hold all numbers of a result, flags as 0 and 1; lists (curves) only with --curves "
+         "or "
+         "--keys,\n"
+         "or where a result has nothing else. COUNTS are lists 16,64,256 and ranges: 2^4..2^16 "
+         "(the "
+         "powers\n"
+         "of 2 between), 16..65536*4 (by a factor), 100..500+100 (by a step). In SPECS a comma "
+         "before\n"
+         "OPT= goes on with the spec before, other commas and every ; begin the next; values with "
+         "commas\n"
+         "stand in [brackets]. A measure that cannot take the image of -w, as most discrepancies "
+         "of the unit\n"
+         "cube, looks at the points before the warp; the column domain says so.\n"
+         "\n"
+         "What fails (a count that a generator cannot make, a time limit, a dimension that a "
+         "measure cannot\n"
+         "take) is a row with status failed and the reason; the exit code is then 5 if a limit of "
+         "time or\n"
+         "memory was met, else 3. The file is written as the study goes on, with FILE.journal for "
+         "what is\n"
+         "done out of order: after Ctrl-C (exit 130) or a crash both stay, and --resume goes on.\n"
+         "--summary writes FILE.summary and FILE.comparisons with the extension of FILE (behind "
+         "the rows\n"
+         "where these go to standard output).\n"
+         "\n"
+         "'mpirun -n 8 stipple study ...' shares the work between ranks, where the build has MPI; "
+         "rank 0 writes.",
+         "  stipple study --generators 'random,sobol:scramble=owen' -n 16..256*4 --seeds 8 "
+         "--analyze star-discrepancy --summary -o study.csv\n"
+         "  stipple study --generators 'random,sobol:scramble=owen' -n 16..256*4 --seeds 8 "
+         "--analyze star-discrepancy --summary -o study.csv --resume\n"
+         "  stipple study --generators 'halton;jittered' -n 64 --analyze "
+         "'l2-discrepancy:kind=centered;moments' -w disk -f jsonl\n"},
         {Verb::list, "list", "stipple list [KIND] [OPTIONS]", "every unit with its options",
          "KIND is generators, scrambles, warps, analyzers or formats; all of them by default.",
          "  stipple list generators\n"
@@ -276,6 +327,17 @@ const std::vector<VerbInfo>& verbs() {
 
 const std::vector<CommonOption>& common_options() {
     static const std::vector<CommonOption> table = {
+        {"--generators", "SPECS", "", "what is compared: sobol:scramble=owen,halton", study, true},
+        {"--analyze", "SPECS", "", "what is measured: star-discrepancy,integration:integrand=...",
+         study, true},
+        {"--config", "FILE", "",
+         "a study as JSON, as data/study.schema.json says; what is typed comes before it", study},
+        {"-n,--count", "COUNTS", "1024", "points in a set: 16,64,256 or 2^4..2^16 or 16..65536*2",
+         study},
+        {"-d,--dimension", "DIMENSIONS", "2", "one or several, as for -n", study},
+        {"-s,--seed", "S", "1", "the first 64-bit seed", study},
+        {"-m,--seeds", "R", "1", "sets of each generator, dimension and count: seeds S, S + 1, ...",
+         study},
         {"-n,--count", "N", "1024", "points in a set; 1e6, 2^20 and 64k (= 65536) are accepted",
          generate},
         {"-d,--dimension", "D", "2", "dimension", generate},
@@ -294,6 +356,25 @@ const std::vector<CommonOption>& common_options() {
         {"--bounds", "LO..HI,...", "", "the box that is mapped to the unit cube before", analyze},
         {"-w,--warp", "NAME[:OPT=V,...]", "",
          "warp or scramble on the way out; NAME@I,J takes two coordinates", generate, true},
+        {"-w,--warp", "NAME[:OPT=V,...]", "", "warp or scramble before the measures, in order",
+         study, true},
+        {"--keys", "KEY,...", "",
+         "results to keep: value, centered.value, radial.power, mean[0]; else all numbers", study},
+        {"--curves", "", "", "keep lists of numbers, too, a row for each: radial.power[3]", study},
+        {"--time-limit", "SECONDS", "",
+         "for making a set, and for each measure of it; what takes longer fails", study},
+        {"--no-seconds", "", "", "no columns of seconds: the same bytes whenever it runs", study},
+        {"--summary", "", "",
+         "means with standard errors, t and bootstrap intervals, medians, and generators compared "
+         "pair by pair, their p-values corrected by Holm's method",
+         study},
+        {"--pairs", "welch|paired", "welch",
+         "compare by Welch's t test, or by the differences of sets of one seed", study},
+        {"--confidence", "C", "0.95", "of the intervals", study},
+        {"--bootstrap", "B", "2000", "samples of the bootstrap", study},
+        {"--resume", "", "", "go on with the file where it stopped; begins it where there is none",
+         study},
+        {"--yes", "", "", "begin even with more than 10 million rows", study},
         {"--with-pdf", "", "", "add a column with the density of each point", generate | warp},
         {"--with-weight", "", "",
          "add a column with 1 / density: the mean of f times weight estimates the integral of f",
@@ -316,7 +397,7 @@ const std::vector<CommonOption>& common_options() {
          readers},
         {"-o,--output", "FILE", "-",
          "- is standard output; {set} and {seed} in the name make a file for each set", writers},
-        {"-o,--output", "FILE", "-", "- is standard output", analyze | list | plot},
+        {"-o,--output", "FILE", "-", "- is standard output", analyze | list | plot | study},
         {"-f,--format", "FORMAT", "", "file format; else from the extension, else csv", writers},
         {"-f,--format", "text|json|csv", "", "how results are printed", analyze},
         {"-f,--format", "svg|png|text", "",
@@ -333,6 +414,7 @@ const std::vector<CommonOption>& common_options() {
         {"--title", "TEXT", "", "instead of what the provenance says; '' is none", plot},
         {"--x-scale", "linear|log", "", "else as suits the curves", plot},
         {"--y-scale", "linear|log", "", "else as suits the curves", plot},
+        {"-f,--format", "csv|jsonl", "", "of the table; else from the extension, else csv", study},
         {"--dtype", "f64|f32", "f64", "number type of binary formats", writers},
         {"--dtype", "f64|f32", "f64", "number type of raw binary input", analyze | plot},
         {"--precision", "P", "",

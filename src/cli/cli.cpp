@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <exception>
 #include <new>
 
@@ -68,13 +69,22 @@ int dispatch(const Arguments& arguments, const std::vector<Kind>& kinds) {
             return convert(arguments, session);
         case Verb::plot:
             return plot(arguments, session);
+        case Verb::study:
+            return study(arguments, session);
         default:
             return analyze(arguments, session);
     }
 }
 
+/// Whether an MPI launcher started this process and another one speaks for all.
+bool is_mute() {
+    const char* rank = std::getenv("OMPI_COMM_WORLD_RANK");
+    return rank != nullptr && std::string_view(rank) != "0";
+}
+
 /// One line, and the hint in a second sentence of it.
 int report_error(const std::string& what, const std::string& hint, int code) {
+    if (is_mute()) return code;
     fmt::print(stderr, "stipple: {}{}{}\n", what, hint.empty() ? "" : "; ", hint);
     return code;
 }

@@ -15,6 +15,7 @@ int warp(const Arguments& arguments, Session& session);
 int analyze(const Arguments& arguments, Session& session);
 int convert(const Arguments& arguments, Session& session);
 int plot(const Arguments& arguments, Session& session);
+int study(const Arguments& arguments, Session& session);
 int list(const Arguments& arguments, const std::vector<Kind>& kinds);
 
 /// Where points go, as -o, -f, --dtype, --precision, --meta and --no-header say.

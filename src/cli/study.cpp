@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+//
+// The verb `study`: generators x dimensions x counts x seeds x measures, as one tidy table.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+
+#include "cli/verbs.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "io/files.hpp"
+#include "study/ranks.hpp"
+#include "study/spec_list.hpp"
+#include "study/study_config.hpp"
+#include "study/study_file.hpp"
+#include "study/study_run.hpp"
+#include "study/study_summary.hpp"
+#include "study/work_cost.hpp"
+
+namespace stipple::cli {
+namespace {
+
+constexpr std::uint64_t most_units = 10'000'000;  // started without --yes
+
+/// Processes that an MPI launcher started, 1 if none did.
+std::uint64_t launched_ranks() {
+    std::uint64_t ranks = 1;
+    for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
+        if (const char* text = std::getenv(name))
+            ranks = std::max(ranks, parse_unsigned(text).value_or(1));
+    return ranks;
+}
+
+/// What was typed, with what the configuration says where nothing was typed.
+Arguments with_config(const Arguments& typed, const RunContext& run) {
+    Arguments all = typed;
+    const auto path = typed.get("config");
+    if (!path) return all;
+    const io::Input input(*path, run);
+    for (auto& [name, text] : parse_study_config(input.bytes(), *path == "-" ? "stdin" : *path))
+        if (!typed.has(name)) {
+            // One spec a setting: here it must not be taken apart.
+            const bool specs = name == "generators" || name == "analyze";
+            all.common.emplace_back(name, specs ? text + ";" : text);
+        }
+    return all;
+}
+
+std::vector<std::string> specs_of(const Arguments& arguments, const std::string& name) {
+    std::vector<std::string> specs;
+    for (const auto& text : arguments.all(name)) {
+        const bool one = text.ends_with(';');  // of a configuration
+        if (one) {
+            specs.push_back(text.substr(0, text.size() - 1));
+            continue;
+        }
+        for (auto& spec : split_specs(text, "--" + name)) specs.push_back(std::move(spec));
+    }
+    if (specs.empty())
+        fail_with_hint(ErrorKind::usage,
+                       "'stipple study --help' has examples; --config FILE names a study in a file",
+                       "study: --{} is missing", name);
+    return specs;
+}
+
+std::vector<std::uint64_t> numbers_of(const Arguments& arguments, const char* name,
+                                      std::uint64_t otherwise, std::uint64_t high) {
+    const auto text = arguments.get(name);
+    if (!text) return {otherwise};
+    return parse_counts(*text, fmt::format("--{}", name), 1, high);
+}
+
+std::optional<double> real_of(const Arguments& arguments, const char* name, double low, double high,
+                              const char* range) {
+    const auto text = arguments.get(name);
+    if (!text) return std::nullopt;
+    const auto value = parse_number(*text);
+    if (!value || !(*value > low) || !(*value < high))
+        fail(ErrorKind::usage, "--{}: '{}' is not a number {}", name, *text, range);
+    return value;
+}
+
+SweepRequest request_of(const Arguments& arguments) {
+    SweepRequest request;
+    request.generators = specs_of(arguments, "generators");
+    request.measures = specs_of(arguments, "analyze");
+    request.counts = numbers_of(arguments, "count", 1024, std::uint64_t{1} << 53);
+    request.dimensions = numbers_of(arguments, "dimension", 2, 1'000'000);
+    request.first_seed = arguments.integer("seed", 0, ~std::uint64_t{0}).value_or(1);
+    request.seeds = arguments.integer("seeds", 1, std::uint64_t{1} << 53).value_or(1);
+    request.warps = arguments.all("warp");
+    if (const auto keys = arguments.get("keys"))
+        for (const auto key : split(*keys, ',')) request.keys.emplace_back(trim(key));
+    if (std::ranges::find(request.keys, "") != request.keys.end())
+        fail(ErrorKind::usage, "--keys: '{}' has an empty name", *arguments.get("keys"));
+    request.curves = arguments.has("curves");
+    request.time_limit = real_of(arguments, "time-limit", 0, 1e9, "of seconds above 0");
+    request.seconds = !arguments.has("no-seconds");
+    return request;
+}
+
+SummaryOptions summary_options(const Arguments& arguments, std::uint64_t seed) {
+    SummaryOptions options{.seed = seed};
+    const std::string pairs = arguments.get("pairs").value_or("welch");
+    if (pairs != "welch" && pairs != "paired")
+        fail(ErrorKind::usage, "--pairs: '{}' is not one of welch, paired", pairs);
+    options.paired = pairs == "paired";
+    options.confidence =
+        real_of(arguments, "confidence", 0, 1, "between 0 and 1").value_or(options.confidence);
+    options.resamples = arguments.integer("bootstrap", 1, 10'000'000).value_or(options.resamples);
+    return options;
+}
+
+StudyTable::Style style_of(const Arguments& arguments, const std::string& path) {
+    const auto format = arguments.get("format");
+    if (format && *format != "csv" && *format != "jsonl")
+        fail(ErrorKind::usage, "--format: '{}' is not one of csv, jsonl", *format);
+    const bool lines = path.ends_with(".jsonl") || path.ends_with(".ndjson");
+    if (format) return *format == "jsonl" ? StudyTable::Style::jsonl : StudyTable::Style::csv;
+    return lines ? StudyTable::Style::jsonl : StudyTable::Style::csv;
+}
+
+/// study.csv -> study.summary.csv
+std::string beside(const std::string& path, const std::string& what) {
+    const auto slash = path.rfind('/');
+    const auto dot = path.rfind('.');
+    const bool extension =
+        dot != std::string::npos && (slash == std::string::npos || dot > slash + 1);
+    return extension ? path.substr(0, dot) + "." + what + path.substr(dot) : path + "." + what;
+}
+
+std::string long_time(double seconds) {
+    if (seconds < 120) return fmt::format("{:.0f} seconds", seconds);
+    if (seconds < 7200) return fmt::format("{:.0f} minutes", seconds / 60);
+    if (seconds < 172'800) return fmt::format("{:.0f} hours", seconds / 3600);
+    if (seconds < 3e8) return fmt::format("{:.0f} days", seconds / 86'400);
+    return fmt::format("{:.0f} years", seconds / 31'557'600);
+}
+
+/// What failed, as far as a sentence can tell.
+class Failures {
+  public:
+    void add(const StudyRow& row) {
+        ++units_;
+        limits_ += row.reason.starts_with("limit") || row.reason.starts_with("time limit");
+        if (units_ == 1) first_ = row;
+    }
+
+    /// 5 where a limit was met, 3 for other failures, 0 for none.
+    [[nodiscard]] int code() const { return limits_ > 0 ? 5 : units_ > 0 ? 3 : 0; }
+
+    [[nodiscard]] std::string sentence(std::uint64_t all) const {
+        return fmt::format(
+            "{} of {} measurements failed, their rows say why; the first: {} with "
+            "{} points, seed {}, {}: {}",
+            units_, all, first_.generator, first_.count, first_.seed, first_.measure,
+            first_.reason);
+    }
+
+  private:
+    std::uint64_t units_ = 0;
+    std::uint64_t limits_ = 0;
+    StudyRow first_;
+};
+
+class Study {
+  public:
+    Study(const Arguments& arguments, Session& session, Ranks& ranks)
+        : arguments_(arguments),
+          session_(session),
+          ranks_(ranks),
+          sweep_(request_of(arguments)),
+          path_(arguments.get("output").value_or("-")),
+          table_(style_of(arguments, path_), sweep_.request().seconds),
+          summary_options_(summary_options(arguments, sweep_.request().first_seed)),
+          summarized_(arguments.has("summary")) {}
+
+    int go() {
+        refuse_too_much();
+        if (ranks_.rank() != 0) {
+            work_for_study(sweep_, table_, ranks_, session_.run());
+            return 0;
+        }
+        try {
+            return lead();
+        } catch (...) {
+            if (!began_) dismiss(ranks_);
+            throw;
+        }
+    }
+
+  private:
+    int lead() {
+        const RunContext& run = session_.run();
+        StudyFile file(path_, sweep_, table_, arguments_.has("resume"),
+                       [this](const StudyRow& row) {
+                           if (row.failed()) failures_.add(row);
+                           if (summarized_) summary_.add(row);
+                       });
+        for (const auto& sentence : measures_before_warps(sweep_, run)) session_.warn(sentence);
+        try {
+            began_ = true;
+            if (!run_study(sweep_, table_, file, ranks_, run)) return 0;
+        } catch (const Error& e) {
+            if (e.kind() != ErrorKind::cancelled || !file.has_journal()) throw;
+            fail_with_hint(ErrorKind::cancelled,
+                           fmt::format("what is done is in {}; --resume goes on", path_),
+                           "interrupted");
+        }
+        finish(file);
+        if (failures_.code() != 0) session_.warn(failures_.sentence(sweep_.units()));
+        return failures_.code();
+    }
+
+    void finish(StudyFile& file) const {
+        if (!summarized_) {
+            file.finish();
+            return;
+        }
+        const auto means = summary_.means(table_.style(), summary_options_);
+        const auto pairs = summary_.comparisons(table_.style(), summary_options_);
+        if (path_ == "-") {
+            const char* gap = table_.style() == StudyTable::Style::csv ? "\n" : "";
+            file.finish(gap + means + (pairs.empty() ? "" : gap + pairs));
+            return;
+        }
+        file.finish();
+        write_text(beside(path_, "summary"), means);
+        if (!pairs.empty()) write_text(beside(path_, "comparisons"), pairs);
+    }
+
+    /// Nobody means to start a study of months.
+    void refuse_too_much() const {
+        if (arguments_.has("yes") || sweep_.units() <= most_units) return;
+        const StudyRow row = row_of(sweep_, sweep_.unit(0));
+        const double bytes = static_cast<double>(table_.line(row).size() + 40);
+        const auto units = static_cast<double>(sweep_.units());
+        const unsigned hands =
+            threads_of(ranks_, session_.run()) * static_cast<unsigned>(ranks_.size());
+        const SweepRequest& r = sweep_.request();
+        fail_with_hint(
+            ErrorKind::limit, "--yes starts it all the same",
+            "the study has {} rows or more ({} generators x {} dimensions x {} counts x {} seeds x "
+            "{} measures), about {} and {} on {} {}",
+            sweep_.units(), r.generators.size(), r.dimensions.size(), r.counts.size(), r.seeds,
+            r.measures.size(), format_bytes(units * bytes),
+            long_time(WorkLeft(sweep_).seconds() / hands), hands, hands == 1 ? "core" : "cores");
+    }
+
+    const Arguments& arguments_;
+    Session& session_;
+    Ranks& ranks_;
+    Sweep sweep_;
+    std::string path_;
+    StudyTable table_;
+    SummaryOptions summary_options_;
+    bool summarized_;
+    bool began_ = false;
+    Failures failures_;
+    StudySummary summary_;
+};
+
+}  // namespace
+
+int study(const Arguments& arguments, Session& session) {
+    if (!arguments.inputs.empty())
+        fail(ErrorKind::usage, "study takes no input; '{}' is not understood",
+             arguments.inputs.front());
+    const std::uint64_t launched = launched_ranks();
+    if (launched > 1 && !has_mpi())
+        fail_with_hint(ErrorKind::usage, "build with -DSTIPPLE_MPI=ON, or start one process",
+                       "study: an MPI launcher started {} processes, and this build has no MPI",
+                       launched);
+    const Arguments all = with_config(arguments, session.run());
+    const auto ranks = launched > 1 ? join_ranks() : std::make_unique<Ranks>();
+    return Study(all, session, *ranks).go();
+}
+
+}  // namespace stipple::cli

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "study/spec_list.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace stipple {
+namespace {
+
+/// Whether what follows a comma is an option of the spec before: OPT=...
+bool goes_on(std::string_view rest) {
+    const auto end = rest.find_first_of("=,;:@[]");
+    return end != std::string_view::npos && end > 0 && rest[end] == '=';
+}
+
+/// The base of which a number is a power with exponent 1 or more, the smallest; 1 for 1.
+std::uint64_t base_of(std::uint64_t number) {
+    for (std::uint64_t base = 2; base <= number / base; ++base) {
+        std::uint64_t rest = number;
+        while (rest % base == 0) rest /= base;
+        if (rest == 1) return base;
+    }
+    return number;
+}
+
+/// One item of a list: a number, or a range of them.
+class CountRange {
+  public:
+    CountRange(std::string_view text, std::string_view who, std::uint64_t low, std::uint64_t high)
+        : text_(trim(text)), who_(who), low_(low), high_(high) {}
+
+    std::vector<std::uint64_t> numbers() const {
+        const auto dots = text_.find("..");
+        if (dots == std::string_view::npos) return {number(text_)};
+        const std::uint64_t first = number(text_.substr(0, dots));
+        const std::string_view rest = text_.substr(dots + 2);
+        const auto mark = rest.find_first_of("*+", rest.starts_with('+') ? 1 : 0);
+        const std::uint64_t last = number(rest.substr(0, mark));
+        if (first > last)
+            fail(ErrorKind::usage, "{}: the range '{}' is empty: {} is above {}", who_, text_,
+                 first, last);
+        if (mark == std::string_view::npos) return by_factor(first, last, common_base(first, last));
+        const auto step = parse_unsigned(trim(rest.substr(mark + 1)));
+        const bool factor = rest[mark] == '*';
+        if (!step || *step < (factor ? 2 : 1))
+            fail(ErrorKind::usage, "{}: '{}' in '{}' is not a {}", who_,
+                 trim(rest.substr(mark + 1)), text_,
+                 factor ? "factor of 2 or more" : "step of 1 or more");
+        return factor ? by_factor(first, last, *step) : by_step(first, last, *step);
+    }
+
+  private:
+    std::uint64_t number(std::string_view text) const {
+        text = trim(text);
+        const auto value = parse_unsigned(text);
+        if (!value)
+            fail(ErrorKind::usage,
+                 "{}: '{}' is not a whole number such as 1000, 1e6, 2^20 or 64k, nor a range such "
+                 "as 2^4..2^16, 16..65536*2 or 10..50+10",
+                 who_, text);
+        if (*value < low_ || *value > high_)
+            fail(ErrorKind::usage, "{}: {} is outside [{}, {}]", who_, text, low_, high_);
+        return *value;
+    }
+
+    /// The base of which both ends are powers.
+    std::uint64_t common_base(std::uint64_t first, std::uint64_t last) const {
+        const std::uint64_t base = base_of(last);
+        if (first == last) return 2;
+        if (base > 1 && (first == 1 || base_of(first) == base)) return base;
+        fail_with_hint(ErrorKind::usage,
+                       fmt::format("{}..{}*2 goes by a factor, {}..{}+{} by a step", first, last,
+                                   first, last, std::max<std::uint64_t>(1, (last - first) / 4)),
+                       "{}: '{}' does not say which numbers between, and its ends are not powers "
+                       "of one base",
+                       who_, text_);
+    }
+
+    static std::vector<std::uint64_t> by_factor(std::uint64_t first, std::uint64_t last,
+                                                std::uint64_t factor) {
+        std::vector<std::uint64_t> list = {first};
+        while (list.back() <= last / factor) list.push_back(list.back() * factor);
+        return list;
+    }
+
+    std::vector<std::uint64_t> by_step(std::uint64_t first, std::uint64_t last,
+                                       std::uint64_t step) const {
+        constexpr std::uint64_t most = 1'000'000;
+        if ((last - first) / step >= most)
+            fail(ErrorKind::usage, "{}: the range '{}' has more than {} numbers", who_, text_,
+                 most);
+        std::vector<std::uint64_t> list = {first};
+        while (step <= last - list.back()) list.push_back(list.back() + step);
+        return list;
+    }
+
+    std::string_view text_;
+    std::string_view who_;
+    std::uint64_t low_;
+    std::uint64_t high_;
+};
+
+}  // namespace
+
+std::vector<std::string> split_specs(std::string_view text, std::string_view who) {
+    std::vector<std::string> specs;
+    std::vector<std::size_t> open;
+    std::size_t begin = 0;
+    const auto cut = [&](std::size_t end) {
+        const auto spec = trim(text.substr(begin, end - begin));
+        if (spec.empty()) fail(ErrorKind::usage, "{}, column {}: a name is expected", who, end + 1);
+        specs.emplace_back(spec);
+        begin = end + 1;
+    };
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '[') open.push_back(i);
+        if (text[i] == ']' && open.empty())
+            fail(ErrorKind::usage, "{}, column {}: ']' closes nothing", who, i + 1);
+        if (text[i] == ']') open.pop_back();
+        if (!open.empty() || (text[i] != ',' && text[i] != ';')) continue;
+        const bool with_options = text.substr(begin, i - begin).find(':') != std::string::npos;
+        if (text[i] == ';' || !with_options || !goes_on(text.substr(i + 1))) cut(i);
+    }
+    if (!open.empty())
+        fail(ErrorKind::usage, "{}, column {}: this '[' is not closed", who, open.back() + 1);
+    cut(text.size());
+    return specs;
+}
+
+std::vector<std::uint64_t> parse_counts(std::string_view text, std::string_view who,
+                                        std::uint64_t low, std::uint64_t high) {
+    std::vector<std::uint64_t> all;
+    const auto items = split(text, ',');
+    if (trim(text).empty()) fail(ErrorKind::usage, "{}: there are no numbers", who);
+    for (const auto item : items)
+        for (const std::uint64_t number : CountRange(item, who, low, high).numbers()) {
+            if (std::ranges::find(all, number) != all.end())
+                fail(ErrorKind::usage, "{}: {} stands twice in '{}'", who, number, text);
+            all.push_back(number);
+        }
+    return all;
+}
+
+}  // namespace stipple

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "study/statistics.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/rng.hpp"
+
+namespace stipple {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+double mean_of(std::span<const double> sample) {
+    return std::accumulate(sample.begin(), sample.end(), 0.0) / static_cast<double>(sample.size());
+}
+
+/// Of sorted numbers, between neighbours by a straight line.
+double quantile(std::span<const double> sorted, double q) {
+    const double at = q * static_cast<double>(sorted.size() - 1);
+    const auto below = static_cast<std::size_t>(at);
+    if (below + 1 >= sorted.size()) return sorted.back();
+    const double part = at - static_cast<double>(below);
+    return sorted[below] + part * (sorted[below + 1] - sorted[below]);
+}
+
+/// Completes a test from the difference, its error and the degrees of freedom.
+MeanTest tested(double difference, double error, double degrees) {
+    MeanTest test{.difference = difference,
+                  .standard_error = error,
+                  .t = unknown,
+                  .degrees = degrees,
+                  .p_value = unknown};
+    if (!std::isfinite(error) || !std::isfinite(difference)) return test;
+    if (error == 0) {
+        test.p_value = difference == 0 ? 1 : 0;
+        return test;
+    }
+    test.t = difference / error;
+    const boost::math::students_t law(degrees);
+    test.p_value =
+        std::min(1.0, 2 * boost::math::cdf(boost::math::complement(law, std::abs(test.t))));
+    return test;
+}
+
+}  // namespace
+
+SampleSummary summarize(std::span<const double> sample) {
+    SampleSummary s{.count = sample.size(),
+                    .mean = unknown,
+                    .median = unknown,
+                    .deviation = unknown,
+                    .standard_error = unknown};
+    if (sample.empty()) return s;
+    const double n = static_cast<double>(sample.size());
+    std::vector<double> sorted(sample.begin(), sample.end());
+    std::ranges::sort(sorted);
+    s.median = quantile(sorted, 0.5);
+    // The mean of equal numbers is that number: a rounded sum would give it an error.
+    const bool same = sorted.front() == sorted.back();
+    s.mean = same ? sorted.front() : mean_of(sample);
+    if (sample.size() < 2) return s;
+    double squares = 0;
+    for (const double x : sample) squares += (x - s.mean) * (x - s.mean);
+    s.deviation = std::sqrt(squares / (n - 1));
+    s.standard_error = s.deviation / std::sqrt(n);
+    return s;
+}
+
+Interval t_interval(const SampleSummary& sample, double confidence) {
+    if (sample.count < 2 || !std::isfinite(sample.standard_error)) return {unknown, unknown};
+    const boost::math::students_t law(static_cast<double>(sample.count - 1));
+    const double reach = boost::math::quantile(boost::math::complement(law, (1 - confidence) / 2)) *
+                         sample.standard_error;
+    return {sample.mean - reach, sample.mean + reach};
+}
+
+Interval bootstrap_interval(std::span<const double> sample, double confidence,
+                            std::uint64_t resamples, std::uint64_t seed, std::uint64_t stream) {
+    const std::uint64_t n = sample.size();
+    const bool finite = std::ranges::all_of(sample, [](double x) { return std::isfinite(x); });
+    if (n < 2 || resamples == 0 || !finite) return {unknown, unknown};
+    if (std::ranges::all_of(sample, [&](double x) { return x == sample[0]; }))
+        return {sample[0], sample[0]};
+    const Rng rng(seed, stream);
+    std::vector<double> means(resamples);
+    for (std::uint64_t b = 0; b < resamples; ++b) {
+        double sum = 0;
+        for (std::uint64_t i = 0; i < n; ++i) sum += sample[rng.below(b * n + i, n)];
+        means[b] = sum / static_cast<double>(n);
+    }
+    std::ranges::sort(means);
+    return {quantile(means, (1 - confidence) / 2), quantile(means, (1 + confidence) / 2)};
+}
+
+MeanTest welch_test(std::span<const double> a, std::span<const double> b) {
+    const SampleSummary x = summarize(a);
+    const SampleSummary y = summarize(b);
+    const double u = x.standard_error * x.standard_error;
+    const double v = y.standard_error * y.standard_error;
+    if (!(a.size() > 1 && b.size() > 1)) return tested(x.mean - y.mean, unknown, unknown);
+    const double share = u / (u + v);  // in place of the squares of u and v, which underflow
+    const double degrees = 1 / (share * share / static_cast<double>(a.size() - 1) +
+                                (1 - share) * (1 - share) / static_cast<double>(b.size() - 1));
+    return tested(x.mean - y.mean, std::sqrt(u + v), degrees);
+}
+
+MeanTest paired_test(std::span<const double> a, std::span<const double> b) {
+    std::vector<double> differences(a.size());
+    std::ranges::transform(a, b, differences.begin(), [](double x, double y) { return x - y; });
+    const SampleSummary s = summarize(differences);
+    if (s.count < 2) return tested(s.mean, unknown, unknown);
+    return tested(s.mean, s.standard_error, static_cast<double>(s.count - 1));
+}
+
+std::vector<double> holm(std::span<const double> p_values) {
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < p_values.size(); ++i)
+        if (!std::isnan(p_values[i])) order.push_back(i);
+    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return p_values[i]; });
+    std::vector<double> corrected(p_values.begin(), p_values.end());
+    double least = 0;
+    for (std::size_t rank = 0; rank < order.size(); ++rank) {
+        const double p = p_values[order[rank]] * static_cast<double>(order.size() - rank);
+        corrected[order[rank]] = least = std::min(1.0, std::max(least, p));
+    }
+    return corrected;
+}
+
+}  // namespace stipple

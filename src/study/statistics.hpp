@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+//
+// What independent replications tell of a mean, and of the difference of two.
+//
+//     mean, s^2 = sum (x - mean)^2 / (r - 1), standard error s / sqrt(r)
+//     t interval: mean -+ t(r - 1) s / sqrt(r)
+//     bootstrap interval: quantiles of the means of B samples of r drawn with replacement
+//     Welch: t = (mean_a - mean_b) / sqrt(s_a^2 / r_a + s_b^2 / r_b), with Satterthwaite's degrees
+//     paired: the t test of the differences x_a - x_b
+//     Holm: the i-th smallest of m p-values (from 0) times m - i, never falling, at most 1
+//
+// Promise  the bootstrap is a function of the numbers, their order and the seed alone.
+// Beware   where neither sample varies there is nothing to estimate an error by: the test says p =
+// 1
+//          if the means are the same, else 0. What has no value (an error of one number) is a NaN.
+// Source   B. L. Welch, Biometrika 34 (1947) 28-35, doi:10.1093/biomet/34.1-2.28; S. Holm,
+//          Scandinavian Journal of Statistics 6 (1979) 65-70; B. Efron, Annals of Statistics 7
+//          (1979) 1-26, doi:10.1214/aos/1176344552.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace stipple {
+
+struct Interval {
+    double low = 0;
+    double high = 0;
+};
+
+struct SampleSummary {
+    std::size_t count = 0;
+    double mean = 0;
+    double median = 0;
+    double deviation = 0;       ///< standard, of one number
+    double standard_error = 0;  ///< of the mean
+};
+
+SampleSummary summarize(std::span<const double> sample);
+
+/// Student's interval for the mean.
+Interval t_interval(const SampleSummary& sample, double confidence);
+
+/// Percentile interval for the mean; `stream` separates samples that share a seed.
+Interval bootstrap_interval(std::span<const double> sample, double confidence,
+                            std::uint64_t resamples, std::uint64_t seed, std::uint64_t stream = 0);
+
+/// A test of whether two means are the same; two-sided.
+struct MeanTest {
+    double difference = 0;
+    double standard_error = 0;
+    double t = 0;
+    double degrees = 0;
+    double p_value = 1;
+};
+
+MeanTest welch_test(std::span<const double> a, std::span<const double> b);
+
+/// Numbers of one place belong together. @throws nothing; both have the same length.
+MeanTest paired_test(std::span<const double> a, std::span<const double> b);
+
+/// p-values that hold for all tests together, in the order given; a NaN stays and does not count.
+std::vector<double> holm(std::span<const double> p_values);
+
+}  // namespace stipple

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+//
+// A study in a file: a JSON object whose keys are the verb's options.
+//
+//     {"generators": ["random", {"name": "sobol", "options": {"scramble": "owen"}}],
+//      "count": "2^4..2^16", "seeds": 32, "analyze": ["star-discrepancy"], "warp": ["disk"]}
+//
+// data/study.schema.json says the same for editors.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace stipple {
+
+/// A setting of the study: option, text. Lists of units come as one setting for each.
+using StudySettings = std::vector<std::pair<std::string, std::string>>;
+
+/// The settings in a configuration. @throws Error(input) naming `source` and the place in it, such
+/// as $.generators[1].options.scramble
+StudySettings parse_study_config(std::string_view json, const std::string& source);
+
+/// All keys that a configuration may have.
+std::vector<std::string> study_config_keys();
+
+}  // namespace stipple

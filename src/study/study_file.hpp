@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+//
+// The output of a study: rows in the order of the units, whatever order they are done in, and
+// nothing of what is done lost when the program ends in the middle.
+//
+// Units that are next in order are written to the file at once. Those that come early wait in a
+// journal beside it, FILE.journal, which is there as long as the study is not finished:
+//
+//     {"format": "stipple.study-journal", "version": 1, "study": ..., "settings": {...}}
+//     {"first": UNIT, "bytes": [OF EACH UNIT...]}
+//     the lines of these units
+//     ...
+//
+// A file that was cut short by a crash is cut back to its last whole line, and the journal to its
+// last whole entry. The last unit that the file has rows of may lack some: it is done again, and
+// only the rows that are not there are added.
+//
+// Beware   standard output, pipes and devices have no journal: rows wait in memory.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "study/study_table.hpp"
+#include "study/sweep.hpp"
+#include "study/unit_runner.hpp"
+#include "study/work_queue.hpp"
+
+namespace stipple {
+
+class StudyFile {
+  public:
+    using Listener = std::function<void(const StudyRow&)>;
+
+    /// @param listener called with each row of the study in order, also those found in the file
+    /// @throws Error: the file is there and no study's, or is another study's, or is not finished
+    /// and nobody asked to resume it; Error(io).
+    StudyFile(std::string path, const Sweep& sweep, const StudyTable& table, bool resume,
+              Listener listener);
+    StudyFile(const StudyFile&) = delete;
+    StudyFile& operator=(const StudyFile&) = delete;
+    ~StudyFile();
+
+    /// Units that need not be done.
+    [[nodiscard]] const UnitSet& done() const { return done_; }
+    [[nodiscard]] std::uint64_t units_written() const { return next_; }
+    [[nodiscard]] bool has_journal() const { return journal_ >= 0; }
+
+    /// Takes units that were done. False: the pipe was closed, and nobody wants more.
+    /// @throws Error(io), Error(input): rows of the file are not what this program makes
+    bool put(const Segment& segment);
+
+    /// Adds text behind the rows, once all units are there, and takes the journal away.
+    bool finish(const std::string& more = {});
+
+  private:
+    /// Units that wait for their turn.
+    struct Waiting {
+        std::vector<std::size_t> bytes;  ///< of each unit
+        std::uint64_t offset = 0;        ///< in the journal
+        std::string text = {};           ///< where there is none
+    };
+
+    void open_stream();
+    void open_file(bool resume);
+    void begin_journal();
+    void read_rows();
+    bool take_row(const StudyRow& row, std::uint64_t line);
+    void read_journal();
+    bool read_entry(std::istream& in, std::uint64_t offset);
+    [[noreturn]] void refuse_other(const std::string& found_settings) const;
+    bool write_waiting();
+    bool write_units(std::uint64_t first, const Waiting& waiting);
+    std::string without_known_rows(const std::string& lines);
+
+    std::string path_;
+    const Sweep& sweep_;
+    const StudyTable& table_;
+    Listener listener_;
+    int output_ = -1;
+    int journal_ = -1;
+    bool owned_ = false;
+    std::uint64_t journal_size_ = 0;
+    UnitSet done_;
+    std::uint64_t next_ = 0;            ///< unit whose rows come next
+    std::vector<std::string> partial_;  ///< lines of it that are there already
+    std::map<std::uint64_t, Waiting> waiting_;
+};
+
+}  // namespace stipple

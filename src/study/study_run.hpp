@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+//
+// A study done by many hands: threads of this process, and other ranks with theirs. Each takes the
+// next piece of work when it is done with the last; rank 0 writes what comes back.
+//
+// Promise  the file is the same for any number of threads and ranks, but for the seconds.
+#pragma once
+
+#include "core/run_context.hpp"
+#include "study/ranks.hpp"
+#include "study/study_file.hpp"
+#include "study/study_table.hpp"
+#include "study/sweep.hpp"
+
+namespace stipple {
+
+/// On rank 0: does the units that the file lacks. run.progress tells the share of the time that is
+/// over. False: the pipe was closed.
+/// @throws Error(cancelled) when told to stop; what is done is in the file. Error(io)
+bool run_study(const Sweep& sweep, const StudyTable& table, StudyFile& file, Ranks& ranks,
+               const RunContext& run);
+
+/// On the other ranks: works until rank 0 has no more to do. @throws Error(cancelled)
+void work_for_study(const Sweep& sweep, const StudyTable& table, Ranks& ranks,
+                    const RunContext& run);
+
+/// Tells the other ranks that there is nothing to do; for rank 0, where it does not come to
+/// run_study.
+void dismiss(Ranks& ranks);
+
+/// Threads of this process: all that the user gave or, by default, its share of the machine.
+unsigned threads_of(const Ranks& ranks, const RunContext& run);
+
+}  // namespace stipple

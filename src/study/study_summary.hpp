@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+//
+// What the seeds of a study say together: means with their errors for every generator, and
+// generators against each other, pair by pair.
+//
+// Promise  depends on the rows alone, which come in the order of the study.
+// Beware   p-values are corrected over the pairs of generators for one dimension, count, measure
+//          and key; who looks at several of these must correct for that himself.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "study/study_table.hpp"
+
+namespace stipple {
+
+struct SummaryOptions {
+    bool paired = false;  ///< compare by seed; else Welch's test
+    double confidence = 0.95;
+    std::uint64_t resamples = 2000;
+    std::uint64_t seed = 1;  ///< of the bootstrap
+};
+
+class StudySummary {
+  public:
+    void add(const StudyRow& row);
+
+    /// A row for each generator, dimension, count, measure and key.
+    [[nodiscard]] std::string means(StudyTable::Style style, const SummaryOptions& options) const;
+
+    /// A row for each pair of generators.
+    [[nodiscard]] std::string comparisons(StudyTable::Style style,
+                                          const SummaryOptions& options) const;
+
+  private:
+    /// What is said of one generator under one key.
+    struct Sample {
+        StudyRow row;  ///< the first one
+        std::vector<std::uint64_t> seeds = {};
+        std::vector<double> values = {};
+    };
+    /// What is compared: dimension, count, measure, key.
+    using Topic = std::tuple<std::uint64_t, std::uint64_t, std::string, std::string>;
+    using Cell = std::tuple<std::string, std::uint64_t, std::uint64_t, std::string>;
+
+    [[nodiscard]] std::uint64_t failures_of(const StudyRow& row) const;
+    void add_missing(std::vector<const StudyRow*>& rows) const;
+
+    std::vector<Sample> samples_;  ///< in the order in which they came
+    std::map<std::pair<std::string, Topic>, std::size_t> places_;
+    std::map<Topic, std::vector<std::size_t>> topics_;
+    std::vector<Topic> topics_in_order_;
+    struct Failed {
+        StudyRow row;
+        std::uint64_t sets = 0;
+        bool some_went_well = false;
+    };
+    std::map<Cell, Failed> failed_;
+};
+
+}  // namespace stipple

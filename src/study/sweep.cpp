@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+#include "study/sweep.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "study/chain.hpp"
+#include "study/pipeline.hpp"
+
+namespace stipple {
+namespace {
+
+template <class Unit>
+Chosen<Unit> chosen(const Unit& unit, const Spec& spec, std::string_view who) {
+    if (!spec.coordinates.empty())
+        fail(ErrorKind::usage, "{}: {} takes no coordinates; '@' is for warps", who, unit.name);
+    Chosen<Unit> c{.unit = &unit};
+    try {
+        c.values = spec.values(unit.options);
+    } catch (const Error& e) {
+        throw Error(e.kind(), fmt::format("{}: {}: {}", who, unit.name, e.what()), e.hint());
+    }
+    c.spec = format_spec(unit.name, c.values, unit.options);
+    for (const Option& option : unit.options.options()) {
+        const auto& item = c.values.find(option.name);
+        if (!option.optional || item.given)
+            c.options.emplace_back(option.name, format_value(item.value));
+    }
+    return c;
+}
+
+/// A study has one file; a unit that writes others would write them over and over.
+void refuse_files(const Chosen<Generator>& c) {
+    for (const std::string& option : c.unit->writes)
+        if (c.values.find(option).given)
+            fail(ErrorKind::usage, "generators: {}: --{} writes a file, which a study does not",
+                 c.unit->name, option);
+}
+
+template <class Unit>
+void refuse_twice(const std::vector<Chosen<Unit>>& list, std::string_view who) {
+    for (std::size_t i = 0; i < list.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j)
+            if (list[i].spec == list[j].spec)
+                fail(ErrorKind::usage, "{}: '{}' stands twice", who, list[i].spec);
+}
+
+/// FNV-1a, 64 bits.
+std::string hash_of(std::string_view text) {
+    std::uint64_t hash = 0xcbf29ce484222325U;
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+    return fmt::format("{:016x}", hash);
+}
+
+template <class Unit>
+std::string names_of(const std::vector<Chosen<Unit>>& list) {
+    std::string text;
+    for (const auto& c : list) {
+        if (!text.empty()) text += ' ';
+        text += c.unit->name;
+        for (const auto& [name, value] : c.options) text += fmt::format(";{}={}", name, value);
+    }
+    return text;
+}
+
+}  // namespace
+
+Sweep::Sweep(SweepRequest request) : request_(std::move(request)) {
+    choose();
+    choose_warps();
+    count_units();
+    write_settings();
+}
+
+void Sweep::choose() {
+    for (const auto& text : request_.generators) {
+        const Spec spec = parse_spec(text);
+        generators_.push_back(chosen(find_generator(spec.name), spec, "generators"));
+        refuse_files(generators_.back());
+    }
+    for (const auto& text : request_.measures) {
+        const Spec spec = parse_spec(text);
+        measures_.push_back(chosen(find_analyzer(spec.name), spec, "analyze"));
+    }
+    if (generators_.empty()) fail(ErrorKind::usage, "--generators: name at least one");
+    if (measures_.empty()) fail(ErrorKind::usage, "--analyze: name at least one analyzer");
+    refuse_twice(generators_, "generators");
+    refuse_twice(measures_, "analyze");
+}
+
+void Sweep::choose_warps() {
+    std::vector<std::string> names;
+    for (const auto& text : request_.warps) {
+        warps_.push_back(parse_spec(text));
+        const Spec& spec = warps_.back();
+        const Scramble* scramble = scramble_named(spec.name);
+        (void)spec.values(scramble ? scramble->options : find_warp(spec.name).options);
+        random_warps_ |= scramble != nullptr;
+        names.push_back(text);
+    }
+    warp_names_ = join(names, " ");
+}
+
+void Sweep::count_units() {
+    std::uint64_t units = 1;
+    for (const std::uint64_t factor :
+         {std::uint64_t{generators_.size()}, std::uint64_t{request_.dimensions.size()},
+          std::uint64_t{request_.counts.size()}, request_.seeds, std::uint64_t{measures_.size()}}) {
+        if (factor == 0) fail(ErrorKind::usage, "a study needs counts, dimensions and seeds");
+        if (__builtin_mul_overflow(units, factor, &units) || units >= std::uint64_t{1} << 62)
+            fail(ErrorKind::limit, "the study has more rows than anything could hold");
+    }
+    if (request_.seeds - 1 > ~request_.first_seed)
+        fail(ErrorKind::usage, "--seed: {} and {} seeds go beyond the 64 bits of a seed",
+             request_.first_seed, request_.seeds);
+    units_ = units;
+}
+
+void Sweep::write_settings() {
+    const SweepRequest& r = request_;
+    settings_ = {{"version", STIPPLE_VERSION},
+                 {"generators", names_of(generators_)},
+                 {"analyze", names_of(measures_)},
+                 {"warp", warp_names_},
+                 {"count", fmt::format("{}", fmt::join(r.counts, ","))},
+                 {"dimension", fmt::format("{}", fmt::join(r.dimensions, ","))},
+                 {"seed", std::to_string(r.first_seed)},
+                 {"seeds", std::to_string(r.seeds)},
+                 {"keys", join(r.keys, ",")},
+                 {"curves", r.curves ? "true" : "false"},
+                 {"time-limit", r.time_limit ? format_number(*r.time_limit) : "none"},
+                 {"no-seconds", r.seconds ? "false" : "true"}};
+    std::string text;
+    for (const auto& [name, value] : settings_) text += fmt::format("{}={}\n", name, value);
+    fingerprint_ = hash_of(text);
+}
+
+std::uint64_t Sweep::cells() const {
+    return generators_.size() * request_.dimensions.size() * request_.counts.size();
+}
+
+Cell Sweep::cell(std::uint64_t index) const {
+    const std::uint64_t counts = request_.counts.size();
+    const std::uint64_t dimensions = request_.dimensions.size();
+    return {.generator = index / counts / dimensions,
+            .dimension = request_.dimensions[index / counts % dimensions],
+            .count = request_.counts[index % counts]};
+}
+
+Unit Sweep::unit(std::uint64_t index) const {
+    const std::uint64_t set = index / measures_.size();
+    return {.cell = set / request_.seeds,
+            .seed_index = set % request_.seeds,
+            .measure = index % measures_.size()};
+}
+
+bool Sweep::seeded(std::size_t generator) const {
+    const auto& c = generators_[generator];
+    return random_warps_ || uses_seed(*c.unit, c.values);
+}
+
+}  // namespace stipple

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+//
+// What a study runs over: generators x dimensions x counts x seeds, each set measured by all
+// measures.
+//
+//     unit u = (cell * seeds + seed) * measures + measure,
+//     cell   = (generator * dimensions + dimension) * counts + count
+//
+// Shape    units() may be far more than memory holds: nothing here is as long.
+// Promise  the units, their order and the fingerprint depend on what was asked for alone.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analyzers/analyzer.hpp"
+#include "core/spec.hpp"
+#include "generators/generator.hpp"
+
+namespace stipple {
+
+/// A study as somebody writes it down.
+struct SweepRequest {
+    std::vector<std::string> generators;  ///< specs
+    std::vector<std::uint64_t> counts = {1024};
+    std::vector<std::uint64_t> dimensions = {2};
+    std::uint64_t first_seed = 1;
+    std::uint64_t seeds = 1;
+    std::vector<std::string> measures;  ///< specs of analyzers
+    std::vector<std::string> warps;
+    std::vector<std::string> keys;     ///< results to keep; empty: all numbers
+    bool curves = false;               ///< keep lists of numbers, too
+    std::optional<double> time_limit;  ///< seconds for making a set, and for each measure
+    bool seconds = true;               ///< rows tell how long they took
+};
+
+/// A unit with its options, as rows name it.
+template <class Unit>
+struct Chosen {
+    const Unit* unit = nullptr;
+    Values values = {};
+    std::string spec = {};                                          ///< what is not the default
+    std::vector<std::pair<std::string, std::string>> options = {};  ///< all that have a value
+};
+
+/// Sets that differ in the seed alone.
+struct Cell {
+    std::size_t generator = 0;
+    std::size_t dimension = 0;
+    std::uint64_t count = 0;
+};
+
+/// One measure of one set.
+struct Unit {
+    std::uint64_t cell = 0;
+    std::uint64_t seed_index = 0;
+    std::size_t measure = 0;
+};
+
+class Sweep {
+  public:
+    /// @throws Error(usage) for units and options that there are not.
+    explicit Sweep(SweepRequest request);
+
+    [[nodiscard]] const SweepRequest& request() const { return request_; }
+    [[nodiscard]] const std::vector<Chosen<Generator>>& generators() const { return generators_; }
+    [[nodiscard]] const std::vector<Chosen<Analyzer>>& measures() const { return measures_; }
+    [[nodiscard]] const std::vector<Spec>& warps() const { return warps_; }
+    /// The warps as rows name them, separated by blanks.
+    [[nodiscard]] const std::string& warp_names() const { return warp_names_; }
+
+    [[nodiscard]] std::uint64_t cells() const;
+    [[nodiscard]] std::uint64_t units() const { return units_; }
+    [[nodiscard]] Cell cell(std::uint64_t index) const;
+    [[nodiscard]] Unit unit(std::uint64_t index) const;
+    [[nodiscard]] std::uint64_t units_per_cell() const { return request_.seeds * measures_.size(); }
+    /// Whether the sets of a generator differ from seed to seed.
+    [[nodiscard]] bool seeded(std::size_t generator) const;
+
+    /// All that rows depend on, by name, as text.
+    [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& settings() const {
+        return settings_;
+    }
+    /// A hash of the settings: 16 hexadecimal digits.
+    [[nodiscard]] const std::string& fingerprint() const { return fingerprint_; }
+
+  private:
+    void choose();
+    void choose_warps();
+    void count_units();
+    void write_settings();
+
+    SweepRequest request_;
+    std::vector<Chosen<Generator>> generators_;
+    std::vector<Chosen<Analyzer>> measures_;
+    std::vector<Spec> warps_;
+    std::string warp_names_;
+    bool random_warps_ = false;
+    std::uint64_t units_ = 0;
+    std::vector<std::pair<std::string, std::string>> settings_;
+    std::string fingerprint_;
+};
+
+}  // namespace stipple

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: MIT
+#include "study/unit_runner.hpp"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <new>
+#include <optional>
+#include <span>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "study/chain.hpp"
+#include "study/delivery.hpp"
+#include "study/pipeline.hpp"
+#include "study/time_limit.hpp"
+
+namespace stipple {
+namespace {
+
+/// Why there is no result.
+struct Failure {
+    std::string reason;
+    bool limit = false;  ///< of time or memory
+    bool memory = false;
+};
+
+/// One line, whatever the message was.
+std::string one_line(std::string text) {
+    std::ranges::replace_if(
+        text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return text;
+}
+
+/// Runs work within the limit of time. Nothing: it went well. @throws Error(cancelled)
+std::optional<Failure> failure_of(const RunContext& run, std::optional<double> limit,
+                                  const std::function<void(const RunContext&)>& work) {
+    try {
+        if (over_time(run, limit, work))
+            return Failure{fmt::format("time limit: not done after {} s", *limit), true};
+    } catch (const Error& e) {
+        if (e.kind() == ErrorKind::cancelled) throw;
+        const bool limited = e.kind() == ErrorKind::limit;
+        return Failure{one_line(fmt::format("{}{}", limited ? "limit: " : "", e.what())), limited,
+                       limited && e.hint().find("--max-memory") != std::string::npos};
+    } catch (const std::bad_alloc&) {
+        return Failure{"limit: out of memory", true, true};
+    } catch (const std::exception& e) {
+        return Failure{one_line(fmt::format("internal error: {}", e.what()))};
+    }
+    return std::nullopt;
+}
+
+std::size_t leading_scrambles(const std::vector<Spec>& warps) {
+    const auto it = std::ranges::find_if(
+        warps, [](const Spec& spec) { return scramble_named(spec.name) == nullptr; });
+    return static_cast<std::size_t>(it - warps.begin());
+}
+
+/// Whether a measure can take points of the domain at all; `point` is one of them.
+bool takes(const Chosen<Analyzer>& measure, const DomainPtr& domain, std::span<const double> point,
+           const RunContext& run) {
+    const Analyzer& analyzer = *measure.unit;
+    const std::string spec = domain->spec();
+    if (spec == "unit-cube") return true;
+    if (analyzer.traits.unit_cube) return false;
+    if (analyzer.traits.boxed && !spec.starts_with("box")) return false;
+    if (!analyzer.accumulate) return true;
+    try {  // some only look at the domain when the first point comes
+        accumulator_for(analyzer, {domain, std::nullopt}, domain->dimension(), measure.values, run)
+            ->add(point, run);
+    } catch (const Error& e) {
+        return e.kind() != ErrorKind::input && e.kind() != ErrorKind::usage;
+    }
+    return true;
+}
+
+/// Images of all points, block by block so that a stop is heard.
+PointSet image_of(const PointSet& points, const WarpChain& chain, const RunContext& run) {
+    if (chain.empty()) return points;
+    constexpr std::size_t block = 1 << 14;
+    const std::size_t d = points.dimension();
+    std::vector<double> rows;
+    for (std::size_t first = 0; first < points.count(); first += block) {
+        run.check_stop();
+        const std::size_t count = std::min(block, points.count() - first);
+        const auto part = points.flat().subspan(first * d, count * d);
+        const auto image = chain.forward({part.begin(), part.end()}, first);
+        rows.insert(rows.end(), image.begin(), image.end());
+    }
+    PointSet image(std::move(rows), chain.dimension_out());
+    image.domain = chain.domain();
+    image.provenance = points.provenance;
+    tell_kept(points.count(), image.count(), chain, run);
+    return image;
+}
+
+/// One set of points: as it is measured, and before its warps.
+class MadeSet {
+  public:
+    MadeSet(const Sweep& sweep, const Cell& cell, std::uint64_t seed, const RunContext& run) {
+        const auto& generator = sweep.generators()[cell.generator];
+        const double start = run.seconds ? run.seconds() : 0;
+        failure_ = failure_of(run, sweep.request().time_limit, [&](const RunContext& limited) {
+            make(sweep, generator, cell, seed, limited);
+        });
+        seconds_ = run.seconds ? run.seconds() - start : 0;
+    }
+
+    [[nodiscard]] const std::optional<Failure>& failure() const { return failure_; }
+    [[nodiscard]] double seconds() const { return seconds_; }
+    [[nodiscard]] const PointSet& before() const { return *before_; }
+    /// After the warps; nothing where there are none.
+    [[nodiscard]] const std::optional<PointSet>& image() const { return image_; }
+
+  private:
+    void make(const Sweep& sweep, const Chosen<Generator>& generator, const Cell& cell,
+              std::uint64_t seed, const RunContext& run) {
+        const Request request{.count = cell.count, .dimension = cell.dimension, .seed = seed};
+        before_ = make_points(*generator.unit, request, generator.values, run);
+        before_->provenance.generator = generator.unit->name;
+        const auto& warps = sweep.warps();
+        if (warps.empty()) return;
+        const std::size_t scrambles = leading_scrambles(warps);
+        const ChainSet set{.seed = seed, .count = before_->count()};
+        const std::size_t d = before_->dimension();
+        const WarpChain first(std::span<const Spec>(warps).first(scrambles), d, set, run);
+        *before_ = image_of(*before_, first, run);
+        if (scrambles == warps.size()) return;
+        // What a scramble draws depends on seed and coordinates: cut in two, the chain is the same.
+        image_ = image_of(
+            *before_, WarpChain(std::span<const Spec>(warps).subspan(scrambles), d, set, run), run);
+    }
+
+    std::optional<PointSet> before_;
+    std::optional<PointSet> image_;
+    std::optional<Failure> failure_;
+    double seconds_ = 0;
+};
+
+void add_numbers(const Report& report, const std::string& path, std::vector<KeyedNumber>& all,
+                 std::vector<KeyedNumber>& lists) {
+    for (const auto& [name, value, unit] : report.entries()) {
+        const std::string key = path + name;
+        if (const auto* flag = std::get_if<bool>(&value))
+            all.push_back({key, *flag ? 1.0 : 0.0, true});
+        if (const auto* whole = std::get_if<std::int64_t>(&value))
+            all.push_back({key, static_cast<double>(*whole), true});
+        if (const auto* number = std::get_if<double>(&value)) all.push_back({key, *number, false});
+        if (const auto* group = std::get_if<Report>(&value))
+            add_numbers(*group, key + ".", all, lists);
+        const auto add_list = [&](const auto& list, bool whole) {
+            for (std::size_t i = 0; i < list.size(); ++i)
+                lists.push_back(
+                    {fmt::format("{}[{}]", key, i), static_cast<double>(list[i]), whole});
+        };
+        if (const auto* curve = std::get_if<Report::Curve>(&value)) add_list(*curve, false);
+        if (const auto* list = std::get_if<Report::Integers>(&value)) add_list(*list, true);
+    }
+}
+
+/// Whether a key is meant by NAME, NAME[I] or the group that it is in.
+bool is_meant(const std::string& key, const std::vector<std::string>& wanted) {
+    return std::ranges::any_of(wanted, [&](const std::string& w) {
+        return key.starts_with(w) &&
+               (key.size() == w.size() || key[w.size()] == '.' || key[w.size()] == '[');
+    });
+}
+
+/// What a measure said of a set.
+struct Finding {
+    std::vector<KeyedNumber> numbers = {};
+    std::string domain = {};
+    std::optional<std::uint64_t> points = {};
+    double seconds = 0;
+    std::optional<Failure> failure = {};
+};
+
+Finding measured(const SweepRequest& request, const Chosen<Analyzer>& measure,
+                 const PointSet& points, const RunContext& run) {
+    Finding found;
+    found.domain = points.domain->spec();
+    found.points = points.count();
+    const double start = run.seconds ? run.seconds() : 0;
+    Report report;
+    found.failure = failure_of(run, request.time_limit, [&](const RunContext& limited) {
+        report = analyze(*measure.unit, points, measure.values, limited);
+        limited.check_stop();  // what was cut short is no result
+    });
+    found.seconds = run.seconds ? run.seconds() - start : 0;
+    if (found.failure) return found;
+    found.numbers = numbers_of(report, request.keys, request.curves);
+    if (found.numbers.empty())
+        found.failure = Failure{fmt::format("none of its results is asked for; they are {}",
+                                            join(report.keys(), ", "))};
+    return found;
+}
+
+std::string lines_of(const StudyTable& table, StudyRow row, const MadeSet& set,
+                     const Finding& found) {
+    row.domain = found.domain;
+    row.points = found.points;
+    row.generate_seconds = set.seconds();
+    row.seconds = found.seconds;
+    if (found.failure) {
+        row.status = "failed";
+        row.reason = found.failure->reason;
+        return table.line(row);
+    }
+    std::string text;
+    for (const auto& [key, value, whole] : found.numbers) {
+        row.key = key;
+        row.value = value;
+        row.whole = whole;
+        text += table.line(row);
+    }
+    return text;
+}
+
+/// The sets of one piece of work: each is made once, and where the seed changes nothing, one is
+/// all.
+class Workbench {
+  public:
+    Workbench(const Sweep& sweep, const StudyTable& table, bool shares_memory,
+              const RunContext& run)
+        : sweep_(sweep), table_(table), shares_memory_(shares_memory), run_(run) {
+        run_.progress = {};
+        run_.warn = {};
+        done_.seconds.resize(1 + sweep.measures().size());
+    }
+
+    void add(std::uint64_t index) {
+        run_.check_stop();
+        const Unit unit = sweep_.unit(index);
+        const Cell cell = sweep_.cell(unit.cell);
+        const std::uint64_t variant = sweep_.seeded(cell.generator) ? unit.seed_index : 0;
+        if (!set_ || cell_ != unit.cell || variant_ != variant) {
+            found_.clear();
+            set_.reset();
+            set_ = std::make_unique<MadeSet>(sweep_, cell,
+                                             sweep_.request().first_seed + unit.seed_index, run_);
+            cell_ = unit.cell;
+            variant_ = variant;
+            done_.seconds[0] += set_->seconds();
+        }
+        const auto [it, fresh] = found_.try_emplace(unit.measure);
+        if (fresh) {
+            it->second = find(cell, unit.measure);
+            done_.seconds[1 + unit.measure] += it->second.seconds;
+        }
+        keep(index, unit, it->second);
+    }
+
+    WorkDone take() { return std::move(done_); }
+
+  private:
+    Finding find(const Cell& cell, std::size_t number) {
+        if (set_->failure()) return {.failure = set_->failure()};
+        const auto& measure = sweep_.measures()[number];
+        const auto& image = set_->image();
+        if (!image) return measured(sweep_.request(), measure, set_->before(), run_);
+        const auto [it, fresh] = takes_image_.try_emplace({cell.dimension, number});
+        if (fresh) it->second = takes(measure, image->domain, (*image)[0], run_);
+        return measured(sweep_.request(), measure, it->second ? *image : set_->before(), run_);
+    }
+
+    void keep(std::uint64_t index, const Unit& unit, const Finding& found) {
+        if (found.failure && found.failure->memory && shares_memory_) {
+            done_.hungry.push_back({index, index + 1});
+            return;
+        }
+        auto& segments = done_.segments;
+        if (segments.empty() || segments.back().units.last != index)
+            segments.push_back({{index, index}, {}});
+        segments.back().units.last = index + 1;
+        segments.back().lines.push_back(lines_of(table_, row_of(sweep_, unit), *set_, found));
+    }
+
+    const Sweep& sweep_;
+    const StudyTable& table_;
+    bool shares_memory_;
+    RunContext run_;
+    WorkDone done_;
+    std::unique_ptr<MadeSet> set_;
+    std::uint64_t cell_ = 0;
+    std::uint64_t variant_ = 0;
+    std::map<std::size_t, Finding> found_;
+    std::map<std::pair<std::size_t, std::size_t>, bool> takes_image_;  ///< by dimension, measure
+};
+
+}  // namespace
+
+std::vector<KeyedNumber> numbers_of(const Report& report, const std::vector<std::string>& keys,
+                                    bool curves) {
+    std::vector<KeyedNumber> numbers;
+    std::vector<KeyedNumber> lists;
+    add_numbers(report, "", numbers, lists);
+    if (curves || !keys.empty() || numbers.empty())
+        numbers.insert(numbers.end(), lists.begin(), lists.end());
+    if (!keys.empty())
+        std::erase_if(numbers, [&](const KeyedNumber& n) { return !is_meant(n.key, keys); });
+    return numbers;
+}
+
+WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext& run) const {
+    Workbench bench(sweep_, table_, run.max_memory < whole_memory_, run);
+    for (const UnitRange& range : ranges)
+        for (std::uint64_t unit = range.first; unit < range.last; ++unit) bench.add(unit);
+    return bench.take();
+}
+
+std::vector<std::string> measures_before_warps(const Sweep& sweep, const RunContext& run) {
+    std::vector<std::string> sentences;
+    const auto& warps = sweep.warps();
+    const auto rest = std::span<const Spec>(warps).subspan(leading_scrambles(warps));
+    if (rest.empty()) return sentences;
+    DomainPtr domain;
+    std::vector<double> point;
+    for (const std::uint64_t d : sweep.request().dimensions) {
+        try {
+            const WarpChain chain(rest, d, {}, run);
+            point = chain.forward(std::vector<double>(d, 0.375));
+            domain = chain.domain();
+            break;
+        } catch (const Error&) {
+            continue;  // the rows of this dimension will say it
+        }
+    }
+    if (!domain) return sentences;
+    for (const auto& measure : sweep.measures())
+        if (!takes(measure, domain, point, run))
+            sentences.push_back(
+                fmt::format("{} does not take points of {}: it measures them "
+                            "before the warp, on the unit cube",
+                            measure.spec, domain->spec()));
+    return sentences;
+}
+
+}  // namespace stipple

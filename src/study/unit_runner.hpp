@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+//
+// Makes the sets of a study and measures them: units in, lines of its table out.
+//
+// What a set is measured on: its points after all warps. A measure that cannot take what those are
+// on (most discrepancies take the unit cube only) looks at the points before the first warp, after
+// the scrambles that stand there; the row's domain says so.
+//
+// Promise  the lines, but for the seconds, depend on the unit alone: not on the units that are done
+//          with it, nor on threads. What fails is a row with the reason.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/run_context.hpp"
+#include "study/study_table.hpp"
+#include "study/sweep.hpp"
+
+namespace stipple {
+
+/// Units [first, last).
+struct UnitRange {
+    std::uint64_t first = 0;
+    std::uint64_t last = 0;
+    bool operator==(const UnitRange&) const = default;
+};
+
+/// Units that were done, with their lines.
+struct Segment {
+    UnitRange units;
+    std::vector<std::string> lines;  ///< of each unit, one or more lines
+};
+
+/// What became of a piece of work.
+struct WorkDone {
+    std::vector<Segment> segments;
+    std::vector<UnitRange> hungry;  ///< units that need more memory than this worker's share
+    std::vector<double> seconds;    ///< spent on making sets and on each measure
+};
+
+class UnitRunner {
+  public:
+    /// @param whole_memory what the hungry may have; the run's own limit is the worker's share
+    UnitRunner(const Sweep& sweep, const StudyTable& table, std::uint64_t whole_memory)
+        : sweep_(sweep), table_(table), whole_memory_(whole_memory) {}
+
+    /// @throws Error(cancelled)
+    [[nodiscard]] WorkDone run(const std::vector<UnitRange>& ranges, const RunContext& run) const;
+
+  private:
+    const Sweep& sweep_;
+    const StudyTable& table_;
+    std::uint64_t whole_memory_;
+};
+
+/// The measures that look at the points before the warps, in a sentence each.
+std::vector<std::string> measures_before_warps(const Sweep& sweep, const RunContext& run);
+
+/// A report's numbers in order, under dotted keys, flags as 0 and 1. Lists of numbers as NAME[I]:
+/// with `curves`, or where there is nothing else. With `keys` (NAME, NAME[I], or a group), those.
+struct KeyedNumber {
+    std::string key;
+    double value = 0;
+    bool whole = false;
+};
+std::vector<KeyedNumber> numbers_of(const Report& report, const std::vector<std::string>& keys,
+                                    bool curves);
+
+}  // namespace stipple

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+//
+// How long the parts of a study will take: a model first, then the model corrected by what the
+// parts that are done took.
+//
+//     left = sum over generators and measures of (model of what is left) x (spent / model of what
+//            is done)
+//
+// A generator or measure of which nothing is done yet has the correction of all that is.
+//
+// Beware  the model is made to order work and to cut it, within a factor of some ten.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "study/sweep.hpp"
+#include "study/unit_runner.hpp"
+
+namespace stipple {
+
+/// Seconds to make a set, on one core.
+double generate_cost(const Sweep& sweep, const Cell& cell);
+
+/// Seconds to measure a set, on one core.
+double measure_cost(const Sweep& sweep, const Cell& cell, std::size_t measure);
+
+/// What is left of a study, in seconds of one core.
+class WorkLeft {
+  public:
+    /// All of it.
+    explicit WorkLeft(const Sweep& sweep);
+
+    /// Takes out what was done before, or elsewhere.
+    void forget(const std::vector<UnitRange>& ranges);
+
+    /// Takes out what was done in so many seconds, for making sets and for each measure.
+    void finish(const std::vector<UnitRange>& ranges, const std::vector<double>& seconds);
+
+    [[nodiscard]] double seconds() const;
+
+  private:
+    /// One generator or one measure.
+    struct Part {
+        double left = 0;
+        double modelled = 0;  ///< of what is done
+        double spent = 0;
+    };
+
+    /// Model costs of ranges, by part.
+    [[nodiscard]] std::vector<double> model(const std::vector<UnitRange>& ranges) const;
+
+    const Sweep& sweep_;
+    std::vector<Part> parts_;  ///< generators, then measures
+};
+
+}  // namespace stipple

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+//
+// A study cut into pieces of work by their cost, the dearest first.
+//
+// A piece is some sets of one cell or, where one set is dear and its measures cost more than it to
+// make it again, some of a set's measures. Pieces take at most about a second where that can be, so
+// that an interrupted study has lost little.
+//
+// Shape  memory goes with the number of cells, not of sets.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "study/sweep.hpp"
+#include "study/unit_runner.hpp"
+
+namespace stipple {
+
+/// Units of which it is known which are done.
+class UnitSet {
+  public:
+    void add(UnitRange range);
+    /// The parts of a range that are not in the set.
+    [[nodiscard]] std::vector<UnitRange> missing(UnitRange range) const;
+    [[nodiscard]] std::vector<UnitRange> ranges() const;
+
+  private:
+    std::map<std::uint64_t, std::uint64_t> parts_;  ///< first, last: apart from each other
+};
+
+class WorkQueue {
+  public:
+    /// @param workers that will pull at once
+    WorkQueue(const Sweep& sweep, UnitSet done, std::size_t workers);
+
+    /// The next piece; nothing when all was given out.
+    std::optional<std::vector<UnitRange>> pull();
+
+    /// Pieces that were not given out yet; some may turn out to be done.
+    [[nodiscard]] std::uint64_t pieces_left() const { return pieces_left_; }
+
+  private:
+    /// How the units of a cell are cut.
+    struct Cut {
+        std::uint64_t cell = 0;
+        std::uint64_t units = 1;  ///< of a piece
+        std::uint64_t pieces = 0;
+        double cost = 0;  ///< of a piece
+    };
+
+    [[nodiscard]] Cut cut_of(std::uint64_t cell, double grain) const;
+
+    const Sweep& sweep_;
+    UnitSet done_;
+    std::vector<Cut> cuts_;
+    std::size_t cut_ = 0;
+    std::uint64_t piece_ = 0;
+    std::uint64_t pieces_left_ = 0;
+};
+
+}  // namespace stipple

@@ -1,0 +1,420 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "support/program.hpp"
+
+using namespace stipple::testing;
+using nlohmann::json;
+using ::testing::HasSubstr;
+
+namespace {
+
+constexpr const char* small =
+    "stipple study --generators 'random,sobol:scramble=owen,halton' -n 16..64 --seeds 4 "
+    "--analyze 'star-discrepancy,l2-discrepancy:kind=centered' --no-seconds ";
+
+using Row = std::map<std::string, std::string>;
+
+std::vector<std::string> fields_of(const std::string& line) {
+    std::vector<std::string> fields(1);
+    bool quoted = false;
+    for (const char c : line) {
+        if (c == '"')
+            quoted = !quoted;
+        else if (c == ',' && !quoted)
+            fields.emplace_back();
+        else
+            fields.back() += c;
+    }
+    return fields;
+}
+
+/// The rows of a table in CSV, by column.
+std::vector<Row> rows_of(const std::string& text) {
+    std::istringstream in(text);
+    std::string line;
+    std::getline(in, line);
+    const auto names = fields_of(line);
+    std::vector<Row> rows;
+    while (std::getline(in, line)) {
+        const auto fields = fields_of(line);
+        EXPECT_EQ(fields.size(), names.size()) << line;
+        Row row;
+        for (std::size_t k = 0; k < names.size(); ++k) row[names[k]] = fields[k];
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+std::string lines(const std::string& text, std::size_t count) {
+    std::size_t end = 0;
+    while (count-- > 0) end = text.find('\n', end) + 1;
+    return text.substr(0, end);
+}
+
+}  // namespace
+
+TEST(Study, RowsAreWhatAnalyzeSaysOfTheSameSets) {
+    const Sandbox box;
+    const auto rows = rows_of(good(box.shell(small)));
+    std::size_t checked = 0;
+    for (const Row& row : rows) {
+        if (row.at("count") != "32" || row.at("key") != "value") continue;
+        if (row.at("measure") != "star-discrepancy") continue;
+        const std::string spec = row.at("generator") == "halton"   ? "halton"
+                                 : row.at("generator") == "random" ? "random"
+                                                                   : "sobol --scramble owen";
+        const auto out =
+            json::parse(box.shell("stipple generate " + spec + " -n 32 -s " + row.at("seed") +
+                                  " | stipple analyze star-discrepancy")
+                            .out);
+        EXPECT_EQ(std::stod(row.at("value")), out["results"]["value"].get<double>());
+        ++checked;
+    }
+    EXPECT_EQ(checked, 12U);
+    EXPECT_EQ(rows.front().at("generator"), "random");
+    EXPECT_EQ(rows.back().at("generator"), "halton");
+    EXPECT_EQ(rows.back().at("count"), "64");
+    EXPECT_EQ(rows.back().at("seed"), "4");
+    EXPECT_THAT(rows.front().at("generator_options"), HasSubstr("engine="));
+}
+
+TEST(Study, BytesDoNotDependOnThreads) {
+    const Sandbox box;
+    const std::string one = good(box.shell(small + std::string("--threads 1")));
+    for (const char* threads : {"2", "5"})
+        EXPECT_EQ(good(box.shell(small + std::string("--threads ") + threads)), one);
+    EXPECT_EQ(one.find("seconds"), std::string::npos);
+    EXPECT_EQ(good(box.shell(small + std::string("-o study.csv"))), "");
+    EXPECT_EQ(box.read("study.csv"), one);
+    EXPECT_EQ(box.files(), std::vector<std::string>{"study.csv"});
+}
+
+TEST(Study, OnlyTheLastTwoColumnsAreMeasuredByTheClock) {
+    const Sandbox box;
+    std::string command = small;
+    const std::string plain = good(box.shell(command));
+    command.erase(command.find("--no-seconds"));
+    const auto timed = rows_of(good(box.shell(command)));
+    const auto rows = rows_of(plain);
+    ASSERT_EQ(timed.size(), rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        EXPECT_GE(std::stod(timed[i].at("seconds")), 0);
+        EXPECT_GE(std::stod(timed[i].at("generate_seconds")), 0);
+        EXPECT_EQ(timed[i].at("value"), rows[i].at("value"));
+    }
+}
+
+TEST(Study, JsonLinesSayTheSame) {
+    const Sandbox box;
+    const auto rows = rows_of(good(box.shell(small)));
+    ASSERT_EQ(good(box.shell(small + std::string("-o study.jsonl"))), "");
+    std::istringstream in(box.read("study.jsonl"));
+    std::size_t i = 0;
+    for (std::string line; std::getline(in, line); ++i) {
+        const auto object = json::parse(line);
+        EXPECT_EQ(object["generator"], rows[i].at("generator"));
+        EXPECT_EQ(object["value"].get<double>(), std::stod(rows[i].at("value")));
+        EXPECT_EQ(object["count"].get<int>(), std::stoi(rows[i].at("count")));
+    }
+    EXPECT_EQ(i, rows.size());
+}
+
+TEST(Study, FailuresAreRowsAndTheExitCodeSaysSo) {
+    const Sandbox box;
+    const Outcome outcome = box.shell(
+        "stipple study --generators 'grid,random' -n 16,32 --seeds 2 --analyze "
+        "'star-discrepancy,pair-correlation' -d 2,4");
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("measurements failed, their rows say why; the first: "));
+    std::map<std::string, int> failed;
+    for (const Row& row : rows_of(outcome.out)) {
+        if (row.at("status") != "failed") continue;
+        EXPECT_EQ(row.at("value"), "");
+        EXPECT_NE(row.at("reason"), "");
+        ++failed[row.at("generator") + row.at("count") + "d" + row.at("dimension")];
+    }
+    // grid takes squares and fourth powers; pair-correlation at most three dimensions.
+    EXPECT_EQ(failed, (std::map<std::string, int>{{"grid32d2", 4},
+                                                  {"grid16d4", 2},
+                                                  {"grid32d4", 4},
+                                                  {"random16d4", 2},
+                                                  {"random32d4", 2}}));
+}
+
+TEST(Study, TimeLimitsAreRowsAndExitFive) {
+    const Sandbox box;
+    const Outcome outcome = box.shell(
+        "stipple study --generators random -n 16,200 -d 8 --analyze "
+        "'star-discrepancy:method=exact;moments' --keys value,mean --time-limit 0.1");
+    EXPECT_EQ(outcome.code, 5) << outcome.err;
+    const auto rows = rows_of(outcome.out);
+    ASSERT_GT(rows.size(), 10U);
+    EXPECT_EQ(rows[0].at("status"), "ok");
+    const auto late =
+        std::ranges::find_if(rows, [](const Row& r) { return r.at("status") != "ok"; });
+    ASSERT_NE(late, rows.end());
+    EXPECT_EQ(late->at("reason"), "time limit: not done after 0.1 s");
+    EXPECT_EQ(rows.back().at("status"), "ok");
+}
+
+TEST(Study, AMeasureThatCannotTakeTheWarpLooksBeforeIt) {
+    const Sandbox box;
+    const Outcome outcome = box.shell(
+        "stipple study --generators halton -n 64 -w disk --analyze "
+        "'star-discrepancy,nearest-neighbor' --no-seconds");
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_EQ(outcome.err,
+              "stipple: star-discrepancy does not take points of disk: it measures them before "
+              "the warp, on the unit cube\n");
+    const auto plain = rows_of(box.shell("stipple study --generators halton -n 64 --analyze "
+                                         "'star-discrepancy,nearest-neighbor' --no-seconds")
+                                   .out);
+    const auto rows = rows_of(outcome.out);
+    ASSERT_EQ(rows.size(), plain.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const bool star = rows[i].at("measure") == "star-discrepancy";
+        EXPECT_EQ(rows[i].at("domain"), star ? "unit-cube" : "disk");
+        if (star) {
+            EXPECT_EQ(rows[i].at("value"), plain[i].at("value"));
+        } else if (rows[i].at("key") == "mean") {
+            EXPECT_NE(rows[i].at("value"), plain[i].at("value"));
+        }
+    }
+}
+
+TEST(Study, SummaryHasMeansIntervalsAndComparisons) {
+    const Sandbox box;
+    ASSERT_EQ(good(box.shell(small + std::string("--keys value -o study.csv --summary"))), "");
+    const auto means = rows_of(box.read("study.summary.csv"));
+    std::vector<double> values;
+    for (const Row& row : rows_of(box.read("study.csv")))
+        if (row.at("generator") == "random" && row.at("count") == "16" &&
+            row.at("measure") == "star-discrepancy")
+            values.push_back(std::stod(row.at("value")));
+    ASSERT_EQ(values.size(), 4U);
+    const double mean = (values[0] + values[1] + values[2] + values[3]) / 4;
+    double squares = 0;
+    for (const double x : values) squares += (x - mean) * (x - mean);
+    const double error = std::sqrt(squares / 12);
+    const Row& first = means.front();
+    EXPECT_EQ(first.at("sets"), "4");
+    EXPECT_NEAR(std::stod(first.at("mean")), mean, 1e-14);
+    EXPECT_NEAR(std::stod(first.at("standard_error")), error, 1e-14);
+    EXPECT_NEAR(std::stod(first.at("t_high")), mean + 3.182446305284263 * error, 1e-13);
+    EXPECT_LT(std::stod(first.at("bootstrap_low")), mean);
+    const auto pairs = rows_of(box.read("study.comparisons.csv"));
+    EXPECT_EQ(pairs.size(), 3U * 3 * 1 + 0U);  // l2's key is centered.value
+    for (const Row& row : pairs) {
+        EXPECT_GE(std::stod(row.at("p_holm")), std::stod(row.at("p_value")));
+        EXPECT_EQ(row.at("method"), "welch");
+    }
+}
+
+TEST(Study, ResumeAfterACutGivesTheSameBytes) {
+    const Sandbox box;
+    ASSERT_EQ(good(box.shell(small + std::string("-o whole.csv"))), "");
+    const std::string whole = box.read("whole.csv");
+    for (const std::size_t cut :
+         {std::size_t{0}, std::size_t{5}, whole.find('\n') + 1, whole.find('\n') + 30,
+          lines(whole, 4).size(), lines(whole, 5).size() + 11, lines(whole, 20).size(),
+          whole.size() - 3}) {
+        box.write("cut.csv", whole.substr(0, cut));
+        box.write("cut.csv.journal", "{\"torn");
+        EXPECT_EQ(good(box.shell(small + std::string("-o cut.csv --resume"))), "") << cut;
+        EXPECT_EQ(box.read("cut.csv"), whole) << cut;
+        EXPECT_FALSE(box.exists("cut.csv.journal"));
+    }
+}
+
+TEST(Study, ResumeAfterAKillGivesTheSameBytes) {
+    const Sandbox box;
+    const std::string command =
+        "stipple study --generators 'random;halton;jittered;sobol:scramble=owen' -n 4^2..4^5 "
+        "--seeds 40 --analyze 'star-discrepancy,l2-discrepancy,periodogram' --no-seconds ";
+    ASSERT_EQ(good(box.shell(command + "-o whole.csv")), "");
+    (void)box.shell(command + "-o cut.csv & pid=$!; sleep 0.15; kill -9 $pid; wait $pid");
+    (void)box.shell(command +
+                    "-o cut.csv --resume --threads 1 & pid=$!; sleep 0.1; kill -INT $pid; wait");
+    EXPECT_EQ(good(box.shell(command + "-o cut.csv --resume --threads 3")), "");
+    EXPECT_TRUE(box.read("cut.csv") == box.read("whole.csv"));
+    EXPECT_EQ(box.files(), (std::vector<std::string>{"cut.csv", "whole.csv"}));
+}
+
+TEST(Study, InterruptKeepsWhatIsDoneAndExits130) {
+    const Sandbox box;
+    const Outcome outcome = box.shell(
+        "stipple study --generators 'random;halton' -n 1024 -d 6 --seeds 400 --analyze "
+        "star-discrepancy -o study.csv & pid=$!; sleep 0.4; kill -INT $pid; wait $pid");
+    EXPECT_EQ(outcome.code, 130) << outcome.err;
+    EXPECT_EQ(outcome.err,
+              "stipple: interrupted; what is done is in study.csv; --resume goes on\n");
+    EXPECT_TRUE(box.exists("study.csv"));
+    EXPECT_TRUE(box.exists("study.csv.journal"));
+}
+
+TEST(Study, ResumeRefusesAnotherStudyAndWhatIsNone) {
+    const Sandbox box;
+    ASSERT_EQ(good(box.shell(small + std::string("-o study.csv"))), "");
+    const std::string whole = box.read("study.csv");
+    Outcome outcome = box.shell(small + std::string("--seeds 5 -o study.csv --resume"));
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("study.csv: --resume: the study there is another one"));
+    EXPECT_EQ(box.read("study.csv"), whole);
+    EXPECT_EQ(good(box.shell(small + std::string("-o study.csv --resume"))), "");
+    EXPECT_EQ(box.read("study.csv"), whole);
+    box.write("points.csv", "x,y\n0.5,0.5\n");
+    for (const char* resume : {"", "--resume"}) {
+        outcome = box.shell(small + std::string("-o points.csv ") + resume);
+        EXPECT_EQ(outcome.code, 3);
+        EXPECT_THAT(outcome.err, HasSubstr("points.csv: is there and is not a study's table"));
+        EXPECT_EQ(box.read("points.csv"), "x,y\n0.5,0.5\n");
+    }
+    outcome = box.shell(small + std::string("--resume"));
+    EXPECT_EQ(outcome.code, 2);
+}
+
+TEST(Study, AnUnfinishedStudyIsNotOverwritten) {
+    const Sandbox box;
+    ASSERT_EQ(good(box.shell(small + std::string("-o study.csv"))), "");
+    const std::string whole = box.read("study.csv");
+    box.write("study.csv", lines(whole, 9));
+    box.write("study.csv.journal", "");
+    const Outcome outcome = box.shell(small + std::string("-o study.csv"));
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("holds a study that is not finished; --resume goes on"));
+    EXPECT_EQ(box.read("study.csv"), lines(whole, 9));
+}
+
+TEST(Study, RowsThatWereChangedAreFoundOut) {
+    const Sandbox box;
+    ASSERT_EQ(good(box.shell(small + std::string("-o study.csv"))), "");
+    const std::string whole = box.read("study.csv");
+    std::string moved = lines(whole, 1) + whole.substr(lines(whole, 9).size());
+    box.write("study.csv", moved);
+    Outcome outcome = box.shell(small + std::string("-o study.csv --resume"));
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("study.csv:2: this row is not where the study has it"));
+    box.write("study.csv", lines(whole, 3) + "nonsense\n" + whole.substr(lines(whole, 4).size()));
+    outcome = box.shell(small + std::string("-o study.csv --resume"));
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("study.csv:4: is no row of a study"));
+}
+
+TEST(Study, HugeStudiesAreRefusedBeforeTheyStart) {
+    const Sandbox box;
+    const Outcome outcome = box.shell(
+        "stipple study --generators random,halton -n 1024 --seeds 5e8 --analyze "
+        "star-discrepancy -o study.csv --threads 2");
+    EXPECT_EQ(outcome.code, 5);
+    EXPECT_THAT(outcome.err, HasSubstr("the study has 1000000000 rows or more (2 generators x 1 "
+                                       "dimensions x 1 counts x 500000000 seeds x 1 measures), "
+                                       "about "));
+    EXPECT_THAT(outcome.err, HasSubstr("on 2 cores; --yes starts it all the same\n"));
+    EXPECT_TRUE(box.files().empty());
+}
+
+TEST(Study, AConfigurationSaysTheSameAsOptions) {
+    const Sandbox box;
+    box.write("study.json",
+              R"({"generators": ["random", {"name": "sobol", "options": {"scramble": "owen"}},
+                                 "halton"],
+                  "count": "16..64", "seeds": 4, "seconds": false,
+                  "analyze": ["star-discrepancy", "l2-discrepancy:kind=centered"]})");
+    const std::string typed = good(box.shell(small));
+    EXPECT_EQ(good(box.shell("stipple study --config study.json")), typed);
+    EXPECT_EQ(good(box.shell("stipple study --config - < study.json")), typed);
+    EXPECT_NE(good(box.shell("stipple study --config study.json --seeds 2")), typed);
+    box.write("bad.json", R"({"generators": ["sobl"], "analyze": "moments"})");
+    const Outcome outcome = box.shell("stipple study --config bad.json");
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_EQ(outcome.err,
+              "stipple: bad.json: $.generators[0]: unknown generator 'sobl'; did you mean "
+              "'sobol'?\n");
+}
+
+TEST(Study, BadInputIsOneLineThatHelps) {
+    const Sandbox box;
+    const std::vector<std::pair<std::string, std::string>> cases = {
+        {"--generators sobl --analyze moments",
+         "stipple: unknown generator 'sobl'; did you mean 'sobol'?\n"},
+        {"--generators random --analyze momnts",
+         "stipple: unknown analyzer 'momnts'; did you mean 'moments'?\n"},
+        {"--generators random --analyze moments -w dsk",
+         "stipple: unknown warp 'dsk'; did you mean 'disk'?\n"},
+        {"--generators 'random,a:v=[1' --analyze moments",
+         "stipple: --generators, column 12: this '[' is not closed\n"},
+        {"--generators random --analyze moments -n 64..16",
+         "stipple: --count: the range '64..16' is empty: 64 is above 16\n"},
+        {"--analyze moments",
+         "stipple: study: --generators is missing; 'stipple study --help' has examples; --config "
+         "FILE names a study in a file\n"},
+        {"--generators random,random --analyze moments",
+         "stipple: generators: 'random' stands twice\n"},
+        {"--generators random --analyze moments --pairs t",
+         "stipple: --pairs: 't' is not one of welch, paired\n"},
+        {"--generators random --analyze moments --confidence 95",
+         "stipple: --confidence: '95' is not a number between 0 and 1\n"},
+        {"--generators random --analyze moments -f json",
+         "stipple: --format: 'json' is not one of csv, jsonl\n"},
+        {"points.csv --generators random --analyze moments",
+         "stipple: study takes no input; 'points.csv' is not understood\n"}};
+    for (const auto& [arguments, message] : cases) {
+        const Outcome outcome = box.shell("stipple study " + arguments);
+        EXPECT_EQ(outcome.code, 2) << arguments;
+        EXPECT_EQ(outcome.err, message);
+        EXPECT_EQ(outcome.out, "");
+    }
+}
+
+TEST(Study, AClosedPipeIsNoError) {
+    const Sandbox box;
+    const Outcome outcome = box.shell(
+        "(stipple study --generators random -n 16 --seeds 20000 --analyze moments; echo $? >&2) | "
+        "head -1 > /dev/null");
+    EXPECT_EQ(outcome.err, "0\n");
+}
+
+// Ranks share the work; where the build has no MPI, it says so.
+TEST(Study, RanksGiveTheBytesOfOneProcess) {
+    const Sandbox box;
+    if (box.shell("command -v mpirun").code != 0) GTEST_SKIP() << "no launcher";
+    const std::string mpirun =
+        "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+        "OMPI_MCA_rmaps_base_oversubscribe=1 "
+        "OMPI_MCA_btl=self,vader OMPI_MCA_btl_vader_single_copy_mechanism=none mpirun ";
+#ifdef STIPPLE_MPI
+    const std::string one = good(box.shell(small));
+    for (const char* ranks : {"2", "4"}) {
+        const Outcome outcome = box.shell(mpirun + "-n " + ranks + " " + small + "-o ranks.csv");
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        EXPECT_EQ(box.read("ranks.csv"), one) << ranks;
+    }
+    // A failing measurement is a row, for all ranks.
+    const std::string failing =
+        "stipple study --generators 'grid,random' -n 16..64 --seeds 3 --analyze "
+        "star-discrepancy --no-seconds -o failing.csv";
+    EXPECT_EQ(box.shell(failing).code, 3);
+    const std::string expected = box.read("failing.csv");
+    EXPECT_EQ(box.shell(mpirun + "-n 2 " + failing).code, 3);
+    EXPECT_EQ(box.read("failing.csv"), expected);
+    // Rank 0 alone speaks of a wrong call.
+    const Outcome wrong =
+        box.shell(mpirun + "-n 2 stipple study --generators sobl --analyze moments");
+    EXPECT_EQ(wrong.code, 2);
+    const auto first = wrong.err.find("unknown generator");
+    EXPECT_NE(first, std::string::npos);
+    EXPECT_EQ(wrong.err.find("unknown generator", first + 1), std::string::npos);
+#else
+    const Outcome outcome = box.shell("OMPI_COMM_WORLD_SIZE=2 " + std::string(small));
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("this build has no MPI"));
+#endif
+}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "study/spec_list.hpp"
+
+#include <gtest/gtest.h>
+
+#include "support/units.hpp"
+
+using namespace stipple;
+using stipple::testing::error_of;
+
+namespace {
+
+using Specs = std::vector<std::string>;
+using Counts = std::vector<std::uint64_t>;
+
+Counts counts(std::string_view text) { return parse_counts(text, "--count", 1, 1'000'000'000); }
+
+}  // namespace
+
+TEST(SplitSpecs, HonoursBracketsAndOptionsWithCommas) {
+    EXPECT_EQ(split_specs("halton", "-g"), Specs{"halton"});
+    EXPECT_EQ(split_specs("random, jittered ,halton", "-g"),
+              (Specs{"random", "jittered", "halton"}));
+    EXPECT_EQ(split_specs("sobol:scramble=owen,start=3,halton", "-g"),
+              (Specs{"sobol:scramble=owen,start=3", "halton"}));
+    EXPECT_EQ(split_specs("a:v=[0,0 1,0],b:w=[x:u=[1,2],y],c", "-g"),
+              (Specs{"a:v=[0,0 1,0]", "b:w=[x:u=[1,2],y]", "c"}));
+    EXPECT_EQ(split_specs("a:x=1,b:y=2,z=3", "-g"), (Specs{"a:x=1", "b:y=2,z=3"}));
+    EXPECT_EQ(split_specs("a:x=1;b;c:y=2", "-g"), (Specs{"a:x=1", "b", "c:y=2"}));
+}
+
+TEST(SplitSpecs, NamesTheColumnOfWhatIsUnbalancedOrMissing) {
+    EXPECT_EQ(error_of([] { split_specs("random,a:v=[0,[1]", "--generators"); }),
+              "usage: --generators, column 12: this '[' is not closed");
+    EXPECT_EQ(error_of([] { split_specs("random],halton", "--generators"); }),
+              "usage: --generators, column 7: ']' closes nothing");
+    EXPECT_EQ(error_of([] { split_specs("random,,halton", "--generators"); }),
+              "usage: --generators, column 8: a name is expected");
+    EXPECT_EQ(error_of([] { split_specs("", "--generators"); }),
+              "usage: --generators, column 1: a name is expected");
+}
+
+TEST(ParseCounts, TakesListsAndRanges) {
+    EXPECT_EQ(counts("16,64,256"), (Counts{16, 64, 256}));
+    EXPECT_EQ(counts("1e3"), (Counts{1000}));
+    EXPECT_EQ(counts("2^4..2^8"), (Counts{16, 32, 64, 128, 256}));
+    EXPECT_EQ(counts("16..256"), (Counts{16, 32, 64, 128, 256}));
+    EXPECT_EQ(counts("3..81"), (Counts{3, 9, 27, 81}));
+    EXPECT_EQ(counts("9..81"), (Counts{9, 27, 81}));
+    EXPECT_EQ(counts("1..8"), (Counts{1, 2, 4, 8}));
+    EXPECT_EQ(counts("16..1000*4"), (Counts{16, 64, 256}));
+    EXPECT_EQ(counts("10..35+10"), (Counts{10, 20, 30}));
+    EXPECT_EQ(counts("7..7"), (Counts{7}));
+    EXPECT_EQ(counts("5, 2^3..2^4"), (Counts{5, 8, 16}));
+}
+
+TEST(ParseCounts, RefusesWhatIsNoRangeAndSaysWhatIs) {
+    EXPECT_EQ(error_of([] { counts("64..16"); }),
+              "usage: --count: the range '64..16' is empty: 64 is above 16");
+    EXPECT_EQ(error_of([] { counts("16..100"); }),
+              "usage: --count: '16..100' does not say which numbers between, and its ends are not "
+              "powers of one base | 16..100*2 goes by a factor, 16..100+21 by a step");
+    EXPECT_EQ(error_of([] { counts(" "); }), "usage: --count: there are no numbers");
+    EXPECT_EQ(error_of([] { counts("16,32,16"); }),
+              "usage: --count: 16 stands twice in '16,32,16'");
+    EXPECT_EQ(error_of([] { counts("16..64*1"); }),
+              "usage: --count: '1' in '16..64*1' is not a factor of 2 or more");
+    EXPECT_EQ(error_of([] { counts("16..64+0"); }),
+              "usage: --count: '0' in '16..64+0' is not a step of 1 or more");
+    EXPECT_EQ(error_of([] { counts("0"); }), "usage: --count: 0 is outside [1, 1000000000]");
+    EXPECT_TRUE(error_of([] { counts("16..x"); }).starts_with("usage: --count: 'x' is not a"));
+    EXPECT_TRUE(error_of([] { counts("16,,32"); }).starts_with("usage: --count: '' is not a"));
+    EXPECT_TRUE(error_of([] { counts("1..1e9+1"); }).ends_with("has more than 1000000 numbers"));
+}

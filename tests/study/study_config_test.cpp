@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "study/study_config.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "support/units.hpp"
+
+using namespace stipple;
+using stipple::testing::error_of;
+
+namespace {
+
+std::string error_in(const std::string& json) {
+    return error_of([&] { parse_study_config(json, "s.json"); });
+}
+
+/// A configuration that is right but for one more key.
+std::string error_with(const std::string& key) {
+    return error_in(R"({"generators": ["random"], "analyze": ["moments"], )" + key + "}");
+}
+
+}  // namespace
+
+TEST(StudyConfig, SaysWhatTheOptionsWouldSay) {
+    const auto settings = parse_study_config(R"({
+        "comment": "two samplers",
+        "generators": ["random", {"name": "sobol", "options": {"scramble": "owen"}}],
+        "analyze": "star-discrepancy",
+        "warp": [{"name": "triangle", "options": {"vertices": [[0, 0], [2, 0], [0, 1]]}}],
+        "count": [16, "2^5..2^6"], "dimension": 2, "seeds": 4, "seed": 18446744073709551615,
+        "keys": ["value", "exact"], "curves": false, "seconds": false, "summary": true,
+        "time-limit": 2.5
+    })",
+                                             "s.json");
+    const StudySettings expected = {{"generators", "random"},
+                                    {"generators", "sobol:scramble=[owen]"},
+                                    {"analyze", "star-discrepancy"},
+                                    {"warp", "triangle:vertices=[0,0 2,0 0,1]"},
+                                    {"count", "16,2^5..2^6"},
+                                    {"dimension", "2"},
+                                    {"seeds", "4"},
+                                    {"seed", "18446744073709551615"},
+                                    {"keys", "value,exact"},
+                                    {"no-seconds", "true"},
+                                    {"summary", "true"},
+                                    {"time-limit", "2.5"}};
+    EXPECT_EQ(settings, expected);
+}
+
+TEST(StudyConfig, ErrorsNameThePlaceAndWhatIsNearest) {
+    EXPECT_EQ(error_with(R"("seads": 3)"),
+              "input: s.json: $.seads: there is no such key | did you mean 'seeds'?");
+    EXPECT_EQ(error_in(R"({"generators": ["random", "sobl"], "analyze": "moments"})"),
+              "input: s.json: $.generators[1]: unknown generator 'sobl' | did you mean 'sobol'?");
+    EXPECT_EQ(error_in(R"({"generators": [{"name": "sobol", "options": {"scrmble": "owen"}}],
+                           "analyze": "moments"})")
+                  .substr(0, 57),
+              "input: s.json: $.generators[0].options.scrmble: unknown o");
+    EXPECT_EQ(error_in(R"({"generators": [{"nam": "sobol"}], "analyze": "moments"})"),
+              "input: s.json: $.generators[0].nam: there is no such key | did you mean 'name'?");
+    EXPECT_EQ(error_with(R"("count": [16, "64..16"])"),
+              "input: s.json: $.count[1]: count: the range '64..16' is empty: 64 is above 16");
+    EXPECT_EQ(error_with(R"("count": [16.5])"),
+              "input: s.json: $.count[0]: expected a whole number or a range such as "
+              "\"2^4..2^16\", got 16.5");
+    EXPECT_EQ(error_with(R"("curves": 1)"),
+              "input: s.json: $.curves: expected true or false, got 1");
+    EXPECT_EQ(error_with(R"("seeds": "4")"),
+              "input: s.json: $.seeds: expected a number, got \"4\"");
+    EXPECT_EQ(error_with(R"("keys": [1])"), "input: s.json: $.keys[0]: expected a word, got 1");
+    EXPECT_EQ(error_in(R"({"generators": []})"),
+              "input: s.json: $.generators: expected a list of specs such as "
+              "\"sobol:scramble=owen\"");
+    EXPECT_EQ(error_in(R"({"generators": "random"})"),
+              "input: s.json: $: the key 'analyze' is missing");
+    EXPECT_EQ(error_in("[1]"), "input: s.json: $: expected an object, {\"generators\": ...}");
+    EXPECT_EQ(error_in("{\n \"a\": ,"), "input: s.json:2:7: is not JSON here");
+    EXPECT_EQ(error_in(""), "input: s.json:1:1: is not JSON here");
+}
+
+TEST(StudyConfig, TheSchemaHasTheSameKeys) {
+    std::ifstream in(STIPPLE_SOURCE_DIR "/data/study.schema.json");
+    const auto schema = nlohmann::json::parse(in);
+    std::set<std::string> written;
+    for (const auto& [name, value] : schema["properties"].items()) written.insert(name);
+    std::set<std::string> known = {"$schema", "comment"};
+    for (const auto& name : study_config_keys()) known.insert(name);
+    EXPECT_EQ(written, known);
+}

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "study/work_queue.hpp"
+
+#include <gtest/gtest.h>
+
+#include "study/work_cost.hpp"
+
+using namespace stipple;
+
+namespace {
+
+using Ranges = std::vector<UnitRange>;
+
+Sweep sweep() {
+    return Sweep({.generators = {"random", "halton", "poisson-disk"},
+                  .counts = {16, 4096, 65536},
+                  .dimensions = {2, 3},
+                  .seeds = 7,
+                  .measures = {"star-discrepancy", "moments", "periodogram"}});
+}
+
+/// How often each unit is given out.
+std::vector<int> given_out(const Sweep& s, const UnitSet& done, std::size_t workers) {
+    std::vector<int> times(s.units());
+    WorkQueue queue(s, done, workers);
+    while (const auto ranges = queue.pull())
+        for (const auto& [first, last] : *ranges)
+            for (std::uint64_t u = first; u < last; ++u) ++times[u];
+    EXPECT_EQ(queue.pieces_left(), 0U);
+    return times;
+}
+
+}  // namespace
+
+TEST(UnitSet, JoinsWhatTouchesAndTellsWhatIsMissing) {
+    UnitSet set;
+    set.add({10, 20});
+    set.add({30, 40});
+    EXPECT_EQ(set.missing({0, 50}), (Ranges{{0, 10}, {20, 30}, {40, 50}}));
+    EXPECT_EQ(set.missing({12, 18}), Ranges{});
+    EXPECT_EQ(set.missing({15, 35}), (Ranges{{20, 30}}));
+    set.add({20, 30});
+    EXPECT_EQ(set.ranges(), (Ranges{{10, 40}}));
+    set.add({5, 60});
+    set.add({7, 7});
+    EXPECT_EQ(set.ranges(), (Ranges{{5, 60}}));
+    EXPECT_EQ(set.missing({0, 5}), (Ranges{{0, 5}}));
+}
+
+TEST(WorkQueue, GivesOutEveryUnitOnceForAnyNumberOfWorkers) {
+    const Sweep s = sweep();
+    EXPECT_EQ(s.units(), 3U * 2 * 3 * 7 * 3);
+    for (const std::size_t workers : {1, 3, 1000})
+        EXPECT_EQ(given_out(s, {}, workers), std::vector<int>(s.units(), 1)) << workers;
+}
+
+TEST(WorkQueue, LeavesOutWhatIsDone) {
+    const Sweep s = sweep();
+    UnitSet done;
+    std::vector<int> expected(s.units(), 1);
+    for (const auto& [first, last] : Ranges{{0, 5}, {17, 18}, {100, 200}, {377, 378}}) {
+        done.add({first, last});
+        for (std::uint64_t u = first; u < last; ++u) expected[u] = 0;
+    }
+    EXPECT_EQ(given_out(s, done, 2), expected);
+}
+
+TEST(WorkQueue, BeginsWithTheDearestAndEndsWithTheCheapest) {
+    const Sweep s = sweep();
+    WorkQueue queue(s, {}, 2);
+    std::vector<std::uint64_t> counts;
+    while (const auto ranges = queue.pull())
+        counts.push_back(s.cell(s.unit(ranges->front().first).cell).count);
+    EXPECT_EQ(counts.front(), 65536U);
+    EXPECT_EQ(counts.back(), 16U);
+}
+
+TEST(WorkLeft, IsNothingInTheEndAndLearnsFromWhatIsDone) {
+    const Sweep s = sweep();
+    WorkLeft left(s);
+    const double modelled = left.seconds();
+    EXPECT_GT(modelled, 0);
+    WorkLeft slower(s);
+    // Everything takes a hundred times what the model says: so will what is left.
+    const UnitRange first{0, s.units() / 3};
+    const double part = modelled - [&] {
+        WorkLeft rest(s);
+        rest.forget({first});
+        return rest.seconds();
+    }();
+    slower.finish({first}, {part * 25, part * 25, part * 25, part * 25});
+    EXPECT_GT(slower.seconds(), 5 * (modelled - part));
+    left.forget({{0, s.units()}});
+    EXPECT_NEAR(left.seconds(), 0, 1e-9 * modelled);
+}
+
+TEST(Sweep, UnitsGoThroughGeneratorsThenDimensionsCountsSeedsMeasures) {
+    const Sweep s = sweep();
+    const Unit last = s.unit(s.units() - 1);
+    EXPECT_EQ(last.measure, 2U);
+    EXPECT_EQ(last.seed_index, 6U);
+    const Cell cell = s.cell(last.cell);
+    EXPECT_EQ(cell.generator, 2U);
+    EXPECT_EQ(cell.dimension, 3U);
+    EXPECT_EQ(cell.count, 65536U);
+    EXPECT_EQ(s.cell(s.unit(7 * 3).cell).count, 4096U);
+}
+
+TEST(Sweep, TheFingerprintIsOfAllThatRowsDependOn) {
+    const SweepRequest request{.generators = {"random"}, .measures = {"moments"}};
+    const std::string own = Sweep(request).fingerprint();
+    EXPECT_EQ(own.size(), 16U);
+    EXPECT_EQ(Sweep(request).fingerprint(), own);
+    auto other = request;
+    other.seeds = 2;
+    EXPECT_NE(Sweep(other).fingerprint(), own);
+    other = request;
+    other.warps = {"disk"};
+    EXPECT_NE(Sweep(other).fingerprint(), own);
+    other = request;
+    other.generators = {"random:engine=philox"};  // the default, written out
+    EXPECT_EQ(Sweep(other).fingerprint(), own);
+}
