@@ -40,19 +40,32 @@ inline std::size_t ones_of(PartBits bits) {
 template <std::size_t D>
 inline constexpr std::size_t cell_parts = D == 2 ? 8 : 4;
 
+/// Where in a byte its n-th one is, at 8 byte + n.
+inline constexpr auto nth_in_byte = [] {
+    std::array<std::uint8_t, 2048> table{};
+    for (std::size_t byte = 0; byte < 256; ++byte)
+        for (std::size_t bit = 0, n = 0; bit < 8; ++bit)
+            if ((byte >> bit & 1) != 0) table[8 * byte + n++] = static_cast<std::uint8_t>(bit);
+    return table;
+}();
+
+/// The number of the n-th one among the bits; there are more than n.
+inline std::size_t nth_bit(PartBits bits, std::size_t n) {
+    constexpr PartBits each = 0x0101010101010101U;  // byte
+    constexpr PartBits high = 0x8080808080808080U;
+    PartBits counts = bits - (bits >> 1 & 0x5555555555555555U);
+    counts = (counts & 0x3333333333333333U) + (counts >> 2 & 0x3333333333333333U);
+    const PartBits up_to = ((counts + (counts >> 4)) & 0x0f0f0f0f0f0f0f0fU) * each;
+    const PartBits passed = ((n * each | high) - up_to) & high;  // bytes before the one with it
+    const std::size_t shift = (passed >> 7) * each >> 56 << 3;
+    const std::size_t before = (up_to << 8) >> shift & 0xff;
+    return shift + nth_in_byte[(bits >> shift & 0xff) * 8 + n - before];
+}
+
 /// The lowest corner of the n-th part with a bit, in cells.
 template <std::size_t D>
 std::array<double, D> nth_part(PartBits bits, std::size_t n) {
-    constexpr std::size_t half = 32;
-    const std::size_t lower = ones_of(bits & 0xffffffffU);
-    std::size_t skipped = 0;
-    if (n >= lower) {
-        n -= lower;
-        bits >>= half;
-        skipped = half;
-    }
-    for (; n > 0; --n) bits &= bits - 1;
-    std::size_t bit = static_cast<std::size_t>(std::countr_zero(bits)) + skipped;
+    std::size_t bit = nth_bit(bits, n);
     std::array<double, D> corner;
     for (std::size_t k = 0; k < D; ++k, bit /= cell_parts<D>)
         corner[k] = static_cast<double>(bit % cell_parts<D>) / double{cell_parts<D>};
@@ -83,98 +96,34 @@ Window<D> window_around(PartBits bits, std::uint16_t place) {
     return window;
 }
 
+/// What a disk covers of the 5^D cells about its own, looked up by where in its cell the centre is;
+/// for grids where a radius leads across two cells along all directions, and else parts of any
+/// cell.
 template <std::size_t D>
-class DiskCovers {
+class DiskStamps {
   public:
     using Grid = DiskGrid<D>;
-    using Index = typename Grid::Index;
-    using Point = typename Grid::Point;
     using Place = std::array<float, D>;
+    using Row = std::array<PartBits, 5>;
 
-    explicit DiskCovers(const Grid& grid) : grid_(grid), covered_(grid.spots) {
-        for (std::size_t k = 0; k < D; ++k) {
-            plain_ = plain_ && grid.reach[k] == 2;
+    static constexpr std::size_t rows = power(5, D - 1);
+
+    explicit DiskStamps(const Grid& grid) : grid_(grid) {
+        for (std::size_t k = 0; k < D; ++k)
             parts_[k] = static_cast<float>(grid.scales[k] / static_cast<double>(cell_parts<D>));
-        }
         while (places_ * 2 <= most_places && power(places_, D) * worth < grid.cell_count)
             places_ *= 2;
         for (std::size_t k = 0; k < D; ++k)
             to_places_[k] = static_cast<float>(static_cast<double>(places_) / grid.scales[k]);
-        make_stamps();
+        stamps_.reserve(power(places_, D) * rows);
+        for (std::size_t place = 0; place < power(places_, D); ++place)
+            for (std::size_t row = 0; row < rows; ++row) stamps_.push_back(stamp(place, row));
     }
 
-    [[gnu::always_inline]] void fetch(std::size_t cell) const {
-        __builtin_prefetch(&covered_[cell]);
-    }
-
-    /// Gives back the memory.
-    void clear() { covered_ = {}; }
-
-    /// Parts that a disk covers alone, of a cell and those behind it.
-    [[nodiscard]] const PartBits* row(std::size_t cell) const { return &covered_[cell]; }
-
-    /// Whether the part of a cell with this place, in cells, is covered.
-    [[nodiscard]] bool covers(std::size_t cell, const Point& place) const {
-        std::size_t bit = 0;
-        for (std::size_t k = D; k-- > 0;)
-            bit = bit * cell_parts<D> + static_cast<std::size_t>(place[k] * double{cell_parts<D>});
-        return (covered_[cell] >> bit & 1) != 0;
-    }
-
-    /// Covers what a disk about a place of a cell covers, from its corner in radii.
-    /// @param shared whether other threads may be about the same cells
-    void add(const Index& cell, const Place& off, bool shared) {
-        if (grid_.interior(cell)) {
-            const Row* stamp = stamps_.data() + rows * place_of(off);
-            const std::size_t number = grid_.spot_of(cell);
-            for (const std::ptrdiff_t step : steps_) {
-                const std::size_t to = number + static_cast<std::size_t>(step);
-                if (shared)
-                    for (std::size_t i = 0; i < 5; ++i) set_shared(to + i, (*stamp)[i]);
-                else
-                    for (std::size_t i = 0; i < 5; ++i) covered_[to + i] |= (*stamp)[i];
-                ++stamp;
-            }
-        } else if (plain_) {
-            const Row* stamp = stamps_.data() + rows * place_of(off);
-            grid_.around(cell, [&](const Index& there, const Point& steps) {
-                std::size_t row = 0;
-                for (std::size_t k = D; k-- > 1;)
-                    row = 5 * row + static_cast<std::size_t>(steps[k] + 2);
-                const PartBits bits = stamp[row][static_cast<std::size_t>(steps[0] + 2)];
-                if (bits != 0) set_shared(grid_.spot_of(there), bits);
-            });
-        } else {
-            grid_.around(cell, [&](const Index& there, const Point& steps) {
-                Place center;
-                for (std::size_t k = 0; k < D; ++k)
-                    center[k] = off[k] - static_cast<float>(steps[k] * grid_.scales[k]);
-                set_shared(grid_.spot_of(there), covered_parts(center, {}));
-            });
-        }
-    }
-
-  private:
-    static constexpr std::size_t rows = power(5, D - 1);
-    using Row = std::array<PartBits, 5>;
-
-    /// A table takes its time as well: cells for each place of a centre that make the next finer
-    /// one worth it.
-    static constexpr std::size_t worth = D == 2 ? 128 : 2048;
-    static constexpr std::size_t most_places = D == 2 ? 32 : 16;
-
-    void set_shared(std::size_t cell, PartBits bits) {
-        if (bits == 0) return;
-        std::atomic_ref<PartBits>(covered_[cell]).fetch_or(bits, std::memory_order_relaxed);
-    }
-
-    [[nodiscard]] std::size_t place_of(const Place& off) const {
-        std::size_t place = 0;
-        for (std::size_t k = D; k-- > 0;) {
-            const auto q = static_cast<std::size_t>(off[k] * to_places_[k]);
-            place = place * places_ + std::min(q, places_ - 1);
-        }
-        return place;
+    /// Rows of five cells, from two before the one with the centre on, along every direction.
+    /// @param off of the centre from the corner of its cell, in radii
+    [[nodiscard]] const Row* about(const Place& off) const {
+        return stamps_.data() + rows * place_of(off);
     }
 
     /// Parts of a cell that a disk covers, whose centre is within `play` of `center` along each
@@ -199,16 +148,19 @@ class DiskCovers {
         return bits;
     }
 
-    void make_stamps() {
-        for (std::size_t row = 0; row < rows; ++row) {
-            steps_[row] = -2;
-            for (std::size_t k = 1, rest = row; k < D; ++k, rest /= 5)
-                steps_[row] += (static_cast<std::ptrdiff_t>(rest % 5) - 2) *
-                               static_cast<std::ptrdiff_t>(grid_.strides[k]);
+  private:
+    /// A table takes its time as well: cells for each place of a centre that make the next finer
+    /// one worth it.
+    static constexpr std::size_t worth = D == 2 ? 128 : 2048;
+    static constexpr std::size_t most_places = D == 2 ? 32 : 16;
+
+    [[nodiscard]] std::size_t place_of(const Place& off) const {
+        std::size_t place = 0;
+        for (std::size_t k = D; k-- > 0;) {
+            const auto q = static_cast<std::size_t>(off[k] * to_places_[k]);
+            place = place * places_ + std::min(q, places_ - 1);
         }
-        stamps_.reserve(power(places_, D) * rows);
-        for (std::size_t place = 0; place < power(places_, D); ++place)
-            for (std::size_t row = 0; row < rows; ++row) stamps_.push_back(stamp(place, row));
+        return place;
     }
 
     /// What a disk covers of five cells along the first direction, wherever in a place it lies.
@@ -232,13 +184,93 @@ class DiskCovers {
     }
 
     const Grid& grid_;
+    Place parts_{};            ///< sides of a part, in radii
+    Place to_places_{};        ///< from radii
+    std::size_t places_ = 4;   ///< of a centre along a direction
+    std::vector<Row> stamps_;  ///< for each place of a centre
+};
+
+template <std::size_t D>
+class DiskCovers {
+  public:
+    using Grid = DiskGrid<D>;
+    using Index = typename Grid::Index;
+    using Point = typename Grid::Point;
+    using Place = std::array<float, D>;
+
+    explicit DiskCovers(const Grid& grid) : grid_(grid), covered_(grid.spots), stamps_(grid) {
+        for (std::size_t k = 0; k < D; ++k) plain_ = plain_ && grid.reach[k] == 2;
+        for (std::size_t row = 0; row < steps_.size(); ++row) {
+            steps_[row] = -2;
+            for (std::size_t k = 1, rest = row; k < D; ++k, rest /= 5)
+                steps_[row] += (static_cast<std::ptrdiff_t>(rest % 5) - 2) *
+                               static_cast<std::ptrdiff_t>(grid_.strides[k]);
+        }
+    }
+
+    [[gnu::always_inline]] void fetch(std::size_t cell) const {
+        __builtin_prefetch(&covered_[cell]);
+    }
+
+    /// Gives back the memory.
+    void clear() { covered_ = {}; }
+
+    /// Parts that a disk covers alone, of a cell and those behind it.
+    [[nodiscard]] const PartBits* row(std::size_t cell) const { return &covered_[cell]; }
+
+    /// Whether the part of a cell with this place, in cells, is covered.
+    [[nodiscard]] bool covers(std::size_t cell, const Point& place) const {
+        std::size_t bit = 0;
+        for (std::size_t k = D; k-- > 0;)
+            bit = bit * cell_parts<D> + static_cast<std::size_t>(place[k] * double{cell_parts<D>});
+        return (covered_[cell] >> bit & 1) != 0;
+    }
+
+    /// Covers what a disk about a place of a cell covers, from its corner in radii.
+    /// @param shared whether other threads may be about the same cells
+    void add(const Index& cell, const Place& off, bool shared) {
+        if (grid_.interior(cell)) {
+            const auto* stamp = stamps_.about(off);
+            const std::size_t number = grid_.spot_of(cell);
+            for (const std::ptrdiff_t step : steps_) {
+                const std::size_t to = number + static_cast<std::size_t>(step);
+                if (shared)
+                    for (std::size_t i = 0; i < 5; ++i) set_shared(to + i, (*stamp)[i]);
+                else
+                    for (std::size_t i = 0; i < 5; ++i) covered_[to + i] |= (*stamp)[i];
+                ++stamp;
+            }
+        } else if (plain_) {
+            const auto* stamp = stamps_.about(off);
+            grid_.around(cell, [&](const Index& there, const Point& steps) {
+                std::size_t row = 0;
+                for (std::size_t k = D; k-- > 1;)
+                    row = 5 * row + static_cast<std::size_t>(steps[k] + 2);
+                const PartBits bits = stamp[row][static_cast<std::size_t>(steps[0] + 2)];
+                if (bits != 0) set_shared(grid_.spot_of(there), bits);
+            });
+        } else {
+            grid_.around(cell, [&](const Index& there, const Point& steps) {
+                Place center;
+                for (std::size_t k = 0; k < D; ++k)
+                    center[k] = off[k] - static_cast<float>(steps[k] * grid_.scales[k]);
+                set_shared(grid_.spot_of(there), stamps_.covered_parts(center, {}));
+            });
+        }
+    }
+
+  private:
+    void set_shared(std::size_t cell, PartBits bits) {
+        if (bits == 0) return;
+        std::atomic_ref<PartBits>(covered_[cell]).fetch_or(bits, std::memory_order_relaxed);
+    }
+
+    const Grid& grid_;
     std::vector<PartBits> covered_;
-    Place parts_{};           ///< sides of a part, in radii
-    bool plain_ = true;       ///< a radius leads across two cells, along all directions
-    Place to_places_{};       ///< from radii
-    std::size_t places_ = 4;  ///< of a centre along a direction
-    std::array<std::ptrdiff_t, rows> steps_{};  ///< from a cell to the first of each five about it
-    std::vector<Row> stamps_;                   ///< what those get, for each place of a centre
+    DiskStamps<D> stamps_;
+    bool plain_ = true;  ///< a radius leads across two cells, along all directions
+    std::array<std::ptrdiff_t, DiskStamps<D>::rows> steps_{};  ///< from a cell to the first of each
+                                                               ///< five about it
 };
 
 }  // namespace stipple

@@ -10,7 +10,9 @@
 #include "core/rng.hpp"
 #include "core/text.hpp"
 #include "generators/disk_shower.hpp"
+#include "generators/disk_spots.hpp"
 #include "generators/disk_tiles.hpp"
+#include "generators/plane_disks.hpp"
 #include "math/mixer.hpp"
 
 namespace stipple {
@@ -30,6 +32,11 @@ constexpr double unit_ball[] = {1,
 /// doi:10.1103/PhysRevE.74.061308), rounded up.
 constexpr double jammed[] = {0, 0.75, 0.70, 0.74, 0.85, 1.05, 1.40};
 
+/// How near to a rim arithmetic on coordinates can go wrong, in radii.
+double double_slack(const BoxSpace& space, double radius) {
+    return 0x1p-49 * (space.largest_coordinate() / radius + 8);
+}
+
 template <std::size_t D>
 class Rain {
   public:
@@ -45,8 +52,8 @@ class Rain {
           tiles_(grid_),
           keys_(seed),
           expected_(static_cast<std::uint64_t>(expected_disks(space, radius))),
-          run_(worth_threads(run, static_cast<double>(expected_) * seconds_a_point)) {
-        slack_ = 0x1p-49 * (space.largest_coordinate() / radius + 8);
+          run_(worth_threads(run, static_cast<double>(expected_) * seconds_a_point)),
+          slack_(double_slack(space, radius)) {
         for (std::size_t t = 0; t < grid_.tile_count; ++t)
             live_.push_back(static_cast<std::uint32_t>(t));
         if (D > 3) return;  // of the few points there, tiles have no typical number
@@ -407,24 +414,47 @@ class Rain {
     std::uint64_t showers_ = 0;
 };
 
-/// @throws Error(limit) when the points for this radius do not fit the memory, or the indices.
-void check_size(const BoxSpace& space, double radius, const RunContext& run) {
-    const std::size_t d = space.box.dimension();
+/// Tile by tile, unless there are few cells.
+Rows plane_or_few(const BoxSpace& space, double radius, double cell_radius, std::uint64_t seed,
+                  const RunContext& run) {
+    const DiskGrid<2> grid(space, radius, cell_radius);
+    if (!fits_plane_tiles(grid)) return Rain<2>(space, radius, cell_radius, seed, run).fill();
+    constexpr double seconds_a_point = 6e-7;
+    const double expected = expected_disks(space, radius);
+    return plane_disks(grid, double_slack(space, radius), static_cast<std::uint64_t>(expected),
+                       seed, worth_threads(run, expected * seconds_a_point));
+}
+
+/// Bytes that so many points take, in so many cells along each direction.
+double memory_for(const std::vector<double>& along, double points) {
+    const double d = static_cast<double>(along.size());
     double cells = 1;
     double spots = 1;  // cells, and two more at each end
-    for (const double along : cells_along(space.box, radius)) {
-        cells *= along;
-        spots *= along + 4;
+    for (const double count : along) {
+        cells *= count;
+        spots *= count + 4;
     }
-    const double points = expected_disks(space, radius);
-    const double n = static_cast<double>(d);
+    if (along.size() == 2) {  // what each tile knows; a point, its copy, undecided darts; windows
+        const auto known = static_cast<double>(DiskSpots::stride);
+        const double rows = along[1] + 4 * std::ceil(along[1] / 64);
+        return 14 * known * std::ceil(along[0] / 64) * rows + 45 * points + 4 * cells;
+    }
     // A cell's head, place and bits; a point, its copy and the candidates of a shower; windows.
-    const double to_a_cell = d <= 3 ? 10.5 + 4 * n : 0;
-    const double to_a_point = 2 * 8 * n + 0.6 * (8 * n + 9);
-    const double windows = cells * (d == 2 ? 0.7 : d == 3 ? 1 : 1.5) * (8 * n + 8);
-    const double bytes = spots * to_a_cell + points * to_a_point + windows;
-    run.need_memory(bytes, fmt::format("a radius of {}, with about {:.3g} points,",
-                                       format_number(radius), points));
+    const double to_a_cell = d == 3 ? 10.5 + 4 * d : 0;
+    const double to_a_point = 2 * 8 * d + 0.6 * (8 * d + 9);
+    const double windows = cells * (d == 3 ? 1 : 1.5) * (8 * d + 8);
+    return spots * to_a_cell + points * to_a_point + windows;
+}
+
+/// @throws Error(limit) when the points for this radius do not fit the memory, or the indices.
+void check_size(const BoxSpace& space, double radius, const RunContext& run) {
+    const std::vector<double> along = cells_along(space.box, radius);
+    double cells = 1;
+    for (const double count : along) cells *= count;
+    const double points = expected_disks(space, radius);
+    run.need_memory(
+        memory_for(along, points),
+        fmt::format("a radius of {}, with about {:.3g} points,", format_number(radius), points));
     if (cells >= 0xffff'fffe)
         fail(ErrorKind::limit,
              "a radius of {} makes about {:.3g} points, and {:.3g} cells to find them by; at most "
@@ -444,7 +474,7 @@ Rows maximal_disks(const BoxSpace& space, double radius, double cell_radius, std
     check_size(space, radius, run);
     switch (space.box.dimension()) {
         case 2:
-            return Rain<2>(space, radius, cell_radius, seed, run).fill();
+            return plane_or_few(space, radius, cell_radius, seed, run);
         case 3:
             return Rain<3>(space, radius, cell_radius, seed, run).fill();
         case 4:
