@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/text.hpp"
 
 namespace stipple::analyzers {
 
@@ -14,6 +15,11 @@ void require_even(const Domain& domain, std::string_view analyzer) {
     fail_with_hint(ErrorKind::input, "chi-square takes every domain",
                    "{} needs coordinates that preserve probability; {} has none", analyzer,
                    domain.spec());
+}
+
+void tell_axes(const Domain& domain, Report& report) {
+    const auto axes = domain.cube_axes();
+    if (axes != unit_cube(axes.size())->cube_axes()) report.add("axes", join(axes, "; "));
 }
 
 std::vector<double> cube_rows(const Domain& domain, std::span<const double> rows,

@@ -11,12 +11,16 @@
 
 #include "analyzers/outside.hpp"
 #include "core/domain.hpp"
+#include "core/report.hpp"
 #include "core/run_context.hpp"
 
 namespace stipple::analyzers {
 
 /// @throws Error(input) where the domain's coordinates do not preserve probability
 void require_even(const Domain& domain, std::string_view analyzer);
+
+/// Adds "axes" with the names of the cube's axes, where they are more than x1, x2, ...
+void tell_axes(const Domain& domain, Report& report);
 
 /// Coordinates of the cube for points of which the first is point `first`; those outside the domain
 /// are counted, and get numbers that mean nothing.

@@ -19,17 +19,28 @@
 //
 // --compare: beside the estimate by importance sampling with density p, that by uniform sampling
 // with the same points of the cube: x_i goes back to the cube by the domain's coordinates, in which
-// p is uniform, and from there to the box, hemisphere or sphere by its measure. Where p is level,
-// on any domain, both are the same points. Variances are those of one
-// sample, f / p and measure x f, over the set; their ratio says how many times as many uniform
-// points would be needed, were they independent.
+// p is uniform, and from there to the box, hemisphere or sphere by its measure. Variances are those
+// of one sample, f / p and measure x f, over the set; their ratio says how many times as many
+// uniform points would be needed, were they independent.
+//
+// Where the density is 0 on a part of the domain, no point tells of f there: the estimate is of the
+// integral over the rest, the support, and so is `exact`, by quadrature to exact_error where the
+// support is known as a few boxes of one or two dimensions; else there is none.
+//
+// Where the density is level, on any domain, both are the same points. Where the domain has no such
+// coordinates (mixtures, formulas, supports with gaps), the uniform estimator's variance is worked
+// out from the same points by their weights,
+//
+//     n / (n - 1) (measure mean(f^2 / p) - mean(f / p)^2),
+//
+// which tends to the same number; its estimate is then that by importance sampling.
 //
 // Shape   points n x d on any domain whose measure is finite; numbers for each integrand.
 // Cost    O(n d) for each integrand; about 10 to 50 ns a point in 2-D on one core.
 // Promise sums carry their rounding along; results are the same for any number of threads.
 // Beware  where p nears 0 and f does not, f / p may have no finite variance (`measure` on the
-// cosine
-//         hemisphere): a standard error of it is then a description of the points, not a bound.
+//         cosine hemisphere): a standard error of it is then a description of the points, not a
+//         bound.
 // Source  A. B. Owen, "Monte Carlo theory, methods and examples" (2013), chapters 9 (importance
 //         sampling) and 17 (error estimates by replication).
 
@@ -47,9 +58,11 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/spec.hpp"
+#include "core/support.hpp"
 #include "core/text.hpp"
 #include "math/expression.hpp"
 #include "math/integrand.hpp"
+#include "math/quadrature.hpp"
 
 namespace stipple::analyzers {
 namespace {
@@ -71,19 +84,22 @@ constexpr Param<Text> expression{
 
 constexpr Param<double> exact{.name = "exact",
                               .optional = true,
-                              .help = "The integral of the expression over the domain, if known"};
+                              .help =
+                                  "The integral of the expression over the domain, or over the "
+                                  "part where the density is not 0, if known"};
 
 constexpr Param<bool> compare{
     .name = "compare",
     .help =
         "Also integrate by uniform points, made from the same points of the cube, and compare "
-        "the variances; on boxes, hemispheres, lobes on the sphere, and where points are uniform"};
+        "the variances; where that cannot be done, work out from the points' weights what the "
+        "variance of uniform ones would be"};
 
 struct Task {
     std::string name;
     Region region;
     std::function<double(std::span<const double>)> value;
-    std::optional<double> exact;  ///< over the domain, where it is known
+    std::optional<Estimate> exact;  ///< over the support of the density, where it is known
 };
 
 const char* words(Region region) {
@@ -131,10 +147,39 @@ Named named(const std::string& text) {
     }
 }
 
+/// The integral over the boxes of the support, of one or two dimensions.
+std::optional<Estimate> integral_over(const Support& support, const Domain& domain,
+                                      const RegionView& view, const Task& task) {
+    const std::size_t d = domain.dimension();
+    if (support.boxes.empty() || d > 2) return std::nullopt;
+    std::vector<double> seen(d);
+    const auto f = [&](std::span<const double> point) {
+        if (!(domain.density(point) > 0)) return 0.0;
+        view.see(task.region, point, seen);
+        return task.value(seen);
+    };
+    const Effort effort = d == 1 ? Effort{1e-12, 1000} : Effort{1e-7, 40};
+    Estimate sum;
+    for (const Box& box : support.boxes) {
+        const Estimate part = integrate_box(f, box, effort);
+        sum.value += part.value;
+        sum.error += part.error;
+    }
+    return sum;
+}
+
 Task task_of(const IntegrandKind& kind, const Values& values, const Domain& domain,
-             const RegionView& view) {
+             const RegionView& view, const Support& support) {
     const Integrand function = kind.make(domain.dimension(), values);
-    return {kind.name, kind.region, function.value, function.exact * view.scale(kind.region)};
+    Task task{kind.name, kind.region, function.value, std::nullopt};
+    if (support.whole)
+        task.exact = Estimate{function.exact * view.scale(kind.region), 0};
+    else if (kind.region == Region::anywhere && support.measure)
+        task.exact = Estimate{function.exact * support.measure->value,
+                              std::abs(function.exact) * support.measure->error};
+    else
+        task.exact = integral_over(support, domain, view, task);
+    return task;
 }
 
 /// A second genz-gaussian is genz-gaussian-2.
@@ -148,20 +193,23 @@ void tell_apart(std::vector<Task>& tasks) {
 }
 
 /// All integrands that take points of the domain. @throws Error(input) if there is none.
-std::vector<Task> tasks_that_fit(const Domain& domain, const RegionView& view) {
+std::vector<Task> tasks_that_fit(const Domain& domain, const RegionView& view,
+                                 const Support& support) {
     std::vector<Task> tasks;
     for (const IntegrandKind& kind : integrand_kinds())
         if (fits(kind, domain, view))
-            tasks.push_back(task_of(kind, kind.options.defaults(), domain, view));
+            tasks.push_back(task_of(kind, kind.options.defaults(), domain, view, support));
     if (tasks.empty())
         fail_with_hint(ErrorKind::input, "--expression gives one",
-                       "integration: no integrand takes points of {}", domain.spec());
+                       "no integrand takes points of {}, which is neither a box nor of a finite "
+                       "measure",
+                       domain.spec());
     return tasks;
 }
 
 /// Those of --integrand. @throws Error(usage), Error(input)
-std::vector<Task> tasks_named(const std::string& list, const Domain& domain,
-                              const RegionView& view) {
+std::vector<Task> tasks_named(const std::string& list, const Domain& domain, const RegionView& view,
+                              const Support& support) {
     std::vector<Task> tasks;
     for (const std::string& text : split_specs(list)) {
         if (text.empty())
@@ -169,7 +217,7 @@ std::vector<Task> tasks_named(const std::string& list, const Domain& domain,
                  list);
         const auto [kind, values] = named(text);
         require_fit(kind, domain, view);
-        tasks.push_back(task_of(kind, values, domain, view));
+        tasks.push_back(task_of(kind, values, domain, view, support));
     }
     tell_apart(tasks);
     return tasks;
@@ -178,20 +226,21 @@ std::vector<Task> tasks_named(const std::string& list, const Domain& domain,
 Task formula(const Domain& domain, const Values& options) {
     const Expression f("expression", options[expression], domain.dimension());
     Task task{"expression", Region::anywhere, [f](auto x) { return f.at(x); }, std::nullopt};
-    if (options.given(exact)) task.exact = options[exact];
+    if (options.given(exact)) task.exact = Estimate{options[exact], 0};
     return task;
 }
 
 /// What is to be integrated. @throws Error(usage), Error(input)
-std::vector<Task> tasks_of(const Domain& domain, const RegionView& view, const Values& options) {
+std::vector<Task> tasks_of(const Domain& domain, const RegionView& view, const Support& support,
+                           const Values& options) {
     const bool typed = options.given(expression);
     if (options.given(exact) && !typed)
         fail(ErrorKind::usage, "--exact: is the integral of an --expression; none is given");
     std::vector<Task> tasks;
     if (options.given(integrand))
-        tasks = tasks_named(options[integrand], domain, view);
+        tasks = tasks_named(options[integrand], domain, view, support);
     else if (!typed)
-        tasks = tasks_that_fit(domain, view);
+        tasks = tasks_that_fit(domain, view, support);
     if (typed) tasks.push_back(formula(domain, options));
     return tasks;
 }
@@ -214,7 +263,7 @@ struct Fault {
 /// Sums over one block, or over all.
 struct Sums {
     std::vector<Tally> weighted;  ///< f / p, for each task
-    std::vector<Tally> uniform;   ///< measure x f, at uniform points
+    std::vector<Tally> uniform;   ///< measure x f at uniform points, or measure x f^2 / p
     Outside outside;
     Fault fault;
 
@@ -228,14 +277,26 @@ struct Sums {
     }
 };
 
+/// Uniform points beside those of a density, for --compare.
+struct Uniform {
+    enum How {
+        none,
+        remade,       ///< from the same points of the cube
+        as_they_are,  ///< the density is level
+        weighed,      ///< none are had; sums of measure x f^2 / p tell of their variance
+    };
+    How how = none;
+    double measure = 0;  ///< of what they are on
+};
+
 /// Values of all integrands at points of the domain.
 class Evaluation {
   public:
     Evaluation(const Domain& domain, const RegionView& view, const std::vector<Task>& tasks,
-               bool comparing)
-        : domain_(domain), view_(view), tasks_(tasks), comparing_(comparing) {
+               const Uniform& beside)
+        : domain_(domain), view_(view), tasks_(tasks), beside_(beside) {
         sums_.weighted.resize(tasks.size());
-        if (comparing) sums_.uniform.resize(tasks.size());
+        if (beside.how != Uniform::none) sums_.uniform.resize(tasks.size());
     }
 
     void add(std::uint64_t i, std::span<const double> point) {
@@ -246,12 +307,16 @@ class Evaluation {
         const double density = domain_.density(point);
         each(point, [&](std::size_t k, double value) {
             const double weight = value == 0 ? 0 : value / density;
-            if (std::isfinite(weight))
-                sums_.weighted[k].add(weight);
-            else
+            if (!std::isfinite(weight)) {
                 sums_.fault.add({i, k, value, density, false});
+                return;
+            }
+            sums_.weighted[k].add(weight);
+            if (beside_.how == Uniform::weighed)
+                sums_.uniform[k].add(beside_.measure * value * weight);
         });
-        if (comparing_) add_uniform(i, point);
+        if (beside_.how == Uniform::remade || beside_.how == Uniform::as_they_are)
+            add_uniform(i, point);
     }
 
     [[nodiscard]] const Sums& sums() const { return sums_; }
@@ -269,14 +334,12 @@ class Evaluation {
 
     void add_uniform(std::uint64_t i, std::span<const double> point) {
         cube_.resize(domain_.cube_dimension());
-        even_.resize(point.size());
-        if (view_.has_uniform()) {
+        even_.assign(point.begin(), point.end());
+        if (beside_.how == Uniform::remade) {
             domain_.to_cube(point, cube_);
             view_.uniform(cube_, even_);
-        } else {  // the density is level: the point is uniform as it is
-            std::ranges::copy(point, even_.begin());
         }
-        const double measure = domain_.measure();
+        const double measure = beside_.measure;
         each(even_, [&](std::size_t k, double value) {
             if (std::isfinite(measure * value))
                 sums_.uniform[k].add(measure * value);
@@ -288,7 +351,7 @@ class Evaluation {
     const Domain& domain_;
     const RegionView& view_;
     const std::vector<Task>& tasks_;
-    bool comparing_;
+    Uniform beside_;
     Sums sums_;
     std::vector<double> seen_, cube_, even_;
 };
@@ -304,12 +367,12 @@ class Evaluation {
 
 /// @throws Error(input) for points outside the domain, and values that are not numbers.
 Sums sums_over(const PointSet& points, const RegionView& view, const std::vector<Task>& tasks,
-               bool comparing, const RunContext& run) {
+               const Uniform& uniform, const RunContext& run) {
     const Domain& domain = *points.domain;
     const std::size_t size = std::max<std::size_t>(1, 4096 / points.dimension());
     std::vector<Sums> parts(block_count(points.count(), size));
     for_each_block(run, points.count(), size, [&](const Block& block) {
-        Evaluation evaluation(domain, view, tasks, comparing);
+        Evaluation evaluation(domain, view, tasks, uniform);
         for (std::uint64_t i = block.first; i < block.last; ++i) evaluation.add(i, points[i]);
         parts[block.index] = evaluation.sums();
     });
@@ -329,31 +392,58 @@ double ratio_of(double uniform, double importance) {
     return uniform == importance ? 1 : uniform / importance;  // 0 / 0 where f is level, too
 }
 
-Report comparison(const std::vector<Task>& tasks, const Sums& sums) {
+/// Of measure x f at uniform points, from the mean of measure x f^2 / p.
+double variance_by_weights(const Tally& importance, const Tally& squares) {
+    const double n = static_cast<double>(importance.count());
+    const double square = importance.mean() * importance.mean();
+    const double off = squares.mean() - square;
+    return off > 1e-13 * square ? off * n / (n - 1) : 0;  // below is rounding
+}
+
+Report comparison(const std::vector<Task>& tasks, const Sums& sums, bool weighed) {
     Report all;
     for (std::size_t k = 0; k < tasks.size(); ++k) {
         const Tally& importance = sums.weighted[k];
         const Tally& uniform = sums.uniform[k];
+        const double mean = weighed ? importance.mean() : uniform.mean();
+        const double variance =
+            weighed ? variance_by_weights(importance, uniform) : uniform.variance();
         Report one;
         one.add("importance_estimate", importance.mean());
         one.add("importance_variance", importance.variance());
-        one.add("uniform_estimate", uniform.mean()).add("uniform_variance", uniform.variance());
-        one.add("variance_ratio", ratio_of(uniform.variance(), importance.variance()));
+        one.add("uniform_estimate", mean).add("uniform_variance", variance);
+        one.add("variance_ratio", ratio_of(variance, importance.variance()));
         all.add(tasks[k].name, std::move(one));
     }
     return all;
 }
 
-/// @throws Error(input) when there is nothing to compare with.
-void require_comparable(const PointSet& points, const RegionView& view) {
+/// How uniform points are had. @throws Error(input) when there are none to compare with.
+Uniform uniform_for(const PointSet& points, const RegionView& view, const Support& support) {
     if (points.count() < 2) fail(ErrorKind::input, "--compare: needs at least 2 points, not 1");
-    if (view.has_uniform()) return;
+    const Domain& domain = *points.domain;
+    if (!support.measure)
+        fail(ErrorKind::input, "--compare: there are no uniform points on {}: its measure is {}",
+             domain.spec(), support.finite ? "not known" : "infinite");
+    if (support.whole && view.has_uniform()) return {Uniform::remade, domain.measure()};
+    const double measure = support.measure->value;
     for (std::size_t i = 0; i < points.count(); ++i)
-        if (points.domain->contains(points[i]) && !view.level_at(points[i]))
-            fail(ErrorKind::input,
-                 "--compare: no uniform points can be made on {}; it takes boxes, hemispheres, "
-                 "lobes on the sphere, and domains that are uniform",
-                 points.domain->spec());
+        if (std::abs(domain.density(points[i]) * measure - 1) > 1e-12)
+            return {Uniform::weighed, measure};
+    return {Uniform::as_they_are, measure};
+}
+
+/// Says of what part of the domain the estimates are, where it is not all of it.
+void tell_support(const Support& support, Report& report) {
+    if (support.whole) return;
+    Report part;
+    part.add("whole", false);
+    if (support.measure)
+        part.add("measure", support.measure->value).add("measure_error", support.measure->error);
+    part.add("meaning",
+             "the density is 0 on a part of the domain: estimates, and exact values where they are "
+             "given, are integrals over the rest");
+    report.add("support", std::move(part));
 }
 
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
@@ -361,23 +451,27 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     if (domain.dimension() != points.dimension())
         fail(ErrorKind::input, "points of the domain {} have dimension {}; these have {}",
              domain.spec(), domain.dimension(), points.dimension());
-    const RegionView view(domain);
-    const std::vector<Task> tasks = tasks_of(domain, view, options);
+    const Support support = support_of(domain);
+    const RegionView view(domain, support);
+    const std::vector<Task> tasks = tasks_of(domain, view, support, options);
     const bool comparing = options[compare];
-    if (comparing) require_comparable(points, view);
-    const Sums sums = sums_over(points, view, tasks, comparing, run);
+    const Uniform uniform = comparing ? uniform_for(points, view, support) : Uniform();
+    const Sums sums = sums_over(points, view, tasks, uniform, run);
     Report report;
+    tell_support(support, report);
     for (std::size_t k = 0; k < tasks.size(); ++k) {
         const Tally& values = sums.weighted[k];
         Report one;
         one.add("estimate", values.mean());
-        if (const auto known = tasks[k].exact)
-            one.add("exact", *known).add("error", values.mean() - *known);
+        if (const auto known = tasks[k].exact) {
+            one.add("exact", known->value).add("error", values.mean() - known->value);
+            if (known->error > 0) one.add("exact_error", known->error);
+        }
         if (independent(points) && points.count() > 1)
             one.add("standard_error", values.standard_error());
         report.add(tasks[k].name, std::move(one));
     }
-    if (comparing) report.add("compare", comparison(tasks, sums));
+    if (comparing) report.add("compare", comparison(tasks, sums, uniform.how == Uniform::weighed));
     return report;
 }
 
@@ -412,7 +506,7 @@ void combine(Report& mean, std::span<const Report> sets, const Values&) {
     if (sets.size() < 2) return combine_one(mean);
     for (auto& [name, value, unit] : mean.entries()) {
         auto* group = std::get_if<Report>(&value);
-        if (group == nullptr) continue;
+        if (group == nullptr || name == "support") continue;
         if (name != "compare") {
             replicate(*group, name, sets);
             continue;
@@ -438,6 +532,14 @@ Analyzer integration() {
             {{"INTEGRAND.estimate", "mean of f / p, where p is the density of the points"},
              {"INTEGRAND.exact", "the integral; of an expression, if --exact tells it"},
              {"INTEGRAND.error", "estimate - exact"},
+             {"INTEGRAND.exact_error", "what exact may be off by, where it is by quadrature",
+              false},
+             {"support.whole",
+              "false where the density is 0 on a part of the domain: all is then of the rest",
+              false},
+             {"support.measure", "of that rest, where it is known", false},
+             {"support.measure_error", "what it may be off by", false},
+             {"support.meaning", "the same in words", false},
              {"INTEGRAND.standard_error",
               "of the estimate: of several sets (--average) from the spread between them; of one "
               "set only if its meta says that its points are independent (generator random)",

@@ -81,6 +81,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
         run.tick(k + 1, axes);
     }
     Report report;
+    tell_axes(domain, report);
     report.add("statistic", std::move(statistic)).add("p_value", std::move(p));
     report.add("p_upper", std::move(upper)).add("p_lower", std::move(lower));
     conclude(report, sidak(tails), options);
@@ -104,7 +105,8 @@ Analyzer kolmogorov_smirnov() {
         .source = "Kolmogorov 1933; Marsaglia, Tsang, Wang 2003, doi:10.18637/jss.v008.i18",
         .traits = {.max_dimension = 10'000, .unit_cube = false},
         .options = Schema(level_option, expect_uniformity_option),
-        .results = {{"statistic", "largest distance from the uniform distribution, for each axis"},
+        .results = {{"axes", "what they are, where they are not x1, x2, ...", false},
+                    {"statistic", "largest distance from the uniform distribution, for each axis"},
                     {"p_value", "for each axis: twice the smaller of both, at most 1"},
                     {"p_upper", "for each axis: chance of as large a statistic"},
                     {"p_lower", "for each axis: chance of as small a statistic"},

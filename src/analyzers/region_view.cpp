@@ -58,7 +58,8 @@ bool on_the_sphere(std::string_view name) {
 
 }  // namespace
 
-RegionView::RegionView(const Domain& domain) : domain_(domain), box_(filled_box(domain)) {
+RegionView::RegionView(const Domain& domain, const Support& support)
+    : domain_(domain), finite_(support.finite), box_(filled_box(domain)) {
     const std::string spec = domain.spec();
     const std::string name = spec.substr(0, spec.find(':'));
     if (domain.dimension() != 3) return;
@@ -69,7 +70,7 @@ RegionView::RegionView(const Domain& domain) : domain_(domain), box_(filled_box(
 bool RegionView::has(Region region) const {
     if (region == Region::cube) return box_.has_value();
     if (region == Region::hemisphere) return axes_.has_value();
-    return std::isfinite(domain_.measure());
+    return finite_;
 }
 
 double RegionView::scale(Region region) const {
@@ -89,11 +90,6 @@ void RegionView::see(Region region, std::span<const double> point, std::span<dou
 }
 
 bool RegionView::has_uniform() const { return domain_.even() && (box_ || axes_ || pole_); }
-
-bool RegionView::level_at(std::span<const double> point) const {
-    const double ratio = domain_.density(point) * domain_.measure();
-    return std::abs(ratio - 1) <= 1e-12;
-}
 
 void RegionView::uniform(std::span<const double> cube, std::span<double> point) const {
     if (box_) {

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "core/domain.hpp"
+#include "core/support.hpp"
 #include "math/integrand.hpp"
 
 namespace stipple::analyzers {
@@ -17,7 +18,7 @@ namespace stipple::analyzers {
 class RegionView {
   public:
     /// The domain must outlive the view.
-    explicit RegionView(const Domain& domain);
+    RegionView(const Domain& domain, const Support& support);
 
     [[nodiscard]] bool has(Region region) const;
 
@@ -34,13 +35,11 @@ class RegionView {
     /// unit cube.
     void uniform(std::span<const double> cube, std::span<double> point) const;
 
-    /// Whether the density at the point is 1 / measure.
-    [[nodiscard]] bool level_at(std::span<const double> point) const;
-
   private:
     using Vector = std::array<double, 3>;
 
     const Domain& domain_;
+    bool finite_;                                ///< the measure of where the density is not 0
     std::optional<Box> box_;                     ///< of a domain that fills it
     std::optional<std::array<Vector, 3>> axes_;  ///< of a hemisphere; the last one is its own
     std::optional<std::array<Vector, 3>> pole_;  ///< the same, of a law on the whole sphere

@@ -121,6 +121,7 @@ class Order final : public Accumulator {
             for (const double x : z) least = std::min(least, two_sided_normal(x));
         const std::size_t tests = correlation_z_.size() + turns_z_.size() + crossings_z_.size();
         Report report;
+        tell_axes(*domain_, report);
         report.add("lags", static_cast<std::uint64_t>(lags_))
             .add("correlation", correlation_)
             .add("correlation_z", correlation_z_)
@@ -194,7 +195,8 @@ Analyzer serial() {
         .source = "Levene, Wolfowitz 1944, doi:10.1214/aoms/1177731307; Knuth, TAOCP 2, 3.3.2",
         .traits = {.max_dimension = 10'000, .unit_cube = false},
         .options = Schema(lags, level_option, expect),
-        .results = {{"lags", "lags for each axis"},
+        .results = {{"axes", "what they are, where they are not x1, x2, ...", false},
+                    {"lags", "lags for each axis"},
                     {"correlation", "with the point L before, L = 1, 2, ...; axis after axis"},
                     {"correlation_z", "the same in standard deviations from its mean, 0"},
                     {"runs_up_down", "for each axis: stretches that rise or fall"},

@@ -32,39 +32,51 @@ Box box_around(const PointSet& points) {
     return box;
 }
 
-/// Makes points of the box, the first of them point `first`, points of the unit cube.
-/// @throws Error(input) for points outside.
-void into_unit_cube(std::span<double> rows, const Box& box, std::uint64_t first) {
+/// Of points the first of which is point `first`. @throws Error(input) for points outside.
+void require_inside(std::span<const double> rows, const Box& box, std::uint64_t first) {
     const DomainPtr domain = box_domain(box);
     const std::size_t d = box.dimension();
-    for (std::size_t i = 0; i < rows.size(); i += d) {
-        const auto point = rows.subspan(i, d);
-        if (!domain->contains(point))
+    for (std::size_t i = 0; i < rows.size(); i += d)
+        if (!domain->contains(rows.subspan(i, d)))
             fail(ErrorKind::input, "point {} is outside the bounds {}", first + i / d,
                  format_box(box));
-        domain->to_cube(point, point);
-    }
 }
 
+/// Makes points of the box points of the unit cube.
+void into_unit_cube(std::span<double> rows, const Box& box) {
+    const DomainPtr domain = box_domain(box);
+    const std::size_t d = box.dimension();
+    for (std::size_t i = 0; i < rows.size(); i += d)
+        domain->to_cube(rows.subspan(i, d), rows.subspan(i, d));
+}
+
+/// @throws Error(input) for points outside the box.
 PointSet to_unit_cube(PointSet points, const Box& box) {
-    into_unit_cube(points.flat(), box, 0);
+    require_inside(points.flat(), box, 0);
+    into_unit_cube(points.flat(), box);
     points.domain = unit_cube(points.dimension());
     return points;
 }
 
 void check_bounds(const Arguments& arguments) {
-    if (arguments.has("bounds") && arguments.has("rescale"))
-        fail(ErrorKind::usage, "--bounds and --rescale: give one of them");
+    for (const char* other : {"rescale", "domain"})
+        if (arguments.has("bounds") && arguments.has(other))
+            fail(ErrorKind::usage, "--bounds and --{}: give one of them", other);
 }
 
-PointSet prepared(PointSet points, const Arguments& arguments) {
+/// --bounds says what box the points live on. Analyzers of the unit cube get them mapped to it; the
+/// others measure them where they are, distances and integrals in the box.
+PointSet prepared(PointSet points, const Analyzer& analyzer, const Arguments& arguments) {
     const auto bounds = arguments.get("bounds");
     check_bounds(arguments);
     if (const auto domain = arguments.get("domain"))
         points.domain = parse_domain(*domain, points.dimension());
     if (bounds) {
         const Box box = parse_box(*bounds, points.dimension());
-        return to_unit_cube(std::move(points), box);
+        if (analyzer.traits.unit_cube) return to_unit_cube(std::move(points), box);
+        require_inside(points.flat(), box, 0);
+        points.domain = box_domain(box);
+        return points;
     }
     if (arguments.has("rescale")) {
         const Box box = box_around(points);
@@ -162,7 +174,8 @@ class Analysis {
         before_errors([&] { sets = read_input(input, arguments_, session_.run()); });
         for (std::size_t set = 0; set < sets.size() && !interrupted(); ++set) {
             before_errors([&] {
-                naming(input, [&] { sets[set] = prepared(std::move(sets[set]), arguments_); });
+                naming(input,
+                       [&] { sets[set] = prepared(std::move(sets[set]), analyzer_, arguments_); });
             });
             batch_.add({std::move(sets[set]), input, set, sets.size()});
         }
@@ -203,9 +216,15 @@ class Analysis {
 
     [[nodiscard]] DomainPtr domain_of(const io::PointStream& stream) const {
         const std::size_t d = stream.dimension();
-        if (arguments_.has("bounds")) return unit_cube(d);
+        if (const auto bounds = arguments_.get("bounds"))
+            return analyzer_.traits.unit_cube ? unit_cube(d) : box_domain(parse_box(*bounds, d));
         if (const auto named = arguments_.get("domain")) return parse_domain(*named, d);
         return input_domain(stream.provenance(), d, arguments_, session_.run());
+    }
+
+    void take_bounds(std::span<double> rows, const Box& box, std::uint64_t first) const {
+        require_inside(rows, box, first);
+        if (analyzer_.traits.unit_cube) into_unit_cube(rows, box);
     }
 
     void add_arriving(io::PointStream& stream, const std::string& input, std::size_t set) {
@@ -217,7 +236,7 @@ class Analysis {
         std::uint64_t at = 0;
         const NextRows next = [&](std::span<double> rows) {
             const std::size_t count = stream.read(rows);
-            if (box) into_unit_cube(rows.first(count * d), *box, at);
+            if (box) take_bounds(rows.first(count * d), *box, at);
             at += count;
             return count;
         };

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "core/error.hpp"
+#include "core/spec.hpp"
 #include "core/text.hpp"
 
 namespace stipple::cli {
@@ -59,18 +60,19 @@ const VerbInfo* find_verb(std::string_view name) {
     fail_with_hint(ErrorKind::usage, hint, "unknown {} '{}'", what, word);
 }
 
-/// `warp disk@4,5` means `warp disk --coordinates 4,5`.
-void split_coordinates(std::vector<std::string>& words, const Kind& kind) {
-    for (auto word = words.begin(); word != words.end(); ++word) {
-        const auto at = word->find('@');
-        if (at == std::string::npos) continue;
-        const std::string name = word->substr(0, at);
-        if (find_unit(kind, name) == nullptr) continue;
-        const std::string coordinates = word->substr(at + 1);
-        *word = name;
-        words.insert(word + 1, {"--coordinates", coordinates});
-        return;
+/// Takes the word that names the unit with coordinates or options apart: `warp disk@4,5` means
+/// `warp disk --coordinates 4,5`, `generate sobol:scramble=owen` the same as with --scramble owen.
+/// What it sets is given back. @throws Error(usage) for what is no spec
+Spec split_spec(std::vector<std::string>& words, const Kind& kind) {
+    for (std::string& word : words) {
+        if (find_unit(kind, word) != nullptr) return {};
+        const auto end = word.find_first_of("@:");
+        if (end == std::string::npos || find_unit(kind, word.substr(0, end)) == nullptr) continue;
+        Spec spec = parse_spec(word);
+        word = spec.name;
+        return spec;
     }
+    return {};
 }
 
 /// `--check` before what is no condition, such as a file, gets none.
@@ -109,19 +111,47 @@ class Parser {
         }
     }
 
-    Arguments parse(std::vector<std::string> words) {
+    Arguments parse(std::vector<std::string> words, const Spec& spec) {
         std::ranges::reverse(words);
         try {
             app_.parse(std::move(words));
+        } catch (const CLI::ArgumentMismatch& e) {
+            const std::string text = e.what();
+            if (text.find("At Most 1 required") == std::string::npos)
+                fail(ErrorKind::usage, "{}", text);
+            fail(ErrorKind::usage, "{} is given more than once", text.substr(0, text.find(':')));
         } catch (const CLI::ParseError& e) {
             fail(ErrorKind::usage, "{}", e.what());
         }
         if (!app_.get_subcommands().empty()) arguments_.unit = unit_->name;
         if (!arguments_.help) check_remaining();
+        take(spec);
         return std::move(arguments_);
     }
 
   private:
+    /// Adds what the unit's own word sets. @throws Error(usage) where an option says it, too
+    void take(const Spec& spec) {
+        if (!spec.coordinates.empty()) {
+            if (verb_.verb != Verb::warp)
+                fail(ErrorKind::usage, "{}@{}: coordinates behind @ are for warps", spec.name,
+                     format_coordinates(spec.coordinates));
+            if (arguments_.has("coordinates"))
+                fail(ErrorKind::usage, "--coordinates is given more than once");
+            arguments_.common.emplace_back("coordinates", format_coordinates(spec.coordinates));
+        }
+        const auto own = own_options(verb_.verb, *unit_);
+        for (const auto& [name, text] : spec.settings) {
+            const bool common =
+                std::ranges::find(own, name, &Option::name) == own.end() &&
+                std::ranges::find(unit_->options, name, &Option::name) != unit_->options.end();
+            auto& all = common ? arguments_.common : arguments_.settings;
+            for (const auto& [before, value] : all)
+                if (before == name) fail(ErrorKind::usage, "--{} is given more than once", name);
+            all.emplace_back(name, text);
+        }
+    }
+
     void add_help(CLI::App& app) {
         app.add_flag_callback("-h,--help", [this] { arguments_.help = true; });
     }
@@ -353,7 +383,9 @@ const std::vector<CommonOption>& common_options() {
          generate},
         {"--bounds", "LO..HI,...", "",
          "scale to a box: one range for all coordinates, or one for each", generate},
-        {"--bounds", "LO..HI,...", "", "the box that is mapped to the unit cube before", analyze},
+        {"--bounds", "LO..HI,...", "",
+         "the box that the points live on; analyzers of the unit cube map it to that before",
+         analyze},
         {"-w,--warp", "NAME[:OPT=V,...]", "",
          "warp or scramble on the way out; NAME@I,J takes two coordinates", generate, true},
         {"-w,--warp", "NAME[:OPT=V,...]", "", "warp or scramble before the measures, in order",
@@ -476,9 +508,9 @@ Arguments parse_arguments(int argc, const char* const* argv, const std::vector<K
     if (verb == nullptr) return parse_without_verb(words);
     words.erase(words.begin());
     const auto kind = units_for(kinds, verb->name);
-    if (verb->verb == Verb::warp) split_coordinates(words, *kind);
+    const Spec spec = kind ? split_spec(words, *kind) : Spec();
     if (verb->verb == Verb::analyze) complete_checks(words);
-    return Parser(*verb, kind ? &*kind : nullptr, words).parse(words);
+    return Parser(*verb, kind ? &*kind : nullptr, words).parse(words, spec);
 }
 
 }  // namespace stipple::cli

@@ -85,8 +85,8 @@ std::string shell_word(const std::string& word) {
 }
 
 /// The command that makes these bytes: what was typed, less what cannot change them.
-std::string command_of(const Arguments& arguments, const Generator& generator, const Target& target,
-                       std::uint64_t seed) {
+std::string command_of(const Arguments& arguments, const Generator& generator,
+                       const Values& job_options, const Target& target, std::uint64_t seed) {
     const auto& options = generator.options.options();
     std::vector<std::string> words = {"stipple", "generate", arguments.unit};
     const auto type = [&words](const std::string& name, const std::string& text, bool flag) {
@@ -95,7 +95,8 @@ std::string command_of(const Arguments& arguments, const Generator& generator, c
     };
     for (const auto& [name, text] : arguments.settings) {
         if (std::ranges::find(generator.writes, name) != generator.writes.end()) continue;
-        type(name, text, std::ranges::find(options, name, &Option::name)->type == "flag");
+        const bool flag = std::ranges::find(options, name, &Option::name)->type == "flag";
+        if (!flag || std::get<bool>(job_options.find(name).value)) type(name, text, flag);
     }
     const std::vector<std::string> silent = {"output",     "format", "threads", "quiet",
                                              "max-memory", "seed",   "progress"};
@@ -212,7 +213,7 @@ int generate(const Arguments& arguments, Session& session) {
         job.request.bounds = parse_box(*bounds, plan.dimension);
     }
     const Target target = target_of(arguments);
-    job.command = command_of(arguments, *job.generator, target, job.request.seed);
+    job.command = command_of(arguments, *job.generator, job.options, target, job.request.seed);
     produce(job, target, session.run());
     return 0;
 }

@@ -92,7 +92,16 @@ class BoxDomain final : public Domain {
 
 class ProductDomain final : public Domain {
   public:
-    explicit ProductDomain(std::vector<Factor> factors) : factors_(std::move(factors)) {}
+    explicit ProductDomain(std::vector<Factor> factors) : factors_(std::move(factors)) {
+        std::vector<std::pair<std::size_t, std::size_t>> order;  // coordinate, axis
+        for (const auto& [domain, coordinates] : factors_)
+            for (std::size_t j = 0; j < domain->cube_dimension(); ++j)
+                order.emplace_back(coordinates[std::min(j, coordinates.size() - 1)], order.size());
+        std::ranges::sort(order);
+        places_.resize(order.size());
+        for (std::size_t place = 0; place < order.size(); ++place)
+            places_[order[place].second] = place;
+    }
     std::string spec() const override {
         std::vector<std::string> parts;
         for (const auto& [domain, coordinates] : factors_) {
@@ -108,11 +117,7 @@ class ProductDomain final : public Domain {
         for (const auto& factor : factors_) sum += factor.domain->dimension();
         return sum;
     }
-    std::size_t cube_dimension() const override {
-        std::size_t sum = 0;
-        for (const auto& factor : factors_) sum += factor.domain->cube_dimension();
-        return sum;
-    }
+    std::size_t cube_dimension() const override { return places_.size(); }
     double measure() const override {
         double product = 1;
         for (const auto& factor : factors_) product *= factor.domain->measure();
@@ -140,10 +145,12 @@ class ProductDomain final : public Domain {
         return product;
     }
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
+        std::vector<double> own;
+        std::size_t axis = 0;
         for (const auto& factor : factors_) {
-            const std::size_t size = factor.domain->cube_dimension();
-            factor.domain->to_cube(part(factor, point), cube.first(size));
-            cube = cube.subspan(size);
+            own.resize(factor.domain->cube_dimension());
+            factor.domain->to_cube(part(factor, point), own);
+            for (const double u : own) cube[places_[axis++]] = u;
         }
     }
     bool even() const override {
@@ -151,15 +158,16 @@ class ProductDomain final : public Domain {
     }
     Estimate probability(const Box& cell) const override {
         Estimate product{1, 0};
-        std::ptrdiff_t k = 0;
+        std::size_t axis = 0;
         for (const auto& factor : factors_) {
-            const auto end = k + static_cast<std::ptrdiff_t>(factor.domain->cube_dimension());
-            const Estimate one =
-                factor.domain->probability({{cell.low.begin() + k, cell.low.begin() + end},
-                                            {cell.high.begin() + k, cell.high.begin() + end}});
+            Box own;
+            for (std::size_t j = 0; j < factor.domain->cube_dimension(); ++j, ++axis) {
+                own.low.push_back(cell.low[places_[axis]]);
+                own.high.push_back(cell.high[places_[axis]]);
+            }
+            const Estimate one = factor.domain->probability(own);
             product = {product.value * one.value,
                        product.error * (one.value + one.error) + product.value * one.error};
-            k = end;
         }
         return product;
     }
@@ -174,9 +182,19 @@ class ProductDomain final : public Domain {
         return whole;
     }
     std::vector<std::string> cube_axes() const override {
-        std::vector<std::string> axes;
-        for (const auto& factor : factors_)
-            for (auto& axis : factor.domain->cube_axes()) axes.push_back(std::move(axis));
+        std::vector<std::string> axes(cube_dimension());
+        std::size_t axis = 0;
+        for (const auto& [domain, coordinates] : factors_) {
+            const auto plain = axis_names(domain->dimension());
+            const auto own = domain->cube_axes();
+            for (std::size_t j = 0; j < own.size(); ++j)
+                axes[places_[axis++]] =
+                    j < plain.size() && own[j] == plain[j]
+                        ? fmt::format("x{}", coordinates[j] + 1)
+                        : fmt::format("{} of {}@{}", own[j],
+                                      domain->spec().substr(0, domain->spec().find(':')),
+                                      format_coordinates(coordinates));
+        }
         return axes;
     }
 
@@ -188,6 +206,9 @@ class ProductDomain final : public Domain {
     }
 
     std::vector<Factor> factors_;
+    /// Of the axes of the factors' cubes, one factor after the other: where each stands in the cube
+    /// of the whole, in the order of the coordinates that it is worked out from.
+    std::vector<std::size_t> places_;
 };
 
 }  // namespace

@@ -161,9 +161,11 @@ Value Option::parse(std::string_view text) const {
         return *value;
     }
     if (type == "choice") {
-        if (std::ranges::find(choices, text) == choices.end())
-            fail_with_hint(ErrorKind::usage, suggest(text, choices), "--{}: '{}' is not one of {}",
-                           name, text, join(choices, ", "));
+        if (std::ranges::find(choices, text) == choices.end()) {
+            const auto meant = nearest_word(text, choices);
+            fail_with_hint(ErrorKind::usage, meant ? fmt::format("did you mean '{}'?", *meant) : "",
+                           "--{}: '{}' is not one of {}", name, text, join(choices, ", "));
+        }
         return std::string(text);
     }
     if (type == "numbers") return parse_numbers(*this, text);

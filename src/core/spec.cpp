@@ -91,7 +91,13 @@ class SpecParser {
 
 Values Spec::values(const Schema& schema) const {
     Values values = schema.defaults();
-    for (const auto& [option, text] : settings) schema.set(values, option, text);
+    for (const auto& [option, text] : settings) {
+        const auto* before = values.try_find(option);
+        if (before != nullptr && before->given)
+            fail(ErrorKind::usage, "{}: the option '{}' is given twice: {} and {}", name, option,
+                 format_value(before->value), text);
+        schema.set(values, option, text);
+    }
     return values;
 }
 

@@ -31,7 +31,7 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
     const std::string source = source_name(options.source);
     const std::size_t width = width_of(options);
     const std::size_t size = options.single ? 4 : 8;
-    if (bytes.empty()) fail(ErrorKind::input, "{}: the file is empty; expected raw points", source);
+    if (bytes.empty()) refuse_empty(options.source, "raw points");
     if (bytes.size() % size != 0 || bytes.size() / size % width != 0)
         fail(ErrorKind::input,
              "{}: byte {}: the last point is cut off; expected whole points, {} float{} each",

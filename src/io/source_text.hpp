@@ -9,6 +9,10 @@
 
 namespace stipple::io {
 
+/// What is said of a source without a byte: an empty file, or a pipe into which nothing came.
+/// @throws Error(input)
+[[noreturn]] void refuse_empty(std::string_view source, std::string_view expected);
+
 /// How messages call a source: "-" is "stdin".
 std::string source_name(std::string_view source);
 

@@ -4,8 +4,10 @@
 // radius is 0.15 of the mean distance sqrt(area / n), between 0.5 and 10 units.
 //
 // Of more coordinates than two, every pair in a panel of its own, side by side for as many as make
-// one point: x_i to the right and x_j > x_i upward in column i and row j - 1. Each coordinate is
-// stretched to its panel: pixel, time and lens of one row have different units.
+// one point: x_i to the right and x_j > x_i upward in column i and row j - 1, with the ranges that
+// a panel shows below it. Where the points' domain is one (no product), lengths are alike along all
+// coordinates; else each is stretched to its panel: pixel, time and lens of one row have different
+// units.
 //
 // Shape   one set of points of 2 to 8 coordinates; extras are left out. Write only.
 // Beware  a tenth of a unit is what a point's place is cut to: for eyes, not for numbers. Disks of
@@ -66,16 +68,21 @@ Panel only_panel(const Box& box) {
             .scale_y = scale};
 }
 
-Panel panel_of(const Box& box, std::size_t i, std::size_t j) {
+Panel panel_of(const Box& box, std::size_t i, std::size_t j, bool alike) {
     const auto columns = static_cast<double>(box.dimension() - 1);
     const double side = (longer_side - (columns - 1) * margin) / columns;
-    const auto scale = [&](std::size_t k) { return box.extent(k) > 0 ? side / box.extent(k) : 0; };
+    double longest = 0;
+    for (std::size_t k = 0; k < box.dimension(); ++k) longest = std::max(longest, box.extent(k));
+    const auto scale = [&](std::size_t k) {
+        const double length = alike ? longest : box.extent(k);
+        return length > 0 ? side / length : 0;
+    };
     return {.i = i,
             .j = j,
             .left = margin + static_cast<double>(i) * (side + margin),
             .top = margin + static_cast<double>(j - 1) * (side + margin),
-            .width = side,
-            .height = side,
+            .width = alike ? box.extent(i) * scale(i) : side,
+            .height = alike ? box.extent(j) * scale(j) : side,
             .low_x = box.low[i],
             .high_y = box.high[j],
             .scale_x = scale(i),
@@ -88,8 +95,10 @@ Sheet sheet_of(const Layout& layout) {
     if (box.dimension() == 2) {
         sheet.panels.push_back(only_panel(box));
     } else {
+        const std::string& domain = layout.provenance.domain;
+        const bool alike = !domain.empty() && domain.find(" x ") == std::string::npos;
         for (std::size_t j = 1; j < box.dimension(); ++j)
-            for (std::size_t i = 0; i < j; ++i) sheet.panels.push_back(panel_of(box, i, j));
+            for (std::size_t i = 0; i < j; ++i) sheet.panels.push_back(panel_of(box, i, j, alike));
     }
     for (const Panel& panel : sheet.panels) {
         sheet.width = std::max(sheet.width, panel.left + panel.width + margin);
@@ -110,12 +119,19 @@ std::string title_of(const Layout& layout) {
     return title;
 }
 
-/// What is on the axes of a panel, in the margin below it.
+/// What is on the axes of a panel, and from where to where, in the margin below it; in the letters
+/// that fit.
 std::string caption_of(const Layout& layout, const Panel& panel) {
     const auto names = coordinate_names(layout.dimension);
+    const Box box = box_of(layout);
+    const std::string words = fmt::format("{} right {:.4g} to {:.4g}, {} up {:.4g} to {:.4g}",
+                                          names[panel.i], box.low[panel.i], box.high[panel.i],
+                                          names[panel.j], box.low[panel.j], box.high[panel.j]);
+    const double letters = 0.55 * static_cast<double>(words.size());
+    const double size = std::clamp(std::max(panel.width, 60.0) / letters, 4.0, 14.0);
     return fmt::format(
-        "<text x=\"{:.6g}\" y=\"{:.6g}\" font-size=\"14\" fill=\"#555\">{} right, {} up</text>\n",
-        panel.left, panel.top + panel.height + 15, names[panel.i], names[panel.j]);
+        "<text x=\"{:.6g}\" y=\"{:.6g}\" font-size=\"{:.3g}\" fill=\"#555\">{}</text>\n",
+        panel.left, panel.top + panel.height + 15, size, words);
 }
 
 void head(const Layout& layout, std::string& out) {

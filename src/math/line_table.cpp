@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <queue>
 
 #include "core/error.hpp"
@@ -191,7 +192,9 @@ class LineTabulator {
 
 void require_density(const std::string& what, std::span<const double> place, double value) {
     if (value >= 0 && std::isfinite(value)) return;
-    fail(ErrorKind::usage, "{} is {} at {}; a density is finite and not below 0", what, value,
+    // A NaN may have a sign, which means nothing.
+    const double shown = std::isnan(value) ? std::numeric_limits<double>::quiet_NaN() : value;
+    fail(ErrorKind::usage, "{} is {} at {}; a density is finite and not below 0", what, shown,
          place_text(place));
 }
 

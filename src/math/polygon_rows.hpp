@@ -52,6 +52,9 @@ class PolygonRows {
 
     [[nodiscard]] PlanePoint forward(double u, double v) const;
 
+    /// The same for rows u, v of `cube`.
+    void forward_all(std::span<const double> cube, std::span<double> image) const;
+
     /// Into the closed square, for points that it contains.
     [[nodiscard]] PlanePoint inverse(PlanePoint p) const;
 
@@ -98,7 +101,8 @@ class PolygonRows {
     [[nodiscard]] std::span<const Part> parts_of(const Slab& slab) const {
         return std::span(parts_).subspan(slab.first, slab.last - slab.first);
     }
-    [[nodiscard]] double row_at(const Slab& slab, double u) const;
+    [[nodiscard]] std::size_t slab_at(double u) const;
+    [[nodiscard]] double along_row(const Slab& slab, double t, double way) const;
     [[nodiscard]] double place_in_row(const Slab& slab, double t, double x) const;
     [[nodiscard]] double gap(const Slab& slab, PlanePoint p) const;
     [[nodiscard]] const Slab& slab_around(PlanePoint p) const;

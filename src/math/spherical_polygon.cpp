@@ -2,6 +2,7 @@
 #include "math/spherical_polygon.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "math/trigonometry.hpp"
@@ -40,6 +41,56 @@ double SphericalPolygon::edge_top(std::size_t i, const Vector3& up) const {
     const bool passes =
         turn * dot(cross(from, highest), normal) > 0 && turn * dot(cross(highest, to), normal) > 0;
     return passes ? length(highest) : std::max(dot(from, up), dot(to, up));
+}
+
+std::array<double, 3> SphericalPolygon::axial(const Vector3& w, double area) const {
+    std::array<double, 3> along{};  // sums of w . n times the integrals of (w . v)^0, ^1, ^2
+    for (std::size_t i = 0; i < corners_.size(); ++i) {
+        const Vector3& from = corners_[i];
+        const Vector3& to = corners_[(i + 1) % corners_.size()];
+        const double sine = length(cross(from, to));
+        const double cosine = dot(from, to);
+        const double angle = std::atan2(sine, cosine);
+        // The edge is a cos(s) + b sin(s) along w, for s from 0 to the angle.
+        const double a = dot(w, from);
+        const double b = (dot(w, to) - cosine * a) / sine;
+        const double bend = 0.5 * sine * cosine;
+        const double side = dot(w, inward_[i]);
+        along[0] += side * angle;
+        along[1] += side * (a * sine + b * (1 - cosine));
+        along[2] += side * (a * a * (0.5 * angle + bend) + a * b * sine * sine +
+                            b * b * (0.5 * angle - bend));
+    }
+    const double ww = dot(w, w);
+    const double first = along[0] / 2;
+    return {first, (ww * area + along[1]) / 3, (2 * ww * first + along[2]) / 4};
+}
+
+std::optional<Moments> SphericalPolygon::moments(double area) const {
+    constexpr double least = 1e-3;
+    if (area < least) return std::nullopt;
+    Moments m{std::vector<double>(3), std::vector<double>(9), std::vector<double>(3)};
+    std::array<double, 3> squares;
+    for (std::size_t k = 0; k < 3; ++k) {
+        Vector3 w{};
+        w[k] = 1;
+        const auto [first, second, third] = axial(w, area);
+        const double mean = first / area;
+        squares[k] = second / area;
+        m.mean[k] = mean;
+        m.covariance[4 * k] = squares[k] - mean * mean;
+        m.skewness[k] = (third / area - 3 * mean * squares[k] + 2 * mean * mean * mean) /
+                        std::pow(m.covariance[4 * k], 1.5);
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            Vector3 w{};
+            w[i] = w[j] = 1;
+            const double both = axial(w, area)[1] / area;
+            m.covariance[3 * i + j] = m.covariance[3 * j + i] =
+                0.5 * (both - squares[i] - squares[j]) - m.mean[i] * m.mean[j];
+        }
+    return m;
 }
 
 Box SphericalPolygon::bounding_box() const {

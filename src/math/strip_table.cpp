@@ -329,8 +329,14 @@ std::array<double, 2> StripTable::place(double u, double v) const {
     };
     const double total = sum_to(patches.back());
     const double mass = std::min(v * total, std::nextafter(total, 0.0));
-    const auto above = std::ranges::upper_bound(patches, mass, {}, sum_to);
-    const double below = above == patches.begin() ? 0 : sum_to(*(above - 1));
+    // By halves without a branch, since one would be guessed wrong half of the time.
+    const Patch* above = patches.data();
+    for (std::size_t left = patches.size(); left > 1;) {
+        const std::size_t half = left / 2;
+        above += sum_to(above[half - 1]) <= mass ? half : 0;
+        left -= half;
+    }
+    const double below = above == patches.data() ? 0 : sum_to(*(above - 1));
     const StripPatch& shape = above->shape;
     const double low = (1 - t) * shape.left[0] + t * shape.right[0];
     const double high = (1 - t) * shape.left[1] + t * shape.right[1];

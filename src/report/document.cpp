@@ -169,6 +169,9 @@ std::string to_csv(std::span<const Measurement> measurements) {
     const auto keys = measurements[0].results.keys();
     std::vector<std::string> header = {"analyzer", "source", "set", "count", "dimension", "domain"};
     header.insert(header.end(), keys.begin(), keys.end());
+    std::vector<std::string> errors;  // of a mean
+    if (measurements[0].standard_error) errors = measurements[0].standard_error->keys();
+    for (const auto& key : errors) header.push_back("standard_error." + key);
     std::string text = join(header, ",") + "\n";
     for (const Measurement& m : measurements)
         for (std::size_t row = 0; row < rows_of(m); ++row) {
@@ -180,6 +183,10 @@ std::string to_csv(std::span<const Measurement> measurements) {
                                               quoted(m.domain)};
             for (const auto& key : keys) {
                 const Report::Item* item = m.results.find(key);
+                cells.push_back(item ? quoted(cell(*item, row)) : "");
+            }
+            for (const auto& key : errors) {
+                const Report::Item* item = m.standard_error ? m.standard_error->find(key) : nullptr;
                 cells.push_back(item ? quoted(cell(*item, row)) : "");
             }
             text += join(cells, ",") + "\n";

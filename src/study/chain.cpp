@@ -79,6 +79,20 @@ std::size_t end_of_factor(std::string_view text) {
     return std::string_view::npos;
 }
 
+/// The warp that a domain is the image of. @throws Error(usage)
+const Warp& warp_of_domain(const std::string& name) {
+    std::vector<std::string> names = {"unit-cube", "box"};
+    for (const Warp& warp : warps::all()) {
+        if (warp.name == name || std::ranges::count(warp.aliases, name) > 0) return warp;
+        names.push_back(warp.name);
+    }
+    const bool range = name.find("..") != std::string::npos;
+    fail_with_hint(
+        ErrorKind::usage,
+        range ? fmt::format("a box is written box:bounds=[{}]", name) : suggest(name, names),
+        "unknown domain '{}'", name);
+}
+
 std::vector<std::size_t> all_of(std::size_t dimension) {
     std::vector<std::size_t> all(dimension);
     std::iota(all.begin(), all.end(), std::size_t{0});
@@ -147,17 +161,26 @@ void WarpChain::add_scramble(const Scramble& scramble, const Spec& spec, const C
     steps_.push_back(std::move(step));
 }
 
+/// What is said where a warp takes another number of coordinates than there are.
+void WarpChain::refuse_coordinates(const Spec& spec, std::size_t takes, const Step& step) {
+    const std::string wants =
+        fmt::format("warp {} takes {} coordinate{}", spec.name, takes, takes == 1 ? "" : "s");
+    if (!spec.coordinates.empty())
+        fail(ErrorKind::usage, "{}; {} are named: {}@{}", wants, step.coordinates.size(), spec.name,
+             format_coordinates(step.coordinates));
+    std::string hint;
+    if (takes < step.width_in)
+        hint = fmt::format("name the coordinates: {}@{}", spec.name,
+                           format_coordinates(all_of(takes)));
+    fail_with_hint(ErrorKind::usage, hint, "{}; the points have {}", wants, step.width_in);
+}
+
 void WarpChain::add_warp(const Warp& warp, const Spec& spec, const RunContext& run) {
     const Values values = spec.values(warp.options);
     Step step{.coordinates = coordinates_of(spec), .width_in = dimension_out_};
     step.mapping = warp.make(values, step.coordinates.size(), run);
     const std::size_t takes = step.mapping->cube_dimension();
-    if (takes != step.coordinates.size())
-        fail_with_hint(ErrorKind::usage,
-                       fmt::format("name the coordinates: {}@{}", spec.name,
-                                   format_coordinates(all_of(takes))),
-                       "warp {} takes {} coordinates; there are {}", spec.name, takes,
-                       step.coordinates.size());
+    if (takes != step.coordinates.size()) refuse_coordinates(spec, takes, step);
     const std::size_t gives = step.mapping->domain()->dimension();
     step.width_out = step.width_in - takes + gives;
     step.image = places(step.coordinates, gives);
@@ -254,7 +277,7 @@ DomainPtr parse_domain(std::string_view text, std::size_t dimension, const RunCo
                 fail(ErrorKind::usage, "domain box: write box:bounds=[lo..hi,lo..hi]");
             domain = box_domain(parse_box(spec.settings[0].second, given));
         } else {
-            const Warp& warp = find_warp(spec.name);
+            const Warp& warp = warp_of_domain(spec.name);
             domain = warp.make(spec.values(warp.options), given, run)->domain();
         }
         factors.push_back(

@@ -76,6 +76,8 @@ class WarpChain {
     template <class Unit>
     void remember(const Unit& unit, const Spec& spec, const Values& values);
     [[nodiscard]] std::vector<std::size_t> coordinates_of(const Spec& spec) const;
+    [[noreturn]] static void refuse_coordinates(const Spec& spec, std::size_t takes,
+                                                const Step& step);
     void find_domain();
 
     std::vector<Step> steps_;

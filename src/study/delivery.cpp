@@ -160,12 +160,16 @@ void replace_all(std::string& text, std::string_view from, const std::string& to
         text.replace(at, from.size(), to);
 }
 
+std::string span_text(std::size_t low, std::size_t high) {
+    return low == high ? std::to_string(low) : fmt::format("{} to {}", low, high);
+}
+
 void check_format(const Format& format, const Layout& layout) {
     const auto& traits = format.traits;
     const std::size_t d = layout.dimension;
     if (d < traits.min_dimension || d > traits.max_dimension)
-        fail(ErrorKind::usage, "--format: {} holds points of dimension {} to {}; these have {}",
-             format.name, traits.min_dimension, traits.max_dimension, d);
+        fail(ErrorKind::usage, "--format: {} holds points of dimension {}; these have {}",
+             format.name, span_text(traits.min_dimension, traits.max_dimension), d);
     if (!traits.many_sets && layout.counts.size() > 1)
         fail_with_hint(ErrorKind::usage, "write a file for each set: -o 'NAME_{set}...'",
                        "--format: {} holds one set; there are {}", format.name,

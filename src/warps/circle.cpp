@@ -144,7 +144,7 @@ std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
     const double r = options[radius];
     const auto at = options[middle];
     if (at.size() != 2)
-        fail(ErrorKind::usage, "--center: {} numbers; 2 are needed, x,y", at.size());
+        fail(ErrorKind::usage, "--center: 2 numbers are needed, x,y; {} given", at.size());
     for (const double x : at) refuse_far(x, r);
     const Ring ring{r, {at[0] + 0.0, at[1] + 0.0}};  // -0 would show in points
     const auto circle = std::make_shared<CircleDomain>(

@@ -96,6 +96,11 @@ struct Drawn {
     }
     bool contains(double x) const { return of->find(x) < of->count(); }
     double measure() const { return static_cast<double>(of->count()); }
+    /// Outcomes that can come.
+    double positive_measure() const {
+        return static_cast<double>(
+            std::ranges::count_if(of->probability, [](double p) { return p > 0; }));
+    }
     std::pair<double, double> range() const {
         return {of->value[of->order.front()], of->value[of->order.back()]};
     }

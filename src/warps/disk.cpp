@@ -208,7 +208,7 @@ std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
     const double r = options[radius];
     const auto at = options[center];
     if (at.size() != 2)
-        fail(ErrorKind::usage, "--center: {} numbers; 2 are needed, x,y", at.size());
+        fail(ErrorKind::usage, "--center: 2 numbers are needed, x,y; {} given", at.size());
     for (const double x : at)
         if (x + r == x || x - r == x)
             fail(ErrorKind::usage, "--center: {} is so far that a radius of {} is lost in rounding",

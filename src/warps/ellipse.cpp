@@ -96,7 +96,7 @@ std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
                               const RunContext& /*run*/) {
     const auto lengths = options[axes];
     if (lengths.size() != 2)
-        fail(ErrorKind::usage, "--axes: {} numbers; 2 are needed, a,b", lengths.size());
+        fail(ErrorKind::usage, "--axes: 2 numbers are needed, a,b; {} given", lengths.size());
     const double a = lengths[0];
     const double b = lengths[1];
     for (const double x : lengths)

@@ -15,6 +15,8 @@
 //         its integral by Boole's rule on the pieces. Forward and back is xi0 within 1e-15 times
 //         the ratio of largest and mean density; no point where f is 0 beside a jump.
 
+#include <array>
+#include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
 #include <algorithm>
@@ -22,7 +24,9 @@
 
 #include "core/error.hpp"
 #include "core/spec.hpp"
+#include "core/support.hpp"
 #include "math/expression.hpp"
+#include "math/law_moments.hpp"
 #include "math/line_table.hpp"
 #include "warps/warp.hpp"
 
@@ -62,7 +66,7 @@ LineRange range_of(const Values& options) {
     return out;
 }
 
-class FormulaDomain final : public Domain {
+class FormulaDomain final : public Domain, public Gapped {
   public:
     FormulaDomain(Values options, const LineRange& ends, Expression f, const RunContext& run)
         : options_(std::move(options)),
@@ -105,6 +109,41 @@ class FormulaDomain final : public Domain {
         return {std::max(above - below, 0.0) / total_.value, 2 * total_.error / total_.value};
     }
     std::vector<std::string> cube_axes() const override { return {"share of the mass below x"}; }
+
+    /// By Gauss's rule on each piece of the table, as exact as the integral of f.
+    std::optional<Moments> moments() const override {
+        using Rule = boost::math::quadrature::gauss<double, 7>;
+        const double middle = low_ + 0.5 * (high_ - low_);
+        const auto expect = [&](double about, int power) {
+            double sum = 0;
+            for (const LinePiece& piece : table_.pieces())
+                sum += Rule::integrate(
+                    [&](double x) {
+                        return f_.at({&x, 1}) * std::pow(x - about, power);
+                    },
+                    piece.x_low, piece.x_high);
+            return sum / total_.value;
+        };
+        const double mean = middle + expect(middle, 1);
+        return independent_moments(std::array{LineMoments{mean, expect(mean, 2), expect(mean, 3)}});
+    }
+
+    /// Pieces of the table without mass are gaps; their ends are as near as the tolerance asks.
+    Support support() const override {
+        Support all{.measure = Estimate{0, 0}, .boxes = {}};
+        for (const LinePiece& piece : table_.pieces()) {
+            const bool empty = !(piece.f_low + piece.f_high > 0) && !(piece.integral.value > 0);
+            all.whole = all.whole && !empty;
+            if (empty) continue;
+            all.measure->value += piece.x_high - piece.x_low;
+            if (!all.boxes.empty() && all.boxes.back().high[0] == piece.x_low)
+                all.boxes.back().high[0] = piece.x_high;
+            else
+                all.boxes.push_back({{piece.x_low}, {piece.x_high}});
+        }
+        if (all.whole) all.measure->value = measure();
+        return all;
+    }
 
     const LineTable& table() const { return table_; }
 

@@ -27,6 +27,10 @@ Effort effort_in_cell(std::size_t dimension) {
     return {1e-4, 5};
 }
 
+Effort effort_for_moments(std::size_t dimension) {
+    return dimension <= 1 ? Effort{1e-10, 400} : Effort{1e-7, 40};
+}
+
 }  // namespace
 
 FormulaBox::FormulaBox(std::string spec, Expression f, Box box)
@@ -82,6 +86,74 @@ Estimate FormulaBox::probability(const Box& cell) const {
     const Estimate whole = integral();
     const double share = mass.value / whole.value;
     return {share, (mass.error + share * whole.error) / whole.value};
+}
+
+std::optional<Moments> FormulaBox::moments() const {
+    const std::size_t d = dimension();
+    if (d > 2) return std::nullopt;
+    const Estimate whole = integral();
+    bool fine = whole.error <= 1e-6 * whole.value;
+    // E of a product of coordinates from the middle of the box, in halves of its extents.
+    const auto expect = [&](std::size_t i, int p, std::size_t j, int q) {
+        const auto off = [&](std::span<const double> x, std::size_t k) {
+            return (x[k] - box_.low[k]) / (0.5 * box_.extent(k)) - 1;
+        };
+        const Estimate found = integrate_box(
+            [&](std::span<const double> x) {
+                return f_.at(x) * std::pow(off(x, i), p) * std::pow(off(x, j), q);
+            },
+            box_, effort_for_moments(d));
+        fine = fine && found.error <= 1e-6 * whole.value;
+        return found.value / whole.value;
+    };
+    Moments m{std::vector<double>(d), std::vector<double>(d * d), std::vector<double>(d)};
+    std::vector<double> mean(d);
+    for (std::size_t k = 0; k < d; ++k) {
+        const double half = 0.5 * box_.extent(k);
+        mean[k] = expect(k, 1, k, 0);
+        const double square = expect(k, 2, k, 0);
+        const double variance = square - mean[k] * mean[k];
+        const double third =
+            expect(k, 3, k, 0) - 3 * mean[k] * square + 2 * mean[k] * mean[k] * mean[k];
+        m.mean[k] = box_.low[k] + half * (1 + mean[k]);
+        m.covariance[k * d + k] = half * half * variance;
+        m.skewness[k] = third / std::pow(variance, 1.5);
+    }
+    if (d == 2)
+        m.covariance[1] = m.covariance[2] =
+            0.25 * box_.extent(0) * box_.extent(1) * (expect(0, 1, 1, 1) - mean[0] * mean[1]);
+    return fine ? std::optional(m) : std::nullopt;
+}
+
+Support FormulaBox::support() const {
+    const std::size_t d = dimension();
+    const std::size_t steps = d == 1 ? 256 : (d == 2 ? 16 : 4);
+    std::vector<std::size_t> at(d, 0);
+    Estimate positive;
+    const auto cell = [&] {
+        Box part = box_;
+        for (std::size_t k = 0; k < d; ++k) {
+            const double step = box_.extent(k) / static_cast<double>(steps);
+            part.low[k] += static_cast<double>(at[k]) * step;
+            part.high[k] = at[k] + 1 < steps ? part.low[k] + step : box_.high[k];
+        }
+        return part;
+    };
+    for (bool more = true; more;) {
+        const Estimate part = integrate_box(
+            [&](std::span<const double> point) { return f_.at(point) > 0 ? 1.0 : 0.0; }, cell(),
+            {1e-7, 16});
+        positive.value += part.value;
+        positive.error += part.error;
+        std::size_t k = 0;
+        while (k < d && ++at[k] == steps) at[k++] = 0;
+        more = k < d;
+    }
+    // Less than the whole by more than rounding: there is a gap.
+    const double whole = measure();
+    if (positive.value >= (1 - 1e-9) * whole)
+        return {.measure = Estimate{whole, 0}, .boxes = {box_}};
+    return {.whole = false, .measure = positive, .boxes = {box_}};
 }
 
 std::vector<std::string> FormulaBox::cube_axes() const {

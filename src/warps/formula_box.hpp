@@ -9,11 +9,12 @@
 #include <string>
 
 #include "core/domain.hpp"
+#include "core/support.hpp"
 #include "math/expression.hpp"
 
 namespace stipple::warps {
 
-class FormulaBox final : public Domain {
+class FormulaBox final : public Domain, public Gapped {
   public:
     FormulaBox(std::string spec, Expression f, Box box);
 
@@ -29,6 +30,13 @@ class FormulaBox final : public Domain {
     bool even() const override { return false; }
     Estimate probability(const Box& cell) const override;
     std::vector<std::string> cube_axes() const override;
+
+    /// By quadrature, within 1e-6 of the box's extents; none where that is not reached, or in three
+    /// dimensions.
+    std::optional<Moments> moments() const override;
+
+    /// Looked for on a grid of cells, the measure by quadrature.
+    Support support() const override;
 
     const Expression& formula() const { return f_; }
     const Box& box() const { return box_; }

@@ -12,7 +12,7 @@
 // Strata  xi0 and xi1 are taken as they are: left stays left, and below stays below. Strata of xi1
 //         are strips of equal mass; those of xi0 are cut in proportion in each row of pixels, so
 //         that they are torn where rows differ.
-// Cost    O(1) a point: 70 ns at 4096 x 4096, where memory is what costs; 18 bytes a pixel.
+// Cost    O(1) a point: 70 ns at 4096 x 4096, where memory is what costs; 17 bytes a pixel.
 // Promise no point where the picture is 0. Forward, back and forward again is the same point within
 //         1e-15 / p; back and forward give xi within 4e-16 times the pixels of a side.
 // Source  Marginal and conditional: P. Shirley, C. Wang, K. Zimmerman, "Monte Carlo techniques for
@@ -22,8 +22,11 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "core/error.hpp"
 #include "core/spec.hpp"
+#include "core/support.hpp"
 #include "math/density_map.hpp"
 #include "math/law_moments.hpp"
 #include "warps/warp.hpp"
@@ -43,7 +46,7 @@ const Schema& schema() {
     return options;
 }
 
-class ImageDomain final : public Domain {
+class ImageDomain final : public Domain, public Gapped {
   public:
     ImageDomain(Values options, const RunContext& run)
         : options_(std::move(options)), map_(read_density(options_[file], options_[invert], run)) {}
@@ -77,6 +80,13 @@ class ImageDomain final : public Domain {
     }
     std::vector<std::string> cube_axes() const override {
         return {"share of the row's mass left of x", "share of the mass below y"};
+    }
+
+    Support support() const override {
+        const auto bright = std::ranges::count_if(map_.values(), [](double v) { return v > 0; });
+        const auto all = static_cast<std::ptrdiff_t>(map_.values().size());
+        const double share = static_cast<double>(bright) / static_cast<double>(all);
+        return {.whole = bright == all, .measure = Estimate{share, 0}, .boxes = {}};
     }
 
     const DensityMap& map() const { return map_; }

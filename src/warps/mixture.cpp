@@ -32,6 +32,7 @@
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "core/spec.hpp"
+#include "core/support.hpp"
 #include "core/text.hpp"
 #include "math/law_moments.hpp"
 #include "math/normal_quantile.hpp"
@@ -65,7 +66,7 @@ struct Component {
     std::unique_ptr<Mapping> mapping;
 };
 
-class MixtureDomain final : public Domain {
+class MixtureDomain final : public Domain, public Gapped {
   public:
     MixtureDomain(std::vector<DomainPtr> parts, std::vector<double> shares, std::string spec)
         : parts_(std::move(parts)), weights_(std::move(shares)), spec_(std::move(spec)) {
@@ -74,19 +75,37 @@ class MixtureDomain final : public Domain {
             const Box box = part->bounding_box();
             box_ = stipple::bounding_box(box.low, stipple::bounding_box(box.high, box_));
         }
+        fills_box_ = !directions() && std::ranges::all_of(parts_, [&](const DomainPtr& part) {
+            return fills(*part);
+        });
     }
 
     std::string spec() const override { return spec_; }
     std::size_t dimension() const override { return parts_[0]->dimension(); }
     std::size_t cube_dimension() const override { return parts_[0]->cube_dimension(); }
-    /// That of all directions where a part has them all; else what the parts cover together is not
-    /// known, and integrals over it are not.
+    /// That of all directions where a part has them all, and of the box that each part fills; else
+    /// what the parts cover together is not known, and it is taken as a part of all space.
     double measure() const override {
         const auto has_all = [&](const DomainPtr& part) {
             return part->measure() > (1 - 1e-12) * all_directions();
         };
         if (directions() && std::ranges::any_of(parts_, has_all)) return all_directions();
-        return std::numeric_limits<double>::infinity();
+        return fills_box_ ? box_volume() : std::numeric_limits<double>::infinity();
+    }
+
+    /// What any of the parts covers.
+    Support support() const override {
+        const double all = measure();
+        std::vector<Support> supports;
+        for (std::size_t i = 0; i < parts_.size(); ++i)
+            if (weights_[i] > 0) supports.push_back(support_of(*parts_[i]));
+        const auto covers = [&](const Support& part) {
+            return part.whole && part.measure && part.measure->value > (1 - 1e-12) * all;
+        };
+        if (std::ranges::any_of(supports, covers))
+            return {.measure = Estimate{all, 0}, .boxes = {}};
+        const bool ends = std::ranges::all_of(supports, &Support::finite);
+        return {.whole = false, .finite = ends, .boxes = {}};
     }
 
     /// Unit vectors, up to 16 epsilon; else all that is finite.
@@ -97,7 +116,10 @@ class MixtureDomain final : public Domain {
             square += x * x;
         }
         constexpr double slack = 32 * std::numeric_limits<double>::epsilon();
-        return !directions() || std::abs(square - 1) <= slack;
+        if (directions()) return std::abs(square - 1) <= slack;
+        return !fills_box_ || std::ranges::any_of(parts_, [&](const DomainPtr& part) {
+            return part->contains(point);
+        });
     }
     Box bounding_box() const override { return box_; }
     double density(std::span<const double> point) const override {
@@ -141,6 +163,16 @@ class MixtureDomain final : public Domain {
     }
 
   private:
+    /// Whether a part fills the box around all parts.
+    bool fills(const Domain& part) const {
+        return part.bounding_box() == box_ &&
+               std::abs(part.measure() - box_volume()) <= 1e-12 * box_volume();
+    }
+    double box_volume() const {
+        double volume = 1;
+        for (std::size_t k = 0; k < dimension(); ++k) volume *= box_.extent(k);
+        return volume;
+    }
     bool directions() const { return cube_dimension() < dimension(); }
     double all_directions() const {
         return dimension() == 3 ? 4 * std::numbers::pi : 2 * std::numbers::pi;
@@ -194,6 +226,7 @@ class MixtureDomain final : public Domain {
     std::vector<double> weights_;
     std::string spec_;
     Box box_;
+    bool fills_box_ = false;  ///< each part does
 };
 
 class Mixture final : public Mapping {
@@ -208,6 +241,11 @@ class Mixture final : public Mapping {
         }
         domain_ =
             std::make_shared<MixtureDomain>(std::move(domains), std::move(shares), std::move(spec));
+        double before = 0;
+        for (const double sum : sums_) {
+            shares_.push_back({before, sum - before});
+            before = sum;
+        }
     }
 
     DomainPtr domain() const override { return domain_; }
@@ -216,10 +254,34 @@ class Mixture final : public Mapping {
     void forward(std::span<const double> cube, std::span<double> image,
                  std::span<std::uint8_t> /*keep*/) const override {
         const std::size_t d = cube_dimension();
-        std::vector<std::vector<std::size_t>> rows(parts_.size());
-        for (std::size_t i = 0; i < cube.size() / d; ++i) rows[chosen(cube[i * d])].push_back(i);
-        for (std::size_t c = 0; c < parts_.size(); ++c)
-            if (!rows[c].empty()) move(c, rows[c], cube, image);
+        const std::size_t m = domain_->dimension();
+        const std::size_t count = cube.size() / d;
+        const std::vector<std::uint32_t> which = chosen(cube);
+        // Rows of one component after those of another, each in their order.
+        std::vector<std::size_t> next(parts_.size() + 1, 0);
+        for (const std::uint32_t c : which) ++next[c + 1];
+        for (std::size_t c = 0; c < parts_.size(); ++c) next[c + 1] += next[c];
+        const std::vector<std::size_t> begin = next;
+        std::vector<std::size_t> place(count);
+        for (std::size_t i = 0; i < count; ++i) place[i] = next[which[i]]++;
+        std::vector<double> from(count * d), to(count * m);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Share& share = shares_[which[i]];
+            double* row = &from[place[i] * d];
+            row[0] =
+                std::max(0.0, std::min((cube[i * d] - share.before) / share.width, one_minus_ulp));
+            for (std::size_t k = 1; k < d; ++k) row[k] = cube[i * d + k];
+        }
+        std::vector<std::uint8_t> keep(count, 1);
+        for (std::size_t c = 0; c < parts_.size(); ++c) {
+            const std::size_t size = begin[c + 1] - begin[c];
+            if (size == 0) continue;
+            parts_[c].mapping->forward(std::span(from).subspan(begin[c] * d, size * d),
+                                       std::span(to).subspan(begin[c] * m, size * m),
+                                       std::span(keep).first(size));
+        }
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t k = 0; k < m; ++k) image[i * m + k] = to[place[i] * m + k];
     }
 
     double density(std::span<const double> point) const override {
@@ -229,32 +291,34 @@ class Mixture final : public Mapping {
     }
 
   private:
-    /// The first component whose running weight is above u.
-    std::size_t chosen(double u) const {
-        const auto above = std::ranges::upper_bound(sums_, std::min(u, one_minus_ulp));
-        return static_cast<std::size_t>(above - sums_.begin());
-    }
+    /// Where a component's part of the first coordinate begins, and how wide it is.
+    struct Share {
+        double before;
+        double width;
+    };
 
-    /// Maps the rows of one component.
-    void move(std::size_t c, const std::vector<std::size_t>& rows, std::span<const double> cube,
-              std::span<double> image) const {
+    /// For each row the first component whose running weight is above its first coordinate.
+    std::vector<std::uint32_t> chosen(std::span<const double> cube) const {
         const std::size_t d = cube_dimension();
-        const std::size_t m = domain_->dimension();
-        const double before = c > 0 ? sums_[c - 1] : 0;
-        const double width = sums_[c] - before;
-        std::vector<double> from(rows.size() * d), to(rows.size() * m);
-        std::vector<std::uint8_t> keep(rows.size(), 1);
-        for (std::size_t j = 0; j < rows.size(); ++j) {
-            std::copy_n(&cube[rows[j] * d], d, &from[j * d]);
-            from[j * d] = std::clamp((from[j * d] - before) / width, 0.0, one_minus_ulp);
+        std::vector<std::uint32_t> which(cube.size() / d);
+        constexpr std::size_t few = 16;
+        for (std::size_t i = 0; i < which.size(); ++i) {
+            const double u = std::min(cube[i * d], one_minus_ulp);
+            if (sums_.size() > few) {
+                const auto above = std::ranges::upper_bound(sums_, u);
+                which[i] = static_cast<std::uint32_t>(above - sums_.begin());
+                continue;
+            }
+            std::uint32_t below = 0;  // counted, since branches would be guessed wrong
+            for (const double sum : sums_) below += sum <= u ? 1 : 0;
+            which[i] = below;
         }
-        parts_[c].mapping->forward(from, to, keep);
-        for (std::size_t j = 0; j < rows.size(); ++j)
-            std::copy_n(&to[j * m], m, &image[rows[j] * m]);
+        return which;
     }
 
     std::vector<Component> parts_;
-    std::vector<double> sums_;
+    std::vector<double> sums_;  ///< of the weights; the last is 1
+    std::vector<Share> shares_;
     std::shared_ptr<const MixtureDomain> domain_;
 };
 
@@ -309,8 +373,8 @@ std::string space_of(const Component& part, const Warp& warp) {
     if (warp.name == "discrete" || (!full && !gives_directions(*part.mapping)))
         fail(ErrorKind::usage,
              "--components: {} gives neither directions nor points that fill a space", part.spec);
-    return fmt::format(fmt::runtime(full ? "points of dimension {}" : "directions of dimension {}"),
-                       m);
+    if (full) return fmt::format("points that fill {} dimension{}", m, m == 1 ? "" : "s");
+    return m == 2 ? "directions in the plane" : "directions in space";
 }
 
 Component component_of(const std::string& text, std::size_t given, const RunContext& run,
@@ -328,8 +392,8 @@ std::unique_ptr<Mapping> make(const Values& options, std::size_t given, const Ru
     std::vector<double> shares = options[weights];
     const auto texts = parts_of(options[components]);
     if (shares.size() != texts.size())
-        fail(ErrorKind::usage, "--weights: {} numbers for {} components", shares.size(),
-             texts.size());
+        fail(ErrorKind::usage, "--weights: {} given for {} component{}; one for each is needed",
+             shares.size(), texts.size(), texts.size() == 1 ? "" : "s");
     for (const double w : shares)
         if (!(w >= 0 && w <= 1e300)) fail(ErrorKind::usage, "--weights: {} is outside [0, 1]", w);
     const double sum = running_sums(shares).back();
@@ -349,7 +413,9 @@ std::unique_ptr<Mapping> make(const Values& options, std::size_t given, const Ru
         if (i == 0) first = space;
         if (space != first ||
             parts[i].mapping->cube_dimension() != parts[0].mapping->cube_dimension())
-            fail(ErrorKind::usage, "--components: {} gives {} from {} coordinates, {} {} from {}",
+            fail(ErrorKind::usage,
+                 "--components: all must be of one kind; {} gives {}, from {} unit coordinates, {} "
+                 "gives {}, from {}",
                  texts[0], first, parts[0].mapping->cube_dimension(), texts[i], space,
                  parts[i].mapping->cube_dimension());
     }

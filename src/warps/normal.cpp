@@ -248,8 +248,8 @@ std::vector<double> deviations_of(const Values& options, std::size_t d) {
 /// The lower factor of --covariance. @throws Error(usage) naming what is wrong with the matrix.
 std::vector<double> factor_of(const std::vector<double>& matrix, std::size_t d) {
     if (matrix.size() != d * d)
-        fail(ErrorKind::usage, "--covariance: {} numbers; {} x {} are needed, row after row",
-             matrix.size(), d, d);
+        fail(ErrorKind::usage, "--covariance: {} x {} numbers are needed, row after row; {} given",
+             d, d, matrix.size());
     for (std::size_t i = 0; i < d; ++i)
         for (std::size_t j = 0; j < i; ++j)
             if (matrix[i * d + j] != matrix[j * d + i])

@@ -47,8 +47,8 @@ std::vector<double> corner_of(const Values& options, std::size_t d) {
     if (!options.given(corner)) return std::vector<double>(d, 0.0);
     auto at = options[corner];
     if (at.size() != d)
-        fail(ErrorKind::usage, "--corner: {} numbers; {} are needed, as the edges have", at.size(),
-             d);
+        fail(ErrorKind::usage, "--corner: {} numbers are needed, as the edges have; {} given", d,
+             at.size());
     for (double& x : at) x += 0.0;  // -0 would show in points
     return at;
 }

@@ -12,6 +12,9 @@
 //         std::pair<double, double> range() const;  // what a picture shows
 //         LineMoments moments() const;              // if they are known
 //         double mass(double low, double high) const;   // only if places are not even
+//         std::vector<std::pair<double, double>> parts() const;  // if the density has gaps: where
+//                                                                // it is not 0, side by side
+//         double positive_measure() const;              // instead, where it has no length
 //     };
 #pragma once
 
@@ -23,15 +26,17 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/support.hpp"
 #include "core/wide.hpp"
 #include "math/law_moments.hpp"
+#include "warps/pace.hpp"
 #include "warps/row_mapping.hpp"
 
 namespace stipple::warps {
 
 /// Each coordinate by a law of its own, independent of the others.
 template <class Law>
-class LineDomain final : public Domain {
+class LineDomain final : public Domain, public Gapped {
   public:
     /// @param what what place() is, for people
     LineDomain(std::vector<Law> laws, std::string spec, std::string what)
@@ -94,9 +99,45 @@ class LineDomain final : public Domain {
         return axes;
     }
 
+    Support support() const override {
+        Support all{.measure = Estimate{1, 0}, .boxes = {Box{}}};
+        for (const Law& law : laws_) {
+            if constexpr (requires { &Law::parts; }) {
+                const auto parts = law.parts();
+                double length = 0;
+                for (const auto& [low, high] : parts) length += high - low;
+                add_axis(all, parts, length, law.measure());
+            } else if constexpr (requires { &Law::positive_measure; }) {
+                add_axis(all, {}, law.positive_measure(), law.measure());
+            } else {
+                add_axis(all, {law.range()}, law.measure(), law.measure());
+            }
+        }
+        all.finite = all.measure->value < std::numeric_limits<double>::infinity();
+        if (!all.finite) all.measure.reset();
+        return all;
+    }
+
     const std::vector<Law>& laws() const { return laws_; }
 
   private:
+    /// Makes boxes of those before and the parts of one more coordinate.
+    static void add_axis(Support& all, const std::vector<std::pair<double, double>>& parts,
+                         double length, double whole) {
+        constexpr std::size_t many = 64;
+        all.whole = all.whole && length >= whole;
+        all.measure->value *= length;
+        std::vector<Box> boxes;
+        if (all.boxes.size() * parts.size() <= many)
+            for (const Box& before : all.boxes)
+                for (const auto& [low, high] : parts) {
+                    boxes.push_back(before);
+                    boxes.back().low.push_back(low);
+                    boxes.back().high.push_back(high);
+                }
+        all.boxes = std::move(boxes);
+    }
+
     static constexpr bool has_masses = requires { &Law::mass; };
 
     std::vector<Law> laws_;
@@ -109,7 +150,16 @@ class LineDomain final : public Domain {
 template <class Law>
 STIPPLE_WIDE [[gnu::flatten]] void map_numbers(const Law law, std::span<const double> cube,
                                                std::span<double> image) {
-    for (std::size_t i = 0; i < cube.size(); ++i) image[i] = law.forward(cube[i]);
+    Pace pace;
+    for (std::size_t first = 0; first < cube.size(); first += paced) {
+        const double* in = cube.data() + first;
+        double* out = image.data() + first;
+        for (std::size_t i = 0; i < std::min(paced, cube.size() - first); ++i) {
+            out[i] = law.forward(in[i]);
+            pace.mark(i);
+        }
+        pace.end();
+    }
 }
 
 template <class Law>

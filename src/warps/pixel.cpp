@@ -100,7 +100,8 @@ class Pixel final : public Mapping {
 
 /// The pixel that --pixel names. @throws Error(usage) when it is not one of the image.
 Window window_at(const std::vector<double>& at, std::int64_t width, std::int64_t height) {
-    if (at.size() != 2) fail(ErrorKind::usage, "--pixel: {} numbers; 2 are needed, i,j", at.size());
+    if (at.size() != 2)
+        fail(ErrorKind::usage, "--pixel: 2 numbers are needed, i,j; {} given", at.size());
     const auto w = static_cast<double>(width);
     const auto h = static_cast<double>(height);
     for (const double x : at)
@@ -116,7 +117,7 @@ std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
                               const RunContext& /*run*/) {
     const auto extents = options[resolution];
     if (extents.size() != 2)
-        fail(ErrorKind::usage, "--resolution: {} numbers; 2 are needed, WxH", extents.size());
+        fail(ErrorKind::usage, "--resolution: 2 numbers are needed, WxH; {} given", extents.size());
     for (const std::int64_t side : extents)
         if (side > most_pixels)
             fail(ErrorKind::usage, "--resolution: {} is outside [1, {}]", side, most_pixels);

@@ -14,7 +14,7 @@ double turn_of_degrees(double degrees) {
 Placement place(const std::vector<double>& center, double size, double degrees, double finest,
                 std::string_view what) {
     if (center.size() != 2)
-        fail(ErrorKind::usage, "--center: {} numbers; 2 are needed, x,y", center.size());
+        fail(ErrorKind::usage, "--center: 2 numbers are needed, x,y; {} given", center.size());
     for (const double x : center)
         if (!(finest > lost_in_rounding * std::abs(x)))
             fail(ErrorKind::usage, "--center: {} is so far that {} of {} is lost in rounding", x,

@@ -173,11 +173,7 @@ class Polygon final : public Mapping {
 
     void forward(std::span<const double> cube, std::span<double> image,
                  std::span<std::uint8_t> /*keep*/) const override {
-        for (std::size_t i = 0; i + 1 < cube.size(); i += 2) {
-            const auto [x, y] = domain_->rows().forward(cube[i], cube[i + 1]);
-            image[i] = x;
-            image[i + 1] = y;
-        }
+        domain_->rows().forward_all(cube, image);
     }
 
     void inverse(std::span<const double> image, std::span<double> cube) const override {

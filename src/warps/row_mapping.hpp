@@ -8,8 +8,9 @@
 //         std::array<double, d> inverse(std::span<const double> point) const;   // if there is one
 //         bool keeps(const std::array<double, d>& xi) const;                    // if it drops some
 //         double density(std::span<const double> point) const;                  // if it is biased
-//         double start(const std::array<double, d>& xi) const;      // if it has two steps
-//         std::array<double, m> finish(const std::array<double, d>& xi, double start) const;
+//         std::array<double, s> start(const std::array<double, d>& xi) const;  // if in two steps
+//         std::array<double, m> finish(const std::array<double, d>& xi,
+//                                      const std::array<double, s>& start) const;
 //     };
 //
 // A long forward() is quicker as finish(xi, start(xi)), each in a loop of its own: processors look
@@ -22,6 +23,7 @@
 
 #include "core/error.hpp"
 #include "core/wide.hpp"
+#include "warps/pace.hpp"
 #include "warps/warp.hpp"
 
 namespace stipple::warps {
@@ -62,6 +64,43 @@ std::array<double, d> row_of(std::span<const double> rows, std::size_t i) {
     return row;
 }
 
+namespace detail {
+
+template <class Start, std::size_t d, class Method>
+constexpr std::size_t start_size(Start (Method::*)(const std::array<double, d>&) const) {
+    return std::tuple_size_v<Start>;
+}
+
+template <std::size_t size>
+struct Columns {
+    std::array<std::array<double, paced>, size> column;
+
+    void put(std::size_t i, const std::array<double, size>& numbers) {
+        for (std::size_t k = 0; k < size; ++k) column[k][i] = numbers[k];
+    }
+    std::array<double, size> get(std::size_t i) const {
+        std::array<double, size> numbers;
+        for (std::size_t k = 0; k < size; ++k) numbers[k] = column[k][i];
+        return numbers;
+    }
+};
+
+struct NoColumns {};
+
+template <class Method>
+auto start_columns() {
+    if constexpr (HasStart<Method>)
+        return Columns<start_size(&Method::start)>();
+    else
+        return NoColumns();
+}
+
+}  // namespace detail
+
+/// What start() gives for the points of one loop.
+template <class Method>
+using StartColumns = decltype(detail::start_columns<Method>());
+
 // The method is taken by value: what is written to the image cannot change it, so that its
 // constants stay in registers. All calls are inlined, since one that is not keeps the loop from
 // being widened; and points go through columns, since compilers would else widen each number of a
@@ -71,23 +110,29 @@ STIPPLE_WIDE [[gnu::flatten]] void map_rows(const Method method, std::span<const
                                             std::span<double> image) {
     constexpr std::size_t d = ArityOf<Method>::cube;
     constexpr std::size_t m = ArityOf<Method>::image;
-    constexpr std::size_t most = 128;
-    std::array<std::array<double, most>, m> columns;
-    [[maybe_unused]] std::array<double, most> starts;
-    for (std::size_t first = 0; first < cube.size() / d; first += most) {
-        const std::size_t size = std::min(most, cube.size() / d - first);
-        if constexpr (HasStart<Method>)
-            for (std::size_t i = 0; i < size; ++i)
-                starts[i] = method.start(row_of<d>(cube, first + i));
+    std::array<std::array<double, paced>, m> columns;
+    [[maybe_unused]] StartColumns<Method> starts;
+    Pace pace;
+    for (std::size_t first = 0; first < cube.size() / d; first += paced) {
+        const std::size_t size = std::min(paced, cube.size() / d - first);
+        if constexpr (HasStart<Method>) {
+            for (std::size_t i = 0; i < size; ++i) {
+                starts.put(i, method.start(row_of<d>(cube, first + i)));
+                pace.mark(i);
+            }
+            pace.end();
+        }
         for (std::size_t i = 0; i < size; ++i) {
             const std::array<double, d> xi = row_of<d>(cube, first + i);
             std::array<double, m> point;
             if constexpr (HasStart<Method>)
-                point = method.finish(xi, starts[i]);
+                point = method.finish(xi, starts.get(i));
             else
                 point = method.forward(xi);
             for (std::size_t k = 0; k < m; ++k) columns[k][i] = point[k];
+            pace.mark(i);
         }
+        pace.end();
         for (std::size_t i = 0; i < size; ++i)
             for (std::size_t k = 0; k < m; ++k) image[m * (first + i) + k] = columns[k][i];
     }

@@ -57,7 +57,7 @@ struct Span {
 /// What the two angles enclose. @throws Error(usage)
 Span span_of(const std::vector<double>& ends) {
     if (ends.size() != 2)
-        fail(ErrorKind::usage, "--angles: {} numbers; 2 are needed, first,last", ends.size());
+        fail(ErrorKind::usage, "--angles: 2 numbers are needed, first,last; {} given", ends.size());
     for (const double angle : ends)
         if (!(std::abs(angle) <= 720))
             fail(ErrorKind::usage, "--angles: {} is outside [-720, 720]", angle);

@@ -114,9 +114,11 @@ class Urena {
                  low_.sin * high_.cos + low_.cos * high_.sin};
     }
 
-    Vector3 forward(const std::array<double, 2>& xi) const {
+    Vector3 forward(const std::array<double, 2>& xi) const { return finish(xi, start(xi)); }
+
+    /// Sine and cosine of phi.
+    std::array<double, 2> start(const std::array<double, 2>& xi) const {
         const double u = from_x_ + sign_x_ * xi[0];
-        const double v = from_y_ + sign_y_ * xi[1];
         const CosSin h_itself = cos_sin_turns(before_ + half_ * u);
         const CosSin g_itself = cos_sin_turns(behind_ + half_ * (1 - u));
         const CosSin h = h_itself.cos < 0 ? rest_of(g_itself) : h_itself;
@@ -126,8 +128,11 @@ class Urena {
             h.sin * g.sin * sine_of_sum(h, g, low_, high_) * sine_of_sum(g, h, low_, high_);
         const double across = 2 * std::sqrt(std::max(root, 0.0));
         const double scale = 1 / std::sqrt(along * along + across * across);
-        const double sin_phi = along * scale;
-        const double cos_phi = across * scale;
+        return {along * scale, across * scale};
+    }
+    Vector3 finish(const std::array<double, 2>& xi, const std::array<double, 2>& start) const {
+        const double v = from_y_ + sign_y_ * xi[1];
+        const auto [sin_phi, cos_phi] = start;
         const Rises from = rises(seen_.y0, cos_phi);
         const Rises to = rises(seen_.y1, cos_phi);
         const double below = (1 - v) * from.below + v * to.below;
@@ -236,6 +241,9 @@ class RectangleDomain final : public Domain {
         const auto [v, u] = cells_.inverse(point);
         cube[0] = std::clamp(u, 0.0, 1.0);
         cube[1] = std::clamp(v, 0.0, 1.0);
+    }
+    std::optional<Moments> moments() const override {
+        return polygon_.moments(cells_.solid_angle());
     }
     std::vector<std::string> cube_axes() const override {
         return {"place along ex, as sine of the angle", "share of the solid angle along ey"};

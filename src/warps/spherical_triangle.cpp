@@ -147,6 +147,7 @@ class TriangleDomain final : public Domain {
         cube[0] = std::clamp(u, 0.0, 1.0);
         cube[1] = std::clamp(v, 0.0, 1.0);
     }
+    std::optional<Moments> moments() const override { return polygon_.moments(area_); }
     std::vector<std::string> cube_axes() const override {
         return {"share of the area next to bc", "share on the way from c"};
     }

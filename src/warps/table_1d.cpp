@@ -134,6 +134,19 @@ struct Tabulated {
         return sum;
     }
     std::pair<double, double> range() const { return {of->x.front(), of->x.back()}; }
+
+    /// Neighbouring pieces where the density is not 0, as one.
+    std::vector<std::pair<double, double>> parts() const {
+        std::vector<std::pair<double, double>> found;
+        for (std::size_t i = 0; i < of->from.size(); ++i) {
+            if (!(of->from[i] + of->to[i] > 0) || !(of->x[i] < of->x[i + 1])) continue;
+            if (!found.empty() && found.back().second == of->x[i])
+                found.back().second = of->x[i + 1];
+            else
+                found.emplace_back(of->x[i], of->x[i + 1]);
+        }
+        return found;
+    }
 };
 
 /// Numbers of the table in order, with the name that messages give it. @throws Error

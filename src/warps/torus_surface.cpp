@@ -206,12 +206,13 @@ struct ByArea {
 
     static double mean_anomaly(double xi0) { return two_pi * (xi0 > 0.5 ? xi0 - 0.5 : 0.5 - xi0); }
     Vector3 forward(const std::array<double, 2>& xi) const { return finish(xi, start(xi)); }
-    double start(const std::array<double, 2>& xi) const {
-        return torus.first_angle(mean_anomaly(xi[0]));
+    std::array<double, 3> start(const std::array<double, 2>& xi) const {
+        const auto [c, s] = cos_sin_turns(xi[1]);
+        return {torus.first_angle(mean_anomaly(xi[0])), c, s};
     }
-    Vector3 finish(const std::array<double, 2>& xi, double angle) const {
+    Vector3 finish(const std::array<double, 2>& xi, const std::array<double, 3>& start) const {
+        const auto [angle, cos_around, sin_around] = start;
         const auto [c, s] = torus.half_angle(mean_anomaly(xi[0]), angle);
-        const auto [cos_around, sin_around] = cos_sin_turns(xi[1]);
         const double distance = (torus.major - torus.minor) + 2 * torus.minor * s * s;
         const double z = torus.minor * (2 * s * c);
         return plus(torus.center, torus.frame.out({distance * cos_around, distance * sin_around,

@@ -327,15 +327,14 @@ TEST(Integration, RefusesWhatItCannotIntegrateInOneLine) {
     EXPECT_EQ(refusal(random_points(64, 3), "zone-plate"),
               "input: --integrand: zone-plate takes points of dimension 2; these have 3");
     PointSet decay = random_points(64, 1);
-    decay.domain = parse_domain("mixture:components=[tent|tent:center=1]", 1);
-    EXPECT_EQ(refusal(decay, "measure", {{"expression", "x"}, {"compare", "true"}}).substr(0, 40),
-              "input: --integrand: measure takes points");
+    decay.domain = parse_domain("normal", 1);
+    EXPECT_EQ(refusal(decay, "measure"),
+              "input: --integrand: measure takes points of a domain of finite measure; these live "
+              "on normal");
     EXPECT_EQ(error_of([&] {
                   analyze("integration", decay, {{"expression", "x"}, {"compare", "true"}});
               }),
-              "input: --compare: no uniform points can be made on "
-              "mixture:components=tent|tent:center=1; it takes boxes, hemispheres, lobes on the "
-              "sphere, and domains that are uniform");
+              "input: --compare: there are no uniform points on normal: its measure is infinite");
     EXPECT_EQ(refusal(points_of({{0.5}}), "owen", {{"compare", "true"}}),
               "input: --compare: needs at least 2 points, not 1");
 }
@@ -388,3 +387,62 @@ TEST(Integration, HelpNamesAllIntegrands) {
 }
 
 }  // namespace
+
+// Density 1/3 on [0, 1], 0 on [1, 2], 2/3 on [2, 3]: no point tells of f in between, and both the
+// estimate and the exact value are of the rest.
+TEST(Integration, GapsInADensityAreLeftOutOfTheExactValue) {
+    PointSet line = make("sobol", points(1024, 1));
+    const Spec spec = parse_spec("table-1d:rows=[0,1 1,0 2,2 3,2],interpolation=constant");
+    const Warp& table = find_warp(spec.name);
+    const auto warp = table.make(spec.values(table.options), 1, {});
+    line = warped(*warp, line);
+    const Report found = integrate(line, "measure,owen:order=1");
+    EXPECT_EQ(found.number("measure.exact"), 2);
+    EXPECT_NEAR(found.number("measure.error"), 0, 2e-3);
+    EXPECT_EQ(std::get<bool>(*found.find("support.whole")), false);
+    EXPECT_NEAR(found.number("owen.error"), 0, 4e-3);
+    EXPECT_LT(found.number("owen.exact_error"), 1e-9);
+    const Report beside =
+        analyze("integration", line, {{"expression", "1"}, {"exact", "2"}, {"compare", "true"}});
+    EXPECT_NEAR(beside.number("compare.expression.uniform_variance"), 0, 0.02);
+
+    const PointSet square = make("sobol", points(1024, 2));
+    PointSet right = square;
+    for (std::size_t i = 0; i < right.count(); ++i)
+        right[i][0] = 0.5 + 0.5 * std::sqrt(right[i][0]);
+    right.domain = parse_domain("expression-2d:density=[max(0,x-0.5)]", 2);
+    const Report half = integrate(right, "measure,smooth-gaussian");
+    EXPECT_NEAR(half.number("measure.exact"), 0.5, 1e-6);
+    EXPECT_NEAR(half.number("smooth-gaussian.error"), 0, 2e-3);
+}
+
+// Both parts fill the unit square, so that the mixture does.
+TEST(Integration, MixturesOnABoxAreIntegratedAndCompared) {
+    PointSet set = make("sobol", points(4096, 2));
+    const auto warp =
+        mapping("mixture:components=[power:exponent=1|power:exponent=0],weights=[0.5,0.5]");
+    set = warped(*warp, set);
+    EXPECT_EQ(set.domain->measure(), 1);
+    const Report found =
+        integrate(set, "measure", {{"expression", "x*y"}, {"exact", "0.25"}, {"compare", "true"}});
+    EXPECT_NEAR(found.number("measure.error"), 0, 5e-3);
+    EXPECT_NEAR(found.number("expression.error"), 0, 2e-3);
+    EXPECT_NEAR(found.number("compare.measure.uniform_variance"), 0, 2e-2);
+    // Of x y at uniform points: 1/9 - 1/16.
+    EXPECT_NEAR(found.number("compare.expression.uniform_variance"), 1 / 9.0 - 1 / 16.0, 2e-3);
+    EXPECT_LT(found.number("compare.expression.importance_variance"), 1 / 9.0 - 1 / 16.0);
+}
+
+// Two caps cover a part of the sphere that is not known: an estimate, and no exact value.
+TEST(Integration, WhatAMixtureCoversIsEstimatedWithoutAnExactValue) {
+    const auto warp = mapping(
+        "mixture:components=[cone:half-angle=60|cone:half-angle=60,"
+        "axis=[0,0,-1]],weights=[0.25,0.75]");
+    const PointSet caps = warped(*warp, make("sobol", points(1024, 2)));
+    const Report found = integrate(caps, "measure");
+    EXPECT_NEAR(found.number("measure.estimate"), 2 * std::numbers::pi, 0.01);
+    EXPECT_EQ(found.find("measure.exact"), nullptr);
+    EXPECT_NE(found.find("support.meaning"), nullptr);
+    EXPECT_EQ(refusal(caps, "measure", {{"compare", "true"}}).substr(0, 50),
+              "input: --compare: there are no uniform points on m");
+}

@@ -164,3 +164,21 @@ TEST(Moments, NeedTwoPointsOnTheirDomain) {
     EXPECT_EQ(error_of([&] { analyze("moments", far); }),
               "limit: the sixth powers of coordinates are beyond the largest double");
 }
+
+// Points all alike have no spread of their own, and still a finite distance from what is right:
+// (1/2 - 0.25) sqrt(12 * 3) = 1.5, and of the variance (1/12) / sqrt((1/80) / 3) = 1.29.
+TEST(Moments, LargestZIsFiniteWhateverThePoints) {
+    const PointSet same = points_of({{0.25}, {0.25}, {0.25}});
+    EXPECT_DOUBLE_EQ(measure("moments", "cube.largest_z", same), 1.5);
+}
+
+TEST(Moments, SayWhoseExactValuesTheyAre) {
+    const PointSet cube = make("random", {100, 2});
+    const Report naive = analyze("moments", warped(*mapping("disk:method=naive"), cube));
+    EXPECT_EQ(naive.text("exact.law"), "uniform on disk");
+    EXPECT_EQ(naive.curve("exact.variance"), (Report::Curve{0.25, 0.25}));
+    EXPECT_EQ(naive.text("cube.axes"), "area fraction r^2/R^2; angle in turns");
+    const Report bell = analyze("moments", warped(*mapping("normal"), cube));
+    EXPECT_EQ(bell.text("exact.law"), "the density of normal");
+    EXPECT_EQ(analyze("moments", cube).find("cube.axes"), nullptr);
+}

@@ -375,3 +375,20 @@ TEST(Analyze, AveragesOnlySetsOfOneDimension) {
     EXPECT_THAT(outcome.err,
                 HasSubstr("--average: the sets have points of 2 and of 3 coordinates"));
 }
+
+// Distances hold in the box of --bounds as in that of --domain; integrals have its volume.
+TEST(Analyze, BoundsAreWhatThePointsLiveOn) {
+    const Sandbox box;
+    const std::string points = "0.5,1\n1.5,1\n";
+    const auto found = [&](const std::vector<std::string>& words) {
+        return report_of(box.run(words, points))["results"];
+    };
+    for (const auto& [option, text] :
+         {std::pair{"--bounds", "0..2,0..8"}, {"--domain", "box:bounds=[0..2,0..8]"}}) {
+        const auto near = found({"analyze", "nearest-neighbor", option, text});
+        EXPECT_EQ(near["minimum"], 1.0) << option;
+        const auto volume = found({"analyze", "integration", "--expression", "1", option, text});
+        EXPECT_EQ(volume["expression"]["estimate"], 16.0) << option;
+        EXPECT_EQ(found({"analyze", "moments", option, text})["exact"]["mean"][1], 4.0) << option;
+    }
+}

@@ -61,7 +61,9 @@ TEST(BadInput, EmptyFiles) {
     expect_refusal(judge("p.json", ""), 3, "p.json");
     expect_refusal(judge("p.npy", ""), 3, "p.npy");
     const Sandbox box;
-    expect_refusal(box.run({"analyze", "star-discrepancy"}, ""), 3, "stdin");
+    expect_refusal(box.run({"analyze", "star-discrepancy"}, ""), 3,
+                   "stdin: nothing came; expected points, one a line; did the command before it in "
+                   "the pipe fail?");
 }
 
 TEST(BadInput, NumbersThatAreNone) {
@@ -149,6 +151,29 @@ TEST(BadInput, UnknownNamesMeetTheNearestKnownOne) {
     expect_refusal(box.run({}), 2, "--help");
     expect_refusal(box.run({"generate", "halton", "extra"}), 2, "extra");
     expect_refusal(box.run({"generate", "halton", "-n"}), 2, "--count");
+}
+
+TEST(BadInput, WhatIsSaidTwiceIsRefused) {
+    const Sandbox box;
+    expect_refusal(box.run({"generate", "halton", "-w", "disk:radius=1,radius=2"}), 2,
+                   "'radius' is given twice: 1 and 2");
+    expect_refusal(box.run({"warp", "disk", "--radius", "1", "--radius", "2"}, "0,0\n"), 2,
+                   "--radius is given more than once");
+    expect_refusal(box.run({"warp", "disk:radius=1", "--radius", "2"}, "0,0\n"), 2,
+                   "--radius is given more than once");
+    expect_refusal(box.run({"generate", "halton", "-n", "3", "-n", "4"}), 2,
+                   "--count is given more than once");
+    expect_refusal(box.run({"analyze", "moments", "--bounds", "0..1", "--domain", "disk"}, "0,0\n"),
+                   2, "--bounds and --domain: give one of them");
+}
+
+TEST(BadInput, WordsAreNotNamedTwice) {
+    const Sandbox box;
+    const Outcome choice = box.run({"generate", "random", "--rng", "zzzzzzzz"});
+    expect_refusal(choice, 2, "is not one of");
+    EXPECT_EQ(choice.err.find("known:"), std::string::npos) << choice.err;
+    expect_refusal(box.run({"generate", "random", "-d", "3", "-f", "psa"}), 2,
+                   "psa holds points of dimension 2; these have 3");
 }
 
 TEST(BadInput, SpecsThatDoNotParseNameTheColumn) {

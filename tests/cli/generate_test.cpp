@@ -312,3 +312,27 @@ TEST(Generate, RefusesColumnsThatNoReaderTakes) {
     EXPECT_THAT(refused.err, HasSubstr("--with-weight: it is infinite at the point (0)"));
     EXPECT_EQ(run("1").code, 0);
 }
+
+// A spec names a unit with its options in one word, wherever a unit is named.
+TEST(Generate, SpecsAreTakenWhereverAUnitIsNamed) {
+    const Sandbox box;
+    const auto same = [&](const std::vector<std::string>& spec,
+                          const std::vector<std::string>& plain, const std::string& input) {
+        EXPECT_EQ(good(box.run(spec, input)), good(box.run(plain, input))) << spec[1];
+    };
+    const std::string points = "0.25,0.5\n0.75,0.125\n";
+    same({"generate", "sobol:scramble=owen", "-n", "4", "--meta"},
+         {"generate", "sobol", "-n", "4", "--meta", "--scramble", "owen"}, "");
+    same({"warp", "disk:radius=2,center=[1,0]"},
+         {"warp", "disk", "--radius", "2", "--center", "1,0"}, points);
+    same({"warp", "power@2:exponent=1"}, {"warp", "power", "--coordinates", "2", "--exponent", "1"},
+         points);
+    same({"warp", "owen:seed=7"}, {"warp", "owen", "--seed", "7"}, points);
+    const std::string one = good(box.run({"analyze", "l2-discrepancy:kind=centered"}, points));
+    EXPECT_NE(one.find("\"centered\""), std::string::npos);
+    EXPECT_EQ(one.find("\"wraparound\""), std::string::npos);
+    EXPECT_NE(box.run({"generate", "sobol@1:scramble=owen"}).err.find("for warps"),
+              std::string::npos);
+    EXPECT_NE(box.run({"generate", "sobol:scrmble=owen"}).err.find("did you mean 'scramble'?"),
+              std::string::npos);
+}

@@ -100,26 +100,29 @@ TEST_P(ExactMoments, AreTheIntegrals) {
 // Shapes at no special place, of no special size and turned, so that nothing cancels by chance.
 INSTANTIATE_TEST_SUITE_P(
     Laws, ExactMoments,
-    ::testing::Values("annulus:inner=0.5,radius=2,center=[1,-3]", "ball:radius=2,center=[1,2,3]",
-                      "circle:radius=3,center=[1,2]", "cone:half-angle=20,axis=[1,2,3]",
-                      "cone:half-angle=150,axis=[0,1,0.5]",
-                      "cylinder:radius=2,height=3,axis=[1,2,2]", "disk:radius=2,center=[3,4]",
-                      "ellipse:axes=[3,1],rotation=30,center=[1,1]", "exponential:rate=[2,0.5]",
-                      "hemisphere:axis=[1,-1,2]", "hemisphere:method=cosine,axis=[1,-1,2]",
-                      "hemisphere:method=cosine-power,exponent=3.5,axis=[1,-1,2]",
-                      "henyey-greenstein:g=0.6,axis=[1,2,-2]", "henyey-greenstein:g=-0.9",
-                      "normal:mean=[1,2],deviation=[3,0.5]", "normal:covariance=[2,1,1,3]",
-                      "parallelogram:corner=[1,2,3],edges=[1,0,2 0,3,1]",
-                      "pixel:resolution=3x2,pixel=[1,1]", "power:exponent=1",
-                      "power:exponent=2.5,range=[1,3]", "power:exponent=-1,range=[1,5]",
-                      "power:exponent=-3,range=[1,5]", "power:exponent=2,range=[-5,-1]",
-                      "power:exponent=4,range=[2,2.1]", "power:exponent=-0.5",
-                      "sphere:radius=2,center=[1,2,3]", "tent:radius=[1,2],center=[3,0]",
-                      "torus-surface:major-radius=2,minor-radius=1.5,axis=[1,1,0],center=[1,0,0]",
-                      "triangle:vertices=[0,0 3,1 1,4]", "triangle:vertices=[1,0,0 0,2,0 0,0,3]",
-                      "von-mises-fisher:kappa=0.5,axis=[1,2,3]",
-                      "von-mises-fisher:kappa=5,axis=[1,2,3]",
-                      "von-mises-fisher:kappa=300,axis=[1,2,3]", "von-mises-fisher:kappa=0"),
+    ::testing::Values(
+        "annulus:inner=0.5,radius=2,center=[1,-3]", "ball:radius=2,center=[1,2,3]",
+        "circle:radius=3,center=[1,2]", "cone:half-angle=20,axis=[1,2,3]",
+        "cone:half-angle=150,axis=[0,1,0.5]", "cylinder:radius=2,height=3,axis=[1,2,2]",
+        "disk:radius=2,center=[3,4]", "ellipse:axes=[3,1],rotation=30,center=[1,1]",
+        "exponential:rate=[2,0.5]", "hemisphere:axis=[1,-1,2]",
+        "hemisphere:method=cosine,axis=[1,-1,2]",
+        "hemisphere:method=cosine-power,exponent=3.5,axis=[1,-1,2]",
+        "henyey-greenstein:g=0.6,axis=[1,2,-2]", "henyey-greenstein:g=-0.9",
+        "normal:mean=[1,2],deviation=[3,0.5]", "normal:covariance=[2,1,1,3]",
+        "parallelogram:corner=[1,2,3],edges=[1,0,2 0,3,1]", "pixel:resolution=3x2,pixel=[1,1]",
+        "power:exponent=1", "power:exponent=2.5,range=[1,3]", "power:exponent=-1,range=[1,5]",
+        "power:exponent=-3,range=[1,5]", "power:exponent=2,range=[-5,-1]",
+        "power:exponent=4,range=[2,2.1]", "power:exponent=-0.5",
+        "spherical-triangle:vertices=[1,0,0 0,1,0.2 0.1,0.3,1]",
+        "spherical-triangle:vertices=[1,0,0 1,0.2,0 1,0.1,0.3]",
+        "spherical-rectangle:corner=[-1,-0.5,-1],edges=[3,0,0 0,1,0]",
+        "expression-1d:density=1+x*x,range=[1,3]", "expression-1d:density=exp(-x),range=[0,20]",
+        "sphere:radius=2,center=[1,2,3]", "tent:radius=[1,2],center=[3,0]",
+        "torus-surface:major-radius=2,minor-radius=1.5,axis=[1,1,0],center=[1,0,0]",
+        "triangle:vertices=[0,0 3,1 1,4]", "triangle:vertices=[1,0,0 0,2,0 0,0,3]",
+        "von-mises-fisher:kappa=0.5,axis=[1,2,3]", "von-mises-fisher:kappa=5,axis=[1,2,3]",
+        "von-mises-fisher:kappa=300,axis=[1,2,3]", "von-mises-fisher:kappa=0"),
     [](const auto& test) { return "Case" + std::to_string(test.index); });
 
 // Sectors, sides, pieces and parts, where the map has kinks and jumps that the rule crosses.
@@ -132,7 +135,8 @@ TEST(MomentsOfParts, AreTheIntegralsToo) {
           "cylinder:caps=true,radius=2,height=3,axis=[1,2,2]",
           "polygon:vertices=[0,0 4,0 4,4 0,4 / 1,1 1,3 3,3 3,2]", "table-1d:rows=[0,1 1,3 2,0 4,2]",
           "table-1d:rows=[0,1 1,3 2,0.5 4,2],interpolation=constant",
-          "power:exponent=6,range=[-2,1]"}) {
+          "power:exponent=6,range=[-2,1]", "expression-2d:density=1+x*y,bounds=[0..1,1..3]",
+          "expression-1d:density=[x<0.3?1:(x<0.6?0:2)]"}) {
         SCOPED_TRACE(spec);
         const auto map = mapping(spec);
         const auto exact = map->domain()->moments();

@@ -56,3 +56,29 @@ TEST(Domain, ProductsTakeTheirCoordinates) {
         EXPECT_NE(error_of([&] { parse_domain(text, 3); }), "") << text;
     EXPECT_TRUE(error_of([] { parse_domain("dsik", 2); }).find("disk") != std::string::npos);
 }
+
+// The cube of a product stands in the order of the row's coordinates, whatever that of the factors.
+TEST(Domain, AxesOfAProductStandInTheOrderOfTheCoordinates) {
+    const auto product =
+        parse_domain("power:exponent=1@4 x unit-cube@1,3 x power:exponent=3,range=[0,2]@2", 4);
+    std::vector<double> cube(4);
+    product->to_cube(std::vector<double>{0.1, 1, 0.3, 0.5}, cube);
+    EXPECT_DOUBLE_EQ(cube[0], 0.1);
+    EXPECT_DOUBLE_EQ(cube[1], 1 / 16.0);  // (1/2)^4
+    EXPECT_DOUBLE_EQ(cube[2], 0.3);
+    EXPECT_DOUBLE_EQ(cube[3], 0.25);  // (1/2)^2
+    EXPECT_EQ(product->cube_axes()[0], "x1");
+    EXPECT_EQ(product->cube_axes()[1], "probability below x of power@2");
+    EXPECT_EQ(product->cube_axes()[2], "x3");
+}
+
+// A sphere has three coordinates and two axes; cells are the product of its cells and the others'.
+TEST(Domain, ProbabilitiesOfAProductAreThoseOfTheFactors) {
+    const auto product = parse_domain(
+        "sphere@2,3,5 x rejection:density=2*x,bounds=0..1@4 x "
+        "unit-cube@1",
+        5);
+    EXPECT_EQ(product->cube_dimension(), 4U);
+    EXPECT_NEAR(product->probability({{0, 0, 0.5, 0}, {0.5, 0.25, 1, 1}}).value, 0.125 * 1, 1e-9);
+    EXPECT_NEAR(product->probability({{0, 0, 0, 0.5}, {1, 1, 1, 1}}).value, 0.75, 1e-9);
+}

@@ -53,9 +53,22 @@ TEST(Svg, EachPairOfCoordinatesHasItsPanel) {
                         "<circle cx=\"1020.0\" cy=\"775.0\" r=\"10.00\"/>\n</g>\n"),
               std::string::npos)
         << text;
-    for (const char* words : {">x right, y up<", ">x right, z up<", ">y right, z up<"})
+    for (const char* words : {">x right 0 to 1, y up 0 to 10<", ">x right 0 to 1, z up -1 to 1<",
+                              ">y right 0 to 10, z up -1 to 1<"})
         EXPECT_NE(text.find(words), std::string::npos) << words;
-    EXPECT_NE(written("svg", {random_points(3, 8)}).find(">x7 right, x8 up<"), std::string::npos);
+    EXPECT_NE(written("svg", {random_points(3, 8)}).find(">x7 right 0 to 1, x8 up 0 to 1<"),
+              std::string::npos);
+}
+
+// A box of one domain keeps its aspect: 490 units are 10, so that x is 49 wide and z is 98 high.
+TEST(Svg, PanelsOfOneDomainShowLengthsAlike) {
+    Layout layout;
+    layout.extent = Box{{0, 0, -1}, {1, 10, 1}};
+    layout.provenance.domain = "box:bounds=[0..1,0..10,-1..1]";
+    const std::string text = written("svg", {points_of({{1, 10, -1}})}, layout);
+    EXPECT_NE(text.find("<rect x=\"20\" y=\"20\" width=\"49\" height=\"490\""), std::string::npos)
+        << text;
+    EXPECT_NE(text.find("<circle cx=\"69.0\" cy=\"628.0\""), std::string::npos) << text;
 }
 
 TEST(Svg, IsWriteOnlyAndOfFewCoordinates) {

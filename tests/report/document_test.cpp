@@ -86,3 +86,16 @@ TEST(Check, TakesOneOfSeveralNumbers) {
         EXPECT_TRUE(error_of([&] { (void)parse_check(text).holds(report); }).starts_with("usage: "))
             << text;
 }
+
+// The standard errors of a mean are columns of their own, behind the results.
+TEST(Document, CsvOfAMeanHasItsStandardErrors) {
+    Measurement m{.analyzer = "a", .source = "p", .count = 4, .dimension = 2, .domain = "disk"};
+    m.results.add("value", 0.5).add("curve", Report::Curve{1, 2});
+    m.standard_error.emplace();
+    m.standard_error->add("value", 0.25).add("curve", Report::Curve{0.5, 0.125});
+    EXPECT_EQ(to_csv(std::vector{m}),
+              "analyzer,source,set,count,dimension,domain,value,curve,standard_error.value,"
+              "standard_error.curve\n"
+              "a,p,,4,2,disk,0.5,1,0.25,0.5\n"
+              "a,p,,4,2,disk,0.5,2,0.25,0.125\n");
+}

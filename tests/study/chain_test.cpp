@@ -56,7 +56,18 @@ TEST(WarpChain, DroppedPointsTakeTheirWholeRow) {
 }
 
 TEST(WarpChain, RefusesWhatDoesNotFit) {
-    EXPECT_TRUE(error_of([] { chain({"disk"}, 3); }).find("disk@1,2") != std::string::npos);
+    EXPECT_EQ(error_of([] { chain({"disk"}, 3); }),
+              "usage: warp disk takes 2 coordinates; the points have 3 | name the coordinates: "
+              "disk@1,2");
+    EXPECT_EQ(error_of([] { chain({"disk"}, 1); }),
+              "usage: warp disk takes 2 coordinates; the points have 1");
+    EXPECT_EQ(error_of([] { chain({"disk@1,2,3"}, 3); }),
+              "usage: warp disk takes 2 coordinates; 3 are named: disk@1,2,3");
+    EXPECT_EQ(error_of([] { chain({"disk:radius=1,radius=2"}, 2); }),
+              "usage: disk: the option 'radius' is given twice: 1 and 2");
+    EXPECT_EQ(error_of([] { parse_domain("0..4", 2); }),
+              "usage: unknown domain '0..4' | a box is written box:bounds=[0..4]");
+    EXPECT_EQ(error_of([] { parse_domain("owen", 2); }).find("scramble"), std::string::npos);
     EXPECT_NE(error_of([] { chain({"disk@1,4"}, 3); }), "");
     EXPECT_NE(error_of([] { chain({"disk@1,2", "disk@2,3"}, 3); }), "");
 }

@@ -90,7 +90,7 @@ TEST(Annulus, RefusesWhatIsNoAnnulus) {
               "usage: --inner: 2 is not below --radius 1, or lost in rounding beside it");
     EXPECT_NE(error("annulus:inner=1"), "");
     EXPECT_EQ(error("annulus:inner=-1"), "usage: --inner: -1 is outside [0, 1e+150]");
-    EXPECT_EQ(error("annulus:center=[1]"), "usage: --center: 1 numbers; 2 are needed, x,y");
+    EXPECT_EQ(error("annulus:center=[1]"), "usage: --center: 2 numbers are needed, x,y; 1 given");
     EXPECT_EQ(error("annulus:center=[0,1e30]"),
               "usage: --center: 1e+30 is so far that a ring of 0.5 is lost in rounding");
     EXPECT_EQ(error_of([] {

@@ -126,7 +126,7 @@ TEST(Circle, DomainSaysWhatItIsAndParsesBack) {
 
 TEST(Circle, RefusesOptionsOutOfRange) {
     EXPECT_EQ(error_of([] { mapping("circle:center=[1,2,3]"); }),
-              "usage: --center: 3 numbers; 2 are needed, x,y");
+              "usage: --center: 2 numbers are needed, x,y; 3 given");
     EXPECT_EQ(error_of([] { mapping("circle:center=[0,1e30]"); }),
               "usage: --center: 1e+30 is so far that a radius of 1 is lost in rounding");
     EXPECT_NE(error_of([] { mapping("circle:radius=0"); }), "");

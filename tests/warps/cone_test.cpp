@@ -124,5 +124,5 @@ TEST(Cone, RefusesOptionsOutOfRange) {
     EXPECT_EQ(error_of([] { mapping("cone:axis=[0,0,0]"); }),
               "usage: --axis: 0,0,0 has no direction");
     EXPECT_EQ(error_of([] { mapping("cone:axis=[0,1]"); }),
-              "usage: --axis: 2 numbers; 3 are needed, x,y,z");
+              "usage: --axis: 3 numbers are needed, x,y,z; 2 given");
 }

@@ -94,8 +94,8 @@ TEST(Mixture, DomainSpecParsesBackWithItsBrackets) {
 
 TEST(Mixture, RefusesWhatCannotBeMixed) {
     EXPECT_EQ(error_of([] { mapping("mixture:components=[normal|vmf]"); }),
-              "usage: --components: normal gives points of dimension 2 from 2 coordinates, vmf "
-              "directions of dimension 3 from 2");
+              "usage: --components: all must be of one kind; normal gives points that fill 2 "
+              "dimensions, from 2 unit coordinates, vmf gives directions in space, from 2");
     EXPECT_EQ(error_of([] { mapping("mixture:components=[disk:method=rejection|disk]"); }),
               "usage: --components: disk:method=rejection drops points, which would change the "
               "weights");
@@ -106,7 +106,7 @@ TEST(Mixture, RefusesWhatCannotBeMixed) {
               "usage: --weights: their sum is 0.9; 1 is needed | --normalize divides them by their "
               "sum");
     EXPECT_EQ(error_of([] { mapping("mixture:weights=1"); }),
-              "usage: --weights: 1 numbers for 2 components");
+              "usage: --weights: 1 given for 2 components; one for each is needed");
     EXPECT_EQ(error_of([] {
                   inverse_of(*mapping("mixture"), {0, 0, 1});
               }),

@@ -151,7 +151,7 @@ TEST(Normal, RefusesWhatIsNoCovariance) {
     EXPECT_EQ(error_of([] { mapping("normal:covariance=[1,2,3,9]"); }),
               "usage: --covariance: not symmetric: row 1 has 2, row 2 has 3");
     EXPECT_EQ(error_of([] { mapping("normal:covariance=[1,2,3]"); }),
-              "usage: --covariance: 3 numbers; 2 x 2 are needed, row after row");
+              "usage: --covariance: 2 x 2 numbers are needed, row after row; 3 given");
     EXPECT_EQ(error_of([] { mapping("normal:deviation=0"); }),
               "usage: --deviation: 0 is outside [1e-150, 1e+150]");
     EXPECT_EQ(error_of([] { mapping("normal:mean=[1,2,3],deviation=[1,2]"); }),

@@ -84,7 +84,7 @@ TEST(Parallelogram, RefusesWhatIsNoParallelogram) {
     EXPECT_EQ(error("parallelogram:edges=[1,0]"),
               "usage: --edges: 1 vectors of dimension 2; 2 vectors of dimension 2 or 3 are needed");
     EXPECT_EQ(error("parallelogram:corner=[0,0,0]"),
-              "usage: --corner: 3 numbers; 2 are needed, as the edges have");
+              "usage: --corner: 2 numbers are needed, as the edges have; 3 given");
     EXPECT_NE(error("parallelogram:corner=[1e30,0]"), "") << "lost in rounding";
     EXPECT_NE(error("parallelogram:edges=[1e200,0 0,1]"), "");
     EXPECT_EQ(error_of([] {

@@ -86,7 +86,8 @@ TEST(Pixel, DomainParsesBack) {
 
 TEST(Pixel, RefusesWhatIsNoPixel) {
     const auto error = [](std::string_view spec) { return error_of([&] { mapping(spec); }); };
-    EXPECT_EQ(error("pixel:resolution=640"), "usage: --resolution: 1 numbers; 2 are needed, WxH");
+    EXPECT_EQ(error("pixel:resolution=640"),
+              "usage: --resolution: 2 numbers are needed, WxH; 1 given");
     EXPECT_NE(error("pixel:resolution=0x5"), "");
     EXPECT_EQ(error("pixel:resolution=1x4294967296"),
               "usage: --resolution: 4294967296 is outside [1, 2147483648]");
@@ -95,5 +96,5 @@ TEST(Pixel, RefusesWhatIsNoPixel) {
               "--resolution WxH says how large the image is");
     EXPECT_NE(error("pixel:pixel=[-1,0]"), "");
     EXPECT_EQ(error("pixel:pixel=[0.5,0]"), "usage: --pixel: 0.5 is not a whole number");
-    EXPECT_EQ(error("pixel:pixel=3"), "usage: --pixel: 1 numbers; 2 are needed, i,j");
+    EXPECT_EQ(error("pixel:pixel=3"), "usage: --pixel: 2 numbers are needed, i,j; 1 given");
 }

@@ -151,10 +151,35 @@ TEST(Power, RefusesWhatHasNoDensity) {
         "usage: --exponent: x^-1 has no finite integral over [0, 1]; above -1 is needed where "
         "the range contains 0");
     EXPECT_NE(error_of([] { mapping("power:exponent=-2,range=[-1,1]"); }), "");
+    EXPECT_EQ(error_of([] { mapping("power:exponent=-0.99"); }),
+              "usage: --exponent: x^-0.99 on a range that ends at 0 has 0.000838 of its mass below "
+              "2.2e-308, where numbers end; at least -0.9544 is needed | or a range that begins "
+              "above 0, as at 1e-150");
     EXPECT_EQ(error_of([] { mapping("power:range=[1,1]"); }), "usage: --range: 1 is not below 1");
     EXPECT_EQ(error_of([] { mapping("power:range=[1,2,3]"); }),
-              "usage: --range: 3 numbers; 2 are needed, a,b");
+              "usage: --range: 2 numbers are needed, a,b; 3 given");
     EXPECT_NE(error_of([] { mapping("power:range=[1e-200,1]"); }), "");
     EXPECT_EQ(error_of([] { mapping("power:exponent=1e9"); }),
               "usage: --exponent: 1e9 is outside [-1000, 1000]");
+}
+
+// Near k = -1 half of the law is within a few decades of its lower end; nothing may underflow.
+TEST(Power, ExponentsNearMinusOneKeepPointsAndDensities) {
+    for (const char* spec :
+         {"power:exponent=-0.99,range=[1e-150,1]", "power:exponent=-0.95", "power:exponent=-0.954",
+          "power:exponent=-1.01,range=[1e-150,1]", "power:exponent=-1000,range=[1e-3,1]",
+          "power:exponent=-5,range=[1e-100,1e100]"}) {
+        const auto law = on_line(spec);
+        for (const double u : {1e-12, 1e-3, 0.25, 0.5, 0.9, one_minus_ulp}) {
+            const double x = image_of(*law, {u})[0];
+            EXPECT_GT(x, 0) << spec << " at " << u;
+            EXPECT_TRUE(law->domain()->contains(std::vector{x})) << spec << " at " << u;
+            const double p = law->density(std::vector{x});
+            EXPECT_TRUE(std::isfinite(p)) << spec << " at " << u;
+            EXPECT_NEAR(inverse_of(*law, {x})[0], u, 1e-11) << spec << " at " << u;
+        }
+    }
+    // 4 x^-5 / (a^-4 - b^-4) at a = 1e-100 is 4e100.
+    EXPECT_NEAR(on_line("power:exponent=-5,range=[1e-100,1e100]")->density(std::vector{1e-100}),
+                4e100, 1e88);
 }

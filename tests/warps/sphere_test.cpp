@@ -164,7 +164,7 @@ TEST(Sphere, RefusesOptionsOutOfRange) {
     EXPECT_NE(error_of([] { mapping("sphere:radius=0"); }), "");
     EXPECT_NE(error_of([] { mapping("sphere:inner=1"); }), "");
     EXPECT_EQ(error_of([] { mapping("sphere:center=[1,2]"); }),
-              "usage: --center: 2 numbers; 3 are needed, x,y,z");
+              "usage: --center: 3 numbers are needed, x,y,z; 2 given");
     EXPECT_EQ(error_of([] { mapping("sphere:center=[0,1e30,0]"); }),
               "usage: --center: 1e+30 is so far that a radius of 1 is lost in rounding");
 }

@@ -191,7 +191,7 @@ TEST(SphericalRectangle, RefusesWhatIsNoRectangleOrHasNoSolidAngle) {
     EXPECT_EQ(error("edges=[1,0,0 0,0,0]"), "usage: --edges: 1,0,0 0,0,0 has an edge of length 0");
     EXPECT_EQ(error("edges=[1,0 0,1]"),
               "usage: --edges: 2 vectors of dimension 2; 2 vectors x,y,z are needed");
-    EXPECT_EQ(error("corner=[1,2]"), "usage: --corner: 2 numbers; 3 are needed, x,y,z");
+    EXPECT_EQ(error("corner=[1,2]"), "usage: --corner: 3 numbers are needed, x,y,z; 2 given");
     EXPECT_EQ(
         error("origin=[3,4,1]"),
         "usage: --origin: the rectangle fills no solid angle from 3,4,1; it lies in its plane "
