@@ -13,7 +13,16 @@
 
 namespace stipple::cli {
 
-enum class Verb : unsigned { generate = 1, warp = 2, analyze = 4, convert = 8, list = 16 };
+enum class Verb : unsigned {
+    generate = 1,
+    warp = 2,
+    analyze = 4,
+    convert = 8,
+    list = 16,
+    reproduce = 256,
+    help = 512,
+    completions = 1024
+};
 
 struct VerbInfo {
     Verb verb;

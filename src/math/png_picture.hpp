@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -40,5 +41,11 @@ PngPicture read_png(std::string_view bytes, const std::string& source, const Run
 /// @throws Error(limit) for a picture too large for PNG.
 std::string png_of_grey(std::size_t width, std::size_t height,
                         std::span<const std::uint16_t> samples);
+
+/// The picture with a text chunk behind its header; ASCII.
+std::string png_with_text(std::string_view png, std::string_view keyword, std::string_view text);
+
+/// The text of the first such chunk, if there is one.
+std::optional<std::string> png_text(std::string_view png, std::string_view keyword);
 
 }  // namespace stipple
