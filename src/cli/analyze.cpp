@@ -124,6 +124,12 @@ Style style_of(const Arguments& arguments, const std::string& path) {
     return path == "-" && isatty(STDOUT_FILENO) == 1 ? Style::text : Style::json;
 }
 
+/// What sets are from; joined ones are from all at once.
+std::vector<std::string> inputs_of(const Arguments& arguments) {
+    if (arguments.inputs.empty()) return {"-"};
+    return arguments.has("concat") ? std::vector{join(arguments.inputs, ", ")} : arguments.inputs;
+}
+
 /// The measurements of one call, and what is to be done with them.
 class Analysis {
   public:
@@ -132,6 +138,8 @@ class Analysis {
           session_(session),
           analyzer_(find_analyzer(arguments.unit)),
           options_(settings_of(analyzer_.options, arguments)),
+          joined_(arguments.has("concat")),
+          inputs_(inputs_of(arguments)),
           path_(arguments.get("output").value_or("-")),
           style_(style_of(arguments, path_)),
           averaged_(arguments.has("average")),
@@ -139,7 +147,7 @@ class Analysis {
               session.run(),
               [this](const FoundSet& set, const RunContext& run) { return measured(set, run); },
               [this](const FoundSet& set, Measurement m) {
-                  keep(std::move(m), arguments_.inputs.size() > 1 || set.of > 1);
+                  keep(std::move(m), inputs_.size() > 1 || set.of > 1);
               }) {
         for (const auto& text : arguments.all("check"))
             checks_.push_back(check_of(text, analyzer_));
@@ -151,12 +159,10 @@ class Analysis {
     }
 
     int go() {
-        auto inputs = arguments_.inputs;
-        if (inputs.empty()) inputs.emplace_back("-");
         const bool in_blocks = analyzer_.accumulate && !arguments_.has("rescale");
         check_bounds(arguments_);
         check_domain(arguments_, analyzer_);
-        for (const std::string& input : inputs)
+        for (const std::string& input : inputs_)
             if (!interrupted()) in_blocks ? add_stream(input) : add_sets(input);
         batch_.finish();
         if (interrupted()) return print_what_is_known();
@@ -171,7 +177,10 @@ class Analysis {
 
     void add_sets(const std::string& input) {
         std::vector<PointSet> sets;
-        before_errors([&] { sets = read_input(input, arguments_, session_.run()); });
+        before_errors([&] {
+            sets = joined_ ? read_joined(arguments_, session_.run())
+                           : read_input(input, arguments_, session_.run());
+        });
         for (std::size_t set = 0; set < sets.size() && !interrupted(); ++set) {
             before_errors([&] {
                 naming(input,
@@ -199,15 +208,22 @@ class Analysis {
             work();
         } catch (const Error& e) {
             const std::string name = input == "-" ? "stdin" : input;
-            if (e.kind() != ErrorKind::input || std::string(e.what()).starts_with(name + ":"))
-                throw;
+            const std::string what = e.what();
+            const auto named = [&](const auto& part) {
+                return what.starts_with(std::string(part) + ":");
+            };
+            if (e.kind() != ErrorKind::input || named(name)) throw;
+            // What is wrong with one of joined files names it.
+            for (const auto part : split(name, ','))
+                if (named(trim(part))) throw;
             throw Error(e.kind(), fmt::format("{}: {}", name, e.what()), e.hint());
         }
     }
 
     /// Sets of any size, in blocks.
     void add_stream(const std::string& input) {
-        const auto stream = open_input(input, arguments_, session_.run());
+        const auto stream = joined_ ? open_joined(arguments_, session_.run())
+                                    : open_input(input, arguments_, session_.run());
         const std::size_t before = measurements_.size();
         std::size_t sets = 0;
         while (stream->next_set()) naming(input, [&] { add_arriving(*stream, input, sets++); });
@@ -251,7 +267,7 @@ class Analysis {
               .options = shown_options_,
               .results = std::move(found.report),
               .seconds = std::chrono::duration<double>(Clock::now() - start).count()},
-             arguments_.inputs.size() > 1 || set > 0);
+             inputs_.size() > 1 || set > 0);
     }
 
     [[nodiscard]] Measurement measured(const FoundSet& set, const RunContext& run) const {
@@ -372,6 +388,8 @@ class Analysis {
     Session& session_;
     const Analyzer& analyzer_;
     Values options_;
+    bool joined_;  ///< all inputs are one set
+    std::vector<std::string> inputs_;
     std::string path_;
     Style style_;
     bool averaged_;

@@ -22,9 +22,11 @@ constexpr unsigned convert = static_cast<unsigned>(Verb::convert);
 constexpr unsigned list = static_cast<unsigned>(Verb::list);
 constexpr unsigned plot = static_cast<unsigned>(Verb::plot);
 constexpr unsigned study = static_cast<unsigned>(Verb::study);
+constexpr unsigned reproduce = static_cast<unsigned>(Verb::reproduce);
+constexpr unsigned help = static_cast<unsigned>(Verb::help);
 constexpr unsigned writers = generate | warp | convert;
 constexpr unsigned readers = warp | analyze | convert | plot;
-constexpr unsigned workers = writers | analyze | plot | study;
+constexpr unsigned workers = writers | analyze | plot | study | reproduce;
 
 /// Long name of "-n,--count": "count".
 std::string long_name(std::string_view names) {
@@ -224,7 +226,7 @@ Arguments parse_without_verb(const std::vector<std::string>& words) {
     Arguments arguments;
     if (words.empty()) return arguments;
     const std::string& word = words.front();
-    arguments.help = word == "-h" || word == "--help" || word == "help";
+    arguments.help = word == "-h" || word == "--help";
     arguments.version = word == "--version";
     if (arguments.help || arguments.version) return arguments;
     if (word.starts_with('-')) complain("option", word, {"--help", "--version"});
@@ -267,14 +269,15 @@ const std::vector<VerbInfo>& verbs() {
          "  stipple analyze star-discrepancy a.csv b.csv --format csv\n"
          "  stipple analyze star-discrepancy a.csv --check 'value<0.01'\n"
          "  stipple analyze poisson-disk --radius 0.02 --check points.csv\n"},
-        {Verb::convert, "convert", "stipple convert INPUT -o OUTPUT [OPTIONS]",
+        {Verb::convert, "convert", "stipple convert INPUT... -o OUTPUT [OPTIONS]",
          "from one file format to another",
          "The formats are those of the names' extensions, or --from and --format. Every double "
          "survives\n"
          "unless --dtype or --precision cut it.",
          "  stipple convert points.csv -o points.npy\n"
          "  stipple convert points.bin -d 3 -o points.json\n"
-         "  stipple convert table.csv --column 3,1 -o points.csv\n"},
+         "  stipple convert table.csv --column 3,1 -o points.csv\n"
+         "  stipple convert --concat a.csv b.csv -o both.csv\n"},
         {Verb::plot, "plot", "stipple plot [INPUT...] [OPTIONS]",
          "a picture of points, or of an analyzer's JSON",
          "INPUTs are files of points or the JSON of 'stipple analyze'; standard input by default. "
@@ -351,7 +354,35 @@ const std::vector<VerbInfo>& verbs() {
         {Verb::list, "list", "stipple list [KIND] [OPTIONS]", "every unit with its options",
          "KIND is generators, scrambles, warps, analyzers or formats; all of them by default.",
          "  stipple list generators\n"
-         "  stipple list --json\n"}};
+         "  stipple list --json\n"},
+        {Verb::reproduce, "reproduce", "stipple reproduce FILE [OPTIONS]",
+         "makes a file's points again from its own provenance, and says whether they are identical",
+         "FILE is json or jsonl, which always tell how their points were made, or what was written "
+         "with\n"
+         "--meta: text, ply, svg, or npy, bin and psa with FILE.meta.json beside; or the picture "
+         "of\n"
+         "--mask-image. Every number is compared as it was written: cut to float32 or to digits, "
+         "as the\n"
+         "provenance says. The exit code is 0 for identical points, and 1 for others: the first "
+         "number that\n"
+         "differs is named. It is 1, too, where the rules of a unit changed since, as its stream "
+         "version\n"
+         "tells. Files that the points were made from must still be there, as they were.",
+         "  stipple generate sobol --scramble owen --meta -o a.csv && stipple reproduce a.csv\n"
+         "  stipple generate random -f npy --meta -o a.npy && stipple reproduce a.npy --json\n"
+         "  stipple generate halton -f json | stipple reproduce - -o again.csv\n"},
+        {Verb::help, "help", "stipple help [TOPIC | VERB [UNIT]] [OPTIONS]",
+         "explains a topic, a verb or a unit", "'stipple help' lists the topics.",
+         "  stipple help choosing-a-sampler\n"
+         "  stipple help generate halton\n"
+         "  stipple help --man generate > stipple-generate.1\n"},
+        {Verb::completions, "completions", "stipple completions bash|zsh|fish",
+         "what makes a shell complete stipple's words",
+         "Packages put it where shells look. Without one, bash takes it from ~/.bashrc, zsh from a "
+         "file\n"
+         "_stipple in a folder of $fpath, fish from ~/.config/fish/completions/stipple.fish.",
+         "  source <(stipple completions bash)\n"
+         "  stipple completions zsh > _stipple\n"}};
     return table;
 }
 
@@ -424,12 +455,15 @@ const std::vector<CommonOption>& common_options() {
          "exit with 1 unless it holds; also <= > >= == !=; of several numbers one: mean[0]; alone: "
          "valid==true",
          analyze, true},
+        {"--concat", "", "", "take all INPUTs as one set, in their order: the shards of a set",
+         analyze | convert},
         {"--column", "X,Y,...", "", "columns to read, by name or number (from 1)", readers},
         {"--from", "FORMAT", "", "format of the input; else from its extension or first bytes",
          readers},
         {"-o,--output", "FILE", "-",
          "- is standard output; {set} and {seed} in the name make a file for each set", writers},
         {"-o,--output", "FILE", "-", "- is standard output", analyze | list | plot | study},
+        {"-o,--output", "FILE", "", "also write the points that were made again", reproduce},
         {"-f,--format", "FORMAT", "", "file format; else from the extension, else csv", writers},
         {"-f,--format", "text|json|csv", "", "how results are printed", analyze},
         {"-f,--format", "svg|png|text", "",
@@ -454,7 +488,9 @@ const std::vector<CommonOption>& common_options() {
          writers},
         {"--meta", "", "", "put the provenance in '# ' lines on top of text formats", writers},
         {"--no-header", "", "", "no header line in csv", writers},
-        {"--json", "", "", "complete and stable, for programs", list},
+        {"--json", "", "", "complete and stable, for programs", list | reproduce},
+        {"--man", "", "", "as a manual page, for man", help},
+        {"-o,--output", "FOLDER", "", "with --man: all manual pages, as files in a folder", help},
         {"--markdown", "", "", "as tables in Markdown", list},
         {"--threads", "T", "0", "0 = all cores; never changes a result", workers},
         {"--max-memory", "SIZE", "80 % of the machine's",

@@ -21,6 +21,9 @@ enum class Verb : unsigned {
     list = 16,
     plot = 32,
     study = 64,
+    reproduce = 256,
+    help = 512,
+    completions = 1024,
 };
 
 struct VerbInfo {

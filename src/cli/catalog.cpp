@@ -38,6 +38,7 @@ UnitInfo base_info(const Unit& unit) {
     UnitInfo out{.name = unit.name, .summary = unit.summary, .source = unit.source};
     if constexpr (requires { unit.strata; }) out.strata = unit.strata;
     if constexpr (requires { unit.aliases; }) out.aliases = unit.aliases;
+    if constexpr (requires { unit.stream_version; }) out.stream_version = unit.stream_version;
     if constexpr (requires { unit.options; }) out.options = unit.options.options();
     return out;
 }
@@ -131,6 +132,7 @@ Json unit_json(const UnitInfo& unit, std::string_view kind) {
     Json out = {{"name", unit.name},     {"aliases", unit.aliases}, {"summary", unit.summary},
                 {"source", unit.source}, {"traits", unit.traits},   {"options", Json::array()}};
     if (!unit.strata.empty()) out["strata"] = unit.strata;
+    if (unit.stream_version > 0) out["stream_version"] = unit.stream_version;
     for (const Option& option : unit.options) out["options"].push_back(option_json(option));
     if (kind == "analyzers") {
         out["results"] = Json::array();

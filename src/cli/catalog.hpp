@@ -18,7 +18,8 @@ struct UnitInfo {
     std::string name;
     std::string summary;
     std::string source;
-    std::string strata = {};  ///< of warps: what becomes of the unit coordinates
+    std::string strata = {};           ///< of warps: what becomes of the unit coordinates
+    std::uint64_t stream_version = 0;  ///< of units that make or move points; else 0
     std::vector<std::string> aliases = {};
     nlohmann::ordered_json traits = {};
     std::vector<std::string> remarks = {};  ///< the traits in words

@@ -59,6 +59,8 @@ int dispatch(const Arguments& arguments, const std::vector<Kind>& kinds) {
         fail_with_hint(ErrorKind::usage, "'stipple --help' lists the verbs", "no verb given");
     require_unit(arguments, kinds);
     if (arguments.verb == Verb::list) return list(arguments, kinds);
+    if (arguments.verb == Verb::help) return help(arguments, kinds);
+    if (arguments.verb == Verb::completions) return completions(arguments, kinds);
     Session session(arguments);
     switch (*arguments.verb) {
         case Verb::generate:
@@ -71,6 +73,8 @@ int dispatch(const Arguments& arguments, const std::vector<Kind>& kinds) {
             return plot(arguments, session);
         case Verb::study:
             return study(arguments, session);
+        case Verb::reproduce:
+            return reproduce(arguments, kinds, session);
         default:
             return analyze(arguments, session);
     }

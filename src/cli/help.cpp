@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <boost/version.hpp>
 
+#include "cli/topics.hpp"
 #include "core/text.hpp"
 #include "math/expression.hpp"
 
@@ -45,6 +46,9 @@ std::string help_program() {
         "Usage: stipple VERB ... [OPTIONS]\n\nVerbs:\n";
     for (const VerbInfo& info : verbs())
         text += fmt::format("  {:<10} {}\n", info.name, info.summary);
+    text += "\nTopics ('stipple help TOPIC'):\n";
+    for (const Topic& topic : topics())
+        text += fmt::format("  {:<18} {}\n", topic.name, topic.summary);
     text +=
         "\n'stipple VERB --help' says everything about a verb, 'stipple VERB UNIT --help' about a "
         "unit.\n"

@@ -191,13 +191,27 @@ std::vector<PointSet> read_input(std::string_view bytes, const std::string& path
     return named(io::read_sets(bytes, path, options, run, format), arguments, run);
 }
 
+std::unique_ptr<io::PointStream> open_joined(const Arguments& arguments, const RunContext& run) {
+    auto paths = arguments.inputs;
+    if (paths.empty()) paths.emplace_back("-");
+    if (std::ranges::count(paths, "-") > 1)
+        fail(ErrorKind::usage, "--concat: standard input is named twice");
+    return io::join_points(std::move(paths), [&arguments, &run](const std::string& path) {
+        return open_input(path, arguments, run);
+    });
+}
+
+std::vector<PointSet> read_joined(const Arguments& arguments, const RunContext& run) {
+    return named(open_joined(arguments, run)->read_all(run), arguments, run);
+}
+
 std::unique_ptr<io::PointStream> open_input(const std::string& path, const Arguments& arguments,
                                             const RunContext& run) {
     const auto [options, format] = reading_of(path, arguments);
     return io::open_points(path, options, run, format);
 }
 
-int generate(const Arguments& arguments, Session& session) {
+Production production_of(const Arguments& arguments, Session& session) {
     Production job;
     job.generator = &find_generator(arguments.unit);
     job.options = settings_of(job.generator->options, arguments);
@@ -212,6 +226,11 @@ int generate(const Arguments& arguments, Session& session) {
         const Plan plan = plan_for(*job.generator, job.request, job.options);
         job.request.bounds = parse_box(*bounds, plan.dimension);
     }
+    return job;
+}
+
+int generate(const Arguments& arguments, Session& session) {
+    Production job = production_of(arguments, session);
     const Target target = target_of(arguments);
     job.command = command_of(arguments, *job.generator, job.options, target, job.request.seed);
     produce(job, target, session.run());
@@ -263,11 +282,15 @@ int warp(const Arguments& arguments, Session& session) {
 }
 
 int convert(const Arguments& arguments, Session& session) {
-    if (arguments.inputs.size() > 1)
-        fail(ErrorKind::usage, "convert takes one INPUT; {} are given", arguments.inputs.size());
+    const bool joined = arguments.has("concat");
+    if (arguments.inputs.size() > 1 && !joined)
+        fail_with_hint(ErrorKind::usage, "--concat takes several as one set",
+                       "convert takes one INPUT; {} are given", arguments.inputs.size());
     const std::string path = arguments.inputs.empty() ? "-" : arguments.inputs[0];
     const Target target = target_of(arguments);
-    write_sets(read_input(path, arguments, session.run()), target, session.run());
+    const RunContext& run = session.run();
+    write_sets(joined ? read_joined(arguments, run) : read_input(path, arguments, run), target,
+               run);
     return 0;
 }
 

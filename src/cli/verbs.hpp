@@ -17,6 +17,12 @@ int convert(const Arguments& arguments, Session& session);
 int plot(const Arguments& arguments, Session& session);
 int study(const Arguments& arguments, Session& session);
 int list(const Arguments& arguments, const std::vector<Kind>& kinds);
+int reproduce(const Arguments& arguments, const std::vector<Kind>& kinds, Session& session);
+int help(const Arguments& arguments, const std::vector<Kind>& kinds);
+int completions(const Arguments& arguments, const std::vector<Kind>& kinds);
+
+/// What `generate` was asked to make.
+Production production_of(const Arguments& arguments, Session& session);
 
 /// Where points go, as -o, -f, --dtype, --precision, --meta and --no-header say.
 Target target_of(const Arguments& arguments);
@@ -32,6 +38,10 @@ std::vector<PointSet> read_input(std::string_view bytes, const std::string& path
 /// The same in blocks, where they are many; their domain is input_domain.
 std::unique_ptr<io::PointStream> open_input(const std::string& path, const Arguments& arguments,
                                             const RunContext& run);
+
+/// All inputs as one set, for --concat.
+std::unique_ptr<io::PointStream> open_joined(const Arguments& arguments, const RunContext& run);
+std::vector<PointSet> read_joined(const Arguments& arguments, const RunContext& run);
 
 /// What points of a file live on.
 DomainPtr input_domain(const Provenance& provenance, std::size_t dimension,

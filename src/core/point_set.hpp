@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/domain.hpp"
@@ -31,6 +33,13 @@ struct Provenance {
     std::string shard;      ///< "I/K"; empty: the whole
     double efficiency = 1;  ///< share of the points that warps did not drop
     std::string command;    ///< that makes it, without what cannot change it
+
+    std::optional<int> precision = {};  ///< digits after the point that were kept in writing
+    bool single = false;                ///< the numbers were cut to float32 in writing
+    /// Files that it was made from, each with the fingerprint of its bytes.
+    std::vector<std::pair<std::string, std::string>> inputs = {};
+    /// Units with rules of a later version than the first, each with it.
+    std::vector<std::pair<std::string, std::uint64_t>> stream_versions = {};
 
     bool operator==(const Provenance&) const = default;
 };

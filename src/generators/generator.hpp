@@ -72,6 +72,10 @@ struct Generator {
     std::vector<std::string> aliases = {};  ///< other names that users of the field would type
     std::vector<std::string> writes = {};   ///< options that name a side file (core/point_set.hpp)
 
+    /// Raised with every change of the points that the same options and seed give (see
+    /// tests/contract/golden.txt).
+    std::uint64_t stream_version = 1;
+
     /// Decides count and dimension. Empty: 1024 points, 2 dimensions unless asked otherwise.
     /// @throws Error(usage) for counts and dimensions it cannot make, naming what it can.
     std::function<Plan(const Request&, const Values&)> plan = {};

@@ -61,7 +61,7 @@ Format bin() {
             .summary = "Raw little-endian numbers, point after point; needs -d to read",
             .source = "none",
             .extensions = {".bin", ".f64", ".f32"},
-            .traits = {.binary = true},
+            .traits = {.binary = true, .meta_beside = true},
             .rows = rows,
             .read = read,
             .stream = stream};

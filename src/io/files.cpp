@@ -239,6 +239,8 @@ Output::Output(std::string path, std::stop_token stop)
     ::fchmod(descriptor_, status.st_mode & 07777);
 }
 
+Output::Output(Sink sink) : sink_(std::move(sink)) {}
+
 void Output::open_in_place() {
     descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
     if (descriptor_ < 0 && errno == EINTR) fail(ErrorKind::cancelled, "interrupted");
@@ -267,6 +269,10 @@ Output::~Output() {
 }
 
 bool Output::write(std::string_view bytes) {
+    if (sink_) {
+        broken_ = broken_ || (!bytes.empty() && !sink_(bytes));
+        return !broken_;
+    }
     while (!bytes.empty() && !broken_) {
         const auto done = ::write(descriptor_, bytes.data(), bytes.size());
         if (done >= 0) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <stop_token>
 #include <string>
@@ -46,6 +47,9 @@ class Output {
     /// `stop` was requested.
     /// @throws Error(io) when the target cannot be made.
     explicit Output(std::string path, std::stop_token stop = {});
+    /// Takes the bytes in place of a file; false: it wants no more.
+    using Sink = std::function<bool(std::string_view bytes)>;
+    explicit Output(Sink sink);
     Output(const Output&) = delete;
     Output& operator=(const Output&) = delete;
     /// Removes what was not committed.
@@ -67,6 +71,7 @@ class Output {
     std::string target_;     ///< what is replaced
     std::string temporary_;  ///< empty: written in place (standard output, devices)
     std::stop_token stop_;
+    Sink sink_;
     int descriptor_ = -1;
     bool owned_ = false;   ///< the descriptor is ours to close
     bool broken_ = false;  ///< the pipe has no reader

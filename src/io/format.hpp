@@ -59,6 +59,7 @@ struct FormatTraits {
     bool equal_sets = false;    ///< all sets must have as many points
     bool many_sets = true;      ///< a file can hold more than one set
     bool counts_first = false;  ///< what comes before the rows tells their number, or their extent
+    bool meta_beside = false;   ///< has no place for provenance: it goes to a file beside
     std::size_t max_dimension = 1'000'000;
     std::size_t min_dimension = 1;
 };

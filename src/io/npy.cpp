@@ -99,15 +99,16 @@ std::unique_ptr<PointStream> stream(std::unique_ptr<Feed>& feed, const ReadOptio
 }  // namespace
 
 Format npy() {
-    return {.name = "npy",
-            .summary = "NumPy array of shape (n, d), or (sets, n, d)",
-            .source = "NEP 1, numpy.lib.format",
-            .extensions = {".npy"},
-            .traits = {.binary = true, .equal_sets = true, .counts_first = true},
-            .head = head,
-            .rows = rows,
-            .read = read,
-            .stream = stream};
+    return {
+        .name = "npy",
+        .summary = "NumPy array of shape (n, d), or (sets, n, d)",
+        .source = "NEP 1, numpy.lib.format",
+        .extensions = {".npy"},
+        .traits = {.binary = true, .equal_sets = true, .counts_first = true, .meta_beside = true},
+        .head = head,
+        .rows = rows,
+        .read = read,
+        .stream = stream};
 }
 
 }  // namespace stipple::io

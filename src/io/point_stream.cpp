@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "io/point_stream.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "core/error.hpp"
 #include "io/binary.hpp"
@@ -136,7 +139,100 @@ class RawStream final : public PointStream {
     std::string bytes_;
 };
 
+class JoinedStream final : public PointStream {
+  public:
+    JoinedStream(std::vector<std::string> paths, Opener open)
+        : paths_(std::move(paths)), open_(std::move(open)) {
+        part_ = open_(paths_.front());
+        whole_ = part_->provenance();
+        enter();
+    }
+
+    std::size_t dimension() const override { return part_->dimension(); }
+    std::optional<std::size_t> sets() const override { return 1; }
+    const Provenance& provenance() const override { return whole_; }
+
+    bool next_set() override { return !std::exchange(begun_, true); }
+
+    std::size_t read(std::span<double> rows) override {
+        const std::size_t d = dimension();
+        std::size_t got = 0;
+        while (got < rows.size()) {
+            const std::size_t more = d * part_->read(rows.subspan(got));
+            got += more;
+            if (more == 0 && !next_part()) break;
+        }
+        count_ += got / d;
+        return got / d;
+    }
+
+    std::vector<PointSet> read_all(const RunContext& run) override {
+        auto sets = PointStream::read_all(run);
+        for (PointSet& set : sets) set.provenance = whole();
+        return sets;
+    }
+
+  private:
+    void enter() {
+        if (!part_->next_set())
+            fail(ErrorKind::input, "{}: it holds no points", source_name(paths_[at_]));
+        shards_ = shards_ && part_->provenance().shard == fmt::format("{}/{}", at_, paths_.size());
+    }
+
+    /// Goes to the next file. False: there is none.
+    bool next_part() {
+        if (part_->next_set())
+            fail(ErrorKind::input,
+                 "{}: it holds several sets; --concat joins files of one set each",
+                 source_name(paths_[at_]));
+        if (at_ + 1 == paths_.size()) return false;
+        const std::string name = source_name(paths_[++at_]);
+        auto part = open_(paths_[at_]);
+        if (part->dimension() != part_->dimension())
+            fail(ErrorKind::input, "{}: its points have {} coordinates; those before have {}", name,
+                 part->dimension(), part_->dimension());
+        if (part->provenance().domain != whole_.domain)
+            fail(ErrorKind::input, "{}: its points are on {}; those before are on {}", name,
+                 part->provenance().domain, whole_.domain);
+        shards_ = shards_ && unsharded(part->provenance()) == unsharded(whole_);
+        part_ = std::move(part);
+        enter();
+        return true;
+    }
+
+    /// What all shards of a set have in common.
+    static Provenance unsharded(Provenance meta) {
+        const auto typed = meta.command.find(" --shard " + meta.shard);
+        if (typed != std::string::npos) meta.command.erase(typed, 9 + meta.shard.size());
+        meta.shard.clear();
+        meta.count = 0;
+        return meta;
+    }
+
+    [[nodiscard]] Provenance whole() const {
+        Provenance meta;
+        meta.domain = whole_.domain;
+        if (shards_ && at_ + 1 == paths_.size()) meta = unsharded(whole_);
+        meta.count = count_;
+        meta.dimension = dimension();
+        return meta;
+    }
+
+    std::vector<std::string> paths_;
+    Opener open_;
+    std::unique_ptr<PointStream> part_;
+    Provenance whole_;  ///< as the first file tells it
+    std::size_t at_ = 0;
+    std::uint64_t count_ = 0;
+    bool begun_ = false;
+    bool shards_ = true;  ///< all files so far are the shards of one set
+};
+
 }  // namespace
+
+std::unique_ptr<PointStream> join_points(std::vector<std::string> paths, Opener open) {
+    return std::make_unique<JoinedStream>(std::move(paths), std::move(open));
+}
 
 std::vector<PointSet> PointStream::read_all(const RunContext& run) {
     std::vector<PointSet> sets;

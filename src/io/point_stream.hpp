@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -95,6 +96,14 @@ class PointStream {
 /// read_points, save that points before the place that is wrong were given out already.
 std::unique_ptr<PointStream> open_points(const std::string& path, const ReadOptions& options,
                                          const RunContext& run, const Format* format = nullptr);
+
+/// The points of several files of one set each, as one set; a file is opened when its turn comes.
+/// Their provenance is that of the whole where they are all of its shards, in order; else only the
+/// domain that they share is known.
+/// @throws Error(input) for points of different numbers of coordinates or on different domains, and
+/// for a file of several sets
+using Opener = std::function<std::unique_ptr<PointStream>(const std::string& path)>;
+std::unique_ptr<PointStream> join_points(std::vector<std::string> paths, Opener open);
 
 // Below: for formats.
 

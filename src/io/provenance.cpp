@@ -67,12 +67,28 @@ void take_all(const Json& meta, Provenance& provenance) {
     if (const auto it = meta.find("efficiency"); it != meta.end() && it->is_number())
         provenance.efficiency = it->get<double>();
     take(meta, "command", provenance.command);
+    if (const auto it = meta.find("precision"); it != meta.end() && it->is_number_unsigned())
+        provenance.precision =
+            static_cast<int>(std::min<std::uint64_t>(it->get<std::uint64_t>(), 1000));
+    if (const auto it = meta.find("dtype"); it != meta.end()) provenance.single = *it == "f32";
+    if (const auto it = meta.find("inputs"); it != meta.end() && it->is_object()) {
+        provenance.inputs.clear();
+        for (const auto& [file, bytes] : it->items())
+            if (bytes.is_string()) provenance.inputs.emplace_back(file, bytes.get<std::string>());
+    }
+    if (const auto it = meta.find("stream_versions"); it != meta.end() && it->is_object()) {
+        provenance.stream_versions.clear();
+        for (const auto& [unit, version] : it->items())
+            if (version.is_number_unsigned())
+                provenance.stream_versions.emplace_back(unit, version.get<std::uint64_t>());
+    }
 }
 
 bool is_known(std::string_view key) {
-    constexpr std::array keys{"tool",   "version",   "generator",  "options", "seed",
-                              "count",  "dimension", "start",      "warps",   "domain",
-                              "bounds", "shard",     "efficiency", "command"};
+    constexpr std::array keys{"tool",   "version",         "generator",  "options",   "seed",
+                              "count",  "dimension",       "start",      "warps",     "domain",
+                              "bounds", "shard",           "efficiency", "precision", "dtype",
+                              "inputs", "stream_versions", "command"};
     return std::ranges::find(keys, key) != keys.end();
 }
 
@@ -92,6 +108,11 @@ Json to_json(const Provenance& provenance) {
     if (!provenance.bounds.empty()) meta["bounds"] = provenance.bounds;
     if (!provenance.shard.empty()) meta["shard"] = provenance.shard;
     if (provenance.efficiency < 1) meta["efficiency"] = provenance.efficiency;
+    if (provenance.precision) meta["precision"] = *provenance.precision;
+    if (provenance.single) meta["dtype"] = "f32";
+    for (const auto& [file, bytes] : provenance.inputs) meta["inputs"][file] = bytes;
+    for (const auto& [unit, version] : provenance.stream_versions)
+        meta["stream_versions"][unit] = version;
     meta["command"] = provenance.command;
     return meta;
 }

@@ -51,6 +51,7 @@ Format psa() {
             .extensions = {},
             .traits = {.many_sets = false,
                        .counts_first = true,
+                       .meta_beside = true,
                        .max_dimension = 2,
                        .min_dimension = 2},
             .head = head,

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 
+#include "io/carried_meta.hpp"
 #include "io/decimal.hpp"
 #include "io/disk_size.hpp"
 #include "io/format.hpp"
@@ -142,6 +143,7 @@ void head(const Layout& layout, std::string& out) {
         "<title>{2}</title>\n"
         "<rect width=\"{0:.6g}\" height=\"{1:.6g}\" fill=\"#fcfcfa\"/>\n",
         sheet.width, sheet.height, title_of(layout));
+    if (layout.meta) out += svg_metadata(layout.provenance);
     for (const Panel& panel : sheet.panels) {
         out += fmt::format(
             "<rect x=\"{:.6g}\" y=\"{:.6g}\" width=\"{:.6g}\" height=\"{:.6g}\" fill=\"#fff\" "

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/crc.hpp>
 #include <csetjmp>
 #include <cstdint>
 #include <cstring>
@@ -181,6 +182,40 @@ PngPicture read_png(std::string_view bytes, const std::string& source, const Run
         for (std::size_t i = 0; i < pixels; ++i) picture.opacity[i] = samples.opacity(i);
     }
     return picture;
+}
+
+/// PNG, second edition (ISO/IEC 15948:2004), 5.3: length, type, data, CRC of the last two.
+std::string png_with_text(std::string_view png, std::string_view keyword, std::string_view text) {
+    constexpr std::size_t behind_header = 8 + 12 + 13;
+    std::string content("tEXt");
+    content.append(keyword).append(1, '\0').append(text);
+    boost::crc_32_type crc;
+    crc.process_bytes(content.data(), content.size());
+    std::string out(png.substr(0, behind_header));
+    const auto append_word = [&out](std::uint64_t word) {
+        for (int shift = 24; shift >= 0; shift -= 8)
+            out += static_cast<char>((word >> shift) & 255);
+    };
+    append_word(content.size() - 4);
+    out += content;
+    append_word(crc.checksum());
+    return out.append(png.substr(std::min(behind_header, png.size())));
+}
+
+std::optional<std::string> png_text(std::string_view png, std::string_view keyword) {
+    std::string wanted(keyword);
+    wanted += '\0';
+    for (std::size_t at = png_magic.size(); at + 12 <= png.size();) {
+        std::size_t length = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+            length = 256 * length + static_cast<unsigned char>(png[at + i]);
+        if (length > png.size() - at - 12) return std::nullopt;
+        const auto data = png.substr(at + 8, length);
+        if (png.substr(at + 4, 4) == "tEXt" && data.starts_with(wanted))
+            return std::string(data.substr(wanted.size()));
+        at += 12 + length;
+    }
+    return std::nullopt;
 }
 
 std::string png_of_grey(std::size_t width, std::size_t height,

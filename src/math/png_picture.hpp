@@ -14,6 +14,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -47,5 +48,11 @@ std::string png_of_grey(std::size_t width, std::size_t height,
 /// @throws Error(limit) for a picture too large for PNG.
 std::string png_of_colour(std::size_t width, std::size_t height, std::string_view samples,
                           std::span<const std::pair<std::string, std::string>> texts);
+
+/// The picture with a text chunk behind its header; ASCII.
+std::string png_with_text(std::string_view png, std::string_view keyword, std::string_view text);
+
+/// The text of the first such chunk, if there is one.
+std::optional<std::string> png_text(std::string_view png, std::string_view keyword);
 
 }  // namespace stipple

@@ -48,6 +48,10 @@ struct Scramble {
     Schema options;
     std::vector<std::string> aliases = {};  ///< other names that users of the field would type
 
+    /// Raised with every change of the results that the same options and seed give (see
+    /// tests/contract/golden.txt).
+    std::uint64_t stream_version = 1;
+
     /// @throws Error(usage)
     std::function<std::unique_ptr<Randomization>(const Values&, const ScrambleRequest&)> make;
 };

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 #include <numeric>
 
 #include "core/error.hpp"
+#include "core/file_bytes.hpp"
+#include "core/fingerprint.hpp"
 #include "core/text.hpp"
 #include "study/pipeline.hpp"
 
@@ -138,6 +141,8 @@ void WarpChain::remember(const Unit& unit, const Spec& spec, const Values& value
     if (!spec.coordinates.empty())
         text.insert(unit.name.size(), fmt::format("@{}", format_coordinates(spec.coordinates)));
     specs_.push_back(std::move(text));
+    std::ranges::copy(files_of(unit.options, values), std::back_inserter(files_));
+    if (unit.stream_version > 1) stream_versions_.emplace_back(unit.name, unit.stream_version);
 }
 
 void WarpChain::add_scramble(const Scramble& scramble, const Spec& spec, const ChainSet& set) {
@@ -260,6 +265,26 @@ std::vector<double> WarpChain::density(std::span<const double> rows) const {
             density[i] *= step.mapping->density(point);
         }
     return density;
+}
+
+std::vector<std::string> files_of(const Schema& schema, const Values& values,
+                                  std::span<const std::string> written) {
+    std::vector<std::string> files;
+    for (const Option& option : schema.options()) {
+        const auto& item = values.find(option.name);
+        const bool output = std::ranges::find(written, option.name) != written.end();
+        if (option.type != "file" || !item.given || output) continue;
+        const auto& file = std::get<std::string>(item.value);
+        if (file != "-") files.push_back(file);
+    }
+    return files;
+}
+
+std::vector<std::pair<std::string, std::string>> fingerprints(std::span<const std::string> files) {
+    std::vector<std::pair<std::string, std::string>> all;
+    for (const std::string& file : files)
+        all.emplace_back(file, format_fingerprint(fingerprint(read_file(file))));
+    return all;
 }
 
 DomainPtr parse_domain(std::string_view text, std::size_t dimension, const RunContext& run) {

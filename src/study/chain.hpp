@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/point_set.hpp"
@@ -40,6 +41,15 @@ class WarpChain {
 
     /// The specs, with what differs from the defaults.
     [[nodiscard]] const std::vector<std::string>& specs() const { return specs_; }
+
+    /// Files that its units read.
+    [[nodiscard]] const std::vector<std::string>& files() const { return files_; }
+
+    /// Units whose rules are of a later version than the first, each with it.
+    [[nodiscard]] const std::vector<std::pair<std::string, std::uint64_t>>& stream_versions()
+        const {
+        return stream_versions_;
+    }
 
     /// Whether some points may have no image.
     [[nodiscard]] bool drops() const;
@@ -82,11 +92,20 @@ class WarpChain {
 
     std::vector<Step> steps_;
     std::vector<std::string> specs_;
+    std::vector<std::string> files_;
+    std::vector<std::pair<std::string, std::uint64_t>> stream_versions_;
     bool seeded_ = false;
     std::size_t dimension_in_;
     std::size_t dimension_out_;
     DomainPtr domain_;
 };
+
+/// Files that options name, for reading: in order, without "-".
+std::vector<std::string> files_of(const Schema& schema, const Values& values,
+                                  std::span<const std::string> written = {});
+
+/// Files with the fingerprints of their bytes. @throws Error(io)
+std::vector<std::pair<std::string, std::string>> fingerprints(std::span<const std::string> files);
 
 /// The domain that a text means: unit-cube, box:bounds=[lo..hi,...], a warp's spec, or several with
 /// coordinates joined by " x ". @throws Error(usage)

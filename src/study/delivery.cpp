@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
+#include "io/carried_meta.hpp"
 #include "io/files.hpp"
 
 namespace stipple {
@@ -192,6 +193,10 @@ Layout layout_of(const Shipment& shipment, std::size_t first, std::size_t last,
                   .precision = target.precision,
                   .provenance = shipment.provenance(first),
                   .extent = shipment.extent(first)};
+    Provenance& meta = layout.provenance;
+    if (target.precision && !target.format->traits.binary)
+        meta.precision = std::min(meta.precision.value_or(*target.precision), *target.precision);
+    meta.single |= target.single && target.format->traits.binary;
     layout.extras = target.columns.names();
     for (std::size_t set = first; set < last; ++set) layout.counts.push_back(shipment.counts[set]);
     return layout;
@@ -206,7 +211,7 @@ bool ship_points(const Shipment& shipment, std::size_t first, std::size_t last,
     // What is wrong with the first source shall be known before anything is written.
     RunContext part = lane(run, first, shipment.sets).rising();
     Source source = shipment.source(first, part);
-    io::Output output(path, run.stop);
+    io::Output output = target.sink ? io::Output(target.sink) : io::Output(path, run.stop);
     std::string bytes;
     if (format.head) format.head(layout, bytes);
     for (std::size_t set = first; set < last; ++set) {
@@ -236,11 +241,29 @@ std::list<io::Output> side_files(const Shipment& shipment, std::size_t first, st
     return outputs;
 }
 
+/// Provenance in a file beside the points, where the format has no place for it.
+void put_meta_beside(const Shipment& shipment, std::size_t first, std::size_t last,
+                     const std::string& path, const Target& target, const RunContext& run,
+                     std::list<io::Output>& outputs) {
+    if (!target.meta || !target.format->traits.meta_beside || target.sink) return;
+    if (path == "-" || path.starts_with("/dev/")) {
+        run.tell(fmt::format("--meta: {} has no place for provenance, and {} none beside it",
+                             target.format->name, path == "-" ? "standard output" : path));
+        return;
+    }
+    const Layout layout = layout_of(shipment, first, last, target);
+    outputs.emplace_back(io::meta_path(path), run.stop)
+        .write(io::to_text(
+                   {target.format->name, layout.width(), layout.counts.size(), layout.provenance}) +
+               "\n");
+}
+
 /// The points and what comes with them: all of it or, when it fails, nothing. Who closes the pipe
 /// has seen enough of the points, but did not say so of the other files.
 bool ship_file(const Shipment& shipment, std::size_t first, std::size_t last,
                const std::string& path, const Target& target, const RunContext& run) {
     auto beside = side_files(shipment, first, last, run);
+    put_meta_beside(shipment, first, last, path, target, run, beside);
     const bool whole = ship_points(shipment, first, last, path, target, run);
     for (io::Output& file : beside) file.commit();
     return whole;

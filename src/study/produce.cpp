@@ -2,11 +2,14 @@
 #include "study/produce.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
+#include "io/carried_meta.hpp"
+#include "math/png_picture.hpp"
 #include "study/chain.hpp"
 #include "study/delivery.hpp"
 #include "study/pipeline.hpp"
@@ -98,13 +101,25 @@ if (target.columns.any())
 ship(shipment, target, run);
 }  // namespace stipple
 
-/// Writes down that the set went through a warp.
-void record_warp(PointSet& set, std::string warp) {
+/// Writes down that the set went through a warp. What was cut in writing was so before it.
+void record_warp(PointSet& set, const WarpChain& chain, bool inverse,
+                 const std::vector<std::pair<std::string, std::string>>& inputs) {
     Provenance& meta = set.provenance;
+    if (meta.single) meta.warps.emplace_back(cut_to_single);
+    if (meta.precision) meta.warps.push_back(fmt::format("{}{}", cut_to_digits, *meta.precision));
+    meta.single = false;
+    meta.precision.reset();
+    const std::string warp = (inverse ? "inverse " : "") + chain.specs().front();
+    for (const auto& input : inputs)
+        if (std::ranges::find(meta.inputs, input) == meta.inputs.end())
+            meta.inputs.push_back(input);
+    for (const auto& version : chain.stream_versions())
+        if (std::ranges::find(meta.stream_versions, version) == meta.stream_versions.end())
+            meta.stream_versions.push_back(version);
     meta.dimension = set.dimension();
     meta.count = set.count();
     meta.domain = set.domain->spec();
-    meta.warps.push_back(std::move(warp));
+    meta.warps.push_back(warp);
 }
 
 /// Numbers of a row that the warp makes into one of `after` numbers.
@@ -154,6 +169,9 @@ class Producer {
           run_(run),
           plan_(plan_for(generator_, job.request, job.options)),
           chain_(std::make_shared<WarpChain>(job.warps, plan_.dimension, ChainSet{}, run)) {
+        auto files = files_of(generator_.options, job.options, generator_.writes);
+        std::ranges::copy(chain_->files(), std::back_inserter(files));
+        inputs_ = fingerprints(files);
         if (!generator_.traits.boxed) bounds_ = job.request.bounds;
         check();
     }
@@ -287,7 +305,18 @@ class Producer {
         points.provenance.efficiency = efficiency;
         if (!options.empty()) points.provenance.options = std::move(options);
         points.side_files = std::move(side_files);
+        sign_pictures(points);
         return points;
+    }
+
+    /// Pictures that come with the points tell where they are from.
+    void sign_pictures(PointSet& points) const {
+        for (std::size_t i = 0; i < points.side_files.size() && i < generator_.writes.size(); ++i) {
+            std::string& bytes = points.side_files[i].bytes;
+            if (bytes.starts_with(png_magic))
+                bytes = io::png_with_meta(
+                    bytes, {.of = generator_.writes[i], .provenance = points.provenance});
+        }
     }
 
     [[nodiscard]] Provenance provenance(std::size_t set, std::uint64_t count) const {
@@ -310,6 +339,11 @@ class Producer {
         }
         if (job_.request.bounds) meta.bounds = format_box(*job_.request.bounds);
         if (job_.shard.of > 1) meta.shard = fmt::format("{}/{}", job_.shard.index, job_.shard.of);
+        meta.inputs = inputs_;
+        if (generator_.stream_version > 1)
+            meta.stream_versions.emplace_back(generator_.name, generator_.stream_version);
+        const auto& later = chain_->stream_versions();
+        meta.stream_versions.insert(meta.stream_versions.end(), later.begin(), later.end());
         return meta;
     }
 
@@ -320,6 +354,7 @@ class Producer {
     Plan plan_;
     std::shared_ptr<const WarpChain> chain_;
     std::optional<Box> bounds_;
+    std::vector<std::pair<std::string, std::string>> inputs_;
 };
 
 }  // namespace
@@ -337,10 +372,11 @@ void write_warped(std::vector<PointSet> sets, const Spec& warp, bool inverse, co
     const std::size_t d = sets.front().dimension();
     const WarpChain chain({&warp, 1}, inverse ? dimension_before(warp, d, run) : d, {}, run);
     refuse_inverse_density(inverse, target);
+    const auto inputs = fingerprints(chain.files());
     for (PointSet& set : sets) {
         if (!inverse) require_unit_cube(set);
         set = image_of(set, chain, inverse, 0, run);
-        record_warp(set, (inverse ? "inverse " : "") + chain.specs().front());
+        record_warp(set, chain, inverse, inputs);
     }
     ship_images(sets, chain, 0, sets.size(), target, run);
 }
@@ -399,7 +435,7 @@ void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, st
             spec.settings.emplace_back(scramble_seed.name, std::to_string(seed + images.size()));
             const WarpChain chain({&spec, 1}, set.dimension(), {.count = set.count()});
             images.push_back(image_of(set, chain, false, 0, run));
-            record_warp(images.back(), chain.specs().front());
+            record_warp(images.back(), chain, false, fingerprints(chain.files()));
         }
     }
     const WarpChain nothing({}, images.front().dimension());

@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/spec.hpp"
@@ -22,6 +23,10 @@ struct Shard {
     std::uint64_t index = 0;
     std::uint64_t of = 1;
 };
+
+/// Steps of a provenance's warps that are none: numbers cut toward zero when they were written.
+inline constexpr std::string_view cut_to_single = "cut:dtype=f32";
+inline constexpr std::string_view cut_to_digits = "cut:precision=";
 
 /// Columns that are written behind the coordinates.
 struct Columns {
@@ -41,6 +46,8 @@ struct Target {
     bool single = false;
     std::optional<int> precision = {};
     Columns columns = {};
+    /// Takes the bytes in place of a file; false: it wants no more.
+    std::function<bool(std::string_view bytes)> sink = {};
 };
 
 /// Sets to make.

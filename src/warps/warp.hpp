@@ -66,6 +66,10 @@ struct Warp {
     Schema options;
     std::vector<std::string> aliases = {};  ///< other names that users of the field would type
 
+    /// Raised with every change of the images that the same options and seed give (see
+    /// tests/contract/golden.txt).
+    std::uint64_t stream_version = 1;
+
     /// The map for these options. `given` is the number of coordinates at hand: a warp of fixed
     /// dimension ignores it. @throws Error(usage); of warps that read a file, also what reading
     /// throws, and Error(limit)

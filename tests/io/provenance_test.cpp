@@ -46,6 +46,27 @@ TEST(ProvenanceJson, ReadsBack) {
     }
 }
 
+// Keys beyond the contract's are there only where they say something.
+TEST(ProvenanceJson, ReadsBackWhatWasCutAndReadAndByWhichRules) {
+    Provenance provenance = some_provenance();
+    provenance.precision = 0;
+    provenance.single = true;
+    provenance.inputs = {{"dots.png", "0123456789abcdef"}, {"a: b", "00"}};
+    provenance.stream_versions = {{"halton", 3}, {"owen", 2}};
+    EXPECT_EQ(io::provenance_from(io::to_json(provenance)), provenance);
+    Provenance lines;
+    std::string text = io::to_comment_lines(provenance);
+    for (std::size_t at = 0; at < text.size();) {
+        const auto end = text.find('\n', at);
+        EXPECT_TRUE(io::take_comment_line(text.substr(at + 2, end - at - 2), lines));
+        at = end + 1;
+    }
+    EXPECT_EQ(lines, provenance);
+    const auto plain = io::to_json(some_provenance());
+    for (const char* key : {"precision", "dtype", "inputs", "stream_versions"})
+        EXPECT_FALSE(plain.contains(key)) << key;
+}
+
 TEST(ProvenanceJson, IgnoresWhatItDoesNotUnderstand) {
     using Json = nlohmann::ordered_json;
     EXPECT_EQ(io::provenance_from(Json::parse("[1]")), Provenance{});

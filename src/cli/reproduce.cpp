@@ -1,0 +1,522 @@
+// SPDX-License-Identifier: MIT
+//
+// The verb `reproduce`: a file's points made again from its own provenance. What was asked for is
+// in the provenance's command; its options also hold what was worked out, such as a radius.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "cli/verbs.hpp"
+#include "core/error.hpp"
+#include "core/file_bytes.hpp"
+#include "core/fingerprint.hpp"
+#include "core/text.hpp"
+#include "io/carried_meta.hpp"
+#include "io/files.hpp"
+#include "io/source_text.hpp"
+#include "math/png_picture.hpp"
+#include "study/chain.hpp"
+#include "study/pipeline.hpp"
+#include "study/reproduction.hpp"
+
+namespace stipple::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The words of a command as a shell would take them: blanks part them, 'quotes' hold them
+/// together,
+/// \' stands for itself.
+std::vector<std::string> shell_words(std::string_view command) {
+    std::vector<std::string> words;
+    bool quoted = false;
+    bool begun = false;
+    std::string word;
+    for (std::size_t i = 0; i < command.size(); ++i) {
+        const char c = command[i];
+        if (c == '\'') {
+            quoted = !quoted;
+            begun = true;
+        } else if (!quoted && c == ' ') {
+            if (begun) words.push_back(std::move(word));
+            word.clear();
+            begun = false;
+        } else {
+            word += !quoted && c == '\\' && i + 1 < command.size() ? command[++i] : c;
+            begun = true;
+        }
+    }
+    if (begun) words.push_back(std::move(word));
+    return words;
+}
+
+/// A file whose provenance is known.
+struct Original {
+    std::string name;  ///< for messages
+    std::string path;  ///< where it can be opened more than once
+    Provenance meta = {};
+    const Format* format = nullptr;         ///< where its name and bytes leave it open
+    std::optional<std::size_t> width = {};  ///< numbers of a point, where the bytes do not tell
+    std::size_t sets = 0;                   ///< in the file; 0: its bytes tell
+    std::string picture = {};               ///< option of the generator that made it, if it is one
+    bool drawn = false;                     ///< svg or ply, which are not read
+};
+
+/// A pipe's bytes in a file of no name, which goes with the process.
+std::string spooled(const RunContext& run) {
+    const io::Input input("-", run);
+    std::FILE* const file = std::tmpfile();  // open until the end
+    const auto bytes = input.bytes();
+    if (file == nullptr || std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size() ||
+        std::fflush(file) != 0)
+        fail(ErrorKind::io, "stdin: no room for its bytes in the folder of temporary files");
+    std::rewind(file);
+    return fmt::format("/dev/fd/{}", fileno(file));
+}
+
+bool file_there(const std::string& path) {
+    std::FILE* const file = std::fopen(path.c_str(), "rb");
+    if (file != nullptr) std::fclose(file);
+    return file != nullptr;
+}
+
+[[noreturn]] void refuse_without_provenance(const Original& original) {
+    fail_with_hint(ErrorKind::input,
+                   "json and jsonl always hold it; generate --meta puts it into other formats",
+                   "{}: it does not tell how its points were made", original.name);
+}
+
+/// Sets what carries its provenance where no reader of points looks. False: not such a file.
+bool take_carried(Original& original, std::string_view front, const RunContext& run) {
+    std::optional<io::CarriedMeta> carried;
+    const std::string beside = io::meta_path(original.path);
+    const bool picture = front.starts_with(png_magic);
+    original.drawn = front.starts_with("ply\n") || front.starts_with("<svg");
+    if (picture || original.drawn) {
+        carried = io::find_carried_meta(io::Input(original.path, run).bytes(), original.name);
+        if (!carried) refuse_without_provenance(original);
+    } else if (file_there(beside)) {
+        carried = io::carried_meta(io::Input(beside, run).bytes(), beside);
+        original.format = &io::format_named(carried->of);
+        if (carried->width > 0) original.width = carried->width;
+        original.sets = carried->sets;
+    }
+    if (!carried) return false;
+    original.meta = carried->provenance;
+    if (picture) original.picture = carried->of;
+    if (original.drawn) original.format = &io::format_named(carried->of);
+    return true;
+}
+
+std::unique_ptr<io::PointStream> open_original(const Original& original,
+                                               const std::vector<std::string>& columns,
+                                               const RunContext& run) {
+    // One thread reads, for the points are made on all.
+    RunContext reading = run;
+    reading.threads = 1;
+    ReadOptions options{.source = original.name, .columns = columns};
+    options.single = original.meta.single;
+    if (original.width) options.dimension = original.width;
+    return io::open_points(original.path, options, reading, original.format);
+}
+
+void refuse_report(const Original& original, std::string_view front) {
+    const auto top = front.substr(0, 400);
+    if (top.find("\"stipple.report\"") == std::string_view::npos) return;
+    fail_with_hint(
+        ErrorKind::input, "reproduce takes files of points",
+        "{}: it holds results of analyze, and names the points that they are of, but not "
+        "how these were made",
+        original.name);
+}
+
+Original read_original(const std::string& input, const RunContext& run) {
+    Original original{.name = io::source_name(input), .path = input == "-" ? spooled(run) : input};
+    const io::Feed feed(original.path, run);
+    refuse_report(original, feed.front());
+    if (!take_carried(original, feed.front(), run))
+        original.meta = open_original(original, {}, run)->provenance();
+    if (original.meta.generator.empty()) refuse_without_provenance(original);
+    return original;
+}
+
+/// What the provenance says was typed, where it holds no command.
+Arguments arguments_of(const Provenance& meta, const std::string& name) {
+    if (!meta.shard.empty() || meta.efficiency < 1)
+        fail(ErrorKind::input, "{}: its provenance has no command, which a part of a set needs",
+             name);
+    Arguments typed;
+    typed.verb = Verb::generate;
+    typed.unit = meta.generator;
+    typed.settings = meta.options;
+    typed.common = {{"count", std::to_string(meta.count)}, {"seed", std::to_string(meta.seed)}};
+    if (meta.start > 0) typed.common.emplace_back("start", std::to_string(meta.start));
+    for (const std::string& warp : meta.warps) typed.common.emplace_back("warp", warp);
+    if (meta.warps.empty()) typed.common.emplace_back("dimension", std::to_string(meta.dimension));
+    if (!meta.bounds.empty()) typed.common.emplace_back("bounds", meta.bounds);
+    return typed;
+}
+
+/// What was typed, as the provenance's command says.
+Arguments typed_for(const Original& original, const std::vector<Kind>& kinds) {
+    const auto words = shell_words(original.meta.command);
+    if (words.size() < 3 || words[1] != "generate")
+        return arguments_of(original.meta, original.name);
+    std::vector<const char*> argv;
+    for (const std::string& word : words) argv.push_back(word.c_str());
+    return parse_arguments(static_cast<int>(argv.size()), argv.data(), kinds);
+}
+
+/// What makes the file again, and how its numbers were written.
+struct Recipe {
+    Arguments typed;
+    Production job;
+    std::vector<std::string> steps;  ///< warps of later runs
+};
+
+/// What is wrong with a provenance is wrong with the file, whatever it would be on a command line.
+template <class Work>
+auto reading_provenance(const Original& original, const Work& work) {
+    try {
+        return work();
+    } catch (const Error& e) {
+        if (e.kind() != ErrorKind::usage) throw;
+        throw Error(ErrorKind::input,
+                    fmt::format("{}: this stipple ({}) cannot follow its provenance: {}",
+                                original.name, STIPPLE_VERSION, e.what()),
+                    e.hint());
+    }
+}
+
+Recipe recipe_of(const Original& original, const std::vector<Kind>& kinds, Session& session) {
+    const Provenance& meta = original.meta;
+    const Generator& generator = find_generator(meta.generator);
+    Recipe recipe;
+    recipe.typed = typed_for(original, kinds);
+    recipe.job = production_of(recipe.typed, session);
+    Production& job = recipe.job;
+    if (job.generator->name != generator.name)
+        fail(ErrorKind::usage, "its command makes points by {}, its generator is {}",
+             job.generator->name, generator.name);
+    // Of sets in files of their own, each tells its own seed.
+    if (job.request.seed != meta.seed) job.sets = 1;
+    job.request.seed = meta.seed;
+    job.command = meta.command;
+    if (job.warps.size() > meta.warps.size())
+        fail(ErrorKind::usage, "its command has {} warps, its warps are {}", job.warps.size(),
+             meta.warps.size());
+    recipe.steps.assign(meta.warps.begin() + static_cast<std::ptrdiff_t>(job.warps.size()),
+                        meta.warps.end());
+    return recipe;
+}
+
+/// The stream version of a unit that makes or moves points.
+std::uint64_t stream_version_of(const std::string& unit) {
+    if (const Scramble* scramble = scramble_named(unit)) return scramble->stream_version;
+    for (const Warp& warp : warps::all())
+        if (warp.name == unit) return warp.stream_version;
+    for (const Generator& generator : generators::all())
+        if (generator.name == unit) return generator.stream_version;
+    return 0;
+}
+
+/// A sentence about the first unit whose rules are not those that made the file; or nothing.
+std::string changed_rules(const Provenance& meta) {
+    std::vector<std::string> units = {find_generator(meta.generator).name};
+    for (std::string warp : meta.warps) {
+        if (warp.starts_with("cut:")) continue;
+        if (warp.starts_with("inverse ")) warp.erase(0, 8);
+        units.push_back(parse_spec(warp).name);
+    }
+    for (const std::string& unit : units) {
+        std::uint64_t then = 1;
+        for (const auto& [name, version] : meta.stream_versions)
+            if (name == unit) then = version;
+        const std::uint64_t now = stream_version_of(unit);
+        if (then != now && now != 0)
+            return fmt::format(
+                "the rules of {} changed: the file is of stream version {}, made by stipple {}; "
+                "this stipple ({}) has version {}",
+                unit, then, meta.version, STIPPLE_VERSION, now);
+    }
+    return {};
+}
+
+/// Files that the points were made from must be there, and be the same. @throws Error
+void check_inputs(const Original& original, const Production& job) {
+    for (const auto& [file, fingerprint_then] : original.meta.inputs) {
+        std::string bytes;
+        try {
+            bytes = read_file(file);
+        } catch (const Error& e) {
+            throw Error(e.kind(),
+                        fmt::format("{}: its points were made from a file that cannot be read: {}",
+                                    original.name, e.what()),
+                        "files are looked for from the folder where stipple runs");
+        }
+        if (format_fingerprint(fingerprint(bytes)) != fingerprint_then)
+            fail(ErrorKind::input, "{}: its points were made from '{}', which has changed since",
+                 original.name, file);
+    }
+    for (const Option& option : job.generator->options.options()) {
+        const auto& item = job.options.find(option.name);
+        if (option.type == "file" && item.given && std::get<std::string>(item.value) == "-")
+            fail(ErrorKind::input,
+                 "{}: its points were made from standard input (--{} -), which is "
+                 "not kept",
+                 original.name, option.name);
+    }
+}
+
+/// Whether the top of a text names a column.
+bool names_column(std::string_view front, std::string_view name) {
+    const auto top = front.substr(0, std::size_t{1} << 16);
+    if (top.starts_with('{')) {
+        const auto columns = top.find("\"columns\":[");
+        const auto end = top.find(']', columns == std::string_view::npos ? 0 : columns);
+        return columns != std::string_view::npos &&
+               top.substr(columns, end - columns).find(fmt::format("\"{}\"", name)) !=
+                   std::string_view::npos;
+    }
+    for (const auto line : split(top, '\n')) {
+        if (line.starts_with('#')) continue;
+        const auto cells = split(trim(line), ',');
+        return std::ranges::find(cells, name) != cells.end();
+    }
+    return false;
+}
+
+/// What happened, for people and for programs.
+struct Verdict {
+    bool identical = false;
+    std::string sentence;
+    Json details = Json::object();
+};
+
+/// " in 3 sets", " with 5 digits after the point".
+std::string remarks_on(const Comparison& found, const Written& written) {
+    std::string text;
+    if (found.sets > 1) text += fmt::format(" in {} sets", found.sets);
+    if (written.single) text += ", as float32";
+    if (written.precision)
+        text += fmt::format(", with {} digits after the point", *written.precision);
+    return text;
+}
+
+class Reproducer {
+  public:
+    Reproducer(const Original& original, Recipe recipe, Session& session)
+        : original_(original), recipe_(std::move(recipe)), session_(session), run_(session.run()) {
+        run_.warn = nullptr;  // what there is to say was said when the points were made
+        written_.precision = original.meta.precision;
+        written_.single = original.meta.single;
+    }
+
+    Verdict go() {
+        check_inputs(original_, recipe_.job);
+        if (!original_.picture.empty()) return compare_picture();
+        return original_.drawn ? compare_bytes() : compare_points();
+    }
+
+    /// The points in a file of their own.
+    void write(const Arguments& arguments) {
+        Arguments typed = recipe_.typed;
+        const std::string path = arguments.get("output").value_or("-");
+        typed.common.emplace_back("output", path);
+        if (io::format_of_extension(path) != nullptr)
+            std::erase_if(typed.common, [](const auto& c) { return c.first == "format"; });
+        Target target = target_of(typed);
+        target.columns = written_.columns;
+        making(1)(target);
+    }
+
+  private:
+    /// Everything that was done to make the points; `sets` are in the file, where that is known.
+    [[nodiscard]] Making making(std::size_t sets) const {
+        std::uint64_t have = recipe_.job.sets;
+        Making all = making_of(recipe_.job, run_);
+        for (const std::string& step : recipe_.steps) {
+            const std::uint64_t times = sets > have && sets % have == 0 ? sets / have : 1;
+            all = after_step(std::move(all), step, times, run_);
+            if (scramble_named(parse_spec(step).name) != nullptr) have *= times;
+        }
+        return all;
+    }
+
+    Verdict compare_points() {
+        auto stream = open_original(original_, {}, run_);
+        const std::size_t width = find_columns(*stream);
+        if (written_.columns.any() && width != stream->dimension()) {
+            auto names = coordinate_names(stream->dimension());
+            for (const auto& extra : written_.columns.names()) names.push_back(extra);
+            stream = open_original(original_, names, run_);
+        }
+        // Raw numbers do not tell their sets.
+        const bool raw = original_.format != nullptr && original_.format->name == "bin";
+        const std::size_t sets = raw ? original_.sets : stream->sets().value_or(0);
+        if (sets == 1) recipe_.job.sets = 1;
+        const Comparison found =
+            compare(making(std::max<std::size_t>(sets, 1)), written_, *stream, raw);
+        tell_differences(found.made);
+        return verdict_on(found, stream->dimension());
+    }
+
+    /// Finds out which columns stand behind the coordinates; numbers of a point with them.
+    std::size_t find_columns(const io::PointStream& stream) {
+        const std::string front(io::Feed(original_.path, run_).front());
+        written_.columns = {.pdf = names_column(front, "pdf"),
+                            .weight = names_column(front, "weight")};
+        const std::size_t d = original_.meta.dimension;
+        if (written_.columns.any()) return stream.dimension() + written_.columns.names().size();
+        // Without names they look like coordinates.
+        if (stream.dimension() == d + 2) written_.columns = {.pdf = true, .weight = true};
+        if (stream.dimension() == d + 1)
+            written_.columns = {.pdf = !recipe_.typed.has("with-weight"),
+                                .weight = recipe_.typed.has("with-weight")};
+        return stream.dimension();
+    }
+
+    /// Options in the provenance that are not what is worked out today, though the points are.
+    void tell_differences(const Provenance& made) const {
+        if (!recipe_.steps.empty() || made.options.empty()) return;
+        for (const auto& option : original_.meta.options)
+            if (option.first != original_.picture &&
+                std::ranges::find(made.options, option) == made.options.end())
+                session_.warn(
+                    fmt::format("{}: its provenance has {} {}, which is not what is found "
+                                "today",
+                                original_.name, option.first, option.second));
+    }
+
+    [[nodiscard]] Verdict verdict_on(const Comparison& found, std::size_t width) const {
+        Verdict verdict{.identical = found.identical(), .sentence = found.mismatch};
+        verdict.details = {{"points", found.points}, {"sets", found.sets}};
+        if (verdict.identical)
+            verdict.sentence = fmt::format("{} points of {} numbers{}", found.points, width,
+                                           remarks_on(found, written_));
+        if (!found.difference) return verdict;
+        const Difference& at = *found.difference;
+        auto names = coordinate_names(width - written_.columns.names().size());
+        for (const auto& extra : written_.columns.names()) names.push_back(extra);
+        const bool several = recipe_.job.sets > 1 || at.set > 0;
+        verdict.sentence =
+            fmt::format("{}point {}, {}: the file has {}; made again it is {}",
+                        several ? fmt::format("set {}, ", at.set) : "", at.point, names[at.column],
+                        format_number(at.found), format_number(at.made));
+        verdict.details["difference"] = {{"set", at.set},
+                                         {"point", at.point},
+                                         {"coordinate", names[at.column]},
+                                         {"file", at.found},
+                                         {"made", at.made}};
+        return verdict;
+    }
+
+    /// Files that are written only, as their bytes.
+    Verdict compare_bytes() {
+        const io::Input input(original_.path, run_);
+        const std::string found = io::without_meta(input.bytes());
+        const bool ply = found.starts_with("ply\n");
+        const auto header = std::string_view(found).substr(0, found.find("end_header"));
+        const auto says = [&](std::string_view words) {
+            return ply && header.find(words) != std::string_view::npos;
+        };
+        Target target{.format = original_.format, .meta = true};
+        target.single = says("property float ");
+        const auto digits = recipe_.typed.integer("precision", 0, 1000);
+        if (says("format ascii") && digits) target.precision = static_cast<int>(*digits);
+        target.columns = {.pdf = says(" pdf\n"), .weight = says(" weight\n")};
+        if (!says("property int set")) recipe_.job.sets = 1;
+        const std::string made = io::without_meta(bytes_of(making(1), target));
+        const auto [f, m] = std::ranges::mismatch(found, made);
+        if (f == found.end() && m == made.end())
+            return {.identical = true, .sentence = fmt::format("{} bytes", input.bytes().size())};
+        const auto line = 1 + std::count(found.begin(), f, '\n');
+        const auto byte = static_cast<std::size_t>(f - found.begin());
+        const bool binary = ply && !says("format ascii") && byte > header.size();
+        return {.sentence = fmt::format("{} {}, less what it tells of its provenance",
+                                        binary ? "byte" : "line",
+                                        binary ? byte : static_cast<std::size_t>(line)),
+                .details = {{"byte", byte}}};
+    }
+
+    /// A picture that was made with the points, pixel by pixel.
+    Verdict compare_picture() {
+        const auto& generator = *recipe_.job.generator;
+        Values options = recipe_.job.options;
+        generator.options.set(options, original_.picture, "picture.png");
+        const PointSet points = make_points(generator, recipe_.job.request, options, run_);
+        if (points.side_files.empty())
+            fail(ErrorKind::input, "{}: {} makes no such picture", original_.name, generator.name);
+        const io::Input input(original_.path, run_);
+        const PngPicture found = read_png(input.bytes(), original_.name, run_);
+        const PngPicture made =
+            read_png(points.side_files[0].bytes, "the picture made again", run_);
+        if (found.width != made.width || found.height != made.height)
+            return {.sentence = fmt::format("it is {} x {} pixels; made again it is {} x {}",
+                                            found.width, found.height, made.width, made.height)};
+        const auto [f, m] = std::ranges::mismatch(found.grey, made.grey);
+        if (f == found.grey.end())
+            return {.identical = true,
+                    .sentence = fmt::format("{} x {} pixels", found.width, found.height)};
+        const auto pixel = static_cast<std::size_t>(f - found.grey.begin());
+        return {.sentence = fmt::format(
+                    "column {}, row {}: the file has the grey {}; made again it is {}",
+                    pixel % found.width, pixel / found.width, format_number(*f), format_number(*m)),
+                .details = {{"column", pixel % found.width}, {"row", pixel / found.width}}};
+    }
+
+    const Original& original_;
+    Recipe recipe_;
+    Session& session_;
+    RunContext run_;
+    Written written_;
+};
+
+int say(const Original& original, const Verdict& verdict, const std::string& changed,
+        const Arguments& arguments) {
+    std::string sentence = verdict.identical ? "identical: " : "different: ";
+    sentence += verdict.sentence;
+    if (!changed.empty()) sentence = changed;
+    const std::string& version = original.meta.version;
+    if (!verdict.identical && changed.empty() && version != STIPPLE_VERSION)
+        sentence += fmt::format(" (made by stipple {}; this is {})", version, STIPPLE_VERSION);
+    std::string text = fmt::format("{}: {}\n", original.name, sentence);
+    if (arguments.has("json")) {
+        Json out{{"format", "stipple.reproduction"}, {"version", 1}, {"file", original.name}};
+        out["identical"] = verdict.identical;
+        out["rules_changed"] = !changed.empty();
+        out["sentence"] = sentence;
+        out.update(verdict.details);
+        out["command"] = original.meta.command;
+        text = out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    }
+    // Where the points go to standard output, the verdict does not.
+    if (arguments.get("output") == "-")
+        fmt::print(stderr, "{}", text);
+    else
+        write_text("-", text);
+    return verdict.identical ? 0 : 1;
+}
+
+}  // namespace
+
+int reproduce(const Arguments& arguments, const std::vector<Kind>& kinds, Session& session) {
+    if (arguments.inputs.size() != 1)
+        fail(ErrorKind::usage, "reproduce takes one FILE; {} are given", arguments.inputs.size());
+    const Original original = read_original(arguments.inputs[0], session.run());
+    const std::string changed =
+        reading_provenance(original, [&] { return changed_rules(original.meta); });
+    if (!changed.empty()) return say(original, {}, changed, arguments);
+    const Verdict verdict = reading_provenance(original, [&] {
+        Reproducer reproducer(original, recipe_of(original, kinds, session), session);
+        const Verdict found = reproducer.go();
+        if (arguments.has("output")) reproducer.write(arguments);
+        return found;
+    });
+    return say(original, verdict, {}, arguments);
+}
+
+}  // namespace stipple::cli

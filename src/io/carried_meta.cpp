@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+#include "io/carried_meta.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "io/provenance.hpp"
+#include "math/png_picture.hpp"
+
+namespace stipple::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view keyword = "stipple";
+constexpr std::string_view open_tag = "<metadata>\n";
+constexpr std::string_view close_tag = "</metadata>\n";
+constexpr std::string_view ply_comment = "comment ";
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+    for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+        text.replace(at, from.size(), to);
+}
+
+/// Calls `take` with each line and whether it is a comment, up to the end of a ply's header; the
+/// place behind it.
+template <class Take>
+std::size_t ply_header(std::string_view bytes, const Take& take) {
+    std::size_t at = 0;
+    while (at < bytes.size()) {
+        const auto end = std::min(bytes.find('\n', at), bytes.size() - 1) + 1;
+        const auto line = bytes.substr(at, end - at);
+        take(line, line.starts_with(ply_comment));
+        at = end;
+        if (line == "end_header\n") break;
+    }
+    return at;
+}
+
+/// Provenance of lines "key: value"; nothing if none is one.
+std::optional<CarriedMeta> of_lines(std::string of, std::string_view text) {
+    CarriedMeta meta{.of = std::move(of)};
+    bool found = false;
+    for (std::size_t at = 0; at < text.size();) {
+        const auto end = std::min(text.find('\n', at), text.size());
+        found |= take_comment_line(text.substr(at, end - at), meta.provenance);
+        at = end + 1;
+    }
+    return found ? std::optional(meta) : std::nullopt;
+}
+
+std::optional<CarriedMeta> of_ply(std::string_view bytes) {
+    std::string comments;
+    ply_header(bytes, [&](std::string_view line, bool comment) {
+        if (comment) comments += line.substr(ply_comment.size());
+    });
+    return of_lines("ply", comments);
+}
+
+/// Where the metadata element stands, with its tags; an empty piece if there is none.
+std::string_view svg_piece(std::string_view bytes) {
+    const auto begin = bytes.find(open_tag);
+    const auto end = bytes.find(close_tag, begin == std::string_view::npos ? 0 : begin);
+    if (begin == std::string_view::npos || end == std::string_view::npos) return {};
+    return bytes.substr(begin, end + close_tag.size() - begin);
+}
+
+std::optional<CarriedMeta> of_svg(std::string_view bytes) {
+    const auto piece = svg_piece(bytes);
+    if (piece.empty()) return std::nullopt;
+    std::string text(
+        piece.substr(open_tag.size(), piece.size() - open_tag.size() - close_tag.size()));
+    replace_all(text, "&lt;", "<");
+    replace_all(text, "&gt;", ">");
+    replace_all(text, "&amp;", "&");
+    return of_lines("svg", text);
+}
+
+bool is_svg(std::string_view bytes) {
+    return bytes.starts_with("<svg") || bytes.starts_with("<?xml");
+}
+
+}  // namespace
+
+std::string meta_path(std::string_view points) { return std::string(points) + ".meta.json"; }
+
+std::string to_text(const CarriedMeta& meta) {
+    Json out{{"format", "stipple.meta"}, {"version", 1}, {"of", meta.of}};
+    if (meta.width > 0) out["width"] = meta.width;
+    if (meta.sets > 0) out["sets"] = meta.sets;
+    out["meta"] = to_json(meta.provenance);
+    // ASCII, as the text chunk of a picture takes it.
+    return out.dump(-1, ' ', true, Json::error_handler_t::replace);
+}
+
+CarriedMeta carried_meta(std::string_view text, const std::string& source) {
+    const Json json = Json::parse(text, nullptr, false);
+    if (!json.is_object() || json.value("format", Json()) != "stipple.meta" ||
+        json.value("version", Json()) != 1 || !json.contains("meta"))
+        fail(ErrorKind::input,
+             "{}: no provenance; expected {{\"format\":\"stipple.meta\",\"version\":1,...}}",
+             source);
+    CarriedMeta meta{.of = {}, .provenance = provenance_from(json["meta"])};
+    const auto take = [&json](const char* key, std::size_t& number) {
+        const auto it = json.find(key);
+        if (it != json.end() && it->is_number_unsigned()) number = it->get<std::size_t>();
+    };
+    take("width", meta.width);
+    take("sets", meta.sets);
+    if (const auto of = json.find("of"); of != json.end() && of->is_string())
+        meta.of = of->get<std::string>();
+    return meta;
+}
+
+std::optional<CarriedMeta> find_carried_meta(std::string_view bytes, const std::string& source) {
+    if (bytes.starts_with("ply\n")) return of_ply(bytes);
+    if (is_svg(bytes)) return of_svg(bytes);
+    if (!bytes.starts_with(png_magic)) return std::nullopt;
+    const auto text = png_text(bytes, keyword);
+    return text ? std::optional(carried_meta(*text, source)) : std::nullopt;
+}
+
+std::string without_meta(std::string_view bytes) {
+    if (bytes.starts_with("ply\n")) {
+        std::string kept;
+        const auto end = ply_header(bytes, [&](std::string_view line, bool comment) {
+            if (!comment) kept += line;
+        });
+        return kept.append(bytes.substr(end));
+    }
+    const auto piece = svg_piece(bytes);
+    if (piece.empty()) return std::string(bytes);
+    const auto begin = static_cast<std::size_t>(piece.data() - bytes.data());
+    return std::string(bytes.substr(0, begin)).append(bytes.substr(begin + piece.size()));
+}
+
+std::string png_with_meta(std::string_view png, const CarriedMeta& meta) {
+    return png_with_text(png, keyword, to_text(meta));
+}
+
+std::string svg_metadata(const Provenance& provenance) {
+    std::string text = to_comment_lines(provenance);
+    std::string lines;
+    for (std::size_t at = 0; at < text.size();) {  // without "# "
+        const auto end = text.find('\n', at) + 1;
+        lines.append(text, at + 2, end - at - 2);
+        at = end;
+    }
+    replace_all(lines, "&", "&amp;");
+    replace_all(lines, "<", "&lt;");
+    replace_all(lines, ">", "&gt;");
+    return std::string(open_tag) + lines + std::string(close_tag);
+}
+
+}  // namespace stipple::io

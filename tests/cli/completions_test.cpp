@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+//
+// Completions are asked of the shells themselves, where they are installed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cli/arguments.hpp"
+#include "core/text.hpp"
+#include "support/program.hpp"
+
+using namespace stipple::testing;
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::IsSupersetOf;
+using ::testing::Not;
+
+namespace {
+
+/// What bash offers for the last of these words; as bash parts them, '=' is a word.
+std::vector<std::string> offered(const Sandbox& box, const std::string& words) {
+    const Outcome outcome = box.shell(
+        "source <(stipple completions bash); COMP_WORDS=(" + words +
+        "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _stipple; printf '%s\\n' \"${COMPREPLY[@]}\"");
+    EXPECT_EQ(outcome.err, "");
+    std::vector<std::string> lines;
+    for (const auto line : stipple::split(outcome.out, '\n'))
+        if (!line.empty()) lines.emplace_back(line);
+    return lines;
+}
+
+bool installed(const Sandbox& box, const std::string& program) {
+    return box.shell("command -v " + program).code == 0;
+}
+
+}  // namespace
+
+TEST(Completions, OfBashKnowVerbsUnitsAndOptions) {
+    const Sandbox box;
+    EXPECT_THAT(offered(box, "stipple gen"), ElementsAre("generate"));
+    EXPECT_THAT(offered(box, "stipple ''"), IsSupersetOf({"generate", "analyze", "reproduce"}));
+    EXPECT_THAT(offered(box, "stipple generate hal"), ElementsAre("halton"));
+    EXPECT_THAT(offered(box, "stipple generate -n 100 hal"), ElementsAre("halton"));
+    EXPECT_THAT(offered(box, "stipple generate halton --scr"), ElementsAre("--scramble"));
+    EXPECT_THAT(offered(box, "stipple generate random --scr"), IsEmpty());
+    EXPECT_THAT(offered(box, "stipple generate lhs --cen"), ElementsAre("--centered"));
+    EXPECT_THAT(offered(box, "stipple analyze star-discrepancy --"),
+                IsSupersetOf({"--threads", "--method", "--check"}));
+    EXPECT_THAT(offered(box, "stipple warp dis"), ElementsAre("discrete", "disk"));
+    EXPECT_THAT(offered(box, "stipple list gen"), ElementsAre("generators"));
+    EXPECT_THAT(offered(box, "stipple help spe"), ElementsAre("specs"));
+    EXPECT_THAT(offered(box, "stipple completions ''"), ElementsAre("bash", "zsh", "fish"));
+}
+
+TEST(Completions, OfBashKnowWordsAndFiles) {
+    const Sandbox box;
+    box.write("points.csv", "");
+    box.write("points of mine.csv", "");
+    EXPECT_THAT(offered(box, "stipple warp disk --method pol"), ElementsAre("polar"));
+    EXPECT_THAT(offered(box, "stipple warp disk --method = pol"), ElementsAre("polar"));
+    EXPECT_THAT(offered(box, "stipple warp disk --method ="), Contains("concentric"));
+    EXPECT_THAT(offered(box, "stipple generate halton --dtype ''"), ElementsAre("f64", "f32"));
+    EXPECT_THAT(offered(box, "stipple generate halton -f np"), ElementsAre("npy"));
+    EXPECT_THAT(offered(box, "stipple generate halton -w ow"), ElementsAre("owen"));
+    EXPECT_THAT(offered(box, "stipple generate halton -n ''"), IsEmpty());
+    EXPECT_THAT(offered(box, "stipple generate halton -o po"),
+                ::testing::UnorderedElementsAre("points.csv", "points of mine.csv"));
+    EXPECT_THAT(offered(box, "stipple analyze moments poi"), Contains("points.csv"));
+    EXPECT_THAT(offered(box, "stipple reproduce poi"), Contains("points.csv"));
+    EXPECT_THAT(offered(box, "stipple generate halton poi"), IsEmpty());
+    EXPECT_THAT(offered(box, "stipple generate lloyd --density poi"), Contains("points.csv"));
+    EXPECT_THAT(offered(box, "stipple nonsense ''"), IsEmpty());
+}
+
+// Each verb's options of each shell are those of the records.
+TEST(Completions, OfAllShellsNameAllThatThereIs) {
+    const Sandbox box;
+    for (const char* shell : {"bash", "zsh", "fish"}) {
+        const std::string script = good(box.run({"completions", shell}));
+        for (const auto& kind : stipple::cli::catalog())
+            for (const auto& unit : kind.units) EXPECT_THAT(script, HasSubstr(unit.name)) << shell;
+        for (const auto& info : stipple::cli::verbs()) EXPECT_THAT(script, HasSubstr(info.name));
+        EXPECT_THAT(script, HasSubstr("max-memory"));
+        EXPECT_THAT(script, Not(HasSubstr(STIPPLE_SOURCE_DIR)));
+        if (!installed(box, shell)) continue;
+        box.write("script", script);
+        const Outcome checked = box.shell(std::string(shell) + " -n script");
+        EXPECT_EQ(checked.code, 0) << checked.err;
+        EXPECT_EQ(checked.err, "");
+    }
+    for (const auto& words : {std::vector<std::string>{"completions"},
+                              {"completions", "tcsh"},
+                              {"completions", "bash", "zsh"}})
+        EXPECT_EQ(box.run(words).code, 2);
+}
+
+TEST(Completions, OfFishAnswer) {
+    const Sandbox box;
+    if (!installed(box, "fish")) GTEST_SKIP() << "fish is not installed";
+    const auto ask = [&](const std::string& words) {
+        return box
+            .shell(
+                "stipple completions fish > s.fish; HOME=$PWD fish -c 'source s.fish; complete "
+                "-C \"" +
+                words + "\"'")
+            .out;
+    };
+    EXPECT_THAT(ask("stipple gen"), HasSubstr("generate\t"));
+    EXPECT_THAT(ask("stipple generate hal"), HasSubstr("halton\t"));
+    EXPECT_THAT(ask("stipple generate halton --scr"), HasSubstr("--scramble"));
+    EXPECT_THAT(ask("stipple generate random --scr"), Not(HasSubstr("--scramble")));
+    EXPECT_THAT(ask("stipple warp disk --method pol"), HasSubstr("polar"));
+}

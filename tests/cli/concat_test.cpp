@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+//
+// Shards put together again, and many files as one set.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/program.hpp"
+
+using namespace stipple::testing;
+using ::testing::HasSubstr;
+
+// For sequences and sets, for text and bytes, for parts of different size and of one point.
+TEST(Concat, OfShardsIsTheWholeByteForByte) {
+    const Sandbox box;
+    for (const char* what :
+         {"sobol --scramble owen -n 1000", "random -n 1000 -w disk:method=rejection", "halton -n 7",
+          "poisson-disk -n 200", "random --rng mt19937-64 -n 5000 --start 9",
+          "jittered -n 100 --bounds 0..4,0..3"}) {
+        const std::string make = std::string("stipple generate ") + what + " --quiet ";
+        good(box.shell("rm -f *; " + make + "-o whole.csv; " + make + "-o whole.json; " + make +
+                       "-f bin -o whole.bin; for i in 0 1 2 3 4 5 6; do " + make +
+                       "--shard $i/7 -o $i.csv; " + make + "--shard $i/7 -o $i.json; " + make +
+                       "--shard $i/7 -f bin; done > cat.bin"));
+        good(box.shell(
+            "cmp cat.bin whole.bin && stipple convert --concat ?.csv -o c.csv && cmp c.csv "
+            "whole.csv"));
+        good(box.shell(
+            "(head -n 1 0.csv; for i in 0 1 2 3 4 5 6; do tail -n +2 $i.csv; done) | cmp - "
+            "whole.csv"));
+        good(box.shell("stipple convert --concat ?.json -o c.json && cmp c.json whole.json"));
+        EXPECT_THAT(good(box.run({"reproduce", "c.json"})), HasSubstr("identical")) << what;
+    }
+}
+
+TEST(Concat, IsOneSetForAnalyzersThatStreamAndThatDoNot) {
+    const Sandbox box;
+    good(
+        box.shell("stipple generate random -n 3000 -o whole.csv; for i in 0 1 2; do stipple "
+                  "generate random -n 3000 --shard $i/3 -o $i.csv; done"));
+    for (const char* analyzer : {"moments", "chi-square", "star-discrepancy", "nearest-neighbor"}) {
+        const std::string line = std::string("stipple analyze ") + analyzer;
+        auto one = nlohmann::json::parse(good(box.shell(line + " whole.csv")));
+        auto many = nlohmann::json::parse(good(box.shell(line + " --concat 0.csv 1.csv 2.csv")));
+        EXPECT_EQ(many["results"], one["results"]) << analyzer;
+        EXPECT_EQ(many["input"]["count"], 3000);
+        EXPECT_EQ(many["input"]["source"], "0.csv, 1.csv, 2.csv");
+    }
+    EXPECT_EQ(
+        good(box.shell("cat 0.csv | stipple convert --concat - 1.csv 2.csv | cmp - whole.csv")),
+        "");
+}
+
+TEST(Concat, KnowsOnlyWhatIsTrueOfAll) {
+    const Sandbox box;
+    good(box.shell(
+        "stipple generate random -n 30 -o whole.json; for i in 0 1 2; do stipple generate "
+        "random -n 30 --shard $i/3 -w disk -o $i.json; done"));
+    good(
+        box.shell("stipple convert --concat 0.json 2.json -o part.json && stipple convert --concat "
+                  "2.json 1.json 0.json -o turned.json"));
+    for (const char* file : {"part.json", "turned.json"}) {
+        const auto meta = nlohmann::json::parse(box.read(file))["meta"];
+        EXPECT_EQ(meta["generator"], "") << file;
+        EXPECT_EQ(meta["domain"], "disk") << file;
+    }
+    EXPECT_EQ(box.run({"reproduce", "part.json"}).code, 3);
+}
+
+TEST(Concat, RefusesWhatIsNotOneSet) {
+    const Sandbox box;
+    good(
+        box.shell("stipple generate random -n 3 -o a.json; stipple generate random -d 3 -n 3 -o "
+                  "b.json; stipple generate random -n 3 -w disk -o c.json; stipple generate random "
+                  "-n 3 -m 2 -o d.json; echo 0.5,x > e.csv"));
+    const auto refusal = [&](const std::string& files) {
+        const Outcome outcome = box.shell("stipple convert --concat " + files + " -o out.csv");
+        EXPECT_EQ(outcome.code, 3);
+        EXPECT_FALSE(box.exists("out.csv"));
+        return outcome.err;
+    };
+    EXPECT_THAT(refusal("a.json b.json"),
+                HasSubstr("b.json: its points have 3 coordinates; those before have 2"));
+    EXPECT_THAT(refusal("a.json c.json"),
+                HasSubstr("c.json: its points are on disk; those before are on unit-cube"));
+    EXPECT_THAT(refusal("d.json a.json"), HasSubstr("d.json: it holds several sets"));
+    EXPECT_THAT(refusal("a.json d.json"), HasSubstr("d.json: it holds several sets"));
+    EXPECT_THAT(refusal("a.json e.csv"), HasSubstr("e.csv:"));
+    EXPECT_THAT(box.shell("stipple analyze moments --concat a.json e.csv").err,
+                HasSubstr("stipple: e.csv:"));
+    EXPECT_EQ(box.shell("stipple convert --concat - - < a.json").code, 2);
+    EXPECT_THAT(box.run({"convert", "a.json", "b.json"}).err, HasSubstr("--concat"));
+}

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/program.hpp"
+
+using namespace stipple::testing;
+using ::testing::HasSubstr;
+
+namespace {
+
+/// The file is said to be identical.
+void expect_identical(const Sandbox& box, const std::string& file) {
+    const Outcome outcome = box.run({"reproduce", file});
+    EXPECT_EQ(outcome.code, 0) << file << ": " << outcome.out << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    EXPECT_TRUE(outcome.out.starts_with(file + ": identical: ")) << outcome.out;
+}
+
+/// The verdict on a file that is not; exit code 1.
+std::string difference(const Sandbox& box, const std::string& file) {
+    const Outcome outcome = box.run({"reproduce", file});
+    EXPECT_EQ(outcome.code, 1) << outcome.out << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+    return outcome.out;
+}
+
+std::string refusal(const Sandbox& box, const std::string& file, int code = 3) {
+    const Outcome outcome = box.run({"reproduce", file});
+    EXPECT_EQ(outcome.code, code) << outcome.out << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    return outcome.err;
+}
+
+void replace_in(const Sandbox& box, const std::string& file, const std::string& from,
+                const std::string& to) {
+    std::string text = box.read(file);
+    const auto at = text.find(from);
+    ASSERT_NE(at, std::string::npos) << from << " in " << text.substr(0, 600);
+    box.write(file, text.replace(at, from.size(), to));
+}
+
+}  // namespace
+
+// What is written with its provenance is made again, whatever the format and the options.
+TEST(Reproduce, MakesAgainWhatGenerateWrote) {
+    const Sandbox box;
+    const std::vector<std::pair<std::string, std::string>> cases = {
+        {"halton -n 500 -d 3 --start 7", "a.json"},
+        {"halton -n 500", "b.csv"},
+        {"sobol --scramble owen --seed 12 -n 256 -d 5 --no-header", "c.csv"},
+        {"random --seed 18446744073709551615 -n 100", "d.txt"},
+        {"random -n 100 -m 4", "e.csv"},
+        {"random -n 100 -m 4", "f.txt"},
+        {"random -n 100 -m 3", "g.jsonl"},
+        {"random -n 100 -m 3", "h.npy"},
+        {"random -n 100 -m 3", "i.json"},
+        {"random -n 100 --dtype f32", "j.npy"},
+        {"random -n 100 -d 3 -m 2", "k.f32"},
+        {"random -n 100 --dtype f32", "l.bin"},
+        {"random -n 300 --precision 4", "m.csv"},
+        {"random -n 300 --precision 0", "n.json"},
+        {"random -n 1000 --shard 1/3", "o.csv"},
+        {"poisson-disk -n 200 --shard 1/3", "p.json"},
+        {"poisson-disk -n 200 --bounds 0..4,0..3", "q.json"},
+        {"poisson-disk --radius 0.1", "r.csv"},
+        {"poisson-disk -n 100 -m 2", "s.json"},
+        {"random -n 200 -w disk --with-pdf", "t.csv"},
+        {"random -n 200 -w disk --with-pdf --with-weight -m 2", "u.json"},
+        {"random -n 200 -w disk --with-weight", "v.txt"},
+        {"random -n 200 -w disk:method=rejection", "w.csv"},
+        {"sobol -n 64 -d 4 -w owen@1,2 -w 'triangle@3,4:vertices=[0,0 2,0 0,1]' -m 2", "x.csv"},
+        {"random -n 50 -f psa", "y.any"},
+        {"random -n 50 --with-pdf -w disk", "z.npy"},
+        {"random -n 50 -d 3", "aa.ply"},
+        {"random -n 50 --precision 5", "ab.ply"},
+        {"random -n 50 -m 2 --dtype f32 -w disk --with-pdf", "ac.ply"},
+        {"random -n 50 -w 'disk:center=[1,2]'", "ad.svg"},
+        {"grid -n 100 --bounds 2..3", "ae.csv"}};
+    for (const auto& [options, file] : cases) {
+        const Outcome made =
+            box.shell("stipple generate " + options + " --meta --quiet -o " + file);
+        ASSERT_EQ(made.code, 0) << options << made.err;
+        expect_identical(box, file);
+    }
+}
+
+TEST(Reproduce, KnowsTheSetsOfFilesOfTheirOwn) {
+    const Sandbox box;
+    good(box.shell("stipple generate jittered -n 100 -m 3 --seed 5 --meta -o 'set{set}.csv'"));
+    good(box.shell("stipple generate poisson-disk -n 50 -m 3 --meta -o 'disks{seed}.csv'"));
+    for (const char* file : {"set0.csv", "set1.csv", "set2.csv", "disks1.csv", "disks3.csv"})
+        expect_identical(box, file);
+}
+
+// Warps of later commands, their scrambles and what was cut in between.
+TEST(Reproduce, FollowsLaterCommands) {
+    const Sandbox box;
+    good(
+        box.shell("stipple generate sobol -n 128 -o a.json && stipple warp disk a.json -o b.json "
+                  "&& stipple warp disk --inverse b.json -o c.json"));
+    good(
+        box.shell("stipple warp owen a.json --seed 9 -m 4 -o d.json && stipple warp owen a.json "
+                  "--seed 9 -m 2 -o 'e{set}.json' && stipple convert d.json --meta -o f.csv"));
+    good(
+        box.shell("stipple generate random -n 100 --precision 3 -o g.json && stipple warp disk "
+                  "g.json --with-pdf -o h.json && stipple convert h.json --precision 2 -o i.json"));
+    for (const char* file : {"a.json", "b.json", "c.json", "d.json", "e0.json", "e1.json", "f.csv",
+                             "g.json", "h.json"})
+        expect_identical(box, file);
+    EXPECT_THAT(good(box.run({"reproduce", "i.json"})), HasSubstr("2 digits after the point"));
+}
+
+TEST(Reproduce, NamesTheFirstDifference) {
+    const Sandbox box;
+    good(box.shell("stipple generate halton -n 10 --meta -o a.csv"));
+    replace_in(box, "a.csv", "\n0.5,", "\n0.5000000000000001,");
+    EXPECT_EQ(difference(box, "a.csv"),
+              "a.csv: different: point 1, x: the file has 0.5000000000000001; made again it is "
+              "0.5\n");
+    good(box.shell("stipple generate random -n 3 -m 2 -o b.json"));
+    std::string text = box.read("b.json");
+    const auto last = text.rfind(',');
+    box.write("b.json", text.replace(last, text.find(']', last) - last, ",0.25"));
+    EXPECT_THAT(difference(box, "b.json"),
+                HasSubstr("different: set 1, point 2, y: the file has 0.25; made again it is 0."));
+    good(box.shell("stipple generate halton -n 10 --meta -o c.csv && sed -i '$d' c.csv"));
+    EXPECT_THAT(difference(box, "c.csv"), HasSubstr("it has 9 points; made again it has 10"));
+    good(box.shell("stipple generate halton -n 10 --meta -o d.csv && echo 0.5,0.5 >> d.csv"));
+    EXPECT_THAT(difference(box, "d.csv"), HasSubstr("more than 10 points"));
+    good(
+        box.shell("stipple generate random -n 10 -f svg --meta -o e.svg && sed -i "
+                  "'s/<circle cx=\"[0-9]/<circle cx=\"99/' e.svg"));
+    EXPECT_THAT(difference(box, "e.svg"), HasSubstr("different: line 1"));
+}
+
+TEST(Reproduce, SpeaksToProgramsAndWritesThePoints) {
+    const Sandbox box;
+    good(
+        box.shell("stipple generate random -n 10 --meta -o a.csv && stipple generate random -n 10 "
+                  "-o b.csv"));
+    const auto same = nlohmann::json::parse(good(box.run({"reproduce", "a.csv", "--json"})));
+    EXPECT_EQ(same["format"], "stipple.reproduction");
+    EXPECT_EQ(same["identical"], true);
+    EXPECT_EQ(same["points"], 10);
+    EXPECT_EQ(same["command"], "stipple generate random --count 10 --meta");
+    good(
+        box.shell("stipple reproduce a.csv -o again.csv && cmp a.csv again.csv && stipple "
+                  "reproduce a.csv -o again.npy && stipple convert again.npy -o c.csv && cmp b.csv "
+                  "c.csv"));
+    EXPECT_EQ(box.shell("stipple reproduce a.csv -o - 2>/dev/null | cmp - a.csv").code, 0);
+    EXPECT_EQ(good(box.shell("cat a.csv | stipple reproduce -")),
+              "stdin: identical: 10 points of 2 numbers\n");
+    replace_in(box, "a.csv", "0.", "0.0");
+    const Outcome other = box.run({"reproduce", "a.csv", "--json"});
+    EXPECT_EQ(other.code, 1);
+    const auto verdict = nlohmann::json::parse(other.out);
+    EXPECT_EQ(verdict["identical"], false);
+    EXPECT_EQ(verdict["difference"]["point"], 0);
+    EXPECT_EQ(verdict["difference"]["coordinate"], "x");
+}
+
+// A radius that was asked for is not one that was found; both are in the options.
+TEST(Reproduce, TellsWhatWasAskedFromWhatWasFound) {
+    const Sandbox box;
+    good(box.shell("stipple generate poisson-disk -n 200 -o a.json"));
+    const auto meta = nlohmann::json::parse(box.read("a.json"))["meta"];
+    ASSERT_TRUE(meta["options"].contains("radius"));
+    EXPECT_EQ(meta["command"].get<std::string>().find("--radius"), std::string::npos);
+    expect_identical(box, "a.json");
+    replace_in(box, "a.json", "\"radius\":0.", "\"radius\":0.9");
+    const Outcome outcome = box.run({"reproduce", "a.json"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_THAT(outcome.err, HasSubstr("radius 0.9"));
+}
+
+TEST(Reproduce, NoticesFilesThatAreGoneOrChanged) {
+    const Sandbox box;
+    good(
+        box.shell("stipple generate void-and-cluster -n 64 --size 16x16 --mask-image m.png -o "
+                  "v.csv && stipple generate lloyd -n 30 --iterations 3 --density m.png -o l.json "
+                  "&& stipple generate random -n 50 -w image:file=m.png --meta -o i.csv"));
+    for (const char* file : {"m.png", "l.json", "i.csv"}) expect_identical(box, file);
+    good(
+        box.shell("stipple generate void-and-cluster -n 64 --size 16x16 --seed 2 --mask-image "
+                  "n.png -o v.csv; mv m.png old.png; mv n.png m.png"));
+    for (const char* file : {"l.json", "i.csv"})
+        EXPECT_THAT(refusal(box, file), HasSubstr("made from 'm.png', which has changed since"));
+    good(box.shell("rm m.png"));
+    EXPECT_THAT(refusal(box, "l.json", 4),
+                HasSubstr("l.json: its points were made from a file that "
+                          "cannot be read: "));
+    good(
+        box.shell("stipple generate random -n 40 | stipple generate lloyd -n 40 --iterations 2 "
+                  "--from - -o s.json --quiet"));
+    EXPECT_THAT(refusal(box, "s.json"), HasSubstr("standard input"));
+}
+
+TEST(Reproduce, ComparesPicturesByTheirPixels) {
+    const Sandbox box;
+    good(
+        box.shell("stipple generate void-and-cluster -n 16 --size 8x8 -m 2 --mask-image "
+                  "'m{set}.png' -o 'v{set}.csv'"));
+    for (const char* file : {"m0.png", "m1.png"}) expect_identical(box, file);
+    // The second's pixels with the first's provenance: chunks are header, text, pixels.
+    std::string one = box.read("m0.png");
+    const std::string two = box.read("m1.png");
+    box.write("mixed.png", one.substr(0, one.find("IDAT") - 4) + two.substr(two.find("IDAT") - 4));
+    EXPECT_THAT(difference(box, "mixed.png"), HasSubstr("different: column "));
+}
+
+TEST(Reproduce, SaysThatRulesChanged) {
+    const Sandbox box;
+    good(box.shell("stipple generate random -n 10 -w owen -o a.json && cp a.json b.json"));
+    replace_in(box, "a.json", "\"command\"", "\"stream_versions\":{\"random\":2},\"command\"");
+    EXPECT_THAT(difference(box, "a.json"),
+                HasSubstr("a.json: the rules of random changed: the file is of stream version 2"));
+    replace_in(box, "b.json", "\"command\"", "\"stream_versions\":{\"owen\":7},\"command\"");
+    EXPECT_THAT(difference(box, "b.json"), HasSubstr("the rules of owen changed"));
+    // Another version of stipple with the same rules makes the same points.
+    good(box.shell("stipple generate random -n 10 -o c.json"));
+    replace_in(box, "c.json", "\"version\":\"0.1.0\"", "\"version\":\"9.8.7\"");
+    expect_identical(box, "c.json");
+    replace_in(box, "c.json", "\"points\":[[0.", "\"points\":[[0.0");
+    EXPECT_THAT(difference(box, "c.json"), HasSubstr("(made by stipple 9.8.7; this is 0.1.0)"));
+}
+
+TEST(Reproduce, RefusesWhatTellsNothing) {
+    const Sandbox box;
+    good(box.shell(
+        "stipple generate random -n 10 -o a.csv && stipple generate random -n 10 -o a.npy "
+        "&& stipple generate random -n 10 -o a.svg && stipple generate random -n 10 | "
+        "stipple analyze moments > r.json && stipple generate random -n 10 -o b.json"));
+    for (const char* file : {"a.csv", "a.npy", "a.svg"})
+        EXPECT_THAT(refusal(box, file), HasSubstr("it does not tell how its points were made; json "
+                                                  "and jsonl always hold it; generate --meta"));
+    EXPECT_THAT(refusal(box, "r.json"), HasSubstr("r.json: it holds results of analyze"));
+    EXPECT_THAT(refusal(box, "missing.json", 4), HasSubstr("missing.json"));
+    EXPECT_EQ(box.run({"reproduce"}).code, 2);
+    EXPECT_EQ(box.run({"reproduce", "a.csv", "a.npy"}).code, 2);
+    box.write("a.npy.meta.json", "{}");
+    EXPECT_THAT(refusal(box, "a.npy"), HasSubstr("a.npy.meta.json: no provenance"));
+    replace_in(box, "b.json", "\"generator\":\"random\"", "\"generator\":\"rondom\"");
+    EXPECT_THAT(refusal(box, "b.json"),
+                HasSubstr("b.json: this stipple (0.1.0) cannot follow its provenance: unknown "
+                          "generator 'rondom'; did you mean 'random'?"));
+}
+
+TEST(Reproduce, LeavesNoFiles) {
+    const Sandbox box;
+    good(
+        box.shell("stipple generate void-and-cluster -n 16 --size 8x8 --mask-image m.png -o v.json "
+                  "&& rm m.png"));
+    expect_identical(box, "v.json");
+    EXPECT_EQ(box.files(), std::vector<std::string>{"v.json"});
+}
+
+// Beside npy, bin and psa, which have no place for it.
+TEST(Meta, StandsBesideFormatsWithoutAPlaceForIt) {
+    const Sandbox box;
+    good(box.shell("stipple generate random -n 10 --meta -o a.npy"));
+    EXPECT_EQ(box.files(), (std::vector<std::string>{"a.npy", "a.npy.meta.json"}));
+    const auto beside = nlohmann::json::parse(box.read("a.npy.meta.json"));
+    EXPECT_EQ(beside["format"], "stipple.meta");
+    EXPECT_EQ(beside["of"], "npy");
+    EXPECT_EQ(beside["meta"]["generator"], "random");
+    const Outcome piped = box.shell("stipple generate random -n 10 --meta -f npy | wc -c");
+    EXPECT_EQ(piped.code, 0);
+    EXPECT_THAT(piped.err, HasSubstr("--meta: npy has no place for provenance"));
+}

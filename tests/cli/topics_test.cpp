@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "cli/arguments.hpp"
+#include "cli/topics.hpp"
+#include "support/program.hpp"
+
+using namespace stipple::testing;
+using namespace stipple::cli;
+using ::testing::HasSubstr;
+
+// What a topic shows works: its examples run one after the other in one folder.
+TEST(Topics, ExamplesRun) {
+    for (const Topic& topic : topics()) {
+        const Sandbox box;
+        std::istringstream lines(topic.text);
+        int examples = 0;
+        for (std::string line; std::getline(lines, line);) {
+            EXPECT_LE(line.size(), 96U) << line;
+            if (!line.starts_with("    stipple ")) continue;
+            ++examples;
+            const Outcome outcome = box.shell(line);
+            EXPECT_EQ(outcome.code, 0) << topic.name << ": " << line << '\n' << outcome.err;
+        }
+        EXPECT_GT(examples, 1) << topic.name;
+    }
+}
+
+TEST(Topics, TellTheTruthAboutTheSameBytes) {
+    const Sandbox box;
+    good(box.shell(
+        "stipple generate random -n 1000 --seed 7 --threads 1 -o one.csv && stipple "
+        "generate random -n 1000 --seed 7 --threads 2 -o two.csv && cmp one.csv two.csv"));
+    good(
+        box.shell("stipple generate random -m 4 --no-header -n 5 | tail -n 5 | cut -d, -f2- > a && "
+                  "stipple generate random --seed 4 --no-header -n 5 > b && cmp a b"));
+}
+
+TEST(Topics, AreListedAndFound) {
+    const Sandbox box;
+    const std::string list = good(box.run({"help"}));
+    EXPECT_EQ(list, good(box.run({"--help"})));
+    for (const Topic& topic : topics()) {
+        EXPECT_THAT(list, HasSubstr(std::string("  ") + topic.name));
+        EXPECT_EQ(good(box.run({"help", topic.name})), topic.text);
+    }
+    EXPECT_EQ(good(box.run({"help", "generate"})), good(box.run({"generate", "--help"})));
+    EXPECT_EQ(good(box.run({"help", "generate", "halton"})),
+              good(box.run({"generate", "halton", "--help"})));
+    EXPECT_EQ(good(box.run({"help", "disc"})), good(box.run({"warp", "disk", "--help"})));
+    const Outcome typo = box.run({"help", "format"});
+    EXPECT_EQ(typo.code, 2);
+    EXPECT_THAT(typo.err,
+                HasSubstr("unknown topic, verb or unit 'format'; did you mean 'formats'?"));
+}
+
+// Every exit code that the program knows stands in the topic, in the help and in the contract.
+TEST(Topics, NameAllExitCodes) {
+    const Sandbox box;
+    const std::string text = good(box.run({"help", "exit-codes"}));
+    for (const char* code : {"0  ", "1  ", "2  ", "3  ", "4  ", "5  ", "130  "})
+        EXPECT_TRUE(text.starts_with(code) ||
+                    text.find("\n" + std::string(code)) != std::string::npos)
+            << code;
+}
+
+TEST(Manual, PagesAreWholeAndWithoutFaults) {
+    const Sandbox box;
+    good(box.run({"help", "--man", "-o", box.path().string()}));
+    EXPECT_EQ(box.files().size(), 1 + verbs().size() + topics().size());
+    const bool groff = box.shell("command -v groff").code == 0;
+    for (const std::string& file : box.files()) {
+        const std::string page = box.read(file);
+        EXPECT_TRUE(page.starts_with(".TH STIPPLE")) << file;
+        for (const char* section : {".SH NAME\n", ".SH SEE ALSO\n"})
+            EXPECT_THAT(page, HasSubstr(section)) << file;
+        if (!groff) continue;
+        const Outcome set = box.shell("groff -man -Tascii -ww -z " + file);
+        EXPECT_EQ(set.err, "") << file;
+        EXPECT_EQ(set.code, 0);
+    }
+    for (const VerbInfo& info : verbs())
+        EXPECT_TRUE(box.exists(std::string("stipple-") + info.name + ".1")) << info.name;
+}
+
+TEST(Manual, ShowsUnitsOptionsAndExamplesAsTheyAre) {
+    const Sandbox box;
+    const std::string page = good(box.run({"help", "--man", "generate"}));
+    EXPECT_THAT(page, HasSubstr(".SS poisson\\-disk\n"));
+    if (box.shell("command -v groff").code != 0) GTEST_SKIP() << "groff is not installed";
+    box.write("page.1", page);
+    const std::string shown = box.shell("groff -man -Tascii -P-c page.1 | col -b").out;
+    EXPECT_THAT(shown,
+                HasSubstr("stipple generate halton -n 4096 --start 1 -w disk -o points.csv"));
+    EXPECT_THAT(shown, HasSubstr("stipple generate jittered -m 10 -o 'set{set}.csv'"));
+    EXPECT_THAT(shown, HasSubstr("--scramble"));
+    EXPECT_EQ(box.run({"help", "--man", "nonsense"}).code, 2);
+}

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: MIT
+//
+// The points that every unit makes, or moves, for given options and seeds: their fingerprints stand
+// in golden.txt, so that no change alters anyone's points unnoticed. A deliberate change raises the
+// unit's stream_version; `scripts/golden` writes the table anew.
+//
+//     generators halton scramble=owen n=1000 d=2 seed=1 version=1 0123456789abcdef
+//
+// Each unit is there as it is by default, and once for each flag and each word of its options.
+// Warps and scrambles move points that are made here, by whole numbers alone.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "core/fingerprint.hpp"
+#include "core/text.hpp"
+#include "study/chain.hpp"
+#include "support/contract.hpp"
+#include "support/warp_examples.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+constexpr const char* table_path = STIPPLE_SOURCE_DIR "/tests/contract/golden.txt";
+
+/// What a generator cannot do without, or would take too long without.
+Settings needed_by(const std::string& name) {
+    if (name == "digital-net") return {{"matrices", STIPPLE_SOURCE_DIR "/data/sobol_4d.txt"}};
+    if (name == "gaussian-blue-noise") return {{"iterations", "5"}};
+    if (name == "lloyd") return {{"iterations", "5"}};
+    if (name == "tiled") return {{"tile-points", "256"}, {"iterations", "5"}};
+    return {};
+}
+
+/// Of the first set; fewer where a point takes much longer than elsewhere.
+std::uint64_t many_of(const std::string& name) {
+    static const std::map<std::string, std::uint64_t> slow = {
+        {"capacity-constrained", 256}, {"farthest-point", 1000},
+        {"gaussian-blue-noise", 1000}, {"lloyd", 1000},
+        {"sample-elimination", 2000},  {"void-and-cluster", 1024}};
+    const auto it = slow.find(name);
+    return it == slow.end() ? 10'000 : it->second;
+}
+
+/// Settings as a spec has them; of a file, only that it is one.
+std::string label(const Schema& schema, const Settings& settings) {
+    std::vector<std::string> words;
+    for (const auto& [name, text] : settings) {
+        const auto& option = *std::ranges::find(schema.options(), name, &Option::name);
+        words.push_back(name + "=" + (option.type == "file" ? "..." : text));
+    }
+    return words.empty() ? "-" : join(words, ",");
+}
+
+/// The settings without which a unit does not go, and with each flag and each word besides.
+std::vector<Settings> variants(const Schema& schema, const Settings& needed) {
+    std::vector<Settings> all = {needed};
+    for (const Option& option : schema.options()) {
+        const auto given = std::ranges::any_of(
+            needed, [&](const auto& setting) { return setting.first == option.name; });
+        auto words = option.choices;
+        if (option.type == "flag") words = {"true"};
+        for (const std::string& word : words) {
+            if (given || (!option.optional && format_value(option.fallback) == word)) continue;
+            all.push_back(needed);
+            all.back().emplace_back(option.name, word);
+        }
+    }
+    return all;
+}
+
+/// One line of the table, with what `work` gives; a refusal is kept, too.
+template <class Work>
+std::string line_of(const std::string& key, std::uint64_t version, const Work& work) {
+    std::string hash;
+    try {
+        hash = format_fingerprint(fingerprint(std::span<const double>(work())));
+    } catch (const Error&) {
+        hash = "refused";
+    }
+    return key + " version=" + std::to_string(version) + " " + hash;
+}
+
+std::string key_of(const std::string& unit, const std::string& settings, std::uint64_t n,
+                   std::size_t d, std::uint64_t seed) {
+    std::ostringstream key;
+    key << unit << ' ' << settings << " n=" << n << " d=" << d << " seed=" << seed;
+    return key.str();
+}
+
+std::vector<std::string> lines_of(const Generator& unit) {
+    std::vector<std::string> lines;
+    const auto& traits = unit.traits;
+    const auto add = [&](const Settings& settings, std::uint64_t n, std::size_t wanted,
+                         std::uint64_t seed) {
+        const std::size_t d = std::clamp(wanted, traits.min_dimension, traits.max_dimension);
+        const std::string key =
+            key_of("generators " + unit.name, label(unit.options, settings), n, d, seed);
+        lines.push_back(line_of(key, unit.stream_version, [&] {
+            const PointSet set = make(unit.name, points(n, d), settings, {.seed = seed});
+            return std::vector<double>(set.flat().begin(), set.flat().end());
+        }));
+    };
+    const Settings needed = needed_by(unit.name);
+    add(needed, many_of(unit.name), 2, 1);
+    add(needed, std::min<std::uint64_t>(many_of(unit.name), 1024), 2, 987654321);
+    if (traits.max_dimension > 2) add(needed, 256, 5, 1);
+    for (const Settings& settings : variants(unit.options, needed))
+        if (settings != needed)
+            add(settings, std::min<std::uint64_t>(many_of(unit.name), 1024), 2, 3);
+    return lines;
+}
+
+/// Points that no unit makes: multiples of odd numbers modulo 2^53.
+std::vector<double> plain_points(std::size_t n, std::size_t d) {
+    std::vector<double> rows(n * d);
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t k = 0; k < d; ++k) {
+            const std::uint64_t step = (0x9E3779B97F4A7C15U >> (3 * k)) | 1;
+            rows[i * d + k] =
+                static_cast<double>((i * step) >> (11 - 3 * std::min<std::size_t>(k, 3)) &
+                                    ((std::uint64_t{1} << 53) - 1)) *
+                0x1p-53;
+        }
+    return rows;
+}
+
+std::vector<double> moved(const std::string& unit, const Settings& settings, std::size_t n,
+                          std::size_t d, std::uint64_t seed) {
+    const Spec spec{.name = unit, .coordinates = {}, .settings = settings};
+    return WarpChain({&spec, 1}, d, {.seed = seed, .count = n}).forward(plain_points(n, d));
+}
+
+std::vector<std::string> lines_of(const Scramble& unit) {
+    std::vector<std::string> lines;
+    for (const std::uint64_t seed : {std::uint64_t{1}, std::uint64_t{987654321}})
+        for (const Settings& settings : variants(unit.options, {})) {
+            const std::string key =
+                key_of("scrambles " + unit.name, label(unit.options, settings), 10'000, 3, seed);
+            lines.push_back(line_of(key, unit.stream_version,
+                                    [&] { return moved(unit.name, settings, 10'000, 3, seed); }));
+        }
+    return lines;
+}
+
+std::vector<std::string> lines_of(const Warp& unit) {
+    std::vector<std::string> lines;
+    for (const Settings& settings : variants(unit.options, needed_options(unit.name))) {
+        const Spec spec{.name = unit.name, .coordinates = {}, .settings = settings};
+        std::size_t d = 2;
+        try {
+            d = unit.make(spec.values(unit.options), 2, {})->cube_dimension();
+        } catch (const Error&) {
+            d = 2;
+        }
+        const std::string key =
+            key_of("warps " + unit.name, label(unit.options, settings), 10'000, d, 1);
+        lines.push_back(line_of(key, unit.stream_version,
+                                [&] { return moved(unit.name, settings, 10'000, d, 1); }));
+    }
+    return lines;
+}
+
+/// All units, "generators/halton".
+std::vector<std::string> all_units() {
+    std::vector<std::string> names;
+    for (const auto& name : names_of(generators::all())) names.push_back("generators/" + name);
+    for (const auto& name : names_of(scrambles::all())) names.push_back("scrambles/" + name);
+    for (const auto& name : names_of(warps::all())) names.push_back("warps/" + name);
+    return names;
+}
+
+std::vector<std::string> lines_of(const std::string& unit) {
+    const auto slash = unit.find('/');
+    const std::string name = unit.substr(slash + 1);
+    if (unit.starts_with("generators/")) return lines_of(find_generator(name));
+    if (unit.starts_with("scrambles/")) return lines_of(*scramble_named(name));
+    return lines_of(find_warp(name));
+}
+
+/// "generators/halton" of a line.
+std::string unit_in(const std::string& line) {
+    std::istringstream words(line);
+    std::string kind;
+    std::string name;
+    words >> kind >> name;
+    return kind + "/" + name;
+}
+
+std::vector<std::string> table() {
+    std::ifstream in(table_path);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(in, line);)
+        if (!line.empty() && line[0] != '#') lines.push_back(line);
+    return lines;
+}
+
+/// A line without its fingerprint: what was made, and by which rules.
+std::string rules_of(const std::string& line) { return line.substr(0, line.rfind(' ')); }
+
+class Golden : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Golden, PointsAreTheSameAsEver) {
+    if (std::getenv("STIPPLE_GOLDEN") != nullptr) GTEST_SKIP() << "the table is being written";
+    std::vector<std::string> expected = table();
+    std::erase_if(expected, [](const std::string& line) { return unit_in(line) != GetParam(); });
+    EXPECT_EQ(lines_of(GetParam()), expected)
+        << "If this is meant, raise stream_version in the record of " << GetParam()
+        << " and run scripts/golden; points that no release made: scripts/golden --same-version.";
+}
+
+std::string golden_name(const ::testing::TestParamInfo<std::string>& info) {
+    std::string name = info.param;
+    std::ranges::replace(name, '-', '_');
+    std::ranges::replace(name, '/', '_');
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Units, Golden, ::testing::ValuesIn(all_units()), golden_name);
+
+TEST(GoldenTable, HoldsNoUnitThatIsGone) {
+    const auto units = all_units();
+    for (const std::string& line : table())
+        EXPECT_TRUE(std::ranges::find(units, unit_in(line)) != units.end()) << line;
+}
+
+// The fingerprint must see any bit of any number.
+TEST(GoldenTable, TellsPointsApartByOneBit) {
+    std::vector<double> rows = moved("owen", {}, 1000, 2, 1);
+    const auto before = fingerprint(std::span<const double>(rows));
+    rows[777] = std::nextafter(rows[777], 2);
+    EXPECT_NE(fingerprint(std::span<const double>(rows)), before);
+}
+
+// Not a test of anything: what scripts/golden runs.
+TEST(GoldenTable, IsWrittenOnDemand) {
+    const char* const mode = std::getenv("STIPPLE_GOLDEN");
+    if (mode == nullptr) GTEST_SKIP() << "scripts/golden writes the table";
+    std::map<std::string, std::string> old;
+    for (const std::string& line : table()) old[rules_of(line)] = line;
+    std::string text =
+        "# Fingerprints (FNV-1a, 64 bits) of the points that units make and move; written by "
+        "scripts/golden.\n";
+    for (const std::string& unit : all_units())
+        for (std::string line : lines_of(unit)) {
+            const auto known = old.find(rules_of(line));
+            const bool changed = known != old.end() && known->second != line;
+            if (changed && std::string_view(mode) != "same-version") {
+                ADD_FAILURE() << "changed under the same stream_version: " << line;
+                line = known->second;
+            }
+            text += line + "\n";
+        }
+    std::ofstream(table_path) << text;
+}
+
+}  // namespace
