@@ -117,7 +117,8 @@ class Analysis {
               session.run(),
               [this](const FoundSet& set, const RunContext& run) { return measured(set, run); },
               [this](const FoundSet& set, Measurement m) {
-                  keep(std::move(m), arguments_.inputs.size() > 1 || set.of > 1);
+                  const bool several = arguments_.inputs.size() > 1 && !arguments_.has("concat");
+                  keep(std::move(m), several || set.of > 1);
               }) {
         for (const auto& text : arguments.all("check"))
             checks_.push_back(check_of(text, analyzer_));
@@ -133,8 +134,12 @@ class Analysis {
         if (inputs.empty()) inputs.emplace_back("-");
         const bool in_blocks = analyzer_.accumulate && !arguments_.has("rescale");
         check_bounds(arguments_);
-        for (const std::string& input : inputs)
-            if (!interrupted()) in_blocks ? add_stream(input) : add_sets(input);
+        if (arguments_.has("concat")) {
+            add_joined(inputs, in_blocks);
+        } else {
+            for (const std::string& input : inputs)
+                if (!interrupted()) in_blocks ? add_stream(input) : add_sets(input);
+        }
         batch_.finish();
         if (interrupted()) return print_what_is_known();
         if (averaged_) finish_average();
@@ -155,6 +160,21 @@ class Analysis {
             });
             batch_.add({std::move(sets[set]), input, set, sets.size()});
         }
+    }
+
+    /// All inputs as one set.
+    void add_joined(const std::vector<std::string>& inputs, bool in_blocks) {
+        const RunContext& run = session_.run();
+        const auto stream = open_joined(inputs, arguments_, run);
+        const std::string source = join(inputs, ", ");
+        if (in_blocks) {
+            stream->next_set();
+            add_arriving(*stream, source, std::nullopt);
+            return;
+        }
+        PointSet all = std::move(stream->read_all(run).front());
+        all.domain = input_domain(stream->provenance(), all.dimension(), arguments_, run);
+        batch_.add({prepared(std::move(all), arguments_), source, 0, 1});
     }
 
     /// What is wrong with an input is said when the sets before it have been measured.
@@ -197,7 +217,8 @@ class Analysis {
         return input_domain(stream.provenance(), d, arguments_, session_.run());
     }
 
-    void add_arriving(io::PointStream& stream, const std::string& input, std::size_t set) {
+    void add_arriving(io::PointStream& stream, const std::string& input,
+                      std::optional<std::size_t> set) {
         const auto start = Clock::now();
         const std::size_t d = stream.dimension();
         const DomainPtr domain = domain_of(stream);
@@ -221,7 +242,7 @@ class Analysis {
               .options = shown_options_,
               .results = std::move(found.report),
               .seconds = std::chrono::duration<double>(Clock::now() - start).count()},
-             arguments_.inputs.size() > 1 || set > 0);
+             set && (arguments_.inputs.size() > 1 || *set > 0));
     }
 
     [[nodiscard]] Measurement measured(const FoundSet& set, const RunContext& run) const {

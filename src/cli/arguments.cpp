@@ -236,14 +236,15 @@ const std::vector<VerbInfo>& verbs() {
          "  stipple analyze star-discrepancy a.csv b.csv --format csv\n"
          "  stipple analyze star-discrepancy a.csv --check 'value<0.01'\n"
          "  stipple analyze poisson-disk --radius 0.02 --check points.csv\n"},
-        {Verb::convert, "convert", "stipple convert INPUT -o OUTPUT [OPTIONS]",
+        {Verb::convert, "convert", "stipple convert INPUT... -o OUTPUT [OPTIONS]",
          "from one file format to another",
          "The formats are those of the names' extensions, or --from and --format. Every double "
          "survives\n"
          "unless --dtype or --precision cut it.",
          "  stipple convert points.csv -o points.npy\n"
          "  stipple convert points.bin -d 3 -o points.json\n"
-         "  stipple convert table.csv --column 3,1 -o points.csv\n"},
+         "  stipple convert table.csv --column 3,1 -o points.csv\n"
+         "  stipple convert a.csv b.csv --concat -o points.npy\n"},
         {Verb::study, "study",
          "stipple study --generators SPECS -n COUNTS --seeds R --analyze SPECS [OPTIONS]",
          "compares generators over counts, seeds and measures: one tidy table, with statistics",
@@ -311,7 +312,7 @@ const std::vector<CommonOption>& common_options() {
         {"-n,--count", "COUNTS", "1024", "points in a set: 16,64,256 or 2^4..2^16 or 16..65536*2",
          study},
         {"-d,--dimension", "DIMENSIONS", "2", "one or several, as for -n", study},
-        {"-s,--seed", "S", "1", "the first 64-bit seed", study},
+        {"-s,--seed", "S", "1", "the first 64-bit seed; 'random' draws one and says so", study},
         {"-m,--seeds", "R", "1", "sets of each generator, dimension and count: seeds S, S + 1, ...",
          study},
         {"-n,--count", "N", "1024", "points in a set; 1e6, 2^20 and 64k (= 65536) are accepted",
@@ -335,7 +336,10 @@ const std::vector<CommonOption>& common_options() {
         {"-w,--warp", "NAME[:OPT=V,...]", "", "warp or scramble before the measures, in order",
          study, true},
         {"--keys", "KEY,...", "",
-         "results to keep: value, centered.value, radial.power, mean[0]; else all numbers", study},
+         "results to keep, by name or a part of it between dots: value, radial.power, mean[0]; "
+         "else all "
+         "numbers",
+         study},
         {"--curves", "", "", "keep lists of numbers, too, a row for each: radial.power[3]", study},
         {"--time-limit", "SECONDS", "",
          "for making a set, and for each measure of it; what takes longer fails", study},
@@ -364,6 +368,7 @@ const std::vector<CommonOption>& common_options() {
         {"--rescale", "", "", "map the bounding box of the points to the unit cube before",
          analyze},
         {"--average", "", "", "one result: the mean over all sets, with standard errors", analyze},
+        {"--concat", "", "", "all INPUTs, and all their sets, are one set", analyze | convert},
         {"--check", "[KEY<VALUE]", "",
          "exit with 1 unless it holds; also <= > >= == !=; of several numbers one: mean[0]; alone: "
          "valid==true",

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <random>
 
+#include "cli/joined_input.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -49,21 +50,6 @@ std::uint64_t drawn_seed(std::uint64_t largest) {
     const std::uint64_t bits = (static_cast<std::uint64_t>(device()) << 32) | device();
     // 53 bits at most, so that the seed survives every program that reads numbers as doubles.
     return bits % (std::min(largest, most_points - 1) + 1);
-}
-
-std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session& session) {
-    const auto text = arguments.get("seed");
-    if (!text) return 1;
-    if (*text == "random") {
-        const std::uint64_t seed = drawn_seed(largest);
-        session.warn(fmt::format("--seed {}", seed));
-        return seed;
-    }
-    const auto seed = parse_unsigned(*text);
-    if (!seed)
-        fail(ErrorKind::usage, "--seed: '{}' is not a whole number in [0, 2^64) or 'random'",
-             *text);
-    return *seed;
 }
 
 Request request_of(const Arguments& arguments) {
@@ -109,6 +95,21 @@ std::string command_of(const Arguments& arguments, const Generator& generator, c
 }
 
 }  // namespace
+
+std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session& session) {
+    const auto text = arguments.get("seed");
+    if (!text) return 1;
+    if (*text == "random") {
+        const std::uint64_t seed = drawn_seed(largest);
+        session.warn(fmt::format("--seed {}", seed));
+        return seed;
+    }
+    const auto seed = parse_unsigned(*text);
+    if (!seed)
+        fail(ErrorKind::usage, "--seed: '{}' is not a whole number in [0, 2^64) or 'random'",
+             *text);
+    return *seed;
+}
 
 Target target_of(const Arguments& arguments) {
     Target target;
@@ -190,6 +191,13 @@ std::unique_ptr<io::PointStream> open_input(const std::string& path, const Argum
     return io::open_points(path, options, run, format);
 }
 
+std::unique_ptr<io::PointStream> open_joined(const std::vector<std::string>& paths,
+                                             const Arguments& arguments, const RunContext& run) {
+    return std::make_unique<JoinedInput>(paths, [&arguments, run](const std::string& path) {
+        return open_input(path, arguments, run);
+    });
+}
+
 int generate(const Arguments& arguments, Session& session) {
     Production job;
     job.generator = &find_generator(arguments.unit);
@@ -256,10 +264,19 @@ int warp(const Arguments& arguments, Session& session) {
 }
 
 int convert(const Arguments& arguments, Session& session) {
-    if (arguments.inputs.size() > 1)
-        fail(ErrorKind::usage, "convert takes one INPUT; {} are given", arguments.inputs.size());
+    const bool concat = arguments.has("concat");
+    if (arguments.inputs.size() > 1 && !concat)
+        fail_with_hint(ErrorKind::usage, "--concat makes one set of several files",
+                       "convert takes one INPUT; {} are given", arguments.inputs.size());
     const std::string path = arguments.inputs.empty() ? "-" : arguments.inputs[0];
     const Target target = target_of(arguments);
+    if (concat) {
+        const auto& run = session.run();
+        const auto stream = open_joined(
+            arguments.inputs.empty() ? std::vector{path} : arguments.inputs, arguments, run);
+        write_sets(named(stream->read_all(run), arguments, run), target, run);
+        return 0;
+    }
     write_sets(read_input(path, arguments, session.run()), target, session.run());
     return 0;
 }

@@ -17,6 +17,9 @@ int convert(const Arguments& arguments, Session& session);
 int study(const Arguments& arguments, Session& session);
 int list(const Arguments& arguments, const std::vector<Kind>& kinds);
 
+/// --seed, or one that is drawn and told, at most `largest`. @throws Error(usage)
+std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session& session);
+
 /// Where points go, as -o, -f, --dtype, --precision, --meta and --no-header say.
 Target target_of(const Arguments& arguments);
 
@@ -27,6 +30,10 @@ std::vector<PointSet> read_input(const std::string& path, const Arguments& argum
 /// The same in blocks, where they are many; their domain is input_domain.
 std::unique_ptr<io::PointStream> open_input(const std::string& path, const Arguments& arguments,
                                             const RunContext& run);
+
+/// All sets of all files as one set.
+std::unique_ptr<io::PointStream> open_joined(const std::vector<std::string>& paths,
+                                             const Arguments& arguments, const RunContext& run);
 
 /// What points of a file live on.
 DomainPtr input_domain(const Provenance& provenance, std::size_t dimension,
