@@ -396,7 +396,7 @@ const std::vector<CommonOption>& common_options() {
         {"-n,--count", "COUNTS", "1024", "points in a set: 16,64,256 or 2^4..2^16 or 16..65536*2",
          study},
         {"-d,--dimension", "DIMENSIONS", "2", "one or several, as for -n", study},
-        {"-s,--seed", "S", "1", "the first 64-bit seed", study},
+        {"-s,--seed", "S", "1", "the first 64-bit seed; 'random' draws one and says so", study},
         {"-m,--seeds", "R", "1", "sets of each generator, dimension and count: seeds S, S + 1, ...",
          study},
         {"-n,--count", "N", "1024", "points in a set; 1e6, 2^20 and 64k (= 65536) are accepted",
@@ -422,7 +422,10 @@ const std::vector<CommonOption>& common_options() {
         {"-w,--warp", "NAME[:OPT=V,...]", "", "warp or scramble before the measures, in order",
          study, true},
         {"--keys", "KEY,...", "",
-         "results to keep: value, centered.value, radial.power, mean[0]; else all numbers", study},
+         "results to keep, by name or a part of it between dots: value, radial.power, mean[0]; "
+         "else all "
+         "numbers",
+         study},
         {"--curves", "", "", "keep lists of numbers, too, a row for each: radial.power[3]", study},
         {"--time-limit", "SECONDS", "",
          "for making a set, and for each measure of it; what takes longer fails", study},

@@ -51,21 +51,6 @@ std::uint64_t drawn_seed(std::uint64_t largest) {
     return bits % (std::min(largest, most_points - 1) + 1);
 }
 
-std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session& session) {
-    const auto text = arguments.get("seed");
-    if (!text) return 1;
-    if (*text == "random") {
-        const std::uint64_t seed = drawn_seed(largest);
-        session.warn(fmt::format("--seed {}", seed));
-        return seed;
-    }
-    const auto seed = parse_unsigned(*text);
-    if (!seed)
-        fail(ErrorKind::usage, "--seed: '{}' is not a whole number in [0, 2^64) or 'random'",
-             *text);
-    return *seed;
-}
-
 Request request_of(const Arguments& arguments) {
     Request request;
     request.count = arguments.integer("count", 1, most_points);
@@ -110,6 +95,21 @@ std::string command_of(const Arguments& arguments, const Generator& generator,
 }
 
 }  // namespace
+
+std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session& session) {
+    const auto text = arguments.get("seed");
+    if (!text) return 1;
+    if (*text == "random") {
+        const std::uint64_t seed = drawn_seed(largest);
+        session.warn(fmt::format("--seed {}", seed));
+        return seed;
+    }
+    const auto seed = parse_unsigned(*text);
+    if (!seed)
+        fail(ErrorKind::usage, "--seed: '{}' is not a whole number in [0, 2^64) or 'random'",
+             *text);
+    return *seed;
+}
 
 Target target_of(const Arguments& arguments) {
     Target target;

@@ -35,10 +35,12 @@ std::uint64_t launched_ranks() {
 }
 
 /// What was typed, with what the configuration says where nothing was typed.
-Arguments with_config(const Arguments& typed, const RunContext& run) {
+Arguments with_config(const Arguments& typed, std::uint64_t ranks, const RunContext& run) {
     Arguments all = typed;
     const auto path = typed.get("config");
     if (!path) return all;
+    if (*path == "-" && ranks > 1)
+        fail(ErrorKind::usage, "--config: the ranks have no standard input; name a file");
     const io::Input input(*path, run);
     for (auto& [name, text] : parse_study_config(input.bytes(), *path == "-" ? "stdin" : *path))
         if (!typed.has(name)) {
@@ -83,13 +85,15 @@ std::optional<double> real_of(const Arguments& arguments, const char* name, doub
     return value;
 }
 
-SweepRequest request_of(const Arguments& arguments) {
+SweepRequest request_of(const Arguments& arguments, const Ranks& ranks, Session& session) {
     SweepRequest request;
     request.generators = specs_of(arguments, "generators");
     request.measures = specs_of(arguments, "analyze");
     request.counts = numbers_of(arguments, "count", 1024, std::uint64_t{1} << 53);
     request.dimensions = numbers_of(arguments, "dimension", 2, 1'000'000);
-    request.first_seed = arguments.integer("seed", 0, ~std::uint64_t{0}).value_or(1);
+    if (ranks.size() > 1 && arguments.get("seed") == "random")
+        fail(ErrorKind::usage, "--seed: every rank would draw another one; give a number");
+    request.first_seed = seed_of(arguments, ~std::uint64_t{0}, session);
     request.seeds = arguments.integer("seeds", 1, std::uint64_t{1} << 53).value_or(1);
     request.warps = arguments.all("warp");
     if (const auto keys = arguments.get("keys"))
@@ -172,7 +176,7 @@ class Study {
         : arguments_(arguments),
           session_(session),
           ranks_(ranks),
-          sweep_(request_of(arguments)),
+          sweep_(request_of(arguments, ranks, session)),
           path_(arguments.get("output").value_or("-")),
           table_(style_of(arguments, path_), sweep_.request().seconds),
           summary_options_(summary_options(arguments, sweep_.request().first_seed)),
@@ -222,7 +226,7 @@ class Study {
         }
         const auto means = summary_.means(table_.style(), summary_options_);
         const auto pairs = summary_.comparisons(table_.style(), summary_options_);
-        if (path_ == "-") {
+        if (file.is_stream()) {
             const char* gap = table_.style() == StudyTable::Style::csv ? "\n" : "";
             file.finish(gap + means + (pairs.empty() ? "" : gap + pairs));
             return;
@@ -274,7 +278,7 @@ int study(const Arguments& arguments, Session& session) {
         fail_with_hint(ErrorKind::usage, "build with -DSTIPPLE_MPI=ON, or start one process",
                        "study: an MPI launcher started {} processes, and this build has no MPI",
                        launched);
-    const Arguments all = with_config(arguments, session.run());
+    const Arguments all = with_config(arguments, launched, session.run());
     const auto ranks = launched > 1 ? join_ranks() : std::make_unique<Ranks>();
     return Study(all, session, *ranks).go();
 }

@@ -24,6 +24,9 @@ int completions(const Arguments& arguments, const std::vector<Kind>& kinds);
 /// What `generate` was asked to make.
 Production production_of(const Arguments& arguments, Session& session);
 
+/// --seed, or one that is drawn and told, at most `largest`. @throws Error(usage)
+std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session& session);
+
 /// Where points go, as -o, -f, --dtype, --precision, --meta and --no-header say.
 Target target_of(const Arguments& arguments);
 

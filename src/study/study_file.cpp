@@ -85,10 +85,10 @@ StudyFile::StudyFile(std::string path, const Sweep& sweep, const StudyTable& tab
     const bool exists = path_ != "-" && ::stat(path_.c_str(), &status) == 0;
     if (exists && S_ISDIR(status.st_mode))
         fail(ErrorKind::io, "{}: is a folder, not a file", path_);
-    const bool stream = path_ == "-" || (exists && !S_ISREG(status.st_mode));
-    if (stream && resume)
+    stream_ = path_ == "-" || (exists && !S_ISREG(status.st_mode));
+    if (stream_ && resume)
         fail(ErrorKind::usage, "--resume: needs a file; name the one to go on with by -o");
-    stream ? open_stream() : open_file(resume);
+    stream_ ? open_stream() : open_file(resume);
 }
 
 StudyFile::~StudyFile() {

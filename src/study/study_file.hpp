@@ -47,6 +47,8 @@ class StudyFile {
     /// Units that need not be done.
     [[nodiscard]] const UnitSet& done() const { return done_; }
     [[nodiscard]] std::uint64_t units_written() const { return next_; }
+    /// Whether rows go to standard output, a pipe or a device.
+    [[nodiscard]] bool is_stream() const { return stream_; }
     [[nodiscard]] bool has_journal() const { return journal_ >= 0; }
 
     /// Takes units that were done. False: the pipe was closed, and nobody wants more.
@@ -83,6 +85,7 @@ class StudyFile {
     int output_ = -1;
     int journal_ = -1;
     bool owned_ = false;
+    bool stream_ = false;
     std::uint64_t journal_size_ = 0;
     UnitSet done_;
     std::uint64_t next_ = 0;            ///< unit whose rows come next

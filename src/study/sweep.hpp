@@ -24,17 +24,17 @@ namespace stipple {
 
 /// A study as somebody writes it down.
 struct SweepRequest {
-    std::vector<std::string> generators;  ///< specs
+    std::vector<std::string> generators = {};  ///< specs
     std::vector<std::uint64_t> counts = {1024};
     std::vector<std::uint64_t> dimensions = {2};
     std::uint64_t first_seed = 1;
     std::uint64_t seeds = 1;
-    std::vector<std::string> measures;  ///< specs of analyzers
-    std::vector<std::string> warps;
-    std::vector<std::string> keys;     ///< results to keep; empty: all numbers
-    bool curves = false;               ///< keep lists of numbers, too
-    std::optional<double> time_limit;  ///< seconds for making a set, and for each measure
-    bool seconds = true;               ///< rows tell how long they took
+    std::vector<std::string> measures = {};  ///< specs of analyzers
+    std::vector<std::string> warps = {};
+    std::vector<std::string> keys = {};     ///< results to keep; empty: all numbers
+    bool curves = false;                    ///< keep lists of numbers, too
+    std::optional<double> time_limit = {};  ///< seconds for making a set, and for each measure
+    bool seconds = true;                    ///< rows tell how long they took
 };
 
 /// A unit with its options, as rows name it.

@@ -159,11 +159,16 @@ void add_numbers(const Report& report, const std::string& path, std::vector<Keye
     }
 }
 
-/// Whether a key is meant by NAME, NAME[I] or the group that it is in.
+/// Whether a part of a key between dots is meant: centered.value by value, by centered, by both;
+/// mean[0] by mean.
 bool is_meant(const std::string& key, const std::vector<std::string>& wanted) {
     return std::ranges::any_of(wanted, [&](const std::string& w) {
-        return key.starts_with(w) &&
-               (key.size() == w.size() || key[w.size()] == '.' || key[w.size()] == '[');
+        for (auto at = key.find(w); at != std::string::npos; at = key.find(w, at + 1)) {
+            const std::size_t end = at + w.size();
+            const bool begins = at == 0 || key[at - 1] == '.';
+            if (begins && (end == key.size() || key[end] == '.' || key[end] == '[')) return true;
+        }
+        return false;
     });
 }
 

@@ -59,7 +59,8 @@ class UnitRunner {
 std::vector<std::string> measures_before_warps(const Sweep& sweep, const RunContext& run);
 
 /// A report's numbers in order, under dotted keys, flags as 0 and 1. Lists of numbers as NAME[I]:
-/// with `curves`, or where there is nothing else. With `keys` (NAME, NAME[I], or a group), those.
+/// with `curves`, or where there is nothing else. With `keys`, those of which a key is a part, from
+/// dot to dot: value is in centered.value, mean in mean[0].
 struct KeyedNumber {
     std::string key;
     double value = 0;

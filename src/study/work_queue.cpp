@@ -51,7 +51,9 @@ WorkQueue::WorkQueue(const Sweep& sweep, UnitSet done, std::size_t workers)
         cuts_.push_back(cut_of(cell, grain));
         pieces_left_ += cuts_.back().pieces;
     }
-    std::ranges::stable_sort(cuts_, std::ranges::greater{}, &Cut::cost);
+    std::ranges::stable_sort(cuts_, std::ranges::greater{}, [&](const Cut& cut) {
+        return cut.cost > 1.001 * grain ? cut.cost : 0;
+    });
 }
 
 WorkQueue::Cut WorkQueue::cut_of(std::uint64_t index, double grain) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// A study cut into pieces of work by their cost, the dearest first.
+// A study cut into pieces of work by their cost: first those that take long however they are cut,
+// the dearest of them first, so that none is left over when all others are done; then the rest in
+// the order of the study, so that rows can be written soon.
 //
 // A piece is some sets of one cell or, where one set is dear and its measures cost more than it to
 // make it again, some of a set's measures. Pieces take at most about a second where that can be, so

@@ -92,6 +92,7 @@ TEST(NumbersOf, FlattensNumbersAndLeavesListsOutUnlessAsked) {
               "value box.corner[1] ");
     EXPECT_EQ(keys_of(numbers_of(report, {"box"}, false)),
               "box.points box.corner[0] box.corner[1] ");
+    EXPECT_EQ(keys_of(numbers_of(report, {"points"}, false)), "box.points ");
     EXPECT_EQ(keys_of(numbers_of(report, {"val"}, false)), "");
     Report lists;
     lists.add("mean", Report::Curve{1, 2});
