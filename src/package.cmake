@@ -50,10 +50,11 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # For programs that are built with the library.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
     "libfmt-dev, nlohmann-json3-dev, libtbb-dev, libpng-dev, libfftw3-dev, libmuparser-dev, pkg-config")
-set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "sample sets: made, warped onto domains, and judged
- Points for whatever samples a domain: random numbers, low-discrepancy sequences, nets, lattices and
- blue noise; maps of them onto other domains and densities; discrepancies, spectra, tests and
- distances that tell how even they are. A program for pipes, and the C++ library behind it.")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
+"Points for whatever samples a domain: random numbers, low-discrepancy
+sequences, nets, lattices and blue noise; maps of them onto other domains and
+densities; discrepancies, spectra, tests and distances that tell how even they
+are. A program for pipes, and the C++ library behind it.")
 set(CPACK_SOURCE_GENERATOR TGZ)
 set(CPACK_SOURCE_IGNORE_FILES "/[.]git(/|$)" "/build/")
 include(CPack)

@@ -149,14 +149,14 @@ so that what is below 1 stays below 1.
 
 Many files are one set with --concat, in their order:
 
-    stipple generate sobol -n 1000 --shard 0/2 -o part0.csv
-    stipple generate sobol -n 1000 --shard 1/2 -o part1.csv
+    stipple generate sobol -n 1024 --shard 0/2 -o part0.csv
+    stipple generate sobol -n 1024 --shard 1/2 -o part1.csv
     stipple convert --concat part0.csv part1.csv -o whole.csv
     stipple analyze moments --concat part0.csv part1.csv
 
-Where points come from is in the `meta` of json and jsonl. --meta puts it in lines `# key: value`
-on top of csv and txt, in comments of ply, in the metadata of svg, and, for npy, bin and psa,
-in a file FILE.meta.json beside (see 'stipple help reproducibility').
+Where points come from is in the `meta` of json and jsonl. --meta puts it in lines
+`# key: value` on top of csv and txt, in comments of ply, in the metadata of svg, and, for npy,
+bin and psa, in a file FILE.meta.json beside (see 'stipple help reproducibility').
 )";
 
 constexpr const char* reproducibility = 1 + R"(
@@ -182,12 +182,13 @@ the warps, cuts and scrambles of later commands after it:
     stipple warp disk blue.csv --meta --precision 6 -o disk.csv
     stipple reproduce disk.csv
 
-In `meta`, `command` is what was asked for; `options` also holds what was worked out, such as the
-radius that poisson-disk found. Files that points were made from (a density, a mesh, a table)
-are named under `inputs` with a fingerprint of their bytes, so that a changed one is noticed.
+In `meta`, `command` is what was asked for; `options` also holds what was worked out, such as
+the radius that poisson-disk found. Files that points were made from (a density, a mesh, a
+table) are named under `inputs` with a fingerprint of their bytes, so that a changed one is
+noticed.
 
-Every unit that makes or moves points has a stream version, 1 at first ('stipple list --json'). A
-release that changes the points that the same options and seed give raises it; points of a
+Every unit that makes or moves points has a stream version, 1 at first ('stipple list --json').
+A release that changes the points that the same options and seed give raises it; points of a
 later version than the first carry it under `stream_versions`, and `reproduce` says that the
 rules changed instead of that the points differ.
 

@@ -157,10 +157,10 @@ class JoinedStream final : public PointStream {
     std::size_t read(std::span<double> rows) override {
         const std::size_t d = dimension();
         std::size_t got = 0;
-        while (got < rows.size()) {
+        while (got < rows.size() && !ended_) {
             const std::size_t more = d * part_->read(rows.subspan(got));
             got += more;
-            if (more == 0 && !next_part()) break;
+            ended_ = more == 0 && !next_part();
         }
         count_ += got / d;
         return got / d;
@@ -225,6 +225,7 @@ class JoinedStream final : public PointStream {
     std::size_t at_ = 0;
     std::uint64_t count_ = 0;
     bool begun_ = false;
+    bool ended_ = false;
     bool shards_ = true;  ///< all files so far are the shards of one set
 };
 

@@ -22,52 +22,18 @@ void expect_whole(const Sandbox& box, const std::string& prefix) {
         EXPECT_TRUE(box.exists(prefix + "/" + file)) << file;
     EXPECT_THAT(box.read(prefix + "/share/doc/stipple/copyright"), HasSubstr("MIT License"));
     const std::string program = box.path().string() + "/" + prefix + "/bin/stipple";
-    EXPECT_EQ(good(box.shell(program + " generate halton -n 100 --start 1 | " + program +
-                             " analyze star-discrepancy --format csv | grep -c 0.05023")),
-              "1\n");
-    EXPECT_THAT(
-        good(box.shell("source " + prefix +
-                       "/share/bash-completion/completions/stipple; COMP_WORDS=(stipple gen); "
-                       "COMP_CWORD=1; _stipple; echo ${COMPREPLY[@]}")),
-        HasSubstr("generate"));
-    if (box.shell("command -v man").code == 0)
-        EXPECT_THAT(box.shell("MANPAGER=cat man " + prefix + "/share/man/man1/stipple.1.gz").out,
-                    HasSubstr("makes sample sets"));
-}
-
-}  // namespace
-
-TEST(Package, OfDebianAndAsArchiveIsWholeAndRuns) {
-    if (std::string(STIPPLE_SANITIZE) != "") GTEST_SKIP() << "the package is that of plain builds";
-    const Sandbox box;
-    if (box.shell("command -v dpkg-shlibdeps dpkg-deb").code != 0)
-        GTEST_SKIP() << "Debian's tools are not installed";
-    const Outcome made =
-        box.shell("cpack --config " STIPPLE_BINARY_DIR "/CPackConfig.cmake -B made");
-    ASSERT_EQ(made.code, 0) << made.out << made.err;
-    ASSERT_EQ(box.shell("mkdir deb tar && dpkg -x made/*.deb deb && tar -xzf made/*.tar.gz -C tar "
-                        "--strip-components=1")
-                  .code,
-              0);
-    expect_whole(box, "deb/usr");
-    expect_whole(box, "tar");
-    const std::string control = good(box.shell("dpkg-deb --field made/*.deb"));
-    EXPECT_THAT(control, HasSubstr("Package: stipple"));
-    for (const char* library : {"libc6", "libfftw3-double3", "libfmt9", "libtbb12", "libpng16-16"})
-        EXPECT_THAT(control, HasSubstr(library));
+    // 6511/129600, known by hand.
+    EXPECT_THAT(good(box.shell(program + " generate halton -n 100 --start 1 | " + program +
+                               " analyze star-discrepancy --format csv")),
+                HasSubstr("0.05023"));
     EXPECT_THAT(good(box.shell("dpkg-deb --contents made/*.deb")),
                 HasSubstr("-rwxr-xr-x root/root"));
 }
 
 // dpkg itself puts it down, into a system of its own that knows no other package.
-TEST(Package, IsInstalledAndRemovedByDpkg) {
-    if (std::string(STIPPLE_SANITIZE) != "") GTEST_SKIP() << "the package is that of plain builds";
-    const Sandbox box;
-    if (box.shell("command -v dpkg-shlibdeps && test $(id -u) = 0").code != 0)
-        GTEST_SKIP() << "needs Debian's tools, and root";
-    ASSERT_EQ(
-        box.shell("cpack -G DEB --config " STIPPLE_BINARY_DIR "/CPackConfig.cmake -B made").code,
-        0);
+/// dpkg itself puts it down, into a system of its own that knows no other package, and takes it
+/// away.
+void expect_that_dpkg_takes_it(const Sandbox& box) {
     const std::string dpkg =
         "mkdir -p root/var/lib/dpkg/info root/var/lib/dpkg/updates && touch "
         "root/var/lib/dpkg/status && dpkg --root=$PWD/root --force-depends "
@@ -77,4 +43,29 @@ TEST(Package, IsInstalledAndRemovedByDpkg) {
     EXPECT_THAT(good(box.shell("root/usr/bin/stipple --version")), HasSubstr("stipple "));
     ASSERT_EQ(box.shell(dpkg + "--remove stipple").code, 0);
     EXPECT_FALSE(box.exists("root/usr/bin/stipple"));
+}
+
+}  // namespace
+
+TEST(Package, OfDebianAndAsArchiveIsWholeAndRuns) {
+    if (std::string(STIPPLE_SANITIZE) != "") GTEST_SKIP() << "the package is that of plain builds";
+    const Sandbox box;
+    if (box.shell("command -v dpkg-shlibdeps && command -v dpkg-deb").code != 0)
+        GTEST_SKIP() << "Debian's tools are not installed";
+    const Outcome made =
+        box.shell("cpack --config " STIPPLE_BINARY_DIR "/CPackConfig.cmake -B made");
+    ASSERT_EQ(made.code, 0) << made.out << made.err;
+    const Outcome unpacked = box.shell(
+        "mkdir deb tar && dpkg -x made/*.deb deb && tar -xzf made/*.tar.gz -C tar "
+        "--strip-components=1");
+    ASSERT_EQ(unpacked.code, 0) << unpacked.err;
+    expect_whole(box, "deb/usr");
+    expect_whole(box, "tar");
+    const std::string control = good(box.shell("dpkg-deb --field made/*.deb"));
+    EXPECT_THAT(control, HasSubstr("Package: stipple"));
+    for (const char* library : {"libc6", "libfftw3", "libfmt", "libtbb", "libpng"})
+        EXPECT_THAT(control, HasSubstr(library));
+    EXPECT_THAT(good(box.shell("dpkg-deb --contents made/*.deb")),
+                HasSubstr("-rwxr-xr-x root/root"));
+    if (box.shell("test $(id -u) = 0").code == 0) expect_that_dpkg_takes_it(box);
 }

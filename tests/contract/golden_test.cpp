@@ -42,9 +42,9 @@ Settings needed_by(const std::string& name) {
 /// Of the first set; fewer where a point takes much longer than elsewhere.
 std::uint64_t many_of(const std::string& name) {
     static const std::map<std::string, std::uint64_t> slow = {
-        {"capacity-constrained", 256}, {"farthest-point", 1000},
-        {"gaussian-blue-noise", 1000}, {"lloyd", 1000},
-        {"sample-elimination", 2000},  {"void-and-cluster", 1024}};
+        {"capacity-constrained", 256}, {"best-candidate", 4000}, {"farthest-point", 200},
+        {"gaussian-blue-noise", 1000}, {"lloyd", 1000},          {"sample-elimination", 2000},
+        {"void-and-cluster", 1024}};
     const auto it = slow.find(name);
     return it == slow.end() ? 10'000 : it->second;
 }
@@ -66,7 +66,7 @@ std::vector<Settings> variants(const Schema& schema, const Settings& needed) {
         const auto given = std::ranges::any_of(
             needed, [&](const auto& setting) { return setting.first == option.name; });
         auto words = option.choices;
-        if (option.type == "flag") words = {"true"};
+        if (option.type == "flag" && option.name != "invert") words = {"true"};
         for (const std::string& word : words) {
             if (given || (!option.optional && format_value(option.fallback) == word)) continue;
             all.push_back(needed);
@@ -111,10 +111,16 @@ std::vector<std::string> lines_of(const Generator& unit) {
     const Settings needed = needed_by(unit.name);
     add(needed, many_of(unit.name), 2, 1);
     add(needed, std::min<std::uint64_t>(many_of(unit.name), 1024), 2, 987654321);
-    if (traits.max_dimension > 2) add(needed, 256, 5, 1);
+    // 729 = 9^3 = 27^2: grids and arrays have as many.
+    if (traits.max_dimension > 2) add(needed, traits.sequence ? 729 : 200, 3, 1);
     for (const Settings& settings : variants(unit.options, needed))
         if (settings != needed)
             add(settings, std::min<std::uint64_t>(many_of(unit.name), 1024), 2, 3);
+    const auto options = unit.options.names();
+    if (std::ranges::find(options, "density") == options.end()) return lines;
+    Settings dense = needed;
+    dense.emplace_back("density", needed_options("image")[0].second);
+    add(dense, 200, 2, 4);
     return lines;
 }
 
