@@ -167,7 +167,7 @@ TEST(Plot, DarkIsDark) {
 
 TEST(Plot, RefusesWhatIsNoPictureAndLeavesNoFile) {
     const Sandbox box;
-    box.write("p.csv", "x,y\n0.1,0.2\n0.3,0.4\n");
+    good(box.shell("stipple generate random -n 100 -o p.csv"));
     box.write("bad.csv", "x,y\n0.1,zero\n");
     box.write("empty.json", "[]");
     box.write("none.json", "");
