@@ -295,12 +295,8 @@ const std::vector<VerbInfo>& verbs() {
          "  stipple generate halton -n 2000 -f json | stipple plot\n"
          "  stipple plot points.csv --domain disk -o points.svg\n"
          "  stipple plot points.csv --chart spectrum -o spectrum.png --theme dark\n"
-         "  stipple generate jittered -n 4096 -m 10 -f json | stipple analyze periodogram "
-         "--average "
-         "|\n"
-         "      stipple plot -o power.svg\n"
-         "  stipple analyze star-discrepancy halton.csv sobol.csv --every 64 | stipple plot -o "
-         "star.svg\n"},
+         "  stipple analyze periodogram a.csv b.csv | stipple plot -o power.svg\n"
+         "  stipple analyze star-discrepancy a.csv b.csv --every 64 | stipple plot -o star.svg\n"},
         {Verb::study, "study",
          "stipple study --generators SPECS -n COUNTS --seeds R --analyze SPECS [OPTIONS]",
          "compares generators over counts, seeds and measures: one tidy table, with statistics",

@@ -260,10 +260,9 @@ class Plot {
         std::vector<const PointSet*> sets;
         for (const Loaded& set : sets_) sets.push_back(&set.points);
         Chart chart = distance_chart(sets, names(), session_.run());
-        if (sets_.size() == 1) {
+        if (!different_titles())
             chart.title += " of " + title_of_points(sets_[0].points, sets_[0].source);
-            chart.subtitle = subtitle_of(sets_[0]);
-        }
+        if (sets_.size() == 1) chart.subtitle = subtitle_of(sets_[0]);
         return drawn(chart);
     }
 

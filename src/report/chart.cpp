@@ -42,7 +42,9 @@ Axis x_axis(const std::vector<ChartPanel>& panels, const PictureStyle& style) {
         for (const Bars& bars : panel.bars) span.take(bars.edges);
         span.take(panel.rug);
     }
-    return {.low = span.low,
+    // What begins next to zero begins there.
+    const bool near_zero = !span.log && span.low > 0 && span.low < 0.04 * span.high;
+    return {.low = near_zero ? 0 : span.low,
             .high = span.high,
             .log = span.log,
             .whole = last.whole_x,
@@ -65,6 +67,7 @@ Axis y_axis(const ChartPanel& panel, const PictureStyle& style) {
                 !(std::abs(y - span.low) > 4 * reach && reach > 0 && !span.log))
                 span.take(y);
     if (panel.from_zero && !span.log) span.take(0);
+    if (!span.log) span.take(panel.reach_y);
     Axis axis{.low = span.low, .high = span.high, .log = span.log, .name = panel.y_name};
     axis.mend();
     if (axis.log) {
@@ -96,7 +99,7 @@ std::vector<LegendEntry> legend_of(const ChartPanel& panel, bool sets_named, con
                            .colour = theme.series_colour(i),
                            .dash = dash_of(i)});
     for (std::size_t i = 0; named && i < panel.bars.size(); ++i)
-        entries.push_back({.kind = LegendEntry::Kind::box,
+        entries.push_back({.kind = LegendEntry::Kind::line,
                            .name = panel.bars[i].name,
                            .colour = theme.series_colour(i)});
     if (entries.size() > most_entries) {
@@ -176,8 +179,20 @@ void draw_guide(Drawing& drawing, const Panel& panel, const Guide& guide, Colour
     drawing.add(std::move(line));
 }
 
-void draw_bars(Drawing& drawing, const Panel& panel, const Bars& bars, Colour colour,
-               double opacity) {
+/// The bars' upper rim, where several histograms lie over each other.
+void draw_steps(Drawing& drawing, const Panel& panel, const Bars& bars, Colour colour) {
+    const double ground = panel.frame().bottom();
+    Line rim{.spots = {{panel.x(bars.edges[0]), ground}}, .colour = colour, .width = 1.6};
+    for (std::size_t i = 0; i < bars.heights.size(); ++i) {
+        const double top = std::min(panel.y(bars.heights[i]), ground);
+        rim.spots.push_back({panel.x(bars.edges[i]), top});
+        rim.spots.push_back({panel.x(bars.edges[i + 1]), top});
+    }
+    rim.spots.push_back({panel.x(bars.edges.back()), ground});
+    drawing.add(std::move(rim));
+}
+
+void draw_bars(Drawing& drawing, const Panel& panel, const Bars& bars, Colour colour) {
     const double ground = panel.frame().bottom();
     for (std::size_t i = 0; i < bars.heights.size(); ++i) {
         const double left = panel.x(bars.edges[i]);
@@ -186,12 +201,7 @@ void draw_bars(Drawing& drawing, const Panel& panel, const Bars& bars, Colour co
         const double space = right - left > 4 ? 0.5 : 0;
         const double top = panel.y(bars.heights[i]);
         if (!(top < ground)) continue;
-        drawing.add(Patch{.spots = {{left + space, top},
-                                    {right - space, top},
-                                    {right - space, ground},
-                                    {left + space, ground}},
-                          .colour = colour,
-                          .opacity = opacity});
+        drawing.rectangle({left + space, top, right - left - 2 * space, ground - top}, colour);
     }
 }
 
@@ -227,9 +237,11 @@ void draw_panel(Drawing& drawing, const ChartPanel& content, const Panel& panel,
     drawing.add(Window{.area = {f.left, f.top - 3, f.width + 3, f.height + 3}});
     for (const Background& band : content.backgrounds)
         draw_band(drawing, panel, band.x, band.low, band.high, theme.band, 1);
-    const double opacity = content.bars.size() > 1 ? 0.55 : 1;
-    for (std::size_t i = 0; i < content.bars.size(); ++i)
-        draw_bars(drawing, panel, content.bars[i], theme.series_colour(i), opacity);
+    const bool several = content.bars.size() > 1;
+    for (std::size_t i = 0; !several && i < content.bars.size(); ++i)
+        draw_bars(drawing, panel, content.bars[i], theme.series_colour(i));
+    for (std::size_t i = 0; several && i < content.bars.size(); ++i)
+        draw_steps(drawing, panel, content.bars[i], theme.series_colour(i));
     for (std::size_t i = 0; i < content.series.size(); ++i)
         draw_band(drawing, panel, content.series[i].x, content.series[i].low,
                   content.series[i].high, theme.series_colour(i), 0.25);
@@ -262,7 +274,7 @@ std::vector<Spot> legend_places(const std::vector<LegendEntry>& entries, double 
 }  // namespace
 
 double legend_height(const std::vector<LegendEntry>& entries, double width) {
-    return entries.empty() ? 0 : legend_places(entries, width).back().y + legend_row;
+    return entries.empty() ? 0 : legend_places(entries, width).back().y + legend_row + 5;
 }
 
 void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Spot top_left,
@@ -298,11 +310,13 @@ double draw_title(Drawing& drawing, const std::string& title, const std::string&
     const auto put = [&](const std::string& text, double size, bool bold, Colour colour) {
         if (text.empty()) return;
         // Bold letters are a little wider.
-        drawing.add(Label{.text = shortened_to(text, bold ? 1.08 * size : size, width),
-                          .at = {margin, y + 0.8 * size},
-                          .size = size,
-                          .colour = colour,
-                          .bold = bold});
+        const double sized = bold ? 1.08 * size : size;
+        drawing.add(
+            Label{.text = bold ? shortened_to(text, sized, width) : cut_to(text, sized, width),
+                  .at = {margin, y + 0.8 * size},
+                  .size = size,
+                  .colour = colour,
+                  .bold = bold});
         y += 1.45 * size;
     };
     put(first, 15, true, style.theme->ink);

@@ -70,6 +70,8 @@ struct ChartPanel {
     bool whole_x = false;
     bool from_zero = false;      ///< the y axis starts there
     bool colours_by_set = true;  ///< curve i of every panel belongs to the same set
+    double reach_y =
+        -std::numeric_limits<double>::infinity();  ///< a linear y axis goes up to it at least
     double least_y = -std::numeric_limits<double>::infinity();  ///< the axis shows no less
     double share = 1;  ///< of the height, relative to the other panels'
 };

@@ -75,49 +75,34 @@ class Tracer {
         return inside_at(edge.i, edge.j) ? rim_between(a, b) : rim_between(b, a);
     }
 
-    /// Notes how the rim goes through a cell, with the inside on its left.
+    /// Notes how the rim goes through a cell, with the inside on its left: from which side to which
+    /// other one (0 bottom, 1 right, 2 top, 3 left), by the corners that are inside.
     void cross_cell(std::size_t i, std::size_t j) {
-        const Edge bottom{i, j, 0};
-        const Edge right{i + 1, j, 1};
-        const Edge top{i, j + 1, 0};
-        const Edge left{i, j, 1};
-        const int corners = (inside_at(i, j) ? 1 : 0) + (inside_at(i + 1, j) ? 2 : 0) +
-                            (inside_at(i + 1, j + 1) ? 4 : 0) + (inside_at(i, j + 1) ? 8 : 0);
-        const auto go = [this](const Edge& from, const Edge& to) { next_.emplace(from, to); };
-        switch (corners) {
-            case 1:
-                return go(bottom, left);
-            case 2:
-                return go(right, bottom);
-            case 3:
-                return go(right, left);
-            case 4:
-                return go(top, right);
-            case 5:
-                go(bottom, left);
-                return go(top, right);
-            case 6:
-                return go(top, bottom);
-            case 7:
-                return go(top, left);
-            case 8:
-                return go(left, top);
-            case 9:
-                return go(bottom, top);
-            case 10:
-                go(right, bottom);
-                return go(left, top);
-            case 11:
-                return go(right, top);
-            case 12:
-                return go(left, right);
-            case 13:
-                return go(bottom, right);
-            case 14:
-                return go(left, bottom);
-            default:
-                return;
-        }
+        struct Way {
+            std::size_t from;
+            std::size_t to;
+        };
+        static const std::array<std::vector<Way>, 16> ways = {{{},
+                                                               {{0, 3}},
+                                                               {{1, 0}},
+                                                               {{1, 3}},
+                                                               {{2, 1}},
+                                                               {{0, 3}, {2, 1}},
+                                                               {{2, 0}},
+                                                               {{2, 3}},
+                                                               {{3, 2}},
+                                                               {{0, 2}},
+                                                               {{1, 0}, {3, 2}},
+                                                               {{1, 2}},
+                                                               {{3, 1}},
+                                                               {{0, 1}},
+                                                               {{3, 0}},
+                                                               {}}};
+        const std::array<Edge, 4> sides = {{{i, j, 0}, {i + 1, j, 1}, {i, j + 1, 0}, {i, j, 1}}};
+        const std::size_t corners = (inside_at(i, j) ? 1U : 0U) + (inside_at(i + 1, j) ? 2U : 0U) +
+                                    (inside_at(i + 1, j + 1) ? 4U : 0U) +
+                                    (inside_at(i, j + 1) ? 8U : 0U);
+        for (const Way& way : ways[corners]) next_.emplace(sides[way.from], sides[way.to]);
     }
 
     std::vector<Spot> follow() {

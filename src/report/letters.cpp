@@ -352,4 +352,18 @@ std::string shortened_to(const std::string& text, double size, double width) {
     return out;
 }
 
+std::string cut_to(const std::string& text, double size, double width) {
+    if (text_width(text, size) <= width) return text;
+    std::u32string letters = letters_of(text);
+    std::string out;
+    while (!letters.empty()) {
+        letters.pop_back();
+        out.clear();
+        for (const char32_t letter : letters) append_utf8(out, letter);
+        out += "…";
+        if (text_width(out, size) <= width) break;
+    }
+    return out;
+}
+
 }  // namespace stipple

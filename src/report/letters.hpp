@@ -34,7 +34,10 @@ std::vector<std::vector<Spot>> strokes_of(char32_t letter);
 /// Width of a line of text of that size.
 double text_width(std::string_view text, double size);
 
-/// The text, or as much of its end as fits into the width, after "…".
+/// The text, or as much of its end as fits into the width, after "…": of a path, its file.
 std::string shortened_to(const std::string& text, double size, double width);
+
+/// The text, or as much of its front as fits, before "…".
+std::string cut_to(const std::string& text, double size, double width);
 
 }  // namespace stipple

@@ -16,11 +16,18 @@ constexpr double small_mark = 2;  ///< between them
 constexpr double gap = 10;        ///< at least, between numbers side by side
 constexpr double capital = 0.714 * number_size;
 
+/// The middle of a number's text, that many units from the axis's start.
+double middle_of(const Axis& axis, const Tick& tick, double length) {
+    const double at = axis.share(tick.value) * length;
+    const double half = text_width(tick.text, number_size) / 2;
+    return axis.tight && length > 2 * half ? std::clamp(at, half, length - half) : at;
+}
+
 /// Whether numbers side by side keep their distance.
 bool fit(const Axis& axis, const Ticks& ticks, double length) {
     double end = -1e9;
     for (const Tick& tick : ticks.numbers) {
-        const double middle = axis.share(tick.value) * length;
+        const double middle = middle_of(axis, tick, length);
         const double half = text_width(tick.text, number_size) / 2;
         if (middle - half < end + gap) return false;
         end = middle + half;
@@ -105,11 +112,13 @@ void Panel::draw_x(Drawing& drawing, const Theme& theme) const {
     const double bottom = frame_.bottom();
     for (const double value : x_ticks_.minor)
         drawing.line({x(value), bottom}, {x(value), bottom + small_mark}, theme.frame);
-    for (const auto& [value, text] : x_ticks_.numbers) {
-        drawing.line({x(value), bottom}, {x(value), bottom + mark}, theme.frame);
+    for (const Tick& tick : x_ticks_.numbers) {
+        const double at = x(tick.value);
+        drawing.line({at, bottom}, {at, bottom + mark}, theme.frame);
+        const double middle = frame_.left + middle_of(x_, tick, frame_.width);
         if (x_.numbers)
-            drawing.add(Label{.text = text,
-                              .at = {x(value), bottom + mark + 4 + capital},
+            drawing.add(Label{.text = tick.text,
+                              .at = {middle, bottom + mark + 4 + capital},
                               .size = number_size,
                               .colour = theme.words,
                               .anchor = Anchor::middle});
@@ -132,8 +141,10 @@ void Panel::draw_y(Drawing& drawing, const Theme& theme) const {
     for (const auto& [value, text] : y_ticks_.numbers) {
         drawing.line({left - mark, y(value)}, {left, y(value)}, theme.frame);
         if (!y_.numbers) continue;
+        double base = y(value) + capital / 2;
+        if (y_.tight) base = std::clamp(base, frame_.top + capital, frame_.bottom());
         drawing.add(Label{.text = text,
-                          .at = {left - mark - 4, y(value) + capital / 2},
+                          .at = {left - mark - 4, base},
                           .size = number_size,
                           .colour = theme.words,
                           .anchor = Anchor::end});
@@ -141,7 +152,7 @@ void Panel::draw_y(Drawing& drawing, const Theme& theme) const {
     }
     const std::string name = full_name(y_, y_ticks_);
     if (!y_.numbers || name.empty()) return;
-    drawing.add(Label{.text = name,
+    drawing.add(Label{.text = cut_to(name, name_size, frame_.height + 6),
                       .at = {left - mark - 4 - widest - 9, frame_.top + frame_.height / 2},
                       .size = name_size,
                       .colour = theme.ink,

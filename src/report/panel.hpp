@@ -21,6 +21,7 @@ struct Axis {
     bool whole = false;     ///< numbers are whole
     std::string name = {};  ///< empty: none
     bool numbers = true;    ///< false: marks only, where the panel below has them
+    bool tight = false;     ///< numbers stay within the frame, where another one is beside it
 
     /// Numbers that fit along so many units: side by side, or one above the other.
     [[nodiscard]] Ticks ticks(double length, bool upright) const;

@@ -37,6 +37,11 @@ bool seed_matters(const Generator& generator, const Provenance& from) {
     }
 }
 
+/// "owen", "owen:depth=3": random, unlike a warp.
+bool is_scramble(const std::string& warp) {
+    return scramble_named(warp.substr(0, warp.find_first_of(":@"))) != nullptr;
+}
+
 }  // namespace
 
 std::string title_of_points(const PointSet& points, const std::string& source) {
@@ -53,7 +58,7 @@ std::string subtitle_of_points(const PointSet& points) {
     std::string text = fmt::format("{} point{}", points.count(), points.count() == 1 ? "" : "s");
     const Generator* generator = known_generator(from.generator);
     if (generator == nullptr) return text;
-    if (!from.warps.empty() || seed_matters(*generator, from))
+    if (std::ranges::any_of(from.warps, is_scramble) || seed_matters(*generator, from))
         text += fmt::format(", seed {}", from.seed);
     if (from.start > 0) text += fmt::format(", from index {}", from.start);
     for (const auto& [name, value] : from.options) {

@@ -58,6 +58,14 @@ bool frame_is_rim(const PointsPicture& picture) {
         picture.sets, [](const PointSet* set) { return is_box(*set) && !without_domain(*set); });
 }
 
+/// How much of its box a domain of the plane takes.
+double share_of_box(const PointSet& set) {
+    if (set.dimension() != 2 || without_domain(set)) return 1;
+    const Box box = set.domain->bounding_box();
+    const double share = set.domain->measure() / (box.extent(0) * box.extent(1));
+    return share > 0.02 && share < 1 ? share : 1;
+}
+
 /// Puts a point of a set at its place in the drawing.
 using Place = std::function<Spot(std::span<const double>)>;
 
@@ -85,7 +93,8 @@ class Cloud {
         const auto n = static_cast<double>(points_of(picture_));
         // Small pictures get somewhat larger disks than their share.
         const double radius = std::max(
-            0.6, 1.25 * unit * io::disk_radius(area.width * area.height / (unit * unit), n));
+            0.6,
+            1.25 * unit * io::disk_radius(share_ * area.width * area.height / (unit * unit), n));
         for (std::size_t s = 0; s < picture_.sets.size(); ++s) {
             const PointSet& set = *picture_.sets[s];
             Disks marks{.centres = {}, .radius = radius, .colour = theme_.series_colour(s)};
@@ -159,6 +168,7 @@ class Cloud {
     const PointsPicture& picture_;
     const Theme& theme_;
     const RunContext& run_;
+    double share_ = share_of_box(*picture_.sets[0]);  ///< of the frame, where there are points
 };
 
 /// The numbers beside a bar of counts from 0 to the largest.
@@ -348,7 +358,7 @@ void draw_layers(Drawing& drawing, const PointsPicture& picture, const Scene& sc
                  const Theme& theme, double side) {
     constexpr std::size_t layers = 10;
     const auto n = static_cast<double>(points_of(picture));
-    const double radius = std::clamp(0.2 * side / std::cbrt(std::max(n, 1.0)) * 0.55, 0.7, 5.0);
+    const double radius = std::clamp(0.075 * side / std::cbrt(std::max(n, 1.0)), 0.7, 4.0);
     double near = -1e9;
     double far = 1e9;
     for (int bits = 0; bits < 8; ++bits) {
@@ -462,11 +472,13 @@ class PairSheet {
                           {.low = box_.low[i],
                            .high = box_.high[i],
                            .name = bottom ? names_[i] : "",
-                           .numbers = bottom},
+                           .numbers = bottom,
+                           .tight = true},
                           {.low = box_.low[j],
                            .high = box_.high[j],
                            .name = i == 0 ? names_[j] : "",
-                           .numbers = i == 0});
+                           .numbers = i == 0,
+                           .tight = true});
         const Place place = [&](std::span<const double> p) { return panel.at(p[i], p[j]); };
         if (!cloud_.as_disks()) cloud_.specks(page_.drawing, frame, place);
         panel.draw_axes(page_.drawing, theme_, true);

@@ -159,6 +159,7 @@ Chart spectrum_chart(Measurements ms) {
                      .backgrounds = noise_band(ms),
                      .guides = {{.name = {}, .x = {}, .y = {1}}},
                      .from_zero = true,
+                     .reach_y = 1.4,
                      .least_y = log_floor,
                      .share = 1.5};
     double top = 0;
@@ -187,7 +188,8 @@ Chart pair_correlation_chart(Measurements ms) {
                      .y_name = "pair correlation g",
                      .series = series_of(ms, "", "distance", "density"),
                      .guides = {{.name = {}, .x = {}, .y = {1}}},
-                     .from_zero = true};
+                     .from_zero = true,
+                     .reach_y = 1.4};
     if (panel.series.empty())
         fail(ErrorKind::input, "the report of pair-correlation has no curve density");
     const auto distance = curve_at(first.results, "distance");
@@ -218,11 +220,14 @@ bool rises(const Curve& curve) {
 
 /// Lists that others are drawn over, by their names.
 bool names_abscissa(const std::string& name) {
-    static const std::set<std::string> known = {
-        "count",  "distance", "frequency", "radius",  "window", "lag",       "size",       "length",
-        "time",   "x",        "n",         "valence", "sides",  "neighbors", "neighbours", "side",
-        "points", "edge",     "value_at",  "area",    "degree", "bin"};
+    static const std::set<std::string> known = {"count", "distance", "frequency", "lag",
+                                                "n",     "radius",   "neighbors", "window"};
     return known.contains(name);
+}
+
+/// Lists that say how sure others are, and are no curves of their own.
+bool names_weight(const std::string& name) {
+    return name == "cells" || name == "pairs" || name == "deviation";
 }
 
 struct CurveGroup {
@@ -259,14 +264,20 @@ void collect_groups(const Report& report, const std::string& prefix,
             collect_groups(*inner, prefix + entry.name + ".", found);
 }
 
-/// Bounds and deviations belong to another curve.
+bool has(const CurveGroup& group, const char* y) {
+    return std::ranges::find(group.ys, y) != group.ys.end();
+}
+
+/// Bounds, and what a variance is compared with, belong to another curve.
 bool accompanies(const CurveGroup& group, const std::string& y) {
-    const bool bound = y == "lower" || y == "upper";
-    return bound && std::ranges::find(group.ys, "value") != group.ys.end();
+    if (names_weight(y)) return true;
+    if (y == "lower" || y == "upper") return has(group, "value");
+    return y == "mean" && has(group, "variance");
 }
 
 std::string words_of(std::string name) {
     std::ranges::replace(name, '_', ' ');
+    std::ranges::replace(name, '-', ' ');
     std::ranges::replace(name, '.', ' ');
     return name;
 }
@@ -290,34 +301,64 @@ std::vector<Guide> slopes(const std::vector<Series>& all) {
     return guides;
 }
 
-/// Positive and over more than a decade: what is seen on a logarithmic axis only.
-bool wants_log(const std::vector<Series>& all, bool of_x) {
+bool positive(const std::vector<Series>& all) {
+    return std::ranges::none_of(all, [](const Series& series) {
+        return std::ranges::any_of(series.y, [](double y) { return y <= 0; });
+    });
+}
+
+/// Over more than a decade: what is seen on a logarithmic axis only.
+bool wants_log(const std::vector<Series>& all) {
     double low = std::numeric_limits<double>::infinity();
     double high = 0;
     for (const Series& series : all)
-        for (const double v : of_x ? series.x : series.y) {
-            if (!std::isfinite(v)) continue;
-            if (v <= 0) return false;
-            low = std::min(low, v);
-            high = std::max(high, v);
+        for (const double y : series.y) {
+            if (!std::isfinite(y)) continue;
+            low = std::min(low, y);
+            high = std::max(high, y);
         }
-    return high > 20 * low;
+    return high > 10 * low;
+}
+
+/// What independent points have, where it is the same for all.
+std::vector<Guide> references(Measurements ms, const CurveGroup& group, const std::string& y) {
+    if (y == "density" || y == "power" || y == "dispersion")
+        return {{.name = "independent points", .x = {}, .y = {1}}};
+    if (y == "anisotropy_db") return {noise_anisotropy(ms)};
+    if (y != "variance" || !has(group, "mean")) return {};
+    const auto x = curve_at(ms[0].results, group.prefix + group.x);
+    const auto mean = curve_at(ms[0].results, group.prefix + "mean");
+    return {{.name = "independent points: the mean", .x = *x, .y = *mean}};
+}
+
+/// Shares of small whole numbers are bars about them.
+void make_bars(ChartPanel& panel) {
+    for (Series& series : panel.series) {
+        Bars bars{.name = series.name, .edges = {}, .heights = series.y};
+        for (const double x : series.x) bars.edges.push_back(x - 0.5);
+        bars.edges.push_back(series.x.back() + 0.5);
+        panel.bars.push_back(std::move(bars));
+    }
+    panel.series.clear();
+    panel.from_zero = true;
+    panel.whole_x = true;
+    panel.log_x = panel.log_y = false;
 }
 
 ChartPanel curve_panel(Measurements ms, const CurveGroup& group, const std::string& y) {
     ChartPanel panel{.x_name = words_of(group.x),
                      .y_name = y == "value" ? words_of(ms[0].analyzer) : words_of(y),
-                     .series = series_of(ms, group.prefix, group.x, y)};
+                     .series = series_of(ms, group.prefix, group.x, y),
+                     .guides = references(ms, group, y)};
+    if (y == "anisotropy_db") panel.y_name = "anisotropy (dB)";
+    std::erase_if(panel.guides, [](const Guide& guide) { return guide.y.empty(); });
     const bool counts = group.x == "count" || group.x == "n";
     if (counts) panel.x_name = "points n";
-    panel.log_x = counts || wants_log(panel.series, true);
-    panel.log_y = panel.log_x && wants_log(panel.series, false);
-    if (counts)
-        panel.log_y = std::ranges::all_of(panel.series, [](const Series& s) {
-            return std::ranges::none_of(s.y, [](double v) { return v <= 0; });
-        });
+    panel.log_x = counts || y == "variance" || y == "dispersion";
+    panel.log_y = panel.log_x && (counts || wants_log(panel.series)) && positive(panel.series);
     for (Series& series : panel.series) series.marks = series.x.size() <= 40;
     if (counts && panel.log_y && !panel.series.empty()) panel.guides = slopes(panel.series);
+    if (group.x == "neighbors" && !panel.series.empty()) make_bars(panel);
     return panel;
 }
 
@@ -343,7 +384,7 @@ std::optional<Chart> curves_chart(Measurements ms, const std::string& key) {
             const bool fits = x.empty() || x == group.prefix + group.x;
             if (!wanted(group, y, key) || !fits || chart.panels.size() == most_panels) continue;
             ChartPanel panel = curve_panel(ms, group, y);
-            if (panel.series.empty()) continue;
+            if (panel.series.empty() && panel.bars.empty()) continue;
             x = group.prefix + group.x;
             chart.panels.push_back(std::move(panel));
         }
@@ -380,7 +421,7 @@ Chart number_over_count(Measurements ms, const std::string& key) {
                      .y_name = key == "value" ? words_of(ms[0].analyzer) : words_of(key),
                      .series = {std::move(series)},
                      .log_x = true};
-    panel.log_y = std::ranges::none_of(panel.series[0].y, [](double v) { return v <= 0; });
+    panel.log_y = positive(panel.series);
     if (panel.log_y) panel.guides = slopes(panel.series);
     Chart chart = titled(sentence_case(words_of(ms[0].analyzer)), ms);
     chart.panels.push_back(std::move(panel));
@@ -422,7 +463,8 @@ std::vector<std::string> drawable(Measurements ms) {
     collect_groups(ms[0].results, "", groups);
     std::vector<std::string> keys;
     for (const CurveGroup& group : groups)
-        for (const std::string& y : group.ys) keys.push_back(group.prefix + y);
+        for (const std::string& y : group.ys)
+            if (!accompanies(group, y)) keys.push_back(group.prefix + y);
     if (ms.size() == 1) return keys;
     for (const std::string& key : ms[0].results.keys())
         if (number_at(ms[0].results, key)) keys.push_back(key);

@@ -29,7 +29,7 @@ std::string number(double x) {
     return text == "-0" ? "0" : text;
 }
 
-/// Text as XML writes it.
+/// Text as XML writes it between tags.
 std::string escaped(const std::string& text) {
     std::string out;
     for (const char c : clean_text(text)) {
@@ -39,8 +39,6 @@ std::string escaped(const std::string& text) {
             out += "&gt;";
         else if (c == '&')
             out += "&amp;";
-        else if (c == '"')
-            out += "&quot;";
         else
             out += c;
     }

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: MIT
+//
+// The verb plot: points and reports in, whole pictures out, or none.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/program.hpp"
+
+using namespace stipple::testing;
+using ::testing::HasSubstr;
+
+namespace {
+
+/// Parses an SVG file; prints the number of elements of a kind, or all texts.
+std::string xml(const Sandbox& box, const std::string& file, const std::string& what) {
+    box.write("look.py",
+              "import sys, xml.etree.ElementTree as tree\n"
+              "root = tree.parse(sys.argv[1]).getroot()\n"
+              "found = list(root.iter('{http://www.w3.org/2000/svg}' + sys.argv[2]))\n"
+              "print(len(found) if sys.argv[2] != 'text' else '|'.join(e.text for e in found))\n");
+    return good(box.shell("/usr/bin/python3 look.py " + file + " " + what));
+}
+
+/// Takes a PNG file apart; prints its size, and what its text chunks say.
+std::string png(const Sandbox& box, const std::string& file) {
+    box.write("png.py",
+              "import struct, sys, zlib\n"
+              "data = open(sys.argv[1], 'rb').read()\n"
+              "assert data[:8] == b'\\x89PNG\\r\\n\\x1a\\n'\n"
+              "at, pixels = 8, b''\n"
+              "while at < len(data):\n"
+              "    size, kind = struct.unpack('>I4s', data[at:at + 8])\n"
+              "    body = data[at + 8:at + 8 + size]\n"
+              "    crc, = struct.unpack('>I', data[at + 8 + size:at + 12 + size])\n"
+              "    assert zlib.crc32(kind + body) == crc\n"
+              "    if kind == b'IHDR':\n"
+              "        width, height = struct.unpack('>II', body[:8])\n"
+              "        print(width, height)\n"
+              "    if kind == b'IDAT': pixels += body\n"
+              "    if kind == b'iTXt':\n"
+              "        print(body.replace(b'\\0', b' ').decode())\n"
+              "    at += 12 + size\n"
+              "assert len(zlib.decompress(pixels)) == height * (3 * width + 1)\n");
+    return good(box.shell("/usr/bin/python3 png.py " + file));
+}
+
+void expect_refusal(const Outcome& outcome, int code, const std::string& words) {
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_TRUE(outcome.err.starts_with("stipple: ")) << outcome.err;
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(words));
+}
+
+}  // namespace
+
+TEST(Plot, WritesSvgToAPipeWithAMarkForEachPoint) {
+    const Sandbox box;
+    box.write("p.svg",
+              good(box.shell("stipple generate random -n 200 --seed 5 -f json | stipple plot")));
+    EXPECT_EQ(xml(box, "p.svg", "circle"), "200\n");
+    EXPECT_THAT(xml(box, "p.svg", "text"), HasSubstr("random|200 points, seed 5|"));
+    EXPECT_THAT(box.read("p.svg"), HasSubstr("\"command\":\"stipple generate random --count 200"));
+}
+
+TEST(Plot, TakesEveryFormatThatIsRead) {
+    const Sandbox box;
+    for (const std::string format : {"csv", "txt", "json", "jsonl", "npy"}) {
+        good(box.shell("stipple generate halton -n 50 -f " + format + " -o p." + format +
+                       " && stipple plot p." + format + " --title '' -o " + format + ".svg"));
+        EXPECT_EQ(xml(box, format + ".svg", "circle"), "50\n") << format;
+    }
+    const std::string piped =
+        good(box.shell("stipple generate halton -n 50 -f npy | stipple plot --title ''"));
+    EXPECT_EQ(piped.substr(piped.find("</metadata>")),
+              box.read("npy.svg").substr(box.read("npy.svg").find("</metadata>")));
+}
+
+TEST(Plot, PngHasTheSizeAskedForAndSaysWhereItComesFrom) {
+    const Sandbox box;
+    good(
+        box.shell("stipple generate random -n 100 -f json -o p.json && "
+                  "stipple plot p.json -o p.png --width 300 --height 200 --theme dark && "
+                  "stipple plot p.json -o q.png --width 300 --height 200 --theme dark"));
+    const std::string found = png(box, "p.png");
+    EXPECT_TRUE(found.starts_with("300 200\n")) << found;
+    EXPECT_THAT(found, HasSubstr("\"generator\":\"random\""));
+    EXPECT_THAT(found, HasSubstr("stipple plot p.json"));
+    EXPECT_EQ(box.read("p.png"), box.read("q.png"));
+}
+
+TEST(Plot, DrawsReportsOfAnalyzers) {
+    const Sandbox box;
+    good(box.shell("stipple generate jittered -n 64 -m 3 -f json -o j.json"));
+    good(box.shell("stipple analyze periodogram j.json --average | stipple plot -o power.svg"));
+    EXPECT_THAT(xml(box, "power.svg", "text"),
+                HasSubstr("Power spectrum of 3 sets: j.json|n = 64, d = 2 · effective Nyquist"));
+    good(box.shell("stipple analyze pair-correlation j.json | stipple plot -o g.svg"));
+    EXPECT_THAT(xml(box, "g.svg", "text"), HasSubstr("j.json, set 2"));
+    good(box.shell("stipple analyze star-discrepancy j.json --every 8 | stipple plot -o d.svg"));
+    EXPECT_THAT(xml(box, "d.svg", "text"), HasSubstr("points n"));
+    good(box.shell("stipple analyze star-discrepancy j.json | stipple plot -o h.svg"));
+    EXPECT_THAT(xml(box, "h.svg", "text"), HasSubstr("3 sets"));
+    good(box.shell("stipple analyze nearest-neighbor j.json | stipple plot --key mean -o m.svg"));
+    EXPECT_THAT(xml(box, "m.svg", "text"), HasSubstr("mean"));
+}
+
+TEST(Plot, DrawsWhatIsAnalyzedOnTheWay) {
+    const Sandbox box;
+    good(box.shell("stipple generate jittered -n 64 -m 3 -f json -o j.json"));
+    for (const std::string chart :
+         {"points", "density", "histogram", "distances", "radial", "pair-correlation"}) {
+        good(box.run({"plot", "j.json", "--chart", chart, "-o", chart + ".svg"}));
+        EXPECT_THAT(xml(box, chart + ".svg", "text"), HasSubstr("jittered")) << chart;
+    }
+    good(box.run({"plot", "j.json", "--chart", "spectrum", "-o", "s.svg"}));
+    EXPECT_EQ(xml(box, "s.svg", "image"), "2\n");
+    // The same numbers as the analyzer's, up to the name of what was analyzed.
+    good(box.shell(
+        "stipple analyze periodogram j.json --average | stipple plot -o a.svg --title t"));
+    good(box.shell("stipple plot j.json --chart radial -o b.svg --title t"));
+    const auto shapes = [&](const char* file) {
+        return box.read(file).substr(box.read(file).find("</metadata>"));
+    };
+    EXPECT_EQ(shapes("a.svg"), shapes("b.svg"));
+}
+
+TEST(Plot, DrawsTheTableThatGridSaves) {
+    const Sandbox box;
+    good(
+        box.shell("stipple generate halton -n 64 | "
+                  "stipple analyze periodogram --grid g.npy -o r.json && "
+                  "stipple plot g.npy -o g.svg"));
+    EXPECT_THAT(xml(box, "g.svg", "text"), HasSubstr("frequency fx"));
+    EXPECT_EQ(xml(box, "g.svg", "circle"), "0\n");
+}
+
+TEST(Plot, DrawsInLetters) {
+    const Sandbox box;
+    const std::string text = good(
+        box.shell("printf '0,0\\n1,1\\n' | stipple plot -f text --width 20 --height 12 --title T"));
+    EXPECT_TRUE(text.starts_with("T\n")) << text;
+    EXPECT_THAT(text, HasSubstr("⠈│"));
+    EXPECT_THAT(text, HasSubstr("│⡀"));
+    const std::string curve = good(
+        box.shell("stipple generate halton -n 64 | stipple analyze periodogram | stipple plot -f "
+                  "text --width 60 --height 20"));
+    EXPECT_THAT(curve, HasSubstr("frequency"));
+}
+
+TEST(Plot, AMillionPointsAreASmallPicture) {
+    const Sandbox box;
+    good(box.shell("stipple generate random -n 1e6 -f npy | stipple plot -o p.svg"));
+    EXPECT_EQ(xml(box, "p.svg", "circle"), "0\n");
+    EXPECT_EQ(xml(box, "p.svg", "image"), "2\n");
+    EXPECT_LT(box.read("p.svg").size(), 500'000U);
+}
+
+TEST(Plot, DarkIsDark) {
+    const Sandbox box;
+    const std::string points = "printf '0.5,0.5\\n' | stipple plot --theme ";
+    EXPECT_THAT(good(box.shell(points + "light")), HasSubstr("fill=\"#ffffff\""));
+    EXPECT_THAT(good(box.shell(points + "dark")), HasSubstr("fill=\"#16181c\""));
+}
+
+TEST(Plot, RefusesWhatIsNoPictureAndLeavesNoFile) {
+    const Sandbox box;
+    good(box.shell("stipple generate random -n 100 -o p.csv"));
+    box.write("bad.csv", "x,y\n0.1,zero\n");
+    box.write("empty.json", "[]");
+    box.write("none.json", "");
+    good(
+        box.shell("stipple analyze chi-square p.csv -o chi.json; stipple analyze moments p.csv -o "
+                  "moments.json; stipple analyze nearest-neighbor p.csv -o nearest.json"));
+    const auto before = box.files();
+    expect_refusal(box.run({"plot", "p.csv", "-o", "p.pdf"}), 2, "p.pdf has no extension");
+    expect_refusal(box.run({"plot", "p.csv", "-o", "p"}), 2, "expected .svg, .png or .txt");
+    expect_refusal(box.run({"plot", "p.csv", "-f", "gif"}), 2, "not one of svg, png, text");
+    expect_refusal(box.run({"plot", "p.csv", "--theme", "blue"}), 2, "light, dark");
+    expect_refusal(box.run({"plot", "p.csv", "--chart", "pie"}), 2, "histogram");
+    expect_refusal(box.run({"plot", "p.csv", "--width", "0"}), 2, "outside [120, 20000]");
+    expect_refusal(box.run({"plot", "p.csv", "-f", "text", "--width", "0"}), 2,
+                   "outside [20, 1000]");
+    expect_refusal(box.run({"plot", "p.csv", "--set", "1"}), 2, "outside [0, 0]");
+    expect_refusal(box.run({"plot", "p.csv", "--key", "value"}), 2, "--key");
+    expect_refusal(box.run({"plot", "p.csv", "--y-scale", "cubic"}), 2, "linear, log");
+    expect_refusal(box.run({"plot", "bad.csv", "-o", "bad.svg"}), 3, "bad.csv:2");
+    expect_refusal(box.run({"plot", "empty.json", "-o", "e.svg"}), 3, "holds no report");
+    expect_refusal(box.run({"plot", "none.json", "-o", "e.svg"}), 3, "none.json");
+    expect_refusal(box.run({"plot", "chi.json", "-o", "c.svg"}), 3, "nothing to draw");
+    expect_refusal(box.run({"plot", "moments.json", "-o", "c.svg"}), 3, "nothing to draw");
+    expect_refusal(box.run({"plot", "chi.json", "p.csv", "-o", "c.svg"}), 3, "points and reports");
+    expect_refusal(box.run({"plot", "chi.json", "nearest.json", "-o", "c.svg"}), 3,
+                   "reports of chi-square and of nearest-neighbor");
+    expect_refusal(box.run({"plot", "chi.json", "--chart", "points"}), 2, "--chart");
+    expect_refusal(box.run({"plot", "missing.csv"}), 4, "no such file");
+    expect_refusal(box.run({"plot", "p.csv", "-o", "no/where.svg"}), 4, "no folder");
+    EXPECT_EQ(box.files(), before);
+}
+
+TEST(Plot, DrawsOnePointAndEqualPoints) {
+    const Sandbox box;
+    for (const std::string points : {"0.5,0.5", "7,7", "3,3\\n3,3", "0.5", "1,2,3", "1,2,3,4"})
+        for (const std::string format : {"svg", "png", "text"}) {
+            const Outcome outcome =
+                box.shell("printf '" + points + "\\n' | stipple plot -f " + format);
+            EXPECT_EQ(outcome.code, 0) << points << " " << outcome.err;
+            EXPECT_GT(outcome.out.size(), 100U) << points << " " << format;
+        }
+    expect_refusal(box.shell("printf '3,3\\n' | stipple plot --chart distances"), 3,
+                   "no nearest neighbour");
+}
+
+TEST(Plot, MoreSetsThanColoursAreCutWithAWord) {
+    const Sandbox box;
+    good(box.shell("stipple generate random -n 5 -m 9 -f json -o p.json"));
+    const Outcome outcome = box.run({"plot", "p.json", "-o", "p.svg"});
+    EXPECT_EQ(outcome.code, 0);
+    EXPECT_THAT(outcome.err, HasSubstr("the first 7 of 9 sets"));
+    EXPECT_EQ(xml(box, "p.svg", "circle"), "42\n");  // 35 points and 7 in the legend
+    good(box.run({"plot", "p.json", "--set", "8", "-o", "q.svg"}));
+    EXPECT_EQ(xml(box, "q.svg", "circle"), "5\n");
+}
+
+TEST(Plot, DrawsTheRimOfADomain) {
+    const Sandbox box;
+    good(box.shell("stipple generate random -n 20 -w disk -f json | stipple plot -o a.svg"));
+    good(box.shell("stipple generate random -n 20 -w disk | stipple plot --domain disk -o b.svg"));
+    good(box.shell("stipple generate random -n 20 | stipple plot -o c.svg"));
+    EXPECT_EQ(xml(box, "a.svg", "path"), xml(box, "b.svg", "path"));
+    EXPECT_NE(xml(box, "a.svg", "path"), xml(box, "c.svg", "path"));
+}
