@@ -79,14 +79,14 @@ bool holds_middle(const CellCorner& from, const Vec2& to) {
 std::vector<Edge> candidates_of(const PlanarSites& sites, std::span<const double> rows,
                                 const std::vector<double>& sides, const RunContext& run) {
     constexpr std::uint64_t size = 4096;
-    const PeriodicVoronoi diagram = sites.diagram();
+    const PlanarCells cells(sites, run);
     std::vector<std::vector<Edge>> parts(block_count(sites.count(), size));
     for_each_block(run, sites.count(), size, [&](const Block& b) {
         VoronoiCell cell;
         std::vector<Edge> part;
         for (std::uint64_t i = b.first; i < b.last; ++i) {
             if (i % 64 == 0) run.check_stop();
-            diagram.cut_cell(static_cast<std::size_t>(i), cell);
+            cells.cut(static_cast<std::size_t>(i), cell);
             const auto corners = cell.corners();
             for (std::size_t k = 0; k < corners.size(); ++k) {
                 const std::uint32_t j = corners[k].site;

@@ -162,13 +162,13 @@ Vec2 PeriodicVoronoi::shortest(Vec2 from, Vec2 to) const {
     return torus_ ? Vec2{step(d.x, sides_.x), step(d.y, sides_.y)} : d;
 }
 
-void PeriodicVoronoi::start(const Site& site, std::uint32_t i, VoronoiCell& cell) const {
-    const auto [a, b] = sides_;
-    const Vec2 low = torus_ ? Vec2{-a / 2, -b / 2} : Vec2{-site.at.x, -site.at.y};
-    const Vec2 high = torus_ ? Vec2{a / 2, b / 2} : Vec2{a - site.at.x, b - site.at.y};
-    const std::uint32_t beyond = torus_ ? i : CellCorner::wall;
-    const double across = torus_ ? a : 0;
-    const double up = torus_ ? b : 0;
+void PeriodicVoronoi::start(Vec2 sides, bool torus, Vec2 at, std::uint32_t i, VoronoiCell& cell) {
+    const auto [a, b] = sides;
+    const Vec2 low = torus ? Vec2{-a / 2, -b / 2} : Vec2{-at.x, -at.y};
+    const Vec2 high = torus ? Vec2{a / 2, b / 2} : Vec2{a - at.x, b - at.y};
+    const std::uint32_t beyond = torus ? i : CellCorner::wall;
+    const double across = torus ? a : 0;
+    const double up = torus ? b : 0;
     cell.start({CellCorner{{low.x, low.y}, {0, -up}, beyond},
                 CellCorner{{high.x, low.y}, {across, 0}, beyond},
                 CellCorner{{high.x, high.y}, {0, up}, beyond},
@@ -251,7 +251,7 @@ void PeriodicVoronoi::cut_by_candidates(std::uint32_t i, VoronoiCell& cell) cons
 void PeriodicVoronoi::cut_cell(std::size_t i, VoronoiCell& cell) const {
     const Site& site = sites_[i];
     const auto own = static_cast<std::uint32_t>(i);
-    start(site, own, cell);
+    start(sides_, torus_, site.at, own, cell);
     const std::int64_t rings = std::max(columns_, rows_);
     const double weight = weights_.empty() ? 0 : weights_[i];
     // What lies beyond a block of rings is as far away as the site is from the block's rim.

@@ -119,6 +119,9 @@ class PeriodicVoronoi {
     /// One weight a site; none: all equal.
     void set_weights(std::span<const double> weights);
 
+    /// Makes the cell what site i at `at` has before others cut it.
+    static void start(Vec2 sides, bool torus, Vec2 at, std::uint32_t i, VoronoiCell& cell);
+
     /// The cell of a site that is in its place. Several threads may ask at once.
     void cut_cell(std::size_t i, VoronoiCell& cell) const;
 
@@ -138,7 +141,6 @@ class PeriodicVoronoi {
 
     [[nodiscard]] std::int64_t column_of(double x) const;
     [[nodiscard]] std::int64_t row_of(double y) const;
-    void start(const Site& site, std::uint32_t i, VoronoiCell& cell) const;
     [[nodiscard]] double squared_security(double squared_reach, double weight) const;
     void gather_ring(const Site& site, std::int64_t ring, double squared_limit,
                      VoronoiCell& cell) const;

@@ -213,8 +213,10 @@ TEST(Voronoi, IndependentPointsAsTheBooksHaveThem) {
 TEST(Voronoi, CellsAreThoseOfTheDefinition) {
     for (const Box& box : {Box{{0, 0}, {1, 1}}, Box{{-1, 2}, {3, 2.75}}})
         for (const bool torus : {true, false})
-            for (const std::size_t n : {2U, 3U, 7U, 60U}) {
+            for (const std::size_t n : {2U, 3U, 7U, 60U, 100U}) {
                 PointSet set = make("random", points(n, 2), {}, {.seed = n});
+                for (std::size_t k = 0; n == 100 && k < 160; ++k)  // a crowd in a corner
+                    set.flat()[k] *= 0.04;
                 scale_into(box, set.flat());
                 set.domain = box_domain(box);
                 const Oracle oracle = by_definition(set, torus);
@@ -265,6 +267,20 @@ TEST(Voronoi, PlacesCountOnceAndTheirOrderNot) {
     const Report faces =
         report(points_of({{0, 0.25}, {1, 0.25}, {0.5, 0}, {0.5, 1}, {0, 0}, {1, 1}}));
     EXPECT_EQ(faces.number("cells"), 3);
+}
+
+// Crowds take another way to their cells; both find the same.
+TEST(Voronoi, CrowdsAreCutAsOthers) {
+    PointSet set = make("random", points(4000, 2));
+    const Report plain = report(set);
+    for (double& x : set.flat()) x /= 64;
+    const Report small = report(on(set, {{0, 0}, {1. / 64, 1. / 64}}));
+    EXPECT_NEAR(small.number("area.variation"), plain.number("area.variation"), 1e-12);
+    const Report crowd = report(set);  // in a corner of the unit square
+    EXPECT_GT(crowd.number("area.largest"), 500);
+    EXPECT_NEAR(crowd.number("bond_order.local"), plain.number("bond_order.local"), 0.02);
+    for (const int threads : {1, 4})
+        EXPECT_EQ(report(set, {}, {.threads = static_cast<unsigned>(threads)}), crowd);
 }
 
 TEST(Voronoi, TakesPointsOnALine) {

@@ -36,7 +36,6 @@ import stipple_io as io
 
 REFERENCES = ("random", "jittered")
 BAND = 8  # rings
-NEIGHBOURS = 32  # nearest points among which a point's Delaunay neighbours are
 
 COLUMNS = (
     "generator",
@@ -107,43 +106,6 @@ def stipple(program, *words):
     return done.stdout, after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime
 
 
-# ---------------------------------------------------------------- order of bonds
-
-
-def nearest(points, count):
-    """Vectors from each point to its nearest others, on the torus, nearest first."""
-    found = []
-    for block in np.array_split(points, max(1, len(points) // 256)):
-        apart = points[None] - block[:, None]
-        apart -= np.round(apart)
-        squares = (apart**2).sum(2)
-        order = np.argpartition(squares, count, axis=1)[:, : count + 1]
-        order = np.take_along_axis(order, np.take_along_axis(squares, order, 1).argsort(1), 1)
-        found.append(np.take_along_axis(apart, order[:, 1:, None], 1))
-    return np.concatenate(found)
-
-
-def bond_order(points):
-    """Mean over points of |mean over Delaunay neighbours of exp(6 i theta)|.
-
-    A neighbour at v is one when some circle through it and the point is empty. Its centre is
-    v / 2 + t w, w a quarter turn from v; another point at u is outside where
-    |u|^2 - u.v > 2 t u.w, which bounds t from one side.
-    """
-    vectors = nearest(points, min(NEIGHBOURS, len(points) - 1))
-    squares = (vectors**2).sum(2)
-    turned = np.stack((-vectors[..., 1], vectors[..., 0]), -1)
-    across = 2 * np.einsum("iuk,ivk->ivu", vectors, turned)
-    excess = squares[:, None, :] - np.einsum("iuk,ivk->ivu", vectors, vectors)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        bound = excess / across
-    high = np.where(across > 0, bound, np.inf).min(2)
-    low = np.where(across < 0, bound, -np.inf).max(2)
-    linked = low < high
-    bonds = np.exp(6j * np.arctan2(vectors[..., 1], vectors[..., 0]))
-    return (abs((bonds * linked).sum(1)) / linked.sum(1)).mean()
-
-
 # ---------------------------------------------------------------- measures
 
 
@@ -209,14 +171,15 @@ def row(program, name, count, sets, folder):
 
     hexagons = np.sqrt(2 / (np.sqrt(3) * count))  # distance of neighbours
     near, star = analyze("nearest-neighbor"), analyze("star-discrepancy")
-    bonds = [bond_order(points) for points in np.load(file).reshape(sets, -1, 2)]
+    cells = analyze("voronoi")
+    order = {key: cells[key]["bond_order"] for key in ("results", "standard_error")}
     return [
         name,
         value(near, "relative_radius"),
         value(near, "mean", 1 / hexagons),
         value(analyze("coverage"), "radius", np.sqrt(3) / hexagons),
         value(star, "value", 1000),
-        number(np.mean(bonds), np.std(bonds, ddof=1) / np.sqrt(sets)),
+        value(order, "local"),
         *of_spectrum(analyze("periodogram"), count),
         number(seconds / sets, digits=2),
     ]

@@ -317,6 +317,19 @@ TEST(BlueNoiseTable, HasARowForEachGenerator) {
     EXPECT_EQ(run(box, table + "no/such/stipple").code, 1);
 }
 
+TEST(PublishedTable, HasOursBesideTheirs) {
+    const Sandbox box;
+    const std::string table = STIPPLE_SOURCE_DIR "/tests/bench/published_table.py ";
+    const Outcome outcome = run(box, table + "$(command -v stipple) --sets 2 random jittered");
+    expect_quiet(outcome);
+    EXPECT_THAT(outcome.out, HasSubstr("| published | ours "));
+    EXPECT_THAT(outcome.out, HasSubstr("| `random -n 4096`   | mean       | 0.464     | 0.4"));
+    EXPECT_THAT(outcome.out, HasSubstr("| `jittered -n 4096` | bond order | 0.363     | 0.3"));
+    EXPECT_EQ(run(box, table).code, 1);
+    EXPECT_EQ(run(box, table + "no/such/stipple").code, 1);
+    EXPECT_EQ(run(box, table + "stipple nobody").code, 1);
+}
+
 TEST(Scripts, ExplainThemselves) {
     const Sandbox box;
     for (const char* name : {"plot_points.py", "plot_spectrum.py", "plot_discrepancy.py",
