@@ -69,7 +69,7 @@ constexpr Param<Numbers> axis_weights{
 constexpr Param<bool> precise{
     .name = "precise",
     .help =
-        "Work out all pairs in twice the digits, which takes some ten times as long, so that "
+        "Work out all pairs in twice the digits, which takes up to thirty times as long, so that "
         "the error of values is below 1e-12 for any number of points; done in any case for up "
         "to 10^8 / dimension pairs"};
 
@@ -118,7 +118,7 @@ double error_of_root(double squared, double error) {
 void warn_of_pairs(std::size_t n, std::size_t d, l2::Kind which, bool twice,
                    const RunContext& run) {
     const double pairs = static_cast<double>(n) * static_cast<double>(n) / 2;
-    const double seconds = (twice ? 3e-9 : 0.15e-9) * pairs * static_cast<double>(d);
+    const double seconds = (twice ? 4e-9 : 0.15e-9) * pairs * static_cast<double>(d);
     if (seconds < 600) return;
     run.tell(
         fmt::format("{} l2-discrepancy takes all pairs of {} points in {} dimensions, some "

@@ -2,6 +2,7 @@
 #include "analyzers/l2_kind.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -54,6 +55,14 @@ constexpr KindRecord records[] = {
 }  // namespace
 
 const KindRecord& record_of(Kind kind) { return records[static_cast<std::size_t>(kind)]; }
+
+void require_finite(double squared, Kind kind, std::size_t dimension) {
+    if (std::isfinite(squared)) return;
+    fail_with_hint(ErrorKind::limit, "--kind chooses others",
+                   "the {} discrepancy of points in {} dimensions is made of numbers beyond the "
+                   "largest double",
+                   record_of(kind).name, dimension);
+}
 
 std::vector<Kind> parse_kinds(std::string_view words) {
     std::vector<std::string> names;

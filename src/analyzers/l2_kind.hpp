@@ -36,6 +36,9 @@ struct Square {
     double error;  ///< `squared` is off by at most this
 };
 
+/// @throws Error(limit) where sums on the way to a square were too large.
+void require_finite(double squared, Kind kind, std::size_t dimension);
+
 /// Of words separated by commas, each kind once and in the order of all_kinds; `all` is every kind.
 /// @throws Error(usage) naming the word that is none
 std::vector<Kind> parse_kinds(std::string_view words);

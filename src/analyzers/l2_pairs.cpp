@@ -7,7 +7,6 @@
 #include <cstring>
 #include <numbers>
 
-#include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/wide.hpp"
 
@@ -467,12 +466,8 @@ Square pair_square(const PointSet& points, Kind kind, const std::vector<double>&
     const Quad n = points.count();
     const Quad pairs = sum_over_pairs(set.table, run) / (n * n);
     const Quad squared = set.total - 2 * set.means + pairs;
-    if (!std::isfinite(static_cast<double>(squared)) || !std::isfinite(set.most))
-        fail_with_hint(ErrorKind::limit, "--kind chooses others",
-                       "the {} discrepancy of points in {} dimensions is made of numbers "
-                       "beyond the largest double",
-                       record_of(kind).name, points.dimension());
-
+    require_finite(std::isfinite(set.most) ? static_cast<double>(squared) : set.most, kind,
+                   points.dimension());
     const auto axes = static_cast<double>(set.table.columns);
     const auto products = kind == Kind::diaphony ? set.most : static_cast<double>(pairs);
     const double error = 0x1p-53 * (roundings(kind) * axes + 8) * products +

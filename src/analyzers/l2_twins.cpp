@@ -17,7 +17,7 @@
 // Products need their rounding errors: an instruction where there is one, and slow where not.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define STIPPLE_FUSED [[gnu::target_clones("arch=haswell", "default")]]
+#define STIPPLE_FUSED [[gnu::target_clones("fma", "default")]]
 #else
 #define STIPPLE_FUSED
 #endif
@@ -66,11 +66,10 @@ STIPPLE_INLINE Twin renewed(Four a, Four b) {
     return {s, b - (s - a)};
 }
 
+/// Off by a little of |a| + |b|, not of the sum: terms may cancel.
 STIPPLE_INLINE Twin operator+(Twin a, Twin b) {
     const Twin high = sum(a.high, b.high);
-    const Twin low = sum(a.low, b.low);
-    const Twin once = renewed(high.high, high.low + low.high);
-    return renewed(once.high, once.low + low.low);
+    return renewed(high.high, high.low + (a.low + b.low));
 }
 
 STIPPLE_INLINE Twin product(Four a, Four b) {
@@ -150,15 +149,24 @@ STIPPLE_FUSED void meet(const Table& table, const double* row, const double* blo
     const std::size_t axes = table.axes.size();
     Four total = load(sums.sum);
     Four lost = load(sums.lost);
-    for (std::size_t k = 0; k < width; k += lanes) {
-        Twin value = factor(row, block + k, table.axes[0]);
-        for (std::size_t j = 1; j < axes; ++j)
-            value =
-                value * factor(row + j * columns, block + j * columns * width + k, table.axes[j]);
-        const Four there = load(block + axes * columns * width + k);
+    const auto add = [&](const Twin& value, const double* presence) {
+        const Four there = load(presence);
         const Twin next = sum(total, value.high * there);
         total = next.high;
         lost += next.low + value.low * there;
+    };
+    for (std::size_t k = 0; k < width; k += 2 * lanes) {  // two at a time: they need not wait
+        Twin one = factor(row, block + k, table.axes[0]);
+        Twin two = factor(row, block + k + lanes, table.axes[0]);
+        for (std::size_t j = 1; j < axes; ++j) {
+            const double* const own = row + j * columns;
+            const double* const theirs = block + j * columns * width + k;
+            one = one * factor(own, theirs, table.axes[j]);
+            two = two * factor(own, theirs + lanes, table.axes[j]);
+        }
+        const double* const presence = block + axes * columns * width + k;
+        add(one, presence);
+        add(two, presence + lanes);
     }
     std::memcpy(sums.sum, &total, sizeof total);
     std::memcpy(sums.lost, &lost, sizeof lost);
@@ -321,6 +329,7 @@ Square twin_square(const PointSet& points, Kind kind, const std::vector<double>&
     const Quad n = points.count();
     const Quad pairs = sum_over_pairs(set.table, run) / (n * n);
     const Quad squared = set.total - 2 * set.means + pairs;
+    require_finite(static_cast<double>(squared), kind, points.dimension());
     // Factors of at least 1 lose by their terms relative to themselves, others to the largest.
     const bool above_one =
         kind != Kind::diaphony && (record_of(kind).projections || !weights.empty());

@@ -10,7 +10,7 @@
 // with a, of the point alone, and p and s, of the axis, pairs of doubles. So are the factors and
 // their products.
 //
-// Cost    n^2 d / 2 factors, about 3 ns each on one core with 256-bit vectors: a number of times
+// Cost    n^2 d / 2 factors, about 4 ns each on one core with 256-bit vectors: a number of times
 //         what those of l2_pairs.hpp take.
 // Promise the same for any number of threads and any width of vectors. `error` bounds what rounding
 //         did.

@@ -134,7 +134,8 @@ CellBounder<side>::CellBounder(const CornerGrid& grid, const Axes& logs, WorstBo
       terms_(d_),
       least_(d_),
       weights_(d_),
-      order_(d_) {
+      order_(d_),
+      narrowness_(d_) {
     std::iota(order_.begin(), order_.end(), std::size_t{0});
 }
 
@@ -219,7 +220,7 @@ void CellBounder<side>::count(const Cell& cell, const Active& active) {
     inside_lo_ = active.settled;
     for (std::size_t i = 0; i < active.inside; ++i) inside_lo_ += state_[i] == 0 ? 1U : 0U;
     inside_hi_ = active.settled + active.inside;
-    assign(cell, active);
+    if (side == Side::closed) assign(cell, active);
     for (std::size_t k = 0; k < d_; ++k) {
         fill_bins(cell, active, k);
         fill_counted(k);
@@ -231,7 +232,8 @@ void CellBounder<side>::count(const Cell& cell, const Active& active) {
         offer(cell.lo, inside_lo_);
 }
 
-/// The axis to which each point is charged, -1 for none.
+/// The axis to which each point is charged, -1 for none (closed boxes; for open ones it is the axis
+/// on which the point is undecided, if that is the only one).
 template <Side side>
 void CellBounder<side>::assign(const Cell& cell, const Active& active) {
     const std::size_t inside = active.inside;
@@ -242,11 +244,9 @@ void CellBounder<side>::assign(const Cell& cell, const Active& active) {
         const double steps = cell.hi[k] - cell.lo[k] + 1;
         const double price = std::log(value(k, cell.hi[k]) / low + 1e-9) / steps;  // a rough one
         charge(active.axis(k), inside, signed_place(cell.lo[k]),
-               side == Side::open ? 1.0F : std::max(1e-30F, static_cast<float>(price)),
-               static_cast<std::int32_t>(k), cost_.data(), axes_.data());
+               std::max(1e-30F, static_cast<float>(price)), static_cast<std::int32_t>(k),
+               cost_.data(), axes_.data());
     }
-    if (side == Side::open)
-        for (std::size_t i = 0; i < inside; ++i) axes_[i] = state_[i] == 1 ? axes_[i] : -1;
 }
 
 /// bins_[k][spill + y - lo]: the points charged to axis k that end a box at y, and whether any
@@ -261,7 +261,9 @@ void CellBounder<side>::fill_bins(const Cell& cell, const Active& active, std::s
     for (std::size_t i = 0; i < active.inside; ++i) {
         const std::int32_t place = std::max(ranks[i] - start, static_cast<std::int32_t>(i % spill));
         auto& bin = bins[static_cast<std::size_t>(place)];
-        bin = (bin + (axes_[i] == axis ? 1U : 0U)) | candidate;
+        // A point of an open box that is undecided on another axis alone is below lo: spilled.
+        const bool charged = side == Side::open ? state_[i] == 1 : axes_[i] == axis;
+        bin = (bin + (charged ? 1U : 0U)) | candidate;
     }
     for (std::size_t i = active.inside; i < active.size; ++i)
         if (ranks[i] == signed_place(cell.hi[k])) bins.back() |= candidate;
@@ -304,15 +306,31 @@ bool CellBounder<side>::reduce(const Cell& seen, Cell& cell) {
     return exclude(logs_, seen, cell);
 }
 
+/// Puts wide axes first, by insertion: the order changes little from one cell to the next.
+template <Side side>
+void CellBounder<side>::sort_axes(const Cell& cell) {
+    for (std::size_t k = 0; k < d_; ++k)
+        narrowness_[k] = value(k, cell.lo[k]) / std::max(value(k, cell.hi[k]), tiny);
+    constexpr std::size_t few = 64;
+    if (d_ > few) {
+        std::ranges::stable_sort(order_, {}, [&](std::size_t k) { return narrowness_[k]; });
+        return;
+    }
+    for (std::size_t i = 1; i < d_; ++i) {
+        const std::size_t axis = order_[i];
+        std::size_t at = i;
+        for (; at > 0 && narrowness_[order_[at - 1]] > narrowness_[axis]; --at)
+            order_[at] = order_[at - 1];
+        order_[at] = axis;
+    }
+}
+
 /// Weights of the telescoped and linear bounds. Wide axes come first: they give the most where the
 /// others still count in full.
 template <Side side>
 void CellBounder<side>::weigh_plainly(const Cell& cell) {
     margin_ = rounding_;
-    if (side == Side::open)
-        std::ranges::stable_sort(order_, {}, [&](std::size_t k) {
-            return value(k, cell.lo[k]) / std::max(value(k, cell.hi[k]), tiny);
-        });
+    if (side == Side::open) sort_axes(cell);
     double before = 1;
     for (const std::size_t k : order_) {
         weights_[k] = before;

@@ -80,6 +80,7 @@ class CellBounder {
     void fill_counted(std::size_t k);
     void offer(const Corner& y, std::uint64_t points);
     bool reduce(const Cell& seen, Cell& cell);
+    void sort_axes(const Cell& cell);
     void weigh_plainly(const Cell& cell);
     void weigh_by_logarithms(const Cell& cell);
     [[nodiscard]] double chord(double low, double high) const;
@@ -113,6 +114,7 @@ class CellBounder {
     std::vector<std::int32_t> axes_;
     std::vector<float> cost_;
     std::vector<std::size_t> order_;
+    std::vector<double> narrowness_;  ///< of each axis: lo over hi
     Corner corner_;
     Cell seen_{};
 };

@@ -217,6 +217,7 @@ class Search {
         std::uint64_t corners = std::uint64_t{1} << 25;
         corners = std::min(corners, (limits_.work - std::min(work_, limits_.work)) / (16 * d));
         corners = std::min(corners, run_.max_memory / 16);
+        if (!steadily()) corners = std::min(corners, work_ / (16 * d));
         if (steadily() && run_.seconds)
             corners = static_cast<std::uint64_t>(
                 std::clamp((limits_.deadline - run_.seconds()) / 16 * corners_a_second, 0.0,
