@@ -112,7 +112,7 @@ class DiskStamps {
         for (std::size_t k = 0; k < D; ++k)
             parts_[k] = static_cast<float>(grid.scales[k] / static_cast<double>(cell_parts<D>));
         while (places_ * 2 <= most_places && power(places_, D) * worth < grid.cell_count)
-            places_ *= 2;
+            places_ *= 2, ++place_bits_;
         for (std::size_t k = 0; k < D; ++k)
             to_places_[k] = static_cast<float>(static_cast<double>(places_) / grid.scales[k]);
         stamps_.reserve(power(places_, D) * rows);
@@ -124,6 +124,14 @@ class DiskStamps {
     /// @param off of the centre from the corner of its cell, in radii
     [[nodiscard]] const Row* about(const Place& off) const {
         return stamps_.data() + rows * place_of(off);
+    }
+
+    /// The same, by the place in the cell as 32 binary digits along each direction.
+    [[nodiscard]] const Row* about_digits(const std::array<std::uint32_t, D>& digits) const {
+        std::size_t place = 0;
+        for (std::size_t k = D; k-- > 0;)
+            place = place << place_bits_ | digits[k] >> 1 >> (31 - place_bits_);
+        return stamps_.data() + rows * place;
     }
 
     /// Parts of a cell that a disk covers, whose centre is within `play` of `center` along each
@@ -187,6 +195,7 @@ class DiskStamps {
     Place parts_{};            ///< sides of a part, in radii
     Place to_places_{};        ///< from radii
     std::size_t places_ = 4;   ///< of a centre along a direction
+    unsigned place_bits_ = 2;  ///< their number's
     std::vector<Row> stamps_;  ///< for each place of a centre
 };
 

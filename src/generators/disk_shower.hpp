@@ -26,7 +26,11 @@ class Shower {
     /// Darts on that many parts.
     [[nodiscard]] std::uint64_t on(std::size_t parts, Mixer& mixer) const {
         const double u = to_unit(mixer.next());
-        if (parts < none_.size()) return u < none_[parts] ? 0 : by_inversion(u, parts);
+        if (parts < none_.size()) {
+            const double none = none_[parts];
+            if (u < none) return 0;
+            return u < none + none * mean(parts) ? 1 : by_inversion(u, parts);
+        }
         return in_portions(u, parts, mixer);
     }
 

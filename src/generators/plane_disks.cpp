@@ -24,8 +24,8 @@ constexpr double cell_unit = 0x1p26;  ///< of a dart's place
 /// What one thread needs to work on a tile.
 struct PlaneDesk {
     std::vector<Dart> darts;
-    std::vector<Dart> sorted;
-    std::vector<Point> places;  ///< of darts on windows, in cells from the tile's first
+    std::vector<std::uint64_t> order;  ///< of the darts in time
+    std::vector<Point> places;         ///< of darts on windows, in cells from the tile's first
     std::vector<Undecided> undecided;
     std::array<std::uint64_t, Grid::tile_side + 4> waiting;  ///< cells with such; from two rows
                                                              ///< before the first on
@@ -34,25 +34,27 @@ struct PlaneDesk {
     NearDisks<2, double> reaching;
 };
 
-/// Puts the darts in order of time, equal ones as they are.
+/// Lists the darts in order of time, equal ones as they are.
 void sort_by_time(PlaneDesk& desk) {
     const std::size_t n = desk.darts.size();
     constexpr unsigned most = 10;
     const unsigned bits = std::min(most, static_cast<unsigned>(std::bit_width(n)));
-    const auto slot_of = [bits](const Dart& d) { return std::uint64_t{d.time} << bits >> 32; };
+    const auto slot_of = [bits](std::uint32_t time) { return std::uint64_t{time} << bits >> 32; };
     std::array<std::uint32_t, (std::size_t{1} << most) + 1> slots;
     std::fill_n(slots.begin(), (std::size_t{1} << bits) + 1, 0);
-    for (const Dart& d : desk.darts) ++slots[slot_of(d) + 1];
+    for (const Dart& d : desk.darts) ++slots[slot_of(d.time) + 1];
     for (std::size_t i = 1; i < std::size_t{1} << bits; ++i) slots[i] += slots[i - 1];
-    desk.sorted.resize(n);
-    Dart* const sorted = desk.sorted.data();
-    for (const Dart& d : desk.darts) sorted[slots[slot_of(d)]++] = d;
+    desk.order.resize(n);
+    std::uint64_t* const order = desk.order.data();  // times, and in the lower half indices
+    const Dart* const darts = desk.darts.data();
+    for (std::size_t i = 0; i < n; ++i)
+        order[slots[slot_of(darts[i].time)]++] = std::uint64_t{darts[i].time} << 32 | i;
     for (std::size_t i = 1; i < n; ++i) {
-        if (sorted[i - 1].time <= sorted[i].time) continue;
-        const Dart d = sorted[i];
+        const std::uint64_t one = order[i];
+        if (order[i - 1] < one) continue;
         std::size_t to = i;
-        for (; to > 0 && sorted[to - 1].time > d.time; --to) sorted[to] = sorted[to - 1];
-        sorted[to] = d;
+        for (; to > 0 && order[to - 1] > one; --to) order[to] = order[to - 1];
+        order[to] = one;
     }
 }
 
@@ -80,13 +82,13 @@ class Thrower {
         const Spot spot = spots.spot_of(d.x / cell_unit, d.y / cell_unit);
         const Hit hit =
             spots.hit(number - DiskSpots::number(2, 2), spot, rules_.sure, rules_.possible);
-        if (hit != Hit::yes) land(d, column, row, hit);
+        if (hit != Hit::yes) land(d, column, row, spot, hit);
     }
 
   private:
-    void land(const Dart& d, int column, int row, Hit hit) {
+    void land(const Dart& d, int column, int row, Spot spot, Hit hit) {
         const Point place = place_of(d);
-        const auto* stamp = rules_.stamps.about(tile_.off_of(place, column, row));
+        const auto* stamp = rules_.stamps.about_digits({d.x << 6, d.y << 6});
         for (std::size_t line = 0; line < 4; ++line)
             __builtin_prefetch(reinterpret_cast<const char*>(stamp) + 64 * line);
         std::array<double, 2> at;
@@ -96,7 +98,7 @@ class Thrower {
             if (!(at[k] < grid.high[k])) return;  // rounded up to a face
         }
         if (hit == Hit::unsure && tile_.hits(column, row, at.data())) return;
-        if (!waits(column, row, at)) return tile_.add(column, row, place, at, stamp);
+        if (!waits(column, row, at)) return tile_.add(column, row, spot, at, stamp);
         desk_.waiting[static_cast<std::size_t>(row + 2)] |= std::uint64_t{1} << column;
         desk_.undecided.push_back({at, d.x, d.y, d.time, unknown});
     }
@@ -131,7 +133,7 @@ class Thrower {
 
 STIPPLE_WIDE void fall_in_order(const Rules& rules, PlaneTile& tile, PlaneDesk& desk, bool exact) {
     Thrower thrower(rules, tile, desk, exact);
-    for (const Dart& d : desk.sorted) thrower.fall(d);
+    for (const std::uint64_t one : desk.order) thrower.fall(desk.darts[one & 0xffffffff]);
 }
 
 /// Adds a dart on one of the parts of a cell that are open.
@@ -162,7 +164,7 @@ STIPPLE_WIDE void draw_on_parts(const PlaneTile& tile, const Shower& shower, std
         for (std::size_t i = 0; i < some; ++i) {
             const int column = found[i];
             const PartBits open = ~covered[column];
-            const std::size_t count = ones_of(open);
+            const auto count = static_cast<std::size_t>(std::popcount(open));
             Mixer mixer(key + static_cast<std::uint64_t>(row * 64 + column));
             for (std::uint64_t left = shower.on(count, mixer); left > 0; --left)
                 draw_in_cell(column, row, open, count, mixer, darts);
@@ -347,11 +349,10 @@ class PlaneRain {
         });
         for_tiles([&](PlaneTile& tile, std::uint32_t number) {
             for (Undecided& u : of_shower(tile, showers_).all())
-                if (decide(tile, number, u) == stays) {
-                    const Point place{u.x / cell_unit, u.y / cell_unit};
-                    tile.add(u.column(), u.row(), place, u.at,
-                             rules_.stamps.about(tile.off_of(place, u.column(), u.row())));
-                }
+                if (decide(tile, number, u) == stays)
+                    tile.add(u.column(), u.row(),
+                             tile.spots().spot_of(u.x / cell_unit, u.y / cell_unit), u.at,
+                             rules_.stamps.about_digits(u.digits()));
         });
         std::size_t points = 0;
         for (PlaneTile& tile : tiles_) points += tile.points().size() / 2;
@@ -406,10 +407,10 @@ class PlaneRain {
                            {tile.size(0) + 1 - steps[0], tile.size(1) + 1 - steps[1]},
                            [&](const Undecided& u) {
                                if (u.fate != stays) return true;
-                               tile.add_beyond(
-                                   u.column() + steps[0], u.row() + steps[1],
-                                   {u.x / cell_unit + steps[0], u.y / cell_unit + steps[1]}, u.at,
-                                   rules_.stamps);
+                               tile.add_beyond(u.column() + steps[0], u.row() + steps[1],
+                                               tile.spots().spot_of(u.x / cell_unit + steps[0],
+                                                                    u.y / cell_unit + steps[1]),
+                                               u.at, rules_.stamps.about_digits(u.digits()));
                                return true;
                            });
         });

@@ -44,6 +44,8 @@ struct Undecided {
     std::uint32_t time;
     std::uint8_t fate;
 
+    /// Within the cell.
+    [[nodiscard]] std::array<std::uint32_t, 2> digits() const { return {x << 6, y << 6}; }
     [[nodiscard]] int column() const { return static_cast<int>(x >> 26); }
     [[nodiscard]] int row() const { return static_cast<int>(y >> 26); }
     [[nodiscard]] bool before(const Undecided& other) const {
@@ -183,19 +185,12 @@ class PlaneTile {
                grid_->radius * grid_->radius;
     }
 
-    /// Where a place is in its cell, in radii.
-    [[nodiscard]] std::array<float, 2> off_of(const Point& place, int column, int row) const {
-        return {static_cast<float>((place[0] - column) * grid_->scales[0]),
-                static_cast<float>((place[1] - row) * grid_->scales[1])};
-    }
-
     /// Adds a point of this tile.
-    /// @param place in cells from the tile's first
     /// @param stamp what it covers
-    void add(int column, int row, const Point& place, const std::array<double, 2>& at,
+    void add(int column, int row, Spot spot, const std::array<double, 2>& at,
              const DiskStamps<2>::Row* stamp) {
         const std::size_t number = spot_number(column, row);
-        spots_.put(number, spots_.spot_of(place[0], place[1]));
+        spots_.put(number, spot);
         index_[number] = static_cast<std::uint16_t>(points_.size() / 2);
         points_.push_back(at[0]);
         points_.push_back(at[1]);
@@ -205,16 +200,15 @@ class PlaneTile {
     }
 
     /// Adds a point of another tile, where it is near enough.
-    void add_beyond(int column, int row, const Point& place, const std::array<double, 2>& at,
-                    const DiskStamps<2>& stamps) {
+    void add_beyond(int column, int row, Spot spot, const std::array<double, 2>& at,
+                    const DiskStamps<2>::Row* stamp) {
         constexpr int far = DiskSpots::halo;
         if (column < -far || row < -far) return;
         if (column >= size_[0] + far || row >= size_[1] + far) return;
         const std::size_t number = spot_number(column, row);
-        spots_.put(number, spots_.spot_of(place[0], place[1]));
+        spots_.put(number, spot);
         index_[number] = static_cast<std::uint16_t>(own + halo_.size() / 2);
         halo_.insert(halo_.end(), at.begin(), at.end());
-        const auto* stamp = stamps.about(off_of(place, column, row));
         for (int y = std::max(row - far, 0); y <= std::min(row + far, size_[1] - 1); ++y)
             for (int x = std::max(column - far, 0); x <= std::min(column + far, size_[0] - 1); ++x)
                 covered_[spot_number(x, y)] |=

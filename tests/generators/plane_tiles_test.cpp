@@ -83,11 +83,15 @@ TEST(PlaneTiles, CoverAndHitWhatOneWholeDoes) {
                             cell[k] = static_cast<int>(std::floor(place[k]));
                             own = own && cell[k] >= 0 && cell[k] < tile.size(k);
                         }
+                        const Spot spot = tile.spots().spot_of(place[0], place[1]);
+                        const std::array<float, 2> off{
+                            static_cast<float>((p[0] - std::floor(p[0])) * grid.scales[0]),
+                            static_cast<float>((p[1] - std::floor(p[1])) * grid.scales[1])};
+                        const auto* stamp = stamps.about(off);
                         if (own)
-                            tile.add(cell[0], cell[1], place, at,
-                                     stamps.about(tile.off_of(place, cell[0], cell[1])));
+                            tile.add(cell[0], cell[1], spot, at, stamp);
                         else
-                            tile.add_beyond(cell[0], cell[1], place, at, stamps);
+                            tile.add_beyond(cell[0], cell[1], spot, at, stamp);
                     }
                 for (int y = 0; y < tile.size(1); ++y)
                     for (int x = 0; x < tile.size(0); ++x) {
