@@ -51,29 +51,6 @@ std::uint64_t drawn_seed(std::uint64_t largest) {
     return bits % (std::min(largest, most_points - 1) + 1);
 }
 
-std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session& session) {
-    const auto text = arguments.get("seed");
-    if (!text) return 1;
-    if (*text == "random") {
-        const std::uint64_t seed = drawn_seed(largest);
-        session.warn(fmt::format("--seed {}", seed));
-        return seed;
-    }
-    const auto seed = parse_unsigned(*text);
-    if (!seed)
-        fail(ErrorKind::usage, "--seed: '{}' is not a whole number in [0, 2^64) or 'random'",
-             *text);
-    return *seed;
-}
-
-Request request_of(const Arguments& arguments) {
-    Request request;
-    request.count = arguments.integer("count", 1, most_points);
-    if (const auto d = arguments.integer("dimension", 1, most_dimensions)) request.dimension = *d;
-    request.start = arguments.integer("start", 0, most_points).value_or(0);
-    return request;
-}
-
 /// A word as a shell takes it.
 std::string shell_word(const std::string& word) {
     constexpr std::string_view plain =
@@ -109,6 +86,29 @@ std::string command_of(const Arguments& arguments, const Generator& generator, c
 }
 
 }  // namespace
+
+std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session& session) {
+    const auto text = arguments.get("seed");
+    if (!text) return 1;
+    if (*text == "random") {
+        const std::uint64_t seed = drawn_seed(largest);
+        session.warn(fmt::format("--seed {}", seed));
+        return seed;
+    }
+    const auto seed = parse_unsigned(*text);
+    if (!seed)
+        fail(ErrorKind::usage, "--seed: '{}' is not a whole number in [0, 2^64) or 'random'",
+             *text);
+    return *seed;
+}
+
+Request request_of(const Arguments& arguments) {
+    Request request;
+    request.count = arguments.integer("count", 1, most_points);
+    if (const auto d = arguments.integer("dimension", 1, most_dimensions)) request.dimension = *d;
+    request.start = arguments.integer("start", 0, most_points).value_or(0);
+    return request;
+}
 
 Target target_of(const Arguments& arguments) {
     Target target;
@@ -185,8 +185,9 @@ std::vector<PointSet> read_input(const std::string& path, const Arguments& argum
 }
 
 std::unique_ptr<io::PointStream> open_input(const std::string& path, const Arguments& arguments,
-                                            const RunContext& run) {
-    const auto [options, format] = reading_of(path, arguments);
+                                            const RunContext& run, const std::string& strengths) {
+    auto [options, format] = reading_of(path, arguments);
+    options.strengths = strengths;
     return io::open_points(path, options, run, format);
 }
 

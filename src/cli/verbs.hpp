@@ -24,8 +24,10 @@ std::vector<PointSet> read_input(const std::string& path, const Arguments& argum
                                  const RunContext& run);
 
 /// The same in blocks, where they are many; their domain is input_domain.
+/// `strengths` names a column that comes behind the coordinates.
 std::unique_ptr<io::PointStream> open_input(const std::string& path, const Arguments& arguments,
-                                            const RunContext& run);
+                                            const RunContext& run,
+                                            const std::string& strengths = {});
 
 /// What points of a file live on.
 DomainPtr input_domain(const Provenance& provenance, std::size_t dimension,
@@ -33,6 +35,12 @@ DomainPtr input_domain(const Provenance& provenance, std::size_t dimension,
 
 /// The unit's options as typed. @throws Error(usage)
 Values settings_of(const Schema& schema, const Arguments& arguments);
+
+/// What is asked of a generator: -n, -d, --start; without seed and bounds.
+Request request_of(const Arguments& arguments);
+
+/// --seed, which `random` draws and tells.
+std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session& session);
 
 /// Writes text to a file or standard output, whole or not at all.
 void write_text(const std::string& path, const std::string& text);

@@ -8,6 +8,7 @@
 #include <csetjmp>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -70,6 +71,67 @@ class Decoder {
     }
 
     std::string_view bytes_;
+    png_structp png_ = nullptr;
+    png_infop info_ = nullptr;
+    std::array<char, 128> error_{"libpng cannot be used"};
+};
+
+/// The same the other way: bytes are taken as libpng gives them.
+class Encoder {
+  public:
+    Encoder() {
+        png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, this, take_error, ignore_warning);
+        if (png_ != nullptr) info_ = png_create_info_struct(png_);
+    }
+    Encoder(const Encoder&) = delete;
+    Encoder& operator=(const Encoder&) = delete;
+    ~Encoder() { png_destroy_write_struct(&png_, &info_); }
+
+    /// Writes a whole picture. False: error().
+    bool write(const GreyShape& shape, png_bytep* rows, png_text* texts, int count) {
+        if (info_ == nullptr) return false;
+        if (setjmp(png_jmpbuf(png_)) != 0) return false;
+        png_set_write_fn(png_, this, take_bytes, nullptr);
+        png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+        png_set_IHDR(png_, info_, static_cast<png_uint_32>(shape.width),
+                     static_cast<png_uint_32>(shape.height), shape.bits, PNG_COLOR_TYPE_GRAY,
+                     PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+        png_set_text(png_, info_, texts, count);
+        png_write_info(png_, info_);
+        png_write_image(png_, rows);
+        png_write_end(png_, nullptr);
+        return true;
+    }
+
+    [[nodiscard]] std::string take() { return std::move(bytes_); }
+    [[nodiscard]] const char* error() const { return error_.data(); }
+
+  private:
+    [[noreturn]] static void take_error(png_structp png, png_const_charp message) {
+        auto& self = *static_cast<Encoder*>(png_get_error_ptr(png));
+        std::strncpy(self.error_.data(), message, self.error_.size() - 1);
+        png_longjmp(png, 1);
+    }
+
+    static void ignore_warning(png_structp, png_const_charp) {}
+
+    /// No exception may pass through libpng.
+    [[nodiscard]] bool append(const char* bytes, std::size_t size) noexcept {
+        try {
+            bytes_.append(bytes, size);
+            return true;
+        } catch (...) {
+            return false;
+        }
+    }
+
+    static void take_bytes(png_structp png, png_bytep bytes, std::size_t size) {
+        auto& self = *static_cast<Encoder*>(png_get_io_ptr(png));
+        if (!self.append(reinterpret_cast<const char*>(bytes), size))
+            png_error(png, "there is no memory left");
+    }
+
+    std::string bytes_;
     png_structp png_ = nullptr;
     png_infop info_ = nullptr;
     std::array<char, 128> error_{"libpng cannot be used"};
@@ -152,6 +214,39 @@ std::string png_of_grey(std::size_t width, std::size_t height,
         fail(ErrorKind::limit, "a PNG picture of {} x {} pixels: {}", width, height, image.message);
     bytes.resize(size);
     return bytes;
+}
+
+std::string png_of_samples(const GreyShape& shape, std::span<const std::uint16_t> samples,
+                           const std::vector<PngText>& texts) {
+    if (std::max(shape.width, shape.height) > PNG_UINT_31_MAX)
+        fail(ErrorKind::limit, "a PNG picture of {} x {} pixels is too large", shape.width,
+             shape.height);
+    std::vector<unsigned char> bytes;
+    bytes.reserve(samples.size() * static_cast<std::size_t>(shape.bits / 8));
+    for (const std::uint16_t sample : samples) {
+        if (shape.bits == 16) bytes.push_back(static_cast<unsigned char>(sample >> 8));
+        bytes.push_back(static_cast<unsigned char>(sample & 255));
+    }
+    std::vector<png_bytep> rows(shape.height);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        rows[i] = bytes.data() + i * shape.width * static_cast<std::size_t>(shape.bits / 8);
+    std::vector<std::string> held;
+    for (const auto& [key, text] : texts) {
+        held.push_back(key);
+        held.push_back(text);
+    }
+    std::vector<png_text> chunks(texts.size());
+    for (std::size_t i = 0; i < chunks.size(); ++i) {
+        chunks[i].compression = PNG_TEXT_COMPRESSION_NONE;
+        chunks[i].key = held[2 * i].data();
+        chunks[i].text = held[2 * i + 1].data();
+        chunks[i].text_length = held[2 * i + 1].size();
+    }
+    Encoder encoder;
+    if (!encoder.write(shape, rows.data(), chunks.data(), static_cast<int>(chunks.size())))
+        fail(ErrorKind::limit, "a PNG picture of {} x {} pixels: {}", shape.width, shape.height,
+             encoder.error());
+    return encoder.take();
 }
 
 }  // namespace stipple

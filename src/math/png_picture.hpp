@@ -17,6 +17,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/run_context.hpp"
@@ -40,5 +41,20 @@ PngPicture read_png(std::string_view bytes, const std::string& source, const Run
 /// @throws Error(limit) for a picture too large for PNG.
 std::string png_of_grey(std::size_t width, std::size_t height,
                         std::span<const std::uint16_t> samples);
+
+/// The shape of a grey picture without gamma or colour profile.
+struct GreyShape {
+    std::size_t width = 0;
+    std::size_t height = 0;
+    int bits = 8;  ///< of a sample: 8 or 16
+};
+
+/// A keyword and what it says, in Latin-1.
+using PngText = std::pair<std::string, std::string>;
+
+/// Such a picture with texts; samples row after row from the top.
+/// @throws Error(limit) for a picture too large for PNG.
+std::string png_of_samples(const GreyShape& shape, std::span<const std::uint16_t> samples,
+                           const std::vector<PngText>& texts);
 
 }  // namespace stipple
