@@ -37,8 +37,10 @@ struct ResultKey {
 struct Arrival {
     DomainPtr domain;
     std::optional<std::uint64_t> count = {};  ///< points, where somebody told
+    bool weighted = false;                    ///< rows hold a strength behind the coordinates
 
     [[nodiscard]] std::size_t dimension() const { return domain->dimension(); }
+    [[nodiscard]] std::size_t width() const { return dimension() + (weighted ? 1 : 0); }
 };
 
 /// Measures a set that comes in pieces, without keeping it. What it reports must not depend on
@@ -85,6 +87,11 @@ struct Analyzer {
     /// Called with the mean of `sets` reports (numbers, curves and grids averaged): works out anew
     /// what a mean of results is not, such as an anisotropy. May be empty.
     std::function<void(Report& mean, std::size_t sets, const Values&)> refine = {};
+
+    /// Called with the first of the reports that are to be averaged: fixes options that would
+    /// otherwise depend on a set's size, so that reports on other sizes can be averaged with it.
+    /// May be empty.
+    std::function<void(const Report& first, Values&)> follow = {};
 
     /// Called after `refine` with the reports that were averaged, less their curves and grids: adds
     /// what is worked out from each of them, such as a combined p-value. May be empty.

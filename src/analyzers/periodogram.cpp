@@ -1,25 +1,42 @@
 // SPDX-License-Identifier: MIT
 //
-// Periodogram of n points: their power at integer frequency vectors f,
+// Periodogram of n points with strengths s_j (1, if not told): their power at integer frequency
+// vectors f,
 //
-//     P(f) = | sum_j exp(-2 pi i f.x_j) |^2 / n,        f in {-F..F}^d,
+//     P(f) = | sum_j s_j exp(-2 pi i f.x_j) |^2 / sum_j s_j^2,        f in {-F..F}^d,
 //
-// so that white noise has mean 1. From it, with f = 0 left out everywhere:
+// so that white noise has mean 1. Points that do not live on a torus may be faded out towards the
+// sides, by --window hann, w(x) = prod_k sin^2(pi x_k) with the transform W(f):
+//
+//     P(f) = | sum_j s_j w(x_j) exp(-2 pi i f.x_j) - W(f) sum_j s_j |^2
+//            / ((3/8)^d - W(f)^2) / sum_j s_j^2;
+//
+// the density's own transform is taken off, and the mean is 1 again, at every f. From the power,
+// with f = 0 left out everywhere:
 //
 //     radial power       P_k = mean of P over the ring k - 1/2 <= |f| < k + 1/2,  k = 1..F
 //     anisotropy         variance of P over the ring (mean squared deviation) / P_k^2, in dB;
-//                        no less than -100 dB, which is what a ring of equal powers gets
+//                        no less than -100 dB, which is what a ring of equal powers gets. White
+//                        noise has 0 dB, a mean of R sets -10 log10 R
 //     effective Nyquist  R / 2, where R is the largest radius, at most F, of a disk |f| < R that
 //                        has a mean power of at most 1/10; between the rims of rings the mean is
 //                        interpolated. 0 if no disk has
 //     oscillation        10 times the root of the mean of (P_k - 1)^2 over the frequency vectors of
 //                        rings a..b: a is the first with P_k >= 0.98 (else that of most power),
 //                        b = a + 5 n^(1/d), at most F
+//     total variation    half the mean of |P_k - 1| over the frequency vectors of all rings: 0 for
+//                        white noise, near 1 for a lattice
+//     exponent           slope of log P_k against log k, rings weighted by their vectors, for
+//                        k <= n^(1/d) / 4 (but at least up to 4): a in P ~ f^a near 0. Rings
+//                        without power beyond the tolerance are left out
 //
-// Shape   points in [0, 1]^d, d = 1, 2, 3; the 2-D power has row = f_1, column = f_0, -F..F.
-// Units   cycles a unit length; published tables give the effective Nyquist frequency over
-//         `regular_nyquist`, n^(1/d) / 2, which is that of a regular grid.
-// Cost    O(n w^d + (4F)^d log F), see math/nufft.hpp; `direct` O(n (2F)^d).
+// Shape   points in [0, 1]^d or a box, d = 1, 2, 3, also in pieces; the 2-D power has row = f_1,
+//         column = f_0, -F..F.
+// Units   cycles a unit length (of a box: a side); published tables give the effective Nyquist
+//         frequency over `regular_nyquist`, n^(1/d) / 2, which is that of a regular grid.
+// Cost    O(n w^d + (4F)^d log F), see math/nufft.hpp; `direct` O(n (2F)^d). Sets of up to 2^20
+//         points are kept until their number is known; of more, no more than a batch.
+// Promise the same for any number of threads, and whether points come at once or in pieces.
 // Beware  one set's power has a standard deviation of 100 % at every frequency: average sets. A
 //         mean of anisotropies is not the anisotropy of the mean power; so the power itself goes
 //         into the report, and refine() works out all else from its mean.
@@ -29,8 +46,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <numbers>
+#include <optional>
 
 #include "analyzers/analyzer.hpp"
+#include "analyzers/outside.hpp"
+#include "analyzers/periodogram_rings.hpp"
 #include "core/error.hpp"
 #include "math/nufft.hpp"
 
@@ -56,21 +78,68 @@ constexpr Param<Choice> method{
 constexpr Param<double> tolerance{
     .name = "tolerance",
     .fallback = 1e-9,
-    .low = 1e-13,
+    .low = 0,
     .high = 1e-1,
-    .help = "Largest error of the complex sums, relative to sqrt(n), of the method nufft"};
+    .help =
+        "Largest error of the complex sums, relative to sqrt(n), of the method nufft; no less "
+        "than 1e-13, float64's floor"};
+
+constexpr Param<bool> normalize{
+    .name = "normalize-frequency",
+    .help = "Gives frequencies over n^(1/d): cycles a mean distance between points"};
+
+constexpr Param<Choice> window{
+    .name = "window",
+    .fallback = "none",
+    .choices = "none|hann",
+    .help =
+        "none: the domain is a torus; hann: it is not, and points are faded out towards its "
+        "sides"};
+
+constexpr Param<Text> weights{
+    {.name = "weights",
+     .unit = "column",
+     .help = "Name or number of the column that holds the strength of each point"}};
+
+constexpr Param<Path> wisdom{
+    {.name = "wisdom",
+     .help = "FFTW's measured plans are read from this file, and what is learnt is written to it; "
+             "to measure takes seconds once"}};
 
 constexpr Param<Path> grid_file{
     {.name = "grid",
-     .help = "Saves the 2-D power to this .npy file: row = fy, column = fx, from -F to F"}};
+     .help = "Saves the power to this .npy file: row = fy, column = fx, from -F to F; a line in 1, "
+             "a cube [fz][fy][fx] in 3 dimensions"}};
 
 constexpr Param<Path> image_file{
     {.name = "image",
-     .help = "Draws the 2-D power to this .png file, grey = P / (1 + P), white noise middle grey"}};
+     .help = "Draws the power to this .png file, frequency 0 (black) in the centre; the scale is "
+             "in the file's text. In 3 dimensions the plane of --slice"}};
 
-constexpr double lowest_db = -100;
+constexpr Param<Choice> image_scale{
+    .name = "image-scale",
+    .fallback = "ratio",
+    .choices = "ratio|linear|log",
+    .help =
+        "Grey from 0 to 1; white noise is middle grey in each. ratio: P / (1 + P); linear: "
+        "P / 2, white from 2 on; log: -20 dB to 20 dB"};
 
-std::size_t default_frequency(std::size_t count, std::size_t dimension) {
+constexpr Param<Choice> image_bits{
+    .name = "image-bits", .fallback = "8", .choices = "8|16", .help = "Bits of a pixel of --image"};
+
+constexpr Param<std::int64_t> slice{
+    .name = "slice",
+    .fallback = 0,
+    .low = -1'000'000,
+    .high = 1'000'000,
+    .unit = "cycles a unit length",
+    .help = "fz of the plane that --image draws of points in 3 dimensions"};
+
+constexpr double floor_of_floats = 1e-13;
+constexpr std::uint64_t kept_points = std::uint64_t{1} << 20;
+constexpr std::uint64_t most_points = std::uint64_t{1} << 30;  // that larger sets are planned for
+
+std::size_t default_frequency(std::uint64_t count, std::size_t dimension) {
     constexpr double most[] = {0, 65536, 1024, 64};
     const double twice =
         2 * std::pow(static_cast<double>(count), 1 / static_cast<double>(dimension));
@@ -78,183 +147,327 @@ std::size_t default_frequency(std::size_t count, std::size_t dimension) {
     return static_cast<std::size_t>(std::clamp(std::ceil(twice - 1e-9), 16.0, most[dimension]));
 }
 
-/// Calls visit(ring, power) for all frequency vectors in rings 1..F. The power is stored with one
-/// row for each (f_2, f_1), so its shape tells the dimension. In integers, k - 1/2 <= |f| < k + 1/2
-/// is k^2 - k < |f|^2 <= k^2 + k.
-template <class Visit>
-void for_each_in_rings(const Grid& power, const RunContext& run, Visit&& visit) {
-    const auto width = static_cast<std::int64_t>(power.columns);
-    const std::int64_t last = width / 2;
-    for (std::size_t row = 0; row < power.rows; ++row) {
-        run.check_stop();
-        const auto line = static_cast<std::int64_t>(row);
-        const std::int64_t f1 = power.rows == 1 ? 0 : line % width - last;
-        const std::int64_t f2 = power.rows <= power.columns ? 0 : line / width - last;
-        const std::int64_t across = f1 * f1 + f2 * f2;
-        const double* values = power.values.data() + row * power.columns;
-        std::int64_t ring = 0;
-        for (std::int64_t f0 = 0; f0 <= last; ++f0) {
-            const std::int64_t square = across + f0 * f0;
-            while (ring * ring + ring < square) ++ring;
-            if (ring > last) break;
-            if (ring == 0) continue;
-            visit(static_cast<std::size_t>(ring), values[last + f0]);
-            if (f0 > 0) visit(static_cast<std::size_t>(ring), values[last - f0]);
-        }
-    }
-}
-
-/// Means and variances over rings; index 0 is ring 1.
-struct Rings {
-    std::vector<double> power;
-    std::vector<double> variance;
-    std::vector<std::int64_t> cells;
-};
-
-Rings rings_of(const Grid& power, const RunContext& run) {
-    const std::size_t last = power.columns / 2;
-    Rings rings{std::vector<double>(last), std::vector<double>(last),
-                std::vector<std::int64_t>(last)};
-    for_each_in_rings(power, run, [&](std::size_t k, double p) {
-        rings.power[k - 1] += p;
-        ++rings.cells[k - 1];
-    });
-    for (std::size_t i = 0; i < last; ++i) rings.power[i] /= static_cast<double>(rings.cells[i]);
-    for_each_in_rings(power, run, [&](std::size_t k, double p) {
-        const double deviation = p - rings.power[k - 1];
-        rings.variance[k - 1] += deviation * deviation;
-    });
-    for (std::size_t i = 0; i < last; ++i) rings.variance[i] /= static_cast<double>(rings.cells[i]);
-    return rings;
-}
-
-double decibels(double variance, double mean) {
-    const double ratio = variance / (mean * mean);
-    return ratio > 1e-10 ? 10 * std::log10(ratio) : lowest_db;  // also where mean is 0: 0 / 0
-}
-
-double effective_nyquist(const Rings& rings) {
-    constexpr double threshold = 0.1;
-    double radius = 0;
-    double sum = 0;
-    double cells = 0;
-    double before = threshold;  // mean inside the last rim; at the first there is none
-    for (std::size_t i = 0; i < rings.power.size(); ++i) {
-        sum += rings.power[i] * static_cast<double>(rings.cells[i]);
-        cells += static_cast<double>(rings.cells[i]);
-        const double mean = sum / cells;
-        const double rim = static_cast<double>(i) + 1.5;
-        if (mean <= threshold)
-            radius = rim;
-        else if (before < threshold)
-            radius = rim - (mean - threshold) / (mean - before);
-        before = mean;
-    }
-    return std::min(radius, static_cast<double>(rings.power.size())) / 2;
-}
-
-double oscillation(const Rings& rings, double regular_nyquist) {
-    const auto& power = rings.power;
-    auto first = std::ranges::find_if(power, [](double p) { return p >= 0.98; });
-    if (first == power.end()) first = std::ranges::max_element(power);
-    const auto a = static_cast<std::size_t>(first - power.begin());
-    const double reach = static_cast<double>(a) + std::round(10 * regular_nyquist);
-    const std::size_t b = reach < static_cast<double>(power.size())
-                              ? static_cast<std::size_t>(reach)
-                              : power.size() - 1;
-    double sum = 0;
-    double cells = 0;
-    for (std::size_t i = a; i <= b; ++i) {
-        const auto weight = static_cast<double>(rings.cells[i]);
-        sum += weight * (power[i] - 1) * (power[i] - 1);
-        cells += weight;
-    }
-    return 10 * std::sqrt(sum / cells);
+double regular_nyquist(double count, std::size_t dimension) {
+    return std::pow(count, 1 / static_cast<double>(dimension)) / 2;
 }
 
 /// Puts all that follows from the power into the report.
-void summarize(Report& report, const Grid& power, double regular_nyquist, const RunContext& run) {
+void summarize(Report& report, const Grid& power, std::size_t sets, const Values& options,
+               const RunContext& run) {
     const Rings rings = rings_of(power, run);
+    const double regular = report.number("regular_nyquist");
+    const double unit = options[normalize] ? 2 * regular : 1;
+    const char* unit_name = options[normalize] ? "cycles a mean distance" : "cycles a unit length";
     Report::Curve frequency;
     Report::Curve anisotropy;
     for (std::size_t i = 0; i < rings.power.size(); ++i) {
-        frequency.push_back(static_cast<double>(i + 1));
-        anisotropy.push_back(decibels(rings.variance[i], rings.power[i]));
+        frequency.push_back(static_cast<double>(i + 1) / unit);
+        anisotropy.push_back(anisotropy_db(rings.variance[i], rings.power[i]));
     }
     Report radial;
-    radial.add("frequency", std::move(frequency), "cycles a unit length");
+    radial.add("frequency", std::move(frequency), unit_name);
     radial.add("power", rings.power);
     radial.add("anisotropy_db", std::move(anisotropy), "dB");
     radial.add("cells", rings.cells);
     report.add("radial", std::move(radial));
-    report.add("effective_nyquist", effective_nyquist(rings), "cycles a unit length");
-    report.add("oscillation", oscillation(rings, regular_nyquist));
+    const double expected = sets > 1 ? -10 * std::log10(static_cast<double>(sets)) : 0;
+    report.add("expected_anisotropy_db", expected, "dB");
+    const double nyquist = effective_nyquist(rings);
+    report.add("effective_nyquist", nyquist / unit, unit_name);
+    report.add("relative_nyquist", nyquist / regular);
+    report.add("oscillation", oscillation(rings, regular));
+    report.add("total_variation", total_variation(rings));
+    const double asked = report.number("tolerance");
+    std::erase_if(report.entries(),
+                  [](const auto& e) { return e.name == "low_frequency_exponent"; });
+    if (const auto slope = low_frequency_exponent(rings, regular, asked * asked))
+        report.add("low_frequency_exponent", *slope);
+}
+
+/// sum_j s_j and sum_j s_j^2.
+struct Strengths {
+    double sum = 0;
+    double squares = 0;
+};
+
+/// Transform of the window at the frequencies f of an axis: 1 at 0 without one, else
+/// 1/2, -1/4 at 1 and -1.
+double window_transform(std::int64_t f, bool hann) {
+    if (!hann) return f == 0 ? 1 : 0;
+    return f == 0 ? 0.5 : std::abs(f) == 1 ? -0.25 : 0;
 }
 
 /// Power at all frequencies from the sums at half of them; P(-f) = P(f) holds to the last bit.
-Grid power_of(const FourierSums& sums, std::size_t count, const RunContext& run) {
+Grid power_of(const FourierSums& sums, const Strengths& strengths, bool hann,
+              const RunContext& run) {
     const std::size_t last = sums.max_frequency;
     const std::size_t width = 2 * last + 1;
     Grid power{.rows = sums.values.size() / (last + 1), .columns = width, .values = {}};
     power.values.resize(power.rows * width);
-    const auto n = static_cast<double>(count);
+    const double squared = hann ? std::pow(0.375, static_cast<double>(sums.dimension)) : 1;
+    const double scale = 1 / (squared * strengths.squares);
     for (std::size_t row = 0; row < power.rows; ++row) {
         run.check_stop();
         const auto* half = sums.values.data() + row * (last + 1);
         double* values = power.values.data() + row * width;
         double* mirrored = power.values.data() + (power.rows - 1 - row) * width;
         for (std::size_t f = 0; f <= last; ++f)
-            values[last + f] = mirrored[last - f] = std::norm(half[f]) / n;
+            values[last + f] = mirrored[last - f] = std::norm(half[f]) * scale;
     }
-    power.values[power.values.size() / 2] = n;  // f = 0, exactly
+    const auto line = static_cast<std::int64_t>(width);
+    const auto reach = [&](std::size_t axis) { return hann && axis < sums.dimension ? 1 : 0; };
+    for (std::int64_t f2 = -reach(2); f2 <= reach(2); ++f2)
+        for (std::int64_t f1 = -reach(1); f1 <= reach(1); ++f1)
+            for (std::int64_t f0 = -reach(0); f0 <= reach(0); ++f0) {
+                if (f0 == 0 && f1 == 0 && f2 == 0) continue;
+                double shape = 1;
+                const std::int64_t f[] = {f0, f1, f2};
+                for (std::size_t k = 0; k < sums.dimension; ++k)
+                    shape *= window_transform(f[k], hann);
+                const double of = std::norm(sums.at({f0, f1, f2}) - shape * strengths.sum);
+                const std::int64_t middle = static_cast<std::int64_t>(power.values.size() / 2);
+                const std::int64_t at = middle + (f2 * line + f1) * line + f0;
+                power.values[static_cast<std::size_t>(at)] =
+                    of / ((squared - shape * shape) * strengths.squares);
+            }
+    power.values[power.values.size() / 2] = strengths.sum * strengths.sum / strengths.squares;
     return power;
 }
 
-FourierSums sums_of(const PointSet& points, std::size_t frequency, const Values& options,
-                    const RunContext& run) {
-    const std::size_t d = points.dimension();
-    const std::string what = fmt::format("--max-frequency {}", frequency);
-    const double half = fourier_sums_size(d, frequency);
-    if (options[method] == "direct") {
-        run.need_memory(half * 32, what);
-        return fourier_sums_directly(points.flat(), d, frequency, run);
+/// A spectrum whose points come in pieces.
+class Summation final : public Accumulator {
+  public:
+    Summation(const Arrival& arrival, const Values& options, const RunContext& run)
+        : domain_(arrival.domain),
+          options_(options),
+          d_(arrival.domain->dimension()),
+          cube_(domain_->spec() == "unit-cube"),
+          weighted_(options.given(weights)),
+          hann_(options[window] == "hann"),
+          numbers_(d_ + (weighted_ || hann_ ? 1 : 0)) {
+        const std::string spec = domain_->spec();
+        if (!cube_ && !spec.starts_with("box:"))
+            fail(ErrorKind::input,
+                 "periodogram takes points of the unit cube or a box; these live on {}", spec);
+        check_options();
+        if (options.given(wisdom)) read_wisdom(options[wisdom]);
+        told_ = arrival.count.value_or(0);
+        if (told_ > 0 || options.given(max_frequency))
+            need_memory(std::max<std::uint64_t>(told_, 1), run);
     }
-    const Nufft nufft(points.count(), d, frequency, options[tolerance]);
-    run.need_memory(std::max(nufft.bytes(), half * 32), what);
-    return nufft.transform(points.flat(), run);
-}
 
-Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
-    const std::size_t d = points.dimension();
-    const std::size_t n = points.count();
-    for (const auto& file : {grid_file, image_file})
-        if (options.given(file) && d != 2)
-            fail(ErrorKind::usage, "--{}: takes points of dimension 2; these have {}", file.name,
-                 d);
-    const std::size_t frequency = options.given(max_frequency)
-                                      ? static_cast<std::size_t>(options[max_frequency])
-                                      : default_frequency(n, d);
-    const double regular = std::pow(static_cast<double>(n), 1 / static_cast<double>(d)) / 2;
-    Report report;
-    report.add("max_frequency", static_cast<std::int64_t>(frequency));
-    Grid power = power_of(sums_of(points, frequency, options, run), n, run);
-    summarize(report, power, regular, run);
-    report.add("regular_nyquist", regular, "cycles a unit length");
-    report.add("method", options[method]);
-    const double asked = options[method] == "direct" ? 0 : options[tolerance];
-    report.add("tolerance", std::max(asked, rounding_floor(n)));
-    report.add("grid", std::move(power));
-    return report;
-}
+    void add(std::span<const double> rows, const RunContext& run) override {
+        const std::vector<double> changed = changed_points(rows);
+        const auto points = numbers_ == d_ && cube_ ? rows : std::span<const double>(changed);
+        n_ += points.size() / numbers_;
+        if (outside_.count > 0) return;
+        const bool began = nufft_ || direct_;
+        if (!began && n_ <= kept_points && told_ <= kept_points) {
+            kept_.insert(kept_.end(), points.begin(), points.end());
+            return;
+        }
+        if (!began) begin(most_points, run);
+        take(points, run);
+    }
 
-void refine(Report& mean, std::size_t, const Values&) {
+    Report report(const RunContext& run) override {
+        if (outside_.count > 0) refuse(outside_, n_, *domain_, outside_hint(*domain_));
+        if (n_ < 2) fail(ErrorKind::input, "periodogram needs at least 2 points; there is {}", n_);
+        if (!(strengths_.squares > 0))
+            fail(ErrorKind::input,
+                 "--weights: all {} strengths are 0; white noise has power 1 "
+                 "only where some are not",
+                 n_);
+        if (all_equal_)
+            run.tell(
+                fmt::format("all {} points are equal: they are in phase at every frequency", n_));
+        if (!nufft_ && !direct_) begin(n_, run);
+        return finished(run);
+    }
+
+  private:
+    void check_options() const {
+        if (options_[tolerance] < floor_of_floats)
+            fail(ErrorKind::usage,
+                 "--tolerance: {} is below {}, the floor of what float64 gives; --method direct is "
+                 "as exact as float64 is",
+                 options_[tolerance], floor_of_floats);
+        if (options_.given(image_file) && d_ == 1)
+            fail(ErrorKind::usage, "--image: takes points of dimension 2 or 3; these have 1");
+        if (options_.given(slice) && d_ != 3)
+            fail(ErrorKind::usage, "--slice: takes points of dimension 3; these have {}", d_);
+    }
+
+    [[nodiscard]] std::size_t frequency_for(std::uint64_t count) const {
+        return options_.given(max_frequency) ? static_cast<std::size_t>(options_[max_frequency])
+                                             : default_frequency(count, d_);
+    }
+
+    void need_memory(std::uint64_t count, const RunContext& run) const {
+        const std::size_t frequency = frequency_for(count);
+        const double sums = 16 * fourier_sums_size(d_, frequency);
+        const std::uint64_t planned = count > kept_points ? most_points : count;
+        const double transform =
+            options_[method] == "direct"
+                ? sums
+                : Nufft(planned, d_, frequency, options_[tolerance], numbers_ > d_).bytes();
+        const double kept = 8 * static_cast<double>(std::min(count, kept_points) * numbers_);
+        run.need_memory(std::max(transform + kept, 2 * sums),
+                        fmt::format("--max-frequency {}", frequency));
+    }
+
+    /// Points of the unit cube, with their strengths where these are not all 1; nothing where that
+    /// is what they were.
+    std::vector<double> changed_points(std::span<const double> rows) {
+        std::vector<double> points;
+        const std::size_t given = d_ + (weighted_ ? 1 : 0);
+        const bool same = numbers_ == d_ && cube_;
+        if (!same) points.reserve(rows.size() / given * numbers_);
+        for (std::size_t at = 0; at < rows.size(); at += given) {
+            const auto point = rows.subspan(at, d_);
+            note(point, n_ + at / given);
+            if (same) continue;
+            const std::size_t begin = points.size();
+            points.insert(points.end(), point.begin(), point.end());
+            const std::span<double> here(points.data() + begin, d_);
+            if (!cube_) domain_->to_cube(point, here);
+            const double strength = weighted_ ? rows[at + d_] : 1;
+            strengths_.sum += strength;
+            strengths_.squares += strength * strength;
+            if (numbers_ > d_) points.push_back(strength * faded(here));
+        }
+        if (same) strengths_.sum += static_cast<double>(rows.size() / d_);
+        if (same) strengths_.squares = strengths_.sum;
+        return points;
+    }
+
+    /// Looks whether the point is where it should be, and whether it is elsewhere than the first.
+    void note(std::span<const double> point, std::uint64_t index) {
+        bool inside = true;
+        for (const double x : point) inside = inside && x >= 0 && x <= 1;
+        if (!cube_) inside = domain_->contains(point);
+        if (!inside) outside_.add(index, point);
+        if (!all_equal_) return;
+        if (first_.empty()) first_.assign(point.begin(), point.end());
+        all_equal_ = std::ranges::equal(point, first_);
+    }
+
+    /// The window at a point of the cube.
+    [[nodiscard]] double faded(std::span<const double> point) const {
+        double product = 1;
+        if (hann_)
+            for (const double x : point) {
+                const double s = std::sin(std::numbers::pi * x);
+                product *= s * s;
+            }
+        return product;
+    }
+
+    void begin(std::uint64_t count, const RunContext& run) {
+        need_memory(count, run);
+        frequency_ = frequency_for(count);
+        const bool weighted = numbers_ > d_;
+        if (options_[method] == "direct") {
+            direct_ = std::make_unique<DirectSummation>(d_, frequency_, weighted);
+        } else {
+            nufft_.emplace(count, d_, frequency_, options_[tolerance], weighted);
+            sum_ = std::make_unique<FourierSummation>(*nufft_, run);
+        }
+        take(kept_, run);
+        kept_ = {};
+    }
+
+    void take(std::span<const double> points, const RunContext& run) {
+        if (direct_)
+            direct_->add(points, run);
+        else
+            sum_->add(points, run);
+    }
+
+    FourierSums sums(const RunContext& run) {
+        if (direct_) return direct_->finish();
+        const Planning planning =
+            options_.given(wisdom) ? Planning::measured : planning_for(d_, nufft_->side());
+        FourierSums found = sum_->finish(planning, run);
+        sum_.reset();
+        return found;
+    }
+
+    Report finished(const RunContext& run) {
+        const auto n = static_cast<double>(n_);
+        Report report;
+        report.add("max_frequency", static_cast<std::int64_t>(frequency_));
+        report.add("regular_nyquist", regular_nyquist(n, d_), "cycles a unit length");
+        const double worst =
+            nufft_ ? std::max(options_[tolerance], n_ > most_points ? nufft_->error(n) : 0) : 0;
+        report.add("tolerance", std::max(worst, rounding_floor(n_)));
+        Grid power = power_of(sums(run), strengths_, hann_, run);
+        summarize(report, power, 1, options_, run);
+        report.add("method", options_[method]);
+        report.add("window", options_[window]);
+        report.add("boundary", hann_ ? "faded out" : "torus");
+        report.add("grid", std::move(power));
+        return report;
+    }
+
+    DomainPtr domain_;
+    Values options_;
+    std::size_t d_;
+    bool cube_;  ///< the domain is the unit cube
+    bool weighted_;
+    bool hann_;
+    std::size_t numbers_;  ///< of a point as the sums take it: coordinates, and perhaps a strength
+    std::size_t frequency_ = 0;
+    std::uint64_t n_ = 0;
+    std::uint64_t told_ = 0;  ///< points that were announced; 0: nobody knows
+    std::vector<double> kept_;
+    std::vector<double> first_;  ///< point of the set
+    bool all_equal_ = true;
+    Strengths strengths_;
+    Outside outside_;
+    std::optional<Nufft> nufft_;
+    std::unique_ptr<FourierSummation> sum_;
+    std::unique_ptr<DirectSummation> direct_;
+};
+
+void refine(Report& mean, std::size_t sets, const Values& options) {
     const auto* grid = mean.find("grid");
     if (grid == nullptr)
         fail_with_hint(ErrorKind::usage, "give them one --max-frequency",
-                       "--average: the spectra have different frequencies, as the sets have "
-                       "different numbers of points");
-    const auto* power = std::get_if<Grid>(grid);
-    summarize(mean, *power, mean.number("regular_nyquist"), {});
+                       "--average: the spectra have different frequencies");
+    const Grid power = std::get<Grid>(*grid);
+    summarize(mean, power, sets, options, {});
+}
+
+/// Sets of other sizes are measured at the first one's frequencies, so that they have a mean.
+void follow(const Report& first, Values& options) {
+    if (options.given(max_frequency)) return;
+    options.put(max_frequency.name, static_cast<std::int64_t>(first.number("max_frequency")));
+}
+
+std::vector<ResultKey> results() {
+    return {{"max_frequency", "F: frequencies go from -F to F"},
+            {"regular_nyquist", "n^(1/d) / 2, the Nyquist frequency of a regular grid"},
+            {"tolerance",
+             "Bound of the error of the complex sums, relative to sqrt(n); no less than what "
+             "rounding leaves where all points are in phase"},
+            {"radial.frequency", "Frequency k of each ring, k - 1/2 <= |f| < k + 1/2"},
+            {"radial.power", "Mean power over the ring; white noise has 1"},
+            {"radial.anisotropy_db", "Variance over the ring / squared mean, in dB, at least -100"},
+            {"radial.cells", "Frequency vectors in the ring"},
+            {"expected_anisotropy_db",
+             "Anisotropy of white noise: 0, less 10 log10 of the number of sets averaged"},
+            {"effective_nyquist",
+             "Half the largest radius, at most F, within which the mean power is at most 0.1"},
+            {"relative_nyquist", "The same over regular_nyquist, as published tables give it"},
+            {"oscillation",
+             "10 x root mean square of radial power - 1, from where it first reaches 0.98"},
+            {"total_variation", "Half the mean of |radial power - 1|: 0 for white noise"},
+            {"low_frequency_exponent",
+             "a in power ~ frequency^a near 0, where the lowest rings have power"},
+            {"method", "nufft or direct"},
+            {"window", "none or hann"},
+            {"boundary", "torus, or faded out by the window"}};
 }
 
 }  // namespace
@@ -265,27 +478,16 @@ Analyzer periodogram() {
         .summary = "Power spectrum at integer frequencies, its radial mean and anisotropy",
         .source =
             "Ulichney 1988, doi:10.1109/5.3288; Heck, Schloemer, Deussen 2013, ACM TOG 32(3):25",
-        .traits = {.min_dimension = 1, .max_dimension = 3},
-        .options = Schema(max_frequency, method, tolerance, grid_file, image_file),
-        .results =
-            {{"max_frequency", "F: frequencies go from -F to F"},
-             {"radial.frequency", "Frequency k of each ring, k - 1/2 <= |f| < k + 1/2"},
-             {"radial.power", "Mean power over the ring; white noise has 1"},
-             {"radial.anisotropy_db",
-              "Variance over the ring / squared mean, in dB, at least -100; white noise has 0, "
-              "less 10 log10 of the number of sets averaged"},
-             {"radial.cells", "Frequency vectors in the ring"},
-             {"effective_nyquist",
-              "Half the largest radius, at most F, within which the mean power is at most 0.1"},
-             {"oscillation",
-              "10 x root mean square of radial power - 1, from where it first reaches 0.98"},
-             {"regular_nyquist", "n^(1/d) / 2, the Nyquist frequency of a regular grid"},
-             {"method", "nufft or direct"},
-             {"tolerance",
-              "Bound of the error of the complex sums, relative to sqrt(n); no less than what "
-              "rounding leaves where all points are in phase"}},
-        .analyze = analyze,
-        .refine = refine};
+        .traits = {.min_dimension = 1, .max_dimension = 3, .unit_cube = false, .boxed = true},
+        .options = Schema(max_frequency, method, tolerance, normalize, window, weights, grid_file,
+                          image_file, image_scale, image_bits, slice, wisdom),
+        .results = results(),
+        .accumulate =
+            [](const Arrival& arrival, const Values& options, const RunContext& run) {
+                return std::make_unique<Summation>(arrival, options, run);
+            },
+        .refine = refine,
+        .follow = follow};
 }
 
 }  // namespace stipple::analyzers

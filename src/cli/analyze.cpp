@@ -13,11 +13,13 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/files.hpp"
+#include "math/transform.hpp"
 #include "report/average.hpp"
 #include "report/check.hpp"
 #include "report/document.hpp"
 #include "report/grid_files.hpp"
 #include "study/chain.hpp"
+#include "study/generated.hpp"
 #include "study/pipeline.hpp"
 
 namespace stipple::cli {
@@ -32,28 +34,30 @@ Box box_around(const PointSet& points) {
     return box;
 }
 
-/// Of points the first of which is point `first`. @throws Error(input) for points outside.
-void require_inside(std::span<const double> rows, const Box& box, std::uint64_t first) {
+/// Of points the first of which is point `first`; a row may hold more than the box has coordinates.
+/// @throws Error(input) for points outside.
+void require_inside(std::span<const double> rows, std::size_t width, const Box& box,
+                    std::uint64_t first) {
     const DomainPtr domain = box_domain(box);
     const std::size_t d = box.dimension();
-    for (std::size_t i = 0; i < rows.size(); i += d)
+    for (std::size_t i = 0; i < rows.size(); i += width)
         if (!domain->contains(rows.subspan(i, d)))
-            fail(ErrorKind::input, "point {} is outside the bounds {}", first + i / d,
+            fail(ErrorKind::input, "point {} is outside the bounds {}", first + i / width,
                  format_box(box));
 }
 
 /// Makes points of the box points of the unit cube.
-void into_unit_cube(std::span<double> rows, const Box& box) {
+void into_unit_cube(std::span<double> rows, std::size_t width, const Box& box) {
     const DomainPtr domain = box_domain(box);
     const std::size_t d = box.dimension();
-    for (std::size_t i = 0; i < rows.size(); i += d)
+    for (std::size_t i = 0; i < rows.size(); i += width)
         domain->to_cube(rows.subspan(i, d), rows.subspan(i, d));
 }
 
 /// @throws Error(input) for points outside the box.
 PointSet to_unit_cube(PointSet points, const Box& box) {
-    require_inside(points.flat(), box, 0);
-    into_unit_cube(points.flat(), box);
+    require_inside(points.flat(), box.dimension(), box, 0);
+    into_unit_cube(points.flat(), box.dimension(), box);
     points.domain = unit_cube(points.dimension());
     return points;
 }
@@ -159,11 +163,12 @@ class Analysis {
     }
 
     int go() {
-        const bool in_blocks = analyzer_.accumulate && !arguments_.has("rescale");
         check_bounds(arguments_);
         check_domain(arguments_, analyzer_);
-        for (const std::string& input : inputs_)
-            if (!interrupted()) in_blocks ? add_stream(input) : add_sets(input);
+        if (arguments_.has("generate"))
+            add_generated();
+        else
+            add_inputs();
         batch_.finish();
         if (interrupted()) return print_what_is_known();
         if (averaged_) finish_average();
@@ -174,6 +179,86 @@ class Analysis {
 
   private:
     using Clock = std::chrono::steady_clock;
+
+    void add_inputs() {
+        for (const char* name : {"count", "seed", "sets", "warp", "start"})
+            if (arguments_.has(name))
+                fail(ErrorKind::usage, "--{}: is of --generate, which names a generator", name);
+        const bool in_blocks = analyzer_.accumulate && !arguments_.has("rescale");
+        if (!in_blocks && !strengths().empty())
+            fail(ErrorKind::usage, "--rescale and --weights: give --bounds in place of --rescale");
+        for (const std::string& input : inputs_)
+            if (!interrupted()) in_blocks ? add_stream(input) : add_sets(input);
+    }
+
+    /// Sets that are not in files.
+    void add_generated() {
+        for (const char* name : {"bounds", "rescale", "domain", "column", "from", "dtype"})
+            if (arguments_.has(name))
+                fail(ErrorKind::usage, "--{}: is of points from files, not of --generate", name);
+        if (!arguments_.inputs.empty())
+            fail(ErrorKind::usage, "--generate takes no INPUT; '{}' is given",
+                 arguments_.inputs.front());
+        if (!strengths().empty())
+            fail(ErrorKind::usage, "--weights: generated points have no strengths");
+        const std::string text = *arguments_.get("generate");
+        const Spec spec = parse_spec(text);
+        const Generator& generator = find_generator(spec.name);
+        Values values = spec.values(generator.options);
+        Request request = request_of(arguments_);
+        const auto& max_seed = generator.max_seed;
+        request.seed =
+            seed_of(arguments_, max_seed ? max_seed(values) : ~std::uint64_t{0}, session_);
+        std::vector<Spec> warps;
+        for (const auto& warp : arguments_.all("warp")) warps.push_back(parse_spec(warp));
+        const std::uint64_t sets = arguments_.integer("sets", 1, 1'000'000'000).value_or(1);
+        const GeneratedSets generated(generator, std::move(values), std::move(request), sets,
+                                      std::move(warps), session_.run());
+        for (std::uint64_t set = 0; set < sets && !interrupted(); ++set) {
+            session_.run().tick(set, sets);
+            add_generated(generated, set, text);
+        }
+    }
+
+    void add_generated(const GeneratedSets& generated, std::uint64_t set, const std::string& text) {
+        RunContext quiet = session_.run();
+        if (generated.sets() > 1) quiet.progress = {};
+        const auto start = Clock::now();
+        const auto count = generated.streamed();
+        if (!analyzer_.accumulate || !count) {
+            batch_.add({generated.made(set, quiet), text, set, generated.sets()});
+            return;
+        }
+        Found found =
+            stipple::analyze(analyzer_, {generated.domain(), count}, generated.dimension(),
+                             generated.stream(set, quiet), options_, quiet);
+        Measurement m = measurement(text, set, found.count, *generated.domain());
+        m.results = std::move(found.report);
+        m.seconds = seconds_since(start);
+        if (generated.sets() == 1) m.set.reset();
+        keep(std::move(m), generated.sets() > 1);
+    }
+
+    static double seconds_since(Clock::time_point start) {
+        return std::chrono::duration<double>(Clock::now() - start).count();
+    }
+
+    [[nodiscard]] Measurement measurement(const std::string& source, std::size_t set,
+                                          std::uint64_t count, const Domain& domain) const {
+        return {.analyzer = analyzer_.name,
+                .source = source,
+                .set = set,
+                .count = count,
+                .dimension = domain.dimension(),
+                .domain = domain.spec(),
+                .options = shown_options_};
+    }
+
+    /// The column that --weights names.
+    [[nodiscard]] std::string strengths() const {
+        const auto* option = options_.try_find("weights");
+        return option && option->given ? std::get<std::string>(option->value) : std::string();
+    }
 
     void add_sets(const std::string& input) {
         std::vector<PointSet> sets;
@@ -222,52 +307,48 @@ class Analysis {
 
     /// Sets of any size, in blocks.
     void add_stream(const std::string& input) {
-        const auto stream = joined_ ? open_joined(arguments_, session_.run())
-                                    : open_input(input, arguments_, session_.run());
+        const auto stream = joined_ ? open_joined(arguments_, session_.run(), strengths())
+                                    : open_input(input, arguments_, session_.run(), strengths());
         const std::size_t before = measurements_.size();
         std::size_t sets = 0;
         while (stream->next_set()) naming(input, [&] { add_arriving(*stream, input, sets++); });
         if (sets == 1 && measurements_.size() == before + 1) measurements_.back().set.reset();
     }
 
-    [[nodiscard]] DomainPtr domain_of(const io::PointStream& stream) const {
-        const std::size_t d = stream.dimension();
+    [[nodiscard]] DomainPtr domain_of(const io::PointStream& stream, std::size_t d) const {
         if (const auto bounds = arguments_.get("bounds"))
             return analyzer_.traits.unit_cube ? unit_cube(d) : box_domain(parse_box(*bounds, d));
         if (const auto named = arguments_.get("domain")) return parse_domain(*named, d);
         return input_domain(stream.provenance(), d, arguments_, session_.run());
     }
 
-    void take_bounds(std::span<double> rows, const Box& box, std::uint64_t first) const {
-        require_inside(rows, box, first);
-        if (analyzer_.traits.unit_cube) into_unit_cube(rows, box);
+    void take_bounds(std::span<double> rows, std::size_t width, const Box& box,
+                     std::uint64_t first) const {
+        require_inside(rows, width, box, first);
+        if (analyzer_.traits.unit_cube) into_unit_cube(rows, width, box);
     }
 
     void add_arriving(io::PointStream& stream, const std::string& input, std::size_t set) {
         const auto start = Clock::now();
-        const std::size_t d = stream.dimension();
-        const DomainPtr domain = domain_of(stream);
+        const std::size_t width = stream.dimension();
+        const bool weighted = !strengths().empty();
+        const std::size_t d = width - (weighted ? 1 : 0);
+        const DomainPtr domain = domain_of(stream, d);
         std::optional<Box> box;
         if (const auto bounds = arguments_.get("bounds")) box = parse_box(*bounds, d);
         std::uint64_t at = 0;
         const NextRows next = [&](std::span<double> rows) {
             const std::size_t count = stream.read(rows);
-            if (box) take_bounds(rows.first(count * d), *box, at);
+            if (box) take_bounds(rows.first(count * width), width, *box, at);
             at += count;
             return count;
         };
-        Found found = stipple::analyze(analyzer_, {domain, stream.count()}, d, next, options_,
-                                       session_.run());
-        keep({.analyzer = analyzer_.name,
-              .source = input,
-              .set = set,
-              .count = found.count,
-              .dimension = d,
-              .domain = domain->spec(),
-              .options = shown_options_,
-              .results = std::move(found.report),
-              .seconds = std::chrono::duration<double>(Clock::now() - start).count()},
-             inputs_.size() > 1 || set > 0);
+        Found found = stipple::analyze(analyzer_, {domain, stream.count(), weighted}, d, next,
+                                       options_, session_.run());
+        Measurement m = measurement(input, set, found.count, *domain);
+        m.results = std::move(found.report);
+        m.seconds = seconds_since(start);
+        keep(std::move(m), inputs_.size() > 1 || set > 0);
     }
 
     [[nodiscard]] Measurement measured(const FoundSet& set, const RunContext& run) const {
@@ -296,6 +377,7 @@ class Analysis {
             fail(ErrorKind::usage, "--average: the sets have points of {} and of {} coordinates",
                  measurements_[0].dimension, m.dimension);
         average_.add(m.results);
+        if (average_.count() == 1 && analyzer_.follow) analyzer_.follow(m.results, options_);
         if (analyzer_.combine) singles_.push_back(numbers_only(m.results));
         if (average_.count() == 1) {
             measurements_.push_back(std::move(m));
@@ -334,8 +416,24 @@ class Analysis {
             else if (several)
                 fail(ErrorKind::usage, "--{}: several sets need a name with {{set}}, or --average",
                      name);
-            write_text(path, std::string(name) == "grid" ? npy_bytes(*grid) : png_bytes(*grid));
+            write_text(
+                path, std::string(name) == "grid" ? npy_bytes(*grid) : png_bytes(*grid, picture()));
         }
+        const auto* wisdom = options_.try_find("wisdom");
+        if (wisdom && wisdom->given)
+            write_text(std::get<std::string>(wisdom->value), wisdom_text());
+    }
+
+    /// How the options say that a grid is drawn.
+    [[nodiscard]] PowerPicture picture() const {
+        PowerPicture picture;
+        if (const auto* scale = options_.try_find("image-scale"))
+            picture.scale = std::get<std::string>(scale->value);
+        if (const auto* bits = options_.try_find("image-bits"))
+            picture.bits = std::get<std::string>(bits->value) == "16" ? 16 : 8;
+        if (const auto* slice = options_.try_find("slice"))
+            picture.slice = std::get<std::int64_t>(slice->value);
+        return picture;
     }
 
     /// What averaged sets disagree on is not in their mean, and holds for none of it.

@@ -268,7 +268,8 @@ const std::vector<VerbInfo>& verbs() {
          "  stipple analyze chi-square disk.csv --domain disk --expect uniform\n"
          "  stipple analyze star-discrepancy a.csv b.csv --format csv\n"
          "  stipple analyze star-discrepancy a.csv --check 'value<0.01'\n"
-         "  stipple analyze poisson-disk --radius 0.02 --check points.csv\n"},
+         "  stipple analyze poisson-disk --radius 0.02 --check points.csv\n"
+         "  stipple analyze periodogram --generate sobol:scramble=owen -n 4096 -m 100 --average\n"},
         {Verb::convert, "convert", "stipple convert INPUT... -o OUTPUT [OPTIONS]",
          "from one file format to another",
          "The formats are those of the names' extensions, or --from and --format. Every double "
@@ -404,6 +405,17 @@ const std::vector<CommonOption>& common_options() {
         {"-m,--sets", "R", "1", "independent realizations, with seeds S, S + 1, ...", generate},
         {"-m,--sets", "R", "1", "independent replications by a scramble, with seeds S, S + 1, ...",
          warp},
+        {"--generate", "GENERATOR[:OPT=V,...]", "",
+         "measure sets straight from a generator, without INPUT: -n, -d, --seed, --sets, --start "
+         "and "
+         "--warp as of 'stipple generate'",
+         analyze},
+        {"-n,--count", "N", "1024", "points of a set of --generate", analyze},
+        {"-s,--seed", "S", "1", "64-bit seed of --generate; 'random' draws one and says so",
+         analyze},
+        {"-m,--sets", "R", "1", "sets of --generate, with seeds S, S + 1, ...", analyze},
+        {"-w,--warp", "NAME[:OPT=V,...]", "", "warp or scramble of --generate", analyze, true},
+        {"--start", "I", "0", "index of the first point of --generate", analyze},
         {"--start", "I", "0", "index of a sequence's first point", generate},
         {"--shard", "I/K", "0/1",
          "the I-th of K (from 0) contiguous parts; together they are the whole, byte for byte",

@@ -51,14 +51,6 @@ std::uint64_t drawn_seed(std::uint64_t largest) {
     return bits % (std::min(largest, most_points - 1) + 1);
 }
 
-Request request_of(const Arguments& arguments) {
-    Request request;
-    request.count = arguments.integer("count", 1, most_points);
-    if (const auto d = arguments.integer("dimension", 1, most_dimensions)) request.dimension = *d;
-    request.start = arguments.integer("start", 0, most_points).value_or(0);
-    return request;
-}
-
 /// A word as a shell takes it.
 std::string shell_word(const std::string& word) {
     constexpr std::string_view plain =
@@ -109,6 +101,14 @@ std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session
         fail(ErrorKind::usage, "--seed: '{}' is not a whole number in [0, 2^64) or 'random'",
              *text);
     return *seed;
+}
+
+Request request_of(const Arguments& arguments) {
+    Request request;
+    request.count = arguments.integer("count", 1, most_points);
+    if (const auto d = arguments.integer("dimension", 1, most_dimensions)) request.dimension = *d;
+    request.start = arguments.integer("start", 0, most_points).value_or(0);
+    return request;
 }
 
 Target target_of(const Arguments& arguments) {
@@ -191,14 +191,16 @@ std::vector<PointSet> read_input(std::string_view bytes, const std::string& path
     return named(io::read_sets(bytes, path, options, run, format), arguments, run);
 }
 
-std::unique_ptr<io::PointStream> open_joined(const Arguments& arguments, const RunContext& run) {
+std::unique_ptr<io::PointStream> open_joined(const Arguments& arguments, const RunContext& run,
+                                             const std::string& strengths) {
     auto paths = arguments.inputs;
     if (paths.empty()) paths.emplace_back("-");
     if (std::ranges::count(paths, "-") > 1)
         fail(ErrorKind::usage, "--concat: standard input is named twice");
-    return io::join_points(std::move(paths), [&arguments, &run](const std::string& path) {
-        return open_input(path, arguments, run);
-    });
+    return io::join_points(std::move(paths),
+                           [&arguments, &run, strengths](const std::string& path) {
+                               return open_input(path, arguments, run, strengths);
+                           });
 }
 
 std::vector<PointSet> read_joined(const Arguments& arguments, const RunContext& run) {
@@ -206,8 +208,9 @@ std::vector<PointSet> read_joined(const Arguments& arguments, const RunContext& 
 }
 
 std::unique_ptr<io::PointStream> open_input(const std::string& path, const Arguments& arguments,
-                                            const RunContext& run) {
-    const auto [options, format] = reading_of(path, arguments);
+                                            const RunContext& run, const std::string& strengths) {
+    auto [options, format] = reading_of(path, arguments);
+    options.strengths = strengths;
     return io::open_points(path, options, run, format);
 }
 

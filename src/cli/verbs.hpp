@@ -39,11 +39,14 @@ std::vector<PointSet> read_input(std::string_view bytes, const std::string& path
                                  const Arguments& arguments, const RunContext& run);
 
 /// The same in blocks, where they are many; their domain is input_domain.
+/// `strengths` names a column that comes behind the coordinates.
 std::unique_ptr<io::PointStream> open_input(const std::string& path, const Arguments& arguments,
-                                            const RunContext& run);
+                                            const RunContext& run,
+                                            const std::string& strengths = {});
 
 /// All inputs as one set, for --concat.
-std::unique_ptr<io::PointStream> open_joined(const Arguments& arguments, const RunContext& run);
+std::unique_ptr<io::PointStream> open_joined(const Arguments& arguments, const RunContext& run,
+                                             const std::string& strengths = {});
 std::vector<PointSet> read_joined(const Arguments& arguments, const RunContext& run);
 
 /// What points of a file live on.
@@ -52,6 +55,9 @@ DomainPtr input_domain(const Provenance& provenance, std::size_t dimension,
 
 /// The unit's options as typed. @throws Error(usage)
 Values settings_of(const Schema& schema, const Arguments& arguments);
+
+/// What is asked of a generator: -n, -d, --start; without seed and bounds.
+Request request_of(const Arguments& arguments);
 
 /// Writes text to a file or standard output, whole or not at all.
 void write_text(const std::string& path, const std::string& text);

@@ -13,14 +13,14 @@ namespace {
 bool measures_points(const std::string& name) { return name == "pdf" || name == "weight"; }
 
 std::size_t find_column(const std::string& wanted, const std::vector<std::string>& names,
-                        const std::string& place) {
+                        const std::string& place, const char* option = "column") {
     const auto it = std::ranges::find(names, wanted);
     if (it != names.end()) return static_cast<std::size_t>(it - names.begin());
     const auto number = parse_integer(wanted);
     if (number && *number >= 1 && static_cast<std::size_t>(*number) <= names.size())
         return static_cast<std::size_t>(*number) - 1;
     fail_with_hint(ErrorKind::usage, suggest(wanted, names),
-                   "--column: {} has no column '{}'; its columns are 1 to {}", place, wanted,
+                   "--{}: {} has no column '{}'; its columns are 1 to {}", option, place, wanted,
                    names.size());
 }
 
@@ -47,11 +47,14 @@ Columns choose_columns(std::vector<std::string> names, std::size_t width,
     Columns columns{.role = std::vector<std::size_t>(width, Columns::skipped)};
     if (names.empty()) names = coordinate_names(width);
     if (names[0] == "set") columns.role[0] = Columns::set_number;
+    const bool strong = !options.strengths.empty();
+    const std::size_t strength =
+        strong ? find_column(options.strengths, names, place, "weights") : Columns::skipped;
     if (!options.columns.empty()) {
         pick(columns, names, options, place);
     } else {
         for (std::size_t c = 0; c < width; ++c)
-            if (measures_points(names[c]))
+            if (c == strength || measures_points(names[c]))
                 columns.role[c] = Columns::checked;
             else if (columns.role[c] != Columns::set_number)
                 columns.role[c] = columns.dimension++;
@@ -60,10 +63,15 @@ Columns choose_columns(std::vector<std::string> names, std::size_t width,
         fail_with_hint(ErrorKind::input, "--column picks columns by name or number",
                        "{}: no column holds coordinates; the columns are {}", place,
                        join(names, ", "));
-    if (options.dimension && *options.dimension != columns.dimension)
+    if (strong && columns.role[strength] < columns.dimension)
+        fail(ErrorKind::usage, "--weights: '{}' is a coordinate, too; --column picks the others",
+             options.strengths);
+    if (options.dimension && *options.dimension != columns.dimension &&
+        !(strong && *options.dimension == columns.dimension + 1))
         fail_with_hint(ErrorKind::input, "--column picks columns by name or number",
                        "{}: points have {} coordinates; --dimension says {}", place,
                        columns.dimension, *options.dimension);
+    if (strong) columns.role[strength] = columns.dimension++;
     return columns;
 }
 

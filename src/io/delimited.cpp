@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -495,7 +496,7 @@ class DelimitedStream final : public PointStream {
     const Provenance& provenance() const override { return provenance_; }
 
     /// Below a header sets are told by a column; lines `#` stand in texts without.
-    bool looks_like_one_set() const override { return names_; }
+    bool looks_like_one_set() const override { return names_ && !numbered(); }
 
     bool next_set() override {
         if (!started_) return started_ = true;
@@ -532,6 +533,7 @@ class DelimitedStream final : public PointStream {
     std::uint64_t part_end() const {
         return part_begin_ + rows_.numbers.size() / columns_.dimension;
     }
+    bool numbered() const { return columns_.has(Columns::set_number); }
     bool cut_here() const { return !marks_.empty() && marks_.front().row == at_; }
 
     /// Parses the next part; false at the end. A part may hold no rows.
@@ -568,7 +570,9 @@ class DelimitedStream final : public PointStream {
         part_begin_ = at_;
         const SourceText text(std::string_view(text_).substr(0, used_), source_, newline_, lines_);
         rows_ = read_rows(text, text.begin(), nullptr, columns_, dialect_, run_);
+        if (numbered()) cut_at_numbers(text);
         for (const Mark& mark : rows_.marks) {
+            if (numbered()) break;
             const Cut cut{part_begin_ + mark.row, text.line_of(mark.at)};
             if (cut.row == 0) continue;  // comments above the first point
             if (cut.row == last_cut_.row) refuse_empty(cut.line);
@@ -576,6 +580,22 @@ class DelimitedStream final : public PointStream {
             last_cut_ = cut;
         }
         lines_ = text.line_of(text.end()) - 1;
+    }
+
+    /// Finds where the column that tells the set changes. What is read in parts cannot be brought
+    /// together, as the rows of a small file are.
+    void cut_at_numbers(const SourceText& text) {
+        for (const Mark& mark : rows_.marks) {
+            if (std::isnan(mark.number) || mark.number == number_) continue;
+            const std::size_t line = text.line_of(mark.at);
+            if (!seen_.insert(mark.number).second)
+                fail_with_hint(ErrorKind::input, "sort the rows by their set",
+                               "{}:{}:1: set {} begins again; in more than {} MiB of text the rows "
+                               "of a set stand together",
+                               source_name(source_), line, mark.number, Feed::front_size >> 20);
+            if (!std::isnan(number_)) marks_.push_back({part_begin_ + mark.row, line});
+            number_ = mark.number;
+        }
     }
 
     void refuse_empty_set() const {
@@ -605,6 +625,8 @@ class DelimitedStream final : public PointStream {
     std::uint64_t at_ = 0;          ///< the next row among all
     std::vector<Cut> marks_;
     Cut last_cut_{0, 0};
+    double number_ = unknown;          ///< of the set, where a column tells it
+    std::unordered_set<double> seen_;  ///< numbers of sets that began
 };
 
 }  // namespace
@@ -636,7 +658,7 @@ std::unique_ptr<PointStream> stream_delimited(std::unique_ptr<Feed>& feed,
         return nullptr;  // the whole text says better what is wrong
     }
     const bool cut_off = std::find(head->body, front.end(), front.newline()) == front.end();
-    if (cut_off || head->columns.has(Columns::set_number)) return nullptr;
+    if (cut_off) return nullptr;
     return std::make_unique<DelimitedStream>(std::move(feed), *head, front, options, run);
 }
 

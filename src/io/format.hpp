@@ -52,6 +52,7 @@ struct ReadOptions {
     std::optional<std::size_t> dimension = {};  ///< needed by bin; checked by the others
     std::vector<std::string> columns = {};  ///< names, or numbers from 1; empty: all coordinates
     bool single = false;                    ///< bin holds float32
+    std::string strengths = {};             ///< column that becomes a number behind the coordinates
 };
 
 struct FormatTraits {

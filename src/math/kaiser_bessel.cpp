@@ -51,9 +51,6 @@ std::vector<double> to_powers(const std::vector<double>& chebyshev) {
     return powers;
 }
 
-/// Degree at which the polynomials are as good as the window itself, found by trying.
-constexpr std::size_t degree_for(std::size_t width) { return width + 1; }
-
 }  // namespace
 
 KaiserBessel::KaiserBessel(std::size_t width, double band) : width_(width), band_(band) {
@@ -62,7 +59,6 @@ KaiserBessel::KaiserBessel(std::size_t width, double band) : width_(width), band
     // than that is best for narrow and wide windows alike.
     beta_ = 0.985 * std::numbers::pi * static_cast<double>(width) * (1 - band);
     scale_ = 1 / bessel_i0(beta_ * beta_ / 4);
-    fit(degree_for(width));
 }
 
 double KaiserBessel::operator()(double a) const {
@@ -79,36 +75,16 @@ double KaiserBessel::transform(double xi) const {
     return static_cast<double>(width_) * shape * scale_;
 }
 
-void KaiserBessel::fit(std::size_t degree) {
-    degree_ = degree;
-    const std::size_t row = padded_width();
-    coefficients_.assign((degree + 1) * row, 0.0);
-    std::vector<double> values(degree + 1);
-    for (std::size_t j = 0; j < width_; ++j) {
-        const double first = static_cast<double>(width_) / 2 - 1 - static_cast<double>(j);
-        for (std::size_t i = 0; i <= degree; ++i) {
-            const double t = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) /
-                                      static_cast<double>(degree + 1));
-            values[i] = (*this)((t + 1) / 2 + first);
-        }
-        const auto powers = to_powers(chebyshev_coefficients(values));
-        for (std::size_t k = 0; k <= degree; ++k) coefficients_[k * row + j] = powers[degree - k];
-    }
-}
-
 double KaiserBessel::error() const {
-    constexpr int places = 9;  // of the point between two grid points; the error is smooth there
-    const std::size_t row = padded_width();
+    constexpr int places = 4;  // of the point between two grid points; the error is smooth there
     double worst = 0;
     for (int i = 0; i <= places; ++i) {
-        const double u = static_cast<double>(i) / places;
-        std::complex<double> high;  // the sums at the ends of the band
+        const double u = static_cast<double>(i) / places / 2;  // symmetric about 1/2
+        std::complex<double> high;                             // the sums at the ends of the band
         double low = 0;
         for (std::size_t j = 0; j < width_; ++j) {
-            double value = 0;
-            for (std::size_t k = 0; k <= degree_; ++k)
-                value = value * (2 * u - 1) + coefficients_[k * row + j];
             const double a = u + static_cast<double>(width_) / 2 - 1 - static_cast<double>(j);
+            const double value = (*this)(a);
             high += value * std::polar(1.0, 2 * std::numbers::pi * band_ * a);
             low += value;
         }
@@ -127,6 +103,34 @@ KaiserBessel window_for(double tolerance, double band) {
     while (window.error() > tolerance && width < KaiserBessel::max_width)
         window = KaiserBessel(++width, band);
     return window;
+}
+
+WindowTable::WindowTable(const KaiserBessel& window) : width_(window.width()) {
+    const std::size_t row = padded_width();
+    coefficients_.assign(pieces * (degree() + 1) * row, 0.0);
+    std::vector<double> values(degree() + 1);
+    for (std::size_t j = 0; j < pieces * width_; ++j) {
+        const std::size_t piece = j / width_;
+        const auto first = static_cast<double>(width_) / 2 - 1 - static_cast<double>(j % width_);
+        for (std::size_t i = 0; i <= degree(); ++i) {
+            const double t = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) /
+                                      static_cast<double>(degree() + 1));
+            values[i] = window((static_cast<double>(piece) + (t + 1) / 2) / pieces + first);
+        }
+        const auto powers = to_powers(chebyshev_coefficients(values));
+        double* to = coefficients_.data() + piece * (degree() + 1) * row + j % width_;
+        for (std::size_t k = 0; k <= degree(); ++k) to[k * row] = powers[degree() - k];
+    }
+}
+
+double WindowTable::value(std::size_t j, double u) const {
+    const double scaled = u * pieces;
+    const auto piece = static_cast<std::size_t>(scaled);
+    const double t = 2 * (scaled - static_cast<double>(piece)) - 1;
+    const double* row = coefficients_.data() + piece * (degree() + 1) * padded_width() + j;
+    double value = 0;
+    for (std::size_t k = 0; k <= degree(); ++k, row += padded_width()) value = value * t + *row;
+    return value;
 }
 
 }  // namespace stipple

@@ -5,8 +5,8 @@
 //     phi(a) = I0(beta sqrt(1 - (2a/w)^2)) / I0(beta),    |a| <= w/2,
 //     its transform at xi cycles a cell:  w sinh(s) / (s I0(beta)),  s^2 = beta^2 - (pi w xi)^2.
 //
-// The w values that a point needs are polynomials of its place between two grid points, so that
-// spreading it takes neither roots nor Bessel functions.
+// The w values that a point needs are taken from polynomials of its place between two grid points,
+// so that spreading it takes neither roots nor Bessel functions.
 //
 // Source  J. F. Kaiser's window; as a spreading function: J. A. Fessler, B. P. Sutton, IEEE Trans.
 //         Signal Process. 51 (2003) 560-574, doi:10.1109/TSP.2002.807005.
@@ -28,37 +28,59 @@ class KaiserBessel {
 
     [[nodiscard]] std::size_t width() const { return width_; }
 
-    /// Values that a row of coefficients holds: the width rounded up to 4; the surplus is zero.
-    [[nodiscard]] std::size_t padded_width() const { return (width_ + 3) / 4 * 4; }
-
     /// phi(a), 0 outside the window.
     [[nodiscard]] double operator()(double a) const;
 
     /// Its Fourier transform at xi cycles a cell, xi in [0, band].
     [[nodiscard]] double transform(double xi) const;
 
-    /// Polynomials in t = 2u - 1 for a point at u in [0, 1] behind a grid point: the value at the
-    /// j-th grid point is phi(u + w/2 - 1 - j). Row k holds the coefficients of
-    /// t^(degree - k) of all of them, padded_width() to a row.
-    [[nodiscard]] const std::vector<double>& coefficients() const { return coefficients_; }
-    [[nodiscard]] std::size_t degree() const { return degree_; }
-
     /// Largest error of exp(-2 pi i xi x), |xi| <= band, of one point in one dimension, after
-    /// spreading it with the polynomials, transforming and dividing by transform(xi).
+    /// spreading it, transforming and dividing by transform(xi).
     [[nodiscard]] double error() const;
 
-  private:
-    void fit(std::size_t degree);
+    /// How much the division by the transform magnifies rounding errors at the end of the band,
+    /// beside those at 0.
+    [[nodiscard]] double magnification() const { return transform(0) / transform(band_); }
 
+  private:
     std::size_t width_;
     double band_;
     double beta_;
     double scale_;  ///< 1 / I0(beta)
-    std::size_t degree_ = 0;
-    std::vector<double> coefficients_;
 };
 
 /// The narrowest window whose error() is at most `tolerance`, or else the widest one.
 KaiserBessel window_for(double tolerance, double band);
+
+/// The window's values at its grid points as polynomials of the point's place u in [0, 1) behind a
+/// grid point: the value at the j-th grid point is phi(u + w/2 - 1 - j). The unit is cut into
+/// pieces, so that short polynomials do.
+class WindowTable {
+  public:
+    static constexpr std::size_t pieces = 8;
+
+    explicit WindowTable(const KaiserBessel& window);
+
+    [[nodiscard]] std::size_t width() const { return width_; }
+
+    /// Values that a row of coefficients holds: the width rounded up to 4; the surplus is zero.
+    [[nodiscard]] std::size_t padded_width() const { return (width_ + 3) / 4 * 4; }
+
+    /// Degree at which the polynomials are as good as windows of this width are, found by trying.
+    static constexpr std::size_t degree_of(std::size_t padded) { return padded <= 8 ? 6 : 7; }
+
+    [[nodiscard]] std::size_t degree() const { return degree_of(padded_width()); }
+
+    /// For each piece, degree + 1 rows of padded_width(); row k holds the coefficients of
+    /// t^(degree - k), t in [-1, 1) being the place in the piece.
+    [[nodiscard]] const std::vector<double>& coefficients() const { return coefficients_; }
+
+    /// The value at the j-th grid point.
+    [[nodiscard]] double value(std::size_t j, double u) const;
+
+  private:
+    std::size_t width_;
+    std::vector<double> coefficients_;
+};
 
 }  // namespace stipple

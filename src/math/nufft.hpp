@@ -9,70 +9,107 @@
 // transform. Grid and window are the cheapest that meet the tolerance.
 //
 // Shape   f_0 = 0..F, the fastest index; f_1, f_2 = -F..F. The other half is S(-f) = conj S(f).
-// Cost    O(n w^d + M^d log M) time for windows w <= 16 cells wide; memory: bytes().
+// or, with strengths s_j, sum_j s_j exp(-2 pi i f.x_j).
+//
+// Cost    O(n w^d + M^d log M) time for windows w <= 16 cells wide; memory: bytes(), however many
+//         points come.
 // Promise |error| <= max(tolerance, floor) sqrt(n) at every f, for every set: the window's error is
 //         held below tolerance / sqrt(n) for each point, so that not even points in phase exceed
 //         it. floor = rounding_floor(n), about 1e-13 sqrt(n), is what float64 may leave when all n
-//         points are in phase; where they are not, smaller tolerances hold as well.
-//         The same bits for any number of threads.
+//         points are in phase; where they are not, smaller tolerances hold as well. With strengths
+//         sqrt(sum s_j^2) stands for sqrt(n).
+//         The same bits for any number of threads, and however the points are portioned.
 // Source  A. Dutt, V. Rokhlin, SIAM J. Sci. Comput. 14 (1993) 1368-1393, doi:10.1137/0914081;
 //         A. H. Barnett, J. Magland, L. af Klinteberg, SIAM J. Sci. Comput. 41 (2019) C479-C504,
 //         doi:10.1137/18M120885X.
 #pragma once
 
-#include <array>
-#include <complex>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/run_context.hpp"
 #include "math/kaiser_bessel.hpp"
+#include "math/spreading.hpp"
+#include "math/transform.hpp"
 
 namespace stipple {
 
-struct FourierSums {
-    std::size_t dimension = 0;
-    std::size_t max_frequency = 0;
-    std::vector<std::complex<double>> values;
-
-    /// S(f), also for f_0 < 0; |f_k| <= max_frequency, and 0 beyond the dimension.
-    [[nodiscard]] std::complex<double> at(std::array<std::int64_t, 3> f) const;
-};
-
-/// Number of values of such sums.
-double fourier_sums_size(std::size_t dimension, std::size_t max_frequency);
-
+/// The choice of grid and window.
 class Nufft {
   public:
-    /// Chooses grid and window for sets of `count` points.
+    /// @param count points that may come; more of them are less exact.
     /// @param max_frequency F, from 1 to 10^6.
     /// @param tolerance in [1e-13, 0.1], relative to sqrt(count).
-    Nufft(std::size_t count, std::size_t dimension, std::size_t max_frequency, double tolerance);
+    /// @param weighted whether rows hold strengths behind the coordinates.
+    Nufft(std::uint64_t count, std::size_t dimension, std::size_t max_frequency, double tolerance,
+          bool weighted = false);
 
-    /// Peak memory that transform() needs.
+    /// Peak memory that the transform needs.
     [[nodiscard]] double bytes() const;
 
+    [[nodiscard]] std::size_t dimension() const { return dimension_; }
+    [[nodiscard]] std::size_t max_frequency() const { return frequency_; }
+    [[nodiscard]] bool weighted() const { return weighted_; }
     [[nodiscard]] std::size_t side() const { return side_; }
     [[nodiscard]] const KaiserBessel& window() const { return window_; }
 
-    /// @param rows `count` points in [0, 1]^dimension, point after point.
+    /// Bound of the error beside that of rounding, relative to sqrt(count), of so many points.
+    [[nodiscard]] double error(double count) const;
+
+    /// Share of the time that spreading takes.
+    [[nodiscard]] double spreading_share() const;
+
+    /// @param rows points in [0, 1]^dimension, point after point.
     /// @throws Error(cancelled)
-    [[nodiscard]] FourierSums transform(std::span<const double> rows, const RunContext& run) const;
+    [[nodiscard]] FourierSums transform(std::span<const double> rows, const RunContext& run,
+                                        Planning planning = Planning::estimated) const;
 
   private:
-    std::size_t count_;
+    std::uint64_t count_;
     std::size_t dimension_;
     std::size_t frequency_;
+    bool weighted_;
     std::size_t side_ = 0;
     KaiserBessel window_;
 };
 
+/// A transform whose points come in portions.
+class FourierSummation {
+  public:
+    FourierSummation(const Nufft& nufft, const RunContext& run);
+
+    void add(std::span<const double> rows, const RunContext& run) { spreader_.add(rows, run); }
+
+    /// Called once, when all points came.
+    [[nodiscard]] FourierSums finish(Planning planning, const RunContext& run);
+
+  private:
+    Nufft nufft_;
+    GridCells cells_;
+    CellGrid grid_;
+    Spreader spreader_;
+};
+
 /// The same by the plain sum, O(n (2F + 1)^d): the oracle. Phases are reduced before they are
 /// rounded, and exact to the last bits for any frequency.
+class DirectSummation {
+  public:
+    DirectSummation(std::size_t dimension, std::size_t max_frequency, bool weighted = false);
+
+    void add(std::span<const double> rows, const RunContext& run);
+    [[nodiscard]] FourierSums finish() { return std::move(sums_); }
+
+  private:
+    bool weighted_;
+    FourierSums sums_;
+};
+
 FourierSums fourier_sums_directly(std::span<const double> rows, std::size_t dimension,
-                                  std::size_t max_frequency, const RunContext& run);
+                                  std::size_t max_frequency, const RunContext& run,
+                                  bool weighted = false);
 
 /// Error relative to sqrt(count) that float64 may leave when all points are in phase.
 double rounding_floor(std::size_t count);

@@ -9,6 +9,7 @@
 #include <csetjmp>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -76,6 +77,68 @@ class Decoder {
     std::array<char, 128> error_{"libpng cannot be used"};
 };
 
+/// The same the other way: bytes are taken as libpng gives them.
+class Encoder {
+  public:
+    Encoder() {
+        png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, this, take_error, ignore_warning);
+        if (png_ != nullptr) info_ = png_create_info_struct(png_);
+    }
+    Encoder(const Encoder&) = delete;
+    Encoder& operator=(const Encoder&) = delete;
+    ~Encoder() { png_destroy_write_struct(&png_, &info_); }
+
+    /// Writes a whole picture. False: error().
+    bool write(const PngShape& shape, std::span<png_bytep> rows, std::span<png_text> texts) {
+        if (info_ == nullptr) return false;
+        if (setjmp(png_jmpbuf(png_)) != 0) return false;
+        png_set_write_fn(png_, this, take_bytes, nullptr);
+        png_set_user_limits(png_, PNG_UINT_31_MAX, PNG_UINT_31_MAX);
+        png_set_IHDR(png_, info_, static_cast<png_uint_32>(shape.width),
+                     static_cast<png_uint_32>(shape.height), shape.bits,
+                     shape.colour ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
+                     PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+        png_set_text(png_, info_, texts.data(), static_cast<int>(texts.size()));
+        png_write_info(png_, info_);
+        png_write_image(png_, rows.data());
+        png_write_end(png_, nullptr);
+        return true;
+    }
+
+    [[nodiscard]] std::string take() { return std::move(bytes_); }
+    [[nodiscard]] const char* error() const { return error_.data(); }
+
+  private:
+    [[noreturn]] static void take_error(png_structp png, png_const_charp message) {
+        auto& self = *static_cast<Encoder*>(png_get_error_ptr(png));
+        std::strncpy(self.error_.data(), message, self.error_.size() - 1);
+        png_longjmp(png, 1);
+    }
+
+    static void ignore_warning(png_structp, png_const_charp) {}
+
+    /// No exception may pass through libpng.
+    [[nodiscard]] bool append(const char* bytes, std::size_t size) noexcept {
+        try {
+            bytes_.append(bytes, size);
+            return true;
+        } catch (...) {
+            return false;
+        }
+    }
+
+    static void take_bytes(png_structp png, png_bytep bytes, std::size_t size) {
+        auto& self = *static_cast<Encoder*>(png_get_io_ptr(png));
+        if (!self.append(reinterpret_cast<const char*>(bytes), size))
+            png_error(png, "there is no memory left");
+    }
+
+    std::string bytes_;
+    png_structp png_ = nullptr;
+    png_infop info_ = nullptr;
+    std::array<char, 128> error_{"libpng cannot be used"};
+};
+
 /// Samples of an expanded picture, each of one byte, or two with the high one first.
 class Samples {
   public:
@@ -104,56 +167,6 @@ class Samples {
     const unsigned char* at_;
     std::size_t channels_;
     std::size_t size_;
-};
-
-/// The way back; the same care about long jumps.
-class Encoder {
-  public:
-    Encoder() {
-        png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, this, take_error, ignore_warning);
-        if (png_ != nullptr) info_ = png_create_info_struct(png_);
-    }
-    Encoder(const Encoder&) = delete;
-    Encoder& operator=(const Encoder&) = delete;
-    ~Encoder() { png_destroy_write_struct(&png_, &info_); }
-
-    /// Writes it all. False: error().
-    bool write(std::size_t width, std::size_t height, std::span<png_text> texts,
-               std::span<png_bytep> rows) {
-        if (info_ == nullptr) return false;
-        if (setjmp(png_jmpbuf(png_)) != 0) return false;
-        png_set_write_fn(png_, this, take_bytes, nullptr);
-        png_set_IHDR(png_, info_, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height),
-                     8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
-                     PNG_FILTER_TYPE_DEFAULT);
-        png_set_text(png_, info_, texts.data(), static_cast<int>(texts.size()));
-        png_write_info(png_, info_);
-        png_write_image(png_, rows.data());
-        png_write_end(png_, nullptr);
-        return true;
-    }
-
-    [[nodiscard]] const char* error() const { return error_.data(); }
-
-    std::string bytes;
-
-  private:
-    [[noreturn]] static void take_error(png_structp png, png_const_charp message) {
-        auto& self = *static_cast<Encoder*>(png_get_error_ptr(png));
-        std::strncpy(self.error_.data(), message, self.error_.size() - 1);
-        png_longjmp(png, 1);
-    }
-
-    static void ignore_warning(png_structp, png_const_charp) {}
-
-    static void take_bytes(png_structp png, png_bytep from, std::size_t size) {
-        auto& self = *static_cast<Encoder*>(png_get_io_ptr(png));
-        self.bytes.append(static_cast<const char*>(static_cast<const void*>(from)), size);
-    }
-
-    png_structp png_ = nullptr;
-    png_infop info_ = nullptr;
-    std::array<char, 128> error_{"libpng cannot be used"};
 };
 
 }  // namespace
@@ -239,25 +252,39 @@ std::string png_of_grey(std::size_t width, std::size_t height,
     return bytes;
 }
 
-std::string png_of_colour(std::size_t width, std::size_t height, std::string_view samples,
-                          std::span<const std::pair<std::string, std::string>> texts) {
+std::string encode_png(const PngShape& shape, std::string_view bytes,
+                       std::span<const PngText> texts) {
+    if (std::max(shape.width, shape.height) > PNG_UINT_31_MAX)
+        fail(ErrorKind::limit, "a PNG picture of {} x {} pixels is too large", shape.width,
+             shape.height);
     // libpng takes rows and texts that it could write to, and does not.
-    std::vector<png_text> chunks(texts.size());
-    std::vector<std::pair<std::string, std::string>> held(texts.begin(), texts.end());
+    std::vector<PngText> held(texts.begin(), texts.end());
+    std::vector<png_text> chunks(held.size());
     for (std::size_t i = 0; i < held.size(); ++i) {
         chunks[i].compression = PNG_ITXT_COMPRESSION_NONE;
         chunks[i].key = held[i].first.data();
         chunks[i].text = held[i].second.data();
         chunks[i].itxt_length = held[i].second.size();
     }
-    std::vector<unsigned char> pixels(samples.begin(), samples.end());
-    std::vector<png_bytep> rows(height);
-    for (std::size_t i = 0; i < height; ++i) rows[i] = pixels.data() + 3 * i * width;
+    std::vector<unsigned char> pixels(bytes.begin(), bytes.end());
+    std::vector<png_bytep> rows(shape.height);
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        rows[i] = pixels.data() + i * (pixels.size() / shape.height);
     Encoder encoder;
-    if (!encoder.write(width, height, chunks, rows))
-        fail(ErrorKind::limit, "a PNG picture of {} x {} pixels: {}", width, height,
+    if (!encoder.write(shape, rows, chunks))
+        fail(ErrorKind::limit, "a PNG picture of {} x {} pixels: {}", shape.width, shape.height,
              encoder.error());
-    return std::move(encoder.bytes);
+    return encoder.take();
+}
+
+std::string png_bytes_of_samples(std::span<const std::uint16_t> samples, int bits) {
+    std::string bytes;
+    bytes.reserve(samples.size() * static_cast<std::size_t>(bits / 8));
+    for (const std::uint16_t sample : samples) {
+        if (bits == 16) bytes += static_cast<char>(sample >> 8);
+        bytes += static_cast<char>(sample & 255);
+    }
+    return bytes;
 }
 
 }  // namespace stipple

@@ -43,11 +43,24 @@ PngPicture read_png(std::string_view bytes, const std::string& source, const Run
 std::string png_of_grey(std::size_t width, std::size_t height,
                         std::span<const std::uint16_t> samples);
 
-/// A picture of 8 bits of red, green and blue; samples row after row from the top. Texts are pairs
-/// of a keyword (1 to 79 letters of Latin-1) and UTF-8, in iTXt chunks before the pixels.
+/// The shape of a picture without gamma or colour profile.
+struct PngShape {
+    std::size_t width = 0;
+    std::size_t height = 0;
+    int bits = 8;         ///< of a sample: 8 or 16
+    bool colour = false;  ///< red, green and blue samples; else grey
+};
+
+/// A keyword (1 to 79 letters of Latin-1) and what it says, in UTF-8; an iTXt chunk.
+using PngText = std::pair<std::string, std::string>;
+
+/// Such a picture with texts; samples row after row from the top, the high byte first.
 /// @throws Error(limit) for a picture too large for PNG.
-std::string png_of_colour(std::size_t width, std::size_t height, std::string_view samples,
-                          std::span<const std::pair<std::string, std::string>> texts);
+std::string encode_png(const PngShape& shape, std::string_view bytes,
+                       std::span<const PngText> texts);
+
+/// Samples as bytes for that; of 8 bits: at most 255.
+std::string png_bytes_of_samples(std::span<const std::uint16_t> samples, int bits);
 
 /// The picture with a text chunk behind its header; ASCII.
 std::string png_with_text(std::string_view png, std::string_view keyword, std::string_view text);

@@ -10,129 +10,209 @@
 #include <vector>
 
 #include "core/parallel.hpp"
+#include "core/wide.hpp"
 
 namespace stipple {
 namespace {
 
 using Vector = double __attribute__((vector_size(32)));
 using LooseVector = double __attribute__((vector_size(32), aligned(8), may_alias));
+using Integers = std::int32_t __attribute__((vector_size(16)));
+using LooseIntegers = std::int32_t __attribute__((vector_size(16), aligned(4), may_alias));
+
+/// a b + c, rounded once: the same bits on any machine, and one step where it is an instruction.
+inline __attribute__((always_inline)) void multiply_add(const Vector& a, double b, Vector& c) {
+    for (std::size_t lane = 0; lane < 4; ++lane) c[lane] = __builtin_fma(a[lane], b, c[lane]);
+}
 
 /// What is the same for all points of a tile.
 struct Tile {
     double side;
     double shift;                         ///< 1/2 for odd windows, which centre on a grid point
-    std::int64_t lead;                    ///< grid points of the window before the point's cell
+    double lead;                          ///< grid points of the window before the point's cell
     std::size_t width;                    ///< of the window
-    std::size_t degree;                   ///< of its polynomials
     const double* coefficients;           ///< of its polynomials
+    std::size_t numbers;                  ///< of a point: coordinates, and its strength
     std::size_t extent;                   ///< cells of a row of the buffer
     std::array<std::int64_t, 3> start{};  ///< its first cell, by coordinate
     std::array<std::size_t, 3> reach = {1, 1, 1};  ///< cells that its points touch
 };
 
-struct Place {
-    std::int64_t first;  ///< grid point at which the window begins
-    double between;      ///< place behind a grid point, in [0, 1)
-};
-
-/// Finds side * x without rounding it: the upper 26 bits of x make an exact product.
-inline __attribute__((always_inline)) Place locate(double x, const Tile& tile) {
-    constexpr std::uint64_t low_bits = (std::uint64_t{1} << 27) - 1;
-    const double high = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & ~low_bits);
-    const double product = high * tile.side;
-    auto cell = static_cast<std::int64_t>(product);
-    double between = product - static_cast<double>(cell) + tile.shift + (x - high) * tile.side;
-    const bool next = between >= 1;
-    between -= next ? 1 : 0;
-    cell += next ? 1 : 0;
-    std::int64_t first = cell - tile.lead;
-    const auto side = static_cast<std::int64_t>(tile.side);
-    first += first < 0 ? side : 0;
-    first -= first >= side ? side : 0;
-    return {first, between};
+/// Finds side * x of four numbers without rounding it: the upper 26 bits of x make an exact
+/// product. Gives the grid points at which their windows begin, and the places behind a grid point,
+/// in [0, 1).
+inline __attribute__((always_inline)) void locate(const Vector& x, const Tile& tile, Vector& first,
+                                                  Vector& between) {
+    using Bits = std::uint64_t __attribute__((vector_size(32)));
+    constexpr std::uint64_t high_bits = ~((std::uint64_t{1} << 27) - 1);
+    const Vector high = reinterpret_cast<Vector>(reinterpret_cast<Bits>(x) & high_bits);
+    const Vector product = high * tile.side;
+    const Vector zero = {};
+    const Vector cell = __builtin_convertvector(__builtin_convertvector(product, Integers), Vector);
+    between = product - cell + tile.shift + (x - high) * tile.side;
+    const Vector next = between >= 1 ? zero + 1 : zero;
+    between -= next;
+    first = cell + next - tile.lead;
+    first += first < 0 ? zero + tile.side : zero;
+    first -= first >= tile.side ? zero + tile.side : zero;
 }
 
-/// The window's values at its grid points along each axis, Padded of them, by Horner's rule; for
-/// all axes at once, since one alone would wait for each step's result.
+/// Points that go through the steps together: each step is short enough for the processor to work
+/// on several points at once, which it could not from one end to the other.
+constexpr std::size_t chunk = 16;
+
+/// Coordinates of up to so many points, axis after axis; the surplus is 0.
+template <std::size_t Dimension>
+using Coordinates = std::array<std::array<double, chunk>, Dimension>;
+
+template <std::size_t Dimension>
+inline __attribute__((always_inline)) void by_axis(const double* points, std::size_t count,
+                                                   std::size_t numbers,
+                                                   Coordinates<Dimension>& axes) {
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t k = 0; k < Dimension; ++k) axes[k][i] = points[i * numbers + k];
+    for (std::size_t i = count; i < (count + 3) / 4 * 4; ++i)
+        for (std::size_t k = 0; k < Dimension; ++k) axes[k][i] = 0;
+}
+
 template <std::size_t Dimension, std::size_t Padded>
-inline __attribute__((always_inline)) void evaluate(
-    const std::array<double, Dimension>& between, const Tile& tile,
-    std::array<std::array<Vector, Padded / 4>, Dimension>& values) {
-    constexpr std::size_t vectors = Padded / 4;
-    const auto* rows = reinterpret_cast<const LooseVector*>(tile.coefficients);
-    for (std::size_t k = 0; k < Dimension; ++k)
-        for (std::size_t v = 0; v < vectors; ++v) values[k][v] = rows[v];
-    for (std::size_t power = 1; power <= tile.degree; ++power) {
-        rows += vectors;
-        for (std::size_t v = 0; v < vectors; ++v)
-            for (std::size_t k = 0; k < Dimension; ++k)
-                values[k][v] = values[k][v] * (2 * between[k] - 1) + rows[v];
+struct Chunk {
+    alignas(32) Coordinates<Dimension> axes;
+    alignas(32) Coordinates<Dimension> t;  ///< place in the table's piece
+    alignas(32) std::array<std::array<std::int32_t, chunk>, Dimension> piece;
+    alignas(32) std::array<std::int32_t, chunk> corner;   ///< of the window in the buffer
+    alignas(32) double values[chunk][Dimension][Padded];  ///< of the window along each axis
+};
+
+template <std::size_t Dimension, std::size_t Padded>
+inline __attribute__((always_inline)) void locate_all(std::size_t count, const Tile& tile,
+                                                      Chunk<Dimension, Padded>& work) {
+    for (std::size_t i = 0; i < count; i += 4) {
+        Vector corner = {};
+        double step = 1;
+        for (std::size_t k = 0; k < Dimension; ++k) {
+            const Vector x = *reinterpret_cast<const LooseVector*>(&work.axes[k][i]);
+            Vector first;
+            Vector between;
+            locate(x, tile, first, between);
+            corner += (first - static_cast<double>(tile.start[k])) * step;
+            step *= static_cast<double>(tile.extent);
+            const Vector scaled = between * static_cast<double>(WindowTable::pieces);
+            const Integers piece = __builtin_convertvector(scaled, Integers);
+            *reinterpret_cast<LooseIntegers*>(&work.piece[k][i]) = piece;
+            *reinterpret_cast<LooseVector*>(&work.t[k][i]) =
+                2 * (scaled - __builtin_convertvector(piece, Vector)) - 1;
+        }
+        *reinterpret_cast<LooseIntegers*>(&work.corner[i]) =
+            __builtin_convertvector(corner, Integers);
     }
+}
+
+/// Horner's rule for polynomials of the degree, beside each other; without a loop.
+template <std::size_t Vectors, std::size_t Degree>
+inline __attribute__((always_inline)) void raise(double t, const LooseVector* rows,
+                                                 std::array<Vector, Vectors>& sums) {
+    if constexpr (Degree > 1) raise<Vectors, Degree - 1>(t, rows, sums);
+    for (std::size_t v = 0; v < Vectors; ++v) {
+        Vector next = rows[Degree * Vectors + v];
+        multiply_add(sums[v], t, next);
+        sums[v] = next;
+    }
+}
+
+/// The window's values at its grid points along each axis by Horner's rule.
+template <std::size_t Dimension, std::size_t Padded>
+inline __attribute__((always_inline)) void evaluate_all(const double* table, std::size_t count,
+                                                        Chunk<Dimension, Padded>& work) {
+    constexpr std::size_t vectors = Padded / 4;
+    constexpr std::size_t size = (WindowTable::degree_of(Padded) + 1) * Padded;
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t k = 0; k < Dimension; ++k) {
+            const auto* rows = reinterpret_cast<const LooseVector*>(
+                table + static_cast<std::size_t>(work.piece[k][i]) * size);
+            const double t = work.t[k][i];
+            std::array<Vector, vectors> sums;
+            for (std::size_t v = 0; v < vectors; ++v) sums[v] = rows[v];
+            raise<vectors, WindowTable::degree_of(Padded)>(t, rows, sums);
+            auto* values = reinterpret_cast<LooseVector*>(work.values[i][k]);
+            for (std::size_t v = 0; v < vectors; ++v) values[v] = sums[v];
+        }
 }
 
 /// Adds weight * values to a row of the buffer.
 template <std::size_t Padded>
 inline __attribute__((always_inline)) void add_row(double* row, double weight,
-                                                   const Vector* values) {
+                                                   const std::array<Vector, Padded / 4>& values) {
     auto* cells = reinterpret_cast<LooseVector*>(row);
-    for (std::size_t v = 0; v < Padded / 4; ++v) cells[v] += values[v] * weight;
-}
-
-template <std::size_t Dimension, std::size_t Padded>
-inline __attribute__((always_inline)) void add_point(const double* point, const Tile& tile,
-                                                     double* buffer) {
-    alignas(32) std::array<std::array<Vector, Padded / 4>, Dimension> values;
-    std::array<double, Dimension> between;
-    double* corner = buffer;
-    std::size_t step = 1;
-    for (std::size_t k = 0; k < Dimension; ++k) {
-        const Place place = locate(point[k], tile);
-        corner += static_cast<std::size_t>(place.first - tile.start[k]) * step;
-        step *= tile.extent;
-        between[k] = place.between;
+    for (std::size_t v = 0; v < Padded / 4; ++v) {
+        Vector sum = cells[v];
+        multiply_add(values[v], weight, sum);
+        cells[v] = sum;
     }
-    evaluate<Dimension, Padded>(between, tile, values);
-    const auto value = [&](std::size_t k, std::size_t j) { return values[k][j / 4][j % 4]; };
-    const Vector* along = values[0].data();
-    if constexpr (Dimension == 1) add_row<Padded>(corner, 1, along);
-    if constexpr (Dimension == 2)
-        for (std::size_t j = 0; j < tile.width; ++j)
-            add_row<Padded>(corner + j * tile.extent, value(1, j), along);
-    if constexpr (Dimension == 3)
-        for (std::size_t l = 0; l < tile.width; ++l)
-            for (std::size_t j = 0; j < tile.width; ++j)
-                add_row<Padded>(corner + (l * tile.extent + j) * tile.extent,
-                                value(2, l) * value(1, j), along);
 }
 
-template <std::size_t Dimension, std::size_t Padded>
+template <std::size_t Width, std::size_t Padded>
+inline __attribute__((always_inline)) void add_rows(double* row, std::size_t extent,
+                                                    const double* weights, double factor,
+                                                    const std::array<Vector, Padded / 4>& along) {
+#pragma GCC unroll 16
+    for (std::size_t j = 0; j < Width; ++j, row += extent) {
+        // Else the compiler would hold sixteen addresses at once, and most of them in memory.
+        asm volatile("" : "+r"(row));
+        add_row<Padded>(row, weights[j] * factor, along);
+    }
+}
+
+template <std::size_t Dimension, std::size_t Width, std::size_t Padded>
+inline __attribute__((always_inline)) void add_window(const double (&values)[Dimension][Padded],
+                                                      std::size_t extent, double* corner) {
+    std::array<Vector, Padded / 4> along;
+    for (std::size_t v = 0; v < Padded / 4; ++v)
+        along[v] = reinterpret_cast<const LooseVector*>(values[0])[v];
+    if constexpr (Dimension == 1) add_row<Padded>(corner, 1, along);
+    if constexpr (Dimension == 2) add_rows<Width, Padded>(corner, extent, values[1], 1, along);
+    if constexpr (Dimension == 3)
+        for (std::size_t l = 0; l < Width; ++l)
+            add_rows<Width, Padded>(corner + l * extent * extent, extent, values[1], values[2][l],
+                                    along);
+}
+
+template <std::size_t Dimension, std::size_t Width>
 inline __attribute__((always_inline)) void add_all(std::span<const double> rows, const Tile& tile,
                                                    double* buffer) {
-    for (std::size_t i = 0; i + Dimension <= rows.size(); i += Dimension)
-        add_point<Dimension, Padded>(rows.data() + i, tile, buffer);
+    constexpr std::size_t padded = (Width + 3) / 4 * 4;
+    Chunk<Dimension, padded> work;
+    const std::size_t step = chunk * tile.numbers;
+    for (std::size_t at = 0; at < rows.size(); at += step) {
+        const double* points = rows.data() + at;
+        const std::size_t count = std::min(step, rows.size() - at) / tile.numbers;
+        by_axis<Dimension>(points, count, tile.numbers, work.axes);
+        locate_all(count, tile, work);
+        evaluate_all(tile.coefficients, count, work);
+        if (tile.numbers > Dimension)
+            for (std::size_t i = 0; i < count; ++i)
+                for (double& value : work.values[i][Dimension - 1])
+                    value *= points[i * tile.numbers + Dimension];
+        for (std::size_t i = 0; i < count; ++i)
+            add_window<Dimension, Width>(work.values[i], tile.extent, buffer + work.corner[i]);
+    }
 }
 
-template <std::size_t Dimension>
-inline __attribute__((always_inline)) void add_padded(std::span<const double> rows,
-                                                      const Tile& tile, double* buffer) {
-    switch ((tile.width + 3) / 4) {
-        case 1:
-            return add_all<Dimension, 4>(rows, tile, buffer);
-        case 2:
-            return add_all<Dimension, 8>(rows, tile, buffer);
-        case 3:
-            return add_all<Dimension, 12>(rows, tile, buffer);
-        default:
-            return add_all<Dimension, 16>(rows, tile, buffer);
-    }
+/// Even widths only: the last row of an odd one is 0.
+template <std::size_t Dimension, std::size_t Width = KaiserBessel::max_width>
+inline __attribute__((always_inline)) void add_wide(std::span<const double> rows, const Tile& tile,
+                                                    double* buffer) {
+    if constexpr (Width > KaiserBessel::min_width)
+        if (tile.width + 2 <= Width) return add_wide<Dimension, Width - 2>(rows, tile, buffer);
+    add_all<Dimension, Width>(rows, tile, buffer);
 }
 
 inline __attribute__((always_inline)) void add_points(std::span<const double> rows,
                                                       std::size_t dimension, const Tile& tile,
                                                       double* buffer) {
-    if (dimension == 1) return add_padded<1>(rows, tile, buffer);
-    if (dimension == 2) return add_padded<2>(rows, tile, buffer);
-    return add_padded<3>(rows, tile, buffer);
+    if (dimension == 1) return add_wide<1>(rows, tile, buffer);
+    if (dimension == 2) return add_wide<2>(rows, tile, buffer);
+    return add_wide<3>(rows, tile, buffer);
 }
 
 using AddPoints = void (*)(std::span<const double>, std::size_t, const Tile&, double*);
@@ -144,21 +224,38 @@ void add_points_plain(std::span<const double> rows, std::size_t dimension, const
 
 #if defined(__x86_64__)
 /// The same operations in the same order, four at a time; so the result has the same bits.
-__attribute__((target("avx2"))) void add_points_avx2(std::span<const double> rows,
-                                                     std::size_t dimension, const Tile& tile,
-                                                     double* buffer) {
+__attribute__((target("avx2,fma"))) void add_points_avx2(std::span<const double> rows,
+                                                         std::size_t dimension, const Tile& tile,
+                                                         double* buffer) {
     add_points(rows, dimension, tile, buffer);
 }
 
-AddPoints widest() { return __builtin_cpu_supports("avx2") ? add_points_avx2 : add_points_plain; }
+AddPoints widest() {
+    const bool wide = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    return wide ? add_points_avx2 : add_points_plain;
+}
 #else
 AddPoints widest() { return add_points_plain; }
 #endif
 
+/// Replaces coordinates along one axis by the grid points at which their windows begin.
+STIPPLE_WIDE void first_cells(std::array<double, chunk>& axis, std::size_t count,
+                              const Tile& tile) {
+    for (std::size_t i = 0; i < count; i += 4) {
+        auto& x = *reinterpret_cast<LooseVector*>(&axis[i]);
+        Vector first;
+        Vector between;
+        locate(x, tile, first, between);
+        x = first;
+    }
+}
+
+}  // namespace
+
 /// The grid cut into an even number of tiles along each axis.
 class Tiling {
   public:
-    Tiling(const CellGrid& grid, const KaiserBessel& window) : grid_(grid) {
+    Tiling(const CellGrid& grid, const WindowTable& window, bool weighted) : grid_(grid) {
         constexpr std::array<std::size_t, 4> target = {0, 1024, 32, 16};
         const std::size_t smallest = std::max(target[grid.dimension], window.padded_width());
         pairs_ = std::max<std::size_t>(1, grid.side / (2 * smallest));
@@ -173,10 +270,10 @@ class Tiling {
         }
         common_ = {.side = static_cast<double>(grid.side),
                    .shift = window.width() % 2 == 1 ? 0.5 : 0.0,
-                   .lead = static_cast<std::int64_t>((window.width() - 1) / 2),
+                   .lead = static_cast<double>((window.width() - 1) / 2),
                    .width = window.width(),
-                   .degree = window.degree(),
                    .coefficients = window.coefficients().data(),
+                   .numbers = grid.dimension + (weighted ? 1 : 0),
                    .extent = widest_ + window.padded_width()};
     }
 
@@ -185,12 +282,19 @@ class Tiling {
     [[nodiscard]] std::size_t count_of_colour() const { return power(pairs_); }
     [[nodiscard]] std::size_t buffer_size() const { return power(common_.extent); }
 
-    [[nodiscard]] std::size_t tile_of(const double* point) const {
-        std::size_t tile = 0;
-        for (std::size_t k = grid_.dimension; k-- > 0;)
-            tile =
-                tile * along_ + tile_of_[static_cast<std::size_t>(locate(point[k], common_).first)];
-        return tile;
+    /// Tiles of some points, up to `chunk`.
+    template <std::size_t Dimension>
+    void tiles_of(const double* points, std::size_t count, std::uint32_t* tiles) const {
+        alignas(32) Coordinates<Dimension> axes;
+        by_axis<Dimension>(points, count, common_.numbers, axes);
+        for (std::size_t k = 0; k < Dimension; ++k) first_cells(axes[k], count, common_);
+        for (std::size_t i = 0; i < count; ++i) {
+            std::uint32_t tile = 0;
+            for (std::size_t k = Dimension; k-- > 0;)
+                tile = tile * static_cast<std::uint32_t>(along_) +
+                       tile_of_[static_cast<std::size_t>(axes[k][i])];
+            tiles[i] = tile;
+        }
     }
 
     /// Number of the i-th tile of a colour; bit k of the colour is the parity along axis k.
@@ -214,7 +318,7 @@ class Tiling {
 
     /// Adds a tile's buffer to the grid, around its ends; no cell beyond the tile's reach, for
     /// another thread may be at the next tile of the colour.
-    void add_back(const Tile& tile, const double* buffer) const {
+    STIPPLE_WIDE void add_back(const Tile& tile, const double* buffer) const {
         const std::size_t x = wrapped(tile.start[0], 0);
         const std::size_t before_end = std::min(tile.reach[0], grid_.side - x);
         for (std::size_t z = 0; z < tile.reach[2]; ++z)
@@ -249,120 +353,151 @@ class Tiling {
     Tile common_{};
 };
 
-/// Points in the order of their tiles; within a tile in their own order.
-struct Sorted {
-    std::vector<double> rows;
-    std::vector<std::size_t> begins;  ///< of each tile's numbers, and the end
-};
+namespace {
 
 /// Turns the counts of each tile in each block, [block][tile], into the places where its points go.
-/// Returns where each tile's numbers begin, and the end.
-std::vector<std::size_t> counts_to_places(std::vector<std::uint32_t>& counts, std::size_t tiles,
-                                          std::size_t dimension) {
-    std::vector<std::size_t> begins;
+/// Finds where each tile's numbers begin, and the end.
+void counts_to_places(std::vector<std::uint32_t>& counts, std::size_t tiles, std::size_t numbers,
+                      std::vector<std::size_t>& begins) {
+    begins.clear();
     std::uint32_t total = 0;
     for (std::size_t t = 0; t < tiles; ++t) {
-        begins.push_back(total * dimension);
+        begins.push_back(total * numbers);
         for (std::size_t i = t; i < counts.size(); i += tiles)
             total += std::exchange(counts[i], total);
     }
-    begins.push_back(total * dimension);
-    return begins;
+    begins.push_back(total * numbers);
 }
 
-Sorted sort_into_tiles(std::span<const double> rows, std::size_t dimension, const Tiling& tiling,
-                       const RunContext& run) {
-    const std::size_t count = rows.size() / dimension;
-    const std::size_t tiles = tiling.count();
-    // Blocks no smaller than the number of tiles, lest the counters outgrow the points.
-    const std::size_t block = std::max<std::size_t>(std::size_t{1} << 15, tiles);
-    const std::size_t blocks = block_count(count, block);
-    std::vector<std::uint32_t> tile_of(count);
-    std::vector<std::uint32_t> next(blocks * tiles, 0);
+/// Blocks of points no smaller than the number of tiles, lest the counters outgrow the points.
+std::size_t sorting_block(std::size_t tiles) {
+    return std::max<std::size_t>(std::size_t{1} << 15, tiles);
+}
+
+/// Rows of Numbers numbers to the places of their tiles.
+template <std::size_t Numbers>
+void scatter(const double* rows, const Block& block, const std::uint32_t* tile_of,
+             std::uint32_t* places, double* sorted) {
+    for (std::size_t i = block.first; i < block.last; ++i)
+        std::copy_n(rows + i * Numbers, Numbers, sorted + places[tile_of[i]]++ * Numbers);
+}
+
+}  // namespace
+
+std::size_t spreading_batch(const CellGrid& grid) {
+    constexpr std::size_t most = std::size_t{1} << 30;  // counters of 32 bits are enough for it
+    std::size_t cells = 1;
+    for (std::size_t k = 0; k < grid.dimension; ++k) cells = std::min(most, cells * grid.side);
+    // Fewer points than cells would pass over the grid too often.
+    return std::max(cells, std::size_t{1} << 20);
+}
+
+Spreader::Spreader(const KaiserBessel& window, const CellGrid& grid, bool weighted)
+    : table_(window),
+      tiling_(std::make_unique<Tiling>(grid, table_, weighted)),
+      dimension_(grid.dimension),
+      width_(grid.dimension + (weighted ? 1 : 0)),
+      batch_(spreading_batch(grid) * width_) {
+    assert(grid.side % 2 == 0 && grid.side >= CellGrid::smallest_side && grid.side < 1U << 24);
+}
+
+Spreader::~Spreader() = default;
+
+double Spreader::bytes(double count, const CellGrid& grid, bool weighted) {
+    const double points = std::min(count, static_cast<double>(spreading_batch(grid)));
+    return points * static_cast<double>(16 * (grid.dimension + (weighted ? 1 : 0)) + 8);
+}
+
+void Spreader::add(std::span<const double> rows, const RunContext& run) {
+    while (!rows.empty()) {
+        const std::size_t some = std::min(rows.size(), batch_ - waits_);
+        if (some == batch_) {
+            spread(rows.first(some), run);
+        } else {
+            if (waiting_.numbers().empty()) waiting_ = Rows::unwritten(batch_);
+            std::ranges::copy(rows.first(some),
+                              waiting_.numbers().begin() + static_cast<std::ptrdiff_t>(waits_));
+            waits_ += some;
+            if (waits_ == batch_) finish(run);
+        }
+        rows = rows.subspan(some);
+    }
+}
+
+void Spreader::finish(const RunContext& run) {
+    if (waits_ > 0) spread(std::as_const(waiting_).numbers().first(waits_), run);
+    waits_ = 0;
+}
+
+void Spreader::spread(std::span<const double> rows, const RunContext& run) {
+    sort(rows, run);
+    for (std::size_t colour = 0; colour < tiling_->colours(); ++colour)
+        spread_colour(colour, rows.size() / width_, run);
+}
+
+/// Brings the points into the order of their tiles; within a tile they keep their own.
+void Spreader::sort(std::span<const double> rows, const RunContext& run) {
+    const std::size_t count = rows.size() / width_;
+    const std::size_t tiles = tiling_->count();
+    const std::size_t block = sorting_block(tiles);
+    if (room_ < rows.size()) sorted_ = Rows::unwritten(room_ = rows.size());
+    tile_of_.resize(count);
+    next_.assign(block_count(count, block) * tiles, 0);
+    const auto tiles_of = dimension_ == 1   ? &Tiling::tiles_of<1>
+                          : dimension_ == 2 ? &Tiling::tiles_of<2>
+                                            : &Tiling::tiles_of<3>;
     for_each_block(
         run, count, block,
         [&](const Block& b) {
-            std::uint32_t* counters = next.data() + b.index * tiles;
-            for (std::size_t i = b.first; i < b.last; ++i) {
-                tile_of[i] = static_cast<std::uint32_t>(tiling.tile_of(&rows[i * dimension]));
-                ++counters[tile_of[i]];
+            std::uint32_t* counters = next_.data() + b.index * tiles;
+            for (std::size_t i = b.first; i < b.last; i += chunk) {
+                const std::size_t some = std::min<std::size_t>(chunk, b.last - i);
+                (tiling_.get()->*tiles_of)(&rows[i * width_], some, &tile_of_[i]);
+                for (std::size_t j = i; j < i + some; ++j) ++counters[tile_of_[j]];
             }
         },
         true);
-    Sorted sorted{.rows = std::vector<double>(rows.size()),
-                  .begins = counts_to_places(next, tiles, dimension)};
+    counts_to_places(next_, tiles, width_, begins_);
+    constexpr std::array scatters = {scatter<1>, scatter<2>, scatter<3>, scatter<4>};
     for_each_block(
         run, count, block,
         [&](const Block& b) {
-            std::uint32_t* places = next.data() + b.index * tiles;
-            for (std::size_t i = b.first; i < b.last; ++i) {
-                double* to = &sorted.rows[places[tile_of[i]]++ * dimension];
-                for (std::size_t k = 0; k < dimension; ++k) to[k] = rows[i * dimension + k];
-            }
+            scatters[width_ - 1](rows.data(), b, tile_of_.data(), next_.data() + b.index * tiles,
+                                 sorted_.numbers().data());
         },
         true);
-    return sorted;
 }
 
 /// Spreads the sorted points of the tiles of one colour.
-void spread_colour(const Sorted& sorted, std::size_t colour, std::size_t dimension,
-                   const Tiling& tiling, const RunContext& run) {
-    static const AddPoints add = widest();
-    const std::size_t tiles = tiling.count_of_colour();
+void Spreader::spread_colour(std::size_t colour, std::size_t points, const RunContext& run) {
+    static const AddPoints spread_points = widest();
+    const std::size_t tiles = tiling_->count_of_colour();
     // Enough blocks for all threads, but none with less work than handing it over is.
-    const std::size_t points = 1 + sorted.rows.size() / dimension;
-    const std::size_t block = std::max(1 + tiles / 128, 1024 * tiling.count() / points);
+    const std::size_t block = std::max(1 + tiles / 128, 1024 * tiling_->count() / (points + 1));
     // A buffer takes so many points: rounding errors of long sums stay small, and a stop is heeded
     // where all points are in one tile.
-    const std::size_t portion = 512 * dimension;
+    const std::size_t portion = 4096 * width_;
+    const double* sorted = sorted_.numbers().data();
     for_each_block(
         run, tiles, block,
         [&](const Block& b) {
             std::vector<double> buffer;
             for (std::size_t i = b.first; i < b.last; ++i) {
-                const std::size_t number = tiling.tile(colour, i);
-                const std::size_t begin = sorted.begins[number];
-                const std::size_t end = sorted.begins[number + 1];
+                const std::size_t number = tiling_->tile(colour, i);
+                const std::size_t begin = begins_[number];
+                const std::size_t end = begins_[number + 1];
                 if (begin == end) continue;
-                const Tile tile = tiling.describe(number);
+                const Tile tile = tiling_->describe(number);
                 for (std::size_t at = begin; at < end; at += portion) {
                     run.check_stop();
-                    buffer.assign(tiling.buffer_size(), 0.0);
-                    const std::span some(&sorted.rows[at], std::min(portion, end - at));
-                    add(some, dimension, tile, buffer.data());
-                    tiling.add_back(tile, buffer.data());
+                    buffer.assign(tiling_->buffer_size(), 0.0);
+                    const std::span some(sorted + at, std::min(portion, end - at));
+                    spread_points(some, dimension_, tile, buffer.data());
+                    tiling_->add_back(tile, buffer.data());
                 }
             }
         },
         true);
-}
-
-}  // namespace
-
-std::size_t spreading_batch(std::size_t count, const CellGrid& grid) {
-    constexpr std::size_t most = std::size_t{1} << 30;  // counters of 32 bits are enough for it
-    std::size_t cells = 1;
-    for (std::size_t k = 0; k < grid.dimension; ++k) cells = std::min(most, cells * grid.side);
-    // Fewer points than cells would pass over the grid too often.
-    const std::size_t batch = std::max(cells, std::size_t{1} << 20);
-    return std::min(count, batch);
-}
-
-void spread(std::span<const double> rows, const KaiserBessel& window, const CellGrid& grid,
-            const RunContext& run) {
-    assert(grid.side % 2 == 0 && grid.side >= CellGrid::smallest_side && grid.side < 1U << 24);
-    const Tiling tiling(grid, window);
-    const std::size_t d = grid.dimension;
-    const std::size_t batch = std::max<std::size_t>(1, spreading_batch(rows.size() / d, grid)) * d;
-    for (std::size_t at = 0; at < rows.size(); at += batch) {
-        const auto some = rows.subspan(at, std::min(batch, rows.size() - at));
-        const Sorted sorted = sort_into_tiles(some, d, tiling, run);
-        for (std::size_t colour = 0; colour < tiling.colours(); ++colour) {
-            spread_colour(sorted, colour, d, tiling, run);
-            const std::size_t done = at + some.size() * (colour + 1) / tiling.colours();
-            run.tick(done, rows.size());
-        }
-    }
 }
 
 }  // namespace stipple

@@ -1,24 +1,29 @@
 // SPDX-License-Identifier: MIT
 //
-// Points spread over a periodic grid of cells: every point adds the product of one window a
-// dimension,
+// Points spread over a periodic grid of cells: every point of strength s (1, if not told) adds s
+// times the product of one window a dimension,
 //
-//     g[i] += prod_k phi(M x_k - i_k),    indices modulo M,
+//     g[i] += s prod_k phi(M x_k - i_k),    indices modulo M,
 //
 // where coordinate 0 runs along the rows of the grid, the fastest index.
 //
-// Cost    O(n w^d + M^d). Points are sorted into tiles of the grid; a tile is summed in a buffer
-//         that the nearest cache holds, and then added to the grid.
-// Promise the same bits for any number of threads. Tiles are added colour by colour, and the tiles
-//         of one colour do not touch each other, so every cell has its summands in a fixed order.
+// Cost    O(n w^d + M^d ceil(n / batch)). Points come in any portions and are spread a batch at a
+//         time: sorted into tiles of the grid; a tile is summed in a buffer that the nearest cache
+//         holds, and then added to the grid.
+// Promise the same bits for any number of threads, and however the points are portioned. Tiles are
+//         added colour by colour, and the tiles of one colour do not touch each other, so every
+//         cell has its summands in a fixed order.
 // Beware  M x is never rounded to a double: the product's high part is exact, and the place between
 //         two grid points keeps all its bits.
 #pragma once
 
 #include <cstddef>
-#include <functional>
+#include <cstdint>
+#include <memory>
 #include <span>
+#include <vector>
 
+#include "core/rows.hpp"
 #include "core/run_context.hpp"
 #include "math/kaiser_bessel.hpp"
 
@@ -34,11 +39,45 @@ struct CellGrid {
     static constexpr std::size_t smallest_side = 2 * KaiserBessel::max_width;
 };
 
-/// Points that are sorted at a time, which bounds the memory for it.
-std::size_t spreading_batch(std::size_t count, const CellGrid& grid);
+/// Points that are sorted at a time: as many as cells, but at least 2^20.
+std::size_t spreading_batch(const CellGrid& grid);
 
-/// Adds the points (rows of `dimension` numbers in [0, 1]) to the grid.
-void spread(std::span<const double> rows, const KaiserBessel& window, const CellGrid& grid,
-            const RunContext& run);
+class Tiling;
+
+class Spreader {
+  public:
+    /// @param weighted whether a row holds the point's strength behind its coordinates.
+    Spreader(const KaiserBessel& window, const CellGrid& grid, bool weighted = false);
+    Spreader(const Spreader&) = delete;
+    Spreader& operator=(const Spreader&) = delete;
+    ~Spreader();
+
+    /// Takes points, rows of `dimension` numbers in [0, 1] and their strengths.
+    void add(std::span<const double> rows, const RunContext& run);
+
+    /// Spreads what still waits for a full batch.
+    void finish(const RunContext& run);
+
+    /// Peak memory besides the grid, for so many points.
+    static double bytes(double count, const CellGrid& grid, bool weighted);
+
+  private:
+    void spread(std::span<const double> rows, const RunContext& run);
+    void sort(std::span<const double> rows, const RunContext& run);
+    void spread_colour(std::size_t colour, std::size_t points, const RunContext& run);
+
+    WindowTable table_;
+    std::unique_ptr<Tiling> tiling_;
+    std::size_t dimension_;
+    std::size_t width_;      ///< numbers of a row
+    std::size_t batch_;      ///< numbers of a batch
+    Rows waiting_;           ///< a batch that is not full yet
+    std::size_t waits_ = 0;  ///< numbers in it
+    Rows sorted_;
+    std::size_t room_ = 0;             ///< numbers that `sorted_` holds
+    std::vector<std::size_t> begins_;  ///< of each tile's numbers there, and the end
+    std::vector<std::uint32_t> tile_of_;
+    std::vector<std::uint32_t> next_;
+};
 
 }  // namespace stipple

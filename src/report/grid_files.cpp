@@ -2,22 +2,41 @@
 #include "report/grid_files.hpp"
 
 #include <fmt/format.h>
-#include <png.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "core/error.hpp"
+#include "math/png_picture.hpp"
 
 namespace stipple {
 namespace {
 
-/// Grey of a power, [0, 255]; an infinite power is white.
-png_byte grey(double power) {
-    const double value = power < 1e300 ? power / (1 + power) : 1;
-    return static_cast<png_byte>(std::lround(255 * value));
+/// Grey of a power, in [0, 1]; an infinite power is white.
+double grey(double power, const std::string& scale) {
+    if (!(power < 1e300)) return 1;
+    if (scale == "linear") return std::min(power / 2, 1.0);
+    if (scale == "log")
+        return power > 0 ? std::clamp((10 * std::log10(power) + 20) / 40, 0.0, 1.0) : 0;
+    return power / (1 + power);
+}
+
+std::string formula(const std::string& scale) {
+    if (scale == "linear") return "grey = P / 2, no more than 1 (white)";
+    if (scale == "log") return "grey = (10 log10 P + 20) / 40: black -20 dB, white 20 dB";
+    return "grey = P / (1 + P)";
+}
+
+/// The first row of the plane that is drawn.
+std::size_t first_row(const Grid& power, const PowerPicture& picture) {
+    const auto last = static_cast<std::int64_t>(power.columns / 2);
+    if (power.rows <= power.columns) return 0;
+    if (picture.slice < -last || picture.slice > last)
+        fail(ErrorKind::usage, "--slice: {} is outside [{}, {}]", picture.slice, -last, last);
+    return static_cast<std::size_t>(picture.slice + last) * power.columns;
 }
 
 void append_little_endian(std::string& out, double value) {
@@ -28,9 +47,12 @@ void append_little_endian(std::string& out, double value) {
 }  // namespace
 
 std::string npy_bytes(const Grid& power) {
+    const std::size_t side = power.columns;
+    const std::string shape = power.rows == 1             ? fmt::format("{},", side)
+                              : power.rows == side * side ? fmt::format("{0}, {0}, {0}", side)
+                                                          : fmt::format("{}, {}", power.rows, side);
     std::string header =
-        fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}", power.rows,
-                    power.columns);
+        fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}), }}", shape);
     // Magic, version and length are 10 bytes; the numbers begin at a multiple of 64.
     header.append((64 - (10 + header.size() + 1) % 64) % 64, ' ');
     header += '\n';
@@ -43,33 +65,33 @@ std::string npy_bytes(const Grid& power) {
     return bytes;
 }
 
-std::string png_bytes(const Grid& power) {
-    std::vector<png_byte> pixels;
-    pixels.reserve(power.values.size());
-    for (std::size_t row = power.rows; row-- > 0;)
+std::string png_bytes(const Grid& power, const PowerPicture& picture) {
+    const std::size_t first = first_row(power, picture);
+    const std::size_t rows = std::min(power.rows, power.columns);
+    const double white = picture.bits == 16 ? 65535 : 255;
+    std::vector<std::uint16_t> pixels;
+    pixels.reserve(rows * power.columns);
+    for (std::size_t row = first + rows; row-- > first;)
         for (std::size_t column = 0; column < power.columns; ++column) {
-            const bool centre = row == power.rows / 2 && column == power.columns / 2;
-            pixels.push_back(centre ? png_byte{0}
-                                    : grey(power.values[row * power.columns + column]));
+            const std::size_t at = row * power.columns + column;
+            const double value =
+                at == power.values.size() / 2 ? 0 : grey(power.values[at], picture.scale);
+            pixels.push_back(static_cast<std::uint16_t>(std::lround(white * value)));
         }
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    image.width = static_cast<png_uint_32>(power.columns);
-    image.height = static_cast<png_uint_32>(power.rows);
-    image.format = PNG_FORMAT_GRAY;
-    png_alloc_size_t size = 0;
-    std::string bytes;
-    // The first call tells the size, the second writes.
-    bool done =
-        png_image_write_to_memory(&image, nullptr, &size, 0, pixels.data(), 0, nullptr) != 0;
-    bytes.resize(size);
-    done = done && png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), 0,
-                                             nullptr) != 0;
-    if (!done)
-        fail(ErrorKind::limit, "a PNG picture of {} x {} pixels: {}", power.columns, power.rows,
-             image.message);
-    bytes.resize(size);
-    return bytes;
+    const auto last = static_cast<std::int64_t>(power.columns / 2);
+    std::string text = fmt::format(
+        "Power spectrum, white noise P = 1, at the frequencies {} to {} from left to right and "
+        "from bottom to top, one a pixel; {}, from 0 to {:.0f}. Frequency 0, in the centre, is "
+        "left "
+        "out.",
+        -last, last, formula(picture.scale), white);
+    if (power.rows > power.columns) text += fmt::format(" Plane fz = {}.", picture.slice);
+    const std::vector<PngText> texts = {{"Title", "Power spectrum"},
+                                        {"Description", text},
+                                        {"Scale", picture.scale},
+                                        {"Software", "stipple"}};
+    return encode_png({power.columns, rows, picture.bits},
+                      png_bytes_of_samples(pixels, picture.bits), texts);
 }
 
 }  // namespace stipple

@@ -169,8 +169,11 @@ class Painter {
         for (const Colour& c : colours_)
             for (const std::uint8_t part : {c.red, c.green, c.blue})
                 samples += static_cast<char>(part);
-        return png_of_colour(static_cast<std::size_t>(width_), static_cast<std::size_t>(height_),
-                             samples, notes);
+        const PngShape shape{.width = static_cast<std::size_t>(width_),
+                             .height = static_cast<std::size_t>(height_),
+                             .bits = 8,
+                             .colour = true};
+        return encode_png(shape, samples, notes);
     }
 
   private:

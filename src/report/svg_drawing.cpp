@@ -135,7 +135,7 @@ class Writer {
             "style=\"image-rendering:pixelated\" "
             "xlink:href=\"data:image/png;base64,{}\"/>\n",
             number(a.left), number(a.top), number(a.width), number(a.height),
-            base64(png_of_colour(raster.columns, raster.rows, bytes, {})));
+            base64(encode_png({raster.columns, raster.rows, 8, true}, bytes, {})));
     }
 
     void operator()(const Window& window) {

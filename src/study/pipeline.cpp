@@ -84,7 +84,8 @@ Found analyze(const Analyzer& analyzer, const Arrival& arrival, std::size_t dime
     const auto measure = accumulator_for(analyzer, arrival, dimension, options, run);
     RunContext quiet = run;
     quiet.progress = {};
-    std::vector<double> rows(arrival_batch(dimension) * dimension);
+    const std::size_t width = arrival.width();
+    std::vector<double> rows(arrival_batch(dimension) * width);
     std::vector<double> ahead(rows.size());
     const auto policy = run.thread_count() > 1 ? std::launch::async : std::launch::deferred;
     Found found;
@@ -92,7 +93,7 @@ Found analyze(const Analyzer& analyzer, const Arrival& arrival, std::size_t dime
     while (count > 0) {
         run.check_stop();
         auto fetched = std::async(policy, [&] { return next(ahead); });
-        measure->add(std::span(rows).first(count * dimension), quiet);
+        measure->add(std::span(rows).first(count * width), quiet);
         found.count += count;
         if (arrival.count) run.tick(found.count, *arrival.count);
         count = fetched.get();

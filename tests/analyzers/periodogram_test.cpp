@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
+#include <utility>
 
 #include "core/rng.hpp"
+#include "math/nufft.hpp"
+#include "study/chain.hpp"
 #include "support/units.hpp"
 
 using namespace stipple;
@@ -67,19 +71,28 @@ Report mean_of(const std::vector<Report>& reports) {
 
 }  // namespace
 
-// |exp(i phi)|^2 / 1 = 1.
-TEST(Periodogram, OnePointHasPowerOneEverywhere) {
-    for (const std::string method : {"nufft", "direct"}) {
+// |exp(i phi)|^2 = 1 for one point, which alone is no set: so two sets' worth of it in one place,
+// |2 exp(i phi)|^2 / 2 = 2, and the sums themselves for one.
+TEST(Periodogram, PointsInOnePlaceHaveTheirNumberAsPowerEverywhere) {
+    for (const std::string method : {"nufft", "direct"})
         for (const auto& row : std::vector<std::vector<double>>{
                  {0.3}, {0.3, 0.7}, {1, 0}, {one_minus_ulp, 1}, {0.1, 0.2, 0.9}}) {
+            const std::size_t d = row.size();
+            const FourierSums one = method == "direct" ? fourier_sums_directly(row, d, 9, {})
+                                                       : Nufft(1, d, 9, 1e-9).transform(row, {});
+            for (const auto& sum : one.values) EXPECT_NEAR(std::norm(sum), 1, 1e-8);
+            std::vector<std::string> said;
+            RunContext run;
+            run.warn = [&](const std::string& sentence) { said.push_back(sentence); };
             const Report report =
-                spectrum(points_of({row}), {{"method", method}, {"max-frequency", "9"}});
-            for (const double p : grid_of(report).values) EXPECT_NEAR(p, 1, 1e-8);
-            for (const double p : report.curve("radial.power")) EXPECT_NEAR(p, 1, 1e-8);
+                spectrum(points_of({row, row}), {{"method", method}, {"max-frequency", "9"}}, run);
+            for (const double p : grid_of(report).values) EXPECT_NEAR(p, 2, 1e-8);
             EXPECT_EQ(report.number("effective_nyquist"), 0);
-            EXPECT_NEAR(report.number("oscillation"), 0, 1e-7);
+            EXPECT_NEAR(report.number("oscillation"), 10, 1e-7);
+            EXPECT_NEAR(report.number("total_variation"), 0.5, 1e-8);
+            EXPECT_EQ(said, std::vector<std::string>{"all 2 points are equal: they are in phase at "
+                                                     "every frequency"});
         }
-    }
 }
 
 // 0 and 1/2: |1 + (-1)^f|^2 / 2 = 2 at even f, 0 at odd f.
@@ -317,7 +330,7 @@ TEST(Periodogram, RegularGridHasItsOwnNyquistFrequency) {
 // Nothing is infinite or not a number, which JSON cannot hold.
 TEST(Periodogram, EqualPointsAndEmptyRingsGiveFiniteNumbers) {
     for (const auto& set : {corner_grid(16), points_of({{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}}),
-                            points_of({{0, 0}}), points_of({{1}, {1}})}) {
+                            points_of({{0, 0}, {0, 0}}), points_of({{1}, {1}})}) {
         const Report report = spectrum(set);
         for (const char* key : {"radial.power", "radial.anisotropy_db"})
             for (const double value : report.curve(key)) EXPECT_TRUE(std::isfinite(value)) << key;
@@ -352,11 +365,15 @@ TEST(Periodogram, RefusesWhatItCannotDo) {
     EXPECT_EQ(refusal(set, {{"max-frequency", "0"}}),
               "usage: --max-frequency: 0 is outside [1, 1000000]");
     EXPECT_EQ(refusal(set, {{"tolerance", "1e-14"}}),
-              "usage: --tolerance: 1e-14 is outside [1e-13, 0.1]");
-    EXPECT_EQ(refusal(make("random", points(10, 3)), {{"grid", "a.npy"}}),
-              "usage: --grid: takes points of dimension 2; these have 3");
+              "usage: --tolerance: 1e-14 is below 1e-13, the floor of what float64 gives; --method "
+              "direct is as exact as float64 is");
+    EXPECT_EQ(refusal(set, {{"tolerance", "0.2"}}), "usage: --tolerance: 0.2 is outside [0, 0.1]");
     EXPECT_EQ(refusal(make("random", points(10, 1)), {{"image", "a.png"}}),
-              "usage: --image: takes points of dimension 2; these have 1");
+              "usage: --image: takes points of dimension 2 or 3; these have 1");
+    EXPECT_EQ(refusal(set, {{"slice", "1"}}),
+              "usage: --slice: takes points of dimension 3; these have 2");
+    EXPECT_EQ(refusal(points_of({{0.5, 0.5}}), {}),
+              "input: periodogram needs at least 2 points; there is 1");
     EXPECT_NE(refusal(make("random", points(10, 4)), {}).find("dimension 1 to 3"),
               std::string::npos);
     for (const std::string method : {"nufft", "direct"}) {
@@ -367,4 +384,186 @@ TEST(Periodogram, RefusesWhatItCannotDo) {
     std::stop_source source;
     source.request_stop();
     EXPECT_EQ(refusal(set, {}, {.stop = source.get_token()}), "cancelled: interrupted");
+}
+
+// White noise at every ring: 2 R P of a mean over R sets and the vectors of a ring is chi-square
+// distributed, nearly; with c / 2 independent vectors the mean has the deviation sqrt(2 / (c R)).
+// 24 rings at 5.5 deviations: a false alarm once in a million runs. A jittered grid is told apart.
+TEST(Periodogram, MeanPowerOfWhiteNoiseIsOneInEveryBinWithinItsBand) {
+    std::vector<Report> white;
+    std::vector<Report> jittered;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        const Settings settings = {{"max-frequency", "24"}};
+        white.push_back(spectrum(make("random", points(1000, 2), {}, {.seed = seed}), settings));
+        jittered.push_back(spectrum(jittered_grid(32, seed), settings));
+    }
+    const Report mean = mean_of(white);
+    const Report other = mean_of(jittered);
+    EXPECT_EQ(mean.number("expected_anisotropy_db"), -20);
+    EXPECT_EQ(white[0].number("expected_anisotropy_db"), 0);
+    for (std::size_t i = 0; i < 24; ++i) {
+        const double band = 5.5 * std::sqrt(2 / (100.0 * static_cast<double>(cells_of(mean)[i])));
+        EXPECT_NEAR(mean.curve("radial.power")[i], 1, band) << i + 1;
+        EXPECT_LT(other.curve("radial.power")[i], 1 - band) << i + 1;
+    }
+}
+
+// P(f) = 1 - sinc^2 sinc^2 = pi^2 |f|^2 / (3 m^2) near 0, for white noise 1: exponents 2 and 0. The
+// fit over 8 rings of the mean of 100 sets has deviations below 0.1.
+TEST(Periodogram, LowFrequencyExponentOfJitterIsTwoAndOfNoiseZero) {
+    std::vector<Report> white;
+    std::vector<Report> jittered;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        const Settings settings = {{"max-frequency", "16"}};
+        white.push_back(spectrum(make("random", points(1024, 2), {}, {.seed = seed}), settings));
+        jittered.push_back(spectrum(jittered_grid(32, seed), settings));
+    }
+    EXPECT_NEAR(mean_of(jittered).number("low_frequency_exponent"), 2, 0.25);
+    EXPECT_NEAR(mean_of(white).number("low_frequency_exponent"), 0, 0.25);
+    EXPECT_LT(mean_of(white).number("total_variation"), 0.05);
+    EXPECT_GT(mean_of(jittered).number("total_variation"), 0.3);
+    // A lattice has no power there, and no exponent.
+    EXPECT_EQ(spectrum(corner_grid(32)).find("low_frequency_exponent"), nullptr);
+}
+
+TEST(Periodogram, NormalizedFrequenciesAreCyclesAMeanDistance) {
+    const PointSet set = make("jittered", points(400, 2));
+    const Report plain = spectrum(set);
+    const Report report = spectrum(set, {{"normalize-frequency", "true"}});
+    EXPECT_EQ(report.curve("radial.power"), plain.curve("radial.power"));
+    for (std::size_t i = 0; i < 40; ++i)
+        EXPECT_EQ(report.curve("radial.frequency")[i], double(i + 1) / 20);
+    EXPECT_NEAR(report.number("effective_nyquist"), plain.number("effective_nyquist") / 20, 1e-12);
+    EXPECT_NEAR(report.number("relative_nyquist"), plain.number("effective_nyquist") / 10, 1e-12);
+    EXPECT_EQ(report.number("regular_nyquist"), 10);
+}
+
+/// A set with a strength behind the coordinates of each point, as --weights gives it.
+Report weighted(const std::vector<std::vector<double>>& rows, Settings settings) {
+    const Analyzer& unit = find_analyzer("periodogram");
+    settings.emplace_back("weights", "w");
+    Values values = unit.options.defaults();
+    for (const auto& [name, text] : settings) unit.options.set(values, name, text);
+    std::vector<double> flat;
+    for (const auto& row : rows) flat.insert(flat.end(), row.begin(), row.end());
+    bool given = false;
+    const auto next = [&](std::span<double> room) {
+        if (std::exchange(given, true)) return std::size_t{0};
+        std::ranges::copy(flat, room.begin());
+        return rows.size();
+    };
+    const std::size_t d = rows.front().size() - 1;
+    return analyze(unit, {unit_cube(d), {}, true}, d, next, values, {}).report;
+}
+
+// Strengths 2 and -1 at 0 and 1/2: |2 - (-1)^f|^2 / 5 = 1/5 at even f, 9/5 at odd f.
+TEST(Periodogram, StrengthsByHand) {
+    for (const std::string method : {"nufft", "direct"}) {
+        const Report report =
+            weighted({{0, 2}, {0.5, -1}}, {{"method", method}, {"max-frequency", "6"}});
+        for (std::int64_t f = -6; f <= 6; ++f)
+            EXPECT_NEAR(power_at(report, f), f % 2 == 0 ? 0.2 : 1.8, 1e-8) << f;
+    }
+    EXPECT_EQ(
+        error_of([] {
+            (void)weighted({{0.1, 0}, {0.2, 0}}, {});
+        }),
+        "input: --weights: all 2 strengths are 0; white noise has power 1 only where some are "
+        "not");
+}
+
+// Strength 1 everywhere changes nothing; strengths that are drawn leave white noise white.
+TEST(Periodogram, WhiteNoiseStaysWhiteWithStrengths) {
+    double sum = 0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        const PointSet set = make("random", points(500, 3), {}, {.seed = seed});
+        std::vector<std::vector<double>> rows;
+        for (std::size_t i = 0; i < 500; ++i)
+            rows.push_back({set[i][0], set[i][1], set[i][2] - 0.3});
+        const Report report = weighted(rows, {{"max-frequency", "12"}});
+        for (const double p : report.curve("radial.power")) sum += p / 240;
+    }
+    EXPECT_NEAR(sum, 1, 0.1);
+}
+
+// The definition, point by point; then white noise, whose mean is 1 at every frequency, also next
+// to 0: 2000 sets, deviation 1 / sqrt(2000) at each of 12 frequencies, 5 of them once in 1e5 runs.
+// Without the window's own transform taken off, power there would be near n / 4.
+TEST(Periodogram, HannWindowIsTheDefinitionAndLeavesNoiseWhite) {
+    const PointSet set = make("random", points(50, 2));
+    const Report report = spectrum(set, {{"window", "hann"}, {"max-frequency", "5"}});
+    EXPECT_EQ(report.text("window"), "hann");
+    EXPECT_EQ(report.text("boundary"), "faded out");
+    EXPECT_EQ(spectrum(set).text("boundary"), "torus");
+    const auto transform = [](int f) { return f == 0 ? 0.5 : std::abs(f) == 1 ? -0.25 : 0.0; };
+    for (int f0 = 0; f0 <= 5; ++f0)
+        for (int f1 = -5; f1 <= 5; ++f1) {
+            if (f0 == 0 && f1 == 0) continue;
+            std::complex<double> sum;
+            for (std::size_t i = 0; i < 50; ++i) {
+                double w = 1;
+                for (const double x : set[i]) w *= (1 - std::cos(2 * std::numbers::pi * x)) / 2;
+                sum += std::polar(w, -2 * std::numbers::pi * (f0 * set[i][0] + f1 * set[i][1]));
+            }
+            const double shape = transform(f0) * transform(f1);
+            const double expected =
+                std::norm(sum - 50 * shape) / 50 / (0.375 * 0.375 - shape * shape);
+            EXPECT_NEAR(power_at(report, f0, f1), expected, 1e-7) << f0 << ' ' << f1;
+        }
+    std::vector<double> means(25);
+    for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
+        const Report one = spectrum(make("random", points(40, 2), {}, {.seed = seed}),
+                                    {{"window", "hann"}, {"max-frequency", "2"}});
+        for (std::size_t i = 0; i < 25; ++i) means[i] += grid_of(one).values[i] / 2000;
+    }
+    for (std::size_t i = 0; i < 12; ++i) EXPECT_NEAR(means[i], 1, 5.5 / std::sqrt(2000)) << i;
+}
+
+// A box is stretched onto the cube: frequencies are cycles a side.
+TEST(Periodogram, BoxesAreMeasuredAsTheCubeThatTheyAre) {
+    PointSet set = make("random", points(100, 2));
+    const Report cube = spectrum(set);
+    for (std::size_t i = 0; i < 100; ++i) {
+        set[i][0] *= 8;
+        set[i][1] = set[i][1] * 2 - 1;
+    }
+    set.domain = parse_domain("box:bounds=[0..8,-1..1]", 2);
+    const Report box = spectrum(set);
+    for (std::size_t i = 0; i < 40; ++i)
+        EXPECT_NEAR(box.curve("radial.power")[i], cube.curve("radial.power")[i], 1e-7);
+}
+
+// Beyond the points that are kept, the plan does not know their number: same result, told or not.
+TEST(Periodogram, LargeSetsComeInPieces) {
+    const PointSet set = make("random", points(1'100'000, 1));
+    const Analyzer& unit = find_analyzer("periodogram");
+    Values values = unit.options.defaults();
+    unit.options.set(values, "max-frequency", "50");
+    const Report whole = analyze(unit, set, values, {});
+    std::size_t at = 0;
+    const auto next = [&](std::span<double> rows) {
+        const std::size_t some = std::min(rows.size(), set.count() - at);
+        std::ranges::copy(set.flat().subspan(at, some), rows.begin());
+        at += some;
+        return some;
+    };
+    EXPECT_EQ(analyze(unit, {unit_cube(1)}, 1, next, values, {}).report, whole);
+    const FourierSums truth =
+        fourier_sums_directly(set.flat().first(1'100'000), 1, 50, {.threads = 2});
+    for (std::int64_t f = 1; f <= 50; ++f) {
+        const double sum = std::abs(truth.at({f, 0, 0})) / std::sqrt(1.1e6);
+        EXPECT_NEAR(power_at(whole, f), sum * sum, 3e-9 * (sum + 1)) << f;
+    }
+}
+
+// Sets of other sizes are measured at the first one's frequencies.
+TEST(Periodogram, FollowsTheFrequenciesOfTheFirstSetOfAMean) {
+    const Analyzer& unit = find_analyzer("periodogram");
+    Values values = unit.options.defaults();
+    const Report first = analyze(unit, make("random", points(400, 2)), values, {});
+    unit.follow(first, values);
+    const Report second = analyze(unit, make("random", points(100, 2)), values, {});
+    EXPECT_EQ(second.number("max_frequency"), 40);
+    unit.follow(second, values);
+    EXPECT_EQ(second.number("max_frequency"), 40);
 }

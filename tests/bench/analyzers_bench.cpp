@@ -4,6 +4,7 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <string>
 
 #include "study/pipeline.hpp"
 
@@ -67,9 +68,17 @@ void star_discrepancy_of_many_axes(benchmark::State& state) {
 void star_discrepancy_bounds(benchmark::State& state) {
     measure(state, "star-discrepancy", "sobol", {{"method", "bounds"}, {"tolerance", "0.1"}});
 }
+/// The square, F and 10^-k as told, on so many threads.
 void periodogram(benchmark::State& state) {
-    measure(state, "periodogram", "random", {{"max-frequency", "512"}});
+    const auto count = static_cast<std::uint64_t>(state.range(0));
+    const PointSet points = generate("random", {.count = count, .dimension = 2});
+    const Settings settings = {{"max-frequency", std::to_string(state.range(1))},
+                               {"tolerance", "1e-" + std::to_string(state.range(2))}};
+    const RunContext run{.threads = static_cast<unsigned>(state.range(3))};
+    for (auto _ : state) benchmark::DoNotOptimize(analyze("periodogram", points, settings, run));
+    state.SetItemsProcessed(static_cast<std::int64_t>(count) * state.iterations());
 }
+/// The truth beside it: the plain sum at as many frequencies as it takes a second for.
 void periodogram_direct(benchmark::State& state) {
     measure(state, "periodogram", "random", {{"max-frequency", "32"}, {"method", "direct"}});
 }
@@ -166,7 +175,16 @@ BENCHMARK(star_discrepancy_of_many_axes)
     ->Args({100, 20})
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(star_discrepancy_bounds)->Args({128, 12})->Args({256, 12})->Unit(benchmark::kMillisecond);
-BENCHMARK(periodogram)->Args({4096, 2})->Args({1'000'000, 2})->Unit(benchmark::kMillisecond);
+BENCHMARK(periodogram)
+    ->ArgNames({"n", "F", "digits", "threads"})
+    ->Args({4096, 320, 9, 1})
+    ->Args({1'000'000, 512, 6, 1})
+    ->Args({10'000'000, 512, 6, 1})
+    ->Args({10'000'000, 512, 9, 1})
+    ->Args({10'000'000, 512, 6, 2})
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(periodogram_direct)->Args({4096, 2})->Unit(benchmark::kMillisecond);
 BENCHMARK(periodogram_beside_direct)->Args({4096, 2})->Unit(benchmark::kMillisecond);
 BENCHMARK(chi_square)->Args({1'000'000, 2})->Unit(benchmark::kMillisecond);

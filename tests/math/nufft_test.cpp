@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <fstream>
 #include <numbers>
 #include <string>
 #include <thread>
@@ -12,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "math/kaiser_bessel.hpp"
+#include "support/temporary_file.hpp"
 
 using namespace stipple;
 
@@ -205,6 +207,85 @@ TEST(Nufft, ProgressRisesToTheEndAndStopIsHeeded) {
     EXPECT_THROW((void)fourier_sums_directly(rows, 2, 20, {.stop = source.get_token()}), Error);
 }
 
+// Portions of any size give the same bits, also where a batch ends within one.
+TEST(Nufft, SameBitsHoweverThePointsArePortioned) {
+    const std::size_t n = 1'100'000;
+    Rows rows(n);
+    Rng(7).fill(0, rows);
+    const Nufft nufft(n, 1, 100, 1e-7);
+    const FourierSums whole = nufft.transform(rows, {});
+    for (const std::size_t portion : {std::size_t{131'072}, std::size_t{1'048'575}}) {
+        FourierSummation sum(nufft, {});
+        for (std::size_t at = 0; at < n; at += portion)
+            sum.add(std::span(rows).subspan(at, std::min(portion, n - at)), {});
+        EXPECT_EQ(sum.finish(Planning::estimated, {}).values, whole.values) << portion;
+    }
+}
+
+// Strengths multiply the summands: against the direct sum, and the direct sum against points that
+// stand there as often as their strength says.
+TEST(Nufft, StrengthsMultiplyThePoints) {
+    for (std::size_t d = 1; d <= 3; ++d) {
+        Rows once;
+        Rows often;
+        Rows random(d * 60);
+        Rng(12).fill(0, random);
+        double squares = 0;
+        for (std::size_t i = 0; i < 60; ++i) {
+            const std::span point(random.data() + i * d, d);
+            once.insert(once.end(), point.begin(), point.end());
+            once.push_back(static_cast<double>(i % 4));
+            squares += static_cast<double>(i % 4 * (i % 4));
+            for (std::size_t k = 0; k < i % 4; ++k)
+                often.insert(often.end(), point.begin(), point.end());
+        }
+        const std::size_t last = frequency_for(d);
+        const FourierSums direct = fourier_sums_directly(once, d, last, {}, true);
+        EXPECT_LE(largest_difference(direct, fourier_sums_directly(often, d, last, {})), 1e-11);
+        const Nufft nufft(60, d, last, 1e-9, true);
+        EXPECT_LE(largest_difference(nufft.transform(once, {}), direct), 1e-9 * std::sqrt(squares));
+    }
+}
+
+// Measured plans go other ways, to the same sums within the tolerance.
+TEST(Nufft, MeasuredPlansStayWithinTheTolerance) {
+    Rows rows(2 * 300);
+    Rng(13).fill(0, rows);
+    const Nufft nufft(300, 2, 12, 1e-10);
+    const FourierSums guessed = nufft.transform(rows, {}, Planning::estimated);
+    const FourierSums measured = nufft.transform(rows, {}, Planning::measured);
+    EXPECT_LE(largest_difference(guessed, measured), 1e-10 * std::sqrt(300));
+}
+
+TEST(Nufft, WisdomIsWrittenAndReadBack) {
+    const testing::TemporaryFile file("");
+    std::filesystem::remove(file.path());
+    read_wisdom(file.path());  // is not there: nothing to learn
+    std::ofstream(file.path()) << wisdom_text();
+    read_wisdom(file.path());
+    std::ofstream(file.path()) << "no wisdom";
+    try {
+        read_wisdom(file.path());
+        FAIL() << "took words for wisdom";
+    } catch (const Error& e) {
+        EXPECT_EQ(e.kind(), ErrorKind::input);
+        EXPECT_NE(std::string(e.what()).find("this is no wisdom of fftw"), std::string::npos);
+    }
+    EXPECT_THROW(read_wisdom("/"), Error);
+}
+
+TEST(QuickLength, IsEvenAndAPowerOfTwoButForASmallFactor) {
+    EXPECT_EQ(quick_length(31), 32U);
+    EXPECT_EQ(quick_length(1281), 1536U);  // 1296 = 2^4 81 is slower
+    EXPECT_EQ(quick_length(1537), 1600U);
+    for (std::size_t least = 33; least < 5000; least += 61) {
+        const std::size_t length = quick_length(least);
+        EXPECT_EQ(length % 2, 0U);
+        EXPECT_GE(length, least);
+        EXPECT_LE(length, least * 5 / 4 + 2);
+    }
+}
+
 // The closed form against the integral over the window, by the trapezoidal rule, which is exact to
 // the last digits but for the window's step at its ends.
 TEST(KaiserBessel, TransformIsTheIntegral) {
@@ -217,6 +298,24 @@ TEST(KaiserBessel, TransformIsTheIntegral) {
             sum += window(a) * std::cos(2 * std::numbers::pi * xi * a) * (i % steps ? 1.0 : 0.5);
         }
         EXPECT_NEAR(sum * 12 / steps, window.transform(xi), 1e-12) << xi;
+    }
+}
+
+// The polynomials are as good as the window's own errors, and better: near the rounding errors of
+// numbers up to 1 for wide windows.
+TEST(WindowTable, AgreesWithTheWindow) {
+    for (std::size_t width = KaiserBessel::min_width; width <= KaiserBessel::max_width; ++width) {
+        const KaiserBessel window(width, 0.25);
+        const WindowTable table(window);
+        double worst = 0;
+        for (int i = 0; i < 1000; ++i) {
+            const double u = (i + 0.3) / 1000;
+            for (std::size_t j = 0; j < width; ++j) {
+                const double a = u + static_cast<double>(width) / 2 - 1 - static_cast<double>(j);
+                worst = std::max(worst, std::abs(table.value(j, u) - window(a)));
+            }
+        }
+        EXPECT_LE(worst, std::max(0.01 * window.error(), 2e-14)) << width;
     }
 }
 

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+//
+// What follows from a power spectrum by its rings k - 1/2 <= |f| < k + 1/2, k = 1..F, frequency 0
+// being left out everywhere; the formulas are at the top of periodogram.cpp.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/report.hpp"
+#include "core/run_context.hpp"
+
+namespace stipple::analyzers {
+
+/// Means and variances over rings; index 0 is ring 1.
+struct Rings {
+    std::vector<double> power;
+    std::vector<double> variance;
+    std::vector<std::int64_t> cells;
+};
+
+/// @param power at the frequencies -F..F of each axis, one row for each (f_2, f_1).
+Rings rings_of(const Grid& power, const RunContext& run);
+
+/// In dB, no less than -100.
+double anisotropy_db(double variance, double mean);
+
+double effective_nyquist(const Rings& rings);
+double oscillation(const Rings& rings, double regular_nyquist);
+double total_variation(const Rings& rings);
+
+/// Nothing where fewer than 3 of the lowest rings have a power above `least`.
+std::optional<double> low_frequency_exponent(const Rings& rings, double regular_nyquist,
+                                             double least);
+
+}  // namespace stipple::analyzers
