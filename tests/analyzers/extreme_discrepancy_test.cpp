@@ -378,8 +378,7 @@ TEST(ExtremeDiscrepancy, StopsWhenAskedAndRefusesWhatItCannotTake) {
               }),
               "cancelled: interrupted");
     EXPECT_EQ(error_of([&] { report_of(points_of({{.5}}), "wide"); }),
-              "usage: --kind: 'wide' is not one of star, extreme, periodic"
-              "periodic");
+              "usage: --kind: 'wide' is not one of star, extreme, periodic");
     EXPECT_NE(error_of([&] { report_of(points_of({{.5, 1.5}}), "extreme"); }), "");
     run = {.max_memory = 1000};
     EXPECT_EQ(error_of([&] {
