@@ -134,6 +134,7 @@ class Parser {
   private:
     /// Adds what the unit's own word sets. @throws Error(usage) where an option says it, too
     void take(const Spec& spec) {
+        if (spec.name.empty()) return;
         if (!spec.coordinates.empty()) {
             if (verb_.verb != Verb::warp)
                 fail(ErrorKind::usage, "{}@{}: coordinates behind @ are for warps", spec.name,

@@ -36,6 +36,7 @@ struct Panel {
     double top = margin;
     double width = longer_side;
     double height = longer_side;
+    double room = longer_side;  ///< for words below it
     double low_x = 0;
     double high_y = 1;
     double scale_x = 1;
@@ -84,6 +85,7 @@ Panel panel_of(const Box& box, std::size_t i, std::size_t j, bool alike) {
             .top = margin + static_cast<double>(j - 1) * (side + margin),
             .width = alike ? box.extent(i) * scale(i) : side,
             .height = alike ? box.extent(j) * scale(j) : side,
+            .room = side,
             .low_x = box.low[i],
             .high_y = box.high[j],
             .scale_x = scale(i),
@@ -97,7 +99,8 @@ Sheet sheet_of(const Layout& layout) {
         sheet.panels.push_back(only_panel(box));
     } else {
         const std::string& domain = layout.provenance.domain;
-        const bool alike = !domain.empty() && domain.find(" x ") == std::string::npos;
+        const bool one = !domain.empty() && domain.find(" x ") == std::string::npos;
+        const bool alike = one && domain != "unit-cube";
         for (std::size_t j = 1; j < box.dimension(); ++j)
             for (std::size_t i = 0; i < j; ++i) sheet.panels.push_back(panel_of(box, i, j, alike));
     }
@@ -129,7 +132,7 @@ std::string caption_of(const Layout& layout, const Panel& panel) {
                                           names[panel.i], box.low[panel.i], box.high[panel.i],
                                           names[panel.j], box.low[panel.j], box.high[panel.j]);
     const double letters = 0.55 * static_cast<double>(words.size());
-    const double size = std::clamp(std::max(panel.width, 60.0) / letters, 4.0, 14.0);
+    const double size = std::clamp(panel.room / letters, 4.0, 14.0);
     return fmt::format(
         "<text x=\"{:.6g}\" y=\"{:.6g}\" font-size=\"{:.3g}\" fill=\"#555\">{}</text>\n",
         panel.left, panel.top + panel.height + 15, size, words);

@@ -187,15 +187,13 @@ class MeshDomain final : public Domain {
         std::ranges::copy(find(point).value_or(Pair{}), cube.begin());
     }
     std::optional<Moments> moments() const override {
-        if (gives_ != Gives::position) return std::nullopt;
-        const Box box = positions();
-        MixedMoments all(box.low);
+        std::vector<double> about = positions().low;
+        about.resize(dimension(), 0.0);
+        MixedMoments all(about);
         for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
             const auto [a, b, c] = mesh_.corners(i);
-            all.add(length(cross(minus(b, a), minus(c, a))),
-                    triangle_moments({std::vector<double>{a.begin(), a.end()},
-                                      {b.begin(), b.end()},
-                                      {c.begin(), c.end()}}));
+            const double twice = length(cross(minus(b, a), minus(c, a)));
+            if (twice > 0) all.add(twice, triangle_moments(rows_at_corners(i)));
         }
         return all.moments();
     }
@@ -248,6 +246,25 @@ class MeshDomain final : public Domain {
     }
 
   private:
+    /// What the triangle's points are between: all that they give changes evenly from corner to
+    /// corner.
+    std::array<std::vector<double>, 3> rows_at_corners(std::size_t i) const {
+        const auto corners = mesh_.corners(i);
+        const auto& [a, b, c] = corners;
+        const Vector3 normal = normalized(cross(minus(b, a), minus(c, a)));
+        std::array<std::vector<double>, 3> rows;
+        for (std::size_t k = 0; k < 3; ++k) {
+            rows[k].assign(corners[k].begin(), corners[k].end());
+            if (gives_ == Gives::normal)
+                rows[k].insert(rows[k].end(), normal.begin(), normal.end());
+            if (gives_ != Gives::barycentric) continue;
+            rows[k].resize(7, 0.0);
+            rows[k][3] = static_cast<double>(i);
+            rows[k][4 + k] = 1;
+        }
+        return rows;
+    }
+
     Box positions() const {
         constexpr double far = std::numeric_limits<double>::infinity();
         Box box{{far, far, far}, {-far, -far, -far}};

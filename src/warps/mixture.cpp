@@ -23,6 +23,7 @@
 //         with their error. There is no way back: a point may come from several components. The
 //         same bits on every machine, where the components have them.
 
+#include <array>
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <boost/math/special_functions/erf.hpp>
 #include <cmath>
@@ -255,33 +256,11 @@ class Mixture final : public Mapping {
                  std::span<std::uint8_t> /*keep*/) const override {
         const std::size_t d = cube_dimension();
         const std::size_t m = domain_->dimension();
-        const std::size_t count = cube.size() / d;
-        const std::vector<std::uint32_t> which = chosen(cube);
-        // Rows of one component after those of another, each in their order.
-        std::vector<std::size_t> next(parts_.size() + 1, 0);
-        for (const std::uint32_t c : which) ++next[c + 1];
-        for (std::size_t c = 0; c < parts_.size(); ++c) next[c + 1] += next[c];
-        const std::vector<std::size_t> begin = next;
-        std::vector<std::size_t> place(count);
-        for (std::size_t i = 0; i < count; ++i) place[i] = next[which[i]]++;
-        std::vector<double> from(count * d), to(count * m);
-        for (std::size_t i = 0; i < count; ++i) {
-            const Share& share = shares_[which[i]];
-            double* row = &from[place[i] * d];
-            row[0] =
-                std::max(0.0, std::min((cube[i * d] - share.before) / share.width, one_minus_ulp));
-            for (std::size_t k = 1; k < d; ++k) row[k] = cube[i * d + k];
+        Work work(parts_.size(), d, m);
+        for (std::size_t first = 0; first < cube.size() / d; first += some) {
+            const std::size_t size = std::min(some, cube.size() / d - first);
+            move(cube.subspan(first * d, size * d), image.subspan(first * m, size * m), work);
         }
-        std::vector<std::uint8_t> keep(count, 1);
-        for (std::size_t c = 0; c < parts_.size(); ++c) {
-            const std::size_t size = begin[c + 1] - begin[c];
-            if (size == 0) continue;
-            parts_[c].mapping->forward(std::span(from).subspan(begin[c] * d, size * d),
-                                       std::span(to).subspan(begin[c] * m, size * m),
-                                       std::span(keep).first(size));
-        }
-        for (std::size_t i = 0; i < count; ++i)
-            for (std::size_t k = 0; k < m; ++k) image[i * m + k] = to[place[i] * m + k];
     }
 
     double density(std::span<const double> point) const override {
@@ -291,6 +270,59 @@ class Mixture final : public Mapping {
     }
 
   private:
+    /// Rows that go through at a time: few enough to stay in the nearest caches.
+    static constexpr std::size_t some = 512;
+
+    /// Rows of one component after those of another, each in their order.
+    struct Work {
+        std::array<std::uint32_t, some> which;  ///< component of each row
+        std::array<std::uint32_t, some> place;  ///< of each row among them
+        std::array<std::uint8_t, some> keep;
+        std::vector<std::uint32_t> begin;  ///< of each component's rows, and their end
+        std::vector<std::uint32_t> next;
+        std::vector<double> from;
+        std::vector<double> to;
+
+        Work(std::size_t parts, std::size_t d, std::size_t m)
+            : begin(parts + 1), next(parts + 1), from(some * d), to(some * m) {
+            keep.fill(1);
+        }
+    };
+
+    void move(std::span<const double> cube, std::span<double> image, Work& work) const {
+        const std::size_t d = cube_dimension();
+        const std::size_t m = domain_->dimension();
+        const std::size_t count = cube.size() / d;
+        choose(cube, work.which);
+        sort(count, work);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Share& share = shares_[work.which[i]];
+            const double u = (cube[i * d] - share.before) / share.width;
+            double* row = &work.from[work.place[i] * d];
+            row[0] = std::max(0.0, std::min(u, one_minus_ulp));
+            for (std::size_t k = 1; k < d; ++k) row[k] = cube[i * d + k];
+        }
+        for (std::size_t c = 0; c < parts_.size(); ++c) {
+            const std::size_t first = work.begin[c];
+            const std::size_t size = work.begin[c + 1] - first;
+            if (size > 0)
+                parts_[c].mapping->forward(std::span(work.from).subspan(first * d, size * d),
+                                           std::span(work.to).subspan(first * m, size * m),
+                                           std::span(work.keep).first(size));
+        }
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t k = 0; k < m; ++k) image[i * m + k] = work.to[work.place[i] * m + k];
+    }
+
+    void sort(std::size_t count, Work& work) const {
+        auto& [which, place, keep, begin, next, from, to] = work;
+        std::ranges::fill(begin, 0);
+        for (std::size_t i = 0; i < count; ++i) ++begin[which[i] + 1];
+        for (std::size_t c = 0; c < parts_.size(); ++c) begin[c + 1] += begin[c];
+        next = begin;
+        for (std::size_t i = 0; i < count; ++i) place[i] = next[which[i]]++;
+    }
+
     /// Where a component's part of the first coordinate begins, and how wide it is.
     struct Share {
         double before;
@@ -298,22 +330,23 @@ class Mixture final : public Mapping {
     };
 
     /// For each row the first component whose running weight is above its first coordinate.
-    std::vector<std::uint32_t> chosen(std::span<const double> cube) const {
+    void choose(std::span<const double> cube, std::array<std::uint32_t, some>& which) const {
         const std::size_t d = cube_dimension();
-        std::vector<std::uint32_t> which(cube.size() / d);
+        const std::size_t count = cube.size() / d;
         constexpr std::size_t few = 16;
-        for (std::size_t i = 0; i < which.size(); ++i) {
-            const double u = std::min(cube[i * d], one_minus_ulp);
-            if (sums_.size() > few) {
+        if (sums_.size() > few) {
+            for (std::size_t i = 0; i < count; ++i) {
+                const double u = std::min(cube[i * d], one_minus_ulp);
                 const auto above = std::ranges::upper_bound(sums_, u);
                 which[i] = static_cast<std::uint32_t>(above - sums_.begin());
-                continue;
             }
-            std::uint32_t below = 0;  // counted, since branches would be guessed wrong
-            for (const double sum : sums_) below += sum <= u ? 1 : 0;
-            which[i] = below;
+            return;
         }
-        return which;
+        // Counted, since branches would be guessed wrong.
+        std::fill_n(which.begin(), count, 0);
+        for (const double sum : std::span(sums_).first(sums_.size() - 1))
+            for (std::size_t i = 0; i < count; ++i)
+                which[i] += sum <= std::min(cube[i * d], one_minus_ulp) ? 1 : 0;
     }
 
     std::vector<Component> parts_;

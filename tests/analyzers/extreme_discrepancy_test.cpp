@@ -370,8 +370,7 @@ TEST(ExtremeDiscrepancy, StopsWhenAskedAndRefusesWhatItCannotTake) {
     EXPECT_LT(stopped.number("lower"), stopped.number("upper"));
     expect_box_holds(p, stopped, false);
     EXPECT_EQ(error_of([&] { report_of(points_of({{.5}}), "wide"); }),
-              "usage: --kind: 'wide' is not one of star, extreme, periodic"
-              "periodic");
+              "usage: --kind: 'wide' is not one of star, extreme, periodic");
     EXPECT_NE(error_of([&] { report_of(points_of({{.5, 1.5}}), "extreme"); }), "");
     run = {.max_memory = 1000};
     EXPECT_EQ(error_of([&] {

@@ -178,6 +178,24 @@ TEST(MomentsOfParts, OfAPictureAndOfOutcomesByHand) {
     EXPECT_NEAR(coin->skewness[0], 0.5 / std::sqrt(3 / 16.), 1e-15);
 }
 
+// Normals are level on each triangle and barycentrics straight: E of a barycentric is 1/3, its
+// variance 1/18.
+TEST(MomentsOfParts, OfMeshesGoWithTheirAttributes) {
+    const std::string file = STIPPLE_SOURCE_DIR "/tests/support/tetrahedron.obj";
+    const auto rich = mapping("mesh:attributes=barycentric,file=" + file);
+    const Moments m = *rich->domain()->moments();
+    ASSERT_EQ(m.dimension(), 7U);
+    for (std::size_t k = 4; k < 7; ++k) {
+        EXPECT_NEAR(m.mean[k], 1 / 3.0, 1e-12);
+        EXPECT_NEAR(m.covariance[8 * k], 1 / 18.0, 1e-12);
+    }
+    const Moments plain = *mapping("mesh:file=" + file)->domain()->moments();
+    const Moments normals = *mapping("mesh:attributes=normal,file=" + file)->domain()->moments();
+    EXPECT_NEAR(normals.mean[2], plain.mean[2], 1e-12);
+    // Of a closed surface, normals times areas sum to 0.
+    for (std::size_t k = 3; k < 6; ++k) EXPECT_NEAR(normals.mean[k], 0, 1e-12);
+}
+
 TEST(MomentsOfParts, KeepTheirDigitsWhereLawsAreThin) {
     const auto of = [](const char* spec) { return *mapping(spec)->domain()->moments(); };
     // Nearly normal about the axis, of variance 1 / kappa; 1 - z is nearly exponential.
@@ -192,8 +210,9 @@ TEST(MomentsOfParts, KeepTheirDigitsWhereLawsAreThin) {
     EXPECT_NEAR(of("power:exponent=999").covariance[0] * 1001 * 1001 * 1002 / 1000, 1, 1e-9);
 }
 
-TEST(MomentsOfParts, AreNotGivenWhereThereIsNoClosedForm) {
-    for (const char* spec : {"spherical-rectangle", "expression-2d:density=1+x*y"})
+TEST(MomentsOfParts, AreNotGivenWhereDigitsWouldBeLost) {
+    for (const char* spec : {"spherical-triangle:vertices=[1,0,0 1,0.01,0 1,0,0.01]",
+                             "rejection:density=x,bounds=[0..1,0..1,0..1]"})
         EXPECT_FALSE(mapping(spec)->domain()->moments().has_value()) << spec;
 }
 

@@ -60,7 +60,7 @@ TEST(Domain, ProductsTakeTheirCoordinates) {
 // The cube of a product stands in the order of the row's coordinates, whatever that of the factors.
 TEST(Domain, AxesOfAProductStandInTheOrderOfTheCoordinates) {
     const auto product =
-        parse_domain("power:exponent=1@4 x unit-cube@1,3 x power:exponent=3,range=[0,2]@2", 4);
+        parse_domain("power@4:exponent=1 x unit-cube@1,3 x power@2:exponent=3,range=[0,2]", 4);
     std::vector<double> cube(4);
     product->to_cube(std::vector<double>{0.1, 1, 0.3, 0.5}, cube);
     EXPECT_DOUBLE_EQ(cube[0], 0.1);
@@ -75,10 +75,10 @@ TEST(Domain, AxesOfAProductStandInTheOrderOfTheCoordinates) {
 // A sphere has three coordinates and two axes; cells are the product of its cells and the others'.
 TEST(Domain, ProbabilitiesOfAProductAreThoseOfTheFactors) {
     const auto product = parse_domain(
-        "sphere@2,3,5 x rejection:density=2*x,bounds=0..1@4 x "
+        "sphere@2,3,5 x rejection@4:density=2*x,bounds=0..1 x "
         "unit-cube@1",
         5);
     EXPECT_EQ(product->cube_dimension(), 4U);
-    EXPECT_NEAR(product->probability({{0, 0, 0.5, 0}, {0.5, 0.25, 1, 1}}).value, 0.125 * 1, 1e-9);
+    EXPECT_NEAR(product->probability({{0, 0, 0.5, 0}, {0.5, 0.25, 1, 1}}).value, 0.0625, 1e-9);
     EXPECT_NEAR(product->probability({{0, 0, 0, 0.5}, {1, 1, 1, 1}}).value, 0.75, 1e-9);
 }
