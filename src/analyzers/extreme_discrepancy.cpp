@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "analyzers/extreme_discrepancy.hpp"
 
+#include <cmath>
+
 #include "analyzers/extreme_cell.hpp"
 #include "analyzers/extreme_search.hpp"
+#include "analyzers/star_search.hpp"
+#include "analyzers/star_sweep.hpp"
 
 namespace stipple::analyzers::extreme {
 
@@ -14,11 +18,61 @@ double search_memory(const PointSet& points, unsigned threads) {
     return static_cast<double>(points.count()) * per_point;
 }
 
+namespace {
+
+/// The points, and on the torus those at 1 moved to 0.
+PointSet on_space(const PointSet& points, Space space) {
+    PointSet moved = points;
+    if (space == Space::torus)
+        for (double& x : moved.flat())
+            if (x == 1) x = 0;
+    return moved;
+}
+
+/// An upper bound from the star discrepancy of the points, where that promises something; 1
+/// otherwise. An interval is one from 0 less another, on the torus plus the whole axis if it wraps:
+/// a box is 2^d boxes from the origin, or 3^d with the whole space, which has no discrepancy.
+double star_bound(const PointSet& points, Space space, const SearchLimits& limits,
+                  const RunContext& run) {
+    const auto d = static_cast<double>(points.dimension());
+    const auto n = static_cast<double>(points.count());
+    const double boxes = space == Space::cube ? std::pow(2, d) : std::pow(3, d) - 1;
+    const double promised = 0.6 * std::sqrt(d / n);  // of random points, about
+    if (d < 2 || boxes * promised >= 1) return 1;
+    const star::CornerGrid grid = star::corner_grid(on_space(points, space), run);
+    double bound = 1;
+    if (points.dimension() == 2) {
+        const star::Sweep sweep = star::sweep_2d(grid, limits, run);
+        if (sweep.complete) bound = sweep.worst.value();
+    } else {
+        bound = star::find_worst(grid, limits, run).upper;
+    }
+    return std::min(1.0, boxes * bound * (1 + 0x1p-50));
+}
+
+/// What that bound may take: little of a long search, nothing to speak of where no end is set.
+SearchLimits share_for_bound(const SearchLimits& limits, const RunContext& run) {
+    constexpr double part = 0.1;
+    constexpr std::uint64_t short_work = 1U << 27;
+    SearchLimits share{.work = limits.work / 10, .deadline = limits.deadline, .tolerance = 0.05};
+    if (limits.timed())
+        share.deadline = run.seconds() + part * (limits.deadline - run.seconds());
+    else
+        share.work = std::min(share.work, short_work);
+    return share;
+}
+
+}  // namespace
+
 Findings discrepancy(const PointSet& points, Space space, const SearchLimits& limits,
                      const RunContext& run) {
     run.need_memory(search_memory(points, run.thread_count()), "the search for the worst box");
     const BoxGrid grid = box_grid(points, space, Measure::discrepancy, run);
-    const SearchResult found = find_worst(grid, limits, run);
+    const SearchLimits share = share_for_bound(limits, run);
+    RunContext silent = run;
+    silent.progress = {};
+    const double upper = star_bound(points, space, share, silent);
+    const SearchResult found = find_worst(grid, limits.after(share.work), run, upper);
     const WorstBox& worst = found.worst;
     Report box;
     box.add("lower_corner", worst.lower_corner());

@@ -14,7 +14,8 @@
 //         worst, of a few points each. On one core 1024 points take 0.1 s (random) to 0.4 s
 //         (Hammersley), 4096 points 0.5 s to 9 s; the periodic kind of even points takes ten times
 //         as long. d > 2: up to n^(2(d - 1)) cells; 1000 random points in 3-D take 10 s, 128 in 5-D
-//         5 s. It stops at --max-work or --time-limit, with bounds that hold.
+//         5 s. It stops at --max-work or --time-limit, with bounds that hold; a first one of many
+//         points in few dimensions is 2^d D* (periodic: (3^d - 1) D*).
 // Promise exact: counts are integers, boxes are compared without rounding, and the value is the
 //         double nearest to that of the box. Never depends on the number of threads.
 // Source  W. J. Morokoff, R. E. Caflisch, SIAM J. Sci. Comput. 15 (1994) 1251-1279,

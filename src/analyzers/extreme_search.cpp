@@ -92,12 +92,14 @@ void report_gap(double lower, double upper, const RunContext& run) {
 
 class Search {
   public:
-    Search(const BoxGrid& grid, WorstBox worst, const SearchLimits& limits, const RunContext& run)
+    Search(const BoxGrid& grid, WorstBox worst, const SearchLimits& limits, const RunContext& run,
+           double upper)
         : grid_(grid),
           limits_(limits),
           run_(run),
           most_(std::max<std::uint64_t>(1U << 24, 256 * grid.count * grid.dimension())),
-          worst_(std::move(worst)) {
+          worst_(std::move(worst)),
+          upper_(upper) {
         cells_.push(whole_cell(grid, Side::open));
         if (grid.measure == Measure::discrepancy) cells_.push(whole_cell(grid, Side::closed));
     }
@@ -147,10 +149,9 @@ class Search {
     /// Says what is certain now.
     void settle() {
         const auto scale = static_cast<double>(grid_.scale);
-        upper_ = worst_.value();
-        if (!cells_.empty())
-            upper_ = std::clamp((cells_.top().bound + grid_.rounding()) * (1 + 0x1p-50) / scale,
-                                upper_, 1.0);
+        const double bound =
+            cells_.empty() ? 0 : (cells_.top().bound + grid_.rounding()) * (1 + 0x1p-50) / scale;
+        upper_ = std::max(worst_.value(), std::min(bound, upper_));
         report_gap(worst_.value(), upper_, run_);
         const auto bytes = static_cast<double>(sizeof(Cell) + grid_.dimension() * sizeof(Ends));
         run_.need_memory(static_cast<double>(cells_.size()) * bytes, "the open cells");
@@ -162,7 +163,7 @@ class Search {
     std::uint64_t most_;  ///< work on a cell at a time
     WorstBox worst_;
     Cells cells_;
-    double upper_ = 1;
+    double upper_;
     std::uint64_t work_ = 0;
 };
 
@@ -170,14 +171,16 @@ class Search {
 
 SearchResult search(const BoxGrid& grid, WorstBox worst, const SearchLimits& limits,
                     const RunContext& run) {
-    return Search(grid, std::move(worst), limits, run).go();
+    return Search(grid, std::move(worst), limits, run, 1).go();
 }
 
-SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run) {
+SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run,
+                        double upper) {
     const Ascent first = ascend(grid, limits, run);
     if (limits.over(run))
-        return {first.worst, 1, limits.late(run) ? Ending::time : Ending::stopped};
-    return search(grid, first.worst, limits.after(first.work), run);
+        return {first.worst, upper, limits.late(run) ? Ending::time : Ending::stopped};
+    const SearchLimits left = limits.after(first.work);
+    return Search(grid, first.worst, left, run, upper).go();
 }
 
 }  // namespace stipple::analyzers::extreme

@@ -20,7 +20,9 @@ struct SearchResult {
 SearchResult search(const BoxGrid& grid, WorstBox worst, const SearchLimits& limits,
                     const RunContext& run);
 
-/// The same from nothing: climbs first, which are a part of the work.
-SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run);
+/// The same from nothing: climbs first, which are a part of the work. No box is worth more than
+/// `upper`, over the scale.
+SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run,
+                        double upper = 1);
 
 }  // namespace stipple::analyzers::extreme

@@ -16,7 +16,8 @@
 // Cost    d = 1: O(n log n). d = 2: O(n^(4/3)) time in practice and O(n) memory, 65 bytes a point
 //         with the points; 2^16 points take 0.04 s, 10^6 0.8 s and 10^7 17 s on one core.
 //         d > 2: exponential in d at worst (the problem is NP-hard); branch and bound, which ends
-//         after --max-work or --time-limit.
+//         after --max-work or --time-limit. Both are for all rows of a table together; prefixes
+//         start from their neighbours' boxes and bounds.
 // Promise `exact` says whether it is: counts are integers, boxes are compared without rounding, and
 //         the value is the double nearest to that of the worst box. Where it is not, the worst box
 //         found gives `lower`, and no box is worse than `upper`. Never depends on the number of

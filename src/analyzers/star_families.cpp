@@ -158,6 +158,25 @@ PointSet projection(const PointSet& points, const Combination& along) {
     return flat;
 }
 
+/// m points, the first n of them among them: in every box, the shares of the points differ by at
+/// most (m - n) / m, and so do the discrepancies. A little more, for rounding.
+double step_between(std::size_t n, std::size_t m) {
+    return static_cast<double>(m - n) / static_cast<double>(m) + 0x1p-50;
+}
+
+/// Takes from each prefix to the next what that says of its bounds.
+void carry_bounds(const std::vector<std::size_t>& sizes, Columns& columns) {
+    const auto carry = [&](std::size_t from, std::size_t to) {
+        const auto [n, m] = std::minmax(sizes[from], sizes[to]);
+        const double step = step_between(n, m);
+        columns.upper[to] = std::min(columns.upper[to], columns.upper[from] + step);
+        columns.lower[to] = std::max(columns.lower[to], columns.lower[from] - step);
+        columns.value[to] = columns.lower[to];
+    };
+    for (std::size_t row = 1; row < sizes.size(); ++row) carry(row - 1, row);
+    for (std::size_t row = sizes.size(); row-- > 1;) carry(row, row - 1);
+}
+
 /// Prefixes that are a large part of all the work use all threads, one after the other; the others
 /// go over the threads in chains of a few.
 Report of_prefixes(const PointSet& points, const std::vector<std::size_t>& sizes,
@@ -187,6 +206,7 @@ Report of_prefixes(const PointSet& points, const std::vector<std::size_t>& sizes
         },
         silent);
     for (std::size_t row = small; row < sizes.size(); ++row) fill(row, 1, last);
+    carry_bounds(sizes, table.columns);
     table.tell_of_bounds(
         [&](std::size_t row) { return fmt::format("the first {} points", sizes[row]); });
 

@@ -351,6 +351,18 @@ class Analysis {
         keep(std::move(m), inputs_.size() > 1 || set > 0);
     }
 
+    /// The run, its warnings with the set in front where there are others.
+    [[nodiscard]] RunContext naming_set(const FoundSet& set, const RunContext& run) const {
+        RunContext named = run;
+        if (set.of == 1 && arguments_.inputs.size() <= 1) return named;
+        std::string name = set.source == "-" ? "stdin" : set.source;
+        if (set.of > 1) name += fmt::format(", set {}", set.number);
+        named.warn = [tell = run.warn, name](const std::string& sentence) {
+            if (tell) tell(fmt::format("{}: {}", name, sentence));
+        };
+        return named;
+    }
+
     [[nodiscard]] Measurement measured(const FoundSet& set, const RunContext& run) const {
         const auto start = Clock::now();
         const PointSet& points = set.points;
@@ -361,7 +373,9 @@ class Analysis {
                       .dimension = points.dimension(),
                       .domain = points.domain->spec(),
                       .options = shown_options_};
-        naming(set.source, [&] { m.results = stipple::analyze(analyzer_, points, options_, run); });
+        const RunContext named = naming_set(set, run);
+        naming(set.source,
+               [&] { m.results = stipple::analyze(analyzer_, points, options_, named); });
         m.seconds = std::chrono::duration<double>(Clock::now() - start).count();
         return m;
     }

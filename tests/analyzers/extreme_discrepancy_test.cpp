@@ -360,6 +360,25 @@ TEST(ExtremeDiscrepancy, BoundsWhatItHasNoTimeFor) {
     }
 }
 
+// A box is the sum and difference of 4 boxes from the origin, on the torus of 8 and the whole; with
+// hardly any search that is the bound. Points at 1 are at 0 on the torus.
+TEST(ExtremeDiscrepancy, IsAtMostSomeTimesTheStarDiscrepancy) {
+    for (const PointSet& p :
+         {make("halton", points(150, 2)), on_lattice(150, 2, 64, 1), on_lattice(200, 2, 16, 2)}) {
+        PointSet moved = p;
+        for (double& x : moved.flat())
+            if (x == 1) x = 0;
+        for (const auto& [kind, boxes] : {std::pair{"extreme", 4}, {"periodic", 8}}) {
+            const double star = measure("star-discrepancy", "value", boxes == 4 ? p : moved);
+            const Report few = report_of(p, kind, {{"max-work", "1"}});
+            const double value = report_of(p, kind).number("value");
+            EXPECT_LE(few.number("upper"), boxes * star * (1 + 1e-14)) << kind;
+            EXPECT_GE(few.number("upper"), value) << kind;
+            EXPECT_LE(few.number("lower"), value) << kind;
+        }
+    }
+}
+
 TEST(ExtremeDiscrepancy, StopsWhenAskedAndRefusesWhatItCannotTake) {
     std::stop_source source;
     RunContext run{.stop = source.get_token()};
