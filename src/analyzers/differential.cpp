@@ -102,6 +102,12 @@ Plan plan_for(const PointSet& points, const Values& options) {
 /// Counts of differences, row after row.
 using Counts = std::vector<std::uint64_t>;
 
+/// Blocks have counts of their own, which are not to take more than 1 GiB, or few times one image.
+std::uint64_t most_blocks(std::size_t pixels) {
+    constexpr std::uint64_t most_counts = std::uint64_t{1} << 27;
+    return std::clamp<std::uint64_t>(most_counts / (pixels * pixels), 4, 64);
+}
+
 class DifferenceCounter {
   public:
     DifferenceCounter(const PointSet& points, const Plan& plan, const RunContext& run)
@@ -116,7 +122,7 @@ class DifferenceCounter {
     /// In few blocks, as each needs counts of its own; they are whole numbers, in any order.
     [[nodiscard]] Counts count() const {
         const std::uint64_t n = points_.count();
-        const std::uint64_t size = std::max<std::uint64_t>(1024, n / 64 + 1);
+        const std::uint64_t size = std::max<std::uint64_t>(1024, n / most_blocks(plan_.pixels) + 1);
         std::vector<Counts> parts(block_count(n, size));
         for_each_block(run_, n, size, [&](const Block& b) {
             Counts counts(plan_.pixels * plan_.pixels);
@@ -258,7 +264,8 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     require_places(points, "differential");
     const auto n = static_cast<double>(points.count());
     const auto pixels = static_cast<double>(plan.pixels * plan.pixels);
-    run.need_memory(24 * n + 8 * pixels * 67, "the counts of differences");
+    const auto images = static_cast<double>(most_blocks(plan.pixels) + 3);
+    run.need_memory(24 * n + 8 * pixels * images, "the counts of differences");
     const Counts counts = DifferenceCounter(points, plan, run).count();
     Grid grid = densities(plan, counts, n * (n - 1));
     const double pixel = plan.side() / plan.unit;

@@ -56,12 +56,16 @@ Distances distances_of(const PointSet& points, const std::string& asked) {
 }
 
 Distances distances_in_box(const PointSet& points, const std::string& asked, const char* analyzer) {
-    const Distances distances = distances_of(points, asked);
-    if (distances.box) return distances;
-    if (box_of(*points.domain))
-        refuse(outside_of(points), points, "--domain 'box:bounds=[lo..hi,...]' names another box");
-    fail(ErrorKind::input, "{} takes points of the unit cube or a box; these live on {}", analyzer,
-         points.domain->spec());
+    const std::optional<Box> box = box_of(*points.domain);
+    if (!box) {
+        static_cast<void>(distances_of(points, asked));  // a torus is refused in its own words
+        fail(ErrorKind::input, "{} takes points of the unit cube or a box; these live on {}",
+             analyzer, points.domain->spec());
+    }
+    const Outside outside = outside_of(points);
+    if (outside.count > 0)
+        refuse(outside, points, "--domain 'box:bounds=[lo..hi,...]' names another box");
+    return {.torus = asked != "euclidean", .box = box};
 }
 
 void require_places(const PointSet& points, const char* analyzer) {

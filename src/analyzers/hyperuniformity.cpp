@@ -7,8 +7,9 @@
 //                                                             overlap(|x_i - x_j|; R),
 //
 // v the volume of a ball and overlap(r; R) that of two balls of radius R at a distance r. So the
-// mean over all centres is taken exactly, through the pairs nearer than 2 R; no windows are drawn.
-// The exponent is the slope of log variance against log R, by least squares over the radii given:
+// mean over all centres is taken exactly, through the pairs nearer than 2 R, and no window is
+// drawn. The exponent is the slope of log variance against log R, by least squares over the radii
+// given:
 //
 //     independent points    variance = mean (1 - v / V)       exponent d
 //     jittered grids        variance ~ R^(d-1)                exponent d - 1
@@ -18,18 +19,24 @@
 // independent points in any case, n being fixed; `dispersion` = variance / (mean (1 - v / V)) is
 // without it, and it is left out of the fit. So independent points have 1 at every radius.
 //
-// Shape   n >= 2 points of the unit cube or a box, d = 1, 2, 3, opposite faces joined; R up to a
-//         quarter of the shortest side, where balls do not overlap across it.
+// With straight distances balls would miss what is beyond the box. So they are drawn at random
+// where all of the largest is inside it, --windows of them with one centre for all radii; mean and
+// variance are those of their counts, and every window has the same weight.
+//
+// Shape   n >= 2 points of the unit cube or a box, d = 1, 2, 3, on the torus unless --metric says
+//         otherwise; R up to a quarter of the shortest side, where no two balls overlap twice.
 // Units   radii in (V / n)^(1/d), the mean distance.
 // Cost    O(n + pairs nearer than 2 R): 10^6 points of the plane to 10 mean distances, 6.3e8 pairs,
 //         take 5 s on one core.
-// Promise the variance is within 1e-9 of the largest window's <N>^2, within 1e-12 of it in 1-D and
-//         3-D: pairs are summed in narrow bins with the first two moments of their distances in
-//         them, which the overlap is a parabola for. Never depends on the number of threads.
+// Promise on the torus the variance is within 1e-9 of the largest window's <N>^2, within 1e-12 in
+//         1-D and 3-D: pairs are summed in narrow bins with the first two moments of their
+//         distances in them, which the overlap is a parabola for. Never depends on the number of
+//         threads.
 // Beware  neighbouring radii share most of their pairs: the standard error of the exponent, that of
 //         a fit with independent residuals, is too small, by 15 times for 4096 independent points
 //         of the plane, whose exponent scatters by 0.09. The true one is that of --average, over
-//         sets. A lattice's waves need many radii.
+//         sets. A lattice's waves need many radii. Of M windows drawn the variance has a
+//         relative error of sqrt(2 / M) or more, as they overlap.
 // Source  S. Torquato, F. H. Stillinger, Phys. Rev. E 68 (2003) 041113,
 //         doi:10.1103/PhysRevE.68.041113 (variance through pairs, hyperuniformity).
 
@@ -41,6 +48,7 @@
 #include "analyzers/analyzer.hpp"
 #include "analyzers/distances.hpp"
 #include "analyzers/pair_counts.hpp"
+#include "analyzers/window_counts.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 
@@ -69,6 +77,13 @@ constexpr Param<std::int64_t> radius_count{
     .low = 3,
     .high = 1000,
     .help = "Radii, spread evenly over their logarithms; some fall together in small ranges"};
+
+constexpr Param<std::int64_t> window_count{
+    .name = "windows",
+    .fallback = 10'000,
+    .low = 2,
+    .high = 1'000'000'000,
+    .help = "Windows drawn with --metric euclidean; on the torus all are counted"};
 
 /// Bins in two of the smallest radius, if that is not too many for two of the largest.
 constexpr double bins_in_smallest = 400;
@@ -219,34 +234,54 @@ void add_exponent(Report& report) {
     report.add("exponent_standard_error", slope.error);
 }
 
-Curves curves_of(const PointSet& points, const Plan& plan, const PairCounts& counts, const Box& box,
-                 const RunContext& run) {
+/// Adds a radius with what was found there; `share` is the window's of the volume.
+void add(Curves& curves, double radius, double mean, double variance, double share) {
+    curves.radius.push_back(radius);
+    curves.mean.push_back(mean);
+    curves.variance.push_back(variance);
+    curves.dispersion.push_back(mean > 0 ? variance / (mean * (1 - share)) : 0);
+}
+
+Curves by_pairs(const PointSet& points, const Plan& plan, const Distances& distances,
+                const RunContext& run) {
+    const PairCounts counts =
+        count_pairs(points, distances, plan.width, plan.halves.back(), true, run.stage(0, 0.98));
     const Ball ball{points.dimension()};
-    const auto n = static_cast<double>(points.count());
-    const double volume = box_volume(box);
+    const double volume = box_volume(*distances.box);
     Curves curves;
     for (std::size_t i = 0; i < plan.halves.size(); ++i) {
-        run.tick(i, plan.halves.size());
-        const double window = ball.volume(plan.radius(i)) / volume;
-        const double mean = n * window;
-        const double pairs = 2 * overlaps(counts, plan, i, ball) / volume;
-        const double variance = std::max(0.0, mean + pairs - mean * mean);
-        curves.radius.push_back(plan.radius(i) / plan.unit);
-        curves.mean.push_back(mean);
-        curves.variance.push_back(variance);
-        curves.dispersion.push_back(variance / (mean * (1 - window)));
+        run.check_stop();
+        const double share = ball.volume(plan.radius(i)) / volume;
+        const double mean = static_cast<double>(points.count()) * share;
+        const double squares = mean + 2 * overlaps(counts, plan, i, ball) / volume;
+        add(curves, plan.radius(i) / plan.unit, mean, std::max(0.0, squares - mean * mean), share);
     }
     run.tick(1, 1);
     return curves;
 }
 
+Curves by_windows(const PointSet& points, const Plan& plan, const Box& box, std::size_t windows,
+                  const RunContext& run) {
+    std::vector<double> radii;
+    for (std::size_t i = 0; i < plan.halves.size(); ++i) radii.push_back(plan.radius(i));
+    const WindowCounts found = count_in_windows(points, box, radii, windows, run);
+    const Ball ball{points.dimension()};
+    Curves curves;
+    for (std::size_t i = 0; i < radii.size(); ++i)
+        add(curves, radii[i] / plan.unit, found.mean[i], found.variance[i],
+            ball.volume(radii[i]) / box_volume(box));
+    return curves;
+}
+
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
-    const Distances distances = distances_in_box(points, "", "hyperuniformity");
+    const Distances distances = distances_in_box(points, options[metric], "hyperuniformity");
     require_places(points, "hyperuniformity");
+    if (options.given(window_count) && distances.torus)
+        fail(ErrorKind::usage, "--windows is of --metric euclidean");
     const Plan plan = plan_for(points, *distances.box, options);
-    const PairCounts counts =
-        count_pairs(points, distances, plan.width, plan.halves.back(), true, run.stage(0, 0.98));
-    Curves curves = curves_of(points, plan, counts, *distances.box, run.stage(0.98, 1));
+    const auto windows = static_cast<std::size_t>(options[window_count]);
+    Curves curves = distances.torus ? by_pairs(points, plan, distances, run)
+                                    : by_windows(points, plan, *distances.box, windows, run);
     Report results;
     results.add("exponent", 0.0);
     results.add("exponent_standard_error", 0.0);
@@ -257,6 +292,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     results.add("variance", std::move(curves.variance));
     results.add("dispersion", std::move(curves.dispersion));
     results.add("mean_distance", plan.unit);
+    results.add("method", distances.torus ? "pairs" : "windows");
     results.add("metric", distances.name());
     add_exponent(results);
     return results;
@@ -290,10 +326,10 @@ void combine(Report&, std::span<const Report> sets, const Values&) {
 Analyzer hyperuniformity() {
     return {
         .name = "hyperuniformity",
-        .summary = "Number variance in growing windows on the torus, with its exponent",
+        .summary = "Number variance in growing windows, with its exponent",
         .source = "Torquato, Stillinger 2003, doi:10.1103/PhysRevE.68.041113",
         .traits = {.max_dimension = 3, .unit_cube = false, .boxed = true},
-        .options = Schema(max_radius, min_radius, radius_count),
+        .options = Schema(max_radius, min_radius, radius_count, window_count, metric),
         .results = {{"exponent",
                      "slope of log variance against log radius: d for independent points, "
                      "d - 1 for the most even ones"},
@@ -302,10 +338,12 @@ Analyzer hyperuniformity() {
                     {"fit_to", "the largest one"},
                     {"radius", "of the windows, in mean distances"},
                     {"mean", "number of points in a window"},
-                    {"variance", "of that number over all places of the window, exactly"},
+                    {"variance",
+                     "of that number over all places of the window; exact on the torus"},
                     {"dispersion", "variance over that of n independent points, mean (1 - v / V)"},
                     {"mean_distance", "(V / n)^(1/d), in units of the points"},
-                    {"metric", "torus"}},
+                    {"method", "pairs: exact, through them; windows: of those drawn"},
+                    {"metric", "torus or euclidean"}},
         .analyze = analyze,
         .refine = refine,
         .combine = combine};

@@ -22,7 +22,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double most_company = 24;
 
 /// Coordinates from which on a k-d tree leaves out too little.
-constexpr std::size_t many_dimensions = 10;
+constexpr std::size_t many_dimensions = 8;
 
 /// Which points are joined already.
 class Parts {

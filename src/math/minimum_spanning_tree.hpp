@@ -13,7 +13,7 @@
 //
 // Shape   1 <= n < 2^32 points. `sides` as for KdTree: of the torus, whose points are in one box of
 //         these sides; none for Euclidean distances. Duplicates are joined by edges of length 0.
-// Cost    planar O(n log n) for points spread about evenly, 2.5 s for 10^6 on one core, 150 bytes a
+// Cost    planar O(n log n) for points spread about evenly, 3.4 s for 10^6 on one core, 150 bytes a
 //         point; near O(n log^2 n) in few dimensions for points of any kind, in many up to that of
 //         plain, times log n; plain O(n^2 d) and n doubles.
 // Promise squared lengths as KdTree computes them, in rising order. The same for any number of

@@ -156,6 +156,48 @@ TEST(Hyperuniformity, ExponentTellsIndependentPointsFromEvenOnes) {
     }
 }
 
+// A lattice looks the same from inside a box as on the torus. Variances of 10,000 windows scatter
+// by 1.4 % and more, those of independent points by the set's own 10 %.
+TEST(Hyperuniformity, StraightWindowsStayInTheBox) {
+    for (const std::size_t d : {1U, 2U, 3U}) {
+        const PointSet grid = make("regular", points(d == 3 ? 4096 : 1024, d));
+        const Settings radii = {{"min-radius", "1"}, {"max-radius", "3"}, {"radii", "5"}};
+        Settings straight = radii;
+        straight.insert(straight.end(), {{"metric", "euclidean"}, {"windows", "10000"}});
+        const Report drawn = report(grid, straight);
+        const Report exact = report(grid, radii);
+        for (std::size_t i = 0; i < drawn.curve("radius").size(); ++i) {
+            const double variance = exact.curve("variance")[i];
+            EXPECT_NEAR(drawn.curve("mean")[i], exact.curve("mean")[i],
+                        5 * std::sqrt(variance / 10'000) + 1e-9);
+            EXPECT_NEAR(drawn.curve("variance")[i], variance,
+                        0.08 * variance + 5 * std::sqrt(variance / 10'000) + 1e-9)
+                << d;
+        }
+        EXPECT_EQ(drawn.text("method"), "windows");
+    }
+    // What is beyond a wall does not count: none is missing at the corners, either.
+    const Report random = report(make("random", points(20'000, 2)), {{"metric", "euclidean"}});
+    EXPECT_NEAR(random.curve("dispersion")[10], 1, 0.3);
+    EXPECT_NEAR(random.number("exponent"), 2, 0.4);
+    const Report even = report(make("jittered", points(19'881, 2)), {{"metric", "euclidean"}});
+    EXPECT_NEAR(even.number("exponent"), 1, 0.2);
+}
+
+// Points 0.2 apart, centres in [0.25, 0.75]: a window of R = 0.125 has two points in a fifth of its
+// places, else one; one of 0.25 three in three fifths, else two.
+TEST(Hyperuniformity, WindowsByHand) {
+    PointSet set(5, 1);
+    for (std::size_t i = 0; i < 5; ++i) set[i][0] = 0.1 + 0.2 * static_cast<double>(i);
+    const Report found = report(
+        set,
+        {{"metric", "euclidean"}, {"min-radius", "0.625"}, {"max-radius", "1.25"}, {"radii", "3"}});
+    EXPECT_NEAR(found.curve("mean").front(), 1.2, 0.02);
+    EXPECT_NEAR(found.curve("variance").front(), 0.16, 0.01);
+    EXPECT_NEAR(found.curve("mean").back(), 2.6, 0.025);
+    EXPECT_NEAR(found.curve("variance").back(), 0.24, 0.005);
+}
+
 TEST(Hyperuniformity, PointsAtFewPlacesAreCountedToo) {
     // Half of the points at each of two places that no window has both of: N is 50 or 0.
     PointSet set(100, 2);
@@ -196,6 +238,7 @@ TEST(Hyperuniformity, RefusesWhatHasNoWindows) {
     EXPECT_EQ(refusal(set, {{"max-radius", "2.6"}}),
               "usage: --max-radius: 2.6 is more than a quarter of the shortest side, which is 2.5 "
               "mean distances");
+    EXPECT_EQ(refusal(set, {{"windows", "100"}}), "usage: --windows is of --metric euclidean");
     EXPECT_EQ(refusal(set, {{"min-radius", "2"}, {"max-radius", "1"}}),
               "usage: --min-radius: 2 is not below the largest radius, 1");
     EXPECT_EQ(refusal(set, {{"min-radius", "0.9999"}, {"max-radius", "1"}}),

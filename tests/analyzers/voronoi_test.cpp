@@ -71,66 +71,91 @@ double second_moment(const PlanePoint& a, const PlanePoint& b, const PlanePoint&
     return area / 3 * (squared(a, b) + squared(b, c) + squared(c, a));
 }
 
-/// Every cell cut out of the box, or of a large square, by all points and their copies.
-Oracle by_definition(const PointSet& set, bool torus) {
+/// The other points and, on the torus, all copies of the eight boxes around, seen from point i.
+std::vector<PlanePoint> others_of(const PointSet& set, std::size_t i, bool torus) {
+    const Box box = set.domain->bounding_box();
+    std::vector<PlanePoint> others;
+    const int turns = torus ? 1 : 0;
+    for (std::size_t j = 0; j < set.count(); ++j)
+        for (int u = -turns; u <= turns; ++u)
+            for (int v = -turns; v <= turns; ++v)
+                if (j != i || u != 0 || v != 0)
+                    others.push_back({set[j][0] + u * box.extent(0) - set[i][0],
+                                      set[j][1] + v * box.extent(1) - set[i][1]});
+    return others;
+}
+
+/// A cell cut out of the box, or of a large one, by all others.
+Polygon cell_of(const PointSet& set, std::size_t i, bool torus) {
     const Box box = set.domain->bounding_box();
     const double a = box.extent(0);
     const double b = box.extent(1);
-    const auto n = static_cast<double>(set.count());
+    Polygon cell = {{-a, -b}, {a, -b}, {a, b}, {-a, b}};
+    const PlanePoint normals[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    for (std::size_t k = 0; !torus && k < 4; ++k) {
+        const auto& face = k % 2 ? box.high : box.low;
+        cell = clipped(cell, {face[0] - set[i][0], face[1] - set[i][1]}, normals[k]);
+    }
+    for (const auto& o : others_of(set, i, torus)) cell = clipped(cell, {o[0] / 2, o[1] / 2}, o);
+    return cell;
+}
+
+/// Length of the part of the cell's rim that is as far from the other as from the site.
+double shared_edge(const Polygon& cell, const PlanePoint& other) {
+    double low = INFINITY;
+    double high = -INFINITY;
+    for (const auto& [x, y] : cell) {
+        const double half = (other[0] * other[0] + other[1] * other[1]) / 2;
+        if (std::abs(x * other[0] + y * other[1] - half) > 1e-11) continue;
+        const double along = (y * other[0] - x * other[1]) / std::hypot(other[0], other[1]);
+        low = std::min(low, along);
+        high = std::max(high, along);
+    }
+    return std::max(0.0, high - low);
+}
+
+double rim_of(const Polygon& cell) {
+    double rim = 0;
+    for (std::size_t k = 0; k < cell.size(); ++k) {
+        const PlanePoint& p = cell[k];
+        const PlanePoint& q = cell[(k + 1) % cell.size()];
+        rim += std::hypot(q[0] - p[0], q[1] - p[1]);
+    }
+    return rim;
+}
+
+void add_shape(const Polygon& cell, double mean, Oracle& sums) {
+    const double area = signed_area(cell);
+    sums.squared_deviation += std::pow(area / mean - 1, 2);
+    PlanePoint first{0, 0};
+    for (std::size_t k = 0; k < cell.size(); ++k) {
+        const PlanePoint& p = cell[k];
+        const PlanePoint& q = cell[(k + 1) % cell.size()];
+        sums.second_moment += second_moment({0, 0}, p, q);
+        for (const std::size_t c : {0U, 1U})
+            first[c] += signed_area({{0, 0}, p, q}) * (p[c] + q[c]) / 3;
+    }
+    sums.offset += std::hypot(first[0], first[1]) / area;
+}
+
+Oracle by_definition(const PointSet& set, bool torus) {
+    const Box box = set.domain->bounding_box();
+    const double mean = box.extent(0) * box.extent(1) / static_cast<double>(set.count());
     Oracle sums;
     for (std::size_t i = 0; i < set.count(); ++i) {
-        const double x = set[i][0];
-        const double y = set[i][1];
-        Polygon cell = {{box.low[0] - x, box.low[1] - y},
-                        {box.high[0] - x, box.low[1] - y},
-                        {box.high[0] - x, box.high[1] - y},
-                        {box.low[0] - x, box.high[1] - y}};
-        if (torus) cell = {{-a, -b}, {a, -b}, {a, b}, {-a, b}};
-        std::vector<PlanePoint> others;
-        for (std::size_t j = 0; j < set.count(); ++j)
-            for (int u = torus ? -1 : 0; u <= (torus ? 1 : 0); ++u)
-                for (int v = torus ? -1 : 0; v <= (torus ? 1 : 0); ++v)
-                    if (j != i || u != 0 || v != 0)
-                        others.push_back({set[j][0] + u * a - x, set[j][1] + v * b - y});
-        for (const auto& o : others) cell = clipped(cell, {o[0] / 2, o[1] / 2}, o);
-        const double area = signed_area(cell);
-        sums.squared_deviation += std::pow(area * n / (a * b) - 1, 2);
-        PlanePoint first{0, 0};
-        for (std::size_t k = 0; k < cell.size(); ++k) {
-            const PlanePoint& p = cell[k];
-            const PlanePoint& q = cell[(k + 1) % cell.size()];
-            sums.second_moment += second_moment({0, 0}, p, q);
-            for (std::size_t c : {0, 1})
-                first[c] += signed_area({{0, 0}, p, q}) * (p[c] + q[c]) / 3;
-        }
-        sums.offset += std::hypot(first[0], first[1]) / area;
+        const Polygon cell = cell_of(set, i, torus);
+        add_shape(cell, mean, sums);
         std::complex<double> sum;
         double length = 0;
         double bonds = 0;
-        for (const auto& o : others) {
-            double on_line = 0;  // of this edge: where corners lie along it, least and most
-            double low = INFINITY;
-            double high = -INFINITY;
-            for (const auto& p : cell) {
-                if (std::abs(p[0] * o[0] + p[1] * o[1] - (o[0] * o[0] + o[1] * o[1]) / 2) > 1e-11)
-                    continue;
-                const double along = (p[1] * o[0] - p[0] * o[1]) / std::hypot(o[0], o[1]);
-                low = std::min(low, along);
-                high = std::max(high, along);
-                ++on_line;
-            }
-            if (on_line < 2 || !(high - low > 1e-9 * std::sqrt(a * b / n))) continue;
-            length += high - low;
-            sum += std::polar(1.0, 6 * std::atan2(o[1], o[0]));
+        for (const auto& other : others_of(set, i, torus)) {
+            const double edge = shared_edge(cell, other);
+            if (!(edge > 1e-9 * std::sqrt(mean))) continue;
+            length += edge;
+            sum += std::polar(1.0, 6 * std::atan2(other[1], other[0]));
             ++bonds;
         }
-        double rim = 0;
-        for (std::size_t k = 0; k < cell.size(); ++k) {
-            const PlanePoint& p = cell[k];
-            const PlanePoint& q = cell[(k + 1) % cell.size()];
-            rim += std::hypot(q[0] - p[0], q[1] - p[1]);
-        }
-        if (length < rim * (1 - 1e-9)) continue;  // the rest is the box's
+        if (length < rim_of(cell) * (1 - 1e-9)) continue;  // the rest is the box's
         ++sums.inner;
         sums.bonds += bonds;
         sums.bond_sum += sum;
