@@ -13,7 +13,14 @@
 
 namespace stipple::cli {
 
-enum class Verb : unsigned { generate = 1, warp = 2, analyze = 4, convert = 8, list = 16, plot = 32 };
+enum class Verb : unsigned {
+    generate = 1,
+    warp = 2,
+    analyze = 4,
+    convert = 8,
+    list = 16,
+    plot = 32
+};
 
 struct VerbInfo {
     Verb verb;
