@@ -164,7 +164,7 @@ class Plot {
             return;
         }
         auto sets = explained([&] { return read_input(file.bytes(), input, arguments_, run); },
-                              "plot takes points, or the JSON of 'stipple analyze'");
+                              input, "plot takes points, or the JSON of 'stipple analyze'");
         for (std::size_t i = 0; i < sets.size(); ++i) {
             if (const auto domain = arguments_.get("domain"))
                 sets[i].domain = parse_domain(*domain, sets[i].dimension());
@@ -175,12 +175,15 @@ class Plot {
 
     /// Does work on an input; what is wrong with the input is said with a hint of the picture's.
     template <class Work>
-    static std::invoke_result_t<Work> explained(const Work& work, const std::string& hint) {
+    static std::invoke_result_t<Work> explained(const Work& work, const std::string& input,
+                                                const std::string& hint) {
         try {
             return work();
         } catch (const Error& e) {
             if (e.kind() != ErrorKind::input) throw;
-            throw Error(e.kind(), e.what(), hint);
+            const std::string name = input == "-" ? "stdin" : input;
+            const bool named = std::string(e.what()).starts_with(name + ":");
+            throw Error(e.kind(), named ? e.what() : fmt::format("{}: {}", name, e.what()), hint);
         }
     }
 
@@ -314,13 +317,15 @@ class Plot {
         ReportAverage average;
         std::vector<Report> singles;
         for (std::size_t i = first; i < last; ++i) {
-            average.add(explained(
-                [&] {
-                    return stipple::analyze(analyzer, sets_[i].points, options, session_.run());
-                },
+            const auto measure = [&] {
+                return stipple::analyze(analyzer, sets_[i].points, options, session_.run());
+            };
+            const Report report = explained(
+                measure, sets_[i].source,
                 fmt::format("'stipple analyze {}' has options for others, and plot draws its JSON",
-                            analyzer.name)));
-            singles.push_back(numbers_only(average.mean()));
+                            analyzer.name));
+            average.add(report);
+            singles.push_back(numbers_only(report));
         }
         const PointSet& points = sets_[first].points;
         Measurement m{.analyzer = analyzer.name,
@@ -331,6 +336,7 @@ class Plot {
                       .domain = points.domain->spec(),
                       .results = average.mean()};
         if (analyzer.refine) analyzer.refine(m.results, average.count(), options);
+        if (analyzer.combine) analyzer.combine(m.results, singles, options);
         if (average.count() > 1) m.standard_error = only_of(m.results, average.standard_error());
         return m;
     }
