@@ -482,7 +482,8 @@ const std::vector<CommonOption>& common_options() {
          "of the picture; else from the extension; text is Braille, as wide as the terminal", plot},
         {"--chart", "KIND", "points",
          "of points: points, density (counts), histogram, distances (to the nearest neighbour), "
-         "spectrum, radial (power), pair-correlation; these three as analyze has them by default",
+         "spectrum, radial (power), pair-correlation, differential: these as analyze has them by "
+         "default",
          plot},
         {"--key", "KEY", "", "of a report: what to draw, such as prefixes.value or minimum", plot},
         {"--set", "K", "", "which of several sets or reports, from 0; else all of them", plot},

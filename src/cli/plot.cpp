@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <type_traits>
 
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
@@ -33,8 +34,9 @@ enum class Medium { svg, png, text };
 constexpr std::size_t most_sets = 7;  ///< of points, in one picture: as many as there are colours
 
 const std::vector<std::string>& chart_kinds() {
-    static const std::vector<std::string> kinds = {
-        "points", "density", "histogram", "distances", "spectrum", "radial", "pair-correlation"};
+    static const std::vector<std::string> kinds = {"points",           "density",     "histogram",
+                                                   "distances",        "spectrum",    "radial",
+                                                   "pair-correlation", "differential"};
     return kinds;
 }
 
@@ -161,12 +163,27 @@ class Plot {
                 reports_.push_back(std::move(m));
             return;
         }
-        auto sets = read_input(file.bytes(), input, arguments_, run);
+        auto sets = explained([&] { return read_input(file.bytes(), input, arguments_, run); },
+                              input, "plot takes points, or the JSON of 'stipple analyze'");
         for (std::size_t i = 0; i < sets.size(); ++i) {
             if (const auto domain = arguments_.get("domain"))
                 sets[i].domain = parse_domain(*domain, sets[i].dimension());
             sets_.push_back(
                 {std::move(sets[i]), input, sets.size() > 1 ? std::optional(i) : std::nullopt});
+        }
+    }
+
+    /// Does work on an input; what is wrong with the input is said with a hint of the picture's.
+    template <class Work>
+    static std::invoke_result_t<Work> explained(const Work& work, const std::string& input,
+                                                const std::string& hint) {
+        try {
+            return work();
+        } catch (const Error& e) {
+            if (e.kind() != ErrorKind::input) throw;
+            const std::string name = input == "-" ? "stdin" : input;
+            const bool named = std::string(e.what()).starts_with(name + ":");
+            throw Error(e.kind(), named ? e.what() : fmt::format("{}: {}", name, e.what()), hint);
         }
     }
 
@@ -197,7 +214,8 @@ class Plot {
             fail(ErrorKind::usage, "--key: is for reports; these are points");
         if (chart_ == "radial") return drawn(chart_of(analyzed("periodogram")));
         if (chart_ == "pair-correlation") return drawn(chart_of(analyzed("pair-correlation")));
-        if (chart_ == "spectrum" || (chart_.empty() && holds_spectrum())) return spectrum();
+        const bool table = chart_ == "spectrum" || chart_ == "differential";
+        if (table || (chart_.empty() && holds_spectrum())) return spectrum();
         check_dimensions();
         if (chart_ == "distances") return distances();
         const PointsPicture picture = points_picture();
@@ -212,6 +230,10 @@ class Plot {
     }
 
     std::string finished(const Drawing& drawing) {
+        constexpr double pixel_bytes = 14;  // of colours, of marks, and twice on the way to libpng
+        if (medium_ == Medium::png)
+            session_.run().need_memory(
+                pixel_bytes * drawing.width * drawing.height * scale_ * scale_, "the picture");
         const PictureNotes notes = notes_of();
         return medium_ == Medium::svg ? svg_bytes(drawing, scale_, notes)
                                       : png_bytes_of(drawing, scale_, notes);
@@ -237,23 +259,33 @@ class Plot {
             power = grid_of(sets_[0].points);
             if (title.empty()) title = title_of_points(sets_[0].points, sets_[0].source);
         } else {
-            const auto spectra = analyzed("periodogram");
-            if (spectra.size() > 1)
-                fail_with_hint(ErrorKind::usage, "draw one at a time, or --chart radial",
-                               "--chart: one spectrum makes a picture; there are {} inputs",
-                               spectra.size());
-            if (spectra[0].dimension != 2)
-                fail_with_hint(ErrorKind::input, "--chart radial draws its radial mean",
-                               "--chart: a spectrum in the plane needs points of 2 coordinates; "
-                               "these have {}",
-                               spectra[0].dimension);
-            power = std::get<Grid>(*spectra[0].results.find("grid"));
+            power = analyzed_table();
+            const std::string what =
+                chart_ == "differential" ? "Pair differences" : "Power spectrum";
             if (title.empty())
-                title = "Power spectrum of " + title_of_points(sets_[0].points, sets_[0].source);
+                title = what + " of " + title_of_points(sets_[0].points, sets_[0].source);
             subtitle = subtitle_of(sets_[0]);
         }
         if (medium_ == Medium::text) return spectrum_as_text(power, title, room_);
-        return finished(draw_spectrum(power, title, subtitle, style_));
+        TableNames names;
+        if (chart_ == "differential")
+            names = {.x = "Δx (pixels)", .y = "Δy (pixels)", .shade = "density"};
+        return finished(draw_spectrum(power, title, subtitle, style_, names));
+    }
+
+    /// The table that an analyzer makes of the one input.
+    Grid analyzed_table() {
+        const auto found = analyzed(chart_ == "differential" ? "differential" : "periodogram");
+        if (found.size() > 1)
+            fail_with_hint(ErrorKind::usage, "draw one at a time, or --chart radial",
+                           "--chart: one {} makes a picture; there are {} inputs", chart_,
+                           found.size());
+        if (found[0].dimension != 2)
+            fail_with_hint(ErrorKind::input, "--chart radial draws its radial mean",
+                           "--chart: a {} in the plane needs points of 2 coordinates; these have "
+                           "{}",
+                           chart_, found[0].dimension);
+        return std::get<Grid>(*found[0].results.find("grid"));
     }
 
     std::string distances() {
@@ -285,8 +317,15 @@ class Plot {
         ReportAverage average;
         std::vector<Report> singles;
         for (std::size_t i = first; i < last; ++i) {
-            average.add(stipple::analyze(analyzer, sets_[i].points, options, session_.run()));
-            singles.push_back(numbers_only(average.mean()));
+            const auto measure = [&] {
+                return stipple::analyze(analyzer, sets_[i].points, options, session_.run());
+            };
+            const Report report = explained(
+                measure, sets_[i].source,
+                fmt::format("'stipple analyze {}' has options for others, and plot draws its JSON",
+                            analyzer.name));
+            average.add(report);
+            singles.push_back(numbers_only(report));
         }
         const PointSet& points = sets_[first].points;
         Measurement m{.analyzer = analyzer.name,
@@ -297,6 +336,7 @@ class Plot {
                       .domain = points.domain->spec(),
                       .results = average.mean()};
         if (analyzer.refine) analyzer.refine(m.results, average.count(), options);
+        if (analyzer.combine) analyzer.combine(m.results, singles, options);
         if (average.count() > 1) m.standard_error = only_of(m.results, average.standard_error());
         return m;
     }

@@ -62,10 +62,11 @@ Axis y_axis(const ChartPanel& panel, const PictureStyle& style) {
     // Guides that are far off say so by not being there.
     const double reach = span.high - span.low;
     for (const Guide& guide : panel.guides)
-        for (const double y : guide.y)
-            if (guide.x.empty() && (!span.log || (y > span.low / 10 && y < span.high * 10)) &&
-                !(std::abs(y - span.low) > 4 * reach && reach > 0 && !span.log))
-                span.take(y);
+        for (const double y : guide.y) {
+            const bool near = span.log ? y > span.low / 10 && y < span.high * 10
+                                       : std::abs(y - span.low) <= 4 * reach || !(reach > 0);
+            if (guide.reached || (guide.x.empty() && near)) span.take(y);
+        }
     if (panel.from_zero && !span.log) span.take(0);
     if (!span.log) span.take(panel.reach_y);
     Axis axis{.low = span.low, .high = span.high, .log = span.log, .name = panel.y_name};

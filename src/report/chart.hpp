@@ -48,6 +48,7 @@ struct Guide {
     std::string name;
     std::vector<double> x;  ///< empty: across the panel, at y[0]
     std::vector<double> y;
+    bool reached = false;  ///< the axis goes as far, whatever the curves do
 };
 
 /// Bars of a histogram: edges are one more than heights.

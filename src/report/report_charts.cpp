@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "core/error.hpp"
@@ -19,6 +20,8 @@ using Measurements = std::span<const Measurement>;
 
 constexpr double log_above = 12;    ///< radial power: a higher peak gets a logarithmic axis
 constexpr double log_floor = 1e-4;  ///< of that axis: what is lower is rounding
+
+std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
 /// A list of numbers under a key; nothing where there is none.
 std::optional<Curve> curve_at(const Report& report, std::string_view key) {
@@ -137,6 +140,18 @@ Guide noise_anisotropy(Measurements ms) {
         .name = fmt::format("white noise: {} dB", rounded(expected, 3)), .x = {}, .y = {expected}};
 }
 
+/// Where there is no power (or no pair), there is no anisotropy: what analyzers put there as the
+/// least of numbers is no value of a curve.
+void make_gaps(std::vector<Series>& all) {
+    constexpr double least = -100;
+    for (Series& series : all) {
+        series.low = series.high = {};
+        if (std::ranges::all_of(series.y, [](double y) { return !(y > least); })) continue;
+        for (double& y : series.y)
+            if (y <= least) y = std::numeric_limits<double>::quiet_NaN();
+    }
+}
+
 /// Effective Nyquist frequency and oscillation, of a single measurement.
 std::string summary_of_spectrum(Measurements ms) {
     if (ms.size() > 1) return {};
@@ -169,7 +184,7 @@ Chart spectrum_chart(Measurements ms) {
     ChartPanel anisotropy{.x_name = "frequency",
                           .y_name = "anisotropy (dB)",
                           .series = series_of(ms, "radial.", "frequency", "anisotropy_db")};
-    for (Series& series : anisotropy.series) series.low = series.high = {};
+    make_gaps(anisotropy.series);
     if (const Guide guide = noise_anisotropy(ms); !guide.y.empty())
         anisotropy.guides.push_back(guide);
     const bool drawn = finite_in(anisotropy.series, top);
@@ -328,15 +343,20 @@ std::vector<Guide> references(Measurements ms, const CurveGroup& group, const st
     if (y != "variance" || !has(group, "mean")) return {};
     const auto x = curve_at(ms[0].results, group.prefix + group.x);
     const auto mean = curve_at(ms[0].results, group.prefix + "mean");
-    return {{.name = "independent points: the mean", .x = *x, .y = *mean}};
+    return {{.name = "independent points: the mean", .x = *x, .y = *mean, .reached = true}};
 }
 
 /// Shares of small whole numbers are bars about them.
 void make_bars(ChartPanel& panel) {
     for (Series& series : panel.series) {
-        Bars bars{.name = series.name, .edges = {}, .heights = series.y};
-        for (const double x : series.x) bars.edges.push_back(x - 0.5);
-        bars.edges.push_back(series.x.back() + 0.5);
+        const auto filled = [](double y) { return y > 0; };
+        const auto first = std::ranges::find_if(series.y, filled);
+        const auto last = std::find_if(series.y.rbegin(), series.y.rend(), filled).base();
+        if (first == series.y.end()) continue;
+        Bars bars{.name = series.name, .edges = {}, .heights = {first, last}};
+        const auto from = series.x.begin() + (first - series.y.begin());
+        for (auto x = from; x != from + (last - first); ++x) bars.edges.push_back(*x - 0.5);
+        bars.edges.push_back(bars.edges.back() + 1);
         panel.bars.push_back(std::move(bars));
     }
     panel.series.clear();
@@ -350,7 +370,12 @@ ChartPanel curve_panel(Measurements ms, const CurveGroup& group, const std::stri
                      .y_name = y == "value" ? words_of(ms[0].analyzer) : words_of(y),
                      .series = series_of(ms, group.prefix, group.x, y),
                      .guides = references(ms, group, y)};
-    if (y == "anisotropy_db") panel.y_name = "anisotropy (dB)";
+    if (y == "anisotropy_db") {
+        panel.y_name = "anisotropy (dB)";
+        make_gaps(panel.series);
+    }
+    panel.from_zero = y == "density" || y == "power" || y == "dispersion";
+    if (panel.from_zero) panel.reach_y = 1.2;
     std::erase_if(panel.guides, [](const Guide& guide) { return guide.y.empty(); });
     const bool counts = group.x == "count" || group.x == "n";
     if (counts) panel.x_name = "points n";
@@ -404,23 +429,65 @@ std::string main_number(const Report& report) {
     return {};
 }
 
-Chart number_over_count(Measurements ms, const std::string& key) {
-    Series series{.name = {}, .x = {}, .y = {}, .marks = true};
-    std::vector<std::pair<double, double>> values;
-    for (const Measurement& m : ms)
-        if (const auto value = number_at(m.results, key); value && std::isfinite(*value))
-            values.emplace_back(static_cast<double>(m.count), *value);
-    std::ranges::sort(values);
-    for (const auto& [n, value] : values) {
-        series.x.push_back(n);
-        series.y.push_back(value);
+/// What files of one kind have in common: "halton_64.csv" and "halton_256.csv" are of "halton".
+std::string family_of(const std::string& source) {
+    std::string name = file_name(source);
+    name.resize(std::min(name.find('.'), name.size()));
+    std::erase_if(name, [](unsigned char c) { return std::isdigit(c) != 0; });
+    const auto last = name.find_last_not_of("-_ ");
+    return last == std::string::npos ? "" : name.substr(0, last + 1);
+}
+
+/// Mean and standard error of what sets of one size have; of errors, their root mean square.
+struct Gathered {
+    std::vector<double> values;
+    bool errors;
+
+    [[nodiscard]] double mean() const {
+        double sum = 0;
+        for (const double v : values) sum += errors ? v * v : v;
+        sum /= static_cast<double>(values.size());
+        return errors ? std::sqrt(sum) : sum;
     }
-    // Several values at one n are a cloud, not a curve.
-    series.line = rises(series.x);
+    [[nodiscard]] double standard_error() const {
+        if (errors || values.size() < 2) return 0;
+        const auto n = static_cast<double>(values.size());
+        double sum = 0;
+        for (const double v : values) sum += (v - mean()) * (v - mean());
+        return std::sqrt(sum / (n * (n - 1)));
+    }
+};
+
+Series series_over_count(const std::string& name, const std::map<std::uint64_t, Gathered>& at) {
+    Series series{.name = name, .x = {}, .y = {}, .marks = true};
+    for (const auto& [n, gathered] : at) {
+        series.x.push_back(static_cast<double>(n));
+        series.y.push_back(gathered.mean());
+        series.low.push_back(gathered.mean() - gathered.standard_error());
+        series.high.push_back(gathered.mean() + gathered.standard_error());
+    }
+    if (series.low == series.high) series.low = series.high = {};
+    return series;
+}
+
+Chart number_over_count(Measurements ms, const std::string& key) {
+    const bool errors = key == "error" || key.ends_with(".error");
+    std::vector<std::string> families;
+    std::map<std::string, std::map<std::uint64_t, Gathered>> found;
+    for (const Measurement& m : ms) {
+        const auto value = number_at(m.results, key);
+        if (!value || !std::isfinite(*value)) continue;
+        const std::string family = family_of(m.source);
+        if (!found.contains(family)) families.push_back(family);
+        auto& gathered = found[family].try_emplace(m.count, Gathered{{}, errors}).first->second;
+        gathered.values.push_back(*value);
+    }
     ChartPanel panel{.x_name = "points n",
                      .y_name = key == "value" ? words_of(ms[0].analyzer) : words_of(key),
-                     .series = {std::move(series)},
                      .log_x = true};
+    if (errors) panel.y_name += ", root mean square";
+    for (const std::string& family : families)
+        panel.series.push_back(series_over_count(family, found[family]));
     panel.log_y = positive(panel.series);
     if (panel.log_y) panel.guides = slopes(panel.series);
     Chart chart = titled(sentence_case(words_of(ms[0].analyzer)), ms);
@@ -496,8 +563,6 @@ Chart any_chart(Measurements ms, const std::string& key) {
         std::ranges::all_of(ms, [&](const Measurement& m) { return m.count == ms[0].count; });
     return same_count ? number_histogram(ms, number) : number_over_count(ms, number);
 }
-
-std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
 }  // namespace
 

@@ -5,8 +5,9 @@
 //     periodogram        radial power, with what white noise has, and anisotropy
 //     pair-correlation   density over distance
 //     others             each list over the rising one before it (prefixes: logarithmic), or, for
-//                        several reports without lists, one number over the number of points, or
-//                        the histogram of one number
+//                        several reports without lists, one number over the number of points: a
+//                        curve for the files of one name but for its digits, means where several
+//                        sets have as many points; or, all of one size, its histogram
 //
 // Bands about a curve are standard errors of a mean, or a lower and an upper bound.
 //

@@ -45,7 +45,7 @@ bool looks_like_power(const Grid& grid) {
 }
 
 Drawing draw_spectrum(const Grid& power, const std::string& title, const std::string& subtitle,
-                      const PictureStyle& style) {
+                      const PictureStyle& style, const TableNames& names) {
     if (power.rows != power.columns || power.rows % 2 == 0)
         fail(ErrorKind::input,
              "a spectrum is a table of (2F + 1) x (2F + 1) numbers; there are {} x {}", power.rows,
@@ -54,8 +54,8 @@ Drawing draw_spectrum(const Grid& power, const std::string& title, const std::st
         fail(ErrorKind::input, "a spectrum has no negative power; this table has");
     const Theme& theme = *style.theme;
     const double last = static_cast<double>(power.rows / 2) + 0.5;
-    const Axis x{.low = -last, .high = last, .whole = true, .name = "frequency fx"};
-    const Axis y{.low = -last, .high = last, .whole = true, .name = "frequency fy"};
+    const Axis x{.low = -last, .high = last, .whole = true, .name = names.x};
+    const Axis y{.low = -last, .high = last, .whole = true, .name = names.y};
     Drawing drawing{.width = style.width > 0 ? style.width : 640,
                     .height = 0,
                     .ground = theme.ground,
@@ -70,7 +70,7 @@ Drawing draw_spectrum(const Grid& power, const std::string& title, const std::st
     const Area frame{left, std::ceil(top) + 14, side, side};
     drawing.add(picture_of(power, frame));
     Panel(frame, x, y).draw_axes(drawing, theme, true);
-    draw_colour_bar(drawing, {frame.right() + 14, frame.top, 14, side}, "power", theme,
+    draw_colour_bar(drawing, {frame.right() + 14, frame.top, 14, side}, names.shade, theme,
                     [](double s) {
                         const auto level = static_cast<std::uint8_t>(std::lround(255 * s));
                         return Colour{level, level, level};

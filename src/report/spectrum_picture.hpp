@@ -17,8 +17,15 @@ namespace stipple {
 /// nowhere negative, and P(-f) = P(f).
 bool looks_like_power(const Grid& grid);
 
+/// What the axes and the colours of a table mean.
+struct TableNames {
+    std::string x = "frequency fx";
+    std::string y = "frequency fy";
+    std::string shade = "power";
+};
+
 /// @throws Error(input) for what is not square, of an odd side, and without negative numbers.
 Drawing draw_spectrum(const Grid& power, const std::string& title, const std::string& subtitle,
-                      const PictureStyle& style);
+                      const PictureStyle& style, const TableNames& names = {});
 
 }  // namespace stipple

@@ -9,13 +9,14 @@
 
 #include "io/format.hpp"
 #include "report/dot_matrix.hpp"
+#include "report/letters.hpp"
 #include "report/ticks.hpp"
 
 namespace stipple {
 namespace {
 
-constexpr std::size_t frame_columns = 10;  ///< numbers and frame beside the field
-constexpr std::size_t frame_rows = 6;      ///< title, names, frame and numbers, and the prompt
+constexpr std::size_t frame_columns = 3;  ///< beside the field, without the numbers
+constexpr std::size_t frame_rows = 6;     ///< title, names, frame and numbers, and the prompt
 constexpr std::size_t least_columns = 8;
 constexpr std::size_t least_rows = 4;
 
@@ -23,9 +24,16 @@ std::size_t inner(std::size_t room, std::size_t taken, std::size_t least) {
     return room > taken + least ? room - taken : least;
 }
 
+/// Letters that are left beside the numbers.
+std::size_t columns_for(const TextRoom& room, const TextFrame& frame) {
+    const std::size_t numbers =
+        std::max(letters_of(frame.low_y).size(), letters_of(frame.high_y).size());
+    return inner(room.columns, frame_columns + numbers, least_columns);
+}
+
 /// A field for a picture of that height over width, where a dot is as high as wide.
-DotMatrix field_for(const TextRoom& room, double ratio) {
-    const std::size_t columns = inner(room.columns, frame_columns, least_columns);
+DotMatrix field_for(const TextRoom& room, const TextFrame& frame, double ratio) {
+    const std::size_t columns = columns_for(room, frame);
     const std::size_t rows = inner(room.rows, frame_rows, least_rows);
     const double wanted = ratio * static_cast<double>(columns) / 2;
     if (wanted <= static_cast<double>(rows))
@@ -38,18 +46,19 @@ DotMatrix field_for(const TextRoom& room, double ratio) {
 std::string plane_as_text(const PointsPicture& picture, const TextRoom& room) {
     const Box box = shown_box(picture.sets);
     const auto names = coordinate_names(box.dimension());
-    DotMatrix dots = field_for(room, std::clamp(box.extent(1) / box.extent(0), 0.05, 20.0));
+    const TextFrame frame{.title = picture.title,
+                          .low_x = rounded(box.low[0]),
+                          .high_x = rounded(box.high[0]),
+                          .name_x = names[0],
+                          .low_y = rounded(box.low[1]),
+                          .high_y = rounded(box.high[1]),
+                          .name_y = names[1]};
+    DotMatrix dots = field_for(room, frame, std::clamp(box.extent(1) / box.extent(0), 0.05, 20.0));
     for (const PointSet* set : picture.sets)
         for (std::size_t i = 0; i < set->count(); ++i)
             dots.set(((*set)[i][0] - box.low[0]) / box.extent(0),
                      ((*set)[i][1] - box.low[1]) / box.extent(1));
-    return framed(dots, {.title = picture.title,
-                         .low_x = rounded(box.low[0]),
-                         .high_x = rounded(box.high[0]),
-                         .name_x = names[0],
-                         .low_y = rounded(box.low[1]),
-                         .high_y = rounded(box.high[1]),
-                         .name_y = names[1]});
+    return framed(dots, frame);
 }
 
 std::string space_as_text(const PointsPicture& picture, const TextRoom& room) {
@@ -63,7 +72,7 @@ std::string space_as_text(const PointsPicture& picture, const TextRoom& room) {
         e = {std::min(e[0], seen.right), std::max(e[1], seen.right), std::min(e[2], seen.up),
              std::max(e[3], seen.up)};
     }
-    DotMatrix dots = field_for(room, (e[3] - e[2]) / (e[1] - e[0]));
+    DotMatrix dots = field_for(room, {}, (e[3] - e[2]) / (e[1] - e[0]));
     for (const PointSet* set : picture.sets)
         for (std::size_t i = 0; i < set->count(); ++i) {
             const Seen seen = seen_at(box, (*set)[i]);
@@ -93,9 +102,16 @@ void draw_bars(DotMatrix& dots, const Bars& bars, const Axis& x, const Axis& y) 
 
 std::string chart_as_text(const Chart& chart, const PictureStyle& style, const TextRoom& room) {
     const auto [x, y] = chart_axes(chart, 0, style);
-    DotMatrix dots(inner(room.columns, frame_columns, least_columns),
-                   inner(room.rows, frame_rows, least_rows));
     const ChartPanel& panel = chart.panels[0];
+    const auto scale = [](const Axis& axis) { return axis.log ? " (logarithmic)" : ""; };
+    const TextFrame frame{.title = style.title.value_or(chart.title),
+                          .low_x = rounded(x.low),
+                          .high_x = rounded(x.high),
+                          .name_x = chart.panels.back().x_name + scale(x),
+                          .low_y = rounded(y.low, 3),
+                          .high_y = rounded(y.high, 3),
+                          .name_y = panel.y_name + scale(y)};
+    DotMatrix dots(columns_for(room, frame), inner(room.rows, frame_rows, least_rows));
     for (const Bars& bars : panel.bars) draw_bars(dots, bars, x, y);
     for (const Series& series : panel.series)
         for (std::size_t i = 0; i < series.x.size(); ++i) {
@@ -107,14 +123,7 @@ std::string chart_as_text(const Chart& chart, const PictureStyle& style, const T
             else
                 dots.set(right, up);
         }
-    const auto scale = [](const Axis& axis) { return axis.log ? " (logarithmic)" : ""; };
-    return framed(dots, {.title = style.title.value_or(chart.title),
-                         .low_x = rounded(x.low, 3),
-                         .high_x = rounded(x.high, 3),
-                         .name_x = chart.panels.back().x_name + scale(x),
-                         .low_y = rounded(y.low, 3),
-                         .high_y = rounded(y.high, 3),
-                         .name_y = panel.y_name + scale(y)});
+    return framed(dots, frame);
 }
 
 std::string points_as_text(const PointsPicture& picture, const TextRoom& room) {

@@ -75,7 +75,7 @@ void add_decades(double low, double high, std::size_t most, Ticks& ticks) {
 void add_digits(double low, double high, std::size_t most, Ticks& ticks) {
     ticks.minor.clear();
     const auto digits =
-        high / low > 3 ? std::vector<int>{1, 2, 5} : std::vector<int>{1, 2, 3, 4, 5, 6, 7, 8, 9};
+        high / low > 6 ? std::vector<int>{1, 2, 5} : std::vector<int>{1, 2, 3, 4, 5, 6, 7, 8, 9};
     std::vector<Tick> numbers;
     const int first = static_cast<int>(std::floor(std::log10(low)));
     for (int k = first; ten_to(k) <= high; ++k)

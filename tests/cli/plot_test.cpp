@@ -197,6 +197,11 @@ TEST(Plot, RefusesWhatIsNoPictureAndLeavesNoFile) {
     expect_refusal(box.run({"plot", "chi.json", "--chart", "points"}), 2, "--chart");
     expect_refusal(box.run({"plot", "missing.csv"}), 4, "no such file");
     expect_refusal(box.run({"plot", "p.csv", "-o", "no/where.svg"}), 4, "no folder");
+    box.write("far.csv", "5,5\n6,6\n");
+    expect_refusal(box.run({"plot", "far.csv", "--chart", "radial", "-o", "f.svg"}), 3,
+                   "far.csv: 2 of 2 points are outside");
+    std::filesystem::remove(box.path() / "far.csv");
+    expect_refusal(box.run({"plot", "p.csv", "-o", "big.png", "--width", "20000"}), 5, "picture");
     EXPECT_EQ(box.files(), before);
 }
 

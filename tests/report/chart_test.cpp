@@ -234,8 +234,8 @@ TEST(ReportCharts, AnyListsAreCurves) {
     EXPECT_THAT(refusal(ms, "nothing"), HasSubstr("variance, dispersion"));
 
     Report valence;
-    valence.add("neighbors", Report::Integers{4, 5, 6});
-    valence.add("share", Report::Curve{0.1, 0.3, 0.6});
+    valence.add("neighbors", Report::Integers{3, 4, 5, 6, 7});
+    valence.add("share", Report::Curve{0, 0.1, 0.3, 0.6, 0});
     ms = {measurement("voronoi", Report().add("valence", valence), "a.csv")};
     chart = chart_of(ms);
     EXPECT_THAT(chart.panels.at(0).bars.at(0).edges, ElementsAre(3.5, 4.5, 5.5, 6.5));
@@ -248,6 +248,47 @@ TEST(ReportCharts, NumbersOfSeveralSizesAreACurveOverTheSize) {
     EXPECT_THAT(panel.series.at(0).x, ElementsAre(16, 64, 256));
     EXPECT_THAT(panel.series.at(0).y, ElementsAre(0.4, 0.2, 0.1));
     EXPECT_TRUE(panel.series.at(0).line && panel.log_x && panel.log_y);
+}
+
+// Files of one name but for its digits are one curve; of several sets of one size, means with
+// their standard errors: of 0.1, 0.2 and 0.3 that is sqrt(0.02 / 6).
+TEST(ReportCharts, FilesOfOneNameAreOneCurveOfMeans) {
+    const std::vector<Measurement> ms = {
+        number(0.5, 16, "d/halton_16.csv"), number(0.1, 64, "d/halton_64.csv"),
+        number(0.2, 64, "d/halton_64.csv"), number(0.3, 64, "d/halton_64.csv"),
+        number(0.7, 16, "d/random16.csv"),  number(0.6, 64, "d/random64.csv")};
+    const ChartPanel panel = chart_of(ms).panels.at(0);
+    ASSERT_EQ(panel.series.size(), 2U);
+    EXPECT_EQ(panel.series[0].name, "halton");
+    EXPECT_EQ(panel.series[1].name, "random");
+    EXPECT_NEAR(panel.series[0].y.at(1), 0.2, 1e-15);
+    EXPECT_NEAR(panel.series[0].high.at(1) - 0.2, std::sqrt(0.02 / 6), 1e-15);
+    EXPECT_THAT(panel.series[1].y, ElementsAre(0.7, 0.6));
+    EXPECT_TRUE(panel.series[1].low.empty());
+}
+
+// The root mean square of 3 and -4 is sqrt(12.5).
+TEST(ReportCharts, ErrorsAreDrawnByTheirRootMeanSquare) {
+    std::vector<Measurement> ms;
+    for (const auto& [error, n] : {std::pair{3.0, 10U}, {-4.0, 10U}, {-1.0, 20U}})
+        ms.push_back(measurement("integration", Report().add("f", Report().add("error", error)),
+                                 "a.csv", n));
+    const ChartPanel panel = chart_of(ms, "f.error").panels.at(0);
+    EXPECT_THAT(panel.series.at(0).y, ElementsAre(std::sqrt(12.5), 1));
+}
+
+TEST(ReportCharts, NoPowerIsAGapInTheAnisotropy) {
+    Report radial;
+    radial.add("distance", Report::Curve{1, 2, 3});
+    radial.add("density", Report::Curve{0, 2, 1});
+    radial.add("anisotropy_db", Report::Curve{-100, -3, 0});
+    radial.add("cells", Report::Curve{8, 12, 16});
+    const std::vector<Measurement> ms = {
+        measurement("differential", Report().add("radial", radial), "a.csv")};
+    const Chart chart = chart_of(ms);
+    ASSERT_EQ(chart.panels.size(), 2U);
+    EXPECT_TRUE(std::isnan(chart.panels[1].series.at(0).y[0]));
+    EXPECT_EQ(chart.panels[1].series.at(0).y[1], -3);
 }
 
 TEST(ReportCharts, NumbersOfOneSizeAreAHistogramThatCountsThem) {
