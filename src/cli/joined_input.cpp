@@ -33,11 +33,11 @@ bool JoinedInput::open_next() {
 std::size_t JoinedInput::read(std::span<double> rows) {
     const std::size_t wanted = rows.size() / dimension_;
     std::size_t got = 0;
-    while (got < wanted) {
+    while (got < wanted && !ended_) {
         const std::size_t more =
             stream_->read(rows.subspan(got * dimension_, (wanted - got) * dimension_));
         got += more;
-        if (got < wanted && !stream_->next_set() && !open_next()) break;
+        if (got < wanted) ended_ = !stream_->next_set() && !open_next();
     }
     return got;
 }

@@ -40,6 +40,7 @@ class JoinedInput : public io::PointStream {
     std::size_t dimension_ = 0;
     Provenance provenance_;
     bool begun_ = false;
+    bool ended_ = false;  ///< a stream may be asked once more after its end
 };
 
 }  // namespace stipple::cli
