@@ -165,6 +165,38 @@ TEST(Study, TimeLimitsAreRowsAndExitFive) {
     EXPECT_EQ(rows.back().at("status"), "ok");
 }
 
+// Neighbours of 2^14 points take 1.06 MiB: more than a quarter of 2M, which is each thread's share.
+TEST(Study, AShareOfTheMemoryThatIsTooSmallChangesNothing) {
+    const Sandbox box;
+    const std::string command =
+        "stipple study --generators random -n 2^4,2^14 --seeds 3 --analyze "
+        "'nearest-neighbor,integration' --no-seconds --max-memory ";
+    for (const char* memory : {"2M", "200k"}) {
+        const Outcome one = box.shell(command + memory + " --threads 1");
+        const Outcome four = box.shell(command + memory + " --threads 4");
+        EXPECT_EQ(one.code, std::string(memory) == "2M" ? 0 : 5) << one.err;
+        EXPECT_EQ(four.code, one.code);
+        EXPECT_EQ(four.out, one.out) << memory;
+    }
+}
+
+TEST(Study, ScramblesOfASetDifferFromSeedToSeed) {
+    const Sandbox box;
+    const auto rows = rows_of(good(box.shell(
+        "stipple study --generators halton -n 64 --seeds 2 -w owen --analyze star-discrepancy "
+        "--keys value --no-seconds")));
+    ASSERT_EQ(rows.size(), 2U);
+    EXPECT_NE(rows[0].at("value"), rows[1].at("value"));
+    for (const Row& row : rows) {
+        const auto out =
+            json::parse(box.shell("stipple generate halton -n 64 -w owen -s " + row.at("seed") +
+                                  " | stipple analyze star-discrepancy")
+                            .out);
+        EXPECT_EQ(std::stod(row.at("value")), out["results"]["value"].get<double>());
+        EXPECT_EQ(row.at("domain"), "unit-cube");
+    }
+}
+
 TEST(Study, AMeasureThatCannotTakeTheWarpLooksBeforeIt) {
     const Sandbox box;
     const std::string measures =
