@@ -204,7 +204,8 @@ class Study {
                            if (row.failed()) failures_.add(row);
                            if (summarized_) summary_.add(row);
                        });
-        for (const auto& sentence : measures_before_warps(sweep_, run)) session_.warn(sentence);
+        const UnitRunner runner(sweep_, table_, run.max_memory);
+        for (const auto& sentence : runner.before_warps(run)) session_.warn(sentence);
         try {
             began_ = true;
             if (!run_study(sweep_, table_, file, ranks_, run)) return 0;

@@ -141,48 +141,45 @@ std::string StudySummary::means(StudyTable::Style style, const SummaryOptions& o
     return text;
 }
 
+std::vector<StudySummary::Pair> StudySummary::pairs_of(const Topic& topic, bool by_seed) const {
+    std::vector<Pair> pairs;
+    std::vector<double> p_values;
+    const auto& members = topics_.at(topic);
+    for (std::size_t i = 0; i < members.size(); ++i)
+        for (std::size_t j = i + 1; j < members.size(); ++j) {
+            const Sample& a = samples_[members[i]];
+            const Sample& b = samples_[members[j]];
+            const Paired both = paired(a.seeds, a.values, b.seeds, b.values);
+            const auto& x = by_seed ? both.a : a.values;
+            const auto& y = by_seed ? both.b : b.values;
+            pairs.push_back(
+                {&a, &b, x.size(), y.size(), by_seed ? paired_test(x, y) : welch_test(x, y)});
+            p_values.push_back(pairs.back().test.p_value);
+        }
+    const auto corrected = holm(p_values);
+    for (std::size_t k = 0; k < pairs.size(); ++k) pairs[k].p_holm = corrected[k];
+    return pairs;
+}
+
 std::string StudySummary::comparisons(StudyTable::Style style,
                                       const SummaryOptions& options) const {
     std::string text;
-    for (const Topic& topic : topics_in_order_) {
-        struct Pair {
-            const Sample* a;
-            const Sample* b;
-            std::size_t sets_a;
-            std::size_t sets_b;
-            MeanTest test;
-        };
-        std::vector<Pair> pairs;
-        std::vector<double> p_values;
-        const auto& members = topics_.at(topic);
-        for (std::size_t i = 0; i < members.size(); ++i)
-            for (std::size_t j = i + 1; j < members.size(); ++j) {
-                const Sample& a = samples_[members[i]];
-                const Sample& b = samples_[members[j]];
-                const Paired both = paired(a.seeds, a.values, b.seeds, b.values);
-                const auto& x = options.paired ? both.a : a.values;
-                const auto& y = options.paired ? both.b : b.values;
-                pairs.push_back({&a, &b, x.size(), y.size(),
-                                 options.paired ? paired_test(x, y) : welch_test(x, y)});
-                p_values.push_back(pairs.back().test.p_value);
-            }
-        const auto corrected = holm(p_values);
-        for (std::size_t k = 0; k < pairs.size(); ++k) {
-            const auto& [a, b, sets_a, sets_b, test] = pairs[k];
+    for (const Topic& topic : topics_in_order_)
+        for (const auto& [a, b, sets_a, sets_b, test, p_holm] : pairs_of(topic, options.paired)) {
+            const StudyRow& row = a->row;
             text += line_of(
                 style,
-                {word("table", "comparison"), whole("dimension", a->row.dimension),
-                 word("warps", a->row.warps), whole("count", a->row.count),
-                 word("measure", a->row.measure), word("key", a->row.key),
-                 word("generator_a", a->row.generator), word("generator_b", b->row.generator),
+                {word("table", "comparison"), whole("dimension", row.dimension),
+                 word("warps", row.warps), whole("count", row.count), word("measure", row.measure),
+                 word("key", row.key), word("generator_a", row.generator),
+                 word("generator_b", b->row.generator),
                  word("method", options.paired ? "paired" : "welch"), whole("sets_a", sets_a),
                  whole("sets_b", sets_b), real("difference", test.difference),
                  real("standard_error", test.standard_error), real("t", test.t),
                  real("degrees_of_freedom", test.degrees), real("p_value", test.p_value),
-                 real("p_holm", corrected[k]), word("study", a->row.study)},
+                 real("p_holm", p_holm), word("study", row.study)},
                 text.empty());
         }
-    }
     return text;
 }
 

@@ -14,6 +14,7 @@
 #include <tuple>
 #include <vector>
 
+#include "study/statistics.hpp"
 #include "study/study_table.hpp"
 
 namespace stipple {
@@ -43,12 +44,21 @@ class StudySummary {
         std::vector<std::uint64_t> seeds = {};
         std::vector<double> values = {};
     };
+    /// Two generators under one key.
+    struct Pair {
+        const Sample* a = nullptr;
+        const Sample* b = nullptr;
+        std::size_t sets_a = 0;  ///< that were compared
+        std::size_t sets_b = 0;
+        MeanTest test = {};
+        double p_holm = 1;
+    };
     /// What is compared: dimension, count, measure, key.
     using Topic = std::tuple<std::uint64_t, std::uint64_t, std::string, std::string>;
     using Cell = std::tuple<std::string, std::uint64_t, std::uint64_t, std::string>;
 
     [[nodiscard]] std::uint64_t failures_of(const StudyRow& row) const;
-    void add_missing(std::vector<const StudyRow*>& rows) const;
+    [[nodiscard]] std::vector<Pair> pairs_of(const Topic& topic, bool by_seed) const;
 
     std::vector<Sample> samples_;  ///< in the order in which they came
     std::map<std::pair<std::string, Topic>, std::size_t> places_;

@@ -2,6 +2,7 @@
 #include "study/unit_runner.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <new>
@@ -57,22 +58,45 @@ std::size_t leading_scrambles(const std::vector<Spec>& warps) {
     return static_cast<std::size_t>(it - warps.begin());
 }
 
-/// Whether a measure can take points of the domain at all; `point` is one of them.
-bool takes(const Chosen<Analyzer>& measure, const DomainPtr& domain, std::span<const double> point,
-           const RunContext& run) {
-    const Analyzer& analyzer = *measure.unit;
-    const std::string spec = domain->spec();
-    if (spec == "unit-cube") return true;
-    if (analyzer.traits.unit_cube) return false;
-    if (analyzer.traits.boxed && !spec.starts_with("box")) return false;
-    if (!analyzer.accumulate) return true;
-    try {  // some only look at the domain when the first point comes
-        accumulator_for(analyzer, {domain, std::nullopt}, domain->dimension(), measure.values, run)
-            ->add(point, run);
+/// Some points of the unit cube, apart from each other: odd multiples of those of sqrt(2),
+/// modulo 1.
+std::vector<double> some_points(std::size_t dimension) {
+    constexpr std::size_t count = 64;
+    constexpr double step = 0.41421356237309515;
+    std::vector<double> rows;
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t k = 0; k < dimension; ++k) {
+            const double turns = static_cast<double>((i + 1) * (2 * k + 1)) * step;
+            rows.push_back(turns - std::floor(turns));
+        }
+    return rows;
+}
+
+/// Whether a measure takes such points.
+bool measures(const Chosen<Analyzer>& measure, PointSet points, const RunContext& run) {
+    try {
+        (void)analyze(*measure.unit, points, measure.values, run);
     } catch (const Error& e) {
+        if (e.kind() == ErrorKind::cancelled) throw;
         return e.kind() != ErrorKind::input && e.kind() != ErrorKind::usage;
     }
     return true;
+}
+
+/// Whether a measure looks at what the warps made: where it can, and where it cannot take points of
+/// the cube, either.
+bool takes(const Chosen<Analyzer>& measure, const WarpChain& chain, const RunContext& run) {
+    const std::string spec = chain.domain()->spec();
+    if (spec == "unit-cube") return true;
+    if (measure.unit->traits.unit_cube) return false;
+    if (measure.unit->traits.boxed && !spec.starts_with("box")) return false;
+    PointSet cube(some_points(chain.dimension_in()), chain.dimension_in());
+    PointSet image(chain.forward(some_points(chain.dimension_in())), chain.dimension_out());
+    image.domain = chain.domain();
+    RunContext quiet = run;
+    quiet.progress = {};
+    quiet.warn = {};
+    return measures(measure, std::move(image), quiet) || !measures(measure, std::move(cube), quiet);
 }
 
 /// Images of all points, block by block so that a stop is heard.
@@ -226,9 +250,9 @@ std::string lines_of(const StudyTable& table, StudyRow row, const MadeSet& set,
 /// all.
 class Workbench {
   public:
-    Workbench(const Sweep& sweep, const StudyTable& table, bool shares_memory,
-              const RunContext& run)
-        : sweep_(sweep), table_(table), shares_memory_(shares_memory), run_(run) {
+    Workbench(const Sweep& sweep, const StudyTable& table, const UnitRunner& runner,
+              bool shares_memory, const RunContext& run)
+        : sweep_(sweep), table_(table), runner_(runner), shares_memory_(shares_memory), run_(run) {
         run_.progress = {};
         run_.warn = {};
         done_.seconds.resize(1 + sweep.measures().size());
@@ -264,9 +288,8 @@ class Workbench {
         const auto& measure = sweep_.measures()[number];
         const auto& image = set_->image();
         if (!image) return measured(sweep_.request(), measure, set_->before(), run_);
-        const auto [it, fresh] = takes_image_.try_emplace({cell.dimension, number});
-        if (fresh) it->second = takes(measure, image->domain, (*image)[0], run_);
-        return measured(sweep_.request(), measure, it->second ? *image : set_->before(), run_);
+        const bool after = runner_.takes_image(cell.dimension, number, run_);
+        return measured(sweep_.request(), measure, after ? *image : set_->before(), run_);
     }
 
     void keep(std::uint64_t index, const Unit& unit, const Finding& found) {
@@ -283,6 +306,7 @@ class Workbench {
 
     const Sweep& sweep_;
     const StudyTable& table_;
+    const UnitRunner& runner_;
     bool shares_memory_;
     RunContext run_;
     WorkDone done_;
@@ -290,7 +314,6 @@ class Workbench {
     std::uint64_t cell_ = 0;
     std::uint64_t variant_ = 0;
     std::map<std::size_t, Finding> found_;
-    std::map<std::pair<std::size_t, std::size_t>, bool> takes_image_;  ///< by dimension, measure
 };
 
 }  // namespace
@@ -308,36 +331,39 @@ std::vector<KeyedNumber> numbers_of(const Report& report, const std::vector<std:
 }
 
 WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext& run) const {
-    Workbench bench(sweep_, table_, run.max_memory < whole_memory_, run);
+    Workbench bench(sweep_, table_, *this, run.max_memory < whole_memory_, run);
     for (const UnitRange& range : ranges)
         for (std::uint64_t unit = range.first; unit < range.last; ++unit) bench.add(unit);
     return bench.take();
 }
 
-std::vector<std::string> measures_before_warps(const Sweep& sweep, const RunContext& run) {
-    std::vector<std::string> sentences;
-    const auto& warps = sweep.warps();
+bool UnitRunner::takes_image(std::size_t dimension, std::size_t measure,
+                             const RunContext& run) const {
+    const std::lock_guard lock(mutex_);
+    const auto [it, fresh] = takes_image_.try_emplace({dimension, measure}, true);
+    const auto& warps = sweep_.warps();
     const auto rest = std::span<const Spec>(warps).subspan(leading_scrambles(warps));
-    if (rest.empty()) return sentences;
-    DomainPtr domain;
-    std::vector<double> point;
-    for (const std::uint64_t d : sweep.request().dimensions) {
-        try {
-            const WarpChain chain(rest, d, {}, run);
-            point = chain.forward(std::vector<double>(d, 0.375));
-            domain = chain.domain();
-            break;
-        } catch (const Error&) {
-            continue;  // the rows of this dimension will say it
-        }
+    if (!fresh || rest.empty()) return it->second;
+    try {
+        it->second = takes(sweep_.measures()[measure], WarpChain(rest, dimension, {}, run), run);
+    } catch (const Error& e) {
+        if (e.kind() != ErrorKind::cancelled) return true;  // the rows will say what is wrong
+        takes_image_.erase(it);
+        throw;
     }
-    if (!domain) return sentences;
-    for (const auto& measure : sweep.measures())
-        if (!takes(measure, domain, point, run))
+    return it->second;
+}
+
+std::vector<std::string> UnitRunner::before_warps(const RunContext& run) const {
+    std::vector<std::string> sentences;
+    for (std::size_t m = 0; m < sweep_.measures().size(); ++m) {
+        const auto looks_before = [&](std::size_t d) { return !takes_image(d, m, run); };
+        if (std::ranges::any_of(sweep_.request().dimensions, looks_before))
             sentences.push_back(
                 fmt::format("{} does not take points of {}: it measures them "
                             "before the warp, on the unit cube",
-                            measure.spec, domain->spec()));
+                            sweep_.measures()[m].spec, sweep_.warp_names()));
+    }
     return sentences;
 }
 

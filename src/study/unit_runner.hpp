@@ -11,7 +11,10 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/run_context.hpp"
@@ -49,14 +52,21 @@ class UnitRunner {
     /// @throws Error(cancelled)
     [[nodiscard]] WorkDone run(const std::vector<UnitRange>& ranges, const RunContext& run) const;
 
+    /// Whether a measure looks at the points after the warps; may be asked from several threads.
+    [[nodiscard]] bool takes_image(std::size_t dimension, std::size_t measure,
+                                   const RunContext& run) const;
+
+    /// The measures that do not, in a sentence each.
+    [[nodiscard]] std::vector<std::string> before_warps(const RunContext& run) const;
+
   private:
     const Sweep& sweep_;
     const StudyTable& table_;
     std::uint64_t whole_memory_;
+    mutable std::mutex mutex_;
+    /// By dimension and measure, as far as it was asked for.
+    mutable std::map<std::pair<std::size_t, std::size_t>, bool> takes_image_;
 };
-
-/// The measures that look at the points before the warps, in a sentence each.
-std::vector<std::string> measures_before_warps(const Sweep& sweep, const RunContext& run);
 
 /// A report's numbers in order, under dotted keys, flags as 0 and 1. Lists of numbers as NAME[I]:
 /// with `curves`, or where there is nothing else. With `keys`, those of which a key is a part, from

@@ -63,8 +63,9 @@ WorkQueue::Cut WorkQueue::cut_of(std::uint64_t index, double grain) const {
     double measured = 0;
     for (std::size_t m = 0; m < measures; ++m) measured += measure_cost(sweep_, cell, m);
     Cut cut{.cell = index};
-    if (!sweep_.seeded(cell.generator)) {  // one set is all
-        cut.units = sweep_.units_per_cell();
+    if (!sweep_.seeded(cell.generator)) {  // one set is all, but its rows must find room
+        constexpr std::uint64_t most_sets = 1 << 16;
+        cut.units = measures * std::min(sweep_.request().seeds, most_sets);
         cut.cost = made + measured;
     } else if (made + measured > 2 * grain && measured > 2 * made && measures > 1) {
         cut.cost = made + measured / static_cast<double>(measures);
