@@ -499,7 +499,10 @@ const std::vector<CommonOption>& common_options() {
         {"--precision", "P", "",
          "digits after the point, cut off; else the shortest text that reads back the same",
          writers},
-        {"--meta", "", "", "put the provenance in '# ' lines on top of text formats", writers},
+        {"--meta", "", "",
+         "put the provenance in '# ' lines on top of text formats; beside npy, bin and psa, in "
+         "FILE.meta.json",
+         writers},
         {"--no-header", "", "", "no header line in csv", writers},
         {"--json", "", "", "complete and stable, for programs", list | reproduce},
         {"--man", "", "", "as a manual page, for man", help},

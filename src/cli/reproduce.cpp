@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -66,13 +67,14 @@ struct Original {
 };
 
 /// A pipe's bytes in a file of no name, which goes with the process.
-std::string spooled(const RunContext& run) {
-    const io::Input input("-", run);
+std::string spooled(const std::string& pipe, const RunContext& run) {
+    const io::Input input(pipe, run);
     std::FILE* const file = std::tmpfile();  // open until the end
     const auto bytes = input.bytes();
     if (file == nullptr || std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size() ||
         std::fflush(file) != 0)
-        fail(ErrorKind::io, "stdin: no room for its bytes in the folder of temporary files");
+        fail(ErrorKind::io, "{}: no room for its bytes in the folder of temporary files",
+             io::source_name(pipe));
     std::rewind(file);
     return fmt::format("/dev/fd/{}", fileno(file));
 }
@@ -134,7 +136,11 @@ void refuse_report(const Original& original, std::string_view front) {
 }
 
 Original read_original(const std::string& input, const RunContext& run) {
-    Original original{.name = io::source_name(input), .path = input == "-" ? spooled(run) : input};
+    std::error_code ignored;
+    const bool pipe = input == "-" || (std::filesystem::exists(input, ignored) &&
+                                       !std::filesystem::is_regular_file(input, ignored) &&
+                                       !std::filesystem::is_directory(input, ignored));
+    Original original{.name = io::source_name(input), .path = pipe ? spooled(input, run) : input};
     const io::Feed feed(original.path, run);
     refuse_report(original, feed.front());
     if (!take_carried(original, feed.front(), run))
@@ -246,8 +252,11 @@ std::string changed_rules(const Provenance& meta) {
 }
 
 /// Files that the points were made from must be there, and be the same. @throws Error
-void check_inputs(const Original& original, const Production& job) {
+void check_inputs(const Original& original) {
     for (const auto& [file, fingerprint_then] : original.meta.inputs) {
+        if (fingerprint_then == not_kept)
+            fail(ErrorKind::input, "{}: its points were made from '{}', a pipe that is not kept",
+                 original.name, file);
         std::string bytes;
         try {
             bytes = read_file(file);
@@ -260,14 +269,6 @@ void check_inputs(const Original& original, const Production& job) {
         if (format_fingerprint(fingerprint(bytes)) != fingerprint_then)
             fail(ErrorKind::input, "{}: its points were made from '{}', which has changed since",
                  original.name, file);
-    }
-    for (const Option& option : job.generator->options.options()) {
-        const auto& item = job.options.find(option.name);
-        if (option.type == "file" && item.given && std::get<std::string>(item.value) == "-")
-            fail(ErrorKind::input,
-                 "{}: its points were made from standard input (--{} -), which is "
-                 "not kept",
-                 original.name, option.name);
     }
 }
 
@@ -316,7 +317,7 @@ class Reproducer {
     }
 
     Verdict go() {
-        check_inputs(original_, recipe_.job);
+        check_inputs(original_);
         if (!original_.picture.empty()) return compare_picture();
         return original_.drawn ? compare_bytes() : compare_points();
     }
@@ -510,12 +511,12 @@ int reproduce(const Arguments& arguments, const std::vector<Kind>& kinds, Sessio
     const std::string changed =
         reading_provenance(original, [&] { return changed_rules(original.meta); });
     if (!changed.empty()) return say(original, {}, changed, arguments);
+    std::optional<Reproducer> reproducer;
     const Verdict verdict = reading_provenance(original, [&] {
-        Reproducer reproducer(original, recipe_of(original, kinds, session), session);
-        const Verdict found = reproducer.go();
-        if (arguments.has("output")) reproducer.write(arguments);
-        return found;
+        reproducer.emplace(original, recipe_of(original, kinds, session), session);
+        return reproducer->go();
     });
+    if (arguments.has("output")) reproducer->write(arguments);
     return say(original, verdict, {}, arguments);
 }
 

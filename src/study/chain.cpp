@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <filesystem>
 #include <iterator>
 #include <numeric>
 
@@ -273,17 +274,21 @@ std::vector<std::string> files_of(const Schema& schema, const Values& values,
     for (const Option& option : schema.options()) {
         const auto& item = values.find(option.name);
         const bool output = std::ranges::find(written, option.name) != written.end();
-        if (option.type != "file" || !item.given || output) continue;
-        const auto& file = std::get<std::string>(item.value);
-        if (file != "-") files.push_back(file);
+        if (option.type == "file" && item.given && !output)
+            files.push_back(std::get<std::string>(item.value));
     }
     return files;
 }
 
 std::vector<std::pair<std::string, std::string>> fingerprints(std::span<const std::string> files) {
     std::vector<std::pair<std::string, std::string>> all;
-    for (const std::string& file : files)
-        all.emplace_back(file, format_fingerprint(fingerprint(read_file(file))));
+    for (const std::string& file : files) {
+        // What is read from a pipe can be read once; what is not there, its reader complains of.
+        std::error_code ignored;
+        const bool kept = std::filesystem::is_regular_file(file, ignored);
+        all.emplace_back(
+            file, kept ? format_fingerprint(fingerprint(read_file(file))) : std::string(not_kept));
+    }
     return all;
 }
 

@@ -100,9 +100,12 @@ class WarpChain {
     DomainPtr domain_;
 };
 
-/// Files that options name, for reading: in order, without "-".
+/// Files that options name, for reading; in order.
 std::vector<std::string> files_of(const Schema& schema, const Values& values,
                                   std::span<const std::string> written = {});
+
+/// In place of a fingerprint, for a pipe.
+inline constexpr std::string_view not_kept = "not kept";
 
 /// Files with the fingerprints of their bytes. @throws Error(io)
 std::vector<std::pair<std::string, std::string>> fingerprints(std::span<const std::string> files);
