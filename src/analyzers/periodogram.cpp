@@ -36,7 +36,9 @@
 //         frequency over `regular_nyquist`, n^(1/d) / 2, which is that of a regular grid.
 // Cost    O(n w^d + (4F)^d log F), see math/nufft.hpp; `direct` O(n (2F)^d). Sets of up to 2^20
 //         points are kept until their number is known; of more, no more than a batch.
-// Promise the same for any number of threads, and whether points come at once or in pieces.
+// Promise the same for any number of threads, and whether points come at once or in pieces; in any
+//         run, too, but for last bits where FFTW measures its plans: with --wisdom, and for
+//         transforms of more than 10 seconds.
 // Beware  one set's power has a standard deviation of 100 % at every frequency: average sets. A
 //         mean of anisotropies is not the anisotropy of the mean power; so the power itself goes
 //         into the report, and refine() works out all else from its mean.
