@@ -78,17 +78,22 @@ double KaiserBessel::transform(double xi) const {
 double KaiserBessel::error() const {
     constexpr int places = 4;  // of the point between two grid points; the error is smooth there
     double worst = 0;
-    for (const double part : {0.0, 0.5, 0.75, 0.9, 1.0}) {
-        const double xi = part * band_;
-        const std::complex<double> turn = std::polar(1.0, -2 * std::numbers::pi * xi);
-        for (int i = 0; i <= places; ++i) {
-            const double u = static_cast<double>(i) / places / 2;  // symmetric about 1/2
-            const double first = u + static_cast<double>(width_) / 2 - 1;
-            std::complex<double> phase = std::polar(1.0, 2 * std::numbers::pi * xi * first);
+    std::vector<double> values(width_);
+    for (int i = 0; i <= places; ++i) {
+        const double u = static_cast<double>(i) / places / 2;  // symmetric about 1/2
+        const double first = u + static_cast<double>(width_) / 2 - 1;
+        for (std::size_t j = 0; j < width_; ++j)
+            values[j] = (*this)(first - static_cast<double>(j));
+        for (const double part : {0.0, 0.5, 0.75, 0.9, 1.0}) {
+            const double omega = 2 * std::numbers::pi * part * band_;
+            const std::complex<double> turn = std::polar(1.0, -omega);
+            std::complex<double> phase = std::polar(1.0, omega * first);
             std::complex<double> sum;
-            for (std::size_t j = 0; j < width_; ++j, phase *= turn)
-                sum += (*this)(first - static_cast<double>(j)) * phase;
-            worst = std::max(worst, std::abs(sum / transform(xi) - 1.0));
+            for (const double value : values) {
+                sum += value * phase;
+                phase *= turn;
+            }
+            worst = std::max(worst, std::abs(sum / transform(part * band_) - 1.0));
         }
     }
     return worst;

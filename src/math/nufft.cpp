@@ -49,9 +49,11 @@ Cost cost_of(std::uint64_t count, std::size_t dimension, std::size_t side,
 
 /// Whether the division by the window's transform leaves rounding errors as they should be.
 bool keeps_digits(const KaiserBessel& window, std::size_t dimension, double allowed) {
-    // Of points in one place, whose sums leave the largest errors, found by trying.
-    const double magnified = 1e-15 * std::pow(window.magnification(), dimension);
-    return magnified <= std::max(allowed / 8, 2e-14);
+    // Of points in one place, whose sums leave the largest errors, found by trying; and those of
+    // the polynomials, which are of one axis each.
+    const double times = window.magnification();
+    return 1e-15 * std::pow(times, dimension) <= std::max(allowed / 8, 2e-14) &&
+           6e-15 * times <= std::max(allowed / 4, 4e-14);
 }
 
 }  // namespace
