@@ -36,7 +36,9 @@
 //         frequency over `regular_nyquist`, n^(1/d) / 2, which is that of a regular grid.
 // Cost    O(n w^d + (4F)^d log F), see math/nufft.hpp; `direct` O(n (2F)^d). Sets of up to 2^20
 //         points are kept until their number is known; of more, no more than a batch.
-// Promise the same for any number of threads, and whether points come at once or in pieces.
+// Promise the same for any number of threads, and whether points come at once or in pieces; in any
+//         run, too, but for last bits where FFTW measures its plans: with --wisdom, and for
+//         transforms of more than 10 seconds.
 // Beware  one set's power has a standard deviation of 100 % at every frequency: average sets. A
 //         mean of anisotropies is not the anisotropy of the mean power; so the power itself goes
 //         into the report, and refine() works out all else from its mean.
@@ -54,6 +56,7 @@
 #include "analyzers/outside.hpp"
 #include "analyzers/periodogram_rings.hpp"
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "math/nufft.hpp"
 
 namespace stipple::analyzers {
@@ -252,7 +255,7 @@ class Summation final : public Accumulator {
         check_options();
         if (options.given(wisdom)) read_wisdom(options[wisdom]);
         told_ = arrival.count.value_or(0);
-        if (told_ > 0 || options.given(max_frequency))
+        if (told_ > kept_points || options.given(max_frequency))
             need_memory(std::max<std::uint64_t>(told_, 1), run);
     }
 
@@ -270,7 +273,8 @@ class Summation final : public Accumulator {
         take(points, run);
     }
 
-    Report report(const RunContext& run) override {
+    Report report(const RunContext& whole) override {
+        const RunContext run = fitting(whole);
         if (outside_.count > 0) refuse(outside_, n_, *domain_, outside_hint(*domain_));
         if (n_ < 2) fail(ErrorKind::input, "periodogram needs at least 2 points; there is {}", n_);
         if (!(strengths_.squares > 0))
@@ -286,6 +290,13 @@ class Summation final : public Accumulator {
     }
 
   private:
+    /// Small sets are done before other threads have woken up.
+    [[nodiscard]] RunContext fitting(const RunContext& run) const {
+        if (nufft_ || direct_ || options_[method] == "direct") return run;
+        const double values = fourier_sums_size(d_, frequency_for(std::max<std::uint64_t>(n_, 1)));
+        return worth_threads(run, 5e-8 * static_cast<double>(n_) + 2e-8 * values);
+    }
+
     void check_options() const {
         if (options_[tolerance] < floor_of_floats)
             fail(ErrorKind::usage,
@@ -303,6 +314,7 @@ class Summation final : public Accumulator {
                                              : default_frequency(count, d_);
     }
 
+    /// What is known before the points come.
     void need_memory(std::uint64_t count, const RunContext& run) const {
         const std::size_t frequency = frequency_for(count);
         const double sums = 16 * fourier_sums_size(d_, frequency);
@@ -364,15 +376,19 @@ class Summation final : public Accumulator {
     }
 
     void begin(std::uint64_t count, const RunContext& run) {
-        need_memory(count, run);
         frequency_ = frequency_for(count);
         const bool weighted = numbers_ > d_;
-        if (options_[method] == "direct") {
-            direct_ = std::make_unique<DirectSummation>(d_, frequency_, weighted);
-        } else {
+        double bytes = 16 * fourier_sums_size(d_, frequency_);
+        if (options_[method] != "direct") {
             nufft_.emplace(count, d_, frequency_, options_[tolerance], weighted);
-            sum_ = std::make_unique<FourierSummation>(*nufft_, run);
+            bytes = std::max(2 * bytes, nufft_->bytes());
         }
+        run.need_memory(bytes + 8 * static_cast<double>(kept_.size()),
+                        fmt::format("--max-frequency {}", frequency_));
+        if (nufft_)
+            sum_ = std::make_unique<FourierSummation>(*nufft_, run);
+        else
+            direct_ = std::make_unique<DirectSummation>(d_, frequency_, weighted);
         take(kept_, run);
         kept_ = {};
     }

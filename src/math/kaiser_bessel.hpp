@@ -67,7 +67,9 @@ class WindowTable {
     [[nodiscard]] std::size_t padded_width() const { return (width_ + 3) / 4 * 4; }
 
     /// Degree at which the polynomials are as good as windows of this width are, found by trying.
-    static constexpr std::size_t degree_of(std::size_t padded) { return padded <= 8 ? 6 : 7; }
+    static constexpr std::size_t degree_of(std::size_t padded) {
+        return padded <= 4 ? 6 : padded <= 8 ? 7 : 8;
+    }
 
     [[nodiscard]] std::size_t degree() const { return degree_of(padded_width()); }
 

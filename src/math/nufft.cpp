@@ -42,15 +42,18 @@ Cost cost_of(std::uint64_t count, std::size_t dimension, std::size_t side,
     const double adding = power(window.width(), dimension - 1) * vectors * 0.45e-9;
     const double evaluating = d * (2e-9 + vectors * 1.2e-9);
     const double n = static_cast<double>(count);
-    const double passes = std::ceil(n / std::max(cells, 1048576.0));
+    const double passes = std::ceil(n / std::clamp(cells, 1048576.0, 4194304.0));
     return {.spreading = n * (8e-9 + adding + evaluating) + passes * cells * 1.5e-9,
             .transforming = transform_seconds(dimension, side)};
 }
 
 /// Whether the division by the window's transform leaves rounding errors as they should be.
 bool keeps_digits(const KaiserBessel& window, std::size_t dimension, double allowed) {
-    const double magnified = 2e-16 * std::pow(window.magnification(), dimension);
-    return magnified <= std::max(allowed / 4, 1e-14);
+    // Of points in one place, whose sums leave the largest errors, found by trying; and those of
+    // the polynomials, which are of one axis each.
+    const double times = window.magnification();
+    return 1e-15 * std::pow(times, dimension) <= std::max(allowed / 8, 2e-14) &&
+           6e-15 * times <= std::max(allowed / 4, 4e-14);
 }
 
 }  // namespace
@@ -69,9 +72,10 @@ Nufft::Nufft(std::uint64_t count, std::size_t dimension, std::size_t max_frequen
       weighted_(weighted),
       window_(KaiserBessel::min_width, 0.25) {
     assert(dimension >= 1 && dimension <= 3 && max_frequency >= 1);
-    // Of each point, in each dimension; less than rounding errors would be of no use.
+    // Of each point, in each dimension, a third being left to rounding errors; less than these
+    // would be of no use.
     const double allowed = std::max(tolerance / std::sqrt(static_cast<double>(count)), 3e-14) /
-                           (1.1 * static_cast<double>(dimension));
+                           (1.5 * static_cast<double>(dimension));
     const auto wanted = static_cast<double>(2 * frequency_ + 1);
     double cheapest = std::numeric_limits<double>::infinity();
     // A finer grid takes a narrower window, and magnifies rounding errors less.
@@ -103,7 +107,7 @@ double Nufft::bytes() const {
 }
 
 double Nufft::error(double count) const {
-    return 1.1 * static_cast<double>(dimension_) * window_.error() * std::sqrt(count);
+    return 1.5 * static_cast<double>(dimension_) * window_.error() * std::sqrt(count);
 }
 
 double Nufft::spreading_share() const {

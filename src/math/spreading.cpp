@@ -371,7 +371,7 @@ void counts_to_places(std::vector<std::uint32_t>& counts, std::size_t tiles, std
 
 /// Blocks of points no smaller than the number of tiles, lest the counters outgrow the points.
 std::size_t sorting_block(std::size_t tiles) {
-    return std::max<std::size_t>(std::size_t{1} << 15, tiles);
+    return std::max<std::size_t>(std::size_t{1} << 17, tiles);
 }
 
 /// Rows of Numbers numbers to the places of their tiles.
@@ -389,7 +389,7 @@ std::size_t spreading_batch(const CellGrid& grid) {
     std::size_t cells = 1;
     for (std::size_t k = 0; k < grid.dimension; ++k) cells = std::min(most, cells * grid.side);
     // Fewer points than cells would pass over the grid too often.
-    return std::max(cells, std::size_t{1} << 20);
+    return std::clamp(cells, std::size_t{1} << 20, std::size_t{1} << 22);
 }
 
 Spreader::Spreader(const KaiserBessel& window, const CellGrid& grid, bool weighted)
@@ -476,7 +476,7 @@ void Spreader::spread_colour(std::size_t colour, std::size_t points, const RunCo
     const std::size_t block = std::max(1 + tiles / 128, 1024 * tiling_->count() / (points + 1));
     // A buffer takes so many points: rounding errors of long sums stay small, and a stop is heeded
     // where all points are in one tile.
-    const std::size_t portion = 4096 * width_;
+    const std::size_t portion = 512 * width_;
     const double* sorted = sorted_.numbers().data();
     for_each_block(
         run, tiles, block,

@@ -39,7 +39,7 @@ struct CellGrid {
     static constexpr std::size_t smallest_side = 2 * KaiserBessel::max_width;
 };
 
-/// Points that are sorted at a time: as many as cells, but at least 2^20.
+/// Points that are sorted at a time: as many as cells, but at least 2^20 and at most 2^22.
 std::size_t spreading_batch(const CellGrid& grid);
 
 class Tiling;

@@ -297,6 +297,7 @@ TEST(Periodogram, EffectiveNyquistAndOscillationByHand) {
     Report report;
     report.add("grid", power);
     report.add("regular_nyquist", 8.0);
+    report.add("tolerance", 1e-9);
     const Analyzer& unit = find_analyzer("periodogram");
     unit.refine(report, 1, unit.options.defaults());
     const double at_5 = double(inside_5 - inside_4) / double(inside_5);
@@ -529,7 +530,7 @@ TEST(Periodogram, BoxesAreMeasuredAsTheCubeThatTheyAre) {
     }
     set.domain = parse_domain("box:bounds=[0..8,-1..1]", 2);
     const Report box = spectrum(set);
-    for (std::size_t i = 0; i < 40; ++i)
+    for (std::size_t i = 0; i < 20; ++i)
         EXPECT_NEAR(box.curve("radial.power")[i], cube.curve("radial.power")[i], 1e-7);
 }
 
@@ -538,7 +539,7 @@ TEST(Periodogram, LargeSetsComeInPieces) {
     const PointSet set = make("random", points(1'100'000, 1));
     const Analyzer& unit = find_analyzer("periodogram");
     Values values = unit.options.defaults();
-    unit.options.set(values, "max-frequency", "50");
+    unit.options.set(values, "max-frequency", "8");
     const Report whole = analyze(unit, set, values, {});
     std::size_t at = 0;
     const auto next = [&](std::span<double> rows) {
@@ -548,9 +549,8 @@ TEST(Periodogram, LargeSetsComeInPieces) {
         return some;
     };
     EXPECT_EQ(analyze(unit, {unit_cube(1)}, 1, next, values, {}).report, whole);
-    const FourierSums truth =
-        fourier_sums_directly(set.flat().first(1'100'000), 1, 50, {.threads = 2});
-    for (std::int64_t f = 1; f <= 50; ++f) {
+    const FourierSums truth = fourier_sums_directly(set.flat(), 1, 8, {.threads = 2});
+    for (std::int64_t f = 1; f <= 8; ++f) {
         const double sum = std::abs(truth.at({f, 0, 0})) / std::sqrt(1.1e6);
         EXPECT_NEAR(power_at(whole, f), sum * sum, 3e-9 * (sum + 1)) << f;
     }

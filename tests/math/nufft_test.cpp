@@ -19,20 +19,20 @@ using namespace stipple;
 
 namespace {
 
-using Rows = std::vector<double>;
+using Numbers = std::vector<double>;
 
 struct NamedRows {
     std::string name;
-    Rows rows;
+    Numbers rows;
 };
 
 /// Sets from incoherent to all points in phase, with the ends of the cube and what is next to them.
 std::vector<NamedRows> sets(std::size_t count, std::size_t d) {
-    Rows random(count * d);
+    Numbers random(count * d);
     Rng(11).fill(0, random);
     std::vector<NamedRows> all = {{"random", random}};
     const auto add = [&](std::string name, auto&& coordinate) {
-        Rows rows = random;
+        Numbers rows = random;
         for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = coordinate(i, random[i]);
         all.push_back({std::move(name), std::move(rows)});
     };
@@ -60,7 +60,7 @@ double largest_difference(const FourierSums& a, const FourierSums& b) {
 std::size_t frequency_for(std::size_t d) { return d == 1 ? 200 : d == 2 ? 24 : 7; }
 
 /// The definition, one frequency at a time, in extended precision: the oracle's own oracle.
-std::complex<double> by_definition(const Rows& rows, std::size_t d, std::array<std::int64_t, 3> f) {
+std::complex<double> by_definition(const Numbers& rows, std::size_t d, std::array<std::int64_t, 3> f) {
     std::complex<long double> sum;
     for (std::size_t i = 0; i < rows.size(); i += d) {
         long double turns = 0;
@@ -76,12 +76,12 @@ std::complex<double> by_definition(const Rows& rows, std::size_t d, std::array<s
 // 0 and 1/2 are in phase at even frequencies and cancel at odd ones; 0 and 1/4 in the plane:
 // 1 + exp(-i pi f_1 / 2).
 TEST(FourierSums, DirectSumsByHand) {
-    const Rows halves = {0, 0.5};
+    const Numbers halves = {0, 0.5};
     const FourierSums line = fourier_sums_directly(halves, 1, 5, {});
     for (std::int64_t f = -5; f <= 5; ++f)
         EXPECT_NEAR(std::abs(line.at({f, 0, 0}) - (f % 2 == 0 ? 2.0 : 0.0)), 0, 1e-15) << f;
 
-    const Rows pair = {0, 0, 0, 0.25};
+    const Numbers pair = {0, 0, 0, 0.25};
     const FourierSums plane = fourier_sums_directly(pair, 2, 2, {});
     using namespace std::complex_literals;
     for (std::int64_t f0 = -2; f0 <= 2; ++f0) {
@@ -94,7 +94,7 @@ TEST(FourierSums, DirectSumsByHand) {
 
 TEST(FourierSums, DirectSumsAgreeWithTheDefinition) {
     for (std::size_t d = 1; d <= 3; ++d) {
-        Rows rows(40 * d);
+        Numbers rows(40 * d);
         Rng(5).fill(0, rows);
         const auto last = static_cast<std::int64_t>(d == 1 ? 5000 : 6);
         const FourierSums sums = fourier_sums_directly(rows, d, static_cast<std::size_t>(last), {});
@@ -129,7 +129,7 @@ TEST(Nufft, MeetsEveryToleranceForEverySet) {
 
 // A wrong tolerance must show: the coarsest window is not accidentally exact.
 TEST(Nufft, ErrorFollowsTheTolerance) {
-    Rows rows(2 * 500);
+    Numbers rows(2 * 500);
     Rng(3).fill(0, rows);
     const FourierSums truth = fourier_sums_directly(rows, 2, 20, {});
     const auto error = [&](double tolerance) {
@@ -141,14 +141,14 @@ TEST(Nufft, ErrorFollowsTheTolerance) {
 }
 
 TEST(Nufft, SmallestAndLargeFrequencies) {
-    Rows rows(2 * 50);
+    Numbers rows(2 * 50);
     Rng(8).fill(0, rows);
     for (const std::size_t last : {1U, 2U, 3U, 111U}) {
         const FourierSums truth = fourier_sums_directly(rows, 2, last, {});
         const FourierSums sums = Nufft(50, 2, last, 1e-10).transform(rows, {});
         EXPECT_LE(largest_difference(sums, truth), 1e-10 * std::sqrt(50)) << last;
     }
-    Rows line(50);
+    Numbers line(50);
     Rng(9).fill(0, line);
     const FourierSums truth = fourier_sums_directly(line, 1, 100'000, {});
     const FourierSums sums = Nufft(50, 1, 100'000, 1e-11).transform(line, {});
@@ -160,7 +160,7 @@ TEST(Nufft, SameBitsForAnyNumberOfThreads) {
     for (std::size_t d = 1; d <= 3; ++d)
         for (const bool clustered : {false, true}) {
             const std::size_t n = d == 1 ? 1'200'000 : 60'000;
-            Rows rows(n * d);
+            Numbers rows(n * d);
             Rng(2).fill(0, rows);
             if (clustered)
                 for (double& x : rows) x = 0.3 + 1e-3 * x;
@@ -169,14 +169,14 @@ TEST(Nufft, SameBitsForAnyNumberOfThreads) {
             for (const unsigned threads : {2U, 7U})
                 EXPECT_EQ(nufft.transform(rows, {.threads = threads}).values, one.values)
                     << d << "-D, " << threads << " threads";
-            Rows few(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(200 * d));
+            Numbers few(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(200 * d));
             const FourierSums direct = fourier_sums_directly(few, d, 9, {.threads = 1});
             EXPECT_EQ(fourier_sums_directly(few, d, 9, {.threads = 7}).values, direct.values);
         }
 }
 
 TEST(Nufft, MirrorsHalfOfTheSums) {
-    Rows rows(2 * 30);
+    Numbers rows(2 * 30);
     Rng(4).fill(0, rows);
     const FourierSums sums = Nufft(30, 2, 10, 1e-10).transform(rows, {});
     for (std::int64_t f0 = -10; f0 <= 10; ++f0)
@@ -187,7 +187,7 @@ TEST(Nufft, MirrorsHalfOfTheSums) {
 }
 
 TEST(Nufft, ProgressRisesToTheEndAndStopIsHeeded) {
-    Rows rows(2 * 200'000);
+    Numbers rows(2 * 200'000);
     Rng(1).fill(0, rows);
     const Nufft nufft(200'000, 2, 100, 1e-9);
     double last = 0;
@@ -210,7 +210,7 @@ TEST(Nufft, ProgressRisesToTheEndAndStopIsHeeded) {
 // Portions of any size give the same bits, also where a batch ends within one.
 TEST(Nufft, SameBitsHoweverThePointsArePortioned) {
     const std::size_t n = 1'100'000;
-    Rows rows(n);
+    Numbers rows(n);
     Rng(7).fill(0, rows);
     const Nufft nufft(n, 1, 100, 1e-7);
     const FourierSums whole = nufft.transform(rows, {});
@@ -226,9 +226,9 @@ TEST(Nufft, SameBitsHoweverThePointsArePortioned) {
 // stand there as often as their strength says.
 TEST(Nufft, StrengthsMultiplyThePoints) {
     for (std::size_t d = 1; d <= 3; ++d) {
-        Rows once;
-        Rows often;
-        Rows random(d * 60);
+        Numbers once;
+        Numbers often;
+        Numbers random(d * 60);
         Rng(12).fill(0, random);
         double squares = 0;
         for (std::size_t i = 0; i < 60; ++i) {
@@ -249,7 +249,7 @@ TEST(Nufft, StrengthsMultiplyThePoints) {
 
 // Measured plans go other ways, to the same sums within the tolerance.
 TEST(Nufft, MeasuredPlansStayWithinTheTolerance) {
-    Rows rows(2 * 300);
+    Numbers rows(2 * 300);
     Rng(13).fill(0, rows);
     const Nufft nufft(300, 2, 12, 1e-10);
     const FourierSums guessed = nufft.transform(rows, {}, Planning::estimated);
@@ -258,7 +258,7 @@ TEST(Nufft, MeasuredPlansStayWithinTheTolerance) {
 }
 
 TEST(Nufft, WisdomIsWrittenAndReadBack) {
-    const testing::TemporaryFile file("");
+    const stipple::testing::TemporaryFile file("");
     std::filesystem::remove(file.path());
     read_wisdom(file.path());  // is not there: nothing to learn
     std::ofstream(file.path()) << wisdom_text();
