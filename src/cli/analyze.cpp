@@ -78,7 +78,7 @@ PointSet prepared(PointSet points, const Analyzer& analyzer, const Arguments& ar
     if (bounds) {
         const Box box = parse_box(*bounds, points.dimension());
         if (analyzer.traits.unit_cube) return to_unit_cube(std::move(points), box);
-        require_inside(points.flat(), box, 0);
+        require_inside(points.flat(), box.dimension(), box, 0);
         points.domain = box_domain(box);
         return points;
     }

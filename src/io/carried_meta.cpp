@@ -116,7 +116,7 @@ std::optional<CarriedMeta> find_carried_meta(std::string_view bytes, const std::
     if (bytes.starts_with("ply\n")) return of_ply(bytes);
     if (is_svg(bytes)) return of_svg(bytes);
     if (!bytes.starts_with(png_magic)) return std::nullopt;
-    const auto text = png_text(bytes, keyword);
+    const auto text = text_of_png(bytes, keyword);
     return text ? std::optional(carried_meta(*text, source)) : std::nullopt;
 }
 

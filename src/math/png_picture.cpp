@@ -215,7 +215,7 @@ std::string png_with_text(std::string_view png, std::string_view keyword, std::s
     return out.append(png.substr(std::min(behind_header, png.size())));
 }
 
-std::optional<std::string> png_text(std::string_view png, std::string_view keyword) {
+std::optional<std::string> text_of_png(std::string_view png, std::string_view keyword) {
     std::string wanted(keyword);
     wanted += '\0';
     for (std::size_t at = png_magic.size(); at + 12 <= png.size();) {

@@ -66,6 +66,6 @@ std::string png_bytes_of_samples(std::span<const std::uint16_t> samples, int bit
 std::string png_with_text(std::string_view png, std::string_view keyword, std::string_view text);
 
 /// The text of the first such chunk, if there is one.
-std::optional<std::string> png_text(std::string_view png, std::string_view keyword);
+std::optional<std::string> text_of_png(std::string_view png, std::string_view keyword);
 
 }  // namespace stipple

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+//
+// What the verbs are, and what --help says of each.
+#include "cli/arguments.hpp"
+
+namespace stipple::cli {
+namespace {
+
+constexpr VerbInfo generate_verb = {
+    Verb::generate,
+    "generate",
+    "stipple generate GENERATOR [OPTIONS]",
+    "makes points",
+    R"(The same command gives the same bytes on any machine and for any number of threads: points
+depend on generator, options, count, dimension and seed alone.)",
+    R"(  stipple generate halton -n 4096 --start 1 -w disk -o points.csv
+  stipple generate random -d 5 -n 1e6 --seed 7 -f npy -o points.npy
+  stipple generate jittered -m 10 -o 'set{set}.csv'
+  stipple generate poisson-disk -n 2000 --bounds 0..40,0..30
+)"};
+
+constexpr VerbInfo warp_verb = {
+    Verb::warp,
+    "warp",
+    "stipple warp WARP [INPUT] [OPTIONS]",
+    "moves points of the unit cube onto another domain, or back, or scrambles them",
+    R"(INPUT is a file of points; standard input by default. WARP@I,J warps coordinates I and J and
+leaves the others. Deterministic: the image depends on the points, the options and, for a
+scramble, the seed alone.)",
+    R"(  stipple warp disk points.csv -o disk.csv
+  stipple warp owen points.csv --seed 7 -m 10 -o 'owen{set}.csv'
+  stipple warp triangle --vertices '0,0 2,0 0,1' points.csv
+  stipple warp disk --inverse disk.csv
+)"};
+
+constexpr VerbInfo analyze_verb = {
+    Verb::analyze,
+    "analyze",
+    "stipple analyze ANALYZER [INPUT...] [OPTIONS]",
+    "measures point sets",
+    R"(INPUTs are files of points; standard input by default. Results are deterministic, for any
+number of threads; only "seconds" is measured. --format is text on a terminal, else json.)",
+    R"(  stipple generate halton -n 1000 | stipple analyze star-discrepancy
+  stipple analyze chi-square disk.csv --domain disk --expect uniform
+  stipple analyze star-discrepancy a.csv b.csv --format csv
+  stipple analyze star-discrepancy a.csv --check 'value<0.01'
+  stipple analyze poisson-disk --radius 0.02 --check points.csv
+  stipple analyze periodogram --generate sobol:scramble=owen -n 4096 -m 100 --average
+)"};
+
+constexpr VerbInfo convert_verb = {
+    Verb::convert,
+    "convert",
+    "stipple convert INPUT... -o OUTPUT [OPTIONS]",
+    "from one file format to another",
+    R"(The formats are those of the names' extensions, or --from and --format. Every double survives
+unless --dtype or --precision cut it.)",
+    R"(  stipple convert points.csv -o points.npy
+  stipple convert points.bin -d 3 -o points.json
+  stipple convert table.csv --column 3,1 -o points.csv
+  stipple convert --concat a.csv b.csv -o both.csv
+)"};
+
+constexpr VerbInfo plot_verb = {
+    Verb::plot,
+    "plot",
+    "stipple plot [INPUT...] [OPTIONS]",
+    "a picture of points, or of an analyzer's JSON",
+    R"(INPUTs are files of points or the JSON of 'stipple analyze'; standard input by default. What
+is drawn of points, --chart says; of reports, their curves, one for each: radial power and
+anisotropy, pair correlation, discrepancy of prefixes. Of several reports without curves one
+number (--key) is drawn over the number of points or, where that is the same, as a histogram.
+The NPY table of 'periodogram --grid' is drawn as a spectrum. Without -o, standard output gets
+SVG or, on a terminal, a quick picture in letters. The same input gives the same bytes.)",
+    R"(  stipple generate halton -n 2000 -f json | stipple plot
+  stipple plot points.csv --domain disk -o points.svg
+  stipple plot points.csv --chart spectrum -o spectrum.png --theme dark
+  stipple analyze periodogram a.csv b.csv | stipple plot -o power.svg
+  stipple analyze star-discrepancy a.csv b.csv --every 64 | stipple plot -o star.svg
+)"};
+
+constexpr VerbInfo study_verb = {
+    Verb::study,
+    "study",
+    "stipple study --generators SPECS -n COUNTS --seeds R --analyze SPECS [OPTIONS]",
+    "compares generators over counts, seeds and measures: one tidy table, with statistics",
+    R"(Every set (generator, dimension, count, seed) is made once and measured by every analyzer, on all
+cores. The table has a row for each number: generator, generator_options, dimension, warps,
+count, points (that were measured), seed, measure, measure_options, domain, key, value, status,
+reason, study (a hash of all settings), generate_seconds and seconds. Its rows are in the order
+of the options; but for the two columns of seconds its bytes are the same for any number of
+threads and ranks, and with --no-seconds they are the same altogether.
+
+Rows hold all numbers of a result, flags as 0 and 1; lists (curves) only with --curves or --keys,
+or where a result has nothing else. COUNTS are lists 16,64,256 and ranges: 2^4..2^16 (the powers
+of 2 between), 16..65536*4 (by a factor), 100..500+100 (by a step). In SPECS a comma before
+OPT= goes on with the spec before, other commas and every ; begin the next; values with commas
+stand in [brackets]. A measure that cannot take the image of -w, as most discrepancies of the unit
+cube, looks at the points before the warp; the column domain says so.
+
+What fails (a count that a generator cannot make, a time limit, a dimension that a measure cannot
+take) is a row with status failed and the reason; the exit code is then 5 if a limit of time or
+memory was met, else 3. The file is written as the study goes on, with FILE.journal for what is
+done out of order: after Ctrl-C (exit 130) or a crash both stay, and --resume goes on.
+--summary writes FILE.summary and FILE.comparisons with the extension of FILE (behind the rows
+where these go to standard output).
+
+'mpirun -n 8 stipple study ...' shares the work between ranks, where the build has MPI; rank 0 writes.)",
+    R"(  stipple study --generators 'random,sobol:scramble=owen' -n 16..256*4 --seeds 8 --analyze star-discrepancy --summary -o study.csv
+  stipple study --generators 'random,sobol:scramble=owen' -n 16..256*4 --seeds 8 --analyze star-discrepancy --summary -o study.csv --resume
+  stipple study --generators 'halton;jittered' -n 64 --analyze 'l2-discrepancy:kind=centered;moments' -w disk -f jsonl
+)"};
+
+constexpr VerbInfo list_verb = {
+    Verb::list,
+    "list",
+    "stipple list [KIND] [OPTIONS]",
+    "every unit with its options",
+    R"(KIND is generators, scrambles, warps, analyzers or formats; all of them by default.)",
+    R"(  stipple list generators
+  stipple list --json
+)"};
+
+constexpr VerbInfo reproduce_verb = {
+    Verb::reproduce,
+    "reproduce",
+    "stipple reproduce FILE [OPTIONS]",
+    "makes a file's points again from its own provenance, and says whether they are identical",
+    R"(FILE is json or jsonl, which always tell how their points were made, or what was written with
+--meta: text, ply, svg, or npy, bin and psa with FILE.meta.json beside; or the picture of
+--mask-image. Every number is compared as it was written: cut to float32 or to digits, as the
+provenance says. The exit code is 0 for identical points, and 1 for others: the first number that
+differs is named. It is 1, too, where the rules of a unit changed since, as its stream version
+tells. Files that the points were made from must still be there, as they were.)",
+    R"(  stipple generate sobol --scramble owen --meta -o a.csv && stipple reproduce a.csv
+  stipple generate random -f npy --meta -o a.npy && stipple reproduce a.npy --json
+  stipple generate halton -f json | stipple reproduce - -o again.csv
+)"};
+
+constexpr VerbInfo help_verb = {Verb::help,
+                                "help",
+                                "stipple help [TOPIC | VERB [UNIT]] [OPTIONS]",
+                                "explains a topic, a verb or a unit",
+                                R"('stipple help' lists the topics.)",
+                                R"(  stipple help choosing-a-sampler
+  stipple help generate halton
+  stipple help --man generate > stipple-generate.1
+)"};
+
+constexpr VerbInfo completions_verb = {
+    Verb::completions,
+    "completions",
+    "stipple completions bash|zsh|fish",
+    "what makes a shell complete stipple's words",
+    R"(Packages put it where shells look. Without one, bash takes it from ~/.bashrc, zsh from a file
+_stipple in a folder of $fpath, fish from ~/.config/fish/completions/stipple.fish.)",
+    R"(  source <(stipple completions bash)
+  stipple completions zsh > _stipple
+)"};
+
+}  // namespace
+
+const std::vector<VerbInfo>& verbs() {
+    static const std::vector<VerbInfo> table = {
+        generate_verb, warp_verb, analyze_verb,   convert_verb, plot_verb,
+        study_verb,    list_verb, reproduce_verb, help_verb,    completions_verb};
+    return table;
+}
+
+}  // namespace stipple::cli
