@@ -214,6 +214,19 @@ std::unique_ptr<io::PointStream> open_input(const std::string& path, const Argum
     return io::open_points(path, options, run, format);
 }
 
+namespace {
+
+/// The box of --bounds, with a range for each coordinate, or one for all. How many there are is
+/// planned in the box itself: options are checked by it.
+Box bounds_of(const std::string& text, const Production& job) {
+    const auto ranges = static_cast<std::size_t>(1 + std::ranges::count(text, ','));
+    Request request = job.request;
+    request.bounds = parse_box(text, request.dimension.value_or(std::max<std::size_t>(ranges, 2)));
+    return parse_box(text, plan_for(*job.generator, request, job.options).dimension);
+}
+
+}  // namespace
+
 Production production_of(const Arguments& arguments, Session& session) {
     Production job;
     job.generator = &find_generator(arguments.unit);
@@ -225,10 +238,7 @@ Production production_of(const Arguments& arguments, Session& session) {
     job.sets = arguments.integer("sets", 1, 1'000'000'000).value_or(1);
     job.shard = parse_shard(arguments).value_or(Shard{});
     for (const auto& spec : arguments.all("warp")) job.warps.push_back(parse_spec(spec));
-    if (const auto bounds = arguments.get("bounds")) {
-        const Plan plan = plan_for(*job.generator, job.request, job.options);
-        job.request.bounds = parse_box(*bounds, plan.dimension);
-    }
+    if (const auto bounds = arguments.get("bounds")) job.request.bounds = bounds_of(*bounds, job);
     return job;
 }
 

@@ -285,19 +285,20 @@ class PlaneRain {
             const auto [first, last] = plane_tile(grid_, t);
             return DiskSpots::needed(last[1] - first[1]);
         };
-        std::size_t all = 0;
-        for (std::size_t t = 0; t < grid_.tile_count; ++t) all += needed(t);
-        spots_ = unwritten_room<Spot>(all);
-        covered_ = unwritten_room<PartBits>(all);
-        indices_ = unwritten_room<std::uint16_t>(all);
-        tiles_.reserve(grid_.tile_count);
-        std::size_t before = 0;
-        for (std::size_t t = 0; t < grid_.tile_count; before += needed(t++)) {
-            tiles_.emplace_back(
-                grid_, t,
-                CellRoom{spots_.get() + before, covered_.get() + before, indices_.get() + before});
+        std::vector<std::size_t> before{0};
+        for (std::size_t t = 0; t < grid_.tile_count; ++t) {
+            before.push_back(before.back() + needed(t));
             live_.push_back(static_cast<std::uint32_t>(t));
         }
+        spots_ = unwritten_room<Spot>(before.back());
+        covered_ = unwritten_room<PartBits>(before.back());
+        indices_ = unwritten_room<std::uint16_t>(before.back());
+        tiles_.resize(grid_.tile_count);
+        for_tiles([&](PlaneTile& tile, std::uint32_t t) {
+            const CellRoom room{spots_.get() + before[t], covered_.get() + before[t],
+                                indices_.get() + before[t]};
+            tile = PlaneTile(grid_, t, room);
+        });
     }
 
     void rain_at_large(double density) {
@@ -542,7 +543,8 @@ class PlaneRain {
                 for (std::size_t k = 0; k < 2; ++k) {
                     double along = (p[k] - grid_.low[k]) / grid_.widths[k] - tile.first()[k];
                     if (std::abs(along - cell[k]) > 2)  // around the torus
-                        along += along < cell[k] ? grid_.cells[k] : -double{1} * grid_.cells[k];
+                        along +=
+                            along < cell[k] ? grid_.cells[k] : -static_cast<double>(grid_.cells[k]);
                     off[k] = (along - (k == 0 ? column : row)) * grid_.scales[k];
                 }
                 near.add(off);
@@ -562,6 +564,7 @@ class PlaneRain {
         Rows rows = Rows::unwritten(numbers);
         auto out = rows.numbers().begin();
         for (PlaneTile& tile : tiles_) {
+            run_.check_stop();
             out = std::ranges::copy(tile.points(), out).out;
             tile.points() = {};
         }

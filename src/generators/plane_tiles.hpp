@@ -125,6 +125,7 @@ class PlaneTile {
     using Index = Grid::Index;
     using Point = Grid::Point;
 
+    PlaneTile() = default;
     /// @param room for DiskSpots::needed(rows of the tile) of each
     PlaneTile(const Grid& grid, std::size_t number, const CellRoom& room)
         : grid_(&grid), covered_(room.covered), index_(room.indices) {
@@ -234,12 +235,12 @@ class PlaneTile {
         return static_cast<std::size_t>(places + std::sqrt(places) / 2 + 1);
     }
 
-    const Grid* grid_;
+    const Grid* grid_ = nullptr;
     Index first_{};
     std::array<int, 2> size_{};
     DiskSpots spots_;
-    PartBits* covered_;
-    std::uint16_t* index_;  ///< of a cell's point; own or more for one of the halo
+    PartBits* covered_ = nullptr;
+    std::uint16_t* index_ = nullptr;  ///< of a cell's point; own or more for one of the halo
     std::vector<double> points_;
     std::vector<double> halo_;  ///< points of other tiles
 };

@@ -195,6 +195,21 @@ TEST(Generate, RejectionSaysHowManyPointsItKept) {
         "");
 }
 
+// Options are checked in the box that is given, not in the unit cube, and it tells the dimension.
+TEST(Generate, RadiiHoldInTheBox) {
+    const Sandbox box;
+    const auto run = [&](const std::string& radius, const std::string& bounds) {
+        return box.run(
+            {"generate", "poisson-disk", "--radius", radius, "--bounds", bounds, "-f", "json"});
+    };
+    EXPECT_GT(json::parse(good(run("5", "0..40,0..30")))["points"].size(), 20U);
+    EXPECT_GT(json::parse(good(run("5", "0..40")))["points"].size(), 30U);
+    EXPECT_EQ(json::parse(good(run("2", "0..4,0..5,0..6")))["meta"]["dimension"], 3);
+    EXPECT_EQ(run("51", "0..40,0..30").code, 2);
+    EXPECT_THAT(run("0.8", "0..0.4,0..0.3").err,
+                HasSubstr("--radius: 0.8 is outside (0, 0.5]; no two points of the box"));
+}
+
 // The mean of 1 times weight is the area, exactly where the density is one over it.
 TEST(Generate, WeightIsOneOverDensity) {
     const Sandbox box;
