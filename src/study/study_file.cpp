@@ -24,6 +24,7 @@ constexpr const char* journal_format = "stipple.study-journal";
 std::string journal_of(const std::string& path) { return path + ".journal"; }
 
 [[noreturn]] void refuse(const std::string& path) {
+    if (errno == ENOENT) fail(ErrorKind::io, "{}: no such folder", path);
     fail(ErrorKind::io, "{}: {}", path, std::generic_category().message(errno));
 }
 

@@ -3,9 +3,9 @@
 // A study done by many hands: threads of this process, and other ranks with theirs. Each takes the
 // next piece of work when it is done with the last; rank 0 writes what comes back.
 //
-// Cost     between ranks, for each piece of work (a second of it, as a rule): 30 bytes to ask and to
-//          answer, and its rows, 150 to 250 bytes each. Rank 0 holds its own work's points and, for
-//          each unit that waits in the journal, 8 bytes; the others their own work's points.
+// Cost     between ranks, for each piece of work (a second of it, as a rule): 30 bytes to ask and
+//          to answer, and its rows, 150 to 250 bytes each. Rank 0 keeps 8 bytes for each unit that
+//          waits in the journal; every rank the points of the sets that it works on.
 // Promise  the file is the same for any number of threads and ranks, but for the seconds.
 #pragma once
 
