@@ -177,10 +177,9 @@ DensityMap::DensityMap(std::size_t width, std::size_t height, std::vector<double
     lay_out_guides();
 }
 
-// A bucket of about 8 cells lies in two cache lines of sums that follow each other, mostly, and the
-// guides themselves are small enough for the caches: what a point waits for is one place in memory.
+// A bucket of about 2 cells lies in one cache line of sums, mostly.
 void DensityMap::lay_out_guides() {
-    const std::size_t buckets = (width_ + 7) / 8;
+    const std::size_t buckets = (width_ + 1) / 2;
     column_buckets_ = Buckets(column_.back(), height_);
     column_guide_.resize(height_ + 1);
     fill_guide(column_, column_guide_);
@@ -227,25 +226,22 @@ std::array<double, 2> DensityMap::place(double u, double v) const {
 /// way from memory at a time.
 [[gnu::flatten]] void DensityMap::place_all(std::span<const double> cube,
                                             std::span<double> image) const {
-    constexpr std::size_t near = 4;   // points between a look at the guide and its use
-    constexpr std::size_t far = 20;   // and up to the use of the sums
-    constexpr std::size_t ring = 32;  // a power of two above far
+    constexpr std::size_t ahead = 4;
+    constexpr std::size_t ring = 16;  // a power of two above 2 * ahead
     std::array<Visit, ring> visits;
     const std::size_t count = cube.size() / 2;
-    for (std::size_t i = 0; i < count + far; ++i) {
+    for (std::size_t i = 0; i < count + 2 * ahead; ++i) {
         if (i < count) {
             Visit& next = visits[i % ring];
             next = visit(cube[2 * i], cube[2 * i + 1]);
             __builtin_prefetch(&row_guides_[next.bucket]);
         }
-        if (i >= near && i - near < count) {
-            const Visit& next = visits[(i - near) % ring];
-            const double* sums = row_sums_.data() + next.row * width_ + row_guides_[next.bucket];
-            __builtin_prefetch(sums);
-            __builtin_prefetch(sums + 8);  // no harm beyond the end
+        if (i >= ahead && i - ahead < count) {
+            const Visit& next = visits[(i - ahead) % ring];
+            __builtin_prefetch(&row_sums_[next.row * width_ + row_guides_[next.bucket]]);
         }
-        if (i >= far) {
-            const std::size_t at = i - far;
+        if (i >= 2 * ahead) {
+            const std::size_t at = i - 2 * ahead;
             image[2 * at] = across(visits[at % ring]);
             image[2 * at + 1] = visits[at % ring].y;
         }

