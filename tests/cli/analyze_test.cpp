@@ -116,6 +116,14 @@ TEST(Analyze, ChecksAndExpectationsSetTheExitCode) {
     const Outcome failed = box.run({"analyze", "star-discrepancy", "h.csv", "--check", "value<0"});
     EXPECT_EQ(json::parse(failed.out)["analyzer"], "star-discrepancy");
     EXPECT_THAT(failed.err, HasSubstr("h.csv: value<0 does not hold: it is 0."));
+    const Outcome other = box.run({"analyze", "star-discrepancy", "h.csv", "--domain", "disk"});
+    EXPECT_EQ(other.code, 2);
+    EXPECT_THAT(other.err, HasSubstr("--domain: star-discrepancy measures points against the unit "
+                                     "cube, not against disk"));
+    const Outcome two = box.run({"analyze", "star-discrepancy", "h.csv", "h.csv", "--method",
+                                 "bounds", "--max-work", "1", "--tolerance", "0"});
+    EXPECT_EQ(two.code, 0);
+    EXPECT_THAT(two.err, HasSubstr("stipple: h.csv: the star discrepancy is not exact"));
 }
 
 TEST(Analyze, SeveralInputsAndSetsAreAnArrayOrAMean) {

@@ -52,7 +52,8 @@ TEST(Check, AloneAsksWhetherTheSetIsValid) {
             EXPECT_EQ(outcome.code, file == "good.csv" ? 0 : 1) << shown;
             ASSERT_EQ(json::parse(outcome.out)["input"]["source"], file) << shown;
             if (file == "bad.csv")
-                EXPECT_THAT(outcome.err, HasSubstr("bad.csv: valid==true does not hold: it is false\n"));
+                EXPECT_THAT(outcome.err,
+                            HasSubstr("bad.csv: valid==true does not hold: it is false\n"));
             else
                 EXPECT_EQ(outcome.err, "") << shown;
         }
