@@ -188,7 +188,12 @@ constexpr double raised_by = 8.5;
 constexpr std::u32string_view raised_letters = U"⁰¹²³⁴⁵⁶⁷⁸⁹⁻";
 constexpr std::u32string_view plain_letters = U"0123456789−";
 
+/// Letters of Latin-1 from U+00C0 on, without their accents.
+constexpr std::u32string_view bare_letters =
+    U"AAAAAAACEEEEIIIIDNOOOOO×OUUUUYPsaaaaaaaceeeeiiiidnooooo/ouuuuypy";
+
 const Glyph& plain_glyph(char32_t letter) {
+    if (letter >= 0xC0 && letter < 0xC0 + bare_letters.size()) letter = bare_letters[letter - 0xC0];
     const auto it = std::ranges::lower_bound(glyphs, letter, {}, &Glyph::letter);
     return it != glyphs.end() && it->letter == letter ? *it : unknown;
 }

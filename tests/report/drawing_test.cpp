@@ -162,6 +162,9 @@ TEST(Letters, EveryPrintableLetterHasStrokesWithinItsBox) {
     for (const char32_t letter : {U'⁻', U'³', U'×', U'·', U'−', U'…', U'√', U'∞', U'±'})
         EXPECT_NE(strokes_of(letter), strokes_of(U'\uFFFD')) << static_cast<int>(letter);
     EXPECT_TRUE(strokes_of(U' ').empty());
+    EXPECT_EQ(strokes_of(U'é'), strokes_of(U'e'));
+    EXPECT_EQ(strokes_of(U'ÿ'), strokes_of(U'y'));
+    EXPECT_EQ(strokes_of(U'Σ'), strokes_of(U'\uFFFD'));
 }
 
 // A quarter of a circle: the pen stays at its distance from the middle.
