@@ -67,9 +67,9 @@ void take_all(const Json& meta, Provenance& provenance) {
     if (const auto it = meta.find("efficiency"); it != meta.end() && it->is_number())
         provenance.efficiency = it->get<double>();
     take(meta, "command", provenance.command);
-    if (const auto it = meta.find("precision"); it != meta.end() && it->is_number_unsigned())
+    if (const auto it = meta.find("precision"); it != meta.end() && it->is_number_integer())
         provenance.precision =
-            static_cast<int>(std::min<std::uint64_t>(it->get<std::uint64_t>(), 1000));
+            static_cast<int>(std::clamp<std::int64_t>(it->get<std::int64_t>(), 0, 1000));
     if (const auto it = meta.find("dtype"); it != meta.end()) provenance.single = *it == "f32";
     if (const auto it = meta.find("inputs"); it != meta.end() && it->is_object()) {
         provenance.inputs.clear();
