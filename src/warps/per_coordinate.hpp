@@ -150,7 +150,7 @@ class LineDomain final : public Domain, public Gapped {
 template <class Law>
 STIPPLE_WIDE [[gnu::flatten]] void map_numbers(const Law law, std::span<const double> cube,
                                                std::span<double> image) {
-    Pace pace;
+    Pace<> pace;
     for (std::size_t first = 0; first < cube.size(); first += paced) {
         const double* in = cube.data() + first;
         double* out = image.data() + first;

@@ -11,6 +11,7 @@
 //         std::array<double, s> start(const std::array<double, d>& xi) const;  // if in two steps
 //         std::array<double, m> finish(const std::array<double, d>& xi,
 //                                      const std::array<double, s>& start) const;
+//         using Beat = std::uint32_t;   // if two chains side by side do better than four: pace.hpp
 //     };
 //
 // A long forward() is quicker as finish(xi, start(xi)), each in a loop of its own: processors look
@@ -88,6 +89,16 @@ struct Columns {
 struct NoColumns {};
 
 template <class Method>
+struct BeatOf {
+    using type = std::uint16_t;
+};
+template <class Method>
+requires requires { typename Method::Beat; }
+struct BeatOf<Method> {
+    using type = typename Method::Beat;
+};
+
+template <class Method>
 auto start_columns() {
     if constexpr (HasStart<Method>)
         return Columns<start_size(&Method::start)>();
@@ -112,7 +123,7 @@ STIPPLE_WIDE [[gnu::flatten]] void map_rows(const Method method, std::span<const
     constexpr std::size_t m = ArityOf<Method>::image;
     std::array<std::array<double, paced>, m> columns;
     [[maybe_unused]] StartColumns<Method> starts;
-    Pace pace;
+    Pace<typename detail::BeatOf<Method>::type> pace;
     for (std::size_t first = 0; first < cube.size() / d; first += paced) {
         const std::size_t size = std::min(paced, cube.size() / d - first);
         if constexpr (HasStart<Method>) {

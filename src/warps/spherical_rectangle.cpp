@@ -81,6 +81,8 @@ struct Rectangle {
 
 class Urena {
   public:
+    using Beat = std::uint32_t;  ///< for the pace of loops
+
     explicit Urena(const Rectangle& rectangle) : seen_(rectangle) {
         // Turned so that the digits are kept: mostly x <= 0 and y >= 0.
         if (seen_.x0 + seen_.x1 > 0) {
