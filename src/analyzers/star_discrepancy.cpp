@@ -173,7 +173,8 @@ void refine(Report& mean, std::size_t sets, const Values&) {
     };
     drop(mean, "worst_box");
     if (auto* item = mean.find("projections"))
-        for (const char* name : {"is_worst", "worst"}) drop(std::get<Report>(*item), name);
+        for (const char* name : {"is_worst", "worst", "worst_is_certain"})
+            drop(std::get<Report>(*item), name);
 }
 
 }  // namespace

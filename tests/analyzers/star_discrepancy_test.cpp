@@ -1015,6 +1015,7 @@ TEST(StarDiscrepancy, MeansHaveNoWorstBox) {
     Report table = analyze("star-discrepancy", halton(20, 3), {{"projections", "2"}});
     analyzer.refine(table, 2, options);
     EXPECT_EQ(table.find("projections.worst"), nullptr);
+    EXPECT_EQ(table.find("projections.worst_is_certain"), nullptr);
     EXPECT_NE(table.find("projections.value"), nullptr);
 }
 
