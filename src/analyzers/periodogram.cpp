@@ -255,8 +255,10 @@ class Summation final : public Accumulator {
         check_options();
         if (options.given(wisdom)) read_wisdom(options[wisdom]);
         told_ = arrival.count.value_or(0);
-        if (told_ > kept_points || options.given(max_frequency))
-            need_memory(std::max<std::uint64_t>(told_, 1), run);
+        if (told_ <= kept_points) kept_.reserve(told_ * numbers_);
+        const std::uint64_t known = std::max<std::uint64_t>(told_, 1);
+        if (told_ > kept_points || fourier_sums_size(d_, frequency_for(known)) > 1e6)
+            need_memory(known, run);
     }
 
     void add(std::span<const double> rows, const RunContext& run) override {

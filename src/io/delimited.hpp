@@ -65,8 +65,8 @@ std::string_view line_at(const SourceText& text, const char* begin);
 std::vector<PointSet> read_delimited(std::string_view bytes, const ReadOptions& options,
                                      const RunContext& run);
 
-/// The same in blocks; nothing where the front does not show what the columns are. The rows of a set
-/// must stand together.
+/// The same in blocks; nothing where the front does not show what the columns are. The rows of a
+/// set must stand together.
 std::unique_ptr<PointStream> stream_delimited(std::unique_ptr<Feed>& feed,
                                               const ReadOptions& options, const RunContext& run);
 

@@ -60,7 +60,8 @@ double largest_difference(const FourierSums& a, const FourierSums& b) {
 std::size_t frequency_for(std::size_t d) { return d == 1 ? 200 : d == 2 ? 24 : 7; }
 
 /// The definition, one frequency at a time, in extended precision: the oracle's own oracle.
-std::complex<double> by_definition(const Numbers& rows, std::size_t d, std::array<std::int64_t, 3> f) {
+std::complex<double> by_definition(const Numbers& rows, std::size_t d,
+                                   std::array<std::int64_t, 3> f) {
     std::complex<long double> sum;
     for (std::size_t i = 0; i < rows.size(); i += d) {
         long double turns = 0;
