@@ -23,8 +23,8 @@
 //         for 10^6 (all pairs: 0.6 s and 140 s), 8 s for 200 000 in four. 128 (d - 1) bytes a
 //         point.
 // Beware  periodic, wraparound, mixture and diaphony are sums of three such products, so that a
-//         point would have 27 weights in three dimensions: some 17 s for 131 072 points, where all
-//         pairs take 6 s. That is why they are not here.
+//         point would have 27 weights in three dimensions: an estimate of 17 s for 131 072
+//         points, where all pairs take 6 s. That is why they are not here.
 // Promise the same for any number of threads. The square is off by less than 2^-80 and its own
 //         rounding; and by what coordinates lose that are no multiples of 2^-63, most below 2^-10.
 // Source  S. Heinrich, Math. Comp. 65 (1996) 1621-1633, doi:10.1090/S0025-5718-96-00756-4;
