@@ -257,7 +257,8 @@ class Analysis {
     /// The column that --weights names.
     [[nodiscard]] std::string strengths() const {
         const auto* option = options_.try_find("weights");
-        return option && option->given ? std::get<std::string>(option->value) : std::string();
+        const auto* name = option == nullptr ? nullptr : std::get_if<std::string>(&option->value);
+        return name != nullptr && option->given ? *name : std::string();
     }
 
     void add_sets(const std::string& input) {
@@ -474,7 +475,7 @@ class Analysis {
                                                  check.key, check.op, check.value,
                                                  found(check, m.results)));
         }
-        for (const auto& sentence : unmet_) fmt::print(stderr, "stipple: {}\n", sentence);
+        for (const auto& sentence : unmet_) say(fmt::format("stipple: {}\n", sentence));
         return unmet_.empty();
     }
 
@@ -485,7 +486,7 @@ class Analysis {
     int print_what_is_known() const {
         if (averaged_ || path_ != "-") session_.run().check_stop();
         print();
-        fmt::print(stderr, "stipple: interrupted\n");
+        say("stipple: interrupted\n");
         constexpr int exit_code = 130;
         return exit_code;
     }

@@ -89,7 +89,7 @@ bool is_mute() {
 /// One line, and the hint in a second sentence of it.
 int report_error(const std::string& what, const std::string& hint, int code) {
     if (is_mute()) return code;
-    fmt::print(stderr, "stipple: {}{}{}\n", what, hint.empty() ? "" : "; ", hint);
+    say(fmt::format("stipple: {}{}{}\n", what, hint.empty() ? "" : "; ", hint));
     return code;
 }
 

@@ -496,7 +496,7 @@ int say(const Original& original, const Verdict& verdict, const std::string& cha
     }
     // Where the points go to standard output, the verdict does not.
     if (arguments.get("output") == "-")
-        fmt::print(stderr, "{}", text);
+        cli::say(text);
     else
         write_text("-", text);
     return verdict.identical ? 0 : 1;

@@ -106,14 +106,13 @@ void ProgressBar::show(double fraction) {
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const std::string left =
         fraction > 0 ? duration(elapsed * (1 - fraction) / fraction) + " left" : "";
-    fmt::print(stderr, "\r[{:#<{}}{:{}}] {:3.0f} %  {}\033[K", "", filled, "", width - filled,
-               100 * fraction, left);
-    std::fflush(stderr);
+    say(fmt::format("\r[{:#<{}}{:{}}] {:3.0f} %  {}\033[K", "", filled, "", width - filled,
+                    100 * fraction, left));
 }
 
 void ProgressBar::clear() {
     if (!visible_) return;
-    fmt::print(stderr, "\r\033[K");
+    say("\r\033[K");
     visible_ = false;
 }
 
@@ -132,7 +131,12 @@ Session::Session(const Arguments& arguments)
 void Session::warn(const std::string& sentence) {
     if (quiet_) return;
     bar_.clear();
-    fmt::print(stderr, "stipple: {}\n", sentence);
+    say(fmt::format("stipple: {}\n", sentence));
+}
+
+void say(const std::string& text) {
+    std::fwrite(text.data(), 1, text.size(), stderr);
+    std::fflush(stderr);
 }
 
 void catch_interrupts() {

@@ -51,6 +51,9 @@ class Session {
     ProgressBar bar_;
 };
 
+/// Text on stderr; where nobody listens to it (closed, full), that is no error.
+void say(const std::string& text);
+
 /// From now on Ctrl-C and SIGTERM stop a Session's run; a second one ends the program at once.
 void catch_interrupts();
 

@@ -51,8 +51,17 @@ Axis x_axis(const std::vector<ChartPanel>& panels, const PictureStyle& style) {
             .name = last.x_name};
 }
 
+/// Whether the y axis is logarithmic: as asked, but where there are numbers below 0, as of
+/// decibels.
+bool log_upward(const ChartPanel& panel, const PictureStyle& style) {
+    const bool below = std::ranges::any_of(panel.series, [](const Series& series) {
+        return std::ranges::any_of(series.y, [](double y) { return y < 0; });
+    });
+    return below ? panel.log_y : style.log_y.value_or(panel.log_y);
+}
+
 Axis y_axis(const ChartPanel& panel, const PictureStyle& style) {
-    Span span{.log = style.log_y.value_or(panel.log_y)};
+    Span span{.log = log_upward(panel, style)};
     for (const Series& series : panel.series) {
         span.take(series.y);
         span.take(series.low);

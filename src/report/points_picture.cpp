@@ -441,9 +441,11 @@ class PairSheet {
           shown_(std::min(box_.dimension(), most_pair_coordinates)) {
         if (!frame_is_rim(picture)) widen(box_, 0.03);
         const auto columns = static_cast<double>(shown_ - 1);
-        const Axis widest{.low = box_.low[1], .high = box_.high[1], .name = "x"};
-        left_ = std::ceil(margin / 2 + Panel::room_left(widest, 200));
-        below_ = Panel::room_below(widest) + margin;
+        double room = 0;
+        for (std::size_t j = 1; j < shown_; ++j)
+            room = std::max(room, Panel::room_left(axis(j), 200));
+        left_ = std::ceil(margin / 2 + room);
+        below_ = Panel::room_below(axis(1)) + margin;
         const double across = page_.drawing.width - left_ - margin - (columns - 1) * gap;
         side_ = across / columns;
         if (style.height > 0)
@@ -452,6 +454,11 @@ class PairSheet {
         side_ = std::max(std::floor(side_), 30.0);
         if (style.height <= 0)
             page_.drawing.height = page_.top + 4 + columns * side_ + (columns - 1) * gap + below_;
+    }
+
+    /// Of coordinate j, drawn upward.
+    [[nodiscard]] Axis axis(std::size_t j) const {
+        return {.low = box_.low[j], .high = box_.high[j], .name = names_[j]};
     }
 
     Drawing draw() {

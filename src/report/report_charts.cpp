@@ -131,11 +131,16 @@ std::vector<Background> noise_band(Measurements ms) {
     return {band};
 }
 
+/// The anisotropy of independent points, where it is the same for all: in dB, -10 log10 of the sets
+/// that were averaged; of a table of pairs' differences, of the pairs that a pixel has of them.
 Guide noise_anisotropy(Measurements ms) {
-    const bool same =
-        std::ranges::all_of(ms, [&](const Measurement& m) { return m.sets == ms[0].sets; });
-    if (!same) return {};
-    const double expected = -10 * std::log10(static_cast<double>(ms[0].sets)) + 0.0;
+    const auto expected_of = [](const Measurement& m) {
+        const double pairs = number_at(m.results, "expected_differences").value_or(1);
+        return -10 * std::log10(pairs * static_cast<double>(m.sets)) + 0.0;
+    };
+    const double expected = expected_of(ms[0]);
+    if (!std::ranges::all_of(ms, [&](const auto& m) { return expected_of(m) == expected; }))
+        return {};
     return {
         .name = fmt::format("white noise: {} dB", rounded(expected, 3)), .x = {}, .y = {expected}};
 }
@@ -165,10 +170,22 @@ std::string summary_of_spectrum(Measurements ms) {
     return text;
 }
 
+/// An option of the analyzer; empty where the report does not tell.
+std::string option_of(const Measurement& m, std::string_view name) {
+    const auto at = std::ranges::find(m.options, name, &std::pair<std::string, std::string>::first);
+    return at == m.options.end() ? "" : at->second;
+}
+
 Chart spectrum_chart(Measurements ms) {
     Chart chart = titled("Power spectrum", ms);
     chart.subtitle = noted(chart.subtitle, summary_of_spectrum(ms));
-    ChartPanel power{.x_name = "frequency",
+    if (const std::string window = option_of(ms[0], "window"); !window.empty() && window != "none")
+        chart.subtitle = noted(chart.subtitle, "window " + window);
+    if (const std::string weights = option_of(ms[0], "weights"); !weights.empty())
+        chart.subtitle = noted(chart.subtitle, "weights " + weights);
+    const bool normalized = option_of(ms[0], "normalize-frequency") == "true";
+    const std::string x_name = normalized ? "frequency / n^(1/d)" : "frequency";
+    ChartPanel power{.x_name = x_name,
                      .y_name = "radial power",
                      .series = series_of(ms, "radial.", "frequency", "power"),
                      .backgrounds = noise_band(ms),
@@ -181,7 +198,7 @@ Chart spectrum_chart(Measurements ms) {
     if (power.series.empty() || !finite_in(power.series, top))
         fail(ErrorKind::input, "the report of periodogram has no curve radial.power");
     power.log_y = top > log_above;
-    ChartPanel anisotropy{.x_name = "frequency",
+    ChartPanel anisotropy{.x_name = x_name,
                           .y_name = "anisotropy (dB)",
                           .series = series_of(ms, "radial.", "frequency", "anisotropy_db")};
     make_gaps(anisotropy.series);
@@ -196,9 +213,7 @@ Chart spectrum_chart(Measurements ms) {
 Chart pair_correlation_chart(Measurements ms) {
     Chart chart = titled("Pair correlation", ms);
     const Measurement& first = ms[0];
-    const auto scaled = std::ranges::find(first.options, "normalize-distance",
-                                          &std::pair<std::string, std::string>::first);
-    const bool normalized = scaled != first.options.end() && scaled->second == "true";
+    const bool normalized = option_of(first, "normalize-distance") == "true";
     ChartPanel panel{.x_name = normalized ? "distance / mean distance" : "distance",
                      .y_name = "pair correlation g",
                      .series = series_of(ms, "", "distance", "density"),
@@ -380,7 +395,8 @@ ChartPanel curve_panel(Measurements ms, const CurveGroup& group, const std::stri
     const bool counts = group.x == "count" || group.x == "n";
     if (counts) panel.x_name = "points n";
     panel.log_x = counts || y == "variance" || y == "dispersion";
-    panel.log_y = panel.log_x && (counts || wants_log(panel.series)) && positive(panel.series);
+    const bool steep = counts || y == "variance" || wants_log(panel.series);
+    panel.log_y = panel.log_x && steep && positive(panel.series);
     for (Series& series : panel.series) series.marks = series.x.size() <= 40;
     if (counts && panel.log_y && !panel.series.empty()) panel.guides = slopes(panel.series);
     if (group.x == "neighbors" && !panel.series.empty()) make_bars(panel);

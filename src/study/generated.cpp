@@ -96,6 +96,7 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
     PointSet points = make_points(generator_, request, options_, run);
     if (!chain_->empty()) points = image_of(points, *chain_for(set, run), request_.start, run);
     points.domain = chain_->domain();
+    points.provenance.generator = generator_.name;
     return points;
 }
 

@@ -198,8 +198,7 @@ bool StudyFile::read_entry(std::istream& in, std::uint64_t offset) {
     const auto size = std::accumulate(waiting.bytes.begin(), waiting.bytes.end(), std::size_t{0});
     std::string text(size, '\0');
     in.read(text.data(), static_cast<std::streamsize>(size));
-    if (!in || in.peek() == std::istream::traits_type::eof()) in.clear();
-    if (static_cast<std::size_t>(in.gcount()) < size && size > 0) return false;
+    if (static_cast<std::size_t>(in.gcount()) < size) return false;
     const auto first = entry["first"].get<std::uint64_t>();
     done_.add({first, first + waiting.bytes.size()});
     waiting_.emplace(first, std::move(waiting));

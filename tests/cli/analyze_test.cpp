@@ -214,16 +214,11 @@ TEST(Analyze, AveragesSetsOfDifferentSizesWhereThatMeansSomething) {
     const Sandbox box;
     good(box.run({"generate", "sobol", "-n", "128", "-o", "a.csv"}));
     good(box.run({"generate", "sobol", "-n", "1024", "-o", "b.csv"}));
-    const Outcome spectra = box.run({"analyze", "periodogram", "a.csv", "b.csv", "--average"});
-    EXPECT_EQ(spectra.code, 2);
-    EXPECT_EQ(spectra.err,
-              "stipple: --average: the spectra have different frequencies, as the sets have "
-              "different numbers of points; give them one --max-frequency\n");
-    for (const std::vector<std::string>& more :
-         {std::vector<std::string>{"periodogram", "--max-frequency", "20"},
-          {"chi-square"},
-          {"star-discrepancy"},
-          {"t-value"}}) {
+    for (const std::vector<std::string>& more : {std::vector<std::string>{"periodogram"},
+                                                 {"periodogram", "--max-frequency", "20"},
+                                                 {"chi-square"},
+                                                 {"star-discrepancy"},
+                                                 {"t-value"}}) {
         std::vector<std::string> words{"analyze", "a.csv", "b.csv", "--average"};
         words.insert(words.begin() + 1, more.begin(), more.end());
         const Outcome outcome = box.run(words);

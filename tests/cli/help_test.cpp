@@ -120,8 +120,9 @@ TEST(Help, SaysWhatDomainsAnAnalyzerTakes) {
         EXPECT_THAT(box.run({"list", "analyzers"}).out, HasSubstr(domains)) << unit;
     }
     const auto all = nlohmann::json::parse(box.run({"list", "--json"}).out);
-    const std::set<std::string> boxed = {"coverage",     "differential",     "hyperuniformity",
-                                         "poisson-disk", "pair-correlation", "voronoi"};
+    const std::set<std::string> boxed = {"coverage",         "differential", "hyperuniformity",
+                                         "pair-correlation", "periodogram",  "poisson-disk",
+                                         "voronoi"};
     for (const auto& unit : all["analyzers"])
         EXPECT_EQ(unit["traits"]["boxed"], boxed.contains(unit["name"])) << unit["name"];
 }

@@ -295,6 +295,24 @@ TEST(Study, ResumeAfterAKillGivesTheSameBytes) {
     EXPECT_EQ(box.files(), (std::vector<std::string>{"cut.csv", "whole.csv"}));
 }
 
+// Dear pieces are done first, and wait in the journal for their place: a study that is stopped
+// again and again must not lose them.
+TEST(Study, ResumeKeepsWhatWaitsInTheJournal) {
+    const Sandbox box;
+    const std::string study =
+        "stipple study --generators 'random;poisson-disk' -n 2000..5000+300 --seeds 4 --analyze "
+        "star-discrepancy --quiet -o study.csv --resume & pid=$!; ";
+    const std::string rows = "cat study.csv* | grep -c -e '^random' -e '^poisson'";
+    (void)box.shell(study +
+                    "until [ $(wc -l < study.csv.journal) -gt 9 ]; do kill -0 $pid || break; done; "
+                    "kill -9 $pid; wait $pid");
+    ASSERT_TRUE(box.exists("study.csv.journal"));
+    const int before = std::stoi(good(box.shell(rows)));
+    EXPECT_GT(before, 5);
+    (void)box.shell(study + "sleep 0.1; kill -9 $pid; wait $pid");
+    EXPECT_GE(std::stoi(good(box.shell(rows))), before);
+}
+
 TEST(Study, InterruptKeepsWhatIsDoneAndExits130) {
     const Sandbox box;
     const Outcome outcome = box.shell(
