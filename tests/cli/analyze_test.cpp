@@ -210,6 +210,32 @@ TEST(Analyze, TheInverseOfAWarpGivesTheSetBack) {
                 1e-13);
 }
 
+// An option of this name is a column of strengths for periodogram, and numbers for discrepancies.
+TEST(Analyze, TakesWeightsOfEitherKind) {
+    const Sandbox box;
+    good(box.run({"generate", "random", "-n", "20", "-o", "p.csv"}));
+    const auto star = [&box](const char* unit, const std::vector<std::string>& more) {
+        std::vector<std::string> words{"analyze", unit, "p.csv"};
+        words.insert(words.end(), more.begin(), more.end());
+        return report_of(box.run(words))["results"]["star"]["squared"].get<double>();
+    };
+    const double ones = star("l2-discrepancy", {"--weights", "1,1"});
+    EXPECT_GT(ones, star("l2-discrepancy:weights=[0.5,1]", {}));
+    EXPECT_GT(ones, star("l2-discrepancy", {}));  // with the discrepancies of both axes
+    EXPECT_EQ(star("l2-discrepancy", {"--weights", "0,0"}), 0);
+    EXPECT_EQ(box.run({"analyze", "l2-discrepancy", "p.csv", "--weights", "1"}).code, 2);
+    EXPECT_EQ(box.run({"analyze", "periodogram", "p.csv", "--weights", "z"}).code, 2);
+}
+
+TEST(Analyze, KnowsOfGeneratedPointsThatTheyAreIndependent) {
+    const Sandbox box;
+    const auto made = report_of(
+        box.run({"analyze", "integration", "--generate", "random", "-n", "100", "-w", "disk"}));
+    good(box.run({"generate", "random", "-n", "100", "-w", "disk", "-o", "p.json"}));
+    const auto read = report_of(box.run({"analyze", "integration", "p.json"}));
+    EXPECT_EQ(made["results"], read["results"]);
+}
+
 TEST(Analyze, AveragesSetsOfDifferentSizesWhereThatMeansSomething) {
     const Sandbox box;
     good(box.run({"generate", "sobol", "-n", "128", "-o", "a.csv"}));

@@ -41,6 +41,16 @@ std::string npy_header() {
 
 }  // namespace
 
+// A full, a closed and a deaf standard error.
+TEST(BadInput, ExitCodesHoldWhereNobodyHearsTheMessage) {
+    const Sandbox box;
+    for (const char* where : {"2>/dev/full", "2>&-", "2>&1 | true"}) {
+        const Outcome outcome =
+            box.shell(std::string("set -o pipefail; stipple generate nosuch ") + where);
+        EXPECT_EQ(outcome.code, 2) << where << outcome.err;
+    }
+}
+
 TEST(BadInput, NoSuchFile) {
     const Sandbox box;
     expect_refusal(box.run({"analyze", "star-discrepancy", "none.csv"}), 4, "none.csv");
