@@ -110,6 +110,18 @@ double fraction_before(std::span<const double> sums, std::size_t cell, double wa
     return std::min((wanted - before) / (sums[cell] - before), one_minus_ulp);
 }
 
+/// first_above() for a bucket of few sums, most often: a look at no sum beyond it, which would be
+/// on another line of memory.
+std::size_t first_of_few(std::span<const double> sums, std::size_t low, std::size_t high,
+                         double w) {
+    constexpr std::size_t few = 4;
+    if (high - low >= few) [[unlikely]]
+        return first_above(sums, low, high, w);
+    const std::size_t last = sums.size() - 1;
+    low += sums[std::min(low + 1, last)] <= w ? 2 : 0;
+    return low + (sums[std::min(low, last)] <= w ? 1 : 0);
+}
+
 /// The share of the total that lies before a place in a cell.
 double share_before(std::span<const double> sums, std::size_t cell, double fraction) {
     if (!(sums.back() > 0)) return 0;
@@ -196,7 +208,7 @@ inline DensityMap::Visit DensityMap::visit(double u, double v) const {
     const double mass = std::min(v * column_.back(), most_);
     const std::size_t bucket = column_buckets_.of(mass);
     const std::size_t row =
-        first_above(column_, column_guide_[bucket], column_guide_[bucket + 1], mass);
+        first_of_few(column_, column_guide_[bucket], column_guide_[bucket + 1], mass);
     const double wanted = std::min(u * rows_[row].total, rows_[row].most);
     return {row, row * row_guide_size_ + rows_[row].buckets.of(wanted), wanted,
             coordinate(row, fraction_before(column_, row, mass), height_)};
@@ -205,7 +217,7 @@ inline DensityMap::Visit DensityMap::visit(double u, double v) const {
 inline double DensityMap::across(const Visit& visit) const {
     const auto sums = std::span(row_sums_).subspan(visit.row * width_, width_);
     const std::size_t cell =
-        first_above(sums, row_guides_[visit.bucket], row_guides_[visit.bucket + 1], visit.wanted);
+        first_of_few(sums, row_guides_[visit.bucket], row_guides_[visit.bucket + 1], visit.wanted);
     return coordinate(cell, fraction_before(sums, cell, visit.wanted), width_);
 }
 
@@ -226,8 +238,8 @@ std::array<double, 2> DensityMap::place(double u, double v) const {
 /// way from memory at a time.
 [[gnu::flatten]] void DensityMap::place_all(std::span<const double> cube,
                                             std::span<double> image) const {
-    constexpr std::size_t ahead = 4;
-    constexpr std::size_t ring = 16;  // a power of two above 2 * ahead
+    constexpr std::size_t ahead = 8;
+    constexpr std::size_t ring = 32;  // a power of two above 2 * ahead
     std::array<Visit, ring> visits;
     const std::size_t count = cube.size() / 2;
     for (std::size_t i = 0; i < count + 2 * ahead; ++i) {
@@ -238,7 +250,10 @@ std::array<double, 2> DensityMap::place(double u, double v) const {
         }
         if (i >= ahead && i - ahead < count) {
             const Visit& next = visits[(i - ahead) % ring];
-            __builtin_prefetch(&row_sums_[next.row * width_ + row_guides_[next.bucket]]);
+            // The bucket's sums and the one before may lie on two lines of memory.
+            const std::size_t sum = next.row * width_ + row_guides_[next.bucket];
+            __builtin_prefetch(&row_sums_[std::max<std::size_t>(sum, 1) - 1]);
+            __builtin_prefetch(&row_sums_[std::min(sum + 2, row_sums_.size() - 1)]);
         }
         if (i >= 2 * ahead) {
             const std::size_t at = i - 2 * ahead;
