@@ -30,7 +30,6 @@ void expect_whole(const Sandbox& box, const std::string& prefix) {
                 HasSubstr("-rwxr-xr-x root/root"));
 }
 
-// dpkg itself puts it down, into a system of its own that knows no other package.
 /// dpkg itself puts it down, into a system of its own that knows no other package, and takes it
 /// away.
 void expect_that_dpkg_takes_it(const Sandbox& box) {
