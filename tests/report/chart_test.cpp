@@ -321,7 +321,8 @@ TEST(Chart, GapsSplitACurve) {
              .y_name = "y",
              .series = {{.name = "a", .x = {1, 2, 3, 4, 5}, .y = {1, 2, std::nan(""), 3, 4}}}}}};
     int curves = 0;
-    for (const Line* line : shapes_of<Line>(draw_chart(chart, {})))
+    const Drawing drawing = draw_chart(chart, {});
+    for (const Line* line : shapes_of<Line>(drawing))
         curves += !line->crisp && line->width > 1.5 ? 1 : 0;
     EXPECT_EQ(curves, 2);
 }
