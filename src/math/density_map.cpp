@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "math/density_map.hpp"
 
-#include <sys/mman.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/file_bytes.hpp"
+#include "core/large_pages.hpp"
 #include "core/npy_header.hpp"
 #include "core/rng.hpp"
 #include "core/text.hpp"
@@ -134,10 +133,7 @@ double share_before(std::span<const double> sums, std::size_t cell, double fract
 template <class Number>
 void fill_with_zeros(std::vector<Number>& numbers, std::size_t count) {
     numbers.reserve(count);
-    constexpr std::uintptr_t page = 4096;
-    const auto from = (reinterpret_cast<std::uintptr_t>(numbers.data()) + page - 1) / page * page;
-    const auto to = reinterpret_cast<std::uintptr_t>(numbers.data() + count) / page * page;
-    if (to > from) madvise(reinterpret_cast<void*>(from), to - from, MADV_HUGEPAGE);
+    ask_for_large_pages(numbers.data(), count * sizeof(Number));
     numbers.resize(count);
 }
 
