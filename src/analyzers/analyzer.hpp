@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/options.hpp"
@@ -74,6 +75,7 @@ struct Analyzer {
     AnalyzerTraits traits;
     Schema options;
     std::vector<ResultKey> results;
+    std::string_view strengths = {};  ///< option naming their column, if there is one
 
     /// Measures one set. Dimension and domain were checked against the traits before. Empty where
     /// `accumulate` does it.

@@ -287,12 +287,10 @@ void refine(Report& mean, std::size_t, const Values&) {
 
 /// A mean over pixels of different sizes is none.
 void combine(Report&, std::span<const Report> sets, const Values&) {
-    const double first = sets[0].number("pixel");
-    for (const Report& set : sets)
-        if (std::abs(set.number("pixel") - first) > 1e-9 * first)
-            fail_with_hint(ErrorKind::usage, "give them one --max-distance",
-                           "--average: the sets' images reach to different distances, as small "
-                           "sets do not have large ones");
+    if (!alike(sets, "pixel"))
+        fail_with_hint(ErrorKind::usage, "give them one --max-distance",
+                       "--average: the sets' images reach to different distances, as small "
+                       "sets do not have large ones");
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include "analyzers/distances.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "analyzers/outside.hpp"
@@ -75,6 +76,12 @@ void require_places(const PointSet& points, const char* analyzer) {
         if (!std::ranges::equal(points[i], points[0])) return;
     fail(ErrorKind::input, "{} needs points at two places at least; all {} are at one", analyzer,
          points.count());
+}
+
+bool alike(std::span<const Report> sets, std::string_view key) {
+    const double first = sets[0].number(key);
+    return std::ranges::all_of(
+        sets, [&](const Report& set) { return std::abs(set.number(key) - first) <= 1e-9 * first; });
 }
 
 std::vector<Neighbor> nearest_neighbors(const PointSet& points, const Distances& distances,

@@ -5,12 +5,15 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/domain.hpp"
 #include "core/options.hpp"
 #include "core/point_set.hpp"
+#include "core/report.hpp"
 #include "core/run_context.hpp"
 #include "math/kd_tree.hpp"
 
@@ -43,6 +46,9 @@ Distances distances_in_box(const PointSet& points, const std::string& asked, con
 
 /// @throws Error(input) unless there are points at two places at least
 void require_places(const PointSet& points, const char* analyzer);
+
+/// Whether all sets that are to be averaged have the same number under a key, but for rounding.
+bool alike(std::span<const Report> sets, std::string_view key);
 
 /// Every point's nearest other one. A single point is its own neighbour on the torus, across the
 /// shortest side; elsewhere it has none, at an infinite distance. @throws Error(limit, cancelled)

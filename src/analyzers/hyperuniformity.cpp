@@ -309,13 +309,7 @@ void refine(Report& mean, std::size_t, const Values&) {
 
 /// Nor is a mean over different radii any.
 void combine(Report&, std::span<const Report> sets, const Values&) {
-    const auto differs = [&](const char* key) {
-        const double first = sets[0].number(key);
-        return std::ranges::any_of(sets, [&](const Report& set) {
-            return std::abs(set.number(key) - first) > 1e-9 * first;
-        });
-    };
-    if (differs("fit_from") || differs("fit_to"))
+    if (!alike(sets, "fit_from") || !alike(sets, "fit_to"))
         fail_with_hint(ErrorKind::usage, "give them one --min-radius and --max-radius",
                        "--average: the sets have windows of different radii, as they have "
                        "different numbers of points");

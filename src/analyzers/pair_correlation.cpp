@@ -260,12 +260,10 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
 
 /// A mean over different distances is none.
 void combine(Report&, std::span<const Report> sets, const Values&) {
-    const double first = sets[0].number("bin_width");
-    for (const Report& set : sets)
-        if (std::abs(set.number("bin_width") - first) > 1e-9 * first)
-            fail_with_hint(ErrorKind::usage, "give one --max-distance, or --normalize-distance",
-                           "--average: the sets differ in their number of points or their box, "
-                           "and so in the distances looked at");
+    if (!alike(sets, "bin_width"))
+        fail_with_hint(ErrorKind::usage, "give one --max-distance, or --normalize-distance",
+                       "--average: the sets differ in their number of points or their box, "
+                       "and so in the distances looked at");
 }
 
 }  // namespace

@@ -500,6 +500,7 @@ Analyzer periodogram() {
         .options = Schema(max_frequency, method, tolerance, normalize, window, weights, grid_file,
                           image_file, image_scale, image_bits, slice, wisdom),
         .results = results(),
+        .strengths = weights.name,
         .accumulate =
             [](const Arrival& arrival, const Values& options, const RunContext& run) {
                 return std::make_unique<Summation>(arrival, options, run);

@@ -254,11 +254,10 @@ class Analysis {
                 .options = shown_options_};
     }
 
-    /// The column that --weights names.
+    /// The column of strengths that was asked for.
     [[nodiscard]] std::string strengths() const {
-        const auto* option = options_.try_find("weights");
-        const auto* name = option == nullptr ? nullptr : std::get_if<std::string>(&option->value);
-        return name != nullptr && option->given ? *name : std::string();
+        const auto* option = options_.try_find(analyzer_.strengths);
+        return option != nullptr && option->given ? std::get<std::string>(option->value) : "";
     }
 
     void add_sets(const std::string& input) {
