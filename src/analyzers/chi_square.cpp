@@ -54,10 +54,10 @@
 #include <mutex>
 #include <optional>
 
-#include "analyzers/analyzer.hpp"
 #include "analyzers/cell_grid.hpp"
 #include "analyzers/outside.hpp"
 #include "analyzers/pearson.hpp"
+#include "analyzers/shared.hpp"
 #include "analyzers/verdict.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -104,6 +104,15 @@ class Tally {
             ++counts_[cell_of(cubes.subspan(i, width), grid_)];
         for (std::size_t i = 0; i < cubes.size() && !shifted_.empty(); i += width)
             ++shifted_[shifted_cell_of(cubes.subspan(i, width), grid_)];
+    }
+
+    void pack(Packer& to) const { to.put_all(counts_).put_all(shifted_); }
+
+    void merge(Unpacker& from) {
+        for (auto* mine : {&counts_, &shifted_}) {
+            const auto more = from.take_all<std::uint64_t>();
+            for (std::size_t i = 0; i < more.size(); ++i) (*mine)[i] += more[i];
+        }
     }
 
     /// The fewest points that it is the grid of.
@@ -165,7 +174,7 @@ Report shifted_report(const Fit& fit) {
 }
 
 /// Counts points in cells as they come.
-class Counter final : public Accumulator {
+class Counter final : public SharedAccumulator {
   public:
     Counter(const Arrival& arrival, const Values& options, const RunContext& run)
         : domain_(arrival.domain), options_(options), axes_(domain_->cube_dimension()) {
@@ -185,7 +194,7 @@ class Counter final : public Accumulator {
         const std::uint64_t count = rows.size() / d;
         const std::size_t block = std::max<std::size_t>(1, 16384 / d);
         for_each_block(run, count, block, [&](const Block& b) {
-            take(rows.subspan(b.first * d, (b.last - b.first) * d), n_ + b.first);
+            take(rows.subspan(b.first * d, (b.last - b.first) * d), first_ + n_ + b.first);
         });
         n_ += count;
         if (tallies_.empty() && n_ > held_points) lay_grids(run);
@@ -199,6 +208,23 @@ class Counter final : public Accumulator {
             tallies_[0].add(held_, width_);
         }
         return judged(tallies_[0], run);
+    }
+
+    void begin_at(std::uint64_t first, std::span<const double>) override { first_ = first; }
+
+    std::string state(const RunContext&) override {
+        Packer packer;
+        packer.put(n_);
+        outside_.pack(packer);
+        tallies_.front().pack(packer);
+        return packer.take();
+    }
+
+    void merge(std::string_view state, const RunContext&) override {
+        Unpacker from(state);
+        n_ += from.take<std::uint64_t>();
+        outside_.add(Outside::unpacked(from));
+        tallies_.front().merge(from);
     }
 
   private:
@@ -262,7 +288,8 @@ class Counter final : public Accumulator {
     DomainPtr domain_;
     Values options_;
     std::size_t axes_;
-    std::size_t width_ = 0;  ///< coordinates of the cube that are kept; 0: all
+    std::uint64_t first_ = 0;  ///< index of the first point that comes
+    std::size_t width_ = 0;    ///< coordinates of the cube that are kept; 0: all
     std::uint64_t n_ = 0;
     std::vector<Tally> tallies_;
     std::vector<double> held_;
@@ -348,6 +375,12 @@ std::vector<ResultKey> results() {
 }
 
 }  // namespace
+
+Sharing chi_square_sharing() {
+    return {.grain = [](const Arrival& arrival, const Values&) {
+        return std::uint64_t{arrival_batch(arrival.dimension())};
+    }};
+}
 
 Analyzer chi_square() {
     return {.name = "chi-square",

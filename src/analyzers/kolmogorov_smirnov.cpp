@@ -11,20 +11,33 @@
 // combined by 1 - (1 - p)^T of its smallest p (Sidak): exact, as the axes of random points are
 // independent. Several sets are combined in the same way.
 //
-// Shape   points n x d on any domain whose coordinates preserve probability (all but a few).
-// Cost    O(n) time, about 45 ns a point for each axis; 32 bytes a point and 8 for each axis
-//         besides the points; half a second for each axis at most for the distribution.
-// Promise D is exact up to the rounding of i/n; on the unit interval it is the star discrepancy. p
-//         is exact up to 10^4 points (relative error below 1e-9), and within 1e-9 above.
+// Sets of more than 2^26 coordinates (--exact-points says otherwise) are not kept: the points are
+// counted in 2^26 / d cells of each axis, a power of two, of which the ends are exact. There D is a
+// maximum over the ends of cells, and below what it is by no more than
+//
+//     statistic_error = the longest way from one end of a cell to the next, of i/n and of u,
+//
+// about 2^-25 d + 1/n times the points of the fullest cell.
+//
+// Shape   points n x d on any domain whose coordinates preserve probability (all but a few), also
+//         in pieces.
+// Cost    O(n) time, about 45 ns a point for each axis; 1.5 GiB at most, however many points there
+//         are; half a second for each axis at most for the distribution.
+// Promise where statistic_error is 0, D is exact up to the rounding of i/n; on the unit interval it
+//         is the star discrepancy. p is exact up to 10^4 points (relative error below 1e-9), and
+//         within 1e-9 above. The same for any number of threads, and however points are portioned.
 // Beware  one axis by itself tells nothing of how coordinates depend on each other.
 // Source  A. N. Kolmogorov, Giornale dell'Istituto Italiano degli Attuari 4 (1933) 83-91.
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <limits>
+#include <memory>
 
-#include "analyzers/analyzer.hpp"
 #include "analyzers/cube_rows.hpp"
 #include "analyzers/kolmogorov.hpp"
+#include "analyzers/shared.hpp"
 #include "analyzers/verdict.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -32,6 +45,24 @@
 
 namespace stipple::analyzers {
 namespace {
+
+constexpr Param<std::int64_t> exact_points{
+    .name = "exact-points",
+    .low = 1,
+    .high = std::numeric_limits<std::uint32_t>::max(),
+    .optional = true,
+    .unit = "points",
+    .help =
+        "Sets of up to so many points are kept and sorted; larger ones are counted in cells "
+        "[default: 2^26 / d]"};
+
+constexpr std::uint64_t most_numbers = std::uint64_t{1} << 26;  // kept, and cells of all axes
+
+/// D, at least, and what it may be above that.
+struct Distance {
+    double statistic = 0;
+    double error = 0;
+};
 
 double statistic_of(std::span<const Placed> sorted) {
     const auto n = static_cast<double>(sorted.size());
@@ -43,6 +74,24 @@ double statistic_of(std::span<const Placed> sorted) {
     return most;
 }
 
+/// From the counts of equal cells.
+Distance distance_of(std::span<const std::uint64_t> cells, double n) {
+    const double width = 1 / static_cast<double>(cells.size());
+    Distance found;
+    double most = 0;
+    std::uint64_t below = 0;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        const double left = static_cast<double>(i) * width;
+        const double before = static_cast<double>(below) / n;
+        below += cells[i];
+        const double behind = static_cast<double>(below) / n;
+        found.statistic = std::max(found.statistic, std::abs(before - left));
+        most = std::max({most, behind - left, left + width - before});
+    }
+    found.error = std::max(0.0, most - found.statistic);
+    return found;
+}
+
 /// The combined p-value, and what it means.
 void conclude(Report& report, const Tails& all, const Values& options) {
     report.add("combined_p_value", all.two_sided())
@@ -52,41 +101,120 @@ void conclude(Report& report, const Tails& all, const Values& options) {
     add_verdict(report, verdict, all.two_sided(), options[expect_uniformity_option]);
 }
 
-Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
-    const Domain& domain = *points.domain;
-    require_even(domain, "kolmogorov-smirnov");
-    const std::uint64_t n = points.count();
-    const std::size_t axes = domain.cube_dimension();
-    run.need_memory((32.0 + 8.0 * static_cast<double>(axes)) * static_cast<double>(n),
-                    "the sorted coordinates");
-    if (n > std::numeric_limits<std::uint32_t>::max())
-        fail(ErrorKind::limit, "kolmogorov-smirnov takes at most {} points; these are {}",
-             std::numeric_limits<std::uint32_t>::max(), n);
-    RunContext quiet = run;
-    quiet.progress = {};
-    Outside outside;
-    const auto cubes = cube_rows(domain, points.flat(), 0, outside, quiet);
-    if (outside.count > 0) refuse(outside, n, domain, outside_hint(domain));
-    Report::Curve statistic, p, upper, lower;
-    std::vector<Tails> tails;
-    std::vector<Placed> sorted(n);
-    for (std::size_t k = 0; k < axes; ++k) {
-        for (std::uint64_t i = 0; i < n; ++i) sorted[i] = {cubes[i * axes + k] + 0.0, 0};  // no -0
-        radix_sort(sorted, run);
-        statistic.push_back(statistic_of(sorted));
-        tails.push_back(kolmogorov_tails(n, statistic.back(), run));
-        p.push_back(tails.back().two_sided());
-        upper.push_back(tails.back().upper);
-        lower.push_back(tails.back().lower);
-        run.tick(k + 1, axes);
+/// Keeps the coordinates of the cube while they are few, and counts them when they are many.
+class Collector final : public SharedAccumulator {
+  public:
+    Collector(const Arrival& arrival, const Values& options, const RunContext& run)
+        : domain_(arrival.domain), options_(options), axes_(domain_->cube_dimension()) {
+        require_even(*domain_, "kolmogorov-smirnov");
+        most_ = options.given(exact_points) ? static_cast<std::uint64_t>(options[exact_points])
+                                            : most_numbers / axes_;
+        cells_ = std::bit_floor(std::max<std::uint64_t>(most_numbers / axes_, 4096));
+        if (!arrival.count) return;
+        const auto kept = static_cast<double>(std::min(*arrival.count, most_));
+        run.need_memory((32.0 + 8.0 * static_cast<double>(axes_)) * kept, "the sorted coordinates");
+        if (*arrival.count > most_) count_from_now(run);
     }
-    Report report;
-    tell_axes(domain, report);
-    report.add("statistic", std::move(statistic)).add("p_value", std::move(p));
-    report.add("p_upper", std::move(upper)).add("p_lower", std::move(lower));
-    conclude(report, sidak(tails), options);
-    return report;
-}
+
+    void begin_at(std::uint64_t first, std::span<const double>) override { first_ = first; }
+
+    void add(std::span<const double> rows, const RunContext& run) override {
+        const auto cubes = cube_rows(*domain_, rows, first_ + n_, outside_, run);
+        n_ += rows.size() / domain_->dimension();
+        if (outside_.count > 0) return;
+        if (counts_.empty() && n_ > most_) count_from_now(run);
+        if (counts_.empty())
+            kept_.insert(kept_.end(), cubes.begin(), cubes.end());
+        else
+            count(cubes, run);
+    }
+
+    Report report(const RunContext& run) override {
+        if (outside_.count > 0) refuse(outside_, n_, *domain_, outside_hint(*domain_));
+        Report::Curve statistic, error, p, upper, lower;
+        std::vector<Tails> tails;
+        std::vector<Placed> sorted(counts_.empty() ? n_ : 0);
+        for (std::size_t k = 0; k < axes_; ++k) {
+            const Distance found = distance(k, sorted, run);
+            statistic.push_back(found.statistic);
+            error.push_back(found.error);
+            tails.push_back(kolmogorov_tails(n_, found.statistic, run));
+            p.push_back(tails.back().two_sided());
+            upper.push_back(tails.back().upper);
+            lower.push_back(tails.back().lower);
+        }
+        Report report;
+        tell_axes(*domain_, report);
+        report.add("statistic", std::move(statistic)).add("statistic_error", std::move(error));
+        report.add("p_value", std::move(p));
+        report.add("p_upper", std::move(upper)).add("p_lower", std::move(lower));
+        conclude(report, sidak(tails), options_);
+        return report;
+    }
+
+    std::string state(const RunContext&) override {
+        Packer packer;
+        packer.put(n_);
+        outside_.pack(packer);
+        packer.put_all(kept_).put_all(counts_);
+        return packer.take();
+    }
+
+    void merge(std::string_view state, const RunContext&) override {
+        Unpacker from(state);
+        n_ += from.take<std::uint64_t>();
+        outside_.add(Outside::unpacked(from));
+        const auto kept = from.take_all<double>();
+        kept_.insert(kept_.end(), kept.begin(), kept.end());
+        const auto counts = from.take_all<std::uint64_t>();
+        for (std::size_t i = 0; i < counts.size(); ++i) counts_[i] += counts[i];
+    }
+
+  private:
+    /// Points will be too many to keep.
+    void count_from_now(const RunContext& run) {
+        run.need_memory(8.0 * static_cast<double>(axes_ * cells_), "the cells of all axes");
+        counts_.resize(axes_ * cells_);
+        count(kept_, run);
+        kept_ = {};
+    }
+
+    /// Every axis on a thread: its counts are its own.
+    void count(std::span<const double> cubes, const RunContext& run) {
+        const auto cells = static_cast<double>(cells_);
+        for_each_block(
+            run, axes_, 1,
+            [&](const Block& axis) {
+                std::uint64_t* counts = counts_.data() + axis.first * cells_;
+                for (std::size_t i = axis.first; i < cubes.size(); i += axes_)
+                    ++counts[std::min(static_cast<std::uint64_t>(cubes[i] * cells), cells_ - 1)];
+            },
+            true);
+    }
+
+    [[nodiscard]] Distance distance(std::size_t axis, std::vector<Placed>& sorted,
+                                    const RunContext& run) const {
+        run.check_stop();
+        if (!counts_.empty())
+            return distance_of(std::span(counts_).subspan(axis * cells_, cells_),
+                               static_cast<double>(n_));
+        for (std::uint64_t i = 0; i < n_; ++i)
+            sorted[i] = {kept_[i * axes_ + axis] + 0.0, 0};  // no -0
+        radix_sort(sorted, run);
+        return {.statistic = statistic_of(sorted)};
+    }
+
+    DomainPtr domain_;
+    Values options_;
+    std::size_t axes_;
+    std::uint64_t most_;   ///< points to keep
+    std::uint64_t cells_;  ///< of each axis
+    std::uint64_t first_ = 0;
+    std::uint64_t n_ = 0;
+    Outside outside_;
+    std::vector<double> kept_;           ///< coordinates of the cube, point after point
+    std::vector<std::uint64_t> counts_;  ///< of each cell, axis after axis; empty: points are kept
+};
 
 void combine(Report& mean, std::span<const Report> sets, const Values& options) {
     std::vector<Tails> tails;
@@ -98,15 +226,23 @@ void combine(Report& mean, std::span<const Report> sets, const Values& options) 
 
 }  // namespace
 
+Sharing kolmogorov_smirnov_sharing() {
+    return {.grain = [](const Arrival& arrival, const Values&) {
+        return std::uint64_t{arrival_batch(arrival.dimension())};
+    }};
+}
+
 Analyzer kolmogorov_smirnov() {
     return {
         .name = "kolmogorov-smirnov",
         .summary = "Two-sided test of each coordinate of the domain's cube for uniformity",
         .source = "Kolmogorov 1933; Marsaglia, Tsang, Wang 2003, doi:10.18637/jss.v008.i18",
         .traits = {.max_dimension = 10'000, .unit_cube = false},
-        .options = Schema(level_option, expect_uniformity_option),
+        .options = Schema(level_option, expect_uniformity_option, exact_points),
         .results = {{"axes", "what they are, where they are not x1, x2, ...", false},
                     {"statistic", "largest distance from the uniform distribution, for each axis"},
+                    {"statistic_error",
+                     "what it may be above that, for each axis; 0 where the points were kept"},
                     {"p_value", "for each axis: twice the smaller of both, at most 1"},
                     {"p_upper", "for each axis: chance of as large a statistic"},
                     {"p_lower", "for each axis: chance of as small a statistic"},
@@ -116,7 +252,10 @@ Analyzer kolmogorov_smirnov() {
                     {"verdict",
                      "uniform; non-uniform: an axis has a wrong density; stratified: one is more "
                      "even than random"}},
-        .analyze = analyze,
+        .accumulate =
+            [](const Arrival& arrival, const Values& options, const RunContext& run) {
+                return std::make_unique<Collector>(arrival, options, run);
+            },
         .combine = combine};
 }
 

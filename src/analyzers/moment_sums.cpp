@@ -15,10 +15,12 @@ constexpr std::size_t products = 4;
 
 }  // namespace
 
-MomentSums::MomentSums(std::vector<double> about) : about_(std::move(about)) {
+MomentSums::MomentSums(std::vector<double> about, std::uint64_t first)
+    : about_(std::move(about)), next_(first) {}
+
+std::size_t MomentSums::size() const {
     const std::size_t d = width();
-    sums_.resize(d * powers + d * (d - 1) / 2 * products);
-    carries_.resize(sums_.size());
+    return d * powers + d * (d - 1) / 2 * products;
 }
 
 std::size_t MomentSums::pair(std::size_t i, std::size_t j) const {
@@ -47,13 +49,18 @@ void MomentSums::add_block(std::span<const double> rows, std::span<double> sums)
     }
 }
 
-void MomentSums::take_block(std::span<const double> sums) {
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-        const double total = sums_[i] + sums[i];
-        const bool larger = std::abs(sums_[i]) >= std::abs(sums[i]);
-        carries_[i] += larger ? (sums_[i] - total) + sums[i] : (sums[i] - total) + sums_[i];
-        sums_[i] = total;
+void MomentSums::Node::add(std::span<const double> more) {
+    for (std::size_t i = 0; i < more.size(); ++i) {
+        const double total = sums[i] + more[i];
+        const bool larger = std::abs(sums[i]) >= std::abs(more[i]);
+        carries[i] += larger ? (sums[i] - total) + more[i] : (more[i] - total) + sums[i];
+        sums[i] = total;
     }
+}
+
+void MomentSums::Node::add(const Node& other) {
+    for (std::size_t i = 0; i < carries.size(); ++i) carries[i] += other.carries[i];
+    add(other.sums);
 }
 
 void MomentSums::add(std::span<const double> rows, const RunContext& run) {
@@ -64,19 +71,63 @@ void MomentSums::add(std::span<const double> rows, const RunContext& run) {
     for_each_block(
         run, count, block,
         [&](const Block& b) {
-            parts[b.index].resize(sums_.size());
+            parts[b.index].resize(size());
             add_block(rows.subspan(b.first * d, (b.last - b.first) * d), parts[b.index]);
         },
         true);
-    for (const auto& part : parts) take_block(part);
+    Node batch{.first = next_++,
+               .sums = std::vector<double>(size()),
+               .carries = std::vector<double>(size())};
+    for (const auto& part : parts) batch.add(part);
+    take(std::move(batch));
     count_ += count;
 }
 
+/// Adds batches that are a pair, as long as there are such at the end.
+void MomentSums::take(Node node) {
+    nodes_.push_back(std::move(node));
+    while (nodes_.size() > 1) {
+        Node& left = nodes_[nodes_.size() - 2];
+        const Node& right = nodes_.back();
+        if (left.level != right.level || (left.first >> left.level) % 2 != 0) return;
+        left.add(right);
+        ++left.level;
+        nodes_.pop_back();
+    }
+}
+
+MomentSums::Node MomentSums::total() const {
+    Node all = nodes_.back();
+    for (std::size_t i = nodes_.size() - 1; i-- > 0;) {
+        Node before = nodes_[i];
+        before.add(all);
+        all = std::move(before);
+    }
+    return all;
+}
+
+void MomentSums::pack(Packer& to) const {
+    to.put(count_).put(next_).put<std::uint64_t>(nodes_.size());
+    for (const Node& node : nodes_)
+        to.put(node.first).put(node.level).put_all(node.sums).put_all(node.carries);
+}
+
+void MomentSums::merge(Unpacker& from) {
+    count_ += from.take<std::uint64_t>();
+    next_ = from.take<std::uint64_t>();
+    for (auto left = from.take<std::uint64_t>(); left > 0; --left) {
+        Node node{.first = from.take<std::uint64_t>(), .level = from.take<std::uint64_t>()};
+        node.sums = from.take_all<double>();
+        node.carries = from.take_all<double>();
+        take(std::move(node));
+    }
+}
+
 /// Central moments of a column, from those about c: m_p = E (x - c - e)^p, e = mean - c.
-void MomentSums::column(std::size_t k, SampleAndErrors& out) const {
+void MomentSums::column(const Node& all, std::size_t k, SampleAndErrors& out) const {
     const auto n = static_cast<double>(count_);
     double raw[powers + 1] = {1};
-    for (std::size_t p = 1; p <= powers; ++p) raw[p] = sum(k * powers + p - 1) / n;
+    for (std::size_t p = 1; p <= powers; ++p) raw[p] = all.sum(k * powers + p - 1) / n;
     const double e = raw[1];
     double central[powers + 1] = {};
     for (std::size_t p = 0; p <= powers; ++p) {
@@ -107,17 +158,17 @@ void MomentSums::column(std::size_t k, SampleAndErrors& out) const {
 }
 
 /// Covariance of two columns, and E (x - mean)^2 (y - mean)^2 for its error.
-void MomentSums::cross(std::size_t i, std::size_t j, SampleAndErrors& out) const {
+void MomentSums::cross(const Node& all, std::size_t i, std::size_t j, SampleAndErrors& out) const {
     const auto n = static_cast<double>(count_);
     const std::size_t at = pair(i, j);
-    const double a = sum(i * powers) / n;
-    const double b = sum(j * powers) / n;
-    const double aa = sum(i * powers + 1) / n;
-    const double bb = sum(j * powers + 1) / n;
-    const double xy = sum(at) / n;
-    const double xxy = sum(at + 1) / n;
-    const double xyy = sum(at + 2) / n;
-    const double xxyy = sum(at + 3) / n;
+    const double a = all.sum(i * powers) / n;
+    const double b = all.sum(j * powers) / n;
+    const double aa = all.sum(i * powers + 1) / n;
+    const double bb = all.sum(j * powers + 1) / n;
+    const double xy = all.sum(at) / n;
+    const double xxy = all.sum(at + 1) / n;
+    const double xyy = all.sum(at + 2) / n;
+    const double xxyy = all.sum(at + 3) / n;
     const double covariance = xy - a * b;
     const double fourth = xxyy - 2 * b * xxy - 2 * a * xyy + b * b * aa + a * a * bb +
                           4 * a * b * xy - 3 * a * a * b * b;
@@ -131,18 +182,19 @@ void MomentSums::cross(std::size_t i, std::size_t j, SampleAndErrors& out) const
 
 SampleAndErrors MomentSums::moments() const {
     const std::size_t d = width();
-    if (!std::ranges::all_of(sums_, [](double x) { return std::isfinite(x); }))
+    const Node all = total();
+    if (!std::ranges::all_of(all.sums, [](double x) { return std::isfinite(x); }))
         fail(ErrorKind::limit, "the sixth powers of coordinates are beyond the largest double");
     SampleAndErrors out;
     out.value.covariance.resize(d * d);
     out.error.covariance.resize(d * d);
     for (std::size_t k = 0; k < d; ++k) {
-        column(k, out);
+        column(all, k, out);
         out.value.covariance[k * d + k] = out.value.variance[k];
         out.error.covariance[k * d + k] = out.error.variance[k];
     }
     for (std::size_t i = 0; i < d; ++i)
-        for (std::size_t j = i + 1; j < d; ++j) cross(i, j, out);
+        for (std::size_t j = i + 1; j < d; ++j) cross(all, i, j, out);
     return out;
 }
 

@@ -5,8 +5,14 @@
 //     S_p = sum (x - c)^p, p = 1..6, and for each pair of columns sum (x - c)^p (y - c')^q, p, q in
 //     {1, 2}; c is near the mean, so that central moments lose little by cancellation.
 //
-// Promise each block's sums, and then the blocks' in their order with their rounding carried along
-//         (Neumaier): the same for any number of threads.
+// A batch is summed by blocks, and the blocks' sums in their order with their rounding carried
+// along (Neumaier). Sums of batches are added in pairs, pairs of pairs and so on, as a binary
+// counter does it: batches 2i and 2i + 1, then 4i to 4i + 3, ...; what no pair is left for, from
+// the end.
+//
+// Shape   memory: the sums once for each binary place of the number of batches.
+// Promise the same for any number of threads, and however the batches are shared out: the sums of
+//         batches that follow each other may be merged in any order.
 // Source  A. Neumaier, Zeitschrift fuer Angewandte Mathematik und Mechanik 54 (1974) 39-51.
 #pragma once
 
@@ -14,6 +20,8 @@
 #include <cstdint>
 #include <span>
 #include <vector>
+
+#include "core/packed.hpp"
 
 #include "core/run_context.hpp"
 
@@ -35,28 +43,46 @@ struct SampleAndErrors {
 
 class MomentSums {
   public:
-    /// Of columns, about these numbers.
-    explicit MomentSums(std::vector<double> about);
+    /// Of columns, about these numbers; `first` is the number of the batch that comes first.
+    explicit MomentSums(std::vector<double> about, std::uint64_t first = 0);
 
+    /// Takes the next batch.
     void add(std::span<const double> rows, const RunContext& run);
+
+    void pack(Packer& to) const;
+    /// Takes in the sums of the batches right behind its own.
+    void merge(Unpacker& from);
 
     /// Of at least two rows. @throws Error(limit) when powers are beyond the largest double
     [[nodiscard]] SampleAndErrors moments() const;
 
   private:
+    /// Sums over 2^level batches: powers 1..6 of each column, then pairs.
+    struct Node {
+        std::uint64_t first = 0;  ///< a multiple of 2^level
+        std::uint64_t level = 0;
+        std::vector<double> sums = {};
+        std::vector<double> carries = {};  ///< what rounding took from them
+
+        [[nodiscard]] double sum(std::size_t i) const { return sums[i] + carries[i]; }
+        void add(std::span<const double> more);
+        void add(const Node& other);
+    };
+
     [[nodiscard]] std::size_t width() const { return about_.size(); }
-    [[nodiscard]] double sum(std::size_t i) const { return sums_[i] + carries_[i]; }
+    [[nodiscard]] std::size_t size() const;
     /// Where the products of columns i < j begin: sums of x y, x^2 y, x y^2, x^2 y^2.
     [[nodiscard]] std::size_t pair(std::size_t i, std::size_t j) const;
     void add_block(std::span<const double> rows, std::span<double> sums) const;
-    void take_block(std::span<const double> sums);
-    void column(std::size_t k, SampleAndErrors& out) const;
-    void cross(std::size_t i, std::size_t j, SampleAndErrors& out) const;
+    void take(Node node);
+    [[nodiscard]] Node total() const;
+    void column(const Node& all, std::size_t k, SampleAndErrors& out) const;
+    void cross(const Node& all, std::size_t i, std::size_t j, SampleAndErrors& out) const;
 
     std::vector<double> about_;
+    std::uint64_t next_ = 0;  ///< number of the batch that comes next
     std::uint64_t count_ = 0;
-    std::vector<double> sums_;     ///< powers 1..6 of each column, then pairs
-    std::vector<double> carries_;  ///< what rounding took from them
+    std::vector<Node> nodes_;  ///< in the order of their batches
 };
 
 }  // namespace stipple::analyzers

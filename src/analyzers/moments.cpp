@@ -33,9 +33,9 @@
 #include <optional>
 #include <utility>
 
-#include "analyzers/analyzer.hpp"
 #include "analyzers/cube_rows.hpp"
 #include "analyzers/moment_sums.hpp"
+#include "analyzers/shared.hpp"
 #include "core/error.hpp"
 
 namespace stipple::analyzers {
@@ -82,18 +82,13 @@ double largest_z(const SampleMoments& found, double n) {
     return most;
 }
 
-class Summation final : public Accumulator {
+class Summation final : public SharedAccumulator {
   public:
-    explicit Summation(const Arrival& arrival) : domain_(arrival.domain) {
-        if (domain_->even()) cube_.emplace(std::vector<double>(domain_->cube_dimension(), 0.5));
-    }
+    explicit Summation(const Arrival& arrival) : domain_(arrival.domain) {}
 
     void add(std::span<const double> rows, const RunContext& run) override {
-        if (!raw_) {
-            raw_.emplace(means_of(rows, domain_->dimension()));
-            level_ = is_level(rows);
-        }
-        const auto cubes = cube_rows(*domain_, rows, n_, outside_, run);
+        if (!raw_) begin(rows);
+        const auto cubes = cube_rows(*domain_, rows, first_ + n_, outside_, run);
         n_ += rows.size() / domain_->dimension();
         if (outside_.count > 0) return;
         raw_->add(rows, run);
@@ -116,7 +111,38 @@ class Summation final : public Accumulator {
         return report;
     }
 
+    void begin_at(std::uint64_t first, std::span<const double> head) override {
+        first_ = first;
+        begin(head);
+    }
+
+    std::string state(const RunContext&) override {
+        Packer packer;
+        packer.put(n_);
+        outside_.pack(packer);
+        raw_->pack(packer);
+        if (cube_) cube_->pack(packer);
+        return packer.take();
+    }
+
+    void merge(std::string_view state, const RunContext&) override {
+        Unpacker from(state);
+        n_ += from.take<std::uint64_t>();
+        outside_.add(Outside::unpacked(from));
+        raw_->merge(from);
+        if (cube_) cube_->merge(from);
+    }
+
   private:
+    /// Looks at the first batch of the set.
+    void begin(std::span<const double> rows) {
+        const std::uint64_t batch = first_ / arrival_batch(domain_->dimension());
+        raw_.emplace(means_of(rows, domain_->dimension()), batch);
+        if (domain_->even())
+            cube_.emplace(std::vector<double>(domain_->cube_dimension(), 0.5), batch);
+        level_ = is_level(rows);
+    }
+
     /// Whether the domain's density is level, as far as its first points tell.
     [[nodiscard]] bool is_level(std::span<const double> rows) const {
         constexpr std::size_t some = 64;
@@ -139,6 +165,7 @@ class Summation final : public Accumulator {
     }
 
     DomainPtr domain_;
+    std::uint64_t first_ = 0;  ///< index of the first point that comes
     std::uint64_t n_ = 0;
     std::optional<MomentSums> raw_;
     std::optional<MomentSums> cube_;
@@ -175,6 +202,12 @@ std::vector<ResultKey> results() {
 }
 
 }  // namespace
+
+Sharing moments_sharing() {
+    return {.grain = [](const Arrival& arrival, const Values&) {
+        return std::uint64_t{arrival_batch(arrival.dimension())};
+    }};
+}
 
 Analyzer moments() {
     return {.name = "moments",

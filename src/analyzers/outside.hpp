@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/packed.hpp"
 #include "core/point_set.hpp"
 
 namespace stipple::analyzers {
@@ -29,6 +30,13 @@ struct Outside {
         if (other.first >= first) return;
         first = other.first;
         point = other.point;
+    }
+
+    void pack(Packer& to) const { to.put(count).put(first).put_all(point); }
+    static Outside unpacked(Unpacker& from) {
+        Outside outside{.count = from.take<std::uint64_t>(), .first = from.take<std::uint64_t>()};
+        outside.point = from.take_all<double>();
+        return outside;
     }
 };
 

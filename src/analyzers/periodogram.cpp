@@ -52,9 +52,9 @@
 #include <numbers>
 #include <optional>
 
-#include "analyzers/analyzer.hpp"
 #include "analyzers/outside.hpp"
 #include "analyzers/periodogram_rings.hpp"
+#include "analyzers/shared.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "math/nufft.hpp"
@@ -238,7 +238,7 @@ Grid power_of(const FourierSums& sums, const Strengths& strengths, bool hann,
 }
 
 /// A spectrum whose points come in pieces.
-class Summation final : public Accumulator {
+class Summation final : public SharedAccumulator {
   public:
     Summation(const Arrival& arrival, const Values& options, const RunContext& run)
         : domain_(arrival.domain),
@@ -291,6 +291,29 @@ class Summation final : public Accumulator {
         return finished(run);
     }
 
+    void begin_at(std::uint64_t first, std::span<const double>) override { at_ = first; }
+
+    std::string state(const RunContext& run) override {
+        Packer packer;
+        packer.put(n_).put(all_equal_).put_all(first_);
+        outside_.pack(packer);
+        sum_->pack(packer, run);
+        return packer.take();
+    }
+
+    void merge(std::string_view state, const RunContext& run) override {
+        Unpacker from(state);
+        const auto more = from.take<std::uint64_t>();
+        n_ += more;
+        // Without strengths these are counts.
+        strengths_.sum += static_cast<double>(more);
+        strengths_.squares += static_cast<double>(more);
+        const bool equal = from.take<bool>();
+        all_equal_ = from.take_all<double>() == first_ && all_equal_ && equal;
+        outside_.add(Outside::unpacked(from));
+        sum_->merge(from, run);
+    }
+
   private:
     /// Small sets are done before other threads have woken up.
     [[nodiscard]] RunContext fitting(const RunContext& run) const {
@@ -339,7 +362,7 @@ class Summation final : public Accumulator {
         if (!same) points.reserve(rows.size() / given * numbers_);
         for (std::size_t at = 0; at < rows.size(); at += given) {
             const auto point = rows.subspan(at, d_);
-            note(point, n_ + at / given);
+            note(point, at_ + n_ + at / given);
             if (same) continue;
             const std::size_t begin = points.size();
             points.insert(points.end(), point.begin(), point.end());
@@ -384,6 +407,9 @@ class Summation final : public Accumulator {
         if (options_[method] != "direct") {
             nufft_.emplace(count, d_, frequency_, options_[tolerance], weighted);
             bytes = std::max(2 * bytes, nufft_->bytes());
+            // What is summed over blocks: twice the grid.
+            if (count == most_points && !weighted)
+                bytes += 16 * std::pow(static_cast<double>(nufft_->side()), d_);
         }
         run.need_memory(bytes + 8 * static_cast<double>(kept_.size()),
                         fmt::format("--max-frequency {}", frequency_));
@@ -434,7 +460,8 @@ class Summation final : public Accumulator {
     bool cube_;  ///< the domain is the unit cube
     bool weighted_;
     bool hann_;
-    std::size_t numbers_;  ///< of a point as the sums take it: coordinates, and perhaps a strength
+    std::size_t numbers_;   ///< of a point as the sums take it: coordinates, and perhaps a strength
+    std::uint64_t at_ = 0;  ///< index of the first point that comes
     std::size_t frequency_ = 0;
     std::uint64_t n_ = 0;
     std::uint64_t told_ = 0;  ///< points that were announced; 0: nobody knows
@@ -447,6 +474,20 @@ class Summation final : public Accumulator {
     std::unique_ptr<FourierSummation> sum_;
     std::unique_ptr<DirectSummation> direct_;
 };
+
+/// Blocks of points that have a grid of their own; few points are not shared out.
+std::uint64_t grain(const Arrival& arrival, const Values& options) {
+    if (options[method] == "direct" || options[window] == "hann" || options.given(weights))
+        fail(ErrorKind::usage,
+             "periodogram: ranks share --method nufft with --window none and without --weights; "
+             "start one process");
+    if (arrival.count.value_or(0) <= kept_points) return kept_points;
+    const std::size_t d = arrival.dimension();
+    const std::size_t frequency = options.given(max_frequency)
+                                      ? static_cast<std::size_t>(options[max_frequency])
+                                      : default_frequency(most_points, d);
+    return FourierSummation::block_of(Nufft(most_points, d, frequency, options[tolerance]));
+}
 
 void refine(Report& mean, std::size_t sets, const Values& options) {
     const auto* grid = mean.find("grid");
@@ -489,6 +530,8 @@ std::vector<ResultKey> results() {
 }
 
 }  // namespace
+
+Sharing periodogram_sharing() { return {.grain = grain}; }
 
 Analyzer periodogram() {
     return {

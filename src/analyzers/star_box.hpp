@@ -68,6 +68,7 @@ class WorstBox {
 
     [[nodiscard]] Side side() const { return side_; }
     [[nodiscard]] std::uint64_t points() const { return points_; }
+    [[nodiscard]] const Corner& places() const { return corner_; }
     [[nodiscard]] std::vector<double> corner() const;
 
     /// Volume of the box, rounded to the nearest double.

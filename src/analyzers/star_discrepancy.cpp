@@ -33,9 +33,9 @@
 #include <optional>
 #include <string>
 
-#include "analyzers/analyzer.hpp"
 #include "analyzers/extreme_discrepancy.hpp"
 #include "analyzers/search_limits.hpp"
+#include "analyzers/shared.hpp"
 #include "analyzers/star_families.hpp"
 #include "analyzers/star_search.hpp"
 #include "analyzers/star_sweep.hpp"
@@ -128,7 +128,7 @@ Report star_kind(const star::Member& set, const Values& options, const RunContex
     const star::SearchResult found =
         grid.dimension() == 2 && !set.limits.bounded
             ? sweep_or_search(grid, set.limits, run, how)
-            : star::find_worst(grid, set.limits.search, run, hint ? &*hint : nullptr);
+            : star::find_worst(grid, set.limits.search, run, hint ? &*hint : nullptr, set.peers);
     set.limits.judge({found.worst.value(), found.upper, found.ending}, "the star discrepancy",
                      size_of(set.points), run);
     return report(found.worst, found.upper, how.c_str());
@@ -165,6 +165,20 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return star::families(points, options, limits, one, run);
 }
 
+/// The peers share the search for the worst box. The sweeps of one and two dimensions are sooner
+/// done than shared.
+Report analyze_together(const PointSet& points, const Values& options, Peers& peers,
+                        const RunContext& run) {
+    if (star::wants_families(options) || options[extreme::kind] != "star")
+        fail(ErrorKind::usage,
+             "star-discrepancy: ranks share the search of one set for the kind star; start one "
+             "process for tables and other kinds");
+    const Limits limits(options, run);
+    const bool sweeps = points.dimension() < 2 || (points.dimension() == 2 && !limits.bounded);
+    return measure({.points = points, .limits = limits, .peers = sweeps ? nullptr : &peers},
+                   options, run);
+}
+
 /// A mean of boxes is none, nor is one of axes.
 void refine(Report& mean, std::size_t sets, const Values&) {
     if (sets < 2) return;
@@ -178,6 +192,8 @@ void refine(Report& mean, std::size_t sets, const Values&) {
 }
 
 }  // namespace
+
+Sharing star_discrepancy_sharing() { return {.together = analyze_together}; }
 
 Analyzer star_discrepancy() {
     return {

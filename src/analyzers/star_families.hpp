@@ -8,6 +8,7 @@
 
 #include "analyzers/search_limits.hpp"
 #include "core/options.hpp"
+#include "core/peers.hpp"
 #include "core/point_set.hpp"
 #include "core/report.hpp"
 #include "core/run_context.hpp"
@@ -41,6 +42,7 @@ struct Member {
     const PointSet& points;
     const Limits& limits;
     const Report* like = nullptr;  ///< that of a set which is much the same, where there is one
+    Peers* peers = nullptr;        ///< who share the search, if any do
 };
 
 /// Measures one set: its report has `value`, `lower` and `upper`.

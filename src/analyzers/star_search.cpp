@@ -6,6 +6,9 @@
 // cells that only an exact answer asks for come last. Those explored together know of each other's
 // finds only when all are done, so that what happens does not depend on the number of threads.
 //
+// Peers share the cells of a round out among themselves and then tell each other what came of them,
+// so that all of them know the same before the next round; all else each of them does by itself.
+//
 // A cover by a grid, or that the points are a net, gives a first upper bound where there are many
 // points: cells of these take long to get small. From time to time climbs look for a worse box: one
 // that the cells would give only late.
@@ -23,6 +26,7 @@
 #include "analyzers/star_cover.hpp"
 #include "analyzers/star_net.hpp"
 #include "core/error.hpp"
+#include "core/packed.hpp"
 #include "core/parallel.hpp"
 
 namespace stipple::analyzers::star {
@@ -105,8 +109,9 @@ std::size_t cell_bytes(const CornerGrid& grid) {
 class Search {
   public:
     Search(const CornerGrid& grid, WorstBox worst, const SearchLimits& limits,
-           const RunContext& run)
-        : limits_(limits),
+           const RunContext& run, Peers* peers)
+        : peers_(peers),
+          limits_(limits),
           run_(run),
           field_{grid, logarithms(grid), all_points(grid), run_, limits_},
           worst_(std::move(worst)),
@@ -117,6 +122,7 @@ class Search {
     }
 
     SearchResult go() {
+        if (peers_ != nullptr) return go_together();
         while (!ending()) try {
                 round();
             } catch (const Error& e) {
@@ -134,14 +140,121 @@ class Search {
         if (cells_.empty() || upper_ <= worst_.value()) return Ending::complete;
         if (upper_ - worst_.value() <= limits_.tolerance * worst_.value()) return Ending::tolerance;
         if (work_ >= limits_.work) return Ending::work;
-        if (field_.late()) return Ending::time;
+        if (peers_ != nullptr ? late_ : field_.late()) return Ending::time;
         return {};
     }
 
-    void round() {
+    /// A peer that was told to stop, or whose time is over, still speaks with the others, so that
+    /// all of them end in the same round.
+    SearchResult go_together() {
+        agree();
+        while (!stopped_ && !ending()) {
+            std::vector<Task> tasks;
+            const bool mine = unless_stopped([&] { look_around(); });
+            if (limits_.timed()) agree();  // how far each came depends on its clock
+            if (!stopped_) tasks = next_tasks();
+            if (mine && !stopped_) unless_stopped([&] { explore_some(tasks); });
+            tell(tasks);
+            unless_stopped([&] { settle(); });
+        }
+        return {worst_, upper_, stopped_ ? Ending::stopped : *ending()};
+    }
+
+    /// Does it, or has it interrupted. True: it is done.
+    template <class Work>
+    bool unless_stopped(const Work& work) {
+        try {
+            work();
+        } catch (const Error& e) {
+            if (e.kind() != ErrorKind::cancelled) throw;
+            interrupted_ = true;
+        }
+        return !interrupted_;
+    }
+
+    /// From now on all peers know what the first one knows.
+    void agree() {
+        Packer packer;
+        packer.put(limits_.work).put(upper_).put(work_).put(hunted_);
+        packer.put(worst_.side()).put(worst_.points()).put_all(worst_.places());
+        packer.put(field_.late()).put(run_.stop.stop_requested() || interrupted_);
+        const auto all = peers_->exchange(packer.take());
+        Unpacker first(all.front());
+        limits_.work = first.take<std::uint64_t>();
+        upper_ = first.take<double>();
+        work_ = first.take<std::uint64_t>();
+        hunted_ = first.take<std::uint64_t>();
+        const Side side = first.take<Side>();
+        const auto points = first.take<std::uint64_t>();
+        worst_ = WorstBox(field_.grid);
+        worst_.offer(side, first.take_all<std::uint32_t>(), points);
+        for (const auto& text : all) heed(std::string_view(text).substr(text.size() - 2));
+    }
+
+    /// What a peer says last: whether its time is over, whether it was told to stop.
+    void heed(std::string_view end) {
+        Unpacker flags(end);
+        late_ = flags.take<bool>() || late_;
+        stopped_ = flags.take<bool>() || stopped_;
+    }
+
+    /// This peer's tasks.
+    void explore_some(std::vector<Task>& tasks) {
+        const auto size = static_cast<std::size_t>(peers_->size());
+        const auto rank = static_cast<std::size_t>(peers_->rank());
+        const std::size_t some = (tasks.size() + size - 1 - rank) / size;
+        for_each_block(
+            run_, some, 1,
+            [&](const Block& block) { explore(field_, tasks[block.index * size + rank]); }, true);
+    }
+
+    /// Tells the others what came of this peer's tasks, and takes in all of them in their order.
+    void tell(std::vector<Task>& tasks) {
+        const auto size = static_cast<std::size_t>(peers_->size());
+        Packer packer;
+        for (std::size_t i = static_cast<std::size_t>(peers_->rank()); i < tasks.size(); i += size)
+            pack(tasks[i], packer);
+        packer.put(field_.late()).put(run_.stop.stop_requested() || interrupted_);
+        const auto all = peers_->exchange(packer.take());
+        std::vector<Unpacker> found(all.begin(), all.end());
+        for (const auto& text : all) heed(std::string_view(text).substr(text.size() - 2));
+        if (stopped_) {  // its cells may be unexplored: they stay what they were
+            for (Task& task : tasks) push(std::move(task.cell));
+            return;
+        }
+        for (std::size_t i = 0; i < tasks.size(); ++i) take(found[i % size]);
+    }
+
+    static void pack(const Task& task, Packer& to) {
+        const WorstBox& worst = task.worst;
+        to.put(task.work).put(worst.side()).put(worst.points()).put_all(worst.places());
+        to.put<std::uint64_t>(task.rest.size());
+        for (const Cell& cell : task.rest)
+            to.put(cell.side).put(cell.bound).put_all(cell.lo).put_all(cell.hi);
+    }
+
+    /// What a peer packed of one task.
+    void take(Unpacker& from) {
+        work_ += from.take<std::uint64_t>();
+        const Side side = from.take<Side>();
+        const auto points = from.take<std::uint64_t>();
+        worst_.offer(side, from.take_all<std::uint32_t>(), points);
+        for (auto left = from.take<std::uint64_t>(); left > 0; --left) {
+            Cell cell{.side = from.take<Side>(), .bound = from.take<double>(), .lo = {}, .hi = {}};
+            cell.lo = from.take_all<std::uint32_t>();
+            cell.hi = from.take_all<std::uint32_t>();
+            push(std::move(cell));
+        }
+    }
+
+    void look_around() {
         constexpr std::uint64_t hunts_apart = 16;  // in units of what they cost
         if (work_ > short_work && hunts_apart * hunted_ < work_) hunt();
         if (!covered_ && (steadily() || work_ > short_work)) cover();
+    }
+
+    void round() {
+        look_around();
         std::vector<Task> tasks = next_tasks();
         constexpr bool silent = true;
         for_each_block(
@@ -234,7 +347,8 @@ class Search {
         work_ += cost;
     }
 
-    const SearchLimits& limits_;
+    Peers* peers_;  ///< nullptr: alone
+    SearchLimits limits_;
     const RunContext& run_;
     Field field_;
     WorstBox worst_;
@@ -245,22 +359,27 @@ class Search {
     bool covered_ = false;
     std::uint64_t work_ = 0;
     std::uint64_t hunted_ = 0;  ///< part of work_
+
+    // Of peers:
+    bool interrupted_ = false;  ///< this one was told to stop
+    bool stopped_ = false;      ///< one of them was
+    bool late_ = false;         ///< the time of one of them is over
 };
 
 }  // namespace
 
 SearchResult search(const CornerGrid& grid, WorstBox worst, const SearchLimits& limits,
-                    const RunContext& run) {
-    return Search(grid, std::move(worst), limits, run).go();
+                    const RunContext& run, Peers* peers) {
+    return Search(grid, std::move(worst), limits, run, peers).go();
 }
 
 SearchResult find_worst(const CornerGrid& grid, const SearchLimits& limits, const RunContext& run,
-                        const Hint* hint) {
+                        const Hint* hint, Peers* peers) {
     const Ascent first = ascend(grid, limits, run, hint);
-    if (limits.over(run))
+    if (peers == nullptr && limits.over(run))
         return {first.worst, 1, limits.late(run) ? Ending::time : Ending::stopped};
     const SearchLimits left = limits.after(first.work);
-    return search(grid, first.worst, left, run);
+    return search(grid, first.worst, left, run, peers);
 }
 
 double search_bytes(std::size_t count, std::size_t dimension, unsigned threads) {

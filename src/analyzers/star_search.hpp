@@ -6,6 +6,7 @@
 #include "analyzers/search_limits.hpp"
 #include "analyzers/star_ascent.hpp"
 #include "analyzers/star_box.hpp"
+#include "core/peers.hpp"
 #include "core/run_context.hpp"
 
 namespace stipple::analyzers::star {
@@ -20,14 +21,14 @@ struct SearchResult {
 };
 
 /// Looks for boxes worse than `worst`; the worse that is, the less is left to look at. Once a stop
-/// is requested, it ends with what is certain. The result does not depend on the number of threads
-/// unless a deadline or a stop ends it.
+/// is requested, it ends with what is certain. The result does not depend on the number of threads,
+/// nor of peers, unless a deadline or a stop ends it; all peers get the same.
 SearchResult search(const CornerGrid& grid, WorstBox worst, const SearchLimits& limits,
-                    const RunContext& run);
+                    const RunContext& run, Peers* peers = nullptr);
 
 /// The same from nothing, or from a hint: climbs first, which are a part of the work.
 SearchResult find_worst(const CornerGrid& grid, const SearchLimits& limits, const RunContext& run,
-                        const Hint* hint = nullptr);
+                        const Hint* hint = nullptr, Peers* peers = nullptr);
 
 /// Bytes that the search takes, with these points, beside the grid.
 double search_bytes(std::size_t count, std::size_t dimension, unsigned threads);

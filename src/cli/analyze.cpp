@@ -8,7 +8,10 @@
 #include <chrono>
 #include <optional>
 
+#include "cli/bounds.hpp"
+#include "cli/launched.hpp"
 #include "cli/set_batch.hpp"
+#include "cli/shared_files.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -21,73 +24,10 @@
 #include "study/chain.hpp"
 #include "study/generated.hpp"
 #include "study/pipeline.hpp"
+#include "study/shared_analysis.hpp"
 
 namespace stipple::cli {
 namespace {
-
-/// The box of the points' extremes, with a direction that has no extent made as wide as 1.
-Box box_around(const PointSet& points) {
-    const std::vector<double> first(points[0].begin(), points[0].end());
-    Box box = bounding_box(points.flat(), {first, first});
-    for (std::size_t k = 0; k < box.dimension(); ++k)
-        if (!(box.high[k] > box.low[k])) box.high[k] = box.low[k] + 1;
-    return box;
-}
-
-/// Of points the first of which is point `first`; a row may hold more than the box has coordinates.
-/// @throws Error(input) for points outside.
-void require_inside(std::span<const double> rows, std::size_t width, const Box& box,
-                    std::uint64_t first) {
-    const DomainPtr domain = box_domain(box);
-    const std::size_t d = box.dimension();
-    for (std::size_t i = 0; i < rows.size(); i += width)
-        if (!domain->contains(rows.subspan(i, d)))
-            fail(ErrorKind::input, "point {} is outside the bounds {}", first + i / width,
-                 format_box(box));
-}
-
-/// Makes points of the box points of the unit cube.
-void into_unit_cube(std::span<double> rows, std::size_t width, const Box& box) {
-    const DomainPtr domain = box_domain(box);
-    const std::size_t d = box.dimension();
-    for (std::size_t i = 0; i < rows.size(); i += width)
-        domain->to_cube(rows.subspan(i, d), rows.subspan(i, d));
-}
-
-/// @throws Error(input) for points outside the box.
-PointSet to_unit_cube(PointSet points, const Box& box) {
-    require_inside(points.flat(), box.dimension(), box, 0);
-    into_unit_cube(points.flat(), box.dimension(), box);
-    points.domain = unit_cube(points.dimension());
-    return points;
-}
-
-void check_bounds(const Arguments& arguments) {
-    for (const char* other : {"rescale", "domain"})
-        if (arguments.has("bounds") && arguments.has(other))
-            fail(ErrorKind::usage, "--bounds and --{}: give one of them", other);
-}
-
-/// --bounds says what box the points live on. Analyzers of the unit cube get them mapped to it; the
-/// others measure them where they are, distances and integrals in the box.
-PointSet prepared(PointSet points, const Analyzer& analyzer, const Arguments& arguments) {
-    const auto bounds = arguments.get("bounds");
-    check_bounds(arguments);
-    if (const auto domain = arguments.get("domain"))
-        points.domain = parse_domain(*domain, points.dimension());
-    if (bounds) {
-        const Box box = parse_box(*bounds, points.dimension());
-        if (analyzer.traits.unit_cube) return to_unit_cube(std::move(points), box);
-        require_inside(points.flat(), box.dimension(), box, 0);
-        points.domain = box_domain(box);
-        return points;
-    }
-    if (arguments.has("rescale")) {
-        const Box box = box_around(points);
-        return to_unit_cube(std::move(points), box);
-    }
-    return points;
-}
 
 bool tells(const Analyzer& analyzer, std::string_view key) {
     return std::ranges::any_of(analyzer.results, [&](const auto& r) { return r.key == key; });
@@ -137,9 +77,10 @@ std::vector<std::string> inputs_of(const Arguments& arguments) {
 /// The measurements of one call, and what is to be done with them.
 class Analysis {
   public:
-    Analysis(const Arguments& arguments, Session& session)
+    Analysis(const Arguments& arguments, Session& session, Ranks& ranks)
         : arguments_(arguments),
           session_(session),
+          ranks_(ranks),
           analyzer_(find_analyzer(arguments.unit)),
           options_(settings_of(analyzer_.options, arguments)),
           joined_(arguments.has("concat")),
@@ -165,11 +106,14 @@ class Analysis {
     int go() {
         check_bounds(arguments_);
         check_domain(arguments_, analyzer_);
-        if (arguments_.has("generate"))
+        if (ranks_.size() > 1)
+            share();
+        else if (arguments_.has("generate"))
             add_generated();
         else
             add_inputs();
         batch_.finish();
+        if (ranks_.rank() > 0) return 0;  // rank 0 speaks
         if (interrupted()) return print_what_is_known();
         if (averaged_) finish_average();
         const bool fine = verdict();
@@ -180,10 +124,91 @@ class Analysis {
   private:
     using Clock = std::chrono::steady_clock;
 
-    void add_inputs() {
+    /// One set, by all ranks.
+    void share() {
+        const Sharing* sharing = sharing_of(analyzer_);
+        if (sharing == nullptr)
+            fail_with_hint(ErrorKind::usage,
+                           "start one process; 'stipple study' shares many sets out",
+                           "analyze: ranks do not share {}", analyzer_.name);
+        if (arguments_.has("rescale"))
+            fail(ErrorKind::usage, "--rescale: ranks see a part of the points; give --bounds");
+        if (!arguments_.has("generate") && (inputs_.size() > 1 || inputs_.front() == "-"))
+            fail(ErrorKind::usage, "analyze: ranks share one set; name its files{}",
+                 inputs_.size() > 1 ? " with --concat" : "");
+        if (arguments_.integer("sets", 1, 1'000'000'000).value_or(1) > 1)
+            fail_with_hint(ErrorKind::usage, "'stipple study' shares many sets out",
+                           "--sets: ranks share one");
+        const auto start = Clock::now();
+        const bool generated = arguments_.has("generate");
+        if (!generated) refuse_generated_options();
+        const SharedSet set =
+            generated ? shared_generated()
+                      : shared_files(arguments_, analyzer_, strengths(), ranks_, own_run());
+        Measurement m = measurement(generated ? *arguments_.get("generate") : inputs_.front(), 0,
+                                    set.count, *set.domain);
+        m.set.reset();
+        if (sharing->together) {
+            m.results = searched_together(set);
+        } else {
+            auto found = analyze_shared(analyzer_, set, options_, ranks_, own_run());
+            if (!found) return;
+            m.results = std::move(found->report);
+        }
+        if (ranks_.rank() > 0) return;
+        m.seconds = seconds_since(start);
+        keep(std::move(m), false);
+    }
+
+    SharedSet shared_generated() {
+        auto generated = std::make_shared<GeneratedSets>(generated_sets());
+        const RunContext run = own_run();
+        const auto count = generated->streamed();
+        if (!count && !sharing_of(analyzer_)->together)
+            fail(ErrorKind::usage,
+                 "--generate: ranks share sequences; {} makes its points all together",
+                 *arguments_.get("generate"));
+        if (!count) return shared_in_memory(generated->made(0, run));
+        return {.domain = generated->domain(),
+                .count = *count,
+                .dimension = generated->dimension(),
+                .from = [=](std::uint64_t first) { return generated->stream(0, run, first); }};
+    }
+
+    /// This rank's part of the run: nothing that the others say, too.
+    [[nodiscard]] RunContext own_run() const {
+        RunContext run = session_.run();
+        run.threads = threads_of(ranks_, run);
+        if (ranks_.rank() == 0) return run;
+        run.progress = {};
+        run.warn = {};
+        return run;
+    }
+
+    /// All ranks have all points.
+    [[nodiscard]] Report searched_together(const SharedSet& set) const {
+        const RunContext run = own_run();
+        std::optional<PointSet> points;
+        agreed(ranks_, [&] {
+            run.need_memory(8.0 * static_cast<double>(set.count * set.dimension), "the points");
+            std::vector<double> rows(set.count * set.dimension);
+            set.from(0)(rows);
+            points.emplace(std::move(rows), set.dimension);
+            points->domain = set.domain;
+            check_dimension(analyzer_, set.dimension);
+            require_unit_cube(*points);
+        });
+        return sharing_of(analyzer_)->together(*points, options_, ranks_, run);
+    }
+
+    void refuse_generated_options() const {
         for (const char* name : {"count", "seed", "sets", "warp", "start"})
             if (arguments_.has(name))
                 fail(ErrorKind::usage, "--{}: is of --generate, which names a generator", name);
+    }
+
+    void add_inputs() {
+        refuse_generated_options();
         const bool in_blocks = analyzer_.accumulate && !arguments_.has("rescale");
         if (!in_blocks && !strengths().empty())
             fail(ErrorKind::usage, "--rescale and --weights: give --bounds in place of --rescale");
@@ -192,7 +217,7 @@ class Analysis {
     }
 
     /// Sets that are not in files.
-    void add_generated() {
+    GeneratedSets generated_sets() {
         for (const char* name : {"bounds", "rescale", "domain", "column", "from", "dtype"})
             if (arguments_.has(name))
                 fail(ErrorKind::usage, "--{}: is of points from files, not of --generate", name);
@@ -201,8 +226,7 @@ class Analysis {
                  arguments_.inputs.front());
         if (!strengths().empty())
             fail(ErrorKind::usage, "--weights: generated points have no strengths");
-        const std::string text = *arguments_.get("generate");
-        const Spec spec = parse_spec(text);
+        const Spec spec = parse_spec(*arguments_.get("generate"));
         const Generator& generator = find_generator(spec.name);
         Values values = spec.values(generator.options);
         Request request = request_of(arguments_);
@@ -212,8 +236,14 @@ class Analysis {
         std::vector<Spec> warps;
         for (const auto& warp : arguments_.all("warp")) warps.push_back(parse_spec(warp));
         const std::uint64_t sets = arguments_.integer("sets", 1, 1'000'000'000).value_or(1);
-        const GeneratedSets generated(generator, std::move(values), std::move(request), sets,
-                                      std::move(warps), session_.run());
+        return {generator, std::move(values), std::move(request),
+                sets,      std::move(warps),  own_run()};
+    }
+
+    void add_generated() {
+        const GeneratedSets generated = generated_sets();
+        const std::string text = *arguments_.get("generate");
+        const std::uint64_t sets = generated.sets();
         for (std::uint64_t set = 0; set < sets && !interrupted(); ++set) {
             session_.run().tick(set, sets);
             add_generated(generated, set, text);
@@ -315,31 +345,18 @@ class Analysis {
         if (sets == 1 && measurements_.size() == before + 1) measurements_.back().set.reset();
     }
 
-    [[nodiscard]] DomainPtr domain_of(const io::PointStream& stream, std::size_t d) const {
-        if (const auto bounds = arguments_.get("bounds"))
-            return analyzer_.traits.unit_cube ? unit_cube(d) : box_domain(parse_box(*bounds, d));
-        if (const auto named = arguments_.get("domain")) return parse_domain(*named, d);
-        return input_domain(stream.provenance(), d, arguments_, session_.run());
-    }
-
-    void take_bounds(std::span<double> rows, std::size_t width, const Box& box,
-                     std::uint64_t first) const {
-        require_inside(rows, width, box, first);
-        if (analyzer_.traits.unit_cube) into_unit_cube(rows, width, box);
-    }
-
     void add_arriving(io::PointStream& stream, const std::string& input, std::size_t set) {
         const auto start = Clock::now();
         const std::size_t width = stream.dimension();
         const bool weighted = !strengths().empty();
         const std::size_t d = width - (weighted ? 1 : 0);
-        const DomainPtr domain = domain_of(stream, d);
+        const DomainPtr domain = domain_of(stream, d, analyzer_, arguments_, session_.run());
         std::optional<Box> box;
         if (const auto bounds = arguments_.get("bounds")) box = parse_box(*bounds, d);
         std::uint64_t at = 0;
         const NextRows next = [&](std::span<double> rows) {
             const std::size_t count = stream.read(rows);
-            if (box) take_bounds(rows.first(count * width), width, *box, at);
+            if (box) take_bounds(rows.first(count * width), width, *box, at, analyzer_);
             at += count;
             return count;
         };
@@ -498,6 +515,7 @@ class Analysis {
 
     const Arguments& arguments_;
     Session& session_;
+    Ranks& ranks_;
     const Analyzer& analyzer_;
     Values options_;
     bool joined_;  ///< all inputs are one set
@@ -518,7 +536,8 @@ class Analysis {
 }  // namespace
 
 int analyze(const Arguments& arguments, Session& session) {
-    return Analysis(arguments, session).go();
+    const auto ranks = launched("analyze");
+    return Analysis(arguments, session, *ranks).go();
 }
 
 }  // namespace stipple::cli

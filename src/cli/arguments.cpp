@@ -303,6 +303,7 @@ const std::vector<CommonOption>& common_options() {
         {"--bootstrap", "B", "2000", "samples of the bootstrap", study},
         {"--resume", "", "", "go on with the file where it stopped; begins it where there is none",
          study},
+        {"--overwrite", "", "", "begin anew, in place of the study that the file holds", study},
         {"--yes", "", "", "begin even with more than 10 million rows", study},
         {"--with-pdf", "", "", "add a column with the density of each point", generate | warp},
         {"--with-weight", "", "",

@@ -176,7 +176,10 @@ const UnitInfo& unit_of(const std::vector<Kind>& kinds, std::string_view verb,
         if (const UnitInfo* unit = each.verb == verb ? find_unit(each, name) : nullptr)
             return *unit;
     std::vector<std::string> names;
-    for (const auto& known : kind->units) names.push_back(known.name);
+    for (const auto& known : kind->units) {
+        names.push_back(known.name);
+        names.insert(names.end(), known.aliases.begin(), known.aliases.end());
+    }
     const std::string singular = kind->name.substr(0, kind->name.size() - 1);
     fail_with_hint(ErrorKind::usage, suggest(name, names), "unknown {} '{}'", singular, name);
 }

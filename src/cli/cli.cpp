@@ -10,6 +10,7 @@
 
 #include "cli/arguments.hpp"
 #include "cli/help.hpp"
+#include "cli/launched.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -78,12 +79,6 @@ int dispatch(const Arguments& arguments, const std::vector<Kind>& kinds) {
         default:
             return analyze(arguments, session);
     }
-}
-
-/// Whether an MPI launcher started this process and another one speaks for all.
-bool is_mute() {
-    const char* rank = std::getenv("OMPI_COMM_WORLD_RANK");
-    return rank != nullptr && std::string_view(rank) != "0";
 }
 
 /// One line, and the hint in a second sentence of it.

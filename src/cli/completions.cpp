@@ -55,6 +55,10 @@ Values values_of(const CommonOption& option, const std::vector<Kind>& kinds) {
     if (value.find('|') != std::string_view::npos) return {.words = words_of(value)};
     if (value == "FILE" || value == "FOLDER") return {.file = true};
     if (value == "FORMAT") return {.words = names_of(kinds, "formats")};
+    if (value == "SPECS" || value.starts_with("GENERATOR"))
+        return {.words =
+                    names_of(kinds, std::string_view(option.names) == "--analyze" ? "analyzers"
+                                                                                  : "generators")};
     if (value == "S") return {.words = {"random"}};
     if (value.starts_with("NAME["))
         return {.words = joined(names_of(kinds, "warps"), names_of(kinds, "scrambles"))};
@@ -101,6 +105,11 @@ Values operands_of(Verb verb, const std::vector<Kind>& kinds) {
         case Verb::help:
             for (const Topic& topic : topics()) words.emplace_back(topic.name);
             for (const VerbInfo& info : verbs()) words.emplace_back(info.name);
+            for (const Kind& kind : kinds)
+                if (!kind.verb.empty())
+                    words = joined(std::move(words), names_of(kinds, kind.name));
+            std::ranges::sort(words);
+            words.erase(std::ranges::unique(words).begin(), words.end());
             return {.words = words};
         case Verb::completions:
             return {.words = {"bash", "zsh", "fish"}};

@@ -157,10 +157,18 @@ const VerbInfo* find_verb(const std::string& name) {
     return nullptr;
 }
 
-[[noreturn]] void refuse_name(const std::string& name) {
+[[noreturn]] void refuse_name(const std::string& name, const std::vector<Kind>& kinds) {
     std::vector<std::string> known;
     for (const Topic& topic : topics()) known.emplace_back(topic.name);
     for (const VerbInfo& info : verbs()) known.emplace_back(info.name);
+    for (const Kind& kind : kinds)
+        for (const UnitInfo& unit : kind.units) {
+            known.push_back(unit.name);
+            known.insert(known.end(), unit.aliases.begin(), unit.aliases.end());
+        }
+    if (!nearest_word(name, known))
+        fail_with_hint(ErrorKind::usage, "'stipple help' lists topics and verbs",
+                       "help: unknown topic, verb or unit '{}'", name);
     fail_with_hint(ErrorKind::usage, suggest(name, known), "help: unknown topic, verb or unit '{}'",
                    name);
 }
@@ -175,7 +183,7 @@ std::string help_of_unit(const std::string& name, const std::vector<Kind>& kinds
         asked.unit = name;
         return help_text(asked, kinds);
     }
-    refuse_name(name);
+    refuse_name(name, kinds);
 }
 
 std::string help_on(const std::vector<std::string>& words, const std::vector<Kind>& kinds) {
@@ -184,9 +192,13 @@ std::string help_on(const std::vector<std::string>& words, const std::vector<Kin
     if (const Topic* topic = find_topic(words[0]); topic != nullptr && words.size() == 1)
         return topic->text;
     const VerbInfo* info = find_verb(words[0]);
+    if (words.size() > 1 && (info == nullptr || !units_for(kinds, info->name)))
+        fail_with_hint(ErrorKind::usage, fmt::format("'stipple help {}' takes one word", words[0]),
+                       "help: '{}' is not understood behind '{}', which is no verb with units",
+                       words[1], words[0]);
     if (info == nullptr) return help_of_unit(words[0], kinds);
     asked.verb = info->verb;
-    if (words.size() > 1 && units_for(kinds, info->name)) asked.unit = words[1];
+    if (words.size() > 1) asked.unit = words[1];
     return help_text(asked, kinds);
 }
 
@@ -196,7 +208,7 @@ std::string manual_page(const std::string& name, const std::vector<Kind>& kinds)
     if (name.empty()) return page_of_program();
     if (const Topic* topic = find_topic(name)) return page_of_topic(*topic);
     if (const VerbInfo* info = find_verb(name)) return page_of_verb(*info, kinds);
-    refuse_name(name);
+    refuse_name(name, kinds);
 }
 
 namespace {

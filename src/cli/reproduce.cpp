@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -17,6 +18,7 @@
 #include "core/text.hpp"
 #include "io/carried_meta.hpp"
 #include "io/files.hpp"
+#include "io/provenance.hpp"
 #include "io/source_text.hpp"
 #include "math/png_picture.hpp"
 #include "study/chain.hpp"
@@ -64,6 +66,7 @@ struct Original {
     std::size_t sets = 0;                   ///< in the file; 0: its bytes tell
     std::string picture = {};               ///< option of the generator that made it, if it is one
     bool drawn = false;                     ///< svg or ply, which are not read
+    std::string plotted = {};               ///< command that drew it, if it is a picture of points
 };
 
 /// A pipe's bytes in a file of no name, which goes with the process.
@@ -91,12 +94,27 @@ bool file_there(const std::string& path) {
                    "{}: it does not tell how its points were made", original.name);
 }
 
+/// A picture by `stipple plot`, with what it tells of the set that it shows. False: no such
+/// picture.
+bool take_plot(Original& original, std::string_view png) {
+    const Json note = Json::parse(text_of_png(png, "stipple").value_or(""), nullptr, false);
+    if (!note.is_object() || note.contains("format") || !note.contains("command")) return false;
+    original.plotted = note["command"].get<std::string>();
+    if (!note.contains("meta"))
+        fail(ErrorKind::input,
+             "{}: a picture drawn by '{}', of no single set that tells how it was made",
+             original.name, original.plotted);
+    original.meta = io::provenance_from(note["meta"]);
+    return true;
+}
+
 /// Sets what carries its provenance where no reader of points looks. False: not such a file.
 bool take_carried(Original& original, std::string_view front, const RunContext& run) {
     std::optional<io::CarriedMeta> carried;
     const std::string beside = io::meta_path(original.path);
     const bool picture = front.starts_with(png_magic);
     original.drawn = front.starts_with("ply\n") || front.starts_with("<svg");
+    if (picture && take_plot(original, io::Input(original.path, run).bytes())) return true;
     if (picture || original.drawn) {
         carried = io::find_carried_meta(io::Input(original.path, run).bytes(), original.name);
         if (!carried) refuse_without_provenance(original);
@@ -318,6 +336,7 @@ class Reproducer {
 
     Verdict go() {
         check_inputs(original_);
+        if (!original_.plotted.empty()) return {};
         if (!original_.picture.empty()) return compare_picture();
         return original_.drawn ? compare_bytes() : compare_points();
     }
@@ -362,7 +381,13 @@ class Reproducer {
         const Comparison found =
             compare(making(std::max<std::size_t>(sets, 1)), written_, *stream, raw);
         tell_differences(found.made);
-        return verdict_on(found, stream->dimension());
+        Verdict verdict = verdict_on(found, stream->dimension());
+        const std::string wrong = verdict.identical ? contradiction(found.made) : "";
+        if (!wrong.empty()) {
+            verdict.identical = false;
+            verdict.sentence = wrong;
+        }
+        return verdict;
     }
 
     /// Finds out which columns stand behind the coordinates; numbers of a point with them.
@@ -392,12 +417,41 @@ class Reproducer {
                                 original_.name, option.first, option.second));
     }
 
+    /// What the provenance says otherwise than the same points' would today; or nothing.
+    [[nodiscard]] std::string contradiction(const Provenance& made) const {
+        const Provenance& told = original_.meta;
+        const auto text = [](std::uint64_t number) { return std::to_string(number); };
+        const std::vector<std::array<std::string, 3>> facts = {
+            {"count", text(told.count), text(made.count)},
+            {"dimension", text(told.dimension), text(made.dimension)},
+            {"start", text(told.start), text(made.start)},
+            {"seed", text(told.seed), text(made.seed)},
+            {"domain", told.domain, made.domain}};
+        for (const auto& [name, says, is] : facts)
+            if (says != is && !says.empty())
+                return fmt::format(
+                    "the points are the same, but the provenance says {} {} where it is {}", name,
+                    says, is);
+        return {};
+    }
+
+    /// "50 points of 3 coordinates and pdf"
+    [[nodiscard]] std::string size_of(const Comparison& found, std::size_t width) const {
+        const auto extra = written_.columns.names();
+        const std::size_t d = width - extra.size();
+        std::string text =
+            fmt::format("{} {} of {} {}", found.points, found.points == 1 ? "point" : "points", d,
+                        d == 1 ? "coordinate" : "coordinates");
+        for (const auto& name : extra) text += fmt::format(" and {}", name);
+        return text;
+    }
+
     [[nodiscard]] Verdict verdict_on(const Comparison& found, std::size_t width) const {
         Verdict verdict{.identical = found.identical(), .sentence = found.mismatch};
         verdict.details = {{"points", found.points}, {"sets", found.sets}};
         if (verdict.identical)
-            verdict.sentence = fmt::format("{} points of {} numbers{}", found.points, width,
-                                           remarks_on(found, written_));
+            verdict.sentence =
+                fmt::format("{}{}", size_of(found, width), remarks_on(found, written_));
         if (!found.difference) return verdict;
         const Difference& at = *found.difference;
         auto names = coordinate_names(width - written_.columns.names().size());
@@ -502,6 +556,26 @@ int say(const Original& original, const Verdict& verdict, const std::string& cha
     return verdict.identical ? 0 : 1;
 }
 
+/// A picture has no numbers to compare; but the points that it shows can be made.
+int remake_plotted(const Original& original, Reproducer& reproducer, const Arguments& arguments) {
+    const Provenance& meta = original.meta;
+    const std::string made =
+        meta.command.empty() ? fmt::format("generator {}", meta.generator) : meta.command;
+    if (!arguments.has("output"))
+        fail_with_hint(
+            ErrorKind::input, "-o FILE makes its points again",
+            "{}: a picture, which has no numbers to compare; it was drawn by '{}' of the "
+            "points of '{}'",
+            original.name, original.plotted, made);
+    reproducer.write(arguments);
+    const std::string path = *arguments.get("output");
+    if (path != "-")
+        write_text("-",
+                   fmt::format("{}: a picture of the points of '{}'; {} has them, made again\n",
+                               original.name, made, path));
+    return 0;
+}
+
 }  // namespace
 
 int reproduce(const Arguments& arguments, const std::vector<Kind>& kinds, Session& session) {
@@ -516,6 +590,7 @@ int reproduce(const Arguments& arguments, const std::vector<Kind>& kinds, Sessio
         reproducer.emplace(original, recipe_of(original, kinds, session), session);
         return reproducer->go();
     });
+    if (!original.plotted.empty()) return remake_plotted(original, *reproducer, arguments);
     if (arguments.has("output")) reproducer->write(arguments);
     return say(original, verdict, {}, arguments);
 }

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include "cli/launched.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -24,15 +25,6 @@ namespace stipple::cli {
 namespace {
 
 constexpr std::uint64_t most_units = 10'000'000;  // started without --yes
-
-/// Processes that an MPI launcher started, 1 if none did.
-std::uint64_t launched_ranks() {
-    std::uint64_t ranks = 1;
-    for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
-        if (const char* text = std::getenv(name))
-            ranks = std::max(ranks, parse_unsigned(text).value_or(1));
-    return ranks;
-}
 
 /// What was typed, with what the configuration says where nothing was typed.
 Arguments with_config(const Arguments& typed, std::uint64_t ranks, const RunContext& run) {
@@ -118,11 +110,23 @@ SummaryOptions summary_options(const Arguments& arguments, std::uint64_t seed) {
     return options;
 }
 
+/// ".csv" of study.csv, nothing of files without one, and of devices.
+std::string extension_of(const std::string& path) {
+    if (path == "-" || path.starts_with("/dev/")) return "";
+    const auto name = path.substr(path.rfind('/') + 1);
+    const auto dot = name.rfind('.');
+    return dot == std::string::npos || dot == 0 ? "" : name.substr(dot);
+}
+
 StudyTable::Style style_of(const Arguments& arguments, const std::string& path) {
     const auto format = arguments.get("format");
     if (format && *format != "csv" && *format != "jsonl")
         fail(ErrorKind::usage, "--format: '{}' is not one of csv, jsonl", *format);
     const bool lines = path.ends_with(".jsonl") || path.ends_with(".ndjson");
+    const std::string extension = extension_of(path);
+    if (!format && !lines && !extension.empty() && extension != ".csv")
+        fail_with_hint(ErrorKind::usage, "--format csv or jsonl says what it is to hold",
+                       "--output: a study's table is .csv or .jsonl; '{}' is neither", path);
     if (format) return *format == "jsonl" ? StudyTable::Style::jsonl : StudyTable::Style::csv;
     return lines ? StudyTable::Style::jsonl : StudyTable::Style::csv;
 }
@@ -199,11 +203,13 @@ class Study {
   private:
     int lead() {
         const RunContext& run = session_.run();
-        StudyFile file(path_, sweep_, table_, arguments_.has("resume"),
-                       [this](const StudyRow& row) {
-                           if (row.failed()) failures_.add(row);
-                           if (summarized_) summary_.add(row);
-                       });
+        const StudyFile::Start start = arguments_.has("resume")      ? StudyFile::Start::resume
+                                       : arguments_.has("overwrite") ? StudyFile::Start::anew
+                                                                     : StudyFile::Start::fresh;
+        StudyFile file(path_, sweep_, table_, start, [this](const StudyRow& row) {
+            if (row.failed()) failures_.add(row);
+            if (summarized_) summary_.add(row);
+        });
         const UnitRunner runner(sweep_, table_, run.max_memory);
         for (const auto& sentence : runner.before_warps(run)) session_.warn(sentence);
         try {
@@ -211,9 +217,10 @@ class Study {
             if (!run_study(sweep_, table_, file, ranks_, run)) return 0;
         } catch (const Error& e) {
             if (e.kind() != ErrorKind::cancelled || !file.has_journal()) throw;
-            fail_with_hint(ErrorKind::cancelled,
-                           fmt::format("what is done is in {}; --resume goes on", path_),
-                           "interrupted");
+            fail_with_hint(
+                ErrorKind::cancelled,
+                fmt::format("what is done is in {0} and {0}.journal; --resume goes on", path_),
+                "interrupted");
         }
         finish(file);
         if (failures_.code() != 0) session_.warn(failures_.sentence(sweep_.units()));
@@ -271,16 +278,13 @@ class Study {
 }  // namespace
 
 int study(const Arguments& arguments, Session& session) {
+    if (arguments.has("resume") && arguments.has("overwrite"))
+        fail(ErrorKind::usage, "--resume and --overwrite: give one of them");
     if (!arguments.inputs.empty())
         fail(ErrorKind::usage, "study takes no input; '{}' is not understood",
              arguments.inputs.front());
-    const std::uint64_t launched = launched_ranks();
-    if (launched > 1 && !has_mpi())
-        fail_with_hint(ErrorKind::usage, "build with -DSTIPPLE_MPI=ON, or start one process",
-                       "study: an MPI launcher started {} processes, and this build has no MPI",
-                       launched);
-    const Arguments all = with_config(arguments, launched, session.run());
-    const auto ranks = launched > 1 ? join_ranks() : std::make_unique<Ranks>();
+    const Arguments all = with_config(arguments, launched_ranks(), session.run());
+    const auto ranks = launched("study");
     return Study(all, session, *ranks).go();
 }
 

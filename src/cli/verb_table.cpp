@@ -39,7 +39,8 @@ constexpr VerbInfo analyze_verb = {
     "stipple analyze ANALYZER [INPUT...] [OPTIONS]",
     "measures point sets",
     R"(INPUTs are files of points; standard input by default. Results are deterministic, for any
-number of threads; only "seconds" is measured. --format is text on a terminal, else json.)",
+number of threads; only "seconds" is measured. --format is text on a terminal, else json.
+'mpirun -n 8 stipple analyze ...' shares one set between ranks ('stipple help cluster').)",
     R"(  stipple generate halton -n 1000 | stipple analyze star-discrepancy
   stipple analyze chi-square disk.csv --domain disk --expect uniform
   stipple analyze star-discrepancy a.csv b.csv --format csv
@@ -101,7 +102,8 @@ cube, looks at the points before the warp; the column domain says so.
 What fails (a count that a generator cannot make, a time limit, a dimension that a measure cannot
 take) is a row with status failed and the reason; the exit code is then 5 if a limit of time or
 memory was met, else 3. The file is written as the study goes on, with FILE.journal for what is
-done out of order: after Ctrl-C (exit 130) or a crash both stay, and --resume goes on.
+done out of order: after Ctrl-C (exit 130) or a crash both stay, and --resume goes on. A study
+that is there already is refused without --resume or --overwrite.
 --summary writes FILE.summary and FILE.comparisons with the extension of FILE (behind the rows
 where these go to standard output).
 
@@ -131,7 +133,8 @@ constexpr VerbInfo reproduce_verb = {
 --mask-image. Every number is compared as it was written: cut to float32 or to digits, as the
 provenance says. The exit code is 0 for identical points, and 1 for others: the first number that
 differs is named. It is 1, too, where the rules of a unit changed since, as its stream version
-tells. Files that the points were made from must still be there, as they were.)",
+tells. Files that the points were made from must still be there, as they were. A picture by
+'stipple plot' of one set tells which: -o makes that set again.)",
     R"(  stipple generate sobol --scramble owen --meta -o a.csv && stipple reproduce a.csv
   stipple generate random -f npy --meta -o a.npy && stipple reproduce a.npy --json
   stipple generate halton -f json | stipple reproduce - -o again.csv

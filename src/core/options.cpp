@@ -162,8 +162,8 @@ Value Option::parse(std::string_view text) const {
     }
     if (type == "choice") {
         if (std::ranges::find(choices, text) == choices.end()) {
-            const auto meant = nearest_word(text, choices);
-            fail_with_hint(ErrorKind::usage, meant ? fmt::format("did you mean '{}'?", *meant) : "",
+            fail_with_hint(ErrorKind::usage,
+                           nearest_word(text, choices) ? suggest(text, choices) : "",
                            "--{}: '{}' is not one of {}", name, text, join(choices, ", "));
         }
         return std::string(text);

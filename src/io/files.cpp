@@ -145,6 +145,20 @@ std::size_t Feed::read(std::span<char> bytes) {
     return held == bytes.size() ? held : held + fetch(bytes.subspan(held));
 }
 
+std::optional<std::uint64_t> Feed::skip(std::uint64_t count) {
+    struct stat status {};
+    if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+    const auto ahead = std::min<std::uint64_t>(count, front_.size() - taken_);
+    const auto at = ::lseek(descriptor_, 0, SEEK_CUR);
+    if (at < 0) return std::nullopt;
+    const auto left = static_cast<std::uint64_t>(std::max<off_t>(0, status.st_size - at));
+    const auto behind = std::min(count - ahead, left);
+    if (behind > 0 && ::lseek(descriptor_, static_cast<off_t>(behind), SEEK_CUR) < 0)
+        return std::nullopt;
+    taken_ += static_cast<std::size_t>(ahead);
+    return ahead + behind;
+}
+
 std::string Feed::read_all() {
     std::string bytes = front_.substr(taken_);
     if (ends_in_front()) return bytes;

@@ -41,6 +41,13 @@ class HeldSets final : public PointStream {
         return size / dimension();
     }
 
+    std::uint64_t skip(std::uint64_t count) override {
+        const std::size_t d = dimension();
+        const auto size = std::min<std::uint64_t>((set().flat().size() - at_) / d, count);
+        at_ += static_cast<std::size_t>(size) * d;
+        return size;
+    }
+
   private:
     const PointSet& set() const { return sets_[std::max<std::size_t>(next_, 1) - 1]; }
 
@@ -96,7 +103,29 @@ class RawStream final : public PointStream {
         return numbers / shape_.width;
     }
 
+    std::uint64_t skip(std::uint64_t count) override {
+        const std::uint64_t point = shape_.width * shape_.type.size;
+        constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+        const std::uint64_t wanted = std::min(count, left_);
+        const auto bytes = feed_->skip(wanted > most / point ? most : wanted * point);
+        if (!bytes) return PointStream::skip(count);
+        const std::uint64_t points = *bytes / point;
+        numbers_ += static_cast<std::size_t>(points) * shape_.width;
+        left_ -= points;
+        if (*bytes % point != 0 || (shape_.count && points < wanted)) refuse_end();
+        check_rest();
+        return points;
+    }
+
   private:
+    /// Bytes end within a point, or before those that were promised.
+    [[noreturn]] void refuse_end() {
+        if (shape_.count) PointStream::skip(1);
+        fail(ErrorKind::input,
+             "{}: the last point is cut off; expected whole points, {} float{} each", source_,
+             shape_.width, 8 * shape_.type.size);
+    }
+
     /// Looks whether the bytes may end here.
     void check_end(std::size_t wanted) const {
         const std::size_t point = shape_.width * shape_.type.size;
@@ -166,6 +195,17 @@ class JoinedStream final : public PointStream {
         return got / d;
     }
 
+    std::uint64_t skip(std::uint64_t count) override {
+        std::uint64_t got = 0;
+        while (got < count && !ended_) {
+            const std::uint64_t more = part_->skip(count - got);
+            got += more;
+            ended_ = more == 0 && !next_part();
+        }
+        count_ += got;
+        return got;
+    }
+
     std::vector<PointSet> read_all(const RunContext& run) override {
         auto sets = PointStream::read_all(run);
         for (PointSet& set : sets) set.provenance = whole();
@@ -233,6 +273,20 @@ class JoinedStream final : public PointStream {
 
 std::unique_ptr<PointStream> join_points(std::vector<std::string> paths, Opener open) {
     return std::make_unique<JoinedStream>(std::move(paths), std::move(open));
+}
+
+std::uint64_t PointStream::skip(std::uint64_t count) {
+    const std::size_t d = dimension();
+    const std::uint64_t step = std::max<std::uint64_t>(1, (std::uint64_t{1} << 16) / d);
+    std::vector<double> rows(static_cast<std::size_t>(std::min(step, count)) * d);
+    std::uint64_t done = 0;
+    while (done < count) {
+        const auto some = static_cast<std::size_t>(std::min(step, count - done));
+        const std::size_t got = read(std::span(rows).first(some * d));
+        done += got;
+        if (got < some) break;
+    }
+    return done;
 }
 
 std::vector<PointSet> PointStream::read_all(const RunContext& run) {

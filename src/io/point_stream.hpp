@@ -42,6 +42,10 @@ class Feed {
     /// Takes the next bytes, from the front on; fewer than asked for only at the end.
     std::size_t read(std::span<char> bytes);
 
+    /// Goes past the next bytes, as many as there are up to `count`, and says how many these were;
+    /// nothing where they can only be read.
+    std::optional<std::uint64_t> skip(std::uint64_t count);
+
     /// Takes all bytes. @throws Error(limit)
     std::string read_all();
 
@@ -89,6 +93,10 @@ class PointStream {
     /// Takes the set's next points, as many as fit; fewer, or none, only at its end.
     /// @throws Error(input), Error(io), Error(cancelled)
     virtual std::size_t read(std::span<double> rows) = 0;
+
+    /// Goes past the set's next points, as many as there are up to `count`, and says how many these
+    /// were. Where the place of every point is known, what is passed is not looked at.
+    virtual std::uint64_t skip(std::uint64_t count);
 };
 
 /// What is small, or must be read as a whole (JSON, columns of a matrix one after the other, CSV

@@ -2,6 +2,7 @@
 #include "math/nufft.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -142,14 +143,62 @@ FourierSummation::FourierSummation(const Nufft& nufft, const RunContext& run)
             .side = nufft.side(),
             .stride = stride_of(nufft.side()),
             .cells = cells_.get()},
-      spreader_(nufft.window(), grid_, nufft.weighted()) {
+      spreader_(nufft.window(), grid_, nufft.weighted()),
+      block_(block_of(nufft)) {
     clear(cells_.get(), lines_of(grid_) * grid_.stride, run);
+}
+
+std::uint64_t FourierSummation::block_of(const Nufft& nufft) {
+    constexpr std::uint64_t least = std::uint64_t{1} << 21;
+    constexpr std::uint64_t most = std::uint64_t{1} << 26;
+    const double cells = power(nufft.side(), nufft.dimension());
+    return std::clamp(std::bit_ceil(static_cast<std::uint64_t>(cells)), least, most);
+}
+
+std::span<double> FourierSummation::cells() const {
+    return {cells_.get(), lines_of(grid_) * grid_.stride};
+}
+
+void FourierSummation::add(std::span<const double> rows, const RunContext& run) {
+    if (nufft_.weighted()) return spreader_.add(rows, run);
+    const std::size_t d = grid_.dimension;
+    while (!rows.empty()) {
+        if (points_ == block_) {
+            close_block(run);
+            clear(cells_.get(), cells().size(), run);
+        }
+        const std::uint64_t some = std::min<std::uint64_t>(rows.size() / d, block_ - points_);
+        spreader_.add(rows.first(static_cast<std::size_t>(some) * d), run);
+        points_ += some;
+        rows = rows.subspan(static_cast<std::size_t>(some) * d);
+    }
+}
+
+void FourierSummation::close_block(const RunContext& run) {
+    spreader_.finish(run);
+    sum_.add(cells(), run);
+    points_ = 0;
+}
+
+void FourierSummation::pack(Packer& to, const RunContext& run) {
+    close_block(run);
+    sum_.pack(to);
+}
+
+void FourierSummation::merge(Unpacker& from, const RunContext& run) {
+    if (points_ > 0) close_block(run);
+    sum_.merge(from);
 }
 
 FourierSums FourierSummation::finish(Planning planning, const RunContext& run) {
     RunContext quiet = run;
     quiet.progress = {};
     spreader_.finish(quiet);
+    if (!sum_.empty()) {
+        if (points_ > 0) sum_.add(cells(), quiet);
+        sum_.copy_to(cells(), quiet);
+        sum_ = {};
+    }
     std::vector<double> factors;
     const auto side = static_cast<double>(nufft_.side());
     for (std::size_t f = 0; f <= nufft_.max_frequency(); ++f)

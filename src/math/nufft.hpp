@@ -31,6 +31,7 @@
 #include <vector>
 
 #include "core/run_context.hpp"
+#include "math/grid_sum.hpp"
 #include "math/kaiser_bessel.hpp"
 #include "math/spreading.hpp"
 #include "math/transform.hpp"
@@ -76,21 +77,38 @@ class Nufft {
     KaiserBessel window_;
 };
 
-/// A transform whose points come in portions.
+/// A transform whose points come in portions. Those without strengths are spread over a grid for
+/// every block of them, and the grids are added as GridSum does it: so they may be shared out,
+/// block by block, and what becomes of the parts be merged.
 class FourierSummation {
   public:
     FourierSummation(const Nufft& nufft, const RunContext& run);
 
-    void add(std::span<const double> rows, const RunContext& run) { spreader_.add(rows, run); }
+    /// Points of a block: as many as cells, so that adding grids costs little, but at least 2^21
+    /// and at most 2^26.
+    static std::uint64_t block_of(const Nufft& nufft);
+
+    void add(std::span<const double> rows, const RunContext& run);
+
+    /// The sum over the points so far. None may come any more.
+    void pack(Packer& to, const RunContext& run);
+    /// Takes in that of other points; this one's are whole blocks.
+    void merge(Unpacker& from, const RunContext& run);
 
     /// Called once, when all points came.
     [[nodiscard]] FourierSums finish(Planning planning, const RunContext& run);
 
   private:
+    [[nodiscard]] std::span<double> cells() const;
+    void close_block(const RunContext& run);
+
     Nufft nufft_;
     GridCells cells_;
     CellGrid grid_;
     Spreader spreader_;
+    std::uint64_t block_;       ///< points
+    std::uint64_t points_ = 0;  ///< of the block at hand
+    GridSum sum_;               ///< of all blocks before
 };
 
 /// The same by the plain sum, O(n (2F + 1)^d): the oracle. Phases are reduced before they are

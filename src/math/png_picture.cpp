@@ -215,6 +215,24 @@ std::string png_with_text(std::string_view png, std::string_view keyword, std::s
     return out.append(png.substr(std::min(behind_header, png.size())));
 }
 
+namespace {
+
+/// What stands behind the keyword of an iTXt chunk (11.3.4.5): two bytes that say whether and how
+/// the text is compressed, language and translated keyword, each up to a 0, and the text. Nothing
+/// of a compressed one.
+std::optional<std::string> international_text(std::string_view data) {
+    if (data.size() < 2 || data[0] != 0) return std::nullopt;
+    data.remove_prefix(2);
+    for (int names = 0; names < 2; ++names) {
+        const auto end = data.find('\0');
+        if (end == std::string_view::npos) return std::nullopt;
+        data.remove_prefix(end + 1);
+    }
+    return std::string(data);
+}
+
+}  // namespace
+
 std::optional<std::string> text_of_png(std::string_view png, std::string_view keyword) {
     std::string wanted(keyword);
     wanted += '\0';
@@ -224,8 +242,10 @@ std::optional<std::string> text_of_png(std::string_view png, std::string_view ke
             length = 256 * length + static_cast<unsigned char>(png[at + i]);
         if (length > png.size() - at - 12) return std::nullopt;
         const auto data = png.substr(at + 8, length);
-        if (png.substr(at + 4, 4) == "tEXt" && data.starts_with(wanted))
-            return std::string(data.substr(wanted.size()));
+        const bool ours = data.starts_with(wanted);
+        if (png.substr(at + 4, 4) == "tEXt" && ours) return std::string(data.substr(wanted.size()));
+        if (png.substr(at + 4, 4) == "iTXt" && ours)
+            if (auto text = international_text(data.substr(wanted.size()))) return text;
         at += 12 + length;
     }
     return std::nullopt;

@@ -61,15 +61,15 @@ std::shared_ptr<const WarpChain> GeneratedSets::chain_for(std::uint64_t set,
         ChainSet{.seed = plan_.seed + set, .count = request_.start + plan_.count}, run);
 }
 
-NextRows GeneratedSets::stream(std::uint64_t set, const RunContext& run) const {
+NextRows GeneratedSets::stream(std::uint64_t set, const RunContext& run, std::uint64_t from) const {
     Plan plan = plan_;
     plan.seed += set;
     const std::shared_ptr<Sequence> sequence = generator_.sequence(plan, options_, run);
-    walk_to(*sequence, request_.start, plan.dimension, run);
+    walk_to(*sequence, request_.start + from, plan.dimension, run);
     RunContext lane = run;
     lane.progress = {};
     if (!sequence->random_access()) lane.threads = 1;
-    const auto at = std::make_shared<std::uint64_t>(0);
+    const auto at = std::make_shared<std::uint64_t>(from);
     return [=, chain = chain_for(set, run), start = request_.start,
             count = plan.count](std::span<double> rows) {
         const std::size_t in = chain->dimension_in();

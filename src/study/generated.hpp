@@ -31,8 +31,9 @@ class GeneratedSets {
     /// Points of a set that come in blocks; nothing where sets must be made in memory.
     [[nodiscard]] std::optional<std::uint64_t> streamed() const;
 
-    /// What gives the points of such a set.
-    [[nodiscard]] NextRows stream(std::uint64_t set, const RunContext& run) const;
+    /// What gives the points of such a set, from the one of this number on.
+    [[nodiscard]] NextRows stream(std::uint64_t set, const RunContext& run,
+                                  std::uint64_t from = 0) const;
 
     /// All points of a set.
     [[nodiscard]] PointSet made(std::uint64_t set, const RunContext& run) const;

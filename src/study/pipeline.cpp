@@ -31,7 +31,11 @@ const Unit& find_unit(std::string_view kind, const std::vector<Unit>& units,
                       std::string_view name) {
     if (const Unit* unit = try_unit(units, name)) return *unit;
     std::vector<std::string> names;
-    for (const Unit& unit : units) names.push_back(unit.name);
+    for (const Unit& unit : units) {
+        names.push_back(unit.name);
+        if constexpr (requires { unit.aliases; })
+            names.insert(names.end(), unit.aliases.begin(), unit.aliases.end());
+    }
     if constexpr (std::is_same_v<Unit, Warp>)
         for (const Scramble& scramble : scrambles::all()) names.push_back(scramble.name);
     fail_with_hint(ErrorKind::usage, suggest(name, names), "unknown {} '{}'", kind, name);

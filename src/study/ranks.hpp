@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 //
-// The processes that share a study, as the launcher of MPI started them; or this one alone.
-//
-// What they say to each other are short messages: work, and what became of it. All calls are made
-// from the thread that made the object.
+// The processes that share a study or an analysis, as the launcher of MPI started them; or this one
+// alone. All calls are made from the thread that made the object.
 #pragma once
 
 #include <memory>
 #include <optional>
 #include <string>
+
+#include "core/peers.hpp"
+#include "core/run_context.hpp"
 
 namespace stipple {
 
@@ -17,23 +18,23 @@ struct Message {
     std::string bytes;
 };
 
-class Ranks {
+class Ranks : public Peers {
   public:
-    Ranks() = default;
-    Ranks(const Ranks&) = delete;
-    Ranks& operator=(const Ranks&) = delete;
-    virtual ~Ranks() = default;
-
-    [[nodiscard]] virtual int rank() const { return 0; }
-    [[nodiscard]] virtual int size() const { return 1; }
     /// Ranks on this machine, with this one.
     [[nodiscard]] virtual int on_machine() const { return 1; }
 
-    /// Gives the message to the post; it waits for nobody.
+    /// Gives the message, of less than 2^31 bytes, to the post; it waits for nobody.
     virtual void send(int /*to*/, std::string /*bytes*/) {}
     /// The next message that came, if any.
     virtual std::optional<Message> poll() { return std::nullopt; }
+
+    /// Gives bytes of any size to another rank, which takes them at the same time.
+    virtual void give(int /*to*/, const std::string& /*bytes*/) {}
+    virtual std::string take(int /*from*/) { return {}; }
 };
+
+/// Threads of this process: all that the user gave or, by default, its share of the machine.
+unsigned threads_of(const Ranks& ranks, const RunContext& run);
 
 /// Whether this build has MPI.
 bool has_mpi();

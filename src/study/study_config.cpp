@@ -44,7 +44,49 @@ constexpr std::array keys = {Key{"generators", Holds::generators, "generators"},
                              Key{"output", Holds::text, "output"},
                              Key{"format", Holds::text, "format"}};
 
+/// Numbers that a key takes, and how a message calls them.
+struct Range {
+    const char* key;
+    double low;
+    double high;
+    bool whole;  ///< whole numbers, the ends among them; else numbers between the ends
+    const char* name;
+};
+
+constexpr std::array ranges = {Range{"seed", 0, 0x1p64, true, "a whole number in [0, 2^64)"},
+                               Range{"seeds", 1, 0x1p53, true, "a whole number in [1, 2^53]"},
+                               Range{"time-limit", 0, 1e9, false, "a number of seconds above 0"},
+                               Range{"confidence", 0, 1, false, "a number between 0 and 1"},
+                               Range{"bootstrap", 1, 1e7, true, "a whole number in [1, 10000000]"}};
+
+constexpr std::array<std::pair<const char*, const char*>, 2> choices = {
+    {{"pairs", "welch|paired"}, {"format", "csv|jsonl"}}};
+
 constexpr std::array remarks = {"$schema", "comment"};
+
+/// Looks for keys that stand twice in an object, of which a parser would take the last.
+class Repetitions {
+  public:
+    explicit Repetitions(const std::string& source) : source_(source) {}
+
+    bool operator()(int, Json::parse_event_t event, const Json& value) {
+        if (event == Json::parse_event_t::object_start) objects_.emplace_back();
+        if (event == Json::parse_event_t::object_end) objects_.pop_back();
+        if (event != Json::parse_event_t::key) return true;
+        const auto name = value.get<std::string>();
+        auto& keys_here = objects_.back();
+        const bool twice = std::ranges::find(keys_here, name) != keys_here.end();
+        keys_here.push_back(name);
+        if (!twice) return true;
+        std::string where = "$";
+        for (const auto& object : objects_) where += "." + object.back();
+        fail(ErrorKind::input, "{}: {}: the key stands twice", source_, where);
+    }
+
+  private:
+    std::string source_;
+    std::vector<std::vector<std::string>> objects_;  ///< that are open: their keys so far
+};
 
 class ConfigReader {
   public:
@@ -88,7 +130,7 @@ class ConfigReader {
 
     [[nodiscard]] Json parsed(std::string_view text) const {
         try {
-            return Json::parse(text);
+            return Json::parse(text, Repetitions(source_));
         } catch (const Json::parse_error& e) {
             const std::size_t at = std::min(e.byte > 0 ? e.byte - 1 : 0, text.size());
             const auto before = text.substr(0, at);
@@ -110,9 +152,7 @@ class ConfigReader {
             case Holds::words:
                 return read_words(key, value, where);
             case Holds::number:
-                if (!value.is_number())
-                    refuse(where, fmt::format("expected a number, got {}", value.dump()));
-                return add(key, number_text(value));
+                return read_number(key, value, where);
             case Holds::flag:
             case Holds::no_flag:
                 if (!value.is_boolean())
@@ -122,8 +162,31 @@ class ConfigReader {
             case Holds::text:
                 if (!value.is_string())
                     refuse(where, fmt::format("expected a word, got {}", value.dump()));
-                return add(key, value.get<std::string>());
+                return read_text(key, value.get<std::string>(), where);
         }
+    }
+
+    void read_number(const Key& key, const Json& value, const std::string& where) {
+        const Range& range = *std::ranges::find_if(
+            ranges, [&](const Range& r) { return std::string_view(r.key) == key.name; });
+        const double x = value.is_number() ? value.get<double>() : -1;
+        const bool inside = range.whole
+                                ? value.is_number_unsigned() && x >= range.low && x <= range.high
+                                : x > range.low && x < range.high;
+        if (!inside) refuse(where, fmt::format("expected {}, got {}", range.name, value.dump()));
+        add(key, number_text(value));
+    }
+
+    void read_text(const Key& key, const std::string& text, const std::string& where) {
+        for (const auto& [name, words] : choices)
+            if (name == std::string_view(key.name)) {
+                const auto known = split(words, '|');
+                if (std::ranges::find(known, text) == known.end())
+                    refuse(where,
+                           fmt::format("expected {} or {}, got '{}'", known[0], known[1], text));
+            }
+        if (text.empty()) refuse(where, "expected a name, got an empty one");
+        add(key, text);
     }
 
     void add(const Key& key, std::string text) {

@@ -79,7 +79,7 @@ std::string timeless(const StudyTable& table, const std::string& line) {
 
 }  // namespace
 
-StudyFile::StudyFile(std::string path, const Sweep& sweep, const StudyTable& table, bool resume,
+StudyFile::StudyFile(std::string path, const Sweep& sweep, const StudyTable& table, Start start,
                      Listener listener)
     : path_(std::move(path)), sweep_(sweep), table_(table), listener_(std::move(listener)) {
     struct stat status {};
@@ -87,12 +87,13 @@ StudyFile::StudyFile(std::string path, const Sweep& sweep, const StudyTable& tab
     if (exists && S_ISDIR(status.st_mode))
         fail(ErrorKind::io, "{}: is a folder, not a file", path_);
     stream_ = path_ == "-" || (exists && !S_ISREG(status.st_mode));
-    if (stream_ && resume)
+    if (stream_ && start == Start::resume)
         fail(ErrorKind::usage, "--resume: needs a file; name the one to go on with by -o");
-    stream_ ? open_stream() : open_file(resume);
+    stream_ ? open_stream() : open_file(start);
 }
 
 StudyFile::~StudyFile() {
+    sync();
     if (owned_) ::close(output_);
     if (journal_ >= 0) ::close(journal_);
 }
@@ -103,7 +104,15 @@ void StudyFile::open_stream() {
     write_all(output_, table_.head(), path_);
 }
 
-void StudyFile::open_file(bool resume) {
+void StudyFile::sync() {
+    if (!dirty_.exchange(false)) return;
+    // What cannot be synchronised, such as a pipe, says so; the rows are where they can be.
+    if (owned_ && !stream_) ::fdatasync(output_);
+    if (journal_ >= 0) ::fdatasync(journal_);
+}
+
+void StudyFile::open_file(Start start) {
+    const bool resume = start == Start::resume;
     const bool unfinished = there(journal_of(path_));
     std::ifstream in(path_, std::ios::binary);
     std::string first;
@@ -116,11 +125,13 @@ void StudyFile::open_file(bool resume) {
     if (!empty && !ours)
         fail_with_hint(ErrorKind::input, "name another file with -o",
                        "{}: is there and is not a study's table", path_);
-    if (unfinished && !resume)
-        fail_with_hint(
-            ErrorKind::usage,
-            fmt::format("--resume goes on with it; remove {} to begin anew", journal_of(path_)),
-            "{}: holds a study that is not finished", path_);
+    if (unfinished && start == Start::fresh)
+        fail_with_hint(ErrorKind::usage, "--resume goes on with it, --overwrite begins anew",
+                       "{}: holds a study that is not finished", path_);
+    if (whole && start == Start::fresh)
+        fail_with_hint(ErrorKind::usage,
+                       "--overwrite begins anew, --resume adds what is missing, -o names another",
+                       "{}: exists, and holds a study", path_);
     output_ = opened(path_, O_RDWR | O_CREAT | O_APPEND);
     owned_ = true;
     if (!resume || !whole) {
@@ -261,6 +272,7 @@ bool StudyFile::put(const Segment& segment) {
     } else {
         waiting.text = std::move(text);
     }
+    dirty_ = true;
     waiting_.emplace(segment.units.first, std::move(waiting));
     return write_waiting();
 }

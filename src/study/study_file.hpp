@@ -18,6 +18,7 @@
 // Beware   standard output, pipes and devices have no journal: rows wait in memory.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -35,11 +36,15 @@ class StudyFile {
   public:
     using Listener = std::function<void(const StudyRow&)>;
 
+    /// What to do with a study that the file holds: refuse it, go on with it, or replace it.
+    enum class Start { fresh, resume, anew };
+
     /// @param listener called with each row of the study in order, also those found in the file
-    /// @throws Error: the file is there and no study's, or is another study's, or is not finished
-    /// and nobody asked to resume it; Error(io).
-    StudyFile(std::string path, const Sweep& sweep, const StudyTable& table, bool resume,
+    /// @throws Error: the file is there and no study's, or is a study's and nobody said what to do
+    /// with it, or is another one's than what is to be resumed; Error(io).
+    StudyFile(std::string path, const Sweep& sweep, const StudyTable& table, Start start,
               Listener listener);
+
     StudyFile(const StudyFile&) = delete;
     StudyFile& operator=(const StudyFile&) = delete;
     ~StudyFile();
@@ -58,6 +63,9 @@ class StudyFile {
     /// Adds text behind the rows, once all units are there, and takes the journal away.
     bool finish(const std::string& more = {});
 
+    /// Has what was taken put on the disk itself; may be called beside put().
+    void sync();
+
   private:
     /// Units that wait for their turn.
     struct Waiting {
@@ -67,7 +75,7 @@ class StudyFile {
     };
 
     void open_stream();
-    void open_file(bool resume);
+    void open_file(Start start);
     void begin_journal();
     void read_rows();
     bool take_row(const StudyRow& row, std::uint64_t line);
@@ -84,6 +92,7 @@ class StudyFile {
     Listener listener_;
     int output_ = -1;
     int journal_ = -1;
+    std::atomic<bool> dirty_ = false;  ///< something was written since the last sync
     bool owned_ = false;
     bool stream_ = false;
     std::uint64_t journal_size_ = 0;

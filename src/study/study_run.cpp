@@ -111,6 +111,7 @@ class Office {
         while (busy_ > 0 || others > 0) {
             if (halted_ && !told_) tell_others_to_halt();
             if (!serve(others)) wait_a_little();
+            keep_safe();
             show_progress();
         }
         crew.clear();
@@ -213,6 +214,14 @@ class Office {
         }
     }
 
+    /// A power cut loses a second's rows at most.
+    void keep_safe() {
+        constexpr double apart = 1;  // second
+        if (!run_.seconds || run_.seconds() < synced_ + apart) return;
+        synced_ = run_.seconds();
+        file_.sync();
+    }
+
     void show_progress() {
         if (!run_.progress || !run_.seconds) return;
         const std::lock_guard lock(mutex_);
@@ -248,6 +257,7 @@ class Office {
     std::stop_source stop_;
     std::uint64_t units_;
     double started_;
+    double synced_ = 0;  ///< when rows were put on the disk last
 };
 
 /// Another rank: threads that work, and one that speaks with rank 0.
@@ -350,11 +360,6 @@ class Workshop {
 };
 
 }  // namespace
-
-unsigned threads_of(const Ranks& ranks, const RunContext& run) {
-    if (run.threads != 0) return run.threads;
-    return std::max(1U, run.thread_count() / static_cast<unsigned>(ranks.on_machine()));
-}
 
 bool run_study(const Sweep& sweep, const StudyTable& table, StudyFile& file, Ranks& ranks,
                const RunContext& run) {

@@ -31,7 +31,4 @@ void work_for_study(const Sweep& sweep, const StudyTable& table, Ranks& ranks,
 /// run_study.
 void dismiss(Ranks& ranks);
 
-/// Threads of this process: all that the user gave or, by default, its share of the machine.
-unsigned threads_of(const Ranks& ranks, const RunContext& run);
-
 }  // namespace stipple

@@ -48,6 +48,40 @@ void refuse_twice(const std::vector<Chosen<Unit>>& list, std::string_view who) {
                 fail(ErrorKind::usage, "{}: '{}' stands twice", who, list[i].spec);
 }
 
+/// Whether a result's name, or a part of it between dots, is meant; parts in capitals stand for
+/// any.
+bool has_part(const std::string& result, std::string_view wanted) {
+    const auto parts = split(result, '.');
+    const auto asked = split(wanted.substr(0, wanted.find('[')), '.');
+    const auto alike = [](std::string_view part, std::string_view word) {
+        const bool any = !part.empty() &&
+                         part.find_first_of("abcdefghijklmnopqrstuvwxyz") == std::string_view::npos;
+        return any || part == word;
+    };
+    return !std::ranges::search(parts, asked, alike).empty();
+}
+
+/// @throws Error(usage) for keys that no measure has, and measures that have none of them
+void check_keys(const std::vector<std::string>& wanted,
+                const std::vector<Chosen<Analyzer>>& measures) {
+    const auto has = [](const Chosen<Analyzer>& measure, const std::string& key) {
+        return std::ranges::any_of(measure.unit->results,
+                                   [&](const ResultKey& r) { return has_part(r.key, key); });
+    };
+    std::vector<std::string> known;
+    for (const auto& measure : measures)
+        for (const ResultKey& result : measure.unit->results) known.push_back(result.key);
+    for (const auto& key : wanted)
+        if (std::ranges::none_of(measures, [&](const auto& m) { return has(m, key); }))
+            fail_with_hint(ErrorKind::usage, suggest(key, known),
+                           "--keys: no measure of the study has a result '{}'", key);
+    for (const auto& measure : measures)
+        if (!wanted.empty() &&
+            std::ranges::none_of(wanted, [&](const auto& key) { return has(measure, key); }))
+            fail(ErrorKind::usage, "--keys: none of these is a result of {}: {}",
+                 measure.unit->name, join(wanted, ", "));
+}
+
 /// FNV-1a, 64 bits.
 std::string hash_of(std::string_view text) {
     std::uint64_t hash = 0xcbf29ce484222325U;
@@ -89,6 +123,7 @@ void Sweep::choose() {
     if (measures_.empty()) fail(ErrorKind::usage, "--analyze: name at least one analyzer");
     refuse_twice(generators_, "generators");
     refuse_twice(measures_, "analyze");
+    check_keys(request_.keys, measures_);
 }
 
 void Sweep::choose_warps() {

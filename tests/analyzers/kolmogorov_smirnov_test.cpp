@@ -119,6 +119,29 @@ TEST(KolmogorovSmirnov, IsTheStarDiscrepancyOfTheUnitInterval) {
                     measure("star-discrepancy", "value", PointSet(flat, 1)), 1e-15);
 }
 
+// Counted in cells, the statistic is below the exact one by no more than it says; on lattices of
+// dyadic places, where no point is inside a cell, by what one cell makes.
+TEST(KolmogorovSmirnov, CountsManyPointsWithinTheErrorThatItTells) {
+    for (const char* generator : {"random", "sobol", "jittered"})
+        for (const std::uint64_t n : {16U, 1000U, 20'000U}) {
+            const PointSet points = make(generator, {n, 3});
+            const Report exact = analyze("kolmogorov-smirnov", points);
+            const Report counted = analyze("kolmogorov-smirnov", points, {{"exact-points", "10"}});
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double is = exact.curve("statistic")[k];
+                const double error = counted.curve("statistic_error")[k];
+                EXPECT_EQ(exact.curve("statistic_error")[k], 0);
+                EXPECT_GT(error, 0);
+                EXPECT_LE(error, 1.001 / static_cast<double>(n) + 0x1p-23) << generator << n;
+                EXPECT_LE(counted.curve("statistic")[k], is);
+                EXPECT_GE(counted.curve("statistic")[k] + error, is - 1e-15);
+            }
+        }
+    const PointSet edges(std::vector<double>{0, 1, 1, 0.5}, 1);
+    const Report counted = analyze("kolmogorov-smirnov", edges, {{"exact-points", "1"}});
+    EXPECT_DOUBLE_EQ(counted.curve("statistic")[0] + counted.curve("statistic_error")[0], 0.5);
+}
+
 TEST(KolmogorovSmirnov, BothTailsAreFound) {
     const Report even = analyze("kolmogorov-smirnov", make("jittered", {1024, 2}));
     EXPECT_EQ(even.text("verdict"), "stratified");

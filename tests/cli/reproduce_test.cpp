@@ -157,9 +157,9 @@ TEST(Reproduce, SpeaksToProgramsAndWritesThePoints) {
                   "c.csv"));
     EXPECT_EQ(box.shell("stipple reproduce a.csv -o - 2>/dev/null | cmp - a.csv").code, 0);
     EXPECT_EQ(good(box.shell("cat a.csv | stipple reproduce -")),
-              "stdin: identical: 10 points of 2 numbers\n");
+              "stdin: identical: 10 points of 2 coordinates\n");
     EXPECT_THAT(good(box.shell("stipple reproduce <(cat a.csv)")),
-                HasSubstr(": identical: 10 points of 2 numbers\n"));
+                HasSubstr(": identical: 10 points of 2 coordinates\n"));
     EXPECT_EQ(box.run({"reproduce", "a.csv", "-o", "no/where.csv"}).code, 4);
     replace_in(box, "a.csv", "\n0.", "\n0.0");
     const Outcome other = box.run({"reproduce", "a.csv", "--json"});

@@ -70,7 +70,7 @@ TEST(StudyConfig, ErrorsNameThePlaceAndWhatIsNearest) {
     EXPECT_EQ(error_with(R"("curves": 1)"),
               "input: s.json: $.curves: expected true or false, got 1");
     EXPECT_EQ(error_with(R"("seeds": "4")"),
-              "input: s.json: $.seeds: expected a number, got \"4\"");
+              "input: s.json: $.seeds: expected a whole number in [1, 2^53], got \"4\"");
     EXPECT_EQ(error_with(R"("keys": [1])"), "input: s.json: $.keys[0]: expected a word, got 1");
     EXPECT_EQ(error_in(R"({"generators": []})"),
               "input: s.json: $.generators: expected a list of specs such as "
@@ -80,6 +80,32 @@ TEST(StudyConfig, ErrorsNameThePlaceAndWhatIsNearest) {
     EXPECT_EQ(error_in("[1]"), "input: s.json: $: expected an object, {\"generators\": ...}");
     EXPECT_EQ(error_in("{\n \"a\": ,"), "input: s.json:2:7: is not JSON here");
     EXPECT_EQ(error_in(""), "input: s.json:1:1: is not JSON here");
+}
+
+TEST(StudyConfig, ValuesThatNoOptionTakesAreNamedByTheirPlace) {
+    const std::vector<std::pair<std::string, std::string>> cases = {
+        {R"("seed": -1)", "$.seed: expected a whole number in [0, 2^64), got -1"},
+        {R"("seeds": 0)", "$.seeds: expected a whole number in [1, 2^53], got 0"},
+        {R"("seeds": 2.5)", "$.seeds: expected a whole number in [1, 2^53], got 2.5"},
+        {R"("confidence": 95)", "$.confidence: expected a number between 0 and 1, got 95"},
+        {R"("time-limit": 0)", "$.time-limit: expected a number of seconds above 0, got 0"},
+        {R"("bootstrap": 0)", "$.bootstrap: expected a whole number in [1, 10000000], got 0"},
+        {R"("pairs": "t")", "$.pairs: expected welch or paired, got 't'"},
+        {R"("format": "json")", "$.format: expected csv or jsonl, got 'json'"},
+        {R"("output": "")", "$.output: expected a name, got an empty one"}};
+    for (const auto& [json, message] : cases)
+        EXPECT_EQ(error_with(json), "input: s.json: " + message);
+}
+
+TEST(StudyConfig, KeysThatStandTwiceAreRefused) {
+    EXPECT_EQ(error_with(R"("seeds": 3, "seeds": 4)"),
+              "input: s.json: $.seeds: the key stands twice");
+    EXPECT_EQ(error_in(R"({"generators": [{"name": "sobol", "options": {"scramble": "owen",
+                           "scramble": "none"}}], "analyze": "moments"})"),
+              "input: s.json: $.generators.options.scramble: the key stands twice");
+    // In objects side by side they do not.
+    EXPECT_NO_THROW(parse_study_config(
+        R"({"generators": [{"name": "sobol"}, {"name": "halton"}], "analyze": "moments"})", ""));
 }
 
 TEST(StudyConfig, TheSchemaHasTheSameKeys) {

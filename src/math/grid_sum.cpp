@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "math/grid_sum.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "core/parallel.hpp"
+#include "core/wide.hpp"
+
+namespace stipple {
+namespace {
+
+constexpr std::uint64_t block = std::uint64_t{1} << 18;  // cells
+
+// Adding 1.5 x 2^52 units rounds to a multiple of the unit, which then stands in the last bits.
+constexpr double coarse_unit = 0x1p-21;
+constexpr double fine_unit = 0x1p-64;
+constexpr double coarse_magic = 0x1.8p52 * coarse_unit;
+constexpr double fine_magic = 0x1.8p52 * fine_unit;
+
+STIPPLE_WIDE
+void add_cells(const double* cells, std::size_t count, std::uint64_t* coarse, std::uint64_t* fine) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const double high = cells[i] + coarse_magic;
+        const double low = (cells[i] - (high - coarse_magic)) + fine_magic;
+        coarse[i] +=
+            std::bit_cast<std::uint64_t>(high) - std::bit_cast<std::uint64_t>(coarse_magic);
+        fine[i] += std::bit_cast<std::uint64_t>(low) - std::bit_cast<std::uint64_t>(fine_magic);
+    }
+}
+
+double signed_of(std::uint64_t bits) {
+    return static_cast<double>(static_cast<std::int64_t>(bits));
+}
+
+}  // namespace
+
+void GridSum::add(std::span<const double> cells, const RunContext& run) {
+    coarse_.resize(cells.size());
+    fine_.resize(cells.size());
+    for_each_block(
+        run, cells.size(), block,
+        [&](const Block& b) {
+            add_cells(cells.data() + b.first, b.last - b.first, coarse_.data() + b.first,
+                      fine_.data() + b.first);
+        },
+        true);
+}
+
+void GridSum::copy_to(std::span<double> cells, const RunContext& run) const {
+    for_each_block(
+        run, cells.size(), block,
+        [&](const Block& b) {
+            for (std::uint64_t i = b.first; i < b.last; ++i)
+                cells[i] = signed_of(coarse_[i]) * coarse_unit + signed_of(fine_[i]) * fine_unit;
+        },
+        true);
+}
+
+void GridSum::pack(Packer& to) const { to.put_all(coarse_).put_all(fine_); }
+
+void GridSum::merge(Unpacker& from) {
+    for (auto* mine : {&coarse_, &fine_}) {
+        const auto more = from.take_all<std::uint64_t>();
+        mine->resize(std::max(mine->size(), more.size()));
+        for (std::size_t i = 0; i < more.size(); ++i) (*mine)[i] += more[i];
+    }
+}
+
+}  // namespace stipple

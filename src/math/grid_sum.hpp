@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+//
+// Sums of grids of numbers, each cell as whole multiples of 2^-21 and, for what these leave, of
+// 2^-64. Rounded once when they are added (by at most 2^-65), grids can be added in any order and
+// in any parts: whole numbers forget where they came from.
+//
+// Shape   16 bytes a cell; numbers below 2^29, and sums below 2^42 of up to 2^20 grids.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/packed.hpp"
+#include "core/run_context.hpp"
+
+namespace stipple {
+
+class GridSum {
+  public:
+    [[nodiscard]] bool empty() const { return coarse_.empty(); }
+
+    /// Grids of one size.
+    void add(std::span<const double> cells, const RunContext& run);
+
+    /// The sum, rounded.
+    void copy_to(std::span<double> cells, const RunContext& run) const;
+
+    void pack(Packer& to) const;
+    void merge(Unpacker& from);
+
+  private:
+    std::vector<std::uint64_t> coarse_;  ///< modulo 2^64, as are the fine ones
+    std::vector<std::uint64_t> fine_;
+};
+
+}  // namespace stipple

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+//
+// One set, analyzed by several ranks of MPI. What they find together is tested with many more of
+// them, as threads, in tests/study/shared_analysis_test.cpp.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "support/launcher.hpp"
+#include "support/program.hpp"
+
+using namespace stipple::testing;
+using ::testing::HasSubstr;
+
+namespace {
+
+/// Results without what the clock says of them.
+std::string timeless(const Sandbox& box, const std::string& command) {
+    return good(box.shell(command + " | sed 's/ *\"seconds\":.*//'"));
+}
+
+bool can_launch(const Sandbox& box) { return box.shell("command -v mpirun").code == 0; }
+
+}  // namespace
+
+#ifdef STIPPLE_MPI
+
+// Three files, of which two are shared in the middle, and one of them is text.
+TEST(Ranks, AnalyzeOneSetAsOneProcessDoes) {
+    if (std::string(STIPPLE_SANITIZE) != "") GTEST_SKIP() << "MPI's own leaks are not ours";
+    const Sandbox box;
+    if (!can_launch(box)) GTEST_SKIP() << "no launcher";
+    for (const char* part : {"0/3 -o a.npy", "1/3 -o b.csv", "2/3 -o c.npy"})
+        good(box.shell(std::string("stipple generate random -n 600000 --shard ") + part));
+    const std::string shards = " --concat a.npy b.csv c.npy -f json";
+    for (const std::string& command :
+         {"stipple analyze moments" + shards, "stipple analyze chi-square" + shards,
+          std::string("stipple analyze star-discrepancy --generate random -d 4 -n 120 -f json"),
+          std::string("stipple analyze periodogram --generate random -n 4300000 -f json "
+                      "--max-frequency 8 --tolerance 1e-3")}) {
+        const std::string one = timeless(box, command);
+        EXPECT_THAT(one, HasSubstr("results"));
+        const std::string ranks = command.find("moments") != std::string::npos ? "-n 4 " : "-n 2 ";
+        EXPECT_EQ(timeless(box, mpirun + ranks + command), one) << command;
+    }
+}
+
+TEST(Ranks, SpeakOnceOfWhatIsWrong) {
+    if (std::string(STIPPLE_SANITIZE) != "") GTEST_SKIP() << "MPI's own leaks are not ours";
+    const Sandbox box;
+    if (!can_launch(box)) GTEST_SKIP() << "no launcher";
+    box.write("torn.csv", "x,y\n0.1,0.2\n0.3,oh\n");
+    const Outcome torn = box.shell(mpirun + "-n 2 stipple analyze moments torn.csv");
+    EXPECT_EQ(torn.code, 3);
+    const auto first = torn.err.find("torn.csv:3");
+    EXPECT_NE(first, std::string::npos) << torn.err;
+    EXPECT_EQ(torn.err.find("torn.csv:3", first + 1), std::string::npos) << torn.err;
+    const Outcome alone = box.shell(mpirun + "-n 2 stipple analyze dispersion torn.csv");
+    EXPECT_EQ(alone.code, 2);
+    EXPECT_THAT(alone.err, HasSubstr("ranks do not share dispersion"));
+}
+
+#else
+
+TEST(Ranks, NeedABuildWithMpi) {
+    const Sandbox box;
+    const Outcome outcome =
+        box.shell("OMPI_COMM_WORLD_SIZE=2 stipple analyze moments --generate random");
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("this build has no MPI"));
+}
+
+#endif

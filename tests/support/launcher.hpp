@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+//
+// How tests start ranks: more than there are cores, as root, and without shared memory between
+// processes, which containers forbid.
+#pragma once
+
+#include <string>
+
+namespace stipple::testing {
+
+inline const std::string mpirun =
+    "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 "
+    "OMPI_MCA_rmaps_base_oversubscribe=1 "
+    "OMPI_MCA_btl=self,vader OMPI_MCA_btl_vader_single_copy_mechanism=none mpirun ";
+
+}  // namespace stipple::testing
