@@ -479,7 +479,8 @@ std::vector<ResultKey> results() {
              "Half the largest radius, at most F, within which the mean power is at most 0.1"},
             {"relative_nyquist", "The same over regular_nyquist, as published tables give it"},
             {"oscillation",
-             "10 x root mean square of radial power - 1, from where it first reaches 0.98"},
+             "10 x root mean square of radial power - 1, from where it first reaches 0.98 over "
+             "n^(1/d) x 5 frequencies, or up to F: needs an F that large"},
             {"total_variation", "Half the mean of |radial power - 1|: 0 for white noise"},
             {"low_frequency_exponent",
              "a in power ~ frequency^a near 0, where the lowest rings have power"},
