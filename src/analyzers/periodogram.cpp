@@ -388,7 +388,7 @@ class Summation final : public Accumulator {
         run.need_memory(bytes + 8 * static_cast<double>(kept_.size()),
                         fmt::format("--max-frequency {}", frequency_));
         if (nufft_)
-            sum_ = std::make_unique<FourierSummation>(*nufft_, run);
+            sum_ = std::make_unique<FourierSummation>(*nufft_);
         else
             direct_ = std::make_unique<DirectSummation>(d_, frequency_, weighted);
         take(kept_, run);

@@ -7,9 +7,9 @@
 //
 // where coordinate 0 runs along the rows of the grid, the fastest index.
 //
-// Cost    O(n w^d + M^d ceil(n / batch)). Points come in any portions and are spread a batch at a
-//         time: sorted into tiles of the grid; a tile is summed in a buffer that the nearest cache
-//         holds, and then added to the grid.
+// Cost    O(n w^d + M^d ceil(n / batch)). Points come in any portions, are sorted into tiles of the
+//         grid as they come, and spread a batch at a time; a tile is summed in a buffer that the
+//         nearest cache holds, and then added to the grid.
 // Promise the same bits for any number of threads, and however the points are portioned. Tiles are
 //         added colour by colour, and the tiles of one colour do not touch each other, so every
 //         cell has its summands in a fixed order.
@@ -23,9 +23,9 @@
 #include <span>
 #include <vector>
 
-#include "core/rows.hpp"
 #include "core/run_context.hpp"
 #include "math/kaiser_bessel.hpp"
+#include "math/tile_points.hpp"
 
 namespace stipple {
 
@@ -62,22 +62,18 @@ class Spreader {
     static double bytes(double count, const CellGrid& grid, bool weighted);
 
   private:
-    void spread(std::span<const double> rows, const RunContext& run);
     void sort(std::span<const double> rows, const RunContext& run);
-    void spread_colour(std::size_t colour, std::size_t points, const RunContext& run);
+    void spread_colour(std::size_t colour, const RunContext& run);
 
     WindowTable table_;
     std::unique_ptr<Tiling> tiling_;
     std::size_t dimension_;
     std::size_t width_;      ///< numbers of a row
-    std::size_t batch_;      ///< numbers of a batch
-    Rows waiting_;           ///< a batch that is not full yet
-    std::size_t waits_ = 0;  ///< numbers in it
-    Rows sorted_;
-    std::size_t room_ = 0;             ///< numbers that `sorted_` holds
-    std::vector<std::size_t> begins_;  ///< of each tile's numbers there, and the end
+    std::size_t batch_;      ///< points of a batch
+    std::size_t waits_ = 0;  ///< points that are sorted, and not spread yet
+    TilePoints points_;
     std::vector<std::uint32_t> tile_of_;
-    std::vector<std::uint32_t> next_;
+    std::vector<std::uint32_t> listed_;
 };
 
 }  // namespace stipple

@@ -181,12 +181,6 @@ Planning planning_for(std::size_t dimension, std::size_t side) {
     return transform_seconds(dimension, side) > 10 ? Planning::measured : Planning::estimated;
 }
 
-GridCells::GridCells(std::size_t count) : room_(Rows::unwritten(count + 8)) {
-    auto* begin = room_.numbers().data();
-    const auto address = reinterpret_cast<std::uintptr_t>(begin);
-    begin_ = begin + (64 - address % 64) % 64 / sizeof(double);
-}
-
 std::size_t stride_of(std::size_t side) { return side / 8 * 8 + 16; }
 
 std::size_t quick_length(std::size_t least) {
