@@ -65,10 +65,11 @@ class Tiling {
                    .pieces = static_cast<double>(window.pieces()),
                    .coefficients = window.coefficients(),
                    .numbers = grid.dimension + (weighted ? 1 : 0),
-                   .extent = widest_ + window.padded_width()};
+                   .extent = (widest_ + window.padded_width() + 3) / 4 * 4};
     }
 
     [[nodiscard]] std::size_t count() const { return power(along_); }
+    [[nodiscard]] std::size_t pairs() const { return pairs_; }  ///< of tiles along an axis
     [[nodiscard]] std::size_t colours() const { return power(2); }
     [[nodiscard]] std::size_t count_of_colour() const { return power(pairs_); }
     [[nodiscard]] std::size_t buffer_size() const { return power(common_.extent); }
@@ -146,12 +147,10 @@ class Tiling {
     SpreadTile common_{};
 };
 
-namespace {
-
 /// Two buffers of a tile: what some points add to it, and their sums.
 class TileSums {
   public:
-    explicit TileSums(std::size_t cells) : cells_(cells), room_(2 * cells + 8) {}
+    explicit TileSums(std::size_t cells) : cells_(cells), room_(2 * cells) {}
 
     void begin() {
         std::fill_n(points(), cells_, 0.0);
@@ -188,8 +187,6 @@ class TileSums {
     bool several_ = false;
     std::size_t count_ = 0;
 };
-
-}  // namespace
 
 std::size_t spreading_batch(const CellGrid& grid) {
     constexpr std::size_t most = std::size_t{1} << 30;  // counters of 32 bits are enough for it
@@ -229,8 +226,15 @@ void Spreader::add(std::span<const double> rows, const RunContext& run) {
 }
 
 void Spreader::finish(const RunContext& run) {
-    for (std::size_t colour = 0; waits_ > 0 && colour < tiling_->colours(); ++colour)
-        spread_colour(colour, run);
+    if (waits_ == 0) return;
+    const std::size_t pairs = tiling_->pairs();
+    const std::size_t shares = 4 * std::size_t{std::max(1U, run.threads)};
+    // Enough blocks for all threads, but none with less work than handing it over is.
+    if (pairs >= shares || run.threads == 1)
+        spread_bands(std::max({std::size_t{1}, pairs / shares, 1024 * pairs / waits_}), run);
+    else
+        for (std::size_t colour = 0; colour < tiling_->colours(); ++colour)
+            spread_colour(colour, run);
     points_.clear();
     waits_ = 0;
 }
@@ -265,30 +269,60 @@ void Spreader::sort(std::span<const double> rows, const RunContext& run) {
     for_each_block(run, sections, 1, add, true);
 }
 
-/// Spreads the sorted points of the tiles of one colour.
+/// Spreads block by block of bands across the last axis, which stay in the caches meanwhile: a
+/// band of odd place when both of its neighbours are done, and those between blocks at the end.
+void Spreader::spread_bands(std::size_t block, const RunContext& run) {
+    const std::size_t pairs = tiling_->pairs();
+    const auto inside = [&](const Block& b) {
+        TileSums sums(tiling_->buffer_size());
+        for (std::size_t i = b.first; i < b.last; ++i) {
+            spread_band(2 * i, sums, run);
+            if (i > b.first) spread_band(2 * i - 1, sums, run);
+        }
+    };
+    for_each_block(run, pairs, block, inside, true);
+    const auto between = [&](const Block& b) {
+        TileSums sums(tiling_->buffer_size());
+        spread_band(2 * std::min((b.index + 1) * block, pairs) - 1, sums, run);
+    };
+    for_each_block(run, block_count(pairs, block), 1, between, true);
+}
+
+void Spreader::spread_band(std::size_t band, TileSums& sums, const RunContext& run) const {
+    const std::size_t colours = tiling_->colours() / 2;
+    const std::size_t tiles = tiling_->count_of_colour() / tiling_->pairs();
+    for (std::size_t colour = 0; colour < colours; ++colour)
+        for (std::size_t i = 0; i < tiles; ++i)
+            spread_tile(tiling_->tile(colour + band % 2 * colours, i + band / 2 * tiles), sums,
+                        run);
+}
+
 void Spreader::spread_colour(std::size_t colour, const RunContext& run) {
     const std::size_t tiles = tiling_->count_of_colour();
     // Enough blocks for all threads, but none with less work than handing it over is.
     const std::size_t block = std::max(1 + tiles / 128, 1024 * tiling_->count() / (waits_ + 1));
     const auto spread = [&](const Block& b) {
         TileSums sums(tiling_->buffer_size());
-        for (std::size_t i = b.first; i < b.last; ++i) {
-            const std::size_t number = tiling_->tile(colour, i);
-            if (points_.empty(number)) continue;
-            const SpreadTile tile = tiling_->describe(number);
-            std::size_t fetched = 0;
-            sums.begin();
-            points_.visit(number, [&](std::span<const double> rows) {
-                run.check_stop();
-                tiling_->fetch(tile, fetched, fetched + 4);
-                fetched += 4;
-                sums.expect(rows.size() / width_);
-                spread_points(rows, dimension_, tile, sums.points());
-            });
-            tiling_->add_back(tile, sums.finish());
-        }
+        for (std::size_t i = b.first; i < b.last; ++i)
+            spread_tile(tiling_->tile(colour, i), sums, run);
     };
     for_each_block(run, tiles, block, spread, true);
+}
+
+void Spreader::spread_tile(std::size_t number, TileSums& sums, const RunContext& run) const {
+    constexpr std::size_t rows_ahead = 4;  // too many at once would keep the points' own waiting
+    if (points_.empty(number)) return;
+    const SpreadTile tile = tiling_->describe(number);
+    std::size_t row = 0;
+    sums.begin();
+    points_.visit(number, [&](std::span<const double> rows) {
+        run.check_stop();
+        tiling_->fetch(tile, row, row + rows_ahead);
+        row += rows_ahead;
+        sums.expect(rows.size() / width_);
+        spread_points(rows, dimension_, tile, sums.points());
+    });
+    tiling_->add_back(tile, sums.finish());
 }
 
 }  // namespace stipple

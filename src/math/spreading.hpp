@@ -10,8 +10,9 @@
 // Cost    O(n w^d + M^d ceil(n / batch)). Points come in any portions, are sorted into tiles of the
 //         grid as they come, and spread a batch at a time; a tile is summed in a buffer that the
 //         nearest cache holds, and then added to the grid.
-// Promise the same bits for any number of threads, and however the points are portioned. Tiles are
-//         added colour by colour, and the tiles of one colour do not touch each other, so every
+// Promise the same bits for any number of threads, and however the points are portioned. The colour
+//         of a tile is the parity of its place along each axis. Tiles of one colour do not touch
+//         each other, and where tiles do they are added in the order of their colours; so every
 //         cell has its summands in a fixed order.
 // Beware  M x is never rounded to a double: the product's high part is exact, and the place between
 //         two grid points keeps all its bits.
@@ -43,6 +44,7 @@ struct CellGrid {
 std::size_t spreading_batch(const CellGrid& grid);
 
 class Tiling;
+class TileSums;
 
 class Spreader {
   public:
@@ -63,7 +65,10 @@ class Spreader {
 
   private:
     void sort(std::span<const double> rows, const RunContext& run);
+    void spread_bands(std::size_t block, const RunContext& run);
+    void spread_band(std::size_t band, TileSums& sums, const RunContext& run) const;
     void spread_colour(std::size_t colour, const RunContext& run);
+    void spread_tile(std::size_t number, TileSums& sums, const RunContext& run) const;
 
     WindowTable table_;
     std::unique_ptr<Tiling> tiling_;

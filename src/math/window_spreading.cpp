@@ -76,13 +76,16 @@ inline __attribute__((always_inline)) void by_axis(const double* points, std::si
             axes[k][i] = i < count ? points[i * numbers + k] : 0;
 }
 
+/// Numbers before a window's values: zeros, where the values are shifted along a row.
+constexpr std::size_t margin = 4;
+
 template <std::size_t Dimension, std::size_t Padded>
 struct Chunk {
     alignas(32) Coordinates<Dimension> axes;
     alignas(32) Coordinates<Dimension> t;  ///< place in the table's piece
     alignas(32) std::array<std::array<std::int32_t, chunk>, Dimension> piece;
-    alignas(32) std::array<std::int32_t, chunk> corner;   ///< of the window in the buffer
-    alignas(32) double values[chunk][Dimension][Padded];  ///< of the window along each axis
+    alignas(32) std::array<std::int32_t, chunk> corner;            ///< of the window in the buffer
+    alignas(32) double values[chunk][Dimension][margin + Padded];  ///< of the window, by axis
 };
 
 template <std::size_t Dimension, std::size_t Padded>
@@ -135,7 +138,7 @@ inline __attribute__((always_inline)) void evaluate_all(const double* table, std
             std::array<Vector, vectors> sums;
             for (std::size_t v = 0; v < vectors; ++v) sums[v] = rows[v];
             raise<vectors, WindowTable::degree_of(Padded)>(t, rows, sums);
-            auto* values = reinterpret_cast<LooseVector*>(work.values[i][k]);
+            auto* values = reinterpret_cast<LooseVector*>(work.values[i][k] + margin);
             for (std::size_t v = 0; v < vectors; ++v) values[v] = sums[v];
         }
 }
@@ -160,24 +163,31 @@ inline __attribute__((always_inline)) void add_rows(double* row, const SpreadTil
         add_row<Padded>(row, weights[j] * factor, along);
 }
 
-template <std::size_t Dimension, std::size_t Padded>
-inline __attribute__((always_inline)) void add_window(const double (&values)[Dimension][Padded],
-                                                      const SpreadTile& tile, double* corner) {
+/// @param aligned whether rows begin at a multiple of 4 cells, so that no vector lies in two cache
+/// lines: the window leaves room for it, being 3 numbers narrower than its vectors.
+template <std::size_t Dimension, std::size_t Padded, bool Aligned>
+inline __attribute__((always_inline)) void add_window(
+    const double (&values)[Dimension][margin + Padded], const SpreadTile& tile, double* buffer,
+    std::size_t corner) {
+    const std::size_t back = Aligned ? corner % 4 : 0;
+    double* begin = buffer + (corner - back);
     std::array<Vector, Padded / 4> along;
     for (std::size_t v = 0; v < Padded / 4; ++v)
-        along[v] = reinterpret_cast<const LooseVector*>(values[0])[v];
-    if constexpr (Dimension == 1) add_row<Padded>(corner, 1, along);
-    if constexpr (Dimension == 2) add_rows<Padded>(corner, tile, values[1], 1, along);
+        along[v] = reinterpret_cast<const LooseVector*>(values[0] + margin - back)[v];
+    if constexpr (Dimension == 1) add_row<Padded>(begin, 1, along);
+    if constexpr (Dimension == 2) add_rows<Padded>(begin, tile, values[1] + margin, 1, along);
     if constexpr (Dimension == 3)
         for (std::size_t l = 0; l < tile.width; ++l)
-            add_rows<Padded>(corner + l * tile.extent * tile.extent, tile, values[1], values[2][l],
-                             along);
+            add_rows<Padded>(begin + l * tile.extent * tile.extent, tile, values[1] + margin,
+                             values[2][margin + l], along);
 }
 
-template <std::size_t Dimension, std::size_t Padded>
+template <std::size_t Dimension, std::size_t Padded, bool Aligned>
 inline __attribute__((always_inline)) void add_all(std::span<const double> rows,
                                                    const SpreadTile& tile, double* buffer) {
     Chunk<Dimension, Padded> work;
+    if constexpr (Aligned)
+        for (auto& values : work.values) std::fill_n(values[0], margin, 0.0);
     const std::size_t step = chunk * tile.numbers;
     for (std::size_t at = 0; at < rows.size(); at += step) {
         const double* points = rows.data() + at;
@@ -187,21 +197,22 @@ inline __attribute__((always_inline)) void add_all(std::span<const double> rows,
         evaluate_all(tile.coefficients, count, work);
         if (tile.numbers > Dimension)
             for (std::size_t i = 0; i < count; ++i)
-                for (double& value : work.values[i][Dimension - 1])
-                    value *= points[i * tile.numbers + Dimension];
+                for (std::size_t j = 0; j < Padded; ++j)
+                    work.values[i][Dimension - 1][margin + j] *=
+                        points[i * tile.numbers + Dimension];
         for (std::size_t i = 0; i < count; ++i)
-            add_window<Dimension, Padded>(work.values[i], tile, buffer + work.corner[i]);
+            add_window<Dimension, Padded, Aligned>(work.values[i], tile, buffer,
+                                                   static_cast<std::uint32_t>(work.corner[i]));
     }
 }
 
-template <std::size_t Dimension>
+template <std::size_t Dimension, std::size_t Padded = KaiserBessel::max_width>
 inline __attribute__((always_inline)) void add_wide(std::span<const double> rows,
                                                     const SpreadTile& tile, double* buffer) {
-    static_assert(KaiserBessel::max_width == 16);
-    if (tile.width <= 4) return add_all<Dimension, 4>(rows, tile, buffer);
-    if (tile.width <= 8) return add_all<Dimension, 8>(rows, tile, buffer);
-    if (tile.width <= 12) return add_all<Dimension, 12>(rows, tile, buffer);
-    add_all<Dimension, 16>(rows, tile, buffer);
+    if constexpr (Padded > 4)
+        if (tile.width + 4 <= Padded) return add_wide<Dimension, Padded - 4>(rows, tile, buffer);
+    if (tile.width + 3 <= Padded) return add_all<Dimension, Padded, true>(rows, tile, buffer);
+    add_all<Dimension, Padded, false>(rows, tile, buffer);
 }
 
 inline __attribute__((always_inline)) void add_points(std::span<const double> rows,
