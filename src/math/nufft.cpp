@@ -16,16 +16,6 @@ double power(std::size_t base, std::size_t exponent) {
     return std::pow(static_cast<double>(base), static_cast<double>(exponent));
 }
 
-void clear(double* numbers, std::size_t count, const RunContext& run) {
-    for_each_block(
-        run, count, std::size_t{1} << 18,
-        [&](const Block& b) { std::fill(numbers + b.first, numbers + b.last, 0.0); }, true);
-}
-
-std::size_t lines_of(const CellGrid& grid) {
-    return grid.dimension == 3 ? grid.side * grid.side : grid.dimension == 2 ? grid.side : 1;
-}
-
 /// Seconds, nearly, of one core.
 struct Cost {
     double spreading;
@@ -117,7 +107,7 @@ double Nufft::spreading_share() const {
 
 FourierSums Nufft::transform(std::span<const double> rows, const RunContext& run,
                              Planning planning) const {
-    FourierSummation summation(*this, run);
+    FourierSummation summation(*this);
     const double spreading = spreading_share();
     const RunContext part = run.stage(0, spreading);
     RunContext quiet = run;
@@ -132,7 +122,7 @@ FourierSums Nufft::transform(std::span<const double> rows, const RunContext& run
     return summation.finish(planning, run.stage(spreading, 1));
 }
 
-FourierSummation::FourierSummation(const Nufft& nufft, const RunContext& run)
+FourierSummation::FourierSummation(const Nufft& nufft)
     : nufft_(nufft),
       cells_((nufft.dimension() == 3   ? nufft.side() * nufft.side()
               : nufft.dimension() == 2 ? nufft.side()
@@ -142,9 +132,7 @@ FourierSummation::FourierSummation(const Nufft& nufft, const RunContext& run)
             .side = nufft.side(),
             .stride = stride_of(nufft.side()),
             .cells = cells_.get()},
-      spreader_(nufft.window(), grid_, nufft.weighted()) {
-    clear(cells_.get(), lines_of(grid_) * grid_.stride, run);
-}
+      spreader_(nufft.window(), grid_, nufft.weighted()) {}
 
 FourierSums FourierSummation::finish(Planning planning, const RunContext& run) {
     RunContext quiet = run;

@@ -79,7 +79,7 @@ class Nufft {
 /// A transform whose points come in portions.
 class FourierSummation {
   public:
-    FourierSummation(const Nufft& nufft, const RunContext& run);
+    explicit FourierSummation(const Nufft& nufft);
 
     void add(std::span<const double> rows, const RunContext& run) { spreader_.add(rows, run); }
 
