@@ -56,7 +56,9 @@
 #include "analyzers/periodogram_rings.hpp"
 #include "analyzers/shared.hpp"
 #include "core/error.hpp"
+#include "core/large_pages.hpp"
 #include "core/parallel.hpp"
+#include "core/wide.hpp"
 #include "math/nufft.hpp"
 
 namespace stipple::analyzers {
@@ -139,6 +141,7 @@ constexpr Param<std::int64_t> slice{
     .help = "fz of the plane that --image draws of points in 3 dimensions"};
 
 constexpr double floor_of_floats = 1e-13;
+constexpr std::uint64_t few_points = std::uint64_t{1} << 16;  // quickly copied
 constexpr std::uint64_t kept_points = std::uint64_t{1} << 20;
 constexpr std::uint64_t most_points = std::uint64_t{1} << 30;  // that larger sets are planned for
 
@@ -206,7 +209,7 @@ Grid power_of(const FourierSums& sums, const Strengths& strengths, bool hann,
     const std::size_t last = sums.max_frequency;
     const std::size_t width = 2 * last + 1;
     Grid power{.rows = sums.values.size() / (last + 1), .columns = width, .values = {}};
-    power.values.resize(power.rows * width);
+    power.values = zeros_in_large_pages<double>(power.rows * width);
     const double squared = hann ? std::pow(0.375, static_cast<double>(sums.dimension)) : 1;
     const double scale = 1 / (squared * strengths.squares);
     for (std::size_t row = 0; row < power.rows; ++row) {
@@ -237,6 +240,12 @@ Grid power_of(const FourierSums& sums, const Strengths& strengths, bool hann,
     return power;
 }
 
+STIPPLE_WIDE bool all_inside(std::span<const double> coordinates) {
+    std::int64_t outside = 0;
+    for (const double x : coordinates) outside += x >= 0 && x <= 1 ? 0 : 1;
+    return outside == 0;
+}
+
 /// A spectrum whose points come in pieces.
 class Summation final : public SharedAccumulator {
   public:
@@ -255,7 +264,7 @@ class Summation final : public SharedAccumulator {
         check_options();
         if (options.given(wisdom)) read_wisdom(options[wisdom]);
         told_ = arrival.count.value_or(0);
-        if (told_ <= kept_points) kept_.reserve(told_ * numbers_);
+        if (told_ <= few_points) kept_.reserve(told_ * numbers_);
         const std::uint64_t known = std::max<std::uint64_t>(told_, 1);
         if (told_ > kept_points || fourier_sums_size(d_, frequency_for(known)) > 1e6)
             need_memory(known, run);
@@ -267,11 +276,11 @@ class Summation final : public SharedAccumulator {
         n_ += points.size() / numbers_;
         if (outside_.count > 0) return;
         const bool began = nufft_ || direct_;
-        if (!began && n_ <= kept_points && told_ <= kept_points) {
+        if (!began && n_ <= kept_points && told_ <= few_points) {
             kept_.insert(kept_.end(), points.begin(), points.end());
             return;
         }
-        if (!began) begin(most_points, run);
+        if (!began) begin(told_ > few_points && told_ <= kept_points ? told_ : most_points, run);
         take(points, run);
     }
 
@@ -360,9 +369,10 @@ class Summation final : public SharedAccumulator {
         const std::size_t given = d_ + (weighted_ ? 1 : 0);
         const bool same = numbers_ == d_ && cube_;
         if (!same) points.reserve(rows.size() / given * numbers_);
-        for (std::size_t at = 0; at < rows.size(); at += given) {
+        const bool noted = given == d_ && note_all(rows);
+        for (std::size_t at = 0; at < rows.size() && !(same && noted); at += given) {
             const auto point = rows.subspan(at, d_);
-            note(point, at_ + n_ + at / given);
+            if (!noted) note(point, at_ + n_ + at / given);
             if (same) continue;
             const std::size_t begin = points.size();
             points.insert(points.end(), point.begin(), point.end());
@@ -376,6 +386,11 @@ class Summation final : public SharedAccumulator {
         if (same) strengths_.sum += static_cast<double>(rows.size() / d_);
         if (same) strengths_.squares = strengths_.sum;
         return points;
+    }
+
+    /// Whether there is nothing to note: all points are in the unit cube, and not the first ones.
+    [[nodiscard]] bool note_all(std::span<const double> rows) const {
+        return cube_ && !all_equal_ && all_inside(rows);
     }
 
     /// Looks whether the point is where it should be, and whether it is elsewhere than the first.
@@ -401,6 +416,7 @@ class Summation final : public SharedAccumulator {
     }
 
     void begin(std::uint64_t count, const RunContext& run) {
+        planned_ = count;
         frequency_ = frequency_for(count);
         const bool weighted = numbers_ > d_;
         double bytes = 16 * fourier_sums_size(d_, frequency_);
@@ -414,7 +430,7 @@ class Summation final : public SharedAccumulator {
         run.need_memory(bytes + 8 * static_cast<double>(kept_.size()),
                         fmt::format("--max-frequency {}", frequency_));
         if (nufft_)
-            sum_ = std::make_unique<FourierSummation>(*nufft_, run);
+            sum_ = std::make_unique<FourierSummation>(*nufft_);
         else
             direct_ = std::make_unique<DirectSummation>(d_, frequency_, weighted);
         take(kept_, run);
@@ -443,7 +459,7 @@ class Summation final : public SharedAccumulator {
         report.add("max_frequency", static_cast<std::int64_t>(frequency_));
         report.add("regular_nyquist", regular_nyquist(n, d_), "cycles a unit length");
         const double worst =
-            nufft_ ? std::max(options_[tolerance], n_ > most_points ? nufft_->error(n) : 0) : 0;
+            nufft_ ? std::max(options_[tolerance], n_ > planned_ ? nufft_->error(n) : 0) : 0;
         report.add("tolerance", std::max(worst, rounding_floor(n_)));
         Grid power = power_of(sums(run), strengths_, hann_, run);
         summarize(report, power, 1, options_, run);
@@ -464,7 +480,8 @@ class Summation final : public SharedAccumulator {
     std::uint64_t at_ = 0;  ///< index of the first point that comes
     std::size_t frequency_ = 0;
     std::uint64_t n_ = 0;
-    std::uint64_t told_ = 0;  ///< points that were announced; 0: nobody knows
+    std::uint64_t told_ = 0;     ///< points that were announced; 0: nobody knows
+    std::uint64_t planned_ = 0;  ///< points for which the transform was chosen
     std::vector<double> kept_;
     std::vector<double> first_;  ///< point of the set
     bool all_equal_ = true;
@@ -520,7 +537,8 @@ std::vector<ResultKey> results() {
              "Half the largest radius, at most F, within which the mean power is at most 0.1"},
             {"relative_nyquist", "The same over regular_nyquist, as published tables give it"},
             {"oscillation",
-             "10 x root mean square of radial power - 1, from where it first reaches 0.98"},
+             "10 x root mean square of radial power - 1, from where it first reaches 0.98 over "
+             "n^(1/d) x 5 frequencies, or up to F: needs an F that large"},
             {"total_variation", "Half the mean of |radial power - 1|: 0 for white noise"},
             {"low_frequency_exponent",
              "a in power ~ frequency^a near 0, where the lowest rings have power"},

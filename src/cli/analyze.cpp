@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <optional>
 
@@ -53,6 +54,32 @@ void check_domain(const Arguments& arguments, const Analyzer& analyzer) {
     fail_with_hint(ErrorKind::usage, "--rescale or --bounds lo..hi moves points into the cube",
                    "--domain: {} measures points against the unit cube, not against {}",
                    analyzer.name, *named);
+}
+
+/// What an analyzer's options name to be written beside its report.
+struct SideFile {
+    const char* option;
+    const char* extension;  ///< of the one format that is written; empty: any
+};
+constexpr std::array<SideFile, 3> side_files = {
+    {{"grid", ".npy"}, {"image", ".png"}, {"wisdom", ""}}};
+
+/// @throws Error(usage) for a name that promises another format, or that is given twice.
+void check_side_files(const Values& options, const std::string& output) {
+    std::vector<std::pair<std::string, std::string>> taken = {{"output", output}};
+    for (const SideFile& file : side_files) {
+        const auto* option = options.try_find(file.option);
+        if (option == nullptr || !option->given) continue;
+        const auto& path = std::get<std::string>(option->value);
+        if (path.starts_with("/dev/")) continue;
+        if (!path.ends_with(file.extension))
+            fail(ErrorKind::usage, "--{}: writes {}; '{}' has another name", file.option,
+                 file.extension, path);
+        for (const auto& [other, name] : taken)
+            if (name == path)
+                fail(ErrorKind::usage, "--{}: --{} writes {}, too", file.option, other, path);
+        taken.emplace_back(file.option, path);
+    }
 }
 
 enum class Style { text, json, csv };
@@ -106,6 +133,7 @@ class Analysis {
     int go() {
         check_bounds(arguments_);
         check_domain(arguments_, analyzer_);
+        check_side_files(options_, path_);
         if (ranks_.size() > 1)
             share();
         else if (arguments_.has("generate"))
@@ -414,8 +442,11 @@ class Analysis {
             measurements_.push_back(std::move(m));
         } else {
             measurements_[0].seconds += m.seconds;
-            if (measurements_[0].source != m.source) measurements_[0].source += ", " + m.source;
-            different_ |= measurements_[0].count != m.count;
+            Measurement& mean = measurements_[0];
+            if (mean.source != m.source) mean.source += ", " + m.source;
+            const std::uint64_t largest = std::max({mean.count, mean.largest_count, m.count});
+            mean.count = std::min(mean.count, m.count);
+            if (mean.count != largest) mean.largest_count = largest;
         }
     }
 
@@ -427,7 +458,7 @@ class Analysis {
         if (analyzer_.refine) analyzer_.refine(m.results, average_.count(), options_);
         if (analyzer_.combine) analyzer_.combine(m.results, singles_, options_);
         if (average_.count() > 1) m.standard_error = only_of(m.results, average_.standard_error());
-        if (different_)
+        if (m.largest_count > 0)
             session_.warn("the sets that were averaged differ in their number of points");
         save_grid(m.results, 0, false);
     }
@@ -523,7 +554,6 @@ class Analysis {
     std::string path_;
     Style style_;
     bool averaged_;
-    bool different_ = false;
     std::vector<Check> checks_;
     std::vector<std::pair<std::string, std::string>> shown_options_;
     std::vector<Measurement> measurements_;

@@ -22,11 +22,12 @@ constexpr unsigned convert = static_cast<unsigned>(Verb::convert);
 constexpr unsigned list = static_cast<unsigned>(Verb::list);
 constexpr unsigned plot = static_cast<unsigned>(Verb::plot);
 constexpr unsigned study = static_cast<unsigned>(Verb::study);
+constexpr unsigned report = static_cast<unsigned>(Verb::report);
 constexpr unsigned reproduce = static_cast<unsigned>(Verb::reproduce);
 constexpr unsigned help = static_cast<unsigned>(Verb::help);
 constexpr unsigned writers = generate | warp | convert;
-constexpr unsigned readers = warp | analyze | convert | plot;
-constexpr unsigned workers = writers | analyze | plot | study | reproduce;
+constexpr unsigned readers = warp | analyze | convert | plot | report;
+constexpr unsigned workers = writers | analyze | plot | study | report | reproduce;
 
 /// Long name of "-n,--count": "count".
 std::string long_name(std::string_view names) {
@@ -265,12 +266,18 @@ const std::vector<CommonOption>& common_options() {
          "and "
          "--warp as of 'stipple generate'",
          analyze},
-        {"-n,--count", "N", "1024", "points of a set of --generate", analyze},
+        {"--generate", "GENERATOR[:OPT=V,...]", "",
+         "a set straight from a generator, behind those of the INPUTs; all of them have the same "
+         "-n, "
+         "-d, --seed, --start and --warp",
+         report, true},
+        {"-n,--count", "N", "1024", "points of a set of --generate", analyze | report},
         {"-s,--seed", "S", "1", "64-bit seed of --generate; 'random' draws one and says so",
-         analyze},
+         analyze | report},
         {"-m,--sets", "R", "1", "sets of --generate, with seeds S, S + 1, ...", analyze},
-        {"-w,--warp", "NAME[:OPT=V,...]", "", "warp or scramble of --generate", analyze, true},
-        {"--start", "I", "0", "index of the first point of --generate", analyze},
+        {"-w,--warp", "NAME[:OPT=V,...]", "", "warp or scramble of --generate", analyze | report,
+         true},
+        {"--start", "I", "0", "index of the first point of --generate", analyze | report},
         {"--start", "I", "0", "index of a sequence's first point", generate},
         {"--shard", "I/K", "0/1",
          "the I-th of K (from 0) contiguous parts; together they are the whole, byte for byte",
@@ -314,7 +321,7 @@ const std::vector<CommonOption>& common_options() {
         {"--domain", "SPEC", "",
          "what the points live on: unit-cube, disk, triangle:vertices=[...], ...; else as the file "
          "says",
-         analyze | plot},
+         analyze | plot | report},
         {"--rescale", "", "", "map the bounding box of the points to the unit cube before",
          analyze},
         {"--average", "", "", "one result: the mean over all sets, with standard errors", analyze},
@@ -322,6 +329,14 @@ const std::vector<CommonOption>& common_options() {
          "exit with 1 unless it holds; also <= > >= == !=; of several numbers one: mean[0]; alone: "
          "valid==true",
          analyze, true},
+        {"--fail-on", "KEY>VALUE", "",
+         "exit with 1 if it holds for any set, or may hold as far as bounds tell: "
+         "star-discrepancy.value>0.01; also < <= >= == !=",
+         report, true},
+        {"--max-work", "N", "1e9",
+         "comparisons of each search for a worst box (a few seconds); then the page has certain "
+         "bounds",
+         report},
         {"--concat", "", "", "take all INPUTs as one set, in their order: the shards of a set",
          analyze | convert},
         {"--column", "X,Y,...", "", "columns to read, by name or number (from 1)", readers},
@@ -329,7 +344,8 @@ const std::vector<CommonOption>& common_options() {
          readers},
         {"-o,--output", "FILE", "-",
          "- is standard output; {set} and {seed} in the name make a file for each set", writers},
-        {"-o,--output", "FILE", "-", "- is standard output", analyze | list | plot | study},
+        {"-o,--output", "FILE", "-", "- is standard output",
+         analyze | list | plot | study | report},
         {"-o,--output", "FILE", "", "also write the points that were made again", reproduce},
         {"-f,--format", "FORMAT", "", "file format; else from the extension, else csv", writers},
         {"-f,--format", "text|json|csv", "", "how results are printed", analyze},
@@ -350,7 +366,7 @@ const std::vector<CommonOption>& common_options() {
         {"--y-scale", "linear|log", "", "else as suits the curves", plot},
         {"-f,--format", "csv|jsonl", "", "of the table; else from the extension, else csv", study},
         {"--dtype", "f64|f32", "f64", "number type of binary formats", writers},
-        {"--dtype", "f64|f32", "f64", "number type of raw binary input", analyze | plot},
+        {"--dtype", "f64|f32", "f64", "number type of raw binary input", analyze | plot | report},
         {"--precision", "P", "",
          "digits after the point, cut off; else the shortest text that reads back the same",
          writers},
@@ -360,6 +376,7 @@ const std::vector<CommonOption>& common_options() {
          writers},
         {"--no-header", "", "", "no header line in csv", writers},
         {"--json", "", "", "complete and stable, for programs", list | reproduce},
+        {"--json", "", "", "the page's content as data; also for -o FILE.json", report},
         {"--man", "", "", "as a manual page, for man", help},
         {"-o,--output", "FOLDER", "", "with --man: all manual pages, as files in a folder", help},
         {"--markdown", "", "", "as tables in Markdown", list},

@@ -21,6 +21,7 @@ enum class Verb : unsigned {
     list = 16,
     plot = 32,
     study = 64,
+    report = 128,
     reproduce = 256,
     help = 512,
     completions = 1024,

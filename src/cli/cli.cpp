@@ -74,6 +74,8 @@ int dispatch(const Arguments& arguments, const std::vector<Kind>& kinds) {
             return plot(arguments, session);
         case Verb::study:
             return study(arguments, session);
+        case Verb::report:
+            return report(arguments, session);
         case Verb::reproduce:
             return reproduce(arguments, kinds, session);
         default:

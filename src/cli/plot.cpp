@@ -21,6 +21,7 @@
 #include "report/points_picture.hpp"
 #include "report/read_document.hpp"
 #include "report/report_charts.hpp"
+#include "report/spectral_table.hpp"
 #include "report/spectrum_picture.hpp"
 #include "report/text_picture.hpp"
 #include "study/chain.hpp"
@@ -215,7 +216,12 @@ class Plot {
         if (chart_ == "radial") return drawn(chart_of(analyzed("periodogram")));
         if (chart_ == "pair-correlation") return drawn(chart_of(analyzed("pair-correlation")));
         const bool table = chart_ == "spectrum" || chart_ == "differential";
-        if (table || (chart_.empty() && holds_spectrum())) return spectrum();
+        if (table || chart_.empty())
+            if (auto found = saved_table()) {
+                if (table) found->differences = chart_ == "differential";
+                return saved(*found);
+            }
+        if (table) return spectrum();
         check_dimensions();
         if (chart_ == "distances") return distances();
         const PointsPicture picture = points_picture();
@@ -239,38 +245,42 @@ class Plot {
                                       : png_bytes_of(drawing, scale_, notes);
     }
 
-    /// Whether the one table that was read is the 2-D power that --grid saves.
-    [[nodiscard]] bool holds_spectrum() const {
-        if (sets_.size() != 1 || !sets_[0].points.provenance.generator.empty()) return false;
-        return looks_like_power(grid_of(sets_[0].points));
+    /// The table that --grid saved, if the input is one.
+    [[nodiscard]] std::optional<SpectralTable> saved_table() const {
+        std::vector<const PointSet*> sets;
+        for (const Loaded& set : sets_) {
+            if (set.source != sets_[0].source) return std::nullopt;
+            sets.push_back(&set.points);
+        }
+        return spectral_table(sets);
     }
 
-    static Grid grid_of(const PointSet& table) {
-        return {.rows = table.count(),
-                .columns = table.dimension(),
-                .values = {table.flat().begin(), table.flat().end()}};
+    [[nodiscard]] static TableNames names_of(bool differences) {
+        if (!differences) return {};
+        return {.x = "Δx (pixels)", .y = "Δy (pixels)", .shade = "density"};
+    }
+
+    std::string saved(const SpectralTable& table) {
+        const std::string title =
+            arguments_.get("title").value_or(title_of_points(sets_[0].points, sets_[0].source));
+        if (table.dimension == 1) return drawn(power_chart(table.values, title));
+        const std::string plane = table.dimension == 3 ? "plane fz = 0" : "";
+        return drawn_table(table.values, title, plane, table.differences);
     }
 
     std::string spectrum() {
-        std::string title = arguments_.get("title").value_or("");
-        Grid power;
-        std::string subtitle;
-        if (holds_spectrum()) {
-            power = grid_of(sets_[0].points);
-            if (title.empty()) title = title_of_points(sets_[0].points, sets_[0].source);
-        } else {
-            power = analyzed_table();
-            const std::string what =
-                chart_ == "differential" ? "Pair differences" : "Power spectrum";
-            if (title.empty())
-                title = what + " of " + title_of_points(sets_[0].points, sets_[0].source);
-            subtitle = subtitle_of(sets_[0]);
-        }
-        if (medium_ == Medium::text) return spectrum_as_text(power, title, room_);
-        TableNames names;
-        if (chart_ == "differential")
-            names = {.x = "Δx (pixels)", .y = "Δy (pixels)", .shade = "density"};
-        return finished(draw_spectrum(power, title, subtitle, style_, names));
+        const bool differences = chart_ == "differential";
+        const Grid power = analyzed_table();
+        const std::string what = differences ? "Pair differences" : "Power spectrum";
+        const std::string title = arguments_.get("title").value_or(
+            what + " of " + title_of_points(sets_[0].points, sets_[0].source));
+        return drawn_table(power, title, subtitle_of(sets_[0]), differences);
+    }
+
+    std::string drawn_table(const Grid& table, const std::string& title,
+                            const std::string& subtitle, bool differences) {
+        if (medium_ == Medium::text) return spectrum_as_text(table, title, room_);
+        return finished(draw_spectrum(table, title, subtitle, style_, names_of(differences)));
     }
 
     /// The table that an analyzer makes of the one input.

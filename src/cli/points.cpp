@@ -51,16 +51,6 @@ std::uint64_t drawn_seed(std::uint64_t largest) {
     return bits % (std::min(largest, most_points - 1) + 1);
 }
 
-/// A word as a shell takes it.
-std::string shell_word(const std::string& word) {
-    constexpr std::string_view plain =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+,./:@%^";
-    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-    std::string out = "'";
-    for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return out + "'";
-}
-
 /// The command that makes these bytes: what was typed, less what cannot change them.
 std::string command_of(const Arguments& arguments, const Generator& generator,
                        const Values& job_options, const Target& target, std::uint64_t seed) {
@@ -87,6 +77,15 @@ std::string command_of(const Arguments& arguments, const Generator& generator,
 }
 
 }  // namespace
+
+std::string shell_word(const std::string& word) {
+    constexpr std::string_view plain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+,./:@%^";
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+    std::string out = "'";
+    for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return out + "'";
+}
 
 std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session& session) {
     const auto text = arguments.get("seed");

@@ -113,6 +113,32 @@ where these go to standard output).
   stipple study --generators 'halton;jittered' -n 64 --analyze 'l2-discrepancy:kind=centered;moments' -w disk -f jsonl
 )"};
 
+constexpr VerbInfo report_verb = {
+    Verb::report,
+    "report",
+    "stipple report [INPUT...] [--generate SPEC ...] -o report.html [OPTIONS]",
+    "one self-contained HTML page on point sets: pictures, spectra, all measures, compared",
+    R"(INPUTs are files of points; standard input by default, unless --generate names generators. The
+page needs nothing but itself: no network, no fonts, no scripts but its own; it is for screens of
+any size, light or dark, and for print. First a table that compares up to 12 sets of one
+dimension, with the best marked, and the curves of all; then for each set its picture with the
+worst boxes, projections (for d > 2), spectrum, radial power, pair correlation, discrepancies,
+distances, tests of uniformity in words, its provenance, and the commands that measure every
+number again.
+
+What a measure does not take (a disk, where it needs the unit cube) is left out with the reason.
+Searches for worst boxes in three and more dimensions end after --max-work comparisons and give
+certain bounds. No clock decides anything: the same sets give the same bytes for any number of
+threads.
+
+KEYs of --fail-on are MEASURE.RESULT: star-discrepancy.value, l2-discrepancy.centered.value,
+chi-square.verdict, kolmogorov-smirnov.p_value[0]; --json has them all. MEASURE alone is its value.
+The page is written nevertheless.)",
+    R"(  stipple report a.csv b.csv -o report.html
+  stipple report --generate halton --generate sobol:scramble=owen --generate random -n 4096 -o report.html
+  stipple report points.csv --json --fail-on 'star-discrepancy>0.5' --fail-on 'chi-square.verdict==non-uniform' -o report.json
+)"};
+
 constexpr VerbInfo list_verb = {
     Verb::list,
     "list",
@@ -165,8 +191,8 @@ _stipple in a folder of $fpath, fish from ~/.config/fish/completions/stipple.fis
 
 const std::vector<VerbInfo>& verbs() {
     static const std::vector<VerbInfo> table = {
-        generate_verb, warp_verb, analyze_verb,   convert_verb, plot_verb,
-        study_verb,    list_verb, reproduce_verb, help_verb,    completions_verb};
+        generate_verb, warp_verb, analyze_verb,   convert_verb, plot_verb,       study_verb,
+        report_verb,   list_verb, reproduce_verb, help_verb,    completions_verb};
     return table;
 }
 

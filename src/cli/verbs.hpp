@@ -15,6 +15,7 @@ int warp(const Arguments& arguments, Session& session);
 int analyze(const Arguments& arguments, Session& session);
 int convert(const Arguments& arguments, Session& session);
 int plot(const Arguments& arguments, Session& session);
+int report(const Arguments& arguments, Session& session);
 int study(const Arguments& arguments, Session& session);
 int list(const Arguments& arguments, const std::vector<Kind>& kinds);
 int reproduce(const Arguments& arguments, const std::vector<Kind>& kinds, Session& session);
@@ -52,6 +53,9 @@ std::vector<PointSet> read_joined(const Arguments& arguments, const RunContext& 
 /// What points of a file live on.
 DomainPtr input_domain(const Provenance& provenance, std::size_t dimension,
                        const Arguments& arguments, const RunContext& run);
+
+/// A word as a shell takes it, in quotes where it must be.
+std::string shell_word(const std::string& word);
 
 /// The unit's options as typed. @throws Error(usage)
 Values settings_of(const Schema& schema, const Arguments& arguments);

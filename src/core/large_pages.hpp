@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 namespace stipple {
 
@@ -19,6 +20,16 @@ std::unique_ptr<Number[]> unwritten_room(std::size_t count) {
     auto room = std::make_unique_for_overwrite<Number[]>(count);
     ask_for_large_pages(room.get(), count * sizeof(Number));
     return room;
+}
+
+/// So many zeros.
+template <class Number>
+std::vector<Number> zeros_in_large_pages(std::size_t count) {
+    std::vector<Number> zeros;
+    zeros.reserve(count);
+    ask_for_large_pages(zeros.data(), count * sizeof(Number));
+    zeros.resize(count);
+    return zeros;
 }
 
 }  // namespace stipple

@@ -111,31 +111,55 @@ KaiserBessel window_for(double tolerance, double band) {
 }
 
 WindowTable::WindowTable(const KaiserBessel& window) : width_(window.width()) {
-    const std::size_t row = padded_width();
-    coefficients_.assign(pieces * (degree() + 1) * row, 0.0);
+    constexpr std::size_t most_pieces = 64;  // there is no gain beyond: values are rounded, too
+    do {
+        pieces_ *= 2;
+        fill(window);
+    } while (pieces_ < most_pieces && !agrees(window));
+}
+
+void WindowTable::fill(const KaiserBessel& window) {
+    rows_.assign(pieces_ * (degree() + 1) * padded_width() / 4, {});
     std::vector<double> values(degree() + 1);
-    for (std::size_t j = 0; j < pieces * width_; ++j) {
-        const std::size_t piece = j / width_;
-        const auto first = static_cast<double>(width_) / 2 - 1 - static_cast<double>(j % width_);
-        for (std::size_t i = 0; i <= degree(); ++i) {
-            const double t = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) /
+    for (std::size_t i = 0; i < pieces_ * width_; ++i) {
+        const std::size_t piece = i / width_;
+        const std::size_t j = i % width_;
+        const double first = static_cast<double>(width_) / 2 - 1 - static_cast<double>(j);
+        for (std::size_t k = 0; k <= degree(); ++k) {
+            const double t = std::cos(std::numbers::pi * (static_cast<double>(k) + 0.5) /
                                       static_cast<double>(degree() + 1));
-            values[i] = window((static_cast<double>(piece) + (t + 1) / 2) / pieces + first);
+            values[k] = window(
+                (static_cast<double>(piece) + (t + 1) / 2) / static_cast<double>(pieces_) + first);
         }
         const auto powers = to_powers(chebyshev_coefficients(values));
-        double* to = coefficients_.data() + piece * (degree() + 1) * row + j % width_;
-        for (std::size_t k = 0; k <= degree(); ++k) to[k * row] = powers[degree() - k];
+        for (std::size_t k = 0; k <= degree(); ++k) coefficient(piece, k, j) = powers[degree() - k];
     }
 }
 
-double WindowTable::value(std::size_t j, double u) const {
-    const double scaled = u * pieces;
-    const auto piece = static_cast<std::size_t>(scaled);
-    const double t = 2 * (scaled - static_cast<double>(piece)) - 1;
-    const double* row = coefficients_.data() + piece * (degree() + 1) * padded_width() + j;
+/// Whether the polynomials' errors, which are largest at the ends of pieces, are small beside the
+/// window's own, or as small as roundings.
+bool WindowTable::agrees(const KaiserBessel& window) const {
+    const double allowed = std::max(0.005 * window.error(), 1e-14);
+    for (std::size_t i = 0; i < pieces_ * width_; ++i) {
+        const double u = static_cast<double>(i / width_) / static_cast<double>(pieces_);
+        const std::size_t j = i % width_;
+        const double at = u + static_cast<double>(width_) / 2 - 1 - static_cast<double>(j);
+        if (std::abs(polynomial(i / width_, j, -1) - window(at)) > allowed) return false;
+    }
+    return true;
+}
+
+double WindowTable::polynomial(std::size_t piece, std::size_t j, double t) const {
+    const double* row = coefficients() + piece * (degree() + 1) * padded_width() + j;
     double value = 0;
     for (std::size_t k = 0; k <= degree(); ++k, row += padded_width()) value = value * t + *row;
     return value;
+}
+
+double WindowTable::value(std::size_t j, double u) const {
+    const double scaled = u * static_cast<double>(pieces_);
+    const auto piece = static_cast<std::size_t>(scaled);
+    return polynomial(piece, j, 2 * (scaled - static_cast<double>(piece)) - 1);
 }
 
 }  // namespace stipple

@@ -12,6 +12,7 @@
 //         Signal Process. 51 (2003) 560-574, doi:10.1109/TSP.2002.807005.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -53,36 +54,45 @@ class KaiserBessel {
 KaiserBessel window_for(double tolerance, double band);
 
 /// The window's values at its grid points as polynomials of the point's place u in [0, 1) behind a
-/// grid point: the value at the j-th grid point is phi(u + w/2 - 1 - j). The unit is cut into
-/// pieces, so that short polynomials do.
+/// grid point: the value at the j-th grid point is phi(u + w/2 - 1 - j). The unit is cut into so
+/// many pieces that short polynomials do.
 class WindowTable {
   public:
-    static constexpr std::size_t pieces = 8;
-
     explicit WindowTable(const KaiserBessel& window);
 
     [[nodiscard]] std::size_t width() const { return width_; }
+    [[nodiscard]] std::size_t pieces() const { return pieces_; }
 
     /// Values that a row of coefficients holds: the width rounded up to 4; the surplus is zero.
     [[nodiscard]] std::size_t padded_width() const { return (width_ + 3) / 4 * 4; }
 
-    /// Degree at which the polynomials are as good as windows of this width are, found by trying.
-    static constexpr std::size_t degree_of(std::size_t padded) {
-        return padded <= 4 ? 6 : padded <= 8 ? 7 : 8;
-    }
+    /// Degree that is quickest: of a table that the nearest cache holds beside a tile.
+    static constexpr std::size_t degree_of(std::size_t padded) { return padded / 4 + 2; }
 
     [[nodiscard]] std::size_t degree() const { return degree_of(padded_width()); }
 
     /// For each piece, degree + 1 rows of padded_width(); row k holds the coefficients of
-    /// t^(degree - k), t in [-1, 1) being the place in the piece.
-    [[nodiscard]] const std::vector<double>& coefficients() const { return coefficients_; }
+    /// t^(degree - k), t in [-1, 1) being the place in the piece. Aligned to 32 bytes.
+    [[nodiscard]] const double* coefficients() const { return rows_.front().numbers.data(); }
 
     /// The value at the j-th grid point.
     [[nodiscard]] double value(std::size_t j, double u) const;
 
   private:
+    struct alignas(32) Vector {
+        std::array<double, 4> numbers;
+    };
+
+    void fill(const KaiserBessel& window);
+    [[nodiscard]] bool agrees(const KaiserBessel& window) const;
+    [[nodiscard]] double polynomial(std::size_t piece, std::size_t j, double t) const;
+    double& coefficient(std::size_t piece, std::size_t k, std::size_t j) {
+        return rows_[((piece * (degree() + 1) + k) * padded_width() + j) / 4].numbers[j % 4];
+    }
+
     std::size_t width_;
-    std::vector<double> coefficients_;
+    std::size_t pieces_ = 4;
+    std::vector<Vector> rows_;
 };
 
 }  // namespace stipple

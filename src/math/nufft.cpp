@@ -17,16 +17,6 @@ double power(std::size_t base, std::size_t exponent) {
     return std::pow(static_cast<double>(base), static_cast<double>(exponent));
 }
 
-void clear(double* numbers, std::size_t count, const RunContext& run) {
-    for_each_block(
-        run, count, std::size_t{1} << 18,
-        [&](const Block& b) { std::fill(numbers + b.first, numbers + b.last, 0.0); }, true);
-}
-
-std::size_t lines_of(const CellGrid& grid) {
-    return grid.dimension == 3 ? grid.side * grid.side : grid.dimension == 2 ? grid.side : 1;
-}
-
 /// Seconds, nearly, of one core.
 struct Cost {
     double spreading;
@@ -118,7 +108,7 @@ double Nufft::spreading_share() const {
 
 FourierSums Nufft::transform(std::span<const double> rows, const RunContext& run,
                              Planning planning) const {
-    FourierSummation summation(*this, run);
+    FourierSummation summation(*this);
     const double spreading = spreading_share();
     const RunContext part = run.stage(0, spreading);
     RunContext quiet = run;
@@ -133,7 +123,7 @@ FourierSums Nufft::transform(std::span<const double> rows, const RunContext& run
     return summation.finish(planning, run.stage(spreading, 1));
 }
 
-FourierSummation::FourierSummation(const Nufft& nufft, const RunContext& run)
+FourierSummation::FourierSummation(const Nufft& nufft)
     : nufft_(nufft),
       cells_((nufft.dimension() == 3   ? nufft.side() * nufft.side()
               : nufft.dimension() == 2 ? nufft.side()
@@ -144,9 +134,20 @@ FourierSummation::FourierSummation(const Nufft& nufft, const RunContext& run)
             .stride = stride_of(nufft.side()),
             .cells = cells_.get()},
       spreader_(nufft.window(), grid_, nufft.weighted()),
-      block_(block_of(nufft)) {
-    clear(cells_.get(), lines_of(grid_) * grid_.stride, run);
+      block_(block_of(nufft)) {}
+
+namespace {
+
+/// For the next block.
+void zero(std::span<double> cells, const RunContext& run) {
+    constexpr std::uint64_t some = std::uint64_t{1} << 18;
+    for_each_block(
+        run, cells.size(), some,
+        [&](const Block& b) { std::ranges::fill(cells.subspan(b.first, b.last - b.first), 0.0); },
+        true);
 }
+
+}  // namespace
 
 std::uint64_t FourierSummation::block_of(const Nufft& nufft) {
     constexpr std::uint64_t least = std::uint64_t{1} << 21;
@@ -156,7 +157,8 @@ std::uint64_t FourierSummation::block_of(const Nufft& nufft) {
 }
 
 std::span<double> FourierSummation::cells() const {
-    return {cells_.get(), lines_of(grid_) * grid_.stride};
+    const double lines = power(grid_.side, grid_.dimension - 1);
+    return {cells_.get(), static_cast<std::size_t>(lines) * grid_.stride};
 }
 
 void FourierSummation::add(std::span<const double> rows, const RunContext& run) {
@@ -165,7 +167,7 @@ void FourierSummation::add(std::span<const double> rows, const RunContext& run) 
     while (!rows.empty()) {
         if (points_ == block_) {
             close_block(run);
-            clear(cells_.get(), cells().size(), run);
+            zero(cells(), run);
         }
         const std::uint64_t some = std::min<std::uint64_t>(rows.size() / d, block_ - points_);
         spreader_.add(rows.first(static_cast<std::size_t>(some) * d), run);

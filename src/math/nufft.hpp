@@ -82,7 +82,7 @@ class Nufft {
 /// block by block, and what becomes of the parts be merged.
 class FourierSummation {
   public:
-    FourierSummation(const Nufft& nufft, const RunContext& run);
+    explicit FourierSummation(const Nufft& nufft);
 
     /// Points of a block: as many as cells, so that adding grids costs little, but at least 2^21
     /// and at most 2^26.

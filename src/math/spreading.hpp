@@ -7,11 +7,12 @@
 //
 // where coordinate 0 runs along the rows of the grid, the fastest index.
 //
-// Cost    O(n w^d + M^d ceil(n / batch)). Points come in any portions and are spread a batch at a
-//         time: sorted into tiles of the grid; a tile is summed in a buffer that the nearest cache
-//         holds, and then added to the grid.
-// Promise the same bits for any number of threads, and however the points are portioned. Tiles are
-//         added colour by colour, and the tiles of one colour do not touch each other, so every
+// Cost    O(n w^d + M^d ceil(n / batch)). Points come in any portions, are sorted into tiles of the
+//         grid as they come, and spread a batch at a time; a tile is summed in a buffer that the
+//         nearest cache holds, and then added to the grid.
+// Promise the same bits for any number of threads, and however the points are portioned. The colour
+//         of a tile is the parity of its place along each axis. Tiles of one colour do not touch
+//         each other, and where tiles do they are added in the order of their colours; so every
 //         cell has its summands in a fixed order.
 // Beware  M x is never rounded to a double: the product's high part is exact, and the place between
 //         two grid points keeps all its bits.
@@ -23,9 +24,9 @@
 #include <span>
 #include <vector>
 
-#include "core/rows.hpp"
 #include "core/run_context.hpp"
 #include "math/kaiser_bessel.hpp"
+#include "math/tile_points.hpp"
 
 namespace stipple {
 
@@ -43,6 +44,7 @@ struct CellGrid {
 std::size_t spreading_batch(const CellGrid& grid);
 
 class Tiling;
+class TileSums;
 
 class Spreader {
   public:
@@ -62,22 +64,21 @@ class Spreader {
     static double bytes(double count, const CellGrid& grid, bool weighted);
 
   private:
-    void spread(std::span<const double> rows, const RunContext& run);
     void sort(std::span<const double> rows, const RunContext& run);
-    void spread_colour(std::size_t colour, std::size_t points, const RunContext& run);
+    void spread_bands(std::size_t block, const RunContext& run);
+    void spread_band(std::size_t band, TileSums& sums, const RunContext& run) const;
+    void spread_colour(std::size_t colour, const RunContext& run);
+    void spread_tile(std::size_t number, TileSums& sums, const RunContext& run) const;
 
     WindowTable table_;
     std::unique_ptr<Tiling> tiling_;
     std::size_t dimension_;
     std::size_t width_;      ///< numbers of a row
-    std::size_t batch_;      ///< numbers of a batch
-    Rows waiting_;           ///< a batch that is not full yet
-    std::size_t waits_ = 0;  ///< numbers in it
-    Rows sorted_;
-    std::size_t room_ = 0;             ///< numbers that `sorted_` holds
-    std::vector<std::size_t> begins_;  ///< of each tile's numbers there, and the end
+    std::size_t batch_;      ///< points of a batch
+    std::size_t waits_ = 0;  ///< points that are sorted, and not spread yet
+    TilePoints points_;
     std::vector<std::uint32_t> tile_of_;
-    std::vector<std::uint32_t> next_;
+    std::vector<std::uint32_t> listed_;
 };
 
 }  // namespace stipple

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/file_bytes.hpp"
+#include "core/large_pages.hpp"
 #include "core/parallel.hpp"
 #include "math/fftw.hpp"
 
@@ -143,7 +144,7 @@ std::vector<std::complex<double>> transform_columns(const Columns& in,
     const LineTransform line(LineTransform::Kind::complex, in.side, planning);
     const std::size_t span = 2 * factors.size() - 1;
     const std::size_t groups = (in.width + together - 1) / together;
-    std::vector<std::complex<double>> out(in.planes * span * in.width);
+    auto out = zeros_in_large_pages<std::complex<double>>(in.planes * span * in.width);
     const std::size_t size = std::max<std::size_t>(1, lines_at_a_time(in.side) / together);
     for_each_block(run, in.planes * groups, size, [&](const Block& b) {
         Gathered lines(in.side);
@@ -179,12 +180,6 @@ double fourier_sums_size(std::size_t dimension, std::size_t max_frequency) {
 Planning planning_for(std::size_t dimension, std::size_t side) {
     // To try takes about half a second a plan, and gains a tenth.
     return transform_seconds(dimension, side) > 10 ? Planning::measured : Planning::estimated;
-}
-
-GridCells::GridCells(std::size_t count) : room_(Rows::unwritten(count + 8)) {
-    auto* begin = room_.numbers().data();
-    const auto address = reinterpret_cast<std::uintptr_t>(begin);
-    begin_ = begin + (64 - address % 64) % 64 / sizeof(double);
 }
 
 std::size_t stride_of(std::size_t side) { return side / 8 * 8 + 16; }

@@ -20,8 +20,8 @@
 #include <string>
 #include <vector>
 
-#include "core/rows.hpp"
 #include "core/run_context.hpp"
+#include "math/grid_cells.hpp"
 #include "math/spreading.hpp"
 
 namespace stipple {
@@ -44,19 +44,6 @@ enum class Planning { estimated, measured };
 
 /// Measured where the transforms take so long that trying pays in the same run.
 Planning planning_for(std::size_t dimension, std::size_t side);
-
-/// Numbers that stand where FFTW likes them.
-class GridCells {
-  public:
-    GridCells() = default;
-    explicit GridCells(std::size_t count);
-    [[nodiscard]] double* get() const { return begin_; }
-    void reset() { *this = GridCells(); }
-
-  private:
-    Rows room_;
-    double* begin_ = nullptr;
-};
 
 /// Numbers from one row of a grid to the next: room for the transform of a row in place, and no
 /// power of two, which would put a column into few lines of the cache.

@@ -78,6 +78,8 @@ Axis y_axis(const ChartPanel& panel, const PictureStyle& style) {
         }
     if (panel.from_zero && !span.log) span.take(0);
     if (!span.log) span.take(panel.reach_y);
+    // What differs by rounding only is one value.
+    if (span.high - span.low <= 1e-7 * std::abs(span.high)) span.low = span.high;
     Axis axis{.low = span.low, .high = span.high, .log = span.log, .name = panel.y_name};
     axis.mend();
     if (axis.log) {

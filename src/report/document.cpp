@@ -55,6 +55,7 @@ Json to_json(const Measurement& m) {
     if (m.set) input["set"] = *m.set;
     if (m.sets > 1) input["sets"] = m.sets;
     input["count"] = m.count;
+    if (m.largest_count > 0) input["largest_count"] = m.largest_count;
     input["dimension"] = m.dimension;
     input["domain"] = m.domain;
     Json object = {{"format", "stipple.report"}, {"version", 1},
@@ -106,8 +107,9 @@ std::string source_of(const Measurement& m) {
 }
 
 std::string to_text(const Measurement& m) {
-    std::string text = fmt::format("{} of {} ({} points, dimension {}, {})\n", m.analyzer,
-                                   source_of(m), m.count, m.dimension, m.domain);
+    const std::string most = m.largest_count > 0 ? fmt::format(" to {}", m.largest_count) : "";
+    std::string text = fmt::format("{} of {} ({}{} points, dimension {}, {})\n", m.analyzer,
+                                   source_of(m), m.count, most, m.dimension, m.domain);
     const auto keys = m.results.keys();
     std::size_t width = 0;
     for (const auto& key : keys) width = std::max(width, key.size());

@@ -19,9 +19,10 @@ struct Measurement {
     std::string analyzer;
     std::string source;
     std::optional<std::size_t> set =
-        {};                ///< number of the set in its file, where there are several
-    std::size_t sets = 1;  ///< sets that the results are the mean of
-    std::uint64_t count = 0;
+        {};                           ///< number of the set in its file, where there are several
+    std::size_t sets = 1;             ///< sets that the results are the mean of
+    std::uint64_t count = 0;          ///< of a mean over sets of different sizes, the smallest
+    std::uint64_t largest_count = 0;  ///< of such a mean; else 0
     std::size_t dimension = 0;
     std::string domain;
     std::vector<std::pair<std::string, std::string>> options = {};

@@ -69,21 +69,40 @@ double share_of_box(const PointSet& set) {
 /// Puts a point of a set at its place in the drawing.
 using Place = std::function<Spot(std::span<const double>)>;
 
+/// How many points there are in the squares of a raster.
+struct Tally {
+    Raster raster;
+    std::vector<std::uint64_t> counts;
+
+    [[nodiscard]] double largest() const {
+        return static_cast<double>(*std::ranges::max_element(counts));
+    }
+};
+
+/// The numbers beside a bar of counts from 0 to the largest.
+std::vector<Tick> count_ticks(double largest) {
+    std::vector<Tick> ticks;
+    for (auto& [value, text] : linear_ticks(0, largest, 6, true).numbers)
+        ticks.push_back({value / largest, text});
+    return ticks;
+}
+
 /// Points as marks in an area of a drawing.
 class Cloud {
   public:
     Cloud(const PointsPicture& picture, const PictureStyle& style, const RunContext& run)
         : picture_(picture), theme_(*style.theme), run_(run) {}
 
-    /// How points are marked that are all in one frame.
     [[nodiscard]] bool as_disks() const {
         return picture_.marking == Marking::disks ||
                (picture_.marking == Marking::automatic && points_of(picture_) <= most_disks);
     }
 
-    [[nodiscard]] bool as_density() const {
-        return !as_disks() && picture_.sets.size() == 1 &&
-               (picture_.marking == Marking::density || points_of(picture_) >= least_density);
+    /// Whether a frame of a size shows counts: where single points would fill most of it.
+    [[nodiscard]] bool as_density(double width, double height) const {
+        if (as_disks() || picture_.sets.size() > 1) return false;
+        return picture_.marking == Marking::density ||
+               static_cast<double>(points_of(picture_)) >= density_share * width * height;
     }
 
     /// A disk for each point.
@@ -114,20 +133,29 @@ class Cloud {
         drawing.add(std::move(raster));
     }
 
-    /// How many points there are in squares that hold some of them on average; gives the largest
-    /// number.
-    double density(Drawing& drawing, const Area& area, const Place& place) const {
+    /// Points in squares that hold some of them on average.
+    [[nodiscard]] Tally tally(const Area& area, const Place& place) const {
         const auto n = static_cast<double>(points_of(picture_));
         const double side =
             std::clamp(std::ceil(std::sqrt(6 * area.width * area.height / n)), 1.0, 16.0);
-        Raster raster = empty_raster(area, side);
-        std::vector<std::uint64_t> counts(raster.pixels.size());
-        for_each_bin(*picture_.sets[0], raster, place, [&](std::size_t bin) { ++counts[bin]; });
-        const auto largest = static_cast<double>(*std::ranges::max_element(counts));
-        for (std::size_t i = 0; i < counts.size(); ++i)
-            raster.pixels[i] = shade(static_cast<double>(counts[i]) / largest);
-        drawing.add(std::move(raster));
-        return largest;
+        Tally tally{.raster = empty_raster(area, side), .counts = {}};
+        tally.counts.resize(tally.raster.pixels.size());
+        for_each_bin(*picture_.sets[0], tally.raster, place,
+                     [&](std::size_t bin) { ++tally.counts[bin]; });
+        return tally;
+    }
+
+    /// The tally in shades up to the largest number.
+    void density(Drawing& drawing, Tally tally, double largest) const {
+        for (std::size_t i = 0; i < tally.counts.size(); ++i)
+            tally.raster.pixels[i] = shade(static_cast<double>(tally.counts[i]) / largest);
+        drawing.add(std::move(tally.raster));
+    }
+
+    void draw_bar(Drawing& drawing, const Area& frame, double largest) const {
+        draw_colour_bar(
+            drawing, {frame.right() + 14, frame.top, 14, frame.height}, "points", theme_,
+            [this](double share) { return shade(share); }, count_ticks(largest));
     }
 
     /// From the ground over the first colour to the ink.
@@ -170,14 +198,6 @@ class Cloud {
     const RunContext& run_;
     double share_ = share_of_box(*picture_.sets[0]);  ///< of the frame, where there are points
 };
-
-/// The numbers beside a bar of counts from 0 to the largest.
-std::vector<Tick> count_ticks(double largest) {
-    std::vector<Tick> ticks;
-    for (auto& [value, text] : linear_ticks(0, largest, 6, true).numbers)
-        ticks.push_back({value / largest, text});
-    return ticks;
-}
 
 std::vector<LegendEntry> legend_of(const PointsPicture& picture, const Theme& theme) {
     std::vector<LegendEntry> entries;
@@ -240,9 +260,10 @@ Drawing draw_plane(const PointsPicture& picture, const PictureStyle& style, cons
     const Axis x{.low = box.low[0], .high = box.high[0], .name = "x"};
     const Axis y{.low = box.low[1], .high = box.high[1], .name = "y"};
     const double left = std::ceil(margin / 2 + Panel::room_left(y, 500));
-    const double right = cloud.as_density() ? colour_bar_room + margin : margin + 8;
     const double below = Panel::room_below(x) + margin;
-    const double top = page.top + (cloud.as_density() ? 14 : 4);
+    const bool dense = cloud.as_density(page.width, style.height > 0 ? style.height : page.width);
+    const double right = dense ? colour_bar_room + margin : margin + 8;
+    const double top = page.top + (dense ? 14 : 4);
     const double room = style.height > 0 ? style.height - top - below : 0;
     const auto [width, height] = frame_size(box, page.drawing.width - left - right, room);
     const Area frame{left, top, width, height};
@@ -250,18 +271,17 @@ Drawing draw_plane(const PointsPicture& picture, const PictureStyle& style, cons
     const Panel panel(frame, x, y);
     const Place place = [&panel](std::span<const double> p) { return panel.at(p[0], p[1]); };
     Drawing& drawing = page.drawing;
-    double largest = 0;
-    if (cloud.as_density())
-        largest = cloud.density(drawing, frame, place);
-    else if (!cloud.as_disks())
+    if (dense) {
+        Tally tally = cloud.tally(frame, place);
+        const double largest = tally.largest();
+        cloud.density(drawing, std::move(tally), largest);
+        cloud.draw_bar(drawing, frame, largest);
+    } else if (!cloud.as_disks()) {
         cloud.specks(drawing, frame, place);
+    }
     panel.draw_axes(drawing, theme, true);
     draw_rim(drawing, picture, panel, theme);
     if (cloud.as_disks()) cloud.disks(drawing, frame, place);
-    if (cloud.as_density())
-        draw_colour_bar(
-            drawing, {frame.right() + 14, frame.top, 14, frame.height}, "points", theme,
-            [&cloud](double share) { return cloud.shade(share); }, count_ticks(largest));
     return std::move(page.drawing);
 }
 
@@ -415,10 +435,13 @@ Drawing draw_space(const PointsPicture& picture, const PictureStyle& style, cons
         const Place place = [&scene](std::span<const double> p) { return scene.at(p); };
         const Area area{std::floor(left), std::floor(page.top + 8), std::ceil(wide),
                         std::ceil(scale * (e.top - e.bottom))};
-        if (cloud.as_density())
-            cloud.density(drawing, area, place);
-        else
+        if (cloud.as_density(area.width, area.height)) {
+            Tally tally = cloud.tally(area, place);
+            const double largest = tally.largest();
+            cloud.density(drawing, std::move(tally), largest);
+        } else {
             cloud.specks(drawing, area, place);
+        }
         draw_edges(drawing, scene, theme, false);
     }
     draw_edges(drawing, scene, theme, true);
@@ -462,6 +485,7 @@ class PairSheet {
     }
 
     Drawing draw() {
+        if (cloud_.as_density(side_, side_)) draw_densities();
         for (std::size_t j = 1; j < shown_; ++j)
             for (std::size_t i = 0; i < j; ++i) draw_pair(i, j);
         return std::move(page_.drawing);
@@ -471,25 +495,48 @@ class PairSheet {
     static constexpr double gap = 10;
 
     /// Numbers and names stand at the sheet's rim only.
-    void draw_pair(std::size_t i, std::size_t j) {
+    [[nodiscard]] Panel panel(std::size_t i, std::size_t j) const {
         const Area frame{left_ + static_cast<double>(i) * (side_ + gap),
                          page_.top + 4 + static_cast<double>(j - 1) * (side_ + gap), side_, side_};
         const bool bottom = j + 1 == shown_;
-        const Panel panel(frame,
-                          {.low = box_.low[i],
-                           .high = box_.high[i],
-                           .name = bottom ? names_[i] : "",
-                           .numbers = bottom,
-                           .tight = true},
-                          {.low = box_.low[j],
-                           .high = box_.high[j],
-                           .name = i == 0 ? names_[j] : "",
-                           .numbers = i == 0,
-                           .tight = true});
-        const Place place = [&](std::span<const double> p) { return panel.at(p[i], p[j]); };
-        if (!cloud_.as_disks()) cloud_.specks(page_.drawing, frame, place);
-        panel.draw_axes(page_.drawing, theme_, true);
-        if (cloud_.as_disks()) cloud_.disks(page_.drawing, frame, place);
+        return {frame,
+                {.low = box_.low[i],
+                 .high = box_.high[i],
+                 .name = bottom ? names_[i] : "",
+                 .numbers = bottom,
+                 .tight = true},
+                {.low = box_.low[j],
+                 .high = box_.high[j],
+                 .name = i == 0 ? names_[j] : "",
+                 .numbers = i == 0,
+                 .tight = true}};
+    }
+
+    [[nodiscard]] static Place place(const Panel& panel, std::size_t i, std::size_t j) {
+        return [&panel, i, j](std::span<const double> p) { return panel.at(p[i], p[j]); };
+    }
+
+    /// All pairs in the same shades, whose bar stands in the sheet's free corner.
+    void draw_densities() {
+        std::vector<Tally> tallies;
+        double largest = 0;
+        for (std::size_t j = 1; j < shown_; ++j)
+            for (std::size_t i = 0; i < j; ++i) {
+                const Panel here = panel(i, j);
+                tallies.push_back(cloud_.tally(here.frame(), place(here, i, j)));
+                largest = std::max(largest, tallies.back().largest());
+            }
+        for (Tally& tally : tallies) cloud_.density(page_.drawing, std::move(tally), largest);
+        cloud_.draw_bar(page_.drawing, panel(0, 1).frame(), largest);
+    }
+
+    void draw_pair(std::size_t i, std::size_t j) {
+        const Panel here = panel(i, j);
+        const Area& frame = here.frame();
+        const bool dense = cloud_.as_density(side_, side_);
+        if (!dense && !cloud_.as_disks()) cloud_.specks(page_.drawing, frame, place(here, i, j));
+        here.draw_axes(page_.drawing, theme_, true);
+        if (cloud_.as_disks()) cloud_.disks(page_.drawing, frame, place(here, i, j));
     }
 
     const PointsPicture& picture_;

@@ -7,8 +7,9 @@
 //     d = 3   the same from a fixed place, in a box; what is far is paler and smaller
 //     d > 3   every pair of the first 8 coordinates in a panel of its own
 //
-// What are more disks than eyes tell apart are pixels: one for each point up to some 300 000, then
-// their density. Several sets lie over each other, in colours.
+// What are more disks than eyes tell apart are pixels: one for each point, until (at some 300 000
+// in one frame) they would fill it, then their density. Several sets lie over each other, in
+// colours.
 #pragma once
 
 #include <span>
@@ -23,7 +24,7 @@ namespace stipple {
 
 inline constexpr std::size_t most_pair_coordinates = 8;
 inline constexpr std::size_t most_disks = 20'000;  ///< above, points are pixels
-inline constexpr std::size_t least_density = 300'000;
+inline constexpr double density_share = 0.75;  ///< of points to a frame's area, for their density
 
 /// How points are marked.
 enum class Marking { automatic, disks, density };

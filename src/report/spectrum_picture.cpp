@@ -33,17 +33,6 @@ Raster picture_of(const Grid& power, const Area& area) {
 
 }  // namespace
 
-bool looks_like_power(const Grid& grid) {
-    constexpr std::size_t least = 9;  // smaller ones may be points
-    if (grid.rows != grid.columns || grid.rows % 2 == 0 || grid.rows < least) return false;
-    const auto& v = grid.values;
-    for (std::size_t i = 0; i < v.size() / 2; ++i) {
-        const double other = v[v.size() - 1 - i];
-        if (!(v[i] >= 0) || std::abs(v[i] - other) > 1e-6 * (1 + v[i])) return false;
-    }
-    return true;
-}
-
 Drawing draw_spectrum(const Grid& power, const std::string& title, const std::string& subtitle,
                       const PictureStyle& style, const TableNames& names) {
     if (power.rows != power.columns || power.rows % 2 == 0)

@@ -13,10 +13,6 @@
 
 namespace stipple {
 
-/// Whether a table of numbers can be the power at frequencies -F to F: square, of an odd side,
-/// nowhere negative, and P(-f) = P(f).
-bool looks_like_power(const Grid& grid);
-
 /// What the axes and the colours of a table mean.
 struct TableNames {
     std::string x = "frequency fx";

@@ -12,6 +12,7 @@
 #include "io/decimal.hpp"
 #include "math/png_picture.hpp"
 #include "report/drawing.hpp"
+#include "report/html_text.hpp"
 #include "report/letters.hpp"
 
 namespace stipple {
@@ -41,22 +42,6 @@ std::string escaped(const std::string& text) {
             out += "&amp;";
         else
             out += c;
-    }
-    return out;
-}
-
-std::string base64(std::string_view bytes) {
-    constexpr std::string_view digits =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    out.reserve(bytes.size() / 3 * 4 + 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t here = std::min<std::size_t>(3, bytes.size() - i);
-        std::uint32_t word = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            word = word << 8 | (k < here ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-        for (std::size_t k = 0; k < 4; ++k)
-            out += k <= here ? digits[word >> (18 - 6 * k) & 63] : '=';
     }
     return out;
 }

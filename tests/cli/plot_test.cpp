@@ -135,6 +135,16 @@ TEST(Plot, DrawsTheTableThatGridSaves) {
                   "stipple plot g.npy -o g.svg"));
     EXPECT_THAT(xml(box, "g.svg", "text"), HasSubstr("frequency fx"));
     EXPECT_EQ(xml(box, "g.svg", "circle"), "0\n");
+    good(
+        box.shell("stipple generate halton -n 64 -d 3 | stipple analyze periodogram --grid g3.npy "
+                  "-o r.json && stipple plot g3.npy -o g3.svg && "
+                  "stipple generate halton -n 64 -d 1 | stipple analyze periodogram --grid g1.npy "
+                  "-o r.json && stipple plot g1.npy -o g1.svg && "
+                  "stipple generate halton -n 64 | stipple analyze differential --grid d.npy "
+                  "-o r.json && stipple plot d.npy -o d.svg"));
+    EXPECT_THAT(xml(box, "g3.svg", "text"), HasSubstr("plane fz = 0"));
+    EXPECT_THAT(xml(box, "g1.svg", "text"), HasSubstr("white noise"));
+    EXPECT_THAT(xml(box, "d.svg", "text"), HasSubstr("Δx (pixels)"));
 }
 
 TEST(Plot, DrawsInLetters) {

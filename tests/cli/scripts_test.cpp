@@ -330,10 +330,35 @@ TEST(PublishedTable, HasOursBesideTheirs) {
     EXPECT_EQ(run(box, table + "stipple nobody").code, 1);
 }
 
+TEST(PlotPairCorrelation, DrawsACurveForEachReport) {
+    const Sandbox box;
+    expect_quiet(run(box,
+                     "stipple generate jittered -n 400 -m 3 -o j.csv && stipple analyze "
+                     "pair-correlation j.csv --average -o j.json && stipple generate random -n 400 "
+                     "| stipple analyze pair-correlation -o r.csv && "
+                     "plot_pair_correlation.py j.json r.csv -o a.svg && "
+                     "plot_pair_correlation.py --max-distance 0.1 -o b.png < j.json"));
+    expect_picture(box, "a.svg");
+    expect_picture(box, "b.png");
+    const std::string words = texts(box.read("a.svg"));
+    EXPECT_THAT(words, HasSubstr("j.csv, mean of 3 sets\n"));
+    EXPECT_THAT(words, HasSubstr("independent points\n"));
+    const auto refuse = [&](const std::string& line, const std::string& words_of_it) {
+        expect_refusal(run(box, "plot_pair_correlation.py " + line), 2, "plot_pair_correlation.py",
+                       words_of_it);
+    };
+    refuse("j.json --max-distance -1 -o c.png", "--max-distance: -1.0 is not above 0");
+    refuse("j.json -o c.gif", ".png, .svg or .pdf");
+    expect_quiet(run(box, "stipple analyze periodogram j.csv --average -o p.json"));
+    expect_refusal(run(box, "plot_pair_correlation.py p.json"), 3, "plot_pair_correlation.py",
+                   "p.json: is of periodogram; expected a report of pair-correlation");
+}
+
 TEST(Scripts, ExplainThemselves) {
     const Sandbox box;
-    for (const char* name : {"plot_points.py", "plot_spectrum.py", "plot_discrepancy.py",
-                             "plot_convergence.py", "overview.py", "plot_blue_noise.py"}) {
+    for (const char* name :
+         {"plot_points.py", "plot_spectrum.py", "plot_discrepancy.py", "plot_convergence.py",
+          "overview.py", "plot_blue_noise.py", "plot_pair_correlation.py"}) {
         const Outcome outcome = run(box, std::string(name) + " --help");
         expect_quiet(outcome);
         EXPECT_THAT(outcome.out, HasSubstr("usage: " + std::string(name)));
@@ -342,6 +367,7 @@ TEST(Scripts, ExplainThemselves) {
     // Importing draws nothing and reads nothing.
     expect_quiet(run(box, "PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=" STIPPLE_SOURCE_DIR
                           "/scripts /usr/bin/python3 -c 'import plot_points, plot_spectrum, "
-                          "plot_discrepancy, plot_convergence, overview, plot_blue_noise'"));
+                          "plot_discrepancy, plot_convergence, overview, plot_blue_noise, "
+                          "plot_pair_correlation'"));
     EXPECT_EQ(box.files(), std::vector<std::string>{});
 }

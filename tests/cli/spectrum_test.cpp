@@ -141,6 +141,31 @@ TEST(Spectrum, OfSpaceIsACubeAndItsSlices) {
                  2, "--slice: 6 is outside [-5, 5]");
 }
 
+TEST(Spectrum, FilesAreOfTheFormatThatTheyAreNamedFor) {
+    const Sandbox box;
+    const auto write = [&](const std::vector<std::string>& files) {
+        std::vector<std::string> words = {"analyze", "periodogram", "--generate", "random"};
+        words.insert(words.end(), files.begin(), files.end());
+        return box.run(words);
+    };
+    expect_error(write({"--image", "p.jpg"}), 2, "--image: writes .png; 'p.jpg' has another name");
+    expect_error(write({"--grid", "g.csv"}), 2, "--grid: writes .npy; 'g.csv' has another name");
+    expect_error(write({"--grid", "g.npy", "-o", "g.npy"}), 2, "--grid: --output writes g.npy");
+    EXPECT_EQ(box.files(), std::vector<std::string>{});
+    report_of(write({"--image", "/dev/null", "--grid", "/dev/null"}));
+}
+
+TEST(Spectrum, AMeanOverSizesSaysWhichTheyAre) {
+    const Sandbox box;
+    const auto mean = box.shell(
+        "stipple generate random -n 40 -o a.csv && stipple generate random -n 90 -o b.csv && "
+        "stipple analyze periodogram b.csv a.csv --average -o m.json");
+    EXPECT_THAT(mean.err, HasSubstr("differ in their number of points"));
+    const json input = json::parse(box.read("m.json")).at("input");
+    EXPECT_EQ(input.at("count"), 40);
+    EXPECT_EQ(input.at("largest_count"), 90);
+}
+
 TEST(Spectrum, WisdomIsWrittenAndRead) {
     const Sandbox box;
     const auto run = [&] {

@@ -216,7 +216,7 @@ TEST(Nufft, SameBitsHoweverThePointsArePortioned) {
     const Nufft nufft(n, 1, 100, 1e-7);
     const FourierSums whole = nufft.transform(rows, {});
     for (const std::size_t portion : {std::size_t{131'072}, std::size_t{1'048'575}}) {
-        FourierSummation sum(nufft, {});
+        FourierSummation sum(nufft);
         for (std::size_t at = 0; at < n; at += portion)
             sum.add(std::span(rows).subspan(at, std::min(portion, n - at)), {});
         EXPECT_EQ(sum.finish(Planning::estimated, {}).values, whole.values) << portion;

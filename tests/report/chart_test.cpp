@@ -368,14 +368,3 @@ TEST(SpectrumPicture, IsGreyByShareWithTheLastRowOnTop) {
     power = {.rows = 2, .columns = 2, .values = {1, 1, 1, 1}};
     EXPECT_THROW(draw_spectrum(power, "t", "", {}), Error);
 }
-
-TEST(SpectrumPicture, KnowsATableOfPowerFromPoints) {
-    Grid power{.rows = 9, .columns = 9, .values = std::vector<double>(81, 1.0)};
-    EXPECT_TRUE(looks_like_power(power));
-    power.values[3] = 2;
-    EXPECT_FALSE(looks_like_power(power));
-    power.values[77] = 2;
-    EXPECT_TRUE(looks_like_power(power));
-    EXPECT_FALSE(looks_like_power({.rows = 3, .columns = 3, .values = std::vector<double>(9)}));
-    EXPECT_FALSE(looks_like_power({.rows = 9, .columns = 8, .values = std::vector<double>(72)}));
-}

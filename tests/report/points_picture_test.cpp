@@ -155,6 +155,24 @@ TEST(PointsPicture, EveryPairOfCoordinatesHasAPanel) {
     EXPECT_EQ(marks_of(draw_points(picture_of({&more}), {}, {})).size(), 280U);  // of 8
 }
 
+// One scale for all panels: a coordinate that bunches is darker than the others.
+TEST(PointsPicture, PairsOfManyPointsAreDensitiesInOneScale) {
+    PointSet points = make("random", {100'000, 4});
+    for (std::size_t i = 0; i < points.count(); ++i)
+        for (std::size_t k = 0; k < 2; ++k) points.flat()[4 * i + k] *= 0.25;
+    const Drawing drawing = draw_points(picture_of({&points}), {}, {});
+    EXPECT_TRUE(marks_of(drawing).empty());
+    const auto rasters = shapes_of<Raster>(drawing);
+    ASSERT_EQ(rasters.size(), 7U);  // six pairs and the bar of colours
+    const auto darkest = [&](std::size_t panel) {
+        int least = 255;
+        for (const Colour& pixel : rasters[panel]->pixels) least = std::min<int>(least, pixel.blue);
+        return least;
+    };
+    EXPECT_LT(darkest(0), 60);   // both bunch: 16 times as dense
+    EXPECT_GT(darkest(5), 180);  // none does
+}
+
 TEST(PointsPicture, NoTextLeavesThePicture) {
     const PointSet wide = points_of({{0, 0}, {100000.5, 1}});
     const PointSet five = make("random", {100, 5});

@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: MIT
+//
+// The verb `report`: sets in, one page about them out.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <type_traits>
+
+#include "cli/verbs.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "io/files.hpp"
+#include "io/source_text.hpp"
+#include "report/check.hpp"
+#include "report/page_figures.hpp"
+#include "report/page_html.hpp"
+#include "report/page_measures.hpp"
+#include "study/chain.hpp"
+#include "study/generated.hpp"
+
+namespace stipple::cli {
+namespace {
+
+/// A set that waits to be measured.
+struct Waiting {
+    PointSet points;
+    PageSet set;
+    PageInput input;
+};
+
+std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+/// A condition of --fail-on. @throws Error(usage) naming the option
+Check condition_of(const std::string& text) {
+    try {
+        return parse_check(text);
+    } catch (const Error&) {
+        fail(ErrorKind::usage,
+             "--fail-on: '{}' is not KEY>VALUE; with <, <=, >, >=, == or !=", text);
+    }
+}
+
+/// The condition that holds where this one does not.
+Check opposite_of(const Check& check) {
+    static const std::map<std::string, std::string> opposites = {
+        {"<", ">="}, {"<=", ">"}, {">", "<="}, {">=", "<"}, {"==", "!="}, {"!=", "=="}};
+    return {.key = check.key, .op = opposites.at(check.op), .value = check.value};
+}
+
+class Reporter {
+  public:
+    Reporter(const Arguments& arguments, Session& session)
+        : arguments_(arguments),
+          session_(session),
+          path_(arguments.get("output").value_or("-")),
+          json_(arguments.has("json") || path_.ends_with(".json")) {
+        if (!json_ && path_ == "-" && isatty(STDOUT_FILENO) == 1)
+            fail_with_hint(ErrorKind::usage, "name a file with -o, or pipe it on",
+                           "a page is not for terminals");
+        if (const auto work = arguments.integer("max-work", 1, std::uint64_t{1} << 60))
+            limits_.work = static_cast<std::int64_t>(*work);
+        for (const auto& text : arguments.all("fail-on")) conditions_.push_back(condition_of(text));
+    }
+
+    int go() {
+        for (const char* name : {"count", "seed", "warp", "start"})
+            if (arguments_.has(name) && !arguments_.has("generate"))
+                fail(ErrorKind::usage, "--{}: is of --generate, which names a generator", name);
+        io::Output output(path_, session_.run().stop);
+        load();
+        check_sets();
+        name_sets();
+        Page page{.title = {}, .version = STIPPLE_VERSION, .command = command(), .sets = {}};
+        for (std::size_t i = 0; i < waiting_.size(); ++i) page.sets.push_back(finished(i));
+        page.title = title_of(page.sets);
+        const bool fine = judge(page.sets);
+        session_.run().check_stop();
+        if (output.write(json_ ? page_json(page) : page_html(page))) output.commit();
+        return fine ? 0 : 1;
+    }
+
+  private:
+    // ---------------------------------------------------------------- what is reported on
+
+    void load() {
+        auto inputs = arguments_.inputs;
+        if (inputs.empty() && !arguments_.has("generate")) inputs.emplace_back("-");
+        if (std::ranges::count(inputs, "-") > 1)
+            fail(ErrorKind::usage, "report: standard input is named twice");
+        for (const std::string& input : inputs) add_file(input);
+        const auto specs = arguments_.all("generate");
+        if (!specs.empty()) seed_ = seed_of(arguments_, largest_seed(specs), session_);
+        for (const std::string& spec : specs) add_generated(spec);
+    }
+
+    /// That all generators take.
+    static std::uint64_t largest_seed(const std::vector<std::string>& specs) {
+        std::uint64_t largest = ~std::uint64_t{0};
+        for (const std::string& text : specs) {
+            const Spec spec = parse_spec(text);
+            const Generator& generator = find_generator(spec.name);
+            const auto& of = generator.max_seed;
+            if (of) largest = std::min(largest, of(spec.values(generator.options)));
+        }
+        return largest;
+    }
+
+    void add_file(const std::string& input) {
+        auto sets = read_input(input, arguments_, session_.run());
+        for (std::size_t i = 0; i < sets.size(); ++i) {
+            if (const auto domain = arguments_.get("domain"))
+                sets[i].domain = parse_domain(*domain, sets[i].dimension());
+            Waiting next;
+            next.set.source = input;
+            next.set.provenance = sets[i].provenance;
+            next.set.command = sets[i].provenance.command;
+            next.input.words = words_of_file(input);
+            next.input.bounds = !arguments_.has("domain");
+            if (sets.size() > 1) {
+                next.set.number = i;
+                next.input.remark = fmt::format("  # result {} of the array", i);
+            }
+            next.points = std::move(sets[i]);
+            add(std::move(next));
+        }
+    }
+
+    /// How the file is named to 'stipple analyze'.
+    [[nodiscard]] std::string words_of_file(const std::string& input) const {
+        std::string words = shell_word(input);
+        for (const char* name : {"from", "dimension", "column", "dtype", "domain"})
+            if (const auto text = arguments_.get(name))
+                words += fmt::format(" --{} {}", name, shell_word(*text));
+        return words;
+    }
+
+    void add_generated(const std::string& text) {
+        const Spec spec = parse_spec(text);
+        const Generator& generator = find_generator(spec.name);
+        const Values values = spec.values(generator.options);
+        Request request = request_of(arguments_);
+        request.seed = seed_;
+        std::vector<Spec> warps;
+        for (const auto& warp : arguments_.all("warp")) warps.push_back(parse_spec(warp));
+        const GeneratedSets generated(generator, values, request, 1, warps, session_.run());
+        Waiting next;
+        next.points = generated.made(0, session_.run());
+        next.set.source = text;
+        next.set.command = fmt::format("stipple generate {}{}", shell_word(text), of_generated());
+        next.set.provenance = provenance_of(generator, values, next.points, request);
+        next.set.provenance.command = next.set.command;
+        next.input.words = fmt::format("--generate {}{}", shell_word(text), of_generated());
+        add(std::move(next));
+    }
+
+    /// The options that all generated sets share, as they are typed.
+    [[nodiscard]] std::string of_generated() const {
+        std::string words;
+        for (const char* name : {"count", "dimension", "start", "warp"})
+            for (const auto& text : arguments_.all(name))
+                words += fmt::format(" --{} {}", name, shell_word(text));
+        if (arguments_.has("seed")) words += fmt::format(" --seed {}", seed_);
+        return words;
+    }
+
+    [[nodiscard]] Provenance provenance_of(const Generator& generator, const Values& values,
+                                           const PointSet& points, const Request& request) const {
+        Provenance from{.version = STIPPLE_VERSION,
+                        .generator = generator.name,
+                        .options = {},
+                        .seed = request.seed,
+                        .count = points.count(),
+                        .dimension = points.dimension(),
+                        .start = request.start,
+                        .warps = arguments_.all("warp"),
+                        .domain = points.domain->spec(),
+                        .bounds = {},
+                        .shard = {},
+                        .command = {}};
+        for (const Option& option : generator.options.options()) {
+            const auto& item = values.find(option.name);
+            if (!option.optional || item.given)
+                from.options.emplace_back(option.name, format_value(item.value));
+        }
+        return from;
+    }
+
+    void add(Waiting next) {
+        next.set.count = next.points.count();
+        next.set.dimension = next.points.dimension();
+        next.set.domain = next.points.domain->spec();
+        waiting_.push_back(std::move(next));
+    }
+
+    /// @throws Error for sets that do not go on one page
+    void check_sets() const {
+        if (waiting_.size() > most_page_sets)
+            fail_with_hint(ErrorKind::usage, "'stipple study' compares more, as tables",
+                           "a report compares at most {} sets; these are {}", most_page_sets,
+                           waiting_.size());
+        const PageSet& first = waiting_.front().set;
+        for (const auto& [points, set, input] : waiting_)
+            if (set.dimension != first.dimension)
+                fail_with_hint(ErrorKind::input, "make a report for each dimension",
+                               "{}: points of {} coordinates are not compared with those of {}, "
+                               "which have {}",
+                               io::source_name(set.source), set.dimension,
+                               io::source_name(first.source), first.dimension);
+    }
+
+    /// Short names that tell the sets apart.
+    void name_sets() {
+        std::map<std::string, int> seen;
+        for (auto& [points, set, input] : waiting_) {
+            const std::string last = file_name(set.source);
+            const bool one_file =
+                std::ranges::all_of(waiting_, [&, &source = set.source](const Waiting& other) {
+                    return file_name(other.set.source) != last || other.set.source == source;
+                });
+            set.name = one_file && input.words.find("--generate") != 0 ? last : set.source;
+            if (set.name == "-") set.name = "standard input";
+            if (set.number) set.name += fmt::format(", set {}", *set.number);
+            if (const int before = seen[set.name]++; before > 0)
+                set.name += fmt::format(" ({})", before + 1);
+        }
+    }
+
+    [[nodiscard]] static std::string title_of(const std::vector<PageSet>& sets) {
+        constexpr std::size_t few = 3;
+        if (sets.size() > few) return fmt::format("{} sample sets compared", sets.size());
+        std::vector<std::string> names;
+        for (const PageSet& set : sets) names.push_back(set.name);
+        return join(names, " · ");
+    }
+
+    // ---------------------------------------------------------------- what is said of them
+
+    /// Measures a set and draws it; its points are not needed any more then.
+    PageSet finished(std::size_t i) {
+        auto [points, set, input] = std::move(waiting_[i]);
+        waiting_[i].points = {};
+        const auto all = static_cast<double>(waiting_.size());
+        const auto at = static_cast<double>(i);
+        const RunContext run = session_.run().stage(at / all, (at + 1) / all);
+        set.measures = measure_set(points, input, limits_, run);
+        if (json_) return set;
+        set.figures = point_figures(points, set);
+        if (auto spectrum = spectrum_figure(set); !spectrum.empty())
+            set.figures.push_back(std::move(spectrum));
+        for (PageMeasure& measure : set.measures)
+            if (measure.results)
+                std::erase_if(measure.results->entries(), [](const Report::Entry& entry) {
+                    return std::holds_alternative<Grid>(entry.value);
+                });
+        return set;
+    }
+
+    /// What --check would say, said of --fail-on.
+    template <class Work>
+    static std::invoke_result_t<Work> named(const Work& work) {
+        try {
+            return work();
+        } catch (const Error& e) {
+            std::string what = e.what();
+            if (what.starts_with("--check:")) what.replace(0, 7, "--fail-on");
+            throw Error(e.kind(), what, e.hint());
+        }
+    }
+
+    /// Whether no condition of --fail-on holds, or may hold.
+    bool judge(const std::vector<PageSet>& sets) const {
+        bool fine = true;
+        for (const Check& condition : conditions_) {
+            const Check check = with_known_key(condition, sets);
+            for (const PageSet& set : sets) {
+                const Report all = set.all_results();
+                if (!has(all, check.key)) continue;
+                if (named([&] { return opposite_of(check).holds(all); })) continue;
+                say(fmt::format("stipple: {}: {} is {}, and --fail-on is {}{}{}\n", set.name,
+                                check.key, named([&] { return check.found(all); }), check.key,
+                                check.op, check.value));
+                fine = false;
+            }
+        }
+        return fine;
+    }
+
+    static bool has(const Report& all, const std::string& key) {
+        const Report::Item* item = all.find(key.substr(0, key.find('[')));
+        return item != nullptr && !std::holds_alternative<Report>(*item);
+    }
+
+    /// The key as the sets have it; the name of a measure alone is its value.
+    /// @throws Error(usage) for one that no set has
+    static Check with_known_key(Check check, const std::vector<PageSet>& sets) {
+        const auto known = [&](const std::string& key) {
+            return std::ranges::any_of(
+                sets, [&](const PageSet& set) { return has(set.all_results(), key); });
+        };
+        if (known(check.key)) return check;
+        if (known(check.key + ".value")) {
+            check.key += ".value";
+            return check;
+        }
+        std::vector<std::string> keys;
+        for (const PageSet& set : sets)
+            for (auto& key : set.all_results().keys()) keys.push_back(std::move(key));
+        const auto meant = nearest_word(check.key, keys);
+        fail_with_hint(ErrorKind::usage,
+                       meant ? fmt::format("did you mean {}?", *meant)
+                             : "keys are MEASURE.RESULT, such as star-discrepancy.value; --json "
+                               "has them all",
+                       "--fail-on: no set has '{}'", check.key);
+    }
+
+    /// The command that makes this page, less what cannot change it.
+    [[nodiscard]] std::string command() const {
+        const std::vector<std::string> silent = {"output",     "threads", "quiet",   "progress",
+                                                 "max-memory", "json",    "fail-on", "seed"};
+        std::string text = "stipple report";
+        for (const std::string& input : arguments_.inputs) text += " " + shell_word(input);
+        for (const auto& [name, value] : arguments_.common)
+            if (std::ranges::find(silent, name) == silent.end())
+                text += fmt::format(" --{} {}", name, shell_word(value));
+        if (arguments_.has("seed")) text += fmt::format(" --seed {}", seed_);
+        return text + (json_ ? " --json" : " -o report.html");
+    }
+
+    const Arguments& arguments_;
+    Session& session_;
+    std::string path_;
+    bool json_;
+    PageLimits limits_;
+    std::vector<Check> conditions_;
+    std::uint64_t seed_ = 1;
+    std::vector<Waiting> waiting_;
+};
+
+}  // namespace
+
+int report(const Arguments& arguments, Session& session) {
+    return Reporter(arguments, session).go();
+}
+
+}  // namespace stipple::cli

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+//
+// Numbers of a grid, all 0 at first, that stand where FFTW and vectors like them: at the beginning
+// of a cache line, and in large pages if they are many.
+#pragma once
+
+#include <cstddef>
+#include <cstdlib>
+#include <memory>
+
+namespace stipple {
+
+class GridCells {
+  public:
+    GridCells() = default;
+    explicit GridCells(std::size_t count);
+    [[nodiscard]] double* get() const { return begin_; }
+    void reset() { *this = GridCells(); }
+
+  private:
+    struct Free {
+        void operator()(void* room) const { std::free(room); }
+    };
+
+    std::unique_ptr<void, Free> room_;
+    double* begin_ = nullptr;
+};
+
+}  // namespace stipple

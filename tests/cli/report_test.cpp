@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+//
+// The verb report: sets in, one page out that a browser shows without complaints; or no page.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "support/program.hpp"
+
+using namespace stipple::testing;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+namespace {
+
+void expect_refusal(const Outcome& outcome, int code, const std::string& words) {
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_TRUE(outcome.err.starts_with("stipple: ")) << outcome.err;
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(words));
+}
+
+/// Runs Chromium on a page of the box, with its console on stderr.
+Outcome browse(const Sandbox& box, const std::string& options, const std::string& page) {
+    return box.shell(
+        "chromium --headless --no-sandbox --disable-gpu --enable-logging=stderr "
+        "--virtual-time-budget=5000 --user-data-dir=\"$PWD/profile\" " +
+        options + " \"file://$PWD/" + page + "\"");
+}
+
+bool has_browser(const Sandbox& box) { return box.shell("command -v chromium").code == 0; }
+
+nlohmann::json data_of(const Outcome& outcome) { return nlohmann::json::parse(good(outcome)); }
+
+}  // namespace
+
+TEST(Report, IsOnePageThatComparesFilesAndGeneratedSets) {
+    const Sandbox box;
+    good(
+        box.shell("stipple generate halton -n 200 -o a.csv && stipple generate random -n 200 -f "
+                  "json -o b.json && stipple report a.csv b.json --generate "
+                  "sobol:scramble=owen --generate jittered -n 200 -o r.html 2>notes"));
+    const std::string page = box.read("r.html");
+    for (const char* words :
+         {"a.csv", "b.json", "sobol:scramble=owen", "jittered", "class=\"best\"",
+          "Star discrepancy", "Left out", "prefers-color-scheme"})
+        EXPECT_THAT(page, HasSubstr(words));
+    EXPECT_THAT(page, Not(HasSubstr("http")));
+}
+
+// The script marks the page when it has run to its end.
+TEST(Report, ChromiumShowsItWithoutComplaints) {
+    const Sandbox box;
+    if (!has_browser(box)) GTEST_SKIP() << "chromium is not installed";
+    good(
+        box.shell("stipple generate halton -n 300 -o 'a<b>.csv' && stipple report 'a<b>.csv' "
+                  "--generate random -n 300 -o flat.html && stipple report --generate halton "
+                  "--generate random -d 4 -n 300 --max-work 100000 -o deep.html"));
+    for (const std::string page : {"flat.html", "deep.html"}) {
+        const Outcome seen = browse(box, "--dump-dom", page);
+        EXPECT_EQ(seen.code, 0) << seen.err;
+        EXPECT_THAT(seen.out, HasSubstr("data-ready=\"yes\""));
+        EXPECT_THAT(seen.err, Not(HasSubstr("CONSOLE"))) << page;
+    }
+    EXPECT_EQ(browse(box, "--screenshot=a.png --window-size=400,800", "flat.html").code, 0);
+    EXPECT_EQ(box.read("a.png").substr(0, 4), "\x89PNG");
+    EXPECT_EQ(browse(box, "--print-to-pdf=a.pdf", "flat.html").code, 0);
+    EXPECT_EQ(box.read("a.pdf").substr(0, 5), "%PDF-");
+}
+
+// What the test above relies on: complaints are seen where there are some.
+TEST(Report, ChromiumsComplaintsWouldBeSeen) {
+    const Sandbox box;
+    if (!has_browser(box)) GTEST_SKIP() << "chromium is not installed";
+    box.write("bad.html", "<!DOCTYPE html><title>bad</title><script>none.of()</script>");
+    EXPECT_THAT(browse(box, "--dump-dom", "bad.html").err, HasSubstr("CONSOLE"));
+}
+
+TEST(Report, DependsOnTheSetsAloneNotOnThreads) {
+    const Sandbox box;
+    const std::string make =
+        "report --generate random --generate halton -n 300 -d 3 --max-work 200000 ";
+    good(box.shell("stipple " + make + "--threads 1 -o one.html"));
+    good(box.shell("stipple " + make + "--threads 3 -o two.html"));
+    EXPECT_EQ(box.read("one.html"), box.read("two.html"));
+    EXPECT_EQ(good(box.shell("stipple " + make + "--json --threads 1")),
+              good(box.shell("stipple " + make + "--json --threads 4")));
+}
+
+// Every number of the page comes out of its command.
+TEST(Report, ItsCommandsMeasureTheSameNumbers) {
+    const Sandbox box;
+    good(box.shell("stipple generate random -n 60 -d 3 -m 2 -o two.csv"));
+    const auto page = data_of(
+        box.shell("stipple report two.csv --generate 'sobol:scramble=owen' -n 64 -d 3 --seed 7 "
+                  "--max-work 50000 --json"));
+    ASSERT_EQ(page["sets"].size(), 3U);
+    std::size_t checked = 0;
+    for (const auto& set : page["sets"])
+        for (const auto& measure : set["measures"]) {
+            const Outcome again = box.shell(measure["command"].get<std::string>());
+            if (measure.contains("left_out")) {
+                EXPECT_NE(again.code, 0) << measure["command"];
+                continue;
+            }
+            ASSERT_EQ(again.code, 0) << measure["command"] << again.err;
+            const auto found = nlohmann::json::parse(again.out);
+            const auto& one = found.is_array() ? found[set["set"].get<std::size_t>()] : found;
+            EXPECT_EQ(one["results"], measure["results"]) << measure["command"];
+            ++checked;
+        }
+    EXPECT_GE(checked, 30U);
+}
+
+TEST(Report, FailsOnWhatItIsToldTo) {
+    const Sandbox box;
+    good(box.shell("stipple generate halton -n 100 -o a.csv"));
+    const std::string report = "stipple report a.csv -o r.html --fail-on ";
+    EXPECT_EQ(box.shell(report + "'star-discrepancy.value>0.5'").code, 0);
+    EXPECT_EQ(box.shell(report + "'star-discrepancy>0.5'").code, 0);
+    const Outcome failed = box.shell(report + "'star-discrepancy>0.001'");
+    expect_refusal(failed, 1, "a.csv: star-discrepancy.value is 0.");
+    EXPECT_TRUE(box.exists("r.html"));
+    EXPECT_EQ(box.shell(report + "'chi-square.verdict==non-uniform'").code, 0);
+    EXPECT_EQ(box.shell(report + "'chi-square.verdict!=uniform' --fail-on 'dispersion>1'").code, 1);
+    EXPECT_EQ(box.shell(report + "'kolmogorov-smirnov.statistic[1]>0.9'").code, 0);
+}
+
+// Bounds that leave it open are no pass.
+TEST(Report, FailsWhereBoundsLeaveItOpen) {
+    const Sandbox box;
+    const std::string report =
+        "stipple report --generate random -n 200 -d 6 --max-work 20000 -o r.html --fail-on ";
+    const Outcome open = box.shell(report + "'star-discrepancy>0.3'");
+    expect_refusal(open, 1, "is between");
+    EXPECT_EQ(box.shell(report + "'star-discrepancy>1'").code, 0);
+}
+
+TEST(Report, RefusesWhatItCannotReportOn) {
+    const Sandbox box;
+    good(
+        box.shell("stipple generate random -n 20 -o a.csv && stipple generate random -d 3 -n 20 "
+                  "-o b.csv && stipple generate random -m 13 -n 5 -o many.csv && : > none.csv"));
+    expect_refusal(box.run({"report", "none.csv", "-o", "r.html"}), 3, "none.csv");
+    expect_refusal(box.run({"report", "missing.csv", "-o", "r.html"}), 4, "missing.csv");
+    expect_refusal(box.run({"report", "a.csv", "b.csv", "-o", "r.html"}), 3,
+                   "b.csv: points of 3 coordinates are not compared with those of a.csv");
+    expect_refusal(box.run({"report", "many.csv", "-o", "r.html"}), 2, "at most 12 sets");
+    expect_refusal(box.run({"report", "--generate", "halto", "-o", "r.html"}), 2, "halton");
+    expect_refusal(box.run({"report", "--generate", "halton:bse=3", "-o", "r.html"}), 2, "base");
+    expect_refusal(box.run({"report", "a.csv", "-n", "5", "-o", "r.html"}), 2, "--generate");
+    expect_refusal(box.run({"report", "-", "-", "-o", "r.html"}), 2, "twice");
+    expect_refusal(box.run({"report", "a.csv", "--fail-on", "value", "-o", "r.html"}), 2,
+                   "--fail-on: 'value' is not KEY>VALUE");
+    expect_refusal(box.run({"report", "a.csv", "--fail-on", "star-discrepncy>1", "-o", "r.html"}),
+                   2, "did you mean star-discrepancy");
+    expect_refusal(box.run({"report", "a.csv", "--fail-on", "dispersion.method>1", "-o", "r.html"}),
+                   2, "--fail-on");
+    expect_refusal(box.run({"report", "a.csv", "-o", "no/such/r.html"}), 4, "no/such");
+    expect_refusal(box.run({"report", "a.csv", "--max-work", "0", "-o", "r.html"}), 2,
+                   "--max-work");
+    expect_refusal(box.run({"report", "a.csv", "--seed", "3", "-o", "r.html"}), 2, "--seed");
+    EXPECT_FALSE(box.exists("r.html"));
+}
+
+TEST(Report, ReplacesAFileWhenItIsWhole) {
+    const Sandbox box;
+    box.write("r.html", "before");
+    EXPECT_EQ(box.run({"report", "missing.csv", "-o", "r.html"}).code, 4);
+    EXPECT_EQ(box.read("r.html"), "before");
+    good(box.shell("stipple generate halton -n 20 | stipple report -o r.html"));
+    EXPECT_THAT(box.read("r.html"), HasSubstr("standard input"));
+    EXPECT_EQ(box.files(), std::vector<std::string>{"r.html"});
+}
+
+TEST(Report, LeavesNoFileWhenItIsInterrupted) {
+    const Sandbox box;
+    const Outcome outcome = box.shell(
+        "stipple report --generate random -n 3000 -d 9 --max-work 1e15 -o r.html & sleep 0.7; "
+        "kill -INT $!; wait $!");
+    EXPECT_EQ(outcome.code, 130) << outcome.err;
+    EXPECT_EQ(box.files(), std::vector<std::string>{});
+}
+
+TEST(Report, LeavesOutWhatADiskDoesNotHave) {
+    const Sandbox box;
+    const auto page = data_of(
+        box.shell("stipple report --generate halton --generate random -n 300 -w disk --json"));
+    const auto& measures = page["sets"][0]["measures"];
+    const auto of = [&](const std::string& name) {
+        return *std::ranges::find_if(measures, [&](const auto& m) { return m["name"] == name; });
+    };
+    EXPECT_EQ(page["sets"][0]["domain"], "disk");
+    EXPECT_THAT(of("star-discrepancy")["left_out"].get<std::string>(), HasSubstr("disk"));
+    EXPECT_TRUE(of("chi-square").contains("results"));
+    EXPECT_TRUE(of("nearest-neighbor").contains("results"));
+    good(box.shell("stipple report --generate halton -n 300 -w sphere -o s.html"));
+    EXPECT_THAT(box.read("s.html"), HasSubstr("Left out"));
+}
+
+// Ten sets of 10^5 points stay small.
+TEST(Report, StaysSmallForLargeSets) {
+    const Sandbox box;
+    if (std::string(STIPPLE_SANITIZE) != "") GTEST_SKIP() << "takes long with sanitizers";
+    good(box.shell("stipple report --generate random --generate jittered -n 99856 -o r.html"));
+    EXPECT_LT(box.read("r.html").size(), 1'000'000U);  // 10 of them: 5 MB
+}
