@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <cmath>
 #include <utility>
@@ -22,15 +23,15 @@ double smallest_tile(std::size_t dimension) {
 
 constexpr std::size_t stretch = std::size_t{1} << 17;  // points that are sorted by all threads
 constexpr std::size_t sorting_block = std::size_t{1} << 12;  // by one
-constexpr std::size_t sections = 8;
+constexpr std::size_t sections = 16;                         // a power of two
 
 /// Where each section's points begin in a list of those of a block, and the end.
 using Listing = std::array<std::uint32_t, sections + 1>;
 
-/// Lists the points of a block section by section of so many tiles; in each they keep their order.
-Listing list(const std::uint32_t* tile_of, std::size_t section, const Block& block,
+/// Lists the points of a block section by section, of 2^shift tiles; in each they keep their order.
+Listing list(const std::uint32_t* tile_of, unsigned shift, const Block& block,
              std::uint32_t* listed) {
-    const auto of = [&](std::size_t i) { return tile_of[i] / static_cast<std::uint32_t>(section); };
+    const auto of = [&](std::size_t i) { return tile_of[i] >> shift; };
     Listing begins{};
     for (std::size_t i = block.first; i < block.last; ++i) ++begins[of(i) + 1];
     for (std::size_t s = 0; s < sections; ++s) begins[s + 1] += begins[s];
@@ -248,14 +249,15 @@ void Spreader::sort(std::span<const double> rows, const RunContext& run) {
     if (!alone) listed_.resize(std::max(listed_.size(), count));
     const std::size_t blocks = block_count(count, sorting_block);
     std::vector<Listing> listings(alone ? 0 : blocks);
-    const std::size_t section = (tiling_->count() + sections - 1) / sections;
+    const auto bits = static_cast<unsigned>(std::bit_width(tiling_->count() - 1));
+    const unsigned shift = bits - std::min(bits, static_cast<unsigned>(std::countr_zero(sections)));
     const auto find = [&](const Block& b) {
         tiling_->find(rows.subspan(b.first * width_, (b.last - b.first) * width_),
                       tile_of_.data() + b.first);
         if (alone)
             points_.add(rows.data(), tile_of_.data(), b.first, b.last);
         else
-            listings[b.index] = list(tile_of_.data(), section, b, listed_.data() + b.first);
+            listings[b.index] = list(tile_of_.data(), shift, b, listed_.data() + b.first);
     };
     for_each_block(run, count, sorting_block, find, true);
     if (alone) return;

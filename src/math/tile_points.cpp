@@ -23,6 +23,7 @@ TilePoints::TilePoints(std::size_t tiles, std::size_t numbers, std::size_t capac
 
 std::uint32_t TilePoints::next_block(List& list) {
     const std::uint32_t fresh = used_.fetch_add(1, std::memory_order_relaxed);
+    fetch<1>(fresh);  // the nearest caches have no room for a block of every tile
     (list.end == 0 ? list.first : next_[list.end / block - 1]) = fresh;
     return fresh * static_cast<std::uint32_t>(block);
 }

@@ -43,7 +43,7 @@ class TilePoints {
         for (std::uint32_t at = list.first;; at = next_[at]) {
             const double* rows = room_.numbers().data() + at * block * numbers_;
             if (at == last) return visit(std::span(rows, (list.end - at * block) * numbers_));
-            fetch(next_[at]);
+            fetch<3>(next_[at]);
             visit(std::span(rows, block * numbers_));
         }
     }
@@ -63,10 +63,12 @@ class TilePoints {
     void append(const double* rows, const std::uint32_t* tile_of, std::size_t count, RowAt row_at);
     std::uint32_t next_block(List& list);
 
-    /// Tells the processor that a block is read soon.
+    /// Tells the processor that a block is wanted soon, and how near.
+    template <int Locality>
     void fetch(std::uint32_t at) const {
         const double* rows = room_.numbers().data() + at * block * numbers_;
-        for (std::size_t i = 0; i < block * numbers_; i += 8) __builtin_prefetch(rows + i);
+        for (std::size_t i = 0; i < block * numbers_; i += 8)
+            __builtin_prefetch(rows + i, 0, Locality);
     }
 
     std::size_t numbers_;

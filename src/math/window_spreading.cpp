@@ -163,17 +163,20 @@ inline __attribute__((always_inline)) void add_rows(double* row, const SpreadTil
         add_row<Padded>(row, weights[j] * factor, along);
 }
 
-/// @param aligned whether rows begin at a multiple of 4 cells, so that no vector lies in two cache
-/// lines: the window leaves room for it, being 3 numbers narrower than its vectors.
-template <std::size_t Dimension, std::size_t Padded, bool Aligned>
+/// Rows begin at a multiple of 4 cells, so that no vector lies in two cache lines, as far as the
+/// window is narrower than its vectors.
+template <std::size_t Dimension, std::size_t Padded, bool Wide>
 inline __attribute__((always_inline)) void add_window(
     const double (&values)[Dimension][margin + Padded], const SpreadTile& tile, double* buffer,
     std::size_t corner) {
-    const std::size_t back = Aligned ? corner % 4 : 0;
+    const std::size_t back = std::min(corner % 4, Padded - tile.width);
     double* begin = buffer + (corner - back);
     std::array<Vector, Padded / 4> along;
-    for (std::size_t v = 0; v < Padded / 4; ++v)
+    for (std::size_t v = 0; v < Padded / 4; ++v) {
         along[v] = reinterpret_cast<const LooseVector*>(values[0] + margin - back)[v];
+        // Else the compiler would take some of them apart.
+        if constexpr (Wide) asm("" : "+x"(along[v]));
+    }
     if constexpr (Dimension == 1) add_row<Padded>(begin, 1, along);
     if constexpr (Dimension == 2) add_rows<Padded>(begin, tile, values[1] + margin, 1, along);
     if constexpr (Dimension == 3)
@@ -182,12 +185,11 @@ inline __attribute__((always_inline)) void add_window(
                              values[2][margin + l], along);
 }
 
-template <std::size_t Dimension, std::size_t Padded, bool Aligned>
+template <std::size_t Dimension, std::size_t Padded, bool Wide>
 inline __attribute__((always_inline)) void add_all(std::span<const double> rows,
                                                    const SpreadTile& tile, double* buffer) {
     Chunk<Dimension, Padded> work;
-    if constexpr (Aligned)
-        for (auto& values : work.values) std::fill_n(values[0], margin, 0.0);
+    for (auto& values : work.values) std::fill_n(values[0], margin, 0.0);
     const std::size_t step = chunk * tile.numbers;
     for (std::size_t at = 0; at < rows.size(); at += step) {
         const double* points = rows.data() + at;
@@ -201,26 +203,27 @@ inline __attribute__((always_inline)) void add_all(std::span<const double> rows,
                     work.values[i][Dimension - 1][margin + j] *=
                         points[i * tile.numbers + Dimension];
         for (std::size_t i = 0; i < count; ++i)
-            add_window<Dimension, Padded, Aligned>(work.values[i], tile, buffer,
-                                                   static_cast<std::uint32_t>(work.corner[i]));
+            add_window<Dimension, Padded, Wide>(work.values[i], tile, buffer,
+                                                static_cast<std::uint32_t>(work.corner[i]));
     }
 }
 
-template <std::size_t Dimension, std::size_t Padded = KaiserBessel::max_width>
+template <std::size_t Dimension, bool Wide, std::size_t Padded = KaiserBessel::max_width>
 inline __attribute__((always_inline)) void add_wide(std::span<const double> rows,
                                                     const SpreadTile& tile, double* buffer) {
     if constexpr (Padded > 4)
-        if (tile.width + 4 <= Padded) return add_wide<Dimension, Padded - 4>(rows, tile, buffer);
-    if (tile.width + 3 <= Padded) return add_all<Dimension, Padded, true>(rows, tile, buffer);
-    add_all<Dimension, Padded, false>(rows, tile, buffer);
+        if (tile.width + 4 <= Padded)
+            return add_wide<Dimension, Wide, Padded - 4>(rows, tile, buffer);
+    add_all<Dimension, Padded, Wide>(rows, tile, buffer);
 }
 
+template <bool Wide>
 inline __attribute__((always_inline)) void add_points(std::span<const double> rows,
                                                       std::size_t dimension, const SpreadTile& tile,
                                                       double* buffer) {
-    if (dimension == 1) return add_wide<1>(rows, tile, buffer);
-    if (dimension == 2) return add_wide<2>(rows, tile, buffer);
-    return add_wide<3>(rows, tile, buffer);
+    if (dimension == 1) return add_wide<1, Wide>(rows, tile, buffer);
+    if (dimension == 2) return add_wide<2, Wide>(rows, tile, buffer);
+    return add_wide<3, Wide>(rows, tile, buffer);
 }
 
 template <std::size_t Dimension>
@@ -262,7 +265,7 @@ inline __attribute__((always_inline)) void find(std::span<const double> rows, st
 
 void add_points_plain(std::span<const double> rows, std::size_t dimension, const SpreadTile& tile,
                       double* buffer) {
-    add_points(rows, dimension, tile, buffer);
+    add_points<false>(rows, dimension, tile, buffer);
 }
 
 void find_plain(std::span<const double> rows, std::size_t dimension, const SpreadTile& common,
@@ -276,7 +279,7 @@ void find_plain(std::span<const double> rows, std::size_t dimension, const Sprea
 /// The same operations in the same order, four at a time; so the result has the same bits.
 STIPPLE_AVX2 void add_points_avx2(std::span<const double> rows, std::size_t dimension,
                                   const SpreadTile& tile, double* buffer) {
-    add_points(rows, dimension, tile, buffer);
+    add_points<true>(rows, dimension, tile, buffer);
 }
 
 STIPPLE_AVX2 void find_avx2(std::span<const double> rows, std::size_t dimension,
