@@ -59,7 +59,7 @@ std::string dots(const Plane& plane, const Place& place) {
     const auto n = static_cast<double>(plane.spots.size());
     const double mean = std::sqrt(place.width() * place.height() / n);
     std::string out = fmt::format("<path class=\"dots\" stroke-width=\"{:.1f}\" d=\"",
-                                  std::clamp(0.45 * mean, 1.6, 7.0));
+                                  std::clamp(0.36 * mean, 1.2, 7.0));
     for (const Spot& spot : plane.spots) {
         out += 'M';
         io::append_number(out, place.x(spot.x), 1);
@@ -182,8 +182,9 @@ std::string axis_name(std::size_t dimension, std::size_t k) {
     return dimension <= 3 ? letters[k] : fmt::format("x{}", k + 1);
 }
 
-/// Labels that explain the boxes, each with a switch.
-std::string box_legend(const std::vector<MarkedBox>& boxes) {
+/// Labels that explain the boxes, each with a switch; where pictures are small and many, fewer are
+/// shown at first.
+std::string box_legend(const std::vector<MarkedBox>& boxes, bool crowded) {
     if (boxes.empty()) return {};
     std::string out = "<ul class=\"boxes\">\n";
     for (const MarkedBox& box : boxes)
@@ -191,7 +192,7 @@ std::string box_legend(const std::vector<MarkedBox>& boxes) {
             "<li><label><input type=\"checkbox\" data-box=\"{0}\"{3}> <span class=\"key {0}{1}\">"
             "</span> {2}</label></li>\n",
             box.kind, box.closed ? "" : " open", html_text(box.label),
-            box.kind == "star" || box.kind == "empty" ? " checked" : "");
+            box.kind == "star" || (box.kind == "empty" && !crowded) ? " checked" : "");
     return out + "</ul>\n";
 }
 
@@ -218,7 +219,7 @@ std::string plane_figure(const PointSet& points, const PageSet& set) {
     std::string caption = "Points";
     if (points.count() > most_page_dots) caption += ", darker where there are more";
     if (!boxes.empty()) caption += ", with the worst boxes";
-    return figure("picture", svg_of(plane) + box_legend(boxes), caption + ".");
+    return figure("picture", svg_of(plane) + box_legend(boxes, false), caption + ".");
 }
 
 std::vector<std::vector<Spot>> edges_of(const Box& box) {
@@ -287,7 +288,7 @@ std::string pairs_figure(const PointSet& points, const PageSet& set) {
     std::string caption = shown < d ? fmt::format("Pairs of the first {} of {} axes", shown, d)
                                     : std::string("Projections on every pair of axes");
     if (!boxes.empty()) caption += ", with those of the worst boxes";
-    return figure("wide", body + "</div>\n" + box_legend(boxes), caption + ".");
+    return figure("wide", body + "</div>\n" + box_legend(boxes, true), caption + ".");
 }
 
 /// Points of one coordinate: a histogram as a curve, and marks.

@@ -28,7 +28,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-using Values = std::vector<std::optional<Known>>;
+using Compared = std::vector<std::optional<Known>>;
 
 Known exactly(double x) { return {x, x, x}; }
 
@@ -70,35 +70,36 @@ TEST(HtmlText, Base64AsPrinted) {
 }
 
 TEST(Best, IsTheLowestOrTheHighestByTheMeasure) {
-    const Values values = {exactly(2), exactly(1), exactly(3)};
+    const Compared values = {exactly(2), exactly(1), exactly(3)};
     EXPECT_THAT(best_of(values, Better::lower), ElementsAre(false, true, false));
     EXPECT_THAT(best_of(values, Better::higher), ElementsAre(false, false, true));
     EXPECT_THAT(best_of(values, Better::neither), ElementsAre(false, false, false));
 }
 
 TEST(Best, TiesAreBothMarkedButNotWhereAllAreTheSame) {
-    EXPECT_THAT(best_of(Values{exactly(1), exactly(2), exactly(1)}, Better::lower),
+    EXPECT_THAT(best_of(Compared{exactly(1), exactly(2), exactly(1)}, Better::lower),
                 ElementsAre(true, false, true));
-    EXPECT_THAT(best_of(Values{exactly(1), exactly(1)}, Better::lower), ElementsAre(false, false));
-    EXPECT_THAT(best_of(Values{exactly(infinity), exactly(1)}, Better::higher),
+    EXPECT_THAT(best_of(Compared{exactly(1), exactly(1)}, Better::lower),
+                ElementsAre(false, false));
+    EXPECT_THAT(best_of(Compared{exactly(infinity), exactly(1)}, Better::higher),
                 ElementsAre(true, false));
 }
 
 TEST(Best, NeedsSomethingToCompareWith) {
-    EXPECT_THAT(best_of(Values{exactly(1)}, Better::lower), ElementsAre(false));
-    EXPECT_THAT(best_of(Values{exactly(1), std::nullopt}, Better::lower),
+    EXPECT_THAT(best_of(Compared{exactly(1)}, Better::lower), ElementsAre(false));
+    EXPECT_THAT(best_of(Compared{exactly(1), std::nullopt}, Better::lower),
                 ElementsAre(false, false));
-    EXPECT_THAT(best_of(Values{exactly(1), std::nullopt, exactly(2)}, Better::lower),
+    EXPECT_THAT(best_of(Compared{exactly(1), std::nullopt, exactly(2)}, Better::lower),
                 ElementsAre(true, false, false));
 }
 
 // Bounds that overlap leave open which set is the better one.
 TEST(Best, IsCertain) {
-    EXPECT_THAT(best_of(Values{Known{1, 1, 3}, exactly(2)}, Better::lower),
+    EXPECT_THAT(best_of(Compared{Known{1, 1, 3}, exactly(2)}, Better::lower),
                 ElementsAre(false, false));
-    EXPECT_THAT(best_of(Values{Known{1, 1, 2}, exactly(2)}, Better::lower),
+    EXPECT_THAT(best_of(Compared{Known{1, 1, 2}, exactly(2)}, Better::lower),
                 ElementsAre(true, false));
-    EXPECT_THAT(best_of(Values{Known{1, 1, 2}, Known{3, 3, 4}}, Better::lower),
+    EXPECT_THAT(best_of(Compared{Known{1, 1, 2}, Known{3, 3, 4}}, Better::lower),
                 ElementsAre(true, false));
 }
 
