@@ -12,7 +12,8 @@
 // independent. Several sets are combined in the same way.
 //
 // Sets of more than 2^26 coordinates (--exact-points says otherwise) are not kept: the points are
-// counted in 2^26 / d cells of each axis, a power of two, of which the ends are exact. There D is a
+// counted in as many cells of each axis (a power of two, at least 4096 and at most 2^26 / d), of
+// which the ends are exact. There D is a
 // maximum over the ends of cells, and below what it is by no more than
 //
 //     statistic_error = the longest way from one end of a cell to the next, of i/n and of u,
@@ -109,7 +110,8 @@ class Collector final : public SharedAccumulator {
         require_even(*domain_, "kolmogorov-smirnov");
         most_ = options.given(exact_points) ? static_cast<std::uint64_t>(options[exact_points])
                                             : most_numbers / axes_;
-        cells_ = std::bit_floor(std::max<std::uint64_t>(most_numbers / axes_, 4096));
+        constexpr std::uint64_t fewest = 4096;
+        cells_ = std::bit_floor(std::clamp(most_, fewest, std::max(fewest, most_numbers / axes_)));
         if (!arrival.count) return;
         const auto kept = static_cast<double>(std::min(*arrival.count, most_));
         run.need_memory((32.0 + 8.0 * static_cast<double>(axes_)) * kept, "the sorted coordinates");

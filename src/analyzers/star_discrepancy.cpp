@@ -117,8 +117,11 @@ std::optional<star::Hint> hint_from(const Report* like) {
 
 Report star_kind(const star::Member& set, const Values& options, const RunContext& run) {
     need_room(set.points, run);
+    RunContext steady = run;
+    if (set.peers != nullptr) steady.stop = {};  // peers stop together, in the search
     const star::CornerGrid grid = star::corner_grid(
-        set.points, run, options[boxes] == "closed" ? star::Boxes::closed : star::Boxes::half_open);
+        set.points, steady,
+        options[boxes] == "closed" ? star::Boxes::closed : star::Boxes::half_open);
     if (grid.dimension() == 1) {
         const star::WorstBox worst = star::sweep_1d(grid, run);
         return report(worst, worst.value(), "sweep-1d");

@@ -96,24 +96,6 @@ TEST(SharedAnalysis, SearchesTogetherWhatOneSearches) {
     }
 }
 
-// One of them is told to stop: all end, with bounds that hold.
-TEST(SharedAnalysis, StopsTogether) {
-    const Analyzer& unit = find_analyzer("star-discrepancy");
-    const PointSet points = make("random", {.count = 2000, .dimension = 8});
-    const Values options = values_of(unit, {});
-    std::stop_source stop;
-    stop.request_stop();
-    std::atomic<int> ended = 0;
-    with_ranks(3, [&](Ranks& mine) {
-        RunContext run{.threads = 1};
-        if (mine.rank() == 1) run.stop = stop.get_token();
-        const Report found = sharing_of(unit)->together(points, options, mine, run);
-        EXPECT_LT(found.number("lower"), found.number("upper"));
-        ++ended;
-    });
-    EXPECT_EQ(ended, 3);
-}
-
 TEST(SharedAnalysis, CountsPointsOutsideAsOneProcessDoes) {
     PointSet points = make("random", {.count = 500'000, .dimension = 2});
     for (const std::size_t i : {200'000, 400'000}) points[i][1] = 2;
