@@ -30,6 +30,9 @@
 // 1 - (1 - p)^R of the smallest p; fisher, -2 sum ln p is chi-square with 2 R degrees of freedom;
 // each for the upper and the lower tails by themselves.
 //
+// Probabilities that are known within errors only leave the statistic in a range (pearson.hpp).
+// Where both ends of it would not give the same verdict, there is none: the analyzer fails.
+//
 // Smallest detectable effect: with cell probabilities p_i (1 + e_i), X^2 has the noncentral
 // chi-square distribution with noncentrality n sum_i p_i e_i^2 (for large n). The effect is the
 // root-mean-square e, sqrt(sum_i p_i e_i^2), at which the test says non-uniform with probability
@@ -133,44 +136,78 @@ class Tally {
     std::vector<std::uint64_t> shifted_;
 };
 
-/// Both tails on one grid or two, as a verdict.
-void conclude(Report& report, const Tails& plain, const std::optional<Tails>& second,
-              const Values& options) {
-    report.add("p_value", plain.two_sided())
-        .add("p_upper", plain.upper)
-        .add("p_lower", plain.lower);
-    double p = plain.two_sided();
-    if (second) {
-        p = sidak(std::min(p, second->two_sided()), 2);
-        report.add("combined_p_value", p);
-    }
+/// The tails of a statistic, and of the least and the greatest that it may be for what is known of
+/// the cells' probabilities.
+struct Judged {
+    Tails found;
+    Tails least;
+    Tails greatest;
+};
+
+Judged judge(double statistic, double doubt, double freedom) {
+    return {.found = chi_square_tails(statistic, freedom),
+            .least = chi_square_tails(std::max(statistic - doubt, 0.0), freedom),
+            .greatest = chi_square_tails(statistic + doubt, freedom)};
+}
+
+double together(const Tails& plain, const Tails* second) {
+    const double p = plain.two_sided();
+    return second ? sidak(std::min(p, second->two_sided()), 2) : p;
+}
+
+/// Of one grid or two.
+std::string verdict_on(const Tails& plain, const Tails* second, double level) {
     const auto clumped = [&](const Tails& tails) {
-        const double own = second ? sidak(tails.two_sided(), 2) : tails.two_sided();
-        return tails.upper < tails.lower && own < options[level_option];
+        return tails.upper < tails.lower && together(tails, second ? &tails : nullptr) < level;
     };
-    const bool uneven = clumped(plain) || (second && clumped(*second));
-    const std::string verdict = p >= options[level_option] ? "uniform"
-                                : uneven                   ? "non-uniform"
-                                                           : "stratified";
+    if (together(plain, second) >= level) return "uniform";
+    return clumped(plain) || (second && clumped(*second)) ? "non-uniform" : "stratified";
+}
+
+/// Both tails on one grid or two, as a verdict; none that the errors of the cells' probabilities
+/// could turn. @throws Error(limit)
+void conclude(Report& report, const Judged& plain, const std::optional<Judged>& second,
+              const Values& options) {
+    const auto of_second = [&](Tails Judged::*which) {
+        return second ? &(*second.*which) : nullptr;
+    };
+    report.add("p_value", plain.found.two_sided())
+        .add("p_upper", plain.found.upper)
+        .add("p_lower", plain.found.lower);
+    const double p = together(plain.found, of_second(&Judged::found));
+    if (second) report.add("combined_p_value", p);
+    const double level = options[level_option];
+    const auto verdict = verdict_on(plain.found, of_second(&Judged::found), level);
+    for (const auto which : {&Judged::least, &Judged::greatest})
+        if (verdict_on(plain.*which, of_second(which), level) != verdict)
+            fail_with_hint(ErrorKind::limit, "coarser --cells, or fewer points",
+                           "chi-square cannot tell: the cells' probabilities are known within "
+                           "{:.2g} in all, and with that the statistic within {:.3g}; it is {:.6g}",
+                           report.number("mass_error"), report.number("statistic_error"),
+                           report.number("statistic"));
     add_verdict(report, verdict, p, options[expect_uniformity_option]);
 }
 
 /// With points where none can be, nothing is left to chance.
-Tails tails_of(const Fit& fit) {
-    if (fit.impossible > 0) return {.upper = 0, .lower = 1};
-    Tails tails = chi_square_tails(fit.statistic, fit.freedom());
-    tails.lower = std::max(tails.lower, fit.most_even);
-    return tails;
+Judged judge(const Fit& fit) {
+    const Tails never{.upper = 0, .lower = 1};
+    if (fit.impossible > 0) return {never, never, never};
+    Judged judged = judge(fit.statistic, fit.doubt, fit.freedom());
+    for (Tails* tails : {&judged.found, &judged.least, &judged.greatest})
+        tails->lower = std::max(tails->lower, fit.most_even);
+    return judged;
 }
 
 Report shifted_report(const Fit& fit) {
-    const Tails tails = tails_of(fit);
+    const Tails tails = judge(fit).found;
     Report report;
     report.add("statistic", fit.statistic).add("degrees_of_freedom", fit.groups - 1);
     report.add("p_value", tails.two_sided())
         .add("p_upper", tails.upper)
         .add("p_lower", tails.lower);
-    return report.add("pooled_cells", fit.pooled).add("impossible_points", fit.impossible);
+    return report.add("pooled_cells", fit.pooled)
+        .add("impossible_points", fit.impossible)
+        .add("statistic_error", fit.doubt);
 }
 
 /// Counts points in cells as they come.
@@ -267,20 +304,21 @@ class Counter final : public SharedAccumulator {
         const Fit plain = tally.fit(*domain_, false, n_, run);
         Report report;
         report.add("statistic", plain.statistic).add("degrees_of_freedom", plain.groups - 1);
-        std::optional<Tails> second;
+        std::optional<Judged> second;
         std::optional<Fit> other;
         if (options_[shifted]) {
             other = tally.fit(*domain_, true, n_, run);
-            second = tails_of(*other);
+            second = judge(*other);
         }
-        conclude(report, tails_of(plain), second, options_);
+        report.add("mass_error", plain.mass_error).add("statistic_error", plain.doubt);
+        conclude(report, judge(plain), second, options_);
         report.add("cells", cell_count(tally.grid())).add("pooled_cells", plain.pooled);
         report.add("smallest_detectable_effect",
                    std::sqrt(detectable_noncentrality(plain.freedom(), options_[level_option]) /
                              static_cast<double>(n_)));
         const auto& grid = tally.grid();
         report.add("grid", Report::Integers(grid.begin(), grid.end()));
-        report.add("mass_error", plain.mass_error).add("impossible_points", plain.impossible);
+        report.add("impossible_points", plain.impossible);
         if (other) report.add("shifted", shifted_report(*other));
         return report;
     }
@@ -298,50 +336,63 @@ class Counter final : public SharedAccumulator {
 };
 
 /// Of several sets: the sum of their statistics has the sum of their degrees of freedom.
-Tails sum_tails(const Report& mean, double sets) {
-    if (const auto* hits = mean.find("impossible_points");
-        hits && mean.number("impossible_points") > 0)
-        return {.upper = 0, .lower = 1};
-    return chi_square_tails(sets * mean.number("statistic"),
-                            sets * mean.number("degrees_of_freedom"));
+Judged judge_sum(const Report& mean, double sets) {
+    const Tails never{.upper = 0, .lower = 1};
+    if (mean.number("impossible_points") > 0) return {never, never, never};
+    return judge(sets * mean.number("statistic"), sets * mean.number("statistic_error"),
+                 sets * mean.number("degrees_of_freedom"));
 }
 
 void refine(Report& mean, std::size_t sets, const Values& options) {
     const auto m = static_cast<double>(sets);
     const double freedom = mean.number("degrees_of_freedom");
-    std::optional<Tails> second;
+    std::optional<Judged> second;
     if (auto* item = mean.find("shifted")) {
         auto& other = std::get<Report>(*item);
-        second = sum_tails(other, m);
-        other.add("p_value", second->two_sided())
-            .add("p_upper", second->upper)
-            .add("p_lower", second->lower);
+        second = judge_sum(other, m);
+        other.add("p_value", second->found.two_sided())
+            .add("p_upper", second->found.upper)
+            .add("p_lower", second->found.lower);
     }
-    conclude(mean, sum_tails(mean, m), second, options);
+    conclude(mean, judge_sum(mean, m), second, options);
     const double shrink = detectable_noncentrality(m * freedom, options[level_option]) / m /
                           detectable_noncentrality(freedom, options[level_option]);
     mean.add("smallest_detectable_effect",
              mean.number("smallest_detectable_effect") * std::sqrt(shrink));
 }
 
+/// What a set's own report says of it.
+Judged judged_set(const Report& set, const std::string& prefix) {
+    const Tails found{set.number(prefix + "p_upper"), set.number(prefix + "p_lower")};
+    const double doubt = set.number(prefix + "statistic_error");
+    if (doubt == 0 || set.number(prefix + "impossible_points") > 0) return {found, found, found};
+    Judged judged =
+        judge(set.number(prefix + "statistic"), doubt, set.number(prefix + "degrees_of_freedom"));
+    judged.found = found;
+    return judged;
+}
+
 /// The tails of each set, made one.
-Tails combined(std::span<const Report> sets, const std::string& prefix, const std::string& how) {
-    std::vector<Tails> tails;
-    for (const Report& set : sets)
-        tails.push_back({set.number(prefix + "p_upper"), set.number(prefix + "p_lower")});
-    return how == "sidak" ? sidak(tails) : fisher(tails);
+Judged combined(std::span<const Report> sets, const std::string& prefix, const std::string& how) {
+    Judged one;
+    for (const auto which : {&Judged::found, &Judged::least, &Judged::greatest}) {
+        std::vector<Tails> tails;
+        for (const Report& set : sets) tails.push_back(judged_set(set, prefix).*which);
+        one.*which = how == "sidak" ? sidak(tails) : fisher(tails);
+    }
+    return one;
 }
 
 void combine(Report& mean, std::span<const Report> sets, const Values& options) {
     const std::string how = options[combination];
     if (how == "sum") return;
-    std::optional<Tails> second;
+    std::optional<Judged> second;
     if (auto* item = mean.find("shifted")) {
         second = combined(sets, "shifted.", how);
         std::get<Report>(*item)
-            .add("p_value", second->two_sided())
-            .add("p_upper", second->upper)
-            .add("p_lower", second->lower);
+            .add("p_value", second->found.two_sided())
+            .add("p_upper", second->found.upper)
+            .add("p_lower", second->found.lower);
     }
     mean.forget_unmet();
     conclude(mean, combined(sets, "", how), second, options);
@@ -363,6 +414,8 @@ std::vector<ResultKey> results() {
         {"grid", "cells along each axis of the domain's cube"},
         {"mass_error",
          "bound on the errors of the cells' probabilities, summed; 0: they are exact"},
+        {"statistic_error",
+         "most by which the statistic may be off for these errors; no verdict that it could turn"},
         {"impossible_points", "points in cells of probability 0: one is enough to be non-uniform"},
         {"combined_p_value", "of both grids: 1 - (1 - p)^2 of the smaller p", false},
         {"shifted.statistic", "the same on the shifted grid", false},
@@ -371,7 +424,8 @@ std::vector<ResultKey> results() {
         {"shifted.p_upper", "chance of as large a statistic", false},
         {"shifted.p_lower", "chance of as small a statistic", false},
         {"shifted.pooled_cells", "its cells put together with others", false},
-        {"shifted.impossible_points", "points in its cells of probability 0", false}};
+        {"shifted.impossible_points", "points in its cells of probability 0", false},
+        {"shifted.statistic_error", "most by which its statistic may be off", false}};
 }
 
 }  // namespace

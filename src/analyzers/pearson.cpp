@@ -62,11 +62,13 @@ std::vector<std::uint64_t> possible_cells(std::span<const std::uint64_t> counts,
 /// Cells with what is expected and counted in all of them.
 struct Group {
     double expected = 0;
+    double error = 0;  ///< of what is expected
     std::uint64_t observed = 0;
     std::uint64_t cells = 0;
 
     void add(const Group& other) {
         expected += other.expected;
+        error += other.error;
         observed += other.observed;
         cells += other.cells;
     }
@@ -91,17 +93,21 @@ std::vector<Group> pool(const std::vector<Group>& cells, std::uint64_t n) {
     return groups;
 }
 
-/// What errors of the masses may add to the statistic, beside its standard deviation.
-void tell_of_errors(std::span<const Estimate> masses, std::uint64_t n, const Fit& found,
-                    const RunContext& run) {
-    double added = 0;
-    for (const Estimate& mass : masses)
-        if (mass.value > 0) added += static_cast<double>(n) * mass.error * mass.error / mass.value;
-    if (added > 0.1 * std::sqrt(2 * found.freedom()))
-        run.tell(
-            fmt::format("the cells' probabilities are known to {:.2g} only, which may add {:.2g} "
-                        "to the statistic",
-                        found.mass_error, added));
+/// The most by which the statistic may be off, for what is expected is known within errors.
+double doubt_of(double statistic, const std::vector<Group>& groups) {
+    double square = 0;
+    double ratio = 0;
+    for (const Group& group : groups) {
+        square += group.error * group.error / group.expected;
+        ratio = std::max(ratio, group.error / group.expected);
+    }
+    if (square == 0) return 0;
+    if (!(ratio < 1)) return std::numeric_limits<double>::infinity();
+    const double length = std::sqrt(statistic);
+    const double step = std::sqrt(square);
+    const double above = (length + step) * (length + step) / (1 - ratio) - statistic;
+    const double least = std::max(length - step, 0.0);
+    return std::max(above, statistic - least * least / (1 + ratio));
 }
 
 }  // namespace
@@ -138,6 +144,7 @@ Fit fit_masses(std::span<const std::uint64_t> counts, std::span<const Estimate> 
     std::vector<Group> cells;
     for (const std::uint64_t c : order)
         cells.push_back({.expected = static_cast<double>(n) * (masses[c].value / sum),
+                         .error = static_cast<double>(n) * masses[c].error,
                          .observed = counts[c],
                          .cells = 1});
     run.check_stop();
@@ -148,7 +155,7 @@ Fit fit_masses(std::span<const std::uint64_t> counts, std::span<const Estimate> 
         found.statistic += off * off / group.expected;
         if (group.cells > 1) found.pooled += group.cells;
     }
-    tell_of_errors(masses, n, found, run);
+    found.doubt = doubt_of(found.statistic, groups);
     return found;
 }
 

@@ -10,6 +10,12 @@
 // put together until a group expects 5; what is left over goes to the last group. So all groups
 // expect at least 5, and cells that do so alone stay alone.
 //
+// Where expectations are known within errors d_i, X^2 is so, too: the statistic is the squared
+// length of (O - E) / sqrt(E), which moves by at most D = sqrt(sum d_i^2 / E_i), and the E below
+// are off by a factor of at most 1 + d_i / E_i:
+//
+//     (X - D)^2 / (1 + r)  <=  right statistic  <=  (X + D)^2 / (1 - r),    r = max d_i / E_i
+//
 // Promise equal cells: (K (O - E))^2 is worked out in whole numbers.
 #pragma once
 
@@ -28,6 +34,7 @@ struct Fit {
     std::uint64_t pooled = 0;      ///< cells that were put together with others
     std::uint64_t impossible = 0;  ///< points in cells of probability 0
     double mass_error = 0;         ///< sum over the cells' probabilities
+    double doubt = 0;              ///< most by which it may be off the right statistic
     double most_even = 0;          ///< chance of the least statistic there is; 0: not known
 
     [[nodiscard]] double freedom() const { return static_cast<double>(groups - 1); }
@@ -36,8 +43,7 @@ struct Fit {
 /// Cells of equal probability. @throws Error(input) where fewer than two groups come of it.
 Fit fit_equal(std::span<const std::uint64_t> counts, std::uint64_t n, const RunContext& run);
 
-/// Cells of these probabilities, of which there is one for each count. Tells the user when their
-/// error is not small beside the statistic's spread. @throws Error(input)
+/// Cells of these probabilities, of which there is one for each count. @throws Error(input)
 Fit fit_masses(std::span<const std::uint64_t> counts, std::span<const Estimate> masses,
                std::uint64_t n, const RunContext& run);
 

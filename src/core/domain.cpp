@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/box_mass.hpp"
 #include "core/error.hpp"
 #include "core/spec.hpp"
 #include "core/text.hpp"
@@ -63,7 +64,7 @@ class UnitCube final : public Domain {
     std::size_t dimension_;
 };
 
-class BoxDomain final : public Domain {
+class BoxDomain final : public Domain, public Weighable {
   public:
     explicit BoxDomain(Box box) : box_(std::move(box)) {}
     std::string spec() const override { return "box:bounds=[" + format_box(box_) + "]"; }
@@ -83,6 +84,7 @@ class BoxDomain final : public Domain {
         for (std::size_t k = 0; k < dimension(); ++k)
             cube[k] = std::clamp((point[k] - box_.low[k]) / box_.extent(k), 0.0, 1.0);
     }
+    Estimate box_mass(const Box& box) const override { return box_mass_by_axes(*this, box); }
     std::optional<Moments> moments() const override { return moments_of(box_); }
     std::vector<std::string> cube_axes() const override { return axis_names(dimension()); }
 

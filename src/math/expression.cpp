@@ -221,10 +221,6 @@ std::string expectation(const mu::ParserError& error, std::size_t dimension) {
             return fmt::format(
                 "expected a number, an operator, {}, pi, e or a function such as exp",
                 names_of(dimension));
-        case mu::ecUNEXPECTED_EOF:
-            return "expected a number, a variable, a function or '(' behind";
-        case mu::ecMISSING_PARENS:
-            return "expected ')'";
         case mu::ecTOO_MANY_PARAMS:
             return "expected fewer arguments";
         case mu::ecTOO_FEW_PARAMS:
@@ -232,8 +228,6 @@ std::string expectation(const mu::ParserError& error, std::size_t dimension) {
         case mu::ecUNEXPECTED_ARG_SEP:
         case mu::ecUNEXPECTED_ARG:
             return "expected one formula, with commas between arguments of a function only";
-        case mu::ecMISSING_ELSE_CLAUSE:
-            return "expected ':' and what holds else";
         case mu::ecUNEXPECTED_VAL:
         case mu::ecUNEXPECTED_VAR:
         case mu::ecUNEXPECTED_FUN:
@@ -241,8 +235,6 @@ std::string expectation(const mu::ParserError& error, std::size_t dimension) {
         case mu::ecUNEXPECTED_PARENS:
             if (error.GetToken() == "(") return "expected an operator before it";
             return "expected a '(' for it, and something between";
-        case mu::ecEMPTY_EXPRESSION:
-            return "expected a formula";
         case mu::ecUNEXPECTED_OPERATOR:
         case mu::ecUNEXPECTED_CONDITIONAL:
             return "expected a number, a variable, a function or '(' before it";
@@ -256,6 +248,50 @@ std::string expectation(const mu::ParserError& error, std::size_t dimension) {
                          std::string_view token, std::string_view expected) {
     const std::string found = token.empty() ? "" : fmt::format(" '{}':", token);
     fail(ErrorKind::usage, "--{}: '{}', column {}:{} {}", option, text, column, found, expected);
+}
+
+/// Where the formula ends too early.
+[[noreturn]] void refuse_end(std::string_view option, std::string_view text, std::size_t column,
+                             mu::EErrorCodes code) {
+    std::string_view wanted = "a number, a variable, a function or '('";
+    if (code == mu::ecMISSING_PARENS) wanted = "')'";
+    if (code == mu::ecMISSING_ELSE_CLAUSE) wanted = "':' and what holds else";
+    fail(ErrorKind::usage, "--{}: '{}': the formula ends at column {}, where {} was expected",
+         option, text, column, wanted);
+}
+
+/// The word or sign at the start of what muParser did not understand, which goes on to the end.
+std::string_view first_word(std::string_view rest) {
+    const auto is_name = [](char c) {
+        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+               c == '_';
+    };
+    const auto end = std::ranges::find_if_not(rest, is_name);
+    if (end != rest.begin()) return rest.substr(0, static_cast<std::size_t>(end - rest.begin()));
+    std::size_t size = std::min<std::size_t>(rest.size(), 1);  // and the other bytes of a character
+    while (size < rest.size() && (static_cast<unsigned char>(rest[size]) & 0xC0U) == 0x80U) ++size;
+    return rest.substr(0, size);
+}
+
+/// Says what muParser found wrong.
+[[noreturn]] void explain(std::string_view option, std::string_view text,
+                          const mu::ParserError& error, std::size_t dimension,
+                          const mu::funmap_type& functions) {
+    const std::size_t end = text.find_last_not_of(" \t") + 1;  // 0 for blanks alone
+    if (end == 0) refuse(option, text, 1, "", "expected a formula");
+    const auto code = error.GetCode();
+    const auto at = static_cast<std::size_t>(std::max(error.GetPos(), 0));
+    if (at >= end || code == mu::ecUNEXPECTED_EOF || code == mu::ecMISSING_PARENS ||
+        code == mu::ecMISSING_ELSE_CLAUSE)
+        refuse_end(option, text, end + 1, code);
+    if (code != mu::ecUNASSIGNABLE_TOKEN) {
+        std::string token = error.GetToken();
+        std::ranges::replace(token, power_mark, '^');
+        refuse(option, text, at + 1, token, expectation(error, dimension));
+    }
+    const std::string word(first_word(text.substr(at)));
+    refuse(option, text, at + 1, word,
+           functions.contains(word) ? "expected '(' behind it" : expectation(error, dimension));
 }
 
 /// A lone = would change a variable.
@@ -317,19 +353,17 @@ Expression::Expression(std::string_view option, std::string_view text, std::size
     for (const char c : text)
         if (c != ' ' && c != '\t') text_ += c;
     machines_ = std::make_shared<Machines>(std::string(text), dimension);
+    std::unique_ptr<Machines::Machine> machine;
     try {
-        auto machine = machines_->take();
+        machine = machines_->take();
         machine->parser.Eval();
         if (machine->parser.GetNumResults() > 1)
             refuse(option, text, text.rfind(',') + 1, ",",
                    "expected one formula, with commas between arguments of a function only");
         machines_->give_back(std::move(machine));
     } catch (const mu::ParserError& error) {
-        std::string token = error.GetToken();
-        std::ranges::replace(token, power_mark, '^');
-        const auto at = std::min<std::size_t>(static_cast<std::size_t>(std::max(error.GetPos(), 0)),
-                                              text.size());
-        refuse(option, text, at + 1, token, expectation(error, dimension));
+        explain(option, text, error, dimension,
+                machine ? machine->parser.GetFunDef() : mu::funmap_type());
     }
     machines_ = std::make_shared<Machines>(text_, dimension);
 }

@@ -14,19 +14,19 @@
 namespace stipple {
 namespace {
 
-double cross(const PlanePoint& a, const PlanePoint& b) { return a[0] * b[1] - a[1] * b[0]; }
-double dot(const PlanePoint& a, const PlanePoint& b) { return a[0] * b[0] + a[1] * b[1]; }
-PlanePoint minus(const PlanePoint& a, const PlanePoint& b) { return {a[0] - b[0], a[1] - b[1]}; }
-PlanePoint between(const PlanePoint& a, const PlanePoint& b, double t) {
+double cross(const PlanePair& a, const PlanePair& b) { return a[0] * b[1] - a[1] * b[0]; }
+double dot(const PlanePair& a, const PlanePair& b) { return a[0] * b[0] + a[1] * b[1]; }
+PlanePair minus(const PlanePair& a, const PlanePair& b) { return {a[0] - b[0], a[1] - b[1]}; }
+PlanePair between(const PlanePair& a, const PlanePair& b, double t) {
     return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
 }
 
 /// What a disk about 0 shares with the triangle 0, p, q.
-double triangle_in_disk(const PlanePoint& p, const PlanePoint& q, double radius) {
-    const auto sector = [&](const PlanePoint& from, const PlanePoint& to) {
+double triangle_in_disk(const PlanePair& p, const PlanePair& q, double radius) {
+    const auto sector = [&](const PlanePair& from, const PlanePair& to) {
         return radius * radius * std::atan2(cross(from, to), dot(from, to)) / 2;
     };
-    const PlanePoint along = minus(q, p);
+    const PlanePair along = minus(q, p);
     const double a = dot(along, along);
     const double b = dot(p, along);
     const double root = b * b - a * (dot(p, p) - radius * radius);
@@ -35,8 +35,8 @@ double triangle_in_disk(const PlanePoint& p, const PlanePoint& q, double radius)
     const double in = std::clamp((-b - std::sqrt(root)) / a, 0.0, 1.0);
     const double out = std::clamp((-b + std::sqrt(root)) / a, 0.0, 1.0);
     if (!(in < out)) return sector(p, q);
-    const PlanePoint enters = between(p, q, in);
-    const PlanePoint leaves = between(p, q, out);
+    const PlanePair enters = between(p, q, in);
+    const PlanePair leaves = between(p, q, out);
     double area = cross(enters, leaves) / 2;
     if (in > 0) area += sector(p, enters);
     if (out < 1) area += sector(leaves, q);
@@ -54,11 +54,11 @@ double signed_area(const Polygon& polygon) {
     return twice / 2;
 }
 
-Polygon clipped(const Polygon& polygon, const PlanePoint& p, const PlanePoint& n) {
+Polygon clipped(const Polygon& polygon, const PlanePair& p, const PlanePair& n) {
     Polygon kept;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const PlanePoint& from = polygon[i];
-        const PlanePoint& to = polygon[(i + 1) % polygon.size()];
+        const PlanePair& from = polygon[i];
+        const PlanePair& to = polygon[(i + 1) % polygon.size()];
         const double here = dot(n, minus(from, p));
         const double there = dot(n, minus(to, p));
         if (here <= 0) kept.push_back(from);
@@ -68,7 +68,7 @@ Polygon clipped(const Polygon& polygon, const PlanePoint& p, const PlanePoint& n
     return kept;
 }
 
-double area_in_disk(const Polygon& polygon, const PlanePoint& center, double radius) {
+double area_in_disk(const Polygon& polygon, const PlanePair& center, double radius) {
     double area = 0;
     for (std::size_t i = 0; i < polygon.size(); ++i)
         area += triangle_in_disk(minus(polygon[i], center),
@@ -79,7 +79,7 @@ double area_in_disk(const Polygon& polygon, const PlanePoint& center, double rad
 double shared_area(const Polygon& polygon, const Polygon& window) {
     Polygon rest = polygon;
     for (std::size_t i = 0; i < window.size(); ++i) {
-        const PlanePoint edge = minus(window[(i + 1) % window.size()], window[i]);
+        const PlanePair edge = minus(window[(i + 1) % window.size()], window[i]);
         rest = clipped(rest, window[i], {edge[1], -edge[0]});
     }
     return std::abs(signed_area(rest));

@@ -10,8 +10,8 @@
 
 namespace stipple {
 
-using PlanePoint = std::array<double, 2>;
-using Polygon = std::vector<PlanePoint>;
+using PlanePair = std::array<double, 2>;
+using Polygon = std::vector<PlanePair>;
 
 /// The corners of [0, 1]^2, counterclockwise.
 Polygon unit_square();
@@ -20,10 +20,10 @@ Polygon unit_square();
 double signed_area(const Polygon& polygon);
 
 /// The part of a convex polygon where n . (x - p) <= 0.
-Polygon clipped(const Polygon& polygon, const PlanePoint& p, const PlanePoint& n);
+Polygon clipped(const Polygon& polygon, const PlanePair& p, const PlanePair& n);
 
 /// Area of the part of a counterclockwise polygon within a disk.
-double area_in_disk(const Polygon& polygon, const PlanePoint& center, double radius);
+double area_in_disk(const Polygon& polygon, const PlanePair& center, double radius);
 
 /// Area that two convex polygons share; `window` runs counterclockwise.
 double shared_area(const Polygon& polygon, const Polygon& window);

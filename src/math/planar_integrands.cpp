@@ -36,14 +36,14 @@ DrawStream draws(const Values& values, std::uint64_t what) {
 }
 
 /// A direction in the plane.
-PlanePoint direction(DrawStream& numbers) {
+PlanePair direction(DrawStream& numbers) {
     const double angle = 2 * std::numbers::pi * numbers.next();
     return {std::cos(angle), std::sin(angle)};
 }
 
 Integrand disk(std::size_t, const Values& values) {
     DrawStream numbers = draws(values, 0);
-    const PlanePoint c{numbers.next(), numbers.next()};
+    const PlanePair c{numbers.next(), numbers.next()};
     const double r = 0.1 + 0.4 * numbers.next();
     return {[c, rr = r * r](auto x) {
                 const double dx = x[0] - c[0];
@@ -55,8 +55,8 @@ Integrand disk(std::size_t, const Values& values) {
 
 Integrand half_plane(std::size_t, const Values& values) {
     DrawStream numbers = draws(values, 1);
-    const PlanePoint p{numbers.next(), numbers.next()};
-    const PlanePoint n = direction(numbers);
+    const PlanePair p{numbers.next(), numbers.next()};
+    const PlanePair n = direction(numbers);
     return {[p, n](auto x) { return n[0] * (x[0] - p[0]) + n[1] * (x[1] - p[1]) <= 0 ? 1.0 : 0.0; },
             signed_area(clipped(unit_square(), p, n))};
 }
@@ -100,7 +100,7 @@ struct Scene {
     /// The share of the light that is seen.
     [[nodiscard]] double seen() const {
         Polygon shadow;
-        constexpr PlanePoint corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+        constexpr PlanePair corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
         for (const auto& [s, t] : corners) {
             const Vector at = light.met_by(sum(card.corner, s, card.side, t, card.other));
             shadow.push_back({at[0], at[1]});

@@ -8,6 +8,7 @@
 
 #include "core/wide.hpp"
 #include "math/law_moments.hpp"
+#include "math/planar_area.hpp"
 
 namespace stipple {
 namespace {
@@ -201,6 +202,24 @@ void PolygonRows::fill_guide() {
         while (j < last_filled_ && slabs_[j].area_below + slabs_[j].area <= below) ++j;
         guide_[k] = static_cast<std::uint32_t>(j);
     }
+}
+
+/// What is between two edges from one height to another is a quadrilateral.
+double PolygonRows::area_in(const Box& box) const {
+    const Polygon window{{box.low[0], box.low[1]},
+                         {box.high[0], box.low[1]},
+                         {box.high[0], box.high[1]},
+                         {box.low[0], box.high[1]}};
+    const auto from = std::ranges::upper_bound(slabs_, box.low[1], {}, &Slab::top);
+    double sum = 0;
+    for (auto slab = from; slab != slabs_.end() && slab->bottom < box.high[1]; ++slab)
+        for (const Part& part : parts_of(*slab))
+            sum += shared_area({{part.left(0), slab->bottom},
+                                {part.right(0), slab->bottom},
+                                {part.right(1), slab->top},
+                                {part.left(1), slab->top}},
+                               window);
+    return sum;
 }
 
 Moments PolygonRows::moments() const {

@@ -47,6 +47,9 @@ class PolygonRows {
     /// Whether the point is inside, or within slack() of the rim.
     [[nodiscard]] bool contains(PlanePoint p) const;
 
+    /// The area within a finite box.
+    [[nodiscard]] double area_in(const Box& box) const;
+
     /// Of the uniform law.
     [[nodiscard]] Moments moments() const;
 

@@ -114,12 +114,19 @@ Integrand owen(std::size_t dimension, const Values& values) {
 // ---------------------------------------------------------------- Sobol' g
 
 constexpr Param<Numbers> a{
-    {.name = "a", .help = "Unimportance of each coordinate, 0 or more; default 0,1,2,..."}};
+    {.name = "a",
+     .help =
+         "Unimportance of each coordinate, 0 or more, or one number for all; default 0,1,2,..."}};
 
 Integrand sobol_g(std::size_t dimension, const Values& values) {
     std::vector<double> given = values[a];
     for (const double x : given)
         if (!(x >= 0)) fail(ErrorKind::usage, "--integrand: sobol-g: --a: {} is below 0", x);
+    if (given.size() > 1 && given.size() != dimension)
+        fail(ErrorKind::usage,
+             "--integrand: sobol-g: --a: {} numbers for {} coordinate{}; one for all, or one for "
+             "each",
+             given.size(), dimension, dimension == 1 ? "" : "s");
     const bool rising = given.empty();
     for (std::size_t j = given.size(); j < dimension; ++j)
         given.push_back(rising ? static_cast<double>(j) : given.back());

@@ -24,6 +24,12 @@ SphericalPolygon::SphericalPolygon(std::vector<Vector3> corners) : corners_(std:
     }
 }
 
+std::vector<SphereCircle> SphericalPolygon::edges() const {
+    std::vector<SphereCircle> circles;
+    for (const Vector3& normal : inward_) circles.push_back({normal, 0});
+    return circles;
+}
+
 bool SphericalPolygon::contains(const Vector3& v, double slack) const {
     if (!(std::abs(length(v) - 1) <= slack)) return false;
     for (std::size_t i = 0; i < corners_.size(); ++i)

@@ -24,6 +24,7 @@
 
 #include "core/domain.hpp"
 #include "math/vector3.hpp"
+#include "math/zone_integral.hpp"
 
 namespace stipple {
 
@@ -37,6 +38,9 @@ class SphericalPolygon {
 
     /// Whether a vector is of length 1 and inside all edges, both up to `slack`.
     [[nodiscard]] bool contains(const Vector3& v, double slack) const;
+
+    /// The great circles of its edges.
+    [[nodiscard]] std::vector<SphereCircle> edges() const;
 
     /// The smallest axis-parallel box around it.
     [[nodiscard]] Box bounding_box() const;

@@ -27,8 +27,15 @@ double coordinate(TokenFile& file, const char* what) {
     return *value;
 }
 
-/// The place of the vertex that a corner "7", "7/1", "7//3" or "-1" names.
-std::uint32_t corner(TokenFile& file, std::size_t vertices) {
+/// The corner that names the highest vertex, which may come after it.
+struct Highest {
+    Token token;
+    std::int64_t place = -1;
+};
+
+/// The place of the vertex that a corner "7", "7/1", "7//3" or "-1" names; numbers below 0 count
+/// back from the vertices so far.
+std::uint32_t corner(TokenFile& file, std::size_t vertices, Highest& highest) {
     const Token token = file.next("a corner");
     const std::string_view text = token.text.substr(0, token.text.find('/'));
     std::int64_t index = 0;
@@ -38,9 +45,10 @@ std::uint32_t corner(TokenFile& file, std::size_t vertices) {
                                        TokenFile::shown(token)));
     const auto count = static_cast<std::int64_t>(vertices);
     const std::int64_t place = index < 0 ? count + index : index - 1;
-    if (index == 0 || place < 0 || place >= count)
+    if (index == 0 || place < 0 || place >= std::numeric_limits<std::uint32_t>::max())
         file.refuse(token, fmt::format("there is no vertex {}; {} are given before this line",
                                        index, count));
+    if (place > highest.place) highest = {token, place};
     return static_cast<std::uint32_t>(place);
 }
 
@@ -59,6 +67,7 @@ TriangleMesh parse_obj(std::string bytes, const std::string& name, const RunCont
     TokenFile file(std::move(bytes), name);
     TriangleMesh mesh;
     std::vector<std::uint32_t> polygon;
+    Highest highest;
     for (std::size_t row = 0; !file.at_end(); ++row) {
         if (row % between_stops == 0) run.check_stop();
         const Token word = file.next("a line");
@@ -70,7 +79,8 @@ TriangleMesh parse_obj(std::string bytes, const std::string& name, const RunCont
             mesh.vertices.push_back({x, y, coordinate(file, "coordinate z")});
         } else if (word.text == "f") {
             polygon.clear();
-            while (!file.at_line_end()) polygon.push_back(corner(file, mesh.vertices.size()));
+            while (!file.at_line_end())
+                polygon.push_back(corner(file, mesh.vertices.size(), highest));
             if (polygon.size() < 3)
                 file.refuse(word, fmt::format("a face of {} corners; at least 3 are needed",
                                               polygon.size()));
@@ -78,6 +88,9 @@ TriangleMesh parse_obj(std::string bytes, const std::string& name, const RunCont
         }
         skip_rest(file);
     }
+    if (highest.place >= static_cast<std::int64_t>(mesh.vertices.size()))
+        file.refuse(highest.token, fmt::format("there is no vertex {}; the file has {}",
+                                               highest.place + 1, mesh.vertices.size()));
     if (mesh.triangles.empty()) file.refuse_whole("no faces; expected a PLY or OBJ mesh");
     return mesh;
 }

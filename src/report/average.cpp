@@ -102,6 +102,12 @@ Report without_words(const Report& report) {
     return out;
 }
 
+/// What is not a measured value of each set: the value it should have, and what stands for the
+/// spread or the chance of several.
+bool is_no_mean(std::string_view name) {
+    return name == "exact" || name == "standard_error" || name == "combined_p_value";
+}
+
 }  // namespace
 
 void ReportAverage::add(const Report& report) {
@@ -133,17 +139,21 @@ Report ReportAverage::standard_error() const {
         mapped(squares_, [k](double sum) { return std::sqrt(sum / (k * (k - 1))); }));
 }
 
-Report only_of(const Report& mean, const Report& errors) {
+Report only_of(const Report& mean, const Report& averaged, const Report& errors) {
     Report out;
     for (const auto& entry : errors.entries()) {
         const Item* item = mean.find(entry.name);
-        if (item == nullptr) continue;
+        const Item* before = averaged.find(entry.name);
+        if (item == nullptr || before == nullptr || is_no_mean(entry.name)) continue;
         const auto* group = std::get_if<Report>(&entry.value);
         const auto* means = std::get_if<Report>(item);
-        if (group && means)
-            out.add(entry.name, only_of(*means, *group));
-        else
+        const auto* raw = std::get_if<Report>(before);
+        if (group && means && raw) {
+            Report part = only_of(*means, *raw, *group);
+            if (!part.entries().empty()) out.add(entry.name, std::move(part));
+        } else if (*item == *before) {
             out.entries().push_back(entry);
+        }
     }
     return out;
 }

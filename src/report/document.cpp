@@ -10,6 +10,7 @@
 
 #include "core/options.hpp"
 #include "core/text.hpp"
+#include "report/csv_table.hpp"
 
 namespace stipple {
 namespace {
@@ -124,33 +125,6 @@ std::string to_text(const Measurement& m) {
     return text;
 }
 
-/// Number of rows that a measurement takes: the length of its longest curve, at least 1.
-std::size_t rows_of(const Measurement& m) {
-    std::size_t rows = 1;
-    for (const auto& key : m.results.keys())
-        if (const auto* curve = std::get_if<Report::Curve>(m.results.find(key)))
-            rows = std::max(rows, curve->size());
-        else if (const auto* list = std::get_if<Report::Integers>(m.results.find(key)))
-            rows = std::max(rows, list->size());
-    return rows;
-}
-
-std::string cell(const Report::Item& item, std::size_t row) {
-    if (const auto* flag = std::get_if<bool>(&item)) return *flag ? "true" : "false";
-    if (const auto* curve = std::get_if<Report::Curve>(&item))
-        return row < curve->size() ? format_number((*curve)[row]) : "";
-    if (const auto* list = std::get_if<Report::Integers>(&item))
-        return row < list->size() ? std::to_string((*list)[row]) : "";
-    return text_of(item);
-}
-
-std::string quoted(const std::string& text) {
-    if (text.find_first_of(",\"\n") == std::string::npos) return text;
-    std::string out = "\"";
-    for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return out + "\"";
-}
-
 }  // namespace
 
 std::string to_json(std::span<const Measurement> measurements) {
@@ -166,34 +140,6 @@ std::string to_text(std::span<const Measurement> measurements) {
     return text;
 }
 
-std::string to_csv(std::span<const Measurement> measurements) {
-    if (measurements.empty()) return {};
-    const auto keys = measurements[0].results.keys();
-    std::vector<std::string> header = {"analyzer", "source", "set", "count", "dimension", "domain"};
-    header.insert(header.end(), keys.begin(), keys.end());
-    std::vector<std::string> errors;  // of a mean
-    if (measurements[0].standard_error) errors = measurements[0].standard_error->keys();
-    for (const auto& key : errors) header.push_back("standard_error." + key);
-    std::string text = join(header, ",") + "\n";
-    for (const Measurement& m : measurements)
-        for (std::size_t row = 0; row < rows_of(m); ++row) {
-            std::vector<std::string> cells = {m.analyzer,
-                                              quoted(m.source),
-                                              m.set ? std::to_string(*m.set) : "",
-                                              std::to_string(m.count),
-                                              std::to_string(m.dimension),
-                                              quoted(m.domain)};
-            for (const auto& key : keys) {
-                const Report::Item* item = m.results.find(key);
-                cells.push_back(item ? quoted(cell(*item, row)) : "");
-            }
-            for (const auto& key : errors) {
-                const Report::Item* item = m.standard_error ? m.standard_error->find(key) : nullptr;
-                cells.push_back(item ? quoted(cell(*item, row)) : "");
-            }
-            text += join(cells, ",") + "\n";
-        }
-    return text;
-}
+std::string to_csv(std::span<const Measurement> measurements) { return csv_table(measurements); }
 
 }  // namespace stipple

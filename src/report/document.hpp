@@ -39,7 +39,8 @@ std::string to_json(std::span<const Measurement> measurements);
 std::string to_text(std::span<const Measurement> measurements);
 
 /// A tidy table: a row for each measurement, or for each entry of its curves; nested keys are
-/// dotted. The standard errors of a mean are columns behind the others: standard_error.KEY.
+/// dotted, and numbers of other lists have columns KEY.0, KEY.1... (csv_table.cpp). The standard
+/// errors of a mean are columns, too: standard_error.KEY.
 std::string to_csv(std::span<const Measurement> measurements);
 
 }  // namespace stipple

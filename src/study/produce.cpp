@@ -125,6 +125,8 @@ void record_warp(PointSet& set, const WarpChain& chain, bool inverse,
 /// Numbers of a row that the warp makes into one of `after` numbers.
 std::size_t dimension_before(const Spec& spec, std::size_t after, const RunContext& run) {
     const Warp& warp = find_warp(spec.name);
+    if (!warp.traits.invertible)
+        fail(ErrorKind::usage, "--inverse: the warp {} has no inverse", warp.name);
     const std::size_t given = spec.coordinates.empty() ? after : spec.coordinates.size();
     const auto mapping = warp.make(spec.values(warp.options), given, run);
     const std::size_t gives = mapping->domain()->dimension();

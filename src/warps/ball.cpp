@@ -19,12 +19,16 @@
 // Source  L. Devroye, Non-Uniform Random Variate Generation (1986), chapter V.4,
 //         doi:10.1007/978-1-4613-8643-8.
 
+#include <algorithm>
 #include <limits>
 #include <numbers>
 
+#include "core/box_mass.hpp"
 #include "math/law_moments.hpp"
+#include "math/planar_area.hpp"
 #include "math/polar_direction.hpp"
 #include "math/roots.hpp"
+#include "math/smooth_quadrature.hpp"
 #include "warps/placement.hpp"
 #include "warps/row_mapping.hpp"
 
@@ -45,7 +49,7 @@ std::array<double, 3> shares(const Vector3& v) {
     return {std::min(r * r * r, 1.0), 0.5 * drop_of(v), turns_of(v[0], v[1])};
 }
 
-class BallDomain final : public Domain {
+class BallDomain final : public Domain, public Weighable {
   public:
     BallDomain(const Sphere& sphere, std::string spec)
         : sphere_(sphere), spec_(std::move(spec)), slack_(sphere.rounding()) {}
@@ -64,6 +68,43 @@ class BallDomain final : public Domain {
     Box bounding_box() const override { return sphere_.bounding_box(); }
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         std::ranges::copy(shares(sphere_.unit(point)), cube.begin());
+    }
+    /// Disks of the ball between the box's sides, over z, which is cut where a disk meets a side or
+    /// a corner.
+    Estimate box_mass(const Box& box) const override {
+        std::array<double, 3> low{};
+        std::array<double, 3> high{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k] = std::max((box.low[k] - sphere_.center[k]) / sphere_.radius, -1.0);
+            high[k] = std::min((box.high[k] - sphere_.center[k]) / sphere_.radius, 1.0);
+            if (!(low[k] < high[k])) return {};
+        }
+        std::vector<double> cuts{low[2], high[2]};
+        const auto cut = [&](double rr) {
+            const double z = rr < 1 ? std::sqrt(1 - rr) : 2;
+            for (const double at : {-z, z})
+                if (at > low[2] && at < high[2]) cuts.push_back(at);
+        };
+        for (const double x : {low[0], high[0]}) {
+            cut(x * x);
+            for (const double y : {low[1], high[1]}) cut(x * x + y * y);
+        }
+        for (const double y : {low[1], high[1]}) cut(y * y);
+        std::ranges::sort(cuts);
+        const Polygon window{
+            {low[0], low[1]}, {high[0], low[1]}, {high[0], high[1]}, {low[0], high[1]}};
+        Estimate volume;
+        for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+            const auto slice = [&](double z) {
+                const double rr = std::max((1 - z) * (1 + z), 0.0);
+                return area_in_disk(window, {0, 0}, std::sqrt(rr));
+            };
+            const Estimate piece = integrate_smooth(slice, cuts[i], cuts[i + 1]);
+            volume.value += piece.value;
+            volume.error += piece.error;
+        }
+        constexpr double whole = 4 * std::numbers::pi / 3;
+        return {volume.value / whole, volume.error / whole};
     }
     std::optional<Moments> moments() const override {
         const AxialMoments unit{.along = {0, 0.2, 0}, .across = 0.2};

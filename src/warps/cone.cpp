@@ -25,6 +25,7 @@
 
 #include "math/law_moments.hpp"
 #include "math/polar_direction.hpp"
+#include "math/zone_integral.hpp"
 #include "warps/placement.hpp"
 #include "warps/row_mapping.hpp"
 
@@ -62,7 +63,7 @@ struct Cap {
     }
 };
 
-class ConeDomain final : public Domain {
+class ConeDomain final : public Domain, public Rimmed {
   public:
     ConeDomain(const Cap& cap, std::string spec)
         : cap_(cap),
@@ -103,6 +104,7 @@ class ConeDomain final : public Domain {
         cube[0] = std::clamp(within, 0.0, 1.0);
         cube[1] = longitude;
     }
+    Rims rims() const override { return {.circles = {{cap_.frame.z, cap_.rim.cos}}}; }
     std::optional<Moments> moments() const override {
         // By the drop v = 1 - z, which is uniform up to that of the rim: thin cones keep digits.
         const double v = cap_.drop();

@@ -187,7 +187,7 @@ std::vector<double> probabilities_of(const Values& options) {
     const double sum = running_sums(p).back();
     if (!options[normalize] && !(std::abs(sum - 1) <= 1e-12))
         fail_with_hint(ErrorKind::usage, "--normalize divides them by their sum",
-                       "--probabilities: their sum is {}; 1 is needed", sum);
+                       "--probabilities: their sum is {:.15g}; 1 is needed", sum);
     if (!(sum > 0 && std::isfinite(sum)))
         fail(ErrorKind::usage, "--probabilities: their sum is {}; it cannot be divided by", sum);
     for (double& x : p) x /= sum;

@@ -35,6 +35,7 @@
 #include "core/wide.hpp"
 #include "math/disk_maps.hpp"
 #include "math/law_moments.hpp"
+#include "warps/area_share.hpp"
 #include "warps/inside.hpp"
 #include "warps/warp.hpp"
 
@@ -64,7 +65,7 @@ const Schema& schema() {
     return options;
 }
 
-class DiskDomain final : public Domain {
+class DiskDomain final : public Domain, public Weighable {
   public:
     DiskDomain(double r, PlanePoint c) : radius_(r), center_(c) {
         constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -98,6 +99,11 @@ class DiskDomain final : public Domain {
         const auto [x, y] = in_unit_disk(point);
         cube[0] = std::min(x * x + y * y, 1.0);
         cube[1] = turns_of(x, y);
+    }
+    Estimate box_mass(const Box& box) const override {
+        return area_share(box, *this, [&](const stipple::Polygon& window) {
+            return area_in_disk(window, {center_.x, center_.y}, radius_);
+        });
     }
     std::optional<Moments> moments() const override {
         return placed_moments({.xx = 0.25, .yy = 0.25}, {center_, radius_});

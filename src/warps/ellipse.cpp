@@ -64,6 +64,10 @@ struct Ellipse {
     }
     PlanePoint inverse(double x, double y) const { return Disk::inverse(x / a, y / b); }
     double area() const { return std::numbers::pi * a * b; }
+    double area_in(Polygon window) const {
+        for (PlanePair& corner : window) corner = {corner[0] / a, corner[1] / b};
+        return a * b * area_in_disk(window, {0, 0}, 1);
+    }
 
     /// To first order, the distance is what x^2/a^2 + y^2/b^2 is above 1, over its slope.
     double beyond(double x, double y) const {

@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/box_mass.hpp"
 #include "core/error.hpp"
 #include "core/spec.hpp"
 #include "core/support.hpp"
@@ -66,7 +67,7 @@ LineRange range_of(const Values& options) {
     return out;
 }
 
-class FormulaDomain final : public Domain, public Gapped {
+class FormulaDomain final : public Domain, public Gapped, public Weighable {
   public:
     FormulaDomain(Values options, const LineRange& ends, Expression f, const RunContext& run)
         : options_(std::move(options)),
@@ -108,6 +109,7 @@ class FormulaDomain final : public Domain, public Gapped {
         const double above = mass_below(edge(cell.high[0]));
         return {std::max(above - below, 0.0) / total_.value, 2 * total_.error / total_.value};
     }
+    Estimate box_mass(const Box& box) const override { return box_mass_by_axes(*this, box); }
     std::vector<std::string> cube_axes() const override { return {"share of the mass below x"}; }
 
     /// By Gauss's rule on each piece of the table, as exact as the integral of f.

@@ -8,13 +8,14 @@
 #include <mutex>
 #include <string>
 
+#include "core/box_mass.hpp"
 #include "core/domain.hpp"
 #include "core/support.hpp"
 #include "math/expression.hpp"
 
 namespace stipple::warps {
 
-class FormulaBox final : public Domain, public Gapped {
+class FormulaBox final : public Domain, public Gapped, public Weighable {
   public:
     FormulaBox(std::string spec, Expression f, Box box);
 
@@ -29,6 +30,7 @@ class FormulaBox final : public Domain, public Gapped {
     void to_cube(std::span<const double> point, std::span<double> cube) const override;
     bool even() const override { return false; }
     Estimate probability(const Box& cell) const override;
+    Estimate box_mass(const Box& box) const override { return box_mass_by_axes(*this, box); }
     std::vector<std::string> cube_axes() const override;
 
     /// By quadrature, within 1e-6 of the box's extents; none where that is not reached, or in three

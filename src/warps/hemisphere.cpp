@@ -33,6 +33,7 @@
 #include "math/logarithm.hpp"
 #include "math/polar_direction.hpp"
 #include "math/real_power.hpp"
+#include "math/zone_integral.hpp"
 #include "warps/placement.hpp"
 #include "warps/row_mapping.hpp"
 
@@ -85,7 +86,7 @@ struct Law {
     }
 };
 
-class HemisphereDomain final : public Domain {
+class HemisphereDomain final : public Domain, public Rimmed {
   public:
     HemisphereDomain(const Frame& frame, const Law& law, std::string spec)
         : frame_(frame), law_(law), spec_(std::move(spec)) {}
@@ -118,6 +119,7 @@ class HemisphereDomain final : public Domain {
         cube[0] = std::clamp(law_.share(v), 0.0, 1.0);
         cube[1] = turns_of(v[0], v[1]);
     }
+    Rims rims() const override { return {.circles = {{frame_.z, 0}}, .level = law_.power == 0}; }
     std::optional<Moments> moments() const override {
         // The height is z = u^(1/p) with p = k + 1: Beta(p, 1).
         const double p = law_.power + 1;

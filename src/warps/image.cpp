@@ -24,6 +24,7 @@
 
 #include <algorithm>
 
+#include "core/box_mass.hpp"
 #include "core/error.hpp"
 #include "core/spec.hpp"
 #include "core/support.hpp"
@@ -46,7 +47,7 @@ const Schema& schema() {
     return options;
 }
 
-class ImageDomain final : public Domain, public Gapped {
+class ImageDomain final : public Domain, public Gapped, public Weighable {
   public:
     ImageDomain(Values options, const RunContext& run)
         : options_(std::move(options)), map_(read_density(options_[file], options_[invert], run)) {}
@@ -65,6 +66,24 @@ class ImageDomain final : public Domain, public Gapped {
         const auto [u, v] = map_.find(point[0], point[1]);
         cube[0] = u;
         cube[1] = v;
+    }
+    /// Within a row of pixels the share left of x is the same at all heights.
+    Estimate box_mass(const Box& box) const override {
+        const double left = std::clamp(box.low[0], 0.0, 1.0);
+        const double right = std::clamp(box.high[0], 0.0, 1.0);
+        const double top = std::clamp(box.high[1], 0.0, 1.0);
+        const auto h = static_cast<double>(map_.height());
+        Estimate mass;
+        double low = std::clamp(box.low[1], 0.0, 1.0);
+        for (double row = std::floor(low * h); low < top && left < right; row += 1) {
+            const double high = std::min((row + 1) / h, top);
+            if (!(high > low)) continue;
+            const double y = low + 0.5 * (high - low);
+            const double share = map_.find(right, y)[0] - map_.find(left, y)[0];
+            mass.value += share * (map_.find(0, high)[1] - map_.find(0, low)[1]);
+            low = high;
+        }
+        return mass;
     }
     std::optional<Moments> moments() const override {
         const auto w = static_cast<double>(map_.width());

@@ -22,6 +22,7 @@
 #include "math/law_moments.hpp"
 #include "math/trigonometry.hpp"
 #include "math/vector3.hpp"
+#include "math/zone_integral.hpp"
 #include "warps/row_mapping.hpp"
 
 namespace stipple::warps {
@@ -47,7 +48,7 @@ inline Versines versines_of(const Vector3& local) {
 }
 
 template <class Lobe>
-class LobeDomain final : public Domain {
+class LobeDomain final : public Domain, public Rimmed {
   public:
     LobeDomain(const Lobe& lobe, const Frame& frame, std::string spec)
         : lobe_(lobe), frame_(frame), spec_(std::move(spec)) {}
@@ -73,6 +74,14 @@ class LobeDomain final : public Domain {
         const auto [v, c] = versines_of(local);
         cube[0] = std::clamp(lobe_.share(v, c), 0.0, 1.0);
         cube[1] = turns_of(local[0], local[1]);
+    }
+    /// No edges, but where nearly all or nearly nothing is nearer to the axis: peaks are not
+    /// missed.
+    Rims rims() const override {
+        Rims found{.circles = {}, .level = false};
+        for (const double u : {0.01, 0.5, 0.99, 1 - 1e-6, 1 - 1e-12})
+            found.circles.push_back({frame_.z, lobe_.forward(u).cos});
+        return found;
     }
     std::optional<Moments> moments() const override {
         return axial_moments(lobe_.moments(), frame_);

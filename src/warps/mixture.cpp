@@ -19,26 +19,20 @@
 // Strata  xi0 as it is, cut by the weights and stretched: n strata give each component n w_i of
 //         them, rounded up or down. All else is the components'.
 // Cost    that of the components, and about 8 ns a point on one core.
-// Promise a component of weight 0 never comes. Probabilities of cells are by adaptive quadrature
-//         with their error. There is no way back: a point may come from several components. The
-//         same bits on every machine, where the components have them.
+// Promise a component of weight 0 never comes. Probabilities of cells are the weighted sums of the
+//         components' (mixture_domain.hpp). There is no way back: a point may come from several
+//         components. The same bits on every machine, where the components have them.
 
 #include <array>
-#include <boost/math/quadrature/gauss_kronrod.hpp>
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "core/spec.hpp"
-#include "core/support.hpp"
 #include "core/text.hpp"
-#include "math/law_moments.hpp"
-#include "math/normal_quantile.hpp"
 #include "math/running_sums.hpp"
-#include "math/trigonometry.hpp"
+#include "warps/mixture_domain.hpp"
 #include "warps/warp.hpp"
 
 namespace stipple::warps {
@@ -67,169 +61,6 @@ struct Component {
     std::unique_ptr<Mapping> mapping;
 };
 
-class MixtureDomain final : public Domain, public Gapped {
-  public:
-    MixtureDomain(std::vector<DomainPtr> parts, std::vector<double> shares, std::string spec)
-        : parts_(std::move(parts)), weights_(std::move(shares)), spec_(std::move(spec)) {
-        box_ = parts_[0]->bounding_box();
-        for (const DomainPtr& part : parts_) {
-            const Box box = part->bounding_box();
-            box_ = stipple::bounding_box(box.low, stipple::bounding_box(box.high, box_));
-        }
-        fills_box_ = !directions() && std::ranges::all_of(parts_, [&](const DomainPtr& part) {
-            return fills(*part);
-        });
-    }
-
-    std::string spec() const override { return spec_; }
-    std::size_t dimension() const override { return parts_[0]->dimension(); }
-    std::size_t cube_dimension() const override { return parts_[0]->cube_dimension(); }
-    /// That of all directions where a part has them all, and of the box that each part fills; else
-    /// what the parts cover together is not known, and it is taken as a part of all space.
-    double measure() const override {
-        const auto has_all = [&](const DomainPtr& part) {
-            return part->measure() > (1 - 1e-12) * all_directions();
-        };
-        if (directions() && std::ranges::any_of(parts_, has_all)) return all_directions();
-        return fills_box_ ? box_volume() : std::numeric_limits<double>::infinity();
-    }
-
-    /// What any of the parts covers.
-    Support support() const override {
-        const double all = measure();
-        std::vector<Support> supports;
-        for (std::size_t i = 0; i < parts_.size(); ++i)
-            if (weights_[i] > 0) supports.push_back(support_of(*parts_[i]));
-        const auto covers = [&](const Support& part) {
-            return part.whole && part.measure && part.measure->value > (1 - 1e-12) * all;
-        };
-        if (std::ranges::any_of(supports, covers))
-            return {.measure = Estimate{all, 0}, .boxes = {}};
-        const bool ends = std::ranges::all_of(supports, &Support::finite);
-        return {.whole = false, .finite = ends, .boxes = {}};
-    }
-
-    /// Unit vectors, up to 16 epsilon; else all that is finite.
-    bool contains(std::span<const double> point) const override {
-        double square = 0;
-        for (const double x : point) {
-            if (!std::isfinite(x)) return false;
-            square += x * x;
-        }
-        constexpr double slack = 32 * std::numeric_limits<double>::epsilon();
-        if (directions()) return std::abs(square - 1) <= slack;
-        return !fills_box_ || std::ranges::any_of(parts_, [&](const DomainPtr& part) {
-            return part->contains(point);
-        });
-    }
-    Box bounding_box() const override { return box_; }
-    double density(std::span<const double> point) const override {
-        double sum = 0;
-        for (std::size_t i = 0; i < parts_.size(); ++i)
-            sum += weights_[i] * parts_[i]->density(point);
-        return sum;
-    }
-    void to_cube(std::span<const double> point, std::span<double> cube) const override {
-        if (directions()) {
-            cube.back() = turns_of(point[0], point[1]);
-            if (dimension() == 3) cube[0] = std::clamp(0.5 * (1 - point[2]), 0.0, 1.0);
-            return;
-        }
-        for (std::size_t k = 0; k < cube.size(); ++k) {
-            const double z = (point[k] - middle(k)) / scale(k);
-            cube[k] = 0.5 * std::erfc(-z / std::numbers::sqrt2);
-        }
-    }
-    bool even() const override { return false; }
-    Estimate probability(const Box& cell) const override {
-        std::vector<double> at(cube_dimension());
-        return integral(cell, at, 0);
-    }
-    std::optional<Moments> moments() const override {
-        MixedMoments all(std::vector<double>(dimension(), 0.0));
-        for (std::size_t i = 0; i < parts_.size(); ++i) {
-            const auto part = parts_[i]->moments();
-            if (!part) return std::nullopt;
-            all.add(weights_[i], *part);
-        }
-        return all.moments();
-    }
-    std::vector<std::string> cube_axes() const override {
-        if (directions() && dimension() == 3) return {"(1 - z) / 2", "longitude in turns"};
-        if (directions()) return {"angle in turns"};
-        std::vector<std::string> axes;
-        for (std::size_t k = 0; k < dimension(); ++k)
-            axes.push_back(fmt::format("normal probability of x{}", k + 1));
-        return axes;
-    }
-
-  private:
-    /// Whether a part fills the box around all parts.
-    bool fills(const Domain& part) const {
-        return part.bounding_box() == box_ &&
-               std::abs(part.measure() - box_volume()) <= 1e-12 * box_volume();
-    }
-    double box_volume() const {
-        double volume = 1;
-        for (std::size_t k = 0; k < dimension(); ++k) volume *= box_.extent(k);
-        return volume;
-    }
-    bool directions() const { return cube_dimension() < dimension(); }
-    double all_directions() const {
-        return dimension() == 3 ? 4 * std::numbers::pi : 2 * std::numbers::pi;
-    }
-    double middle(std::size_t k) const { return box_.low[k] + 0.5 * box_.extent(k); }
-    double scale(std::size_t k) const { return box_.extent(k) > 0 ? 0.25 * box_.extent(k) : 1; }
-
-    /// Density by the coordinates that integral() goes through.
-    double density_at(std::span<const double> at) const {
-        if (!directions()) return density(at);
-        const double turn = 2 * std::numbers::pi * at.back();
-        if (dimension() == 2)
-            return all_directions() * density(std::vector{std::cos(turn), std::sin(turn)});
-        const double r = 2 * std::sqrt(at[0] * (1 - at[0]));
-        return all_directions() *
-               density(std::vector{r * std::cos(turn), r * std::sin(turn), 1 - 2 * at[0]});
-    }
-
-    /// Where an edge of a cell is: of the cube, or in space.
-    double edge(double u, std::size_t k) const {
-        if (directions()) return u;
-        if (u <= 0 || u >= 1)
-            return std::copysign(std::numeric_limits<double>::infinity(), u - 0.5);
-        return middle(k) + scale(k) * normal_quantile(u);
-    }
-
-    /// Over coordinates k and beyond, with those before it fixed.
-    Estimate integral(const Box& cell, std::vector<double>& at, std::size_t k) const {
-        using Rule = boost::math::quadrature::gauss_kronrod<double, 15>;
-        constexpr unsigned depth = 8;
-        constexpr double tolerance = 1e-7;
-        const double low = edge(cell.low[k], k);
-        const double high = edge(cell.high[k], k);
-        if (!(low < high)) return {};
-        double inner = 0;  // the largest error of what is integrated
-        const auto slice = [&](double x) {
-            at[k] = x;
-            if (k + 1 == at.size()) return density_at(at);
-            const Estimate rest = integral(cell, at, k + 1);
-            inner = std::max(inner, rest.error);
-            return rest.value;
-        };
-        Estimate found;
-        found.value = Rule::integrate(slice, low, high, depth, tolerance, &found.error);
-        const double width = std::isfinite(high - low) ? high - low : box_.extent(k);
-        found.error += inner * width;
-        return found;
-    }
-
-    std::vector<DomainPtr> parts_;
-    std::vector<double> weights_;
-    std::string spec_;
-    Box box_;
-    bool fills_box_ = false;  ///< each part does
-};
-
 class Mixture final : public Mapping {
   public:
     Mixture(std::vector<Component> parts, std::vector<double> sums, std::string spec)
@@ -240,8 +71,7 @@ class Mixture final : public Mapping {
             domains.push_back(part.mapping->domain());
             shares.push_back(part.weight);
         }
-        domain_ =
-            std::make_shared<MixtureDomain>(std::move(domains), std::move(shares), std::move(spec));
+        domain_ = mixture_domain(std::move(domains), std::move(shares), std::move(spec));
         double before = 0;
         for (const double sum : sums_) {
             shares_.push_back({before, sum - before});
@@ -352,7 +182,7 @@ class Mixture final : public Mapping {
     std::vector<Component> parts_;
     std::vector<double> sums_;  ///< of the weights; the last is 1
     std::vector<Share> shares_;
-    std::shared_ptr<const MixtureDomain> domain_;
+    DomainPtr domain_;
 };
 
 /// The parts between | outside of brackets.
@@ -432,7 +262,7 @@ std::unique_ptr<Mapping> make(const Values& options, std::size_t given, const Ru
     const double sum = running_sums(shares).back();
     if (!options[normalize] && !(std::abs(sum - 1) <= 1e-12))
         fail_with_hint(ErrorKind::usage, "--normalize divides them by their sum",
-                       "--weights: their sum is {}; 1 is needed", sum);
+                       "--weights: their sum is {:.15g}; 1 is needed", sum);
     if (!(sum > 0 && std::isfinite(sum)))
         fail(ErrorKind::usage, "--weights: their sum is {}; it cannot be divided by", sum);
     for (double& w : shares) w /= sum;

@@ -28,11 +28,13 @@
 #include <limits>
 #include <numbers>
 
+#include "core/box_mass.hpp"
 #include "core/error.hpp"
 #include "core/spec.hpp"
 #include "core/wide.hpp"
 #include "math/cholesky.hpp"
 #include "math/normal_quantile.hpp"
+#include "math/smooth_quadrature.hpp"
 #include "warps/warp.hpp"
 
 namespace stipple::warps {
@@ -85,7 +87,7 @@ double normal_below(double z) {
     return z < 0 ? tail : 1 - tail;
 }
 
-class NormalDomain final : public Domain {
+class NormalDomain final : public Domain, public Weighable {
   public:
     NormalDomain(Shape shape, std::string spec) : shape_(std::move(shape)), spec_(std::move(spec)) {
         for (std::size_t k = 0; k < shape_.dimension(); ++k)
@@ -122,6 +124,10 @@ class NormalDomain final : public Domain {
         standardise(point, cube);
         for (double& x : cube) x = normal_below(x);
     }
+    Estimate box_mass(const Box& box) const override {
+        std::vector<double> z(dimension());
+        return mass_from(box, z, 0);
+    }
     std::optional<Moments> moments() const override {
         const std::size_t d = dimension();
         Moments m{shape_.mean, std::vector<double>(d * d), std::vector<double>(d)};
@@ -141,6 +147,35 @@ class NormalDomain final : public Domain {
     const Shape& shape() const { return shape_; }
 
   private:
+    /// Of the coordinates k and beyond, given the standardised ones before.
+    Estimate mass_from(const Box& box, std::vector<double>& z, std::size_t k) const {
+        const std::size_t d = dimension();
+        if (k == d) return {1, 0};
+        double before = shape_.mean[k];
+        for (std::size_t j = 0; j < k && !shape_.diagonal(); ++j)
+            before += shape_.factor[k * d + j] * z[j];
+        const double low = (box.low[k] - before) / shape_.scale(k);
+        const double high = (box.high[k] - before) / shape_.scale(k);
+        if (!(low < high)) return {};
+        if (shape_.diagonal() || k + 1 == d) {
+            const double here = low > 0 ? normal_below(-low) - normal_below(-high)
+                                        : normal_below(high) - normal_below(low);
+            const Estimate rest = mass_from(box, z, k + 1);
+            return {here * rest.value, here * rest.error};
+        }
+        double inner = 0;
+        const auto slice = [&](double x) {
+            z[k] = x;
+            const Estimate rest = mass_from(box, z, k + 1);
+            inner = std::max(inner, rest.error);
+            return rest.value * std::exp(-0.5 * x * x) / std::sqrt(2 * std::numbers::pi);
+        };
+        constexpr double far = 9;  // 2e-19 is beyond
+        Estimate mass = integrate_smooth(slice, std::max(low, -far), std::min(high, far));
+        mass.error += inner;
+        return mass;
+    }
+
     /// z = L^-1 (x - m).
     void standardise(std::span<const double> point, std::span<double> z) const {
         const std::size_t d = dimension();

@@ -21,6 +21,7 @@
 #include "core/spec.hpp"
 #include "core/wide.hpp"
 #include "math/edge_frame.hpp"
+#include "warps/area_share.hpp"
 #include "warps/inside.hpp"
 #include "warps/warp.hpp"
 
@@ -53,7 +54,7 @@ std::vector<double> corner_of(const Values& options, std::size_t d) {
     return at;
 }
 
-class ParallelogramDomain final : public Domain {
+class ParallelogramDomain final : public Domain, public Weighable {
   public:
     /// @throws Error(usage) when the options are not those of a parallelogram.
     explicit ParallelogramDomain(const Values& options)
@@ -110,6 +111,19 @@ class ParallelogramDomain final : public Domain {
         const auto [s, t] = frame_.coordinates(space_point(point));
         cube[0] = std::clamp(s, 0.0, 1.0);
         cube[1] = std::clamp(t, 0.0, 1.0);
+    }
+    /// In the plane.
+    Estimate box_mass(const Box& box) const override {
+        return area_share(box, *this, [&](const Polygon& window) {
+            const auto& [a, b] = edges_;
+            const double x = corner_[0];
+            const double y = corner_[1];
+            return shared_area({{x, y},
+                                {x + a[0], y + a[1]},
+                                {x + a[0] + b[0], y + a[1] + b[1]},
+                                {x + b[0], y + b[1]}},
+                               window);
+        });
     }
     std::optional<Moments> moments() const override {
         const std::size_t d = dimension_;

@@ -25,6 +25,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/box_mass.hpp"
 #include "core/error.hpp"
 #include "core/support.hpp"
 #include "core/wide.hpp"
@@ -36,7 +37,7 @@ namespace stipple::warps {
 
 /// Each coordinate by a law of its own, independent of the others.
 template <class Law>
-class LineDomain final : public Domain, public Gapped {
+class LineDomain final : public Domain, public Gapped, public Weighable {
   public:
     /// @param what what place() is, for people
     LineDomain(std::vector<Law> laws, std::string spec, std::string what)
@@ -83,6 +84,7 @@ class LineDomain final : public Domain, public Gapped {
         }
         return {product, 0};
     }
+    Estimate box_mass(const Box& box) const override { return box_mass_by_axes(*this, box); }
     std::optional<Moments> moments() const override {
         if constexpr (requires { &Law::moments; }) {
             std::vector<LineMoments> each;

@@ -9,6 +9,7 @@
 //     PlanePoint forward(double u, double v) const     of equal areas, for u, v in [0, 1]
 //     PlanePoint inverse(double x, double y) const     back; rounding may leave the square
 //     double area() const                              in its own frame
+//     double area_in(const Polygon& window) const      what it shares with a convex one
 //     double beyond(double x, double y) const          distance from it, at most 0 inside
 //     std::vector<PlanePoint> hull() const             points whose box is the shape's, once
 //     turned;
@@ -33,6 +34,7 @@
 #include "math/law_moments.hpp"
 #include "math/plane_point.hpp"
 #include "math/trigonometry.hpp"
+#include "warps/area_share.hpp"
 #include "warps/inside.hpp"
 #include "warps/warp.hpp"
 
@@ -72,7 +74,7 @@ Placement place(const std::vector<double>& center, double size, double degrees, 
 double turn_of_degrees(double degrees);
 
 template <class Shape>
-class PlacedDomain final : public Domain {
+class PlacedDomain final : public Domain, public Weighable {
   public:
     PlacedDomain(std::string spec, Shape shape, const Placement& at)
         : spec_(std::move(spec)), shape_(std::move(shape)), at_(at) {
@@ -105,6 +107,15 @@ class PlacedDomain final : public Domain {
         const auto [u, v] = shape_.inverse(x, y);
         cube[0] = std::clamp(u, 0.0, 1.0);
         cube[1] = std::clamp(v, 0.0, 1.0);
+    }
+    Estimate box_mass(const Box& box) const override {
+        return area_share(box, *this, [&](Polygon window) {
+            for (PlanePair& corner : window) {
+                const auto [x, y] = at_.to_frame(corner[0], corner[1]);
+                corner = {x, y};
+            }
+            return shape_.area_in(window) * at_.size * at_.size;
+        });
     }
     std::optional<Moments> moments() const override {
         return placed_moments(shape_.moments(), {at_.center, at_.size, at_.cos, at_.sin});

@@ -33,6 +33,7 @@
 #include "core/text.hpp"
 #include "math/points_file.hpp"
 #include "math/polygon_rows.hpp"
+#include "warps/area_share.hpp"
 #include "warps/inside.hpp"
 #include "warps/warp.hpp"
 
@@ -124,18 +125,30 @@ std::string shown(const std::vector<Ring>& rings, const RingEdge& edge) {
                        shown(ring[(edge.edge + 1) % ring.size()]));
 }
 
+/// Whether all vertices of a ring lie on one line, with no rounding that could tell otherwise.
+bool is_flat(const Ring& ring) {
+    const auto turn = [&](PlanePoint p, PlanePoint q) {
+        return (p.x - ring[0].x) * (q.y - ring[0].y) - (p.y - ring[0].y) * (q.x - ring[0].x);
+    };
+    return std::ranges::all_of(ring, [&](PlanePoint p) { return turn(ring[1], p) == 0; });
+}
+
 /// The rings of the options, which bound a polygon but for its area. @throws Error
 std::vector<Ring> rings_of(const Values& options, const Source& source, const RunContext& run) {
     auto rings = options.given(file) ? read_rings(options[file], source, run)
                                      : parse_rings(options[vertices], source);
     tidy(rings, source);
+    for (std::size_t r = 0; r < rings.size(); ++r)
+        if (is_flat(rings[r]))
+            source.refuse("ring {} has no area: its vertices lie on one line", r + 1);
     if (const auto contact = find_contact(rings, run))
-        source.refuse("{} and {} {}", shown(rings, contact->first), shown(rings, contact->second),
+        source.refuse("{} and {} {}; edges may meet in a vertex that they share only",
+                      shown(rings, contact->first), shown(rings, contact->second),
                       contact->crossing ? "cross" : "touch");
     return rings;
 }
 
-class PolygonDomain final : public Domain {
+class PolygonDomain final : public Domain, public Weighable {
   public:
     PolygonDomain(std::string spec, PolygonRows rows)
         : spec_(std::move(spec)), rows_(std::move(rows)) {}
@@ -151,6 +164,11 @@ class PolygonDomain final : public Domain {
         const auto [u, v] = rows_.inverse({point[0], point[1]});
         cube[0] = u;
         cube[1] = v;
+    }
+    Estimate box_mass(const Box& box) const override {
+        return area_share(box, *this, [&](const stipple::Polygon& window) {
+            return rows_.area_in({{window[0][0], window[0][1]}, {window[2][0], window[2][1]}});
+        });
     }
     std::optional<Moments> moments() const override { return rows_.moments(); }
     std::vector<std::string> cube_axes() const override {

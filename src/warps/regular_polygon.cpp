@@ -90,6 +90,12 @@ class RegularPolygon {
     }
 
     double area() const { return n_ * apothem_ * half_side_; }
+    double area_in(const Polygon& window) const {
+        Polygon corners;
+        for (const auto& [x, y] : *vertices_) corners.push_back({x, y});
+        corners.pop_back();  // the first one again
+        return shared_area(corners, window);
+    }
 
     double beyond(double x, double y) const {
         const auto [nx, ny] = normals_->data()[side_towards(x, y)];

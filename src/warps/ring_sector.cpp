@@ -15,6 +15,18 @@ double beyond_side(double x, double y) { return x > 0 ? std::abs(y) : std::sqrt(
 
 double RingSector::area() const { return std::numbers::pi * spread * width; }
 
+double RingSector::area_in(const Polygon& window) const {
+    const auto in_ring = [&](const Polygon& part) {
+        const double within = area_in_disk(part, {0, 0}, 1);
+        return inner > 0 ? within - area_in_disk(part, {0, 0}, inner) : within;
+    };
+    if (width == 1) return in_ring(window);
+    const auto [c, s] = cos_sin_turns(width);
+    const PlanePair origin{0, 0};
+    if (width <= 0.5) return in_ring(clipped(clipped(window, origin, {0, -1}), origin, {-s, c}));
+    return in_ring(window) - in_ring(clipped(clipped(window, origin, {0, 1}), origin, {s, -c}));
+}
+
 double RingSector::beyond(double x, double y) const {
     const double r = std::sqrt(x * x + y * y);
     const double radial = std::max(r - 1, inner - r);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "math/law_moments.hpp"
+#include "math/planar_area.hpp"
 #include "math/plane_point.hpp"
 #include "math/trigonometry.hpp"
 
@@ -44,6 +45,7 @@ struct RingSector {
     }
 
     [[nodiscard]] double area() const;
+    [[nodiscard]] double area_in(const Polygon& window) const;
     [[nodiscard]] double beyond(double x, double y) const;
     [[nodiscard]] std::vector<PlanePoint> hull(double turn) const;
     [[nodiscard]] PlaneMoments moments() const;

@@ -220,7 +220,7 @@ class Urena {
     CosSin both_{};  ///< of their sum
 };
 
-class RectangleDomain final : public Domain {
+class RectangleDomain final : public Domain, public Rimmed {
   public:
     RectangleDomain(const Rectangle& rectangle, std::string spec)
         : polygon_(rectangle.corners()), cells_(rectangle.transposed()), spec_(std::move(spec)) {}
@@ -244,6 +244,7 @@ class RectangleDomain final : public Domain {
         cube[0] = std::clamp(u, 0.0, 1.0);
         cube[1] = std::clamp(v, 0.0, 1.0);
     }
+    Rims rims() const override { return {.circles = polygon_.edges()}; }
     std::optional<Moments> moments() const override {
         return polygon_.moments(cells_.solid_angle());
     }

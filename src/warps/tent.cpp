@@ -22,6 +22,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/box_mass.hpp"
 #include "core/error.hpp"
 #include "core/spec.hpp"
 #include "core/wide.hpp"
@@ -64,7 +65,7 @@ struct Axis {
     double center;
 };
 
-class TentDomain final : public Domain {
+class TentDomain final : public Domain, public Weighable {
   public:
     TentDomain(std::string spec, std::vector<Axis> axes)
         : spec_(std::move(spec)), axes_(std::move(axes)) {}
@@ -111,6 +112,7 @@ class TentDomain final : public Domain {
         for (std::size_t k = 0; k < axes_.size(); ++k)
             cube[k] = unit_of((point[k] - axes_[k].center) / axes_[k].radius);
     }
+    Estimate box_mass(const Box& box) const override { return box_mass_by_axes(*this, box); }
     std::optional<Moments> moments() const override {
         std::vector<LineMoments> each;
         for (const auto& [r, c] : axes_) each.push_back({c, r * r / 6, 0});

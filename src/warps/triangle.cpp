@@ -38,6 +38,7 @@
 #include "math/edge_frame.hpp"
 #include "math/law_moments.hpp"
 #include "math/plane_point.hpp"
+#include "warps/area_share.hpp"
 #include "warps/inside.hpp"
 #include "warps/warp.hpp"
 
@@ -68,7 +69,7 @@ struct Barycentrics {
     double l2;
 };
 
-class TriangleDomain final : public Domain {
+class TriangleDomain final : public Domain, public Weighable {
   public:
     /// @throws Error(usage) when the corners are not those of a triangle.
     explicit TriangleDomain(const Table& corners) : corners_(corners) {
@@ -125,6 +126,14 @@ class TriangleDomain final : public Domain {
         const double rest = std::min(from_0 + from_2, 1.0);
         cube[0] = rest * rest;
         cube[1] = rest > 0 ? std::min(from_2 / (from_0 + from_2), 1.0) : 0.0;
+    }
+    /// In the plane.
+    Estimate box_mass(const Box& box) const override {
+        return area_share(box, *this, [&](const Polygon& window) {
+            Polygon triangle;
+            for (const auto& corner : corners_) triangle.push_back({corner[0], corner[1]});
+            return shared_area(triangle, window);
+        });
     }
     std::optional<Moments> moments() const override {
         return triangle_moments({corners_[0], corners_[1], corners_[2]});

@@ -497,22 +497,30 @@ TEST(ChiSquare, MassesThatContradictEachOtherAreRefused) {
     EXPECT_NE(error(0, -3), "") << "negative";
 }
 
-TEST(ChiSquare, ErrorsOfMassesAreSaid) {
-    std::string said;
-    RunContext run;
-    run.warn = [&](const std::string& sentence) { said = sentence; };
-    const Analyzer& unit = find_analyzer("chi-square");
-    Values options = unit.options.defaults();
-    unit.options.set(options, "cells", "2");
-    const auto with_error = [&](double error) {
-        said.clear();
+// Of two cells of 1/2 within e, a statistic X^2 of 100 points: the root moves by at most
+// D = sqrt(2 (100 e)^2 / 50) = 20 e, and r = 2 e.
+TEST(ChiSquare, AVerdictThatErrorsOfMassesCouldTurnIsRefused) {
+    const auto judged = [&](std::vector<int> counts, double error) {
         const auto domain = std::make_shared<Steps>(std::vector<double>{0.5, 0.5}, 1, error);
-        return analyze(unit, in_cells({50, 50}, domain), options, run).number("mass_error");
+        return analyze("chi-square", in_cells(counts, domain), {{"cells", "2"}});
     };
-    EXPECT_EQ(with_error(1e-6), 2e-6);
-    EXPECT_EQ(said, "");
-    with_error(0.03);
-    EXPECT_NE(said.find("known to 0.06 only"), std::string::npos) << said;
+    const Report even = judged({50, 50}, 1e-6);
+    EXPECT_EQ(even.number("mass_error"), 2e-6);
+    EXPECT_NEAR(even.number("statistic_error"), 400e-12, 1e-14);
+    EXPECT_EQ(even.text("verdict"), "uniform");
+    const Report odd = judged({60, 40}, 1e-3);  // X = 2, D = 0.02, r = 0.002
+    EXPECT_NEAR(odd.number("statistic_error"), 2.02 * 2.02 / 0.998 - 4, 1e-12);
+    EXPECT_EQ(odd.text("verdict"), "uniform");
+    // X = 4, with p = 6e-5; at 0.06 it may be 2.8 / sqrt(1.12), with p = 8e-3.
+    EXPECT_EQ(judged({70, 30}, 0.001).text("verdict"), "non-uniform");
+    EXPECT_TRUE(
+        error_of([&] {
+            judged({70, 30}, 0.06);
+        })
+            .starts_with("limit: chi-square cannot tell: the cells' probabilities are known "
+                         "within 0.12 in all, and with that the statistic within "));
+    EXPECT_NE(error_of([&] { judged({50, 50}, 0.3); }), "") << "may be 0 or 90";
+    EXPECT_NE(error_of([&] { judged({50, 50}, 0.6); }), "") << "may be anything";
 }
 
 // Oracle: the points themselves shifted by half a cell.

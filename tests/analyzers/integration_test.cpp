@@ -319,6 +319,9 @@ TEST(Integration, RefusesWhatItCannotIntegrateInOneLine) {
     EXPECT_EQ(refusal(square, "owen@2"),
               "usage: --integrand: 'owen@2': coordinates behind @ are for warps");
     EXPECT_EQ(refusal(square, "sobol-g:a=-1"), "usage: --integrand: sobol-g: --a: -1 is below 0");
+    EXPECT_EQ(refusal(square, "sobol-g:a=[0,1,2]"),
+              "usage: --integrand: sobol-g: --a: 3 numbers for 2 coordinates; one for all, or one "
+              "for each");
     EXPECT_EQ(refusal(square, "sky-radiance"),
               "input: --integrand: sky-radiance takes points of a hemisphere; these live on "
               "unit-cube");

@@ -61,9 +61,9 @@ struct Oracle {
 };
 
 /// Integral of |x - c|^2 over a triangle from its edges' middles, which is exact.
-double second_moment(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c) {
+double second_moment(const PlanePair& a, const PlanePair& b, const PlanePair& c) {
     const double area = signed_area({a, b, c});
-    const auto squared = [](const PlanePoint& p, const PlanePoint& q) {
+    const auto squared = [](const PlanePair& p, const PlanePair& q) {
         const double x = (p[0] + q[0]) / 2;
         const double y = (p[1] + q[1]) / 2;
         return x * x + y * y;
@@ -72,9 +72,9 @@ double second_moment(const PlanePoint& a, const PlanePoint& b, const PlanePoint&
 }
 
 /// The other points and, on the torus, all copies of the eight boxes around, seen from point i.
-std::vector<PlanePoint> others_of(const PointSet& set, std::size_t i, bool torus) {
+std::vector<PlanePair> others_of(const PointSet& set, std::size_t i, bool torus) {
     const Box box = set.domain->bounding_box();
-    std::vector<PlanePoint> others;
+    std::vector<PlanePair> others;
     const int turns = torus ? 1 : 0;
     for (std::size_t j = 0; j < set.count(); ++j)
         for (int u = -turns; u <= turns; ++u)
@@ -91,7 +91,7 @@ Polygon cell_of(const PointSet& set, std::size_t i, bool torus) {
     const double a = box.extent(0);
     const double b = box.extent(1);
     Polygon cell = {{-a, -b}, {a, -b}, {a, b}, {-a, b}};
-    const PlanePoint normals[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
+    const PlanePair normals[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     for (std::size_t k = 0; !torus && k < 4; ++k) {
         const auto& face = k % 2 ? box.high : box.low;
         cell = clipped(cell, {face[0] - set[i][0], face[1] - set[i][1]}, normals[k]);
@@ -101,7 +101,7 @@ Polygon cell_of(const PointSet& set, std::size_t i, bool torus) {
 }
 
 /// Length of the part of the cell's rim that is as far from the other as from the site.
-double shared_edge(const Polygon& cell, const PlanePoint& other) {
+double shared_edge(const Polygon& cell, const PlanePair& other) {
     double low = INFINITY;
     double high = -INFINITY;
     for (const auto& [x, y] : cell) {
@@ -117,8 +117,8 @@ double shared_edge(const Polygon& cell, const PlanePoint& other) {
 double rim_of(const Polygon& cell) {
     double rim = 0;
     for (std::size_t k = 0; k < cell.size(); ++k) {
-        const PlanePoint& p = cell[k];
-        const PlanePoint& q = cell[(k + 1) % cell.size()];
+        const PlanePair& p = cell[k];
+        const PlanePair& q = cell[(k + 1) % cell.size()];
         rim += std::hypot(q[0] - p[0], q[1] - p[1]);
     }
     return rim;
@@ -127,10 +127,10 @@ double rim_of(const Polygon& cell) {
 void add_shape(const Polygon& cell, double mean, Oracle& sums) {
     const double area = signed_area(cell);
     sums.squared_deviation += std::pow(area / mean - 1, 2);
-    PlanePoint first{0, 0};
+    PlanePair first{0, 0};
     for (std::size_t k = 0; k < cell.size(); ++k) {
-        const PlanePoint& p = cell[k];
-        const PlanePoint& q = cell[(k + 1) % cell.size()];
+        const PlanePair& p = cell[k];
+        const PlanePair& q = cell[(k + 1) % cell.size()];
         sums.second_moment += second_moment({0, 0}, p, q);
         for (const std::size_t c : {0U, 1U})
             first[c] += signed_area({{0, 0}, p, q}) * (p[c] + q[c]) / 3;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "math/expression.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
+#include <string>
 #include <thread>
+#include <tuple>
 
 #include "core/rng.hpp"
 #include "support/units.hpp"
@@ -122,16 +125,29 @@ TEST(Expression, IsSafeToUseFromThreads) {
     for (const double sum : sums) EXPECT_EQ(sum, sums[0]);
 }
 
+TEST(Expression, SaysWhereItEndsTooEarly) {
+    const std::string value = "a number, a variable, a function or '('";
+    const std::vector<std::tuple<std::string, int, std::string>> cases = {
+        {"((x)", 5, "')'"},   {"((x) + 2  ", 9, "')'"},
+        {"sin(x", 6, "')'"},  {"2*x+", 5, value},
+        {"x ^ ", 4, value},   {"x &&", 5, value},
+        {"-", 2, value},      {"sin(", 5, value},
+        {"max(x,", 7, value}, {"x ? 1", 6, "':' and what holds else"}};
+    for (const auto& [text, column, wanted] : cases)
+        EXPECT_EQ(refused(text),
+                  fmt::format("usage: --density: '{}': the formula ends at column {}, where {} was "
+                              "expected",
+                              text, column, wanted));
+}
+
 TEST(Expression, SaysAtWhichColumnWhatIsExpected) {
     const std::vector<std::pair<std::string, std::string>> cases = {
-        {"2*x+", "column 5: expected a number, a variable, a function or '(' behind"},
         {"x+q",
          "column 3: 'q': expected a number, an operator, x, y, pi, e or a function such as "
          "exp"},
         {"foo(x)",
          "column 1: 'foo': expected a number, an operator, x, y, pi, e or a function "
          "such as exp"},
-        {"sin(x", "column 6: ')': expected ')'"},
         {"sin(x))", "column 7: ')': expected a '(' for it, and something between"},
         {"x y", "column 3: 'y': expected an operator before it"},
         {"2x", "column 2: 'x': expected an operator before it"},
@@ -142,8 +158,13 @@ TEST(Expression, SaysAtWhichColumnWhatIsExpected) {
         {"pow(x)", "column 6: 'pow': expected more arguments"},
         {"pow(x,y,x)", "column 10: 'pow': expected fewer arguments"},
         {"x = 3", "column 3: '=': expected == to compare"},
-        {"x ? 1", "column 1: expected ':' and what holds else"},
         {"3 +* x", "column 4: '*': expected a number, a variable, a function or '(' before it"},
+        {"%2 ",
+         "column 1: '%': expected a number, an operator, x, y, pi, e or a function such as exp"},
+        {"x \u00d7 y",
+         "column 3: '\u00d7': expected a number, an operator, x, y, pi, e or a function such as "
+         "exp"},
+        {"sin x", "column 1: 'sin': expected '(' behind it"},
         {"x~y", "column 2: '~': expected a number, a variable or an operator"}};
     for (const auto& [text, message] : cases)
         EXPECT_EQ(refused(text), "usage: --density: '" + text + "', " + message);

@@ -74,12 +74,19 @@ TEST(TriangleMesh, ReadsObjWithAllThatItMaySay) {
     EXPECT_EQ(mesh.corners(0)[1], (Vector3{1, 0, 0}));
 }
 
+TEST(TriangleMesh, FacesOfAnObjMayComeBeforeTheirVertices) {
+    EXPECT_EQ(obj("f 1 2 3\n" + three).triangles, obj(three + "f 1 2 3\n").triangles);
+}
+
 TEST(TriangleMesh, RefusesBadObjNamingThePlace) {
     EXPECT_EQ(obj_error(three + "f 1 2 4\n"),
-              "input: m.obj:4:7: there is no vertex 4; 3 are given before this line");
+              "input: m.obj:4:7: there is no vertex 4; the file has 3");
     EXPECT_NE(obj_error(three + "f 1 2 -4\n"), "");
     EXPECT_NE(obj_error(three + "f 0 1 2\n"), "");
-    EXPECT_NE(obj_error("f 1 2 3\n" + three), "");
+    EXPECT_EQ(obj_error("f 1 2 3\nf 1 2 7\nf 2 3 5\n" + three),
+              "input: m.obj:2:7: there is no vertex 7; the file has 3");
+    EXPECT_EQ(obj_error("f -1 -2 -3\n" + three),
+              "input: m.obj:1:3: there is no vertex -1; 0 are given before this line");
     EXPECT_EQ(obj_error(three + "f 1 2\n"),
               "input: m.obj:4:1: a face of 2 corners; at least 3 are needed");
     EXPECT_EQ(obj_error(three + "f 1 2 x\n"),

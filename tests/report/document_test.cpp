@@ -48,11 +48,54 @@ TEST(Document, JsonHasTypesAndNoGridsOrInfinities) {
 }
 
 TEST(Document, CsvIsATidyTableOfItsCurves) {
-    const Measurement m = sample();
+    Measurement m = sample();
+    m.dimension = 1;
     EXPECT_EQ(to_csv({&m, 1}),
               "analyzer,source,set,count,dimension,domain,value,flag,word,huge,curves.f,curves.n\n"
-              "unit,\"a,b.csv\",,3,2,unit-cube,0.1,true,fine,inf,1,8\n"
-              "unit,\"a,b.csv\",,3,2,unit-cube,0.1,true,fine,inf,2,16\n");
+              "unit,\"a,b.csv\",,3,1,unit-cube,0.1,true,fine,inf,1,8\n"
+              "unit,\"a,b.csv\",,3,1,unit-cube,0.1,true,fine,inf,2,16\n");
+}
+
+// Lists that are no curves: a corner, which stands alone, and one number for each axis.
+TEST(Document, CsvHasOneRowForAResultWithoutCurves) {
+    Measurement m = sample();
+    m.results = Report();
+    m.results.add(
+        "box", Report().add("corner", Report::Curve{0.5, 0.25, 1}).add("points", std::int64_t{7}));
+    m.results.add("mean", Report::Curve{1, 2}).add("variance", Report::Curve{3, 4});
+    EXPECT_EQ(to_csv({&m, 1}),
+              "analyzer,source,set,count,dimension,domain,box.corner.0,box.corner.1,box.corner.2,"
+              "box.points,mean.0,mean.1,variance.0,variance.1\n"
+              "unit,\"a,b.csv\",,3,2,unit-cube,0.5,0.25,1,7,1,2,3,4\n");
+}
+
+TEST(Document, CsvTablesOfOneReportFollowEachOther) {
+    Measurement m = sample();
+    m.dimension = 1;
+    m.results = Report();
+    m.results.add("value", std::int64_t{5})
+        .add("prefixes",
+             Report().add("n", Report::Integers{1, 2, 4}).add("t", Report::Curve{7, 8, 9}));
+    m.results.add("pairs",
+                  Report().add("axis", Report::Integers{1, 2}).add("t", Report::Curve{0, 1}));
+    const std::string same = "unit,\"a,b.csv\",,3,1,unit-cube,5,";
+    EXPECT_EQ(to_csv({&m, 1}),
+              "analyzer,source,set,count,dimension,domain,value,prefixes.n,prefixes.t,pairs.axis,"
+              "pairs.t\n" +
+                  same + "1,7,,\n" + same + "2,8,,\n" + same + "4,9,,\n" + same + ",,1,0\n" + same +
+                  ",,2,1\n");
+}
+
+// Reports with different keys, and with fewer numbers in a list, keep their own columns.
+TEST(Document, CsvColumnsAreThoseOfAllResults) {
+    Measurement one = sample();
+    Measurement two = sample();
+    one.results = Report().add("a", std::int64_t{1}).add("corner", Report::Curve{0.5, 0.25});
+    two.results = Report().add("corner", Report::Curve{1}).add("b", std::int64_t{2});
+    const std::string same = "unit,\"a,b.csv\",,3,2,unit-cube,";
+    EXPECT_EQ(to_csv(std::vector{one, two}),
+              "analyzer,source,set,count,dimension,domain,a,corner.0,corner.1,b\n" + same +
+                  "1,0.5,0.25,\n" + same + ",1,,2\n");
 }
 
 TEST(Document, TextNamesUnits) {
@@ -94,8 +137,18 @@ TEST(Document, CsvOfAMeanHasItsStandardErrors) {
     m.standard_error.emplace();
     m.standard_error->add("value", 0.25).add("curve", Report::Curve{0.5, 0.125});
     EXPECT_EQ(to_csv(std::vector{m}),
-              "analyzer,source,set,count,dimension,domain,value,curve,standard_error.value,"
-              "standard_error.curve\n"
-              "a,p,,4,2,disk,0.5,1,0.25,0.5\n"
-              "a,p,,4,2,disk,0.5,2,0.25,0.125\n");
+              "analyzer,source,set,count,dimension,domain,value,curve.0,curve.1,"
+              "standard_error.value,standard_error.curve.0,standard_error.curve.1\n"
+              "a,p,,4,2,disk,0.5,1,2,0.25,0.5,0.125\n");
+}
+
+TEST(Document, CsvHasErrorsOfCurvesOnTheirRows) {
+    Measurement m{.analyzer = "a", .source = "p", .count = 4, .dimension = 1, .domain = "disk"};
+    m.results.add("x", Report::Curve{1, 2}).add("y", Report::Curve{3, 4});
+    m.standard_error.emplace();
+    m.standard_error->add("x", Report::Curve{0.5, 0.25}).add("y", Report::Curve{0, 0.125});
+    EXPECT_EQ(to_csv(std::vector{m}),
+              "analyzer,source,set,count,dimension,domain,x,y,standard_error.x,standard_error.y\n"
+              "a,p,,4,1,disk,1,3,0.5,0\n"
+              "a,p,,4,1,disk,2,4,0.25,0.125\n");
 }

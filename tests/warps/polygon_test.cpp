@@ -217,16 +217,18 @@ TEST(Polygon, DomainSaysWhatItIsAndParsesBack) {
 
 TEST(Polygon, RefusesCrossingsAndNamesThem) {
     EXPECT_EQ(error("polygon:vertices=[0,0 1,1 1,0 0,1]"),
-              "usage: --vertices: edge 1 (0,0 to 1,1) and edge 3 (1,0 to 0,1) cross");
+              "usage: --vertices: edge 1 (0,0 to 1,1) and edge 3 (1,0 to 0,1) cross; edges may "
+              "meet in a vertex that they share only");
     EXPECT_EQ(error("polygon:vertices=[0,0 4,0 4,4 0,4 / 3,1 5,1 5,2 3,2]"),
               "usage: --vertices: edge 2 of ring 1 (4,0 to 4,4) and edge 1 of ring 2 (3,1 to 5,1) "
-              "cross");
+              "cross; edges may meet in a vertex that they share only");
     EXPECT_NE(error("polygon:vertices=[0,0 4,0 4,4 0,4 / 2,0 3,1 2,1]"), "") << "touches an edge";
     EXPECT_NE(error("polygon:vertices=[0,0 4,0 4,4 0,4 / 4,4 5,4 5,5]"), "") << "shares a corner";
     EXPECT_NE(error("polygon:vertices=[0,0 2,0 2,1 / 0,0 2,0 2,1]"), "") << "twice the same";
     EXPECT_NE(error("polygon:vertices=[0,0 2,0 1,1 2,2 0,2 1,1]"), "") << "touches itself";
     EXPECT_EQ(error("polygon:vertices=[0,0 2,0 2,2 2,3 2,2 0,2]"),
-              "usage: --vertices: edge 2 (2,0 to 2,2) and edge 4 (2,3 to 2,2) touch")
+              "usage: --vertices: edge 2 (2,0 to 2,2) and edge 4 (2,3 to 2,2) touch; edges may "
+              "meet in a vertex that they share only")
         << "a spike";
 }
 
@@ -271,7 +273,8 @@ TEST(PolygonFile, ComplainsByItsName) {
         return what.substr(std::min(what.size(), path.size() + 7));
     };
     EXPECT_EQ(complaint("0,0\n1,1\n1,0\n0,1\n"),
-              ": edge 1 (0,0 to 1,1) and edge 3 (1,0 to 0,1) cross");
+              ": edge 1 (0,0 to 1,1) and edge 3 (1,0 to 0,1) cross; edges may meet in a vertex "
+              "that they share only");
     EXPECT_EQ(complaint("0,0,0\n1,0,0\n0,1,0\n"), ": 3 coordinates a line; 2 are needed, x,y");
     EXPECT_EQ(complaint("0,0\n1,0\n0,one\n"),
               ":3:3: 'one' is not a finite number; expected a coordinate");
