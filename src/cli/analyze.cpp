@@ -68,6 +68,23 @@ void check_bounds(const Arguments& arguments) {
             fail(ErrorKind::usage, "--bounds and --{}: give one of them", other);
 }
 
+/// Points of another domain may lie in the cube and be no sample of it.
+/// @throws Error(input) where the set says that it has another domain.
+PointSet of_the_cube(PointSet points, const Analyzer& analyzer) {
+    const std::string domain = points.domain->spec();
+    const auto outside = [](double x) { return !(x >= 0 && x <= 1); };
+    if (!analyzer.traits.unit_cube || domain == "unit-cube" ||
+        (domain.starts_with("box") &&
+         points.domain->bounding_box() == unit_cube(points.dimension())->bounding_box()) ||
+        std::ranges::any_of(points.flat(), outside))  // which is said with the first of them
+        return points;
+    fail_with_hint(ErrorKind::input,
+                   "--rescale or --bounds lo..hi moves points into the cube; --domain unit-cube "
+                   "takes them as they are",
+                   "{} measures points against the unit cube; the domain of these is {}",
+                   analyzer.name, domain);
+}
+
 /// --bounds says what box the points live on. Analyzers of the unit cube get them mapped to it; the
 /// others measure them where they are, distances and integrals in the box.
 PointSet prepared(PointSet points, const Analyzer& analyzer, const Arguments& arguments) {
@@ -86,7 +103,7 @@ PointSet prepared(PointSet points, const Analyzer& analyzer, const Arguments& ar
         const Box box = box_around(points);
         return to_unit_cube(std::move(points), box);
     }
-    return points;
+    return of_the_cube(std::move(points), analyzer);
 }
 
 bool tells(const Analyzer& analyzer, std::string_view key) {
@@ -226,7 +243,8 @@ class Analysis {
         const auto start = Clock::now();
         const auto count = generated.streamed();
         if (!analyzer_.accumulate || !count) {
-            batch_.add({generated.made(set, quiet), text, set, generated.sets()});
+            batch_.add(
+                {of_the_cube(generated.made(set, quiet), analyzer_), text, set, generated.sets()});
             return;
         }
         Found found =
