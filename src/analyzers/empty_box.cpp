@@ -42,8 +42,9 @@ struct Width {
 /// among those below the present one: on the torus, those above are below it, once round.
 class Sweep {
   public:
-    Sweep(const BoxGrid& grid, const RunContext& run)
+    Sweep(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run)
         : grid_(grid),
+          limits_(limits),
           run_(run),
           torus_(grid.space == Space::torus),
           n_(static_cast<std::int64_t>(grid.count)),
@@ -59,7 +60,15 @@ class Sweep {
             seat_of_[grid.order[0][seat]] = static_cast<std::uint32_t>(seat);
     }
 
-    WorstBox run() {
+    EmptyRectangle run() {
+        const bool complete = sweep();
+        if (!complete) offer_gaps();
+        return {worst_, complete};
+    }
+
+  private:
+    /// False if it is cut short.
+    bool sweep() {
         const auto& upward = grid_.order[1];
         const std::size_t n = upward.size();
         if (torus_) {
@@ -70,7 +79,10 @@ class Sweep {
         for (std::size_t first = 0, last = 0; first < n; first = last) {
             const std::uint32_t top = grid_.ranks[1][upward[first]];
             for (; last < n && grid_.ranks[1][upward[last]] == top; ++last) {
-                if (last % 1024 == 0) run_.tick(last, n);
+                if (last % 1024 == 0) {
+                    if (limits_.over(run_)) return false;
+                    run_.tick(last, n);
+                }
                 follow_below(upward[last]);
             }
             // Points on the ceiling are on the rim of what ends there.
@@ -79,10 +91,16 @@ class Sweep {
         }
         if (!torus_) hang_from_ceiling();
         run_.tick(n, n);
-        return worst_;
+        return true;
     }
 
-  private:
+    /// Rectangles between neighbouring places on the first axis.
+    void offer_gaps() {
+        const auto top = static_cast<std::uint32_t>(grid_.values[1].size() - 1);
+        const Interval whole = torus_ ? Interval{0, 0} : Interval{0, top};
+        for (std::uint32_t a = 0; a < end_; ++a) offer({a, a + 1}, whole);
+    }
+
     void enter(std::uint32_t point, std::size_t key) {
         keys_.set(seat_of_[point], static_cast<std::uint32_t>(key));
     }
@@ -196,6 +214,7 @@ class Sweep {
     }
 
     const BoxGrid& grid_;
+    const SearchLimits& limits_;
     const RunContext& run_;
     bool torus_;
     std::int64_t n_;
@@ -209,8 +228,9 @@ class Sweep {
 
 }  // namespace
 
-WorstBox largest_empty_rectangle(const BoxGrid& grid, const RunContext& run) {
-    return Sweep(grid, run).run();
+EmptyRectangle largest_empty_rectangle(const BoxGrid& grid, const SearchLimits& limits,
+                                       const RunContext& run) {
+    return Sweep(grid, limits, run).run();
 }
 
 }  // namespace stipple::analyzers::extreme

@@ -5,6 +5,7 @@
 
 #include "analyzers/extreme_cell.hpp"
 #include "analyzers/extreme_search.hpp"
+#include "analyzers/star_blocks.hpp"
 #include "analyzers/star_search.hpp"
 #include "analyzers/star_sweep.hpp"
 
@@ -29,17 +30,34 @@ PointSet on_space(const PointSet& points, Space space) {
     return moved;
 }
 
-/// An upper bound from the star discrepancy of the points, where that promises something; 1
-/// otherwise. An interval is one from 0 less another, on the torus plus the whole axis if it wraps:
-/// a box is 2^d boxes from the origin, or 3^d with the whole space, which has no discrepancy.
+/// How many boxes from the origin a box is the sum and difference of. An interval is one from 0
+/// less another; on the torus, if it wraps, the whole axis is added, and the whole space has no
+/// discrepancy.
+double boxes_on_cube(double dimension) { return std::pow(2, dimension); }
+double boxes_on_torus(double dimension) { return std::pow(3, dimension) - 1; }
+
+constexpr std::uint64_t few_corners = 1U << 18;
+
+/// Goes on when a stop is requested.
+double block_bound(const star::CornerGrid& grid, Space space, std::uint64_t corners,
+                   const RunContext& run) {
+    RunContext unstopped = run;
+    unstopped.stop = {};
+    const auto boxes = space == Space::cube ? boxes_on_cube : boxes_on_torus;
+    return star::block_bound(grid, corners, unstopped, boxes);
+}
+
+/// An upper bound from the star discrepancies of the points and of their coordinates on a few axes.
 double star_bound(const PointSet& points, Space space, const SearchLimits& limits,
                   const RunContext& run) {
     const auto d = static_cast<double>(points.dimension());
     const auto n = static_cast<double>(points.count());
-    const double boxes = space == Space::cube ? std::pow(2, d) : std::pow(3, d) - 1;
-    const double promised = 0.6 * std::sqrt(d / n);  // of random points, about
-    if (d < 2 || boxes * promised >= 1) return 1;
+    if (d < 2) return 1;
+    const auto boxes = space == Space::cube ? boxes_on_cube : boxes_on_torus;
     const star::CornerGrid grid = star::corner_grid(on_space(points, space), run);
+    const double known = block_bound(grid, space, std::min(few_corners, limits.work / 64), run);
+    const double promised = 0.6 * std::sqrt(d / n);  // of random points, about
+    if (boxes(d) * promised >= known || run.stop.stop_requested()) return known;
     double bound = 1;
     if (points.dimension() == 2) {
         const star::Sweep sweep = star::sweep_2d(grid, limits, run);
@@ -47,7 +65,7 @@ double star_bound(const PointSet& points, Space space, const SearchLimits& limit
     } else {
         bound = star::find_worst(grid, limits, run).upper;
     }
-    return std::min(1.0, boxes * bound * (1 + 0x1p-50));
+    return std::min(known, boxes(d) * bound * (1 + 0x1p-50));
 }
 
 /// What that bound may take: little of a long search, nothing to speak of where no end is set.
@@ -63,6 +81,13 @@ SearchLimits share_for_bound(const SearchLimits& limits, const RunContext& run) 
 }
 
 }  // namespace
+
+double quick_bound(const PointSet& points, Space space, const RunContext& run) {
+    RunContext unstopped = run;
+    unstopped.stop = {};
+    const star::CornerGrid grid = star::corner_grid(on_space(points, space), unstopped);
+    return block_bound(grid, space, few_corners, unstopped);
+}
 
 Findings discrepancy(const PointSet& points, Space space, const SearchLimits& limits,
                      const RunContext& run) {

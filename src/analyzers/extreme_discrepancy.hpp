@@ -45,6 +45,10 @@ struct Findings {
 Findings discrepancy(const PointSet& points, Space space, const SearchLimits& limits,
                      const RunContext& run);
 
+/// No box of two and more dimensions has a larger discrepancy; found in milliseconds, or some more
+/// of many points. Goes on when a stop is requested.
+double quick_bound(const PointSet& points, Space space, const RunContext& run);
+
 /// Bytes that a search with so many threads takes, the grid included.
 double search_memory(const PointSet& points, unsigned threads);
 

@@ -83,13 +83,6 @@ struct LowerBound {
 
 using Cells = std::priority_queue<Cell, std::vector<Cell>, LowerBound>;
 
-/// Progress is how much of the gap between the bounds is closed.
-void report_gap(double lower, double upper, const RunContext& run) {
-    constexpr std::uint64_t parts = 1'000'000;
-    const double open = lower < 1 ? std::min((upper - lower) / (1 - lower), 1.0) : 0;
-    run.tick(parts - static_cast<std::uint64_t>(open * static_cast<double>(parts)), parts);
-}
-
 class Search {
   public:
     Search(const BoxGrid& grid, WorstBox worst, const SearchLimits& limits, const RunContext& run,

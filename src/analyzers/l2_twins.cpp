@@ -2,11 +2,11 @@
 #include "analyzers/l2_twins.hpp"
 
 #include <algorithm>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 
+#include "analyzers/l2_terms.hpp"
 #include "core/parallel.hpp"
 
 // The vectors never leave a function that is not inlined.
@@ -24,8 +24,6 @@
 
 namespace stipple::analyzers::l2 {
 namespace {
-
-using Quad = boost::multiprecision::cpp_bin_float_quad;
 
 constexpr std::size_t lanes = 4;
 constexpr std::size_t width = 64;   ///< points of a block
@@ -207,57 +205,6 @@ Quad sum_over_pairs(const Table& table, const RunContext& run) {
     return total;
 }
 
-/// The kernel of an axis in its terms of x, x^2 and |x - 1/2|: 1 + w k, or k alone.
-class AxisTerms {
-  public:
-    AxisTerms(const KindRecord& record, bool alone, double weight)
-        : kernel_(record.kernel), one_(alone ? 0 : 1), unit_(Quad(record.scale) * weight / 48) {}
-
-    [[nodiscard]] AxisConstants constants() const {
-        AxisConstants axis;
-        axis.product = TwinNumber(coefficient(kernel_.s11));
-        axis.distance = TwinNumber(coefficient(kernel_.sigma));
-        return axis;
-    }
-
-    /// The part of the factor that belongs to a point.
-    [[nodiscard]] Quad own(double x) const {
-        const Quad q = x;
-        return (one_ + coefficient(kernel_.s00)) / 2 + coefficient(kernel_.s01) * q +
-               coefficient(kernel_.s02) * q * q + coefficient(kernel_.s03) * abs(Quad(q - 0.5));
-    }
-
-    /// Mean of the factor over the other point.
-    [[nodiscard]] Quad mean(double x) const {
-        const Quad q = x;
-        return one_ + coefficient(kernel_.mean[0]) + coefficient(kernel_.mean[1]) * q +
-               coefficient(kernel_.mean[2]) * q * q +
-               coefficient(kernel_.mean[3]) * abs(Quad(q - 0.5));
-    }
-
-    [[nodiscard]] Quad total() const { return one_ + coefficient(kernel_.total); }
-
-    /// More than all terms of a factor together.
-    [[nodiscard]] double terms() const {
-        const std::int64_t all = std::abs(kernel_.s00) + 2 * std::abs(kernel_.s01) +
-                                 2 * std::abs(kernel_.s02) + std::abs(kernel_.s03) +
-                                 std::abs(kernel_.s11) + std::abs(kernel_.sigma);
-        return static_cast<double>(one_ + coefficient(all));
-    }
-
-    /// The largest factor of the kinds for which that is the one of two equal points.
-    [[nodiscard]] double most() const {
-        return static_cast<double>(one_ + coefficient(kernel_.s00));
-    }
-
-  private:
-    [[nodiscard]] Quad coefficient(std::int64_t s) const { return unit_ * s; }
-
-    AxisKernel kernel_;
-    int one_;
-    Quad unit_;
-};
-
 struct Prepared {
     Table table;
     Quad means = 0;    ///< mean of the products of the factors' means
@@ -299,7 +246,10 @@ Prepared prepare(const PointSet& points, Kind kind, const std::vector<double>& w
         if (weight == 0) continue;
         axes.push_back(j);
         terms.emplace_back(record, alone, weight);
-        out.table.axes.push_back(terms.back().constants());
+        AxisConstants axis;
+        axis.product = TwinNumber(terms.back().product());
+        axis.distance = TwinNumber(terms.back().distance());
+        out.table.axes.push_back(axis);
         out.total *= terms.back().total();
         out.terms += terms.back().terms();
         out.most *= std::max(1.0, terms.back().most());

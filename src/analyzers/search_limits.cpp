@@ -16,6 +16,14 @@ SearchLimits SearchLimits::after(std::uint64_t spent) const {
     return left;
 }
 
+void report_gap(double lower, double upper, const RunContext& run) {
+    if (!run.progress) return run.check_stop();
+    constexpr std::uint64_t parts = 1'000'000;
+    const double open = lower < 1 ? std::clamp((upper - lower) / (1 - lower), 0.0, 1.0) : 0;
+    run.tick(parts - static_cast<std::uint64_t>(open * static_cast<double>(parts)), parts,
+             fmt::format("between {:.4g} and {:.4g}", lower, upper));
+}
+
 Limits::Limits(const Values& options, const RunContext& run)
     : exact(options[limit::method] == "exact"),
       bounded(options[limit::method] == "bounds"),

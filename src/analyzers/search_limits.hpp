@@ -86,6 +86,10 @@ struct Bounds {
     Ending ending;
 };
 
+/// Progress of a search for what is between these bounds: how much of the gap is closed, and words
+/// that say where it is. Ticks.
+void report_gap(double lower, double upper, const RunContext& run);
+
 /// What the options say, for a run whose clock is at `start`.
 class Limits {
   public:

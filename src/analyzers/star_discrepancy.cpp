@@ -102,7 +102,8 @@ star::SearchResult sweep_or_search(const star::CornerGrid& grid, const Limits& l
     const star::Sweep sweep = star::sweep_2d(grid, first, run);
     how = "sweep-2d";
     if (sweep.complete) return {sweep.worst, sweep.worst.value(), Ending::complete};
-    if (run.stop.stop_requested()) return {sweep.worst, 1, Ending::stopped};
+    if (run.stop.stop_requested())
+        return star::certain_at_once(grid, sweep.worst, Ending::stopped, run);
     how = "branch-and-bound";
     return star::search(grid, sweep.worst, limits.search, run);
 }

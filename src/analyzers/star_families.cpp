@@ -54,6 +54,15 @@ class Shares {
     std::mutex mutex_;
 };
 
+/// What is certain of any n points, of any kind of discrepancy: that of the coordinates on an axis
+/// is at least 1/(2n).
+Report least_known(std::size_t count) {
+    const double lower = 0.5 / static_cast<double>(count);
+    Report known;
+    known.add("value", lower).add("lower", lower).add("upper", 1.0);
+    return known;
+}
+
 /// Measures the sets of a table.
 class Table {
   public:
@@ -74,7 +83,7 @@ class Table {
             found = measure_({points, limits, like}, mine);
         } catch (const Error& e) {
             if (e.kind() != ErrorKind::cancelled) throw;
-            found.add("value", 0.0).add("lower", 0.0).add("upper", 1.0);
+            found = least_known(points.count());
         }
         columns.put(row, found);
         const std::lock_guard lock(counting_);

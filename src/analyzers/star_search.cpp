@@ -21,7 +21,9 @@
 #include <algorithm>
 #include <deque>
 #include <optional>
+#include <utility>
 
+#include "analyzers/star_blocks.hpp"
 #include "analyzers/star_cell.hpp"
 #include "analyzers/star_cover.hpp"
 #include "analyzers/star_net.hpp"
@@ -127,14 +129,26 @@ class Search {
                 round();
             } catch (const Error& e) {
                 if (e.kind() != ErrorKind::cancelled) throw;
-                return {worst_, upper_, Ending::stopped};
+                return certain(Ending::stopped);
             }
-        return {worst_, upper_, *ending()};
+        return certain(*ending());
     }
 
   private:
     /// Comparisons; a quarter of a second of them.
     static constexpr std::uint64_t short_work = 1U << 28;
+
+    SearchResult certain(Ending ending) {
+        if (ending != Ending::complete) look_quickly();
+        return {worst_, upper_, ending};
+    }
+
+    /// The bounds that cost next to nothing, once.
+    void look_quickly() {
+        if (std::exchange(looked_, true)) return;
+        offer_slabs(field_.grid, worst_);
+        upper_ = std::max(worst_.value(), std::min(upper_, quick_bound(field_.grid, run_)));
+    }
 
     [[nodiscard]] std::optional<Ending> ending() const {
         if (cells_.empty() || upper_ <= worst_.value()) return Ending::complete;
@@ -157,7 +171,7 @@ class Search {
             tell(tasks);
             unless_stopped([&] { settle(); });
         }
-        return {worst_, upper_, stopped_ ? Ending::stopped : *ending()};
+        return certain(stopped_ ? Ending::stopped : *ending());
     }
 
     /// Does it, or has it interrupted. True: it is done.
@@ -248,6 +262,7 @@ class Search {
     }
 
     void look_around() {
+        if (work_ > short_work / 4) look_quickly();
         constexpr std::uint64_t hunts_apart = 16;  // in units of what they cost
         if (work_ > short_work && hunts_apart * hunted_ < work_) hunt();
         if (!covered_ && (steadily() || work_ > short_work)) cover();
@@ -316,10 +331,7 @@ class Search {
         if (!cells_.empty() && cells_.front().bound < worst_.value()) cells_.clear();
         upper_ = cells_.empty() ? worst_.value()
                                 : std::max(worst_.value(), std::min(upper_, cells_.front().bound));
-        constexpr std::uint64_t parts = 1'000'000;
-        const double lower = worst_.value();
-        const double open = lower < 1 ? (upper_ - lower) / (1 - lower) : 0;
-        run_.tick(parts - static_cast<std::uint64_t>(open * static_cast<double>(parts)), parts);
+        report_gap(worst_.value(), upper_, run_);
     }
 
     /// An upper bound for about an eighth of the work or time that is left.
@@ -356,6 +368,7 @@ class Search {
     std::vector<Cell> cells_;  ///< that are open; a heap, the highest bound first
     std::size_t most_cells_;   ///< to keep; with more, cells are explored to the end
     double upper_ = 1;
+    bool looked_ = false;
     bool covered_ = false;
     std::uint64_t work_ = 0;
     std::uint64_t hunted_ = 0;  ///< part of work_
@@ -368,6 +381,13 @@ class Search {
 
 }  // namespace
 
+SearchResult certain_at_once(const CornerGrid& grid, WorstBox worst, Ending ending,
+                             const RunContext& run) {
+    offer_slabs(grid, worst);
+    const double upper = std::max(worst.value(), quick_bound(grid, run));
+    return {std::move(worst), upper, ending};
+}
+
 SearchResult search(const CornerGrid& grid, WorstBox worst, const SearchLimits& limits,
                     const RunContext& run, Peers* peers) {
     return Search(grid, std::move(worst), limits, run, peers).go();
@@ -377,7 +397,8 @@ SearchResult find_worst(const CornerGrid& grid, const SearchLimits& limits, cons
                         const Hint* hint, Peers* peers) {
     const Ascent first = ascend(grid, limits, run, hint);
     if (peers == nullptr && limits.over(run))
-        return {first.worst, 1, limits.late(run) ? Ending::time : Ending::stopped};
+        return certain_at_once(grid, first.worst, limits.late(run) ? Ending::time : Ending::stopped,
+                               run);
     const SearchLimits left = limits.after(first.work);
     return search(grid, first.worst, left, run, peers);
 }

@@ -30,6 +30,10 @@ SearchResult search(const CornerGrid& grid, WorstBox worst, const SearchLimits& 
 SearchResult find_worst(const CornerGrid& grid, const SearchLimits& limits, const RunContext& run,
                         const Hint* hint = nullptr, Peers* peers = nullptr);
 
+/// What is certain without a search: that box or a worse one, and a bound that takes milliseconds.
+SearchResult certain_at_once(const CornerGrid& grid, WorstBox worst, Ending ending,
+                             const RunContext& run);
+
 /// Bytes that the search takes, with these points, beside the grid.
 double search_bytes(std::size_t count, std::size_t dimension, unsigned threads);
 

@@ -284,7 +284,8 @@ class Analysis {
         const auto start = Clock::now();
         const auto count = generated.streamed();
         if (!analyzer_.accumulate || !count) {
-            batch_.add({generated.made(set, quiet), text, set, generated.sets()});
+            batch_.add(
+                {of_the_cube(generated.made(set, quiet), analyzer_), text, set, generated.sets()});
             return;
         }
         Found found =

@@ -70,6 +70,21 @@ PointSet to_unit_cube(PointSet points, const Box& box) {
 
 }  // namespace
 
+PointSet of_the_cube(PointSet points, const Analyzer& analyzer) {
+    const std::string domain = points.domain->spec();
+    const auto outside = [](double x) { return !(x >= 0 && x <= 1); };
+    if (!analyzer.traits.unit_cube || domain == "unit-cube" ||
+        (domain.starts_with("box") &&
+         points.domain->bounding_box() == unit_cube(points.dimension())->bounding_box()) ||
+        std::ranges::any_of(points.flat(), outside))  // which is said with the first of them
+        return points;
+    fail_with_hint(ErrorKind::input,
+                   "--rescale or --bounds lo..hi moves points into the cube; --domain unit-cube "
+                   "takes them as they are",
+                   "{} measures points against the unit cube; the domain of these is {}",
+                   analyzer.name, domain);
+}
+
 PointSet prepared(PointSet points, const Analyzer& analyzer, const Arguments& arguments) {
     const auto bounds = arguments.get("bounds");
     check_bounds(arguments);
@@ -86,7 +101,7 @@ PointSet prepared(PointSet points, const Analyzer& analyzer, const Arguments& ar
         const Box box = box_around(points);
         return to_unit_cube(std::move(points), box);
     }
-    return points;
+    return of_the_cube(std::move(points), analyzer);
 }
 
 }  // namespace stipple::cli

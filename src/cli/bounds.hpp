@@ -28,6 +28,10 @@ void take_bounds(std::span<double> rows, std::size_t width, const Box& box, std:
 DomainPtr domain_of(const io::PointStream& stream, std::size_t dimension, const Analyzer& analyzer,
                     const Arguments& arguments, const RunContext& run);
 
+/// Points of another domain may lie in the cube and be no sample of it.
+/// @throws Error(input) where the set says that it has another domain.
+PointSet of_the_cube(PointSet points, const Analyzer& analyzer);
+
 /// --bounds says what box the points live on. Analyzers of the unit cube get them mapped to it; the
 /// others measure them where they are, distances and integrals in the box.
 PointSet prepared(PointSet points, const Analyzer& analyzer, const Arguments& arguments);

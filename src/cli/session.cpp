@@ -12,6 +12,7 @@
 #include <ctime>
 #include <fstream>
 #include <limits>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -95,6 +96,7 @@ ProgressBar::ProgressBar(Mode mode)
 
 void ProgressBar::show(double fraction) {
     if (!wanted_) return;
+    const std::string words = std::exchange(words_, {});
     const auto now = Clock::now();
     const bool last = fraction >= 1;
     if (now - start_ < patience_ || (!last && now - shown_ < std::chrono::milliseconds(100)))
@@ -104,8 +106,10 @@ void ProgressBar::show(double fraction) {
     constexpr int width = 30;
     const int filled = static_cast<int>(fraction * width);
     const double elapsed = std::chrono::duration<double>(now - start_).count();
-    const std::string left =
-        fraction > 0 ? duration(elapsed * (1 - fraction) / fraction) + " left" : "";
+    const std::string left = !words.empty() ? words
+                             : fraction > 0
+                                 ? duration(elapsed * (1 - fraction) / fraction) + " left"
+                                 : "";
     say(fmt::format("\r[{:#<{}}{:{}}] {:3.0f} %  {}\033[K", "", filled, "", width - filled,
                     100 * fraction, left));
 }
@@ -125,6 +129,7 @@ Session::Session(const Arguments& arguments)
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     };
     run_.progress = [this](double fraction) { bar_.show(fraction); };
+    run_.note = [this](const std::string& words) { bar_.note(words); };
     run_.warn = [this](const std::string& sentence) { warn(sentence); };
 }
 

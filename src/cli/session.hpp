@@ -11,7 +11,7 @@
 
 namespace stipple::cli {
 
-/// A bar on stderr: "[####      ]  41 %  3 s left".
+/// A bar on stderr: "[####      ]  41 %  3 s left", or what is to stand in place of the time.
 class ProgressBar {
   public:
     enum class Mode { automatic, always, never };
@@ -22,6 +22,8 @@ class ProgressBar {
     ~ProgressBar() { clear(); }
 
     void show(double fraction);
+    /// Words to stand in place of the time left when the bar is shown next.
+    void note(const std::string& words) { words_ = words; }
     /// Takes the bar off the line.
     void clear();
 
@@ -31,6 +33,7 @@ class ProgressBar {
     Clock::duration patience_;
     Clock::time_point start_ = Clock::now();
     Clock::time_point shown_ = {};
+    std::string words_;
     bool visible_ = false;
 };
 

@@ -24,6 +24,11 @@ void RunContext::tick(std::uint64_t done, std::uint64_t total) const {
         progress(std::min(1.0, static_cast<double>(done) / static_cast<double>(total)));
 }
 
+void RunContext::tick(std::uint64_t done, std::uint64_t total, const std::string& words) const {
+    if (progress && note) note(words);
+    tick(done, total);
+}
+
 RunContext RunContext::rising() const {
     RunContext steady = *this;
     if (progress)

@@ -21,6 +21,10 @@ struct RunContext {
     /// Called with the fraction done, in [0, 1] and rising; from one thread at a time.
     std::function<void(double)> progress = {};
 
+    /// Called before `progress` with a few words to show in place of the time left, which such
+    /// progress does not tell; from one thread at a time.
+    std::function<void(const std::string&)> note = {};
+
     /// Called with a sentence that the user should see; from one thread at a time.
     std::function<void(const std::string&)> warn = {};
 
@@ -41,7 +45,10 @@ struct RunContext {
     /// Reports progress and checks for a stop; call it every few milliseconds from one thread.
     void tick(std::uint64_t done, std::uint64_t total) const;
 
-    /// The same, its progress never falling: stages may each report from 0 on.
+    /// The same, with words for where the run stands, such as what is certain so far.
+    void tick(std::uint64_t done, std::uint64_t total, const std::string& words) const;
+
+    /// This run, its progress never falling: stages may each report from 0 on.
     [[nodiscard]] RunContext rising() const;
 
     /// The part of a run whose progress is what lies between two fractions of the whole.

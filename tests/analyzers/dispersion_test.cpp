@@ -264,12 +264,33 @@ TEST(Dispersion, BoundsWhatItHasNoTimeFor) {
     }
 }
 
-TEST(Dispersion, StopsWhenAskedAndRefusesWhatItCannotTake) {
-    std::stop_source source;
-    RunContext run{.stop = source.get_token()};
-    run.progress = [&](double) { source.request_stop(); };
-    EXPECT_EQ(error_of([&] { analyze("dispersion", make("random", points(5000, 2)), {}, run); }),
-              "cancelled: interrupted");
+// Rectangles are cut short, too, by a stop and by a clock.
+TEST(Dispersion, SaysWhatIsCertainWhenThereIsNoTime) {
+    const PointSet p = make("random", points(5000, 2));
+    for (const bool torus : {false, true}) {
+        const double value = value_of(p, torus);
+        std::stop_source source;
+        RunContext run{.stop = source.get_token()};
+        run.progress = [&](double) { source.request_stop(); };
+        const Settings settings{{"torus", torus ? "true" : "false"}};
+        const Report stopped = analyze("dispersion", p, settings, run);
+        int looks = 0;
+        run = {.seconds = [&] { return 1.0 * ++looks; }};
+        const Report late = analyze(
+            "dispersion", p, {{"torus", torus ? "true" : "false"}, {"time-limit", "1"}}, run);
+        for (const Report& report : {stopped, late}) {
+            EXPECT_FALSE(std::get<bool>(*report.find("exact")));
+            EXPECT_GE(report.number("lower"), 1. / 5001);
+            EXPECT_LE(report.number("lower"), value);
+            EXPECT_GE(report.number("upper"), value);
+            EXPECT_LT(report.number("upper"), 0.5);
+            expect_box_holds(p, report, torus);
+        }
+    }
+}
+
+TEST(Dispersion, RefusesWhatItCannotTake) {
+    RunContext run;
     EXPECT_NE(error_of([&] { value_of(points_of({{.5, -1}})); }), "");
     run = {.max_memory = 1000};
     EXPECT_EQ(error_of([&] {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "analyzers/l2_carried.hpp"
 #include "analyzers/l2_divide.hpp"
 #include "analyzers/l2_pairs.hpp"
 #include "analyzers/l2_twins.hpp"
@@ -401,7 +402,28 @@ TEST(L2Discrepancy, OfTwinsIsExactWhereMuchCancels) {
         }
 }
 
-TEST(L2Discrepancy, OfTwinsIsExactWithWeights) {
+// Coordinates that are multiples of 2^-53, and others; equal ones, and ones next to each other.
+TEST(L2Discrepancy, OfCarriedProductsIsThatOfTwins) {
+    PointSet close = random_set(131, 3, 3);
+    for (std::size_t i = 1; i < close.count(); i += 2)
+        for (std::size_t k = 0; k < 3; ++k) close[i][k] = std::nextafter(close[i - 1][k], 0.0);
+    PointSet tiny = random_set(100, 3, 4);
+    for (double& x : tiny.flat()) x *= 1e-18;
+    for (const PointSet& set :
+         {random_set(300, 3, 1), on_lattice(277, 4, 40, 2), make("sobol", points(1024, 5)),
+          make("halton", points(500, 9)), close, tiny})
+        for (const Kind kind : analyzers::l2::all_kinds) {
+            const auto twins = analyzers::l2::twin_square(set, kind, {}, {});
+            const auto carried = analyzers::l2::carried_square(set, kind, {}, {.threads = 2});
+            EXPECT_NEAR(carried.squared, twins.squared, 0x1p-51 * twins.squared)
+                << name_of(kind) << ", d = " << set.dimension();
+            EXPECT_LE(carried.error, 1e-13 * carried.squared) << name_of(kind);
+            EXPECT_EQ(carried.squared,
+                      analyzers::l2::carried_square(set, kind, {}, {.threads = 1}).squared);
+        }
+}
+
+TEST(L2Discrepancy, OfTwinsAndCarriedProductsIsExactWithWeights) {
     const Weights weights{0.25, 1.5, 0, 3};
     for (const PointSet& set : small_sets(4)) {
         if (set.count() > 7) continue;
@@ -411,20 +433,37 @@ TEST(L2Discrepancy, OfTwinsIsExactWithWeights) {
                           exact_square(set, kind, weights)),
                       0x1p-51)
                 << kind.name << ", n = " << set.count();
+            EXPECT_LE(off(analyzers::l2::carried_square(set, which, weights, {}).squared,
+                          exact_square(set, kind, weights)),
+                      0x1p-51)
+                << kind.name << ", n = " << set.count();
         }
     }
 }
 
-// More pairs than are worked out in twice the digits unasked, and few.
-TEST(L2Discrepancy, PreciseIsForManyPoints) {
-    const Settings kind = {{"kind", "modified"}};
-    const Report quick = analyze("l2-discrepancy", make("sobol", points(5100, 4)), kind);
-    EXPECT_GT(quick.number("modified.error"), 1e-12 * quick.number("modified.value"));
-    const PointSet few = make("sobol", points(500, 4));
-    const Report precise =
-        analyze("l2-discrepancy", few, {{"kind", "modified"}, {"precise", "true"}});
-    EXPECT_LE(precise.number("modified.error"), 1e-13 * precise.number("modified.value"));
-    EXPECT_EQ(precise, analyze("l2-discrepancy", few, kind));
+// Plain doubles lose too much in few dimensions, and little enough in many.
+TEST(L2Discrepancy, IsWithinATrillionthUnasked) {
+    for (const std::size_t d : {4, 30}) {
+        const PointSet set = make("sobol", points(d == 4 ? 5100 : 600, d));
+        const auto plain = analyzers::l2::pair_square(set, Kind::star, {}, {});
+        EXPECT_EQ(plain.error > 1e-12 * plain.squared, d == 4);
+        const Report report = report_of(set, {}, "star");
+        EXPECT_LE(report.number("star.error"), 1e-12 * report.number("star.value")) << d;
+        const Report precise =
+            analyze("l2-discrepancy", set, {{"kind", "star"}, {"precise", "true"}});
+        EXPECT_NEAR(precise.number("star.value"), report.number("star.value"),
+                    report.number("star.error"));
+        EXPECT_LE(precise.number("star.error"), 1e-15 * precise.number("star.value")) << d;
+    }
+}
+
+// Products of hundreds of factors leave the range of doubles.
+TEST(L2Discrepancy, CarriesProductsThatDoublesHold) {
+    using analyzers::l2::carries;
+    EXPECT_TRUE(carries(100, Kind::wraparound, {}));
+    EXPECT_FALSE(carries(401, Kind::star, {}));
+    EXPECT_FALSE(carries(300, Kind::diaphony, {}));
+    EXPECT_FALSE(carries(100, Kind::star, Weights(100, 1e-6)));
 }
 
 TEST(L2Discrepancy, OfDividedSetsIsExact) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
 #include <vector>
 
 using namespace stipple;
@@ -17,4 +18,16 @@ TEST(RunContext, StageIsAPartOfTheProgress) {
     run.stage(0.25, 1).tick(3, 3);
     EXPECT_EQ(seen, (std::vector<double>{0.125, 0.25, 1}));
     RunContext{}.stage(0, 1).tick(1, 1);  // nobody listens
+}
+
+// Words go with the progress that they are for, and nowhere where that is not asked for.
+TEST(RunContext, TicksWithWordsForWhereItStands) {
+    std::vector<std::string> seen;
+    RunContext run;
+    run.note = [&](const std::string& words) { seen.push_back(words); };
+    run.tick(1, 2, "nobody sees this");
+    run.progress = [&](double done) { seen.push_back(done < 1 ? "part" : "all"); };
+    run.stage(0, 0.5).tick(1, 1, "between 1 and 2");
+    run.tick(1, 1);
+    EXPECT_EQ(seen, (std::vector<std::string>{"between 1 and 2", "part", "all"}));
 }

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+//
+// Kernels of L2 discrepancies in numbers of 113 bits.
+#pragma once
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <cstdint>
+#include <cstdlib>
+
+#include "analyzers/l2_kind.hpp"
+
+namespace stipple::analyzers::l2 {
+
+using Quad = boost::multiprecision::cpp_bin_float_quad;
+
+/// The factor of an axis, 1 + w k or k alone, in its terms of x, x^2, |x - 1/2|, x y and |x - y|.
+class AxisTerms {
+  public:
+    AxisTerms(const KindRecord& record, bool alone, double weight)
+        : kernel_(record.kernel), one_(alone ? 0 : 1), unit_(Quad(record.scale) * weight / 48) {}
+
+    [[nodiscard]] Quad product() const { return coefficient(kernel_.s11); }
+    [[nodiscard]] Quad distance() const { return coefficient(kernel_.sigma); }
+
+    /// The part of the factor that belongs to a point.
+    [[nodiscard]] Quad own(double x) const {
+        const Quad q = x;
+        return (one_ + coefficient(kernel_.s00)) / 2 + coefficient(kernel_.s01) * q +
+               coefficient(kernel_.s02) * q * q + coefficient(kernel_.s03) * abs(Quad(q - 0.5));
+    }
+
+    /// Mean of the factor over the other point.
+    [[nodiscard]] Quad mean(double x) const {
+        const Quad q = x;
+        return one_ + coefficient(kernel_.mean[0]) + coefficient(kernel_.mean[1]) * q +
+               coefficient(kernel_.mean[2]) * q * q +
+               coefficient(kernel_.mean[3]) * abs(Quad(q - 0.5));
+    }
+
+    [[nodiscard]] Quad total() const { return one_ + coefficient(kernel_.total); }
+
+    /// More than all terms of a factor together.
+    [[nodiscard]] double terms() const {
+        const std::int64_t all = std::abs(kernel_.s00) + 2 * std::abs(kernel_.s01) +
+                                 2 * std::abs(kernel_.s02) + std::abs(kernel_.s03) +
+                                 std::abs(kernel_.s11) + std::abs(kernel_.sigma);
+        return static_cast<double>(one_ + coefficient(all));
+    }
+
+    /// The largest factor of the kinds for which that is the one of two equal points.
+    [[nodiscard]] double most() const {
+        return static_cast<double>(one_ + coefficient(kernel_.s00));
+    }
+
+  private:
+    [[nodiscard]] Quad coefficient(std::int64_t s) const { return unit_ * s; }
+
+    AxisKernel kernel_;
+    int one_;
+    Quad unit_;
+};
+
+}  // namespace stipple::analyzers::l2
