@@ -157,7 +157,7 @@ TEST(Report, RefusesWhatItCannotReportOn) {
     expect_refusal(box.run({"report", "a.csv", "--fail-on", "value", "-o", "r.html"}), 2,
                    "--fail-on: 'value' is not KEY>VALUE");
     expect_refusal(box.run({"report", "a.csv", "--fail-on", "star-discrepncy>1", "-o", "r.html"}),
-                   2, "no set has 'star-discrepncy'");
+                   2, "did you mean star-discrepancy");
     expect_refusal(box.run({"report", "a.csv", "--fail-on", "dispersion.method>1", "-o", "r.html"}),
                    2, "--fail-on");
     expect_refusal(box.run({"report", "a.csv", "-o", "no/such/r.html"}), 4, "no/such");
