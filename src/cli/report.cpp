@@ -305,7 +305,7 @@ class Reporter {
             check.key += ".value";
             return check;
         }
-        std::vector<std::string> keys;
+        std::vector<std::string> keys = page_measures();
         for (const PageSet& set : sets)
             for (auto& key : set.all_results().keys()) keys.push_back(std::move(key));
         const auto meant = nearest_word(check.key, keys);

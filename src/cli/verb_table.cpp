@@ -127,15 +127,15 @@ distances, tests of uniformity in words, its provenance, and the commands that m
 number again.
 
 What a measure does not take (a disk, where it needs the unit cube) is left out with the reason.
-Searches for worst boxes in three and more dimensions end after --max-work comparisons and give
-certain bounds. No clock decides anything: the same sets give the same bytes for any number of
-threads.
+Searches for worst boxes (in three and more dimensions, in two for some) end after --max-work
+comparisons and give certain bounds. No clock decides anything: the same sets give the same bytes
+for any number of threads.
 
 KEYs of --fail-on are MEASURE.RESULT: star-discrepancy.value, l2-discrepancy.centered.value,
 chi-square.verdict, kolmogorov-smirnov.p_value[0]; --json has them all. MEASURE alone is its value.
 The page is written nevertheless.)",
     R"(  stipple report a.csv b.csv -o report.html
-  stipple report --generate halton --generate sobol:scramble=owen --generate random -n 4096 -o report.html
+  stipple report --generate halton --generate sobol:scramble=owen --generate random -n 512 -o report.html
   stipple report points.csv --json --fail-on 'star-discrepancy>0.5' --fail-on 'chi-square.verdict==non-uniform' -o report.json
 )"};
 

@@ -81,7 +81,8 @@ std::string size_row(std::span<const PageSet> sets) {
 }
 
 std::string comparison_of(std::span<const PageSet> sets) {
-    std::string out = "<section id=\"comparison\">\n<h2>Comparison</h2>\n";
+    std::string out = fmt::format("<section id=\"comparison\">\n<h2>{}</h2>\n",
+                                  sets.size() > 1 ? "Comparison" : "Summary");
     for (const std::string& note : page_notes(sets))
         out += fmt::format("<p class=\"note\">{}</p>\n", html_text(note));
     out += "<div class=\"scroll\"><table>\n" + comparison_head(sets) + "<tbody>\n" + size_row(sets);
@@ -285,7 +286,8 @@ std::string page_html(const Page& page) {
     std::string size = fmt::format("{}, {}", plural(sets.size(), "set", "sets"),
                                    plural(first.dimension, "dimension", "dimensions"));
     if (std::ranges::all_of(sets, [&](const PageSet& set) { return set.count == first.count; }))
-        size += fmt::format(", {} points each", first.count);
+        size += fmt::format(", {}{}", plural(first.count, "point", "points"),
+                            sets.size() > 1 ? " each" : "");
     std::string out = head_of(page);
     out += fmt::format("<body>\n<header>\n<h1>{}</h1>\n<p class=\"facts\">{}</p>\n</header>\n",
                        html_text(page.title), html_text(size));

@@ -45,7 +45,7 @@ Json json_of(const PageSet& set) {
     object["dimension"] = set.dimension;
     object["domain"] = set.domain;
     if (!set.command.empty()) object["command"] = set.command;
-    object["meta"] = io::to_json(set.provenance);
+    if (!set.provenance.generator.empty()) object["meta"] = io::to_json(set.provenance);
     object["measures"] = Json::array();
     for (const PageMeasure& measure : set.measures)
         object["measures"].push_back(json_of(measure, set));

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <optional>
 
 #include "core/error.hpp"
@@ -35,17 +36,25 @@ constexpr std::array plans = {
     Planned{"chi-square", "χ² test", "chi-square"},
     Planned{"kolmogorov-smirnov", "Kolmogorov–Smirnov test", "kolmogorov-smirnov"}};
 
-/// Sums over all pairs take n² d steps; in the plane there are faster ways.
+/// What takes n² d steps, for which a comparison of the limit may stand: sums over all pairs, but
+/// for the plane, where there are faster ways, and neighbours where trees do not help any more.
+double steps_of_a_comparison(const Planned& plan, std::size_t dimension) {
+    const std::string_view analyzer = plan.analyzer;
+    if (analyzer == "l2-discrepancy" && dimension > 2) return 20;
+    if (analyzer == "nearest-neighbor" && dimension > 8) return 5;
+    return std::numeric_limits<double>::infinity();
+}
+
+/// @throws Error(limit)
 void need_few_pairs(const Planned& plan, const PointSet& points, const PageLimits& limits) {
-    constexpr double steps_of_a_comparison = 20;
-    if (std::string_view(plan.analyzer) != "l2-discrepancy" || points.dimension() < 3) return;
     const auto n = static_cast<double>(points.count());
     const double steps = n * n * static_cast<double>(points.dimension());
-    if (steps <= steps_of_a_comparison * static_cast<double>(limits.work)) return;
+    const double allowed = steps_of_a_comparison(plan, points.dimension());
+    if (steps <= allowed * static_cast<double>(limits.work)) return;
     fail(ErrorKind::limit,
-         "it would compare all pairs of {} points in {} dimensions, which takes long; the command "
-         "does it, and so does a larger --max-work",
-         points.count(), points.dimension());
+         "it would compare all pairs of {} points in {} dimensions, which takes long; a larger "
+         "--max-work allows it, or 'stipple analyze {}'",
+         points.count(), points.dimension(), plan.analyzer);
 }
 
 PageMeasure described(const Planned& plan, const PageInput& input, const PageLimits& limits,

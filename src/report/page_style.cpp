@@ -8,47 +8,62 @@ namespace stipple {
 
 const char* page_style() {
     return R"CSS(
-:root{color-scheme:light dark;--ground:#fff;--card:#fafafa;--ink:#1b1d21;--muted:#5d636d;--line:#d5d8dd;
---grid:#e9ebee;--band:#e4e6ea;--best:#e8f2ea;--star:#b3261e;--empty:#1a6b3c;--extreme:#6a3fa0;--periodic:#8a5a00;
---c0:#0072b2;--c1:#d55e00;--c2:#00895f;--c3:#b0508a;--c4:#b07d00;--c5:#2f9fd0;--c6:#3c3c3c;--c7:#7a4fc0;
+:root{color-scheme:light dark;--ground:#fff;--card:#fafafa;--ink:#1b1d21;--muted:#5d636d;
+--line:#d5d8dd;
+--grid:#e9ebee;--band:#e4e6ea;--best:#e8f2ea;--star:#b3261e;--empty:#1a6b3c;--extreme:#6a3fa0;
+--periodic:#8a5a00;
+--c0:#0072b2;--c1:#d55e00;--c2:#00895f;--c3:#b0508a;--c4:#b07d00;--c5:#2f9fd0;--c6:#3c3c3c;
+--c7:#7a4fc0;
 --c8:#a03030;--c9:#5f7f1f;--c10:#0f8f8f;--c11:#8f6f5f}
-@media screen and (prefers-color-scheme:dark){:root{--ground:#15171b;--card:#1b1e23;--ink:#e8eaed;--muted:#a3a9b3;
---line:#3a3f47;--grid:#2a2e35;--band:#2f343c;--best:#1d3527;--star:#ff8a80;--empty:#6fcf97;--extreme:#c3a2f5;
---periodic:#e0b050;--c0:#56b4e9;--c1:#f08030;--c2:#1abc90;--c3:#de96be;--c4:#f0be3c;--c5:#8fd0f5;--c6:#d0d0d0;
+@media screen and (prefers-color-scheme:dark){:root{--ground:#15171b;--card:#1b1e23;
+--ink:#e8eaed;--muted:#a3a9b3;
+--line:#3a3f47;--grid:#2a2e35;--band:#2f343c;--best:#1d3527;--star:#ff8a80;--empty:#6fcf97;
+--extreme:#c3a2f5;
+--periodic:#e0b050;--c0:#56b4e9;--c1:#f08030;--c2:#1abc90;--c3:#de96be;--c4:#f0be3c;
+--c5:#8fd0f5;--c6:#d0d0d0;
 --c7:#b69af0;--c8:#f08a8a;--c9:#a9c95a;--c10:#4fd0d0;--c11:#cdb0a0}}
 *{box-sizing:border-box}
 html{-webkit-text-size-adjust:100%}
-body{margin:0 auto;padding:0 1.25rem 4rem;max-width:76rem;background:var(--ground);color:var(--ink);
-font:1rem/1.5 system-ui,-apple-system,"Segoe UI",Roboto,"Helvetica Neue",Arial,"Liberation Sans",sans-serif}
+body{margin:0 auto;padding:0 1.25rem 4rem;max-width:76rem;background:var(--ground);
+color:var(--ink);
+font:1rem/1.5 system-ui,-apple-system,"Segoe UI",Roboto,"Helvetica Neue",
+Arial,"Liberation Sans",sans-serif}
 header{padding:2rem 0 .75rem}
 h1{margin:0;font-size:1.65rem;font-weight:650;letter-spacing:-.01em;line-height:1.2}
-h2{margin:2.75rem 0 .25rem;font-size:1.3rem;font-weight:650;line-height:1.25;overflow-wrap:anywhere}
+h2{margin:2.75rem 0 .25rem;font-size:1.3rem;font-weight:650;line-height:1.25;
+overflow-wrap:anywhere}
 h3{margin:1.75rem 0 .4rem;font-size:1rem;font-weight:650}
 p{margin:.4rem 0}
 .facts,figcaption,.note,.left-out,th small{color:var(--muted)}
 .facts{font-size:.925rem;overflow-wrap:anywhere}
 a{color:inherit}
-nav{position:sticky;top:0;z-index:3;display:flex;flex-wrap:wrap;gap:.3rem 1.1rem;margin:0 -1.25rem;padding:.6rem 1.25rem;
-background:var(--ground);border-bottom:1px solid var(--line);font-size:.925rem;max-height:40vh;overflow-y:auto}
+nav{position:sticky;top:0;z-index:3;display:flex;flex-wrap:wrap;gap:.3rem 1.1rem;
+margin:0 -1.25rem;padding:.6rem 1.25rem;
+background:var(--ground);border-bottom:1px solid var(--line);font-size:.925rem;max-height:40vh;
+overflow-y:auto}
 nav label{display:inline-flex;align-items:center;gap:.4rem;cursor:pointer}
 nav input{margin:0;accent-color:var(--c)}
 nav a{text-decoration-color:var(--c);text-decoration-thickness:2px;text-underline-offset:.25em}
-.swatch{display:inline-block;width:.7em;height:.7em;border-radius:50%;background:var(--c);margin-right:.45em}
+.swatch{display:inline-block;width:.7em;height:.7em;border-radius:50%;background:var(--c);
+margin-right:.45em}
 .scroll{overflow-x:auto;margin:.75rem 0;-webkit-overflow-scrolling:touch}
 table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.925rem}
-th,td{padding:.28rem .9rem .28rem 0;text-align:left;vertical-align:baseline;border-bottom:1px solid var(--grid);white-space:nowrap}
+th,td{padding:.28rem .9rem .28rem 0;text-align:left;vertical-align:baseline;
+border-bottom:1px solid var(--grid);white-space:nowrap}
 td.number,th.number{text-align:right;padding-right:1.1rem}
 thead th{border-bottom:1px solid var(--line);font-weight:600}
 thead th.number{white-space:normal;min-width:6.5rem;max-width:11rem;overflow-wrap:anywhere}
 #comparison th:first-child{position:sticky;left:0;z-index:1;background:var(--ground)}
 #comparison tbody th{font-weight:400}
-tr.group th{padding-top:.9rem;color:var(--muted);font-size:.8rem;font-weight:600;letter-spacing:.04em;text-transform:uppercase}
+tr.group th{padding-top:.9rem;color:var(--muted);font-size:.8rem;font-weight:600;
+letter-spacing:.04em;text-transform:uppercase}
 td.best{font-weight:700;background:var(--best)}
 td.best::after{content:" ★";font-size:.75em;vertical-align:.1em}
 td.none{color:var(--muted)}
 .words{white-space:normal;min-width:9rem}
 .verdict{display:inline-block;min-width:6.5em;font-weight:650}
-.figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,25rem),1fr));gap:1.25rem 2.5rem;align-items:start}
+.figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,25rem),1fr));
+gap:1.25rem 2.5rem;align-items:start}
 .figures .wide{grid-column:1/-1}
 figure{margin:.5rem 0;position:relative;min-width:0}
 figcaption{font-size:.825rem;margin-top:.2rem}
@@ -67,39 +82,55 @@ svg text{fill:var(--muted);font-size:11px;font-family:inherit}
 .rule{stroke:var(--muted);stroke-width:1;visibility:hidden}
 .box{fill:var(--b);fill-opacity:.1;stroke:var(--b);stroke-width:1.6}
 .open{stroke-dasharray:6 4}
-.star{--b:var(--star)}.empty{--b:var(--empty)}.extreme{--b:var(--extreme)}.periodic{--b:var(--periodic)}
+.star{--b:var(--star)}.empty{--b:var(--empty)}.extreme{--b:var(--extreme)}.periodic{
+--b:var(--periodic)}
 .boxes{list-style:none;margin:.4rem 0 0;padding:0;font-size:.85rem}
 .boxes label{cursor:pointer}
 .boxes input{margin:0 .3rem 0 0;vertical-align:-.1em}
 .key{display:inline-block;width:1.1em;height:.75em;border:2px solid var(--b);margin-right:.3em}
 .key.open{border-style:dashed}
 .spectrum{width:100%;image-rendering:pixelated;background:#000}
-.pairs{display:grid;gap:.4rem;grid-template-columns:repeat(auto-fill,minmax(min(45%,11rem),1fr))}
+.pairs{display:grid;gap:.4rem;
+grid-template-columns:repeat(auto-fill,minmax(min(45%,11rem),1fr))}
 .pairs svg text{font-size:13px}
-@media screen and (prefers-color-scheme:dark){.density{filter:invert(1)}svg.points{isolation:isolate}.density{mix-blend-mode:screen}
+@media screen and (prefers-color-scheme:dark){.density{filter:invert(1)}svg.points{
+isolation:isolate}.density{mix-blend-mode:screen}
 .spectrum{filter:brightness(.92)}}
-.tip{position:absolute;z-index:2;pointer-events:none;padding:.35rem .6rem;border:1px solid var(--line);border-radius:.3rem;
-background:var(--ground);font-size:.8rem;line-height:1.4;font-variant-numeric:tabular-nums;white-space:nowrap}
+.tip{position:absolute;z-index:2;pointer-events:none;padding:.35rem .6rem;
+border:1px solid var(--line);border-radius:.3rem;
+background:var(--ground);font-size:.8rem;line-height:1.4;font-variant-numeric:tabular-nums;
+white-space:nowrap}
 .tip[hidden]{display:none}
-.measures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,23rem),1fr));gap:.25rem 2.5rem;align-items:start}
+.measures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,23rem),1fr));
+gap:.25rem 2.5rem;align-items:start}
 .measure{min-width:0}
 .measure table{width:100%}
 .measure td{white-space:normal;overflow-wrap:anywhere}
-.measure th{font-weight:400;color:var(--muted)}.measure th,.measure td{padding-top:.15rem;padding-bottom:.15rem}
-pre{margin:.4rem 0;padding:.45rem .65rem;overflow-x:auto;border-radius:.3rem;background:var(--card);
-border:1px solid var(--grid);font:.8rem/1.45 ui-monospace,SFMono-Regular,Menlo,Consolas,"Liberation Mono",monospace}
+.measure th{font-weight:400;color:var(--muted)}.measure th,.measure td{padding-top:.15rem;
+padding-bottom:.15rem}
+pre{margin:.4rem 0;padding:.45rem .65rem;overflow-x:auto;border-radius:.3rem;
+background:var(--card);
+border:1px solid var(--grid);
+font:.8rem/1.45 ui-monospace,SFMono-Regular,Menlo,Consolas,"Liberation Mono",monospace}
 dl{display:grid;grid-template-columns:max-content 1fr;gap:.15rem 1.2rem;font-size:.9rem}
 dt{color:var(--muted)}dd{margin:0;overflow-wrap:anywhere}
 summary{cursor:pointer}
-footer{margin-top:3rem;padding-top:1rem;border-top:1px solid var(--line);font-size:.85rem;color:var(--muted)}
-@media (max-width:40rem){body{padding:0 .9rem 3rem}nav{margin:0 -.9rem;padding:.5rem .9rem}header{padding-top:1.25rem}
-th,td{padding-right:.7rem}table{font-size:.85rem}#comparison th:first-child{max-width:8.5rem;white-space:normal}th small{white-space:nowrap}
+footer{margin-top:3rem;padding-top:1rem;border-top:1px solid var(--line);font-size:.85rem;
+color:var(--muted)}
+@media (max-width:40rem){body{padding:0 .9rem 3rem}nav{margin:0 -.9rem;padding:.5rem .9rem}
+header{padding-top:1.25rem}
+th,td{padding-right:.7rem}table{font-size:.85rem}#comparison th:first-child{max-width:8.5rem;
+white-space:normal}th small{white-space:nowrap}
 .chart svg text{font-size:17px}.points text{font-size:13px}}
-@media print{:root{color-scheme:light;--ground:#fff;--ink:#000;--muted:#444;--line:#bbb;--grid:#ddd;--band:#e4e4e4}
-body{max-width:none;padding:0;font-size:9.5pt}nav{position:static;margin:0;padding:.3rem 0;max-height:none}nav input,.boxes input{display:none}
+@media print{:root{color-scheme:light;--ground:#fff;--ink:#000;--muted:#444;--line:#bbb;
+--grid:#ddd;--band:#e4e4e4}
+body{max-width:none;padding:0;font-size:9.5pt}nav{position:static;margin:0;padding:.3rem 0;
+max-height:none}nav input,.boxes input{display:none}
 figure,.measure,tr,.verdicts{break-inside:avoid}h2,h3{break-after:avoid}
-section.set{break-before:page}.scroll{overflow:visible}pre{white-space:pre-wrap;overflow-wrap:anywhere}
-.figures{grid-template-columns:1fr 1fr}.picture svg,.picture img{max-width:100%}#comparison{font-size:8pt}
+section.set{break-before:page}.scroll{overflow:visible}pre{white-space:pre-wrap;
+overflow-wrap:anywhere}
+.figures{grid-template-columns:1fr 1fr}.picture svg,.picture img{max-width:100%}#comparison{
+font-size:8pt}
 th,td{white-space:normal;padding-right:.5rem}}
 )CSS";
 }
@@ -166,7 +197,8 @@ const char* page_script() {
         text(tip, (curve.x[i] === shown ? y : y + ' at ' + curve.x[i]) + '  ' + curve.name,
              'var(--c' + curve.set + ')');
       }
-      const place = data.left + (shown - data.from) / (data.to - data.from) * (data.right - data.left);
+      const share = (shown - data.from) / (data.to - data.from);
+      const place = data.left + share * (data.right - data.left);
       rule.setAttribute('transform', 'translate(' + place + ' 0)');
       rule.style.visibility = 'visible';
       tip.hidden = false;
