@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 namespace stipple {
 
@@ -19,6 +20,14 @@ std::unique_ptr<Number[]> unwritten_room(std::size_t count) {
     auto room = std::make_unique_for_overwrite<Number[]>(count);
     ask_for_large_pages(room.get(), count * sizeof(Number));
     return room;
+}
+
+/// Makes an empty vector one of so many zeros.
+template <class Number>
+void fill_with_zeros(std::vector<Number>& room, std::size_t count) {
+    room.reserve(count);
+    ask_for_large_pages(room.data(), count * sizeof(Number));
+    room.resize(count);
 }
 
 }  // namespace stipple
