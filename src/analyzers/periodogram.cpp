@@ -209,7 +209,7 @@ Grid power_of(const FourierSums& sums, const Strengths& strengths, bool hann,
     const std::size_t last = sums.max_frequency;
     const std::size_t width = 2 * last + 1;
     Grid power{.rows = sums.values.size() / (last + 1), .columns = width, .values = {}};
-    power.values = zeros_in_large_pages<double>(power.rows * width);
+    fill_with_zeros(power.values, power.rows * width);
     const double squared = hann ? std::pow(0.375, static_cast<double>(sums.dimension)) : 1;
     const double scale = 1 / (squared * strengths.squares);
     for (std::size_t row = 0; row < power.rows; ++row) {

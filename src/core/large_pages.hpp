@@ -22,14 +22,12 @@ std::unique_ptr<Number[]> unwritten_room(std::size_t count) {
     return room;
 }
 
-/// So many zeros.
+/// Makes an empty vector one of so many zeros.
 template <class Number>
-std::vector<Number> zeros_in_large_pages(std::size_t count) {
-    std::vector<Number> zeros;
-    zeros.reserve(count);
-    ask_for_large_pages(zeros.data(), count * sizeof(Number));
-    zeros.resize(count);
-    return zeros;
+void fill_with_zeros(std::vector<Number>& room, std::size_t count) {
+    room.reserve(count);
+    ask_for_large_pages(room.data(), count * sizeof(Number));
+    room.resize(count);
 }
 
 }  // namespace stipple

@@ -19,6 +19,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/large_pages.hpp"
 #include "generators/disk_grid.hpp"
 #include "generators/disk_window.hpp"
 #include "generators/near_disks.hpp"
@@ -116,6 +117,7 @@ class DiskStamps {
         for (std::size_t k = 0; k < D; ++k)
             to_places_[k] = static_cast<float>(static_cast<double>(places_) / grid.scales[k]);
         stamps_.reserve(power(places_, D) * rows);
+        ask_for_large_pages(stamps_.data(), stamps_.capacity() * sizeof(Row));
         for (std::size_t place = 0; place < power(places_, D); ++place)
             for (std::size_t row = 0; row < rows; ++row) stamps_.push_back(stamp(place, row));
     }
@@ -207,7 +209,8 @@ class DiskCovers {
     using Point = typename Grid::Point;
     using Place = std::array<float, D>;
 
-    explicit DiskCovers(const Grid& grid) : grid_(grid), covered_(grid.spots), stamps_(grid) {
+    explicit DiskCovers(const Grid& grid) : grid_(grid), stamps_(grid) {
+        fill_with_zeros(covered_, grid.spots);
         for (std::size_t k = 0; k < D; ++k) plain_ = plain_ && grid.reach[k] == 2;
         for (std::size_t row = 0; row < steps_.size(); ++row) {
             steps_[row] = -2;

@@ -13,6 +13,7 @@
 #include <cstring>
 #include <vector>
 
+#include "core/large_pages.hpp"
 #include "core/parallel.hpp"
 #include "generators/disk_bits.hpp"
 #include "generators/disk_covers.hpp"
@@ -106,14 +107,16 @@ class CellTiles : public TilesBase<D> {
             to_parts_[k] = static_cast<float>(double{cell_parts<D>} / grid.scales[k]);
             plain_ = plain_ && grid.reach[k] == 2 && grid.cells[k] > 4;
         }
-        heads_.resize(grid.spots);
-        places_.resize(grid.spots);
+        fill_with_zeros(heads_, grid.spots);
+        fill_with_zeros(places_, grid.spots);
         for (std::size_t b = 0; b < about_.size(); ++b) look_at(b);
         for (std::size_t part = 0; part < parts_of_cell; ++part)
             for (std::size_t b = 0; b < about_.size(); ++b)
                 if (reaches(b, part)) masks_[part][b / layer] |= Word{1} << (b % layer);
-        for (const auto& masks : masks_)
-            for (std::size_t z = 0; z < layers; ++z) masks_[whole][z] |= masks[z];
+        for (std::size_t set = 0; set < unions_.size(); ++set)
+            for (std::size_t part = 0; part < parts_of_cell; ++part)
+                for (std::size_t z = 0; (set >> half_of(part) & 1) != 0 && z < layers; ++z)
+                    unions_[set][z] |= masks_[part][z];
     }
 
     /// Asks for the cells of a row that is soon reached from this one; always inline, since GCC
@@ -155,12 +158,12 @@ class CellTiles : public TilesBase<D> {
 
     [[nodiscard]] bool taken(const Index& cell) const { return taken_.has(cell); }
 
-    /// Points that reach into a cell, and some more.
-    void gather(const Tile&, const Index& cell, const Desk<D>&, NearDisks<D, float>& near) const {
+    /// Points that reach into these halves of a cell (halves_of), and some more.
+    void gather(const Index& cell, unsigned halves, NearDisks<D, float>& near) const {
         near.clear();
         if (plain_) {
             const std::size_t at = grid_.spot_of(cell);
-            for_bits(taken_, cell, whole, [&](const Neighbour& n) {
+            for_bits(taken_, cell, unions_[halves], [&](const Neighbour& n) {
                 auto p = places_[at + static_cast<std::size_t>(n.cells)];
                 for (std::size_t k = 0; k < D; ++k) p[k] += n.off[k];
                 near.add(p);
@@ -179,15 +182,14 @@ class CellTiles : public TilesBase<D> {
     }
 
     /// Whether a point covers the place at `off` from a cell's corner.
-    [[nodiscard]] Hit hit_at(const Tile& tile, const Index& cell, const Off& off,
-                             Desk<D>& desk) const {
+    [[nodiscard]] Hit hit_at(const Index& cell, const Off& off, Desk<D>& desk) const {
         if (!plain_) {
-            gather(tile, cell, desk, desk.near);
+            gather(cell, all_halves<D>, desk.near);
             return stipple::hits<D, float>(desk.near, off, float_slack);
         }
         const std::size_t at = grid_.spot_of(cell);
         Hit hit = Hit::no;
-        for_bits(taken_, cell, part_of(off), [&](const Neighbour& n) {
+        for_bits(taken_, cell, masks_[part_of(off)], [&](const Neighbour& n) {
             const float squared = squared_from(at, n, off);
             if (squared < 1 + float_slack) hit = squared < 1 - float_slack ? Hit::yes : Hit::unsure;
             return hit != Hit::yes;
@@ -259,7 +261,7 @@ class CellTiles : public TilesBase<D> {
             const std::size_t at = grid_.spot_of(cell);
             const Off off = off_of(cell, at, c);
             const bool alone = !std::isnan(places_[at][0]);
-            for_bits(pending_, cell, part_of(off), [&](const Neighbour& n) {
+            for_bits(pending_, cell, masks_[part_of(off)], [&](const Neighbour& n) {
                 if (squared_from(at, n, off) > 1 + float_slack) return true;
                 if (n.cells == 0 && alone) return true;
                 found = any_in(stepped(cell, n), c, visit);
@@ -293,7 +295,9 @@ class CellTiles : public TilesBase<D> {
     using Word = typename CellBits<D>::Word;
     static constexpr std::size_t layers = CellBits<D>::layers;
     static constexpr std::size_t layer = CellBits<D>::layer_bits;
-    static constexpr std::size_t whole = parts_of_cell;
+    using Masks = std::array<Word, layers>;                      ///< bits of cells
+    static constexpr std::array<std::size_t, 5> nearest_first =  ///< layers
+        D == 2 ? std::array<std::size_t, 5>{} : std::array<std::size_t, 5>{2, 1, 3, 0, 4};
     static constexpr float not_one = std::numeric_limits<float>::quiet_NaN();  ///< place of several
 
     /// One of the 5^D cells about another.
@@ -324,6 +328,14 @@ class CellTiles : public TilesBase<D> {
             gap += apart * apart * grid_.scales[k] * grid_.scales[k];
         }
         return gap < 1 + float_slack;
+    }
+
+    /// The half of a cell along every direction that a part is in, as halves_of counts them.
+    [[nodiscard]] static std::size_t half_of(std::size_t part) {
+        constexpr std::size_t p = cell_parts<D>;
+        std::size_t half = 0;
+        for (std::size_t k = 0; k < D; ++k, part /= p) half |= part % p / (p / 2) << k;
+        return half;
     }
 
     /// The part of a cell that a place is in.
@@ -383,11 +395,12 @@ class CellTiles : public TilesBase<D> {
 
     /// Calls visit(neighbour) where the bit is set, as long as that is true.
     template <class Visit>
-    void for_bits(const CellBits<D>& bits, const Index& cell, std::size_t part,
+    void for_bits(const CellBits<D>& bits, const Index& cell, const Masks& masks,
                   const Visit& visit) const {
         const auto around = bits.about(cell);
-        for (std::size_t z = 0; z < layers; ++z) {
-            Word found = bits.layer(around, z) & masks_[part][z];
+        for (std::size_t i = 0; i < layers; ++i) {
+            const std::size_t z = nearest_first[i];
+            Word found = bits.layer(around, z) & masks[z];
             for (; found != 0; found &= found - 1) {
                 const auto bit = static_cast<std::size_t>(std::countr_zero(found));
                 if (!visit(about_[layer * z + bit])) return;
@@ -451,8 +464,9 @@ class CellTiles : public TilesBase<D> {
     DiskCovers<D> covers_;
     std::array<Neighbour, layers * layer> about_{};
     Off to_parts_{};  ///< from radii
-    /// For each part of a cell, and for the whole, from which neighbours a disk reaches into it.
-    std::array<std::array<Word, layers>, parts_of_cell + 1> masks_{};
+    /// For each part of a cell from which neighbours a disk reaches into it.
+    std::array<Masks, parts_of_cell> masks_{};
+    std::array<Masks, all_halves<D> + 1> unions_{};  ///< the same for sets of halves
 };
 
 /// For many dimensions.

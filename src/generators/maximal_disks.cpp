@@ -9,6 +9,7 @@
 #include "core/parallel.hpp"
 #include "core/rng.hpp"
 #include "core/text.hpp"
+#include "generators/cube_windows.hpp"
 #include "generators/disk_shower.hpp"
 #include "generators/disk_spots.hpp"
 #include "generators/disk_tiles.hpp"
@@ -111,7 +112,8 @@ class Rain {
         double density = (Tiles::knows_parts ? 8 : 32) * one_to_a_ball();
         if constexpr (Tiles::knows_parts)
             for (int time = 0; time < 4; ++time, density *= 3) rain_on_parts(density);
-        for (bool first = true; !live_.empty(); first = false, density *= 4)
+        constexpr double growth = D == 3 ? 6 : 4;
+        for (bool first = true; !live_.empty(); first = false, density *= growth)
             rain_on_windows(density, first);
     }
 
@@ -241,7 +243,7 @@ class Rain {
                     Mixer& mixer, Desk<D>& desk) {
         std::array<float, D> off;
         for (std::size_t k = 0; k < D; ++k) off[k] = static_cast<float>(place[k] * grid_.scales[k]);
-        const Hit hit = any_points ? tiles_.hit_at(tile, cell, off, desk) : Hit::no;
+        const Hit hit = any_points ? tiles_.hit_at(cell, off, desk) : Hit::no;
         land(tile, cell, place, hit, mixer);
     }
 
@@ -290,7 +292,7 @@ class Rain {
     void fall_on_cells(Tile& tile, const std::vector<Shower>& showers, std::uint64_t key,
                        Desk<D>& desk) {
         const auto fall_in = [&](const Index& cell, const Window<D>& window) {
-            tiles_.gather(tile, cell, desk, desk.near);
+            gather(tile, cell, halves_of(window), desk);
             fall_on<float>(tile, cell, window, showers[window.level], key, desk);
         };
         if constexpr (Tiles::knows_parts)
@@ -312,10 +314,13 @@ class Rain {
             const bool taken = tiles_.taken(cell);
             const std::size_t first = i;
             bool fine = false;
-            for (; i < windows.size() && windows[i].place == place; ++i)
+            unsigned halves = 0;
+            for (; i < windows.size() && windows[i].place == place; ++i) {
                 fine = fine || windows[i].level >= deep;
+                halves |= halves_of(windows[i]);
+            }
             if (taken) continue;
-            tiles_.gather(tile, cell, desk, desk.near);
+            gather(tile, cell, halves, desk);
             if (fine) tiles_.gather(tile, cell, desk, desk.exactly_near);
             for (std::size_t w = first; w < i; ++w) {
                 const Shower& shower = showers[windows[w].level];
@@ -325,6 +330,14 @@ class Rain {
                     fall_on<double>(tile, cell, windows[w], shower, key, desk);
             }
         }
+    }
+
+    /// Puts the points that reach into halves of a cell on the desk, or into all of it.
+    void gather(const Tile& tile, const Index& cell, unsigned halves, Desk<D>& desk) const {
+        if constexpr (Tiles::knows_parts)
+            tiles_.gather(cell, halves, desk.near);
+        else
+            tiles_.gather(tile, cell, desk, desk.near);
     }
 
     /// Darts fall on what is open of a window; what is left of it goes to the desk.
@@ -337,6 +350,8 @@ class Rain {
             raster.corner[k] = static_cast<Real>(window.corner[k] * grid_.scales[k]);
             raster.part[k] = static_cast<Real>(window.part() * grid_.scales[k]);
         }
+        if constexpr (D == 3 && std::is_same_v<Real, float>)
+            return fall_on_cube(tile, cell, window, raster, shower, key, desk);
         const auto [near, reaching] = lists<Real>(desk);
         OpenParts<D> open;
         if (!uncovered<D, Real>(near, raster, slack<Real>(), reaching, open)) return;
@@ -349,6 +364,24 @@ class Rain {
             fall<Real>(tile, cell, place, reaching, mixer);
         }
         narrow<D>(window, open, shower.mean(count), desk.windows);
+    }
+
+    /// The same in space, for windows that are not small.
+    void fall_on_cube(Tile& tile, const Index& cell, const Window<D>& window,
+                      const Raster<D, float>& raster, const Shower& shower, std::uint64_t key,
+                      Desk<D>& desk) {
+        const PartBits open = open_cube(desk.near, raster);
+        if (open == 0) return;
+        const std::size_t count = ones_of(open);
+        Mixer mixer = stream(key, window.place, window.corner, window.level);
+        for (std::uint64_t left = shower.on(count, mixer); left > 0; --left) {
+            Point place = nth_part<D>(open, mixer.below(count));
+            for (std::size_t k = 0; k < D; ++k)
+                place[k] =
+                    window.corner[k] + (place[k] + to_unit(mixer.next()) / parts<D>)*window.side();
+            fall<float>(tile, cell, place, desk.near, mixer);
+        }
+        narrow_cube(window, open, shower.mean(count), desk.windows);
     }
 
     /// Whether no arithmetic could tell a gap of this size from none.

@@ -13,9 +13,8 @@ constexpr std::size_t lanes = 8;
 template <std::size_t D, class Real>
 [[gnu::always_inline]] inline Hit hits_by_lanes(const NearDisks<D, Real>& near,
                                                 const std::array<Real, D>& place, Real slack) {
-    const Real sure = 1 - slack;
-    const Real possible = 1 + slack;
-    std::int32_t found = 0;
+    Real least[lanes];
+    std::fill_n(least, lanes, Real{2});
     for (std::size_t i = 0; i < near.size(); i += lanes)
         for (std::size_t l = 0; l < lanes; ++l) {
             Real squared = 0;
@@ -23,9 +22,11 @@ template <std::size_t D, class Real>
                 const Real off = near.along(k)[i + l] - place[k];
                 squared += off * off;
             }
-            found |= (squared < sure ? 1 : 0) | (squared < possible ? 2 : 0);
+            least[l] = std::min(least[l], squared);
         }
-    return found == 0 ? Hit::no : (found & 1) != 0 ? Hit::yes : Hit::unsure;
+    for (std::size_t some = lanes / 2; some > 0; some /= 2)
+        for (std::size_t l = 0; l < some; ++l) least[l] = std::min(least[l], least[l + some]);
+    return least[0] < 1 - slack ? Hit::yes : least[0] < 1 + slack ? Hit::unsure : Hit::no;
 }
 
 /// Where eight lines lie: their middles along all directions but the first.

@@ -128,15 +128,6 @@ double share_before(std::span<const double> sums, std::size_t cell, double fract
     return std::min((before + fraction * (sums[cell] - before)) / sums.back(), 1.0);
 }
 
-/// Zeros in large pages, where the system has them: points fall anywhere, and looking up where a
-/// small page is takes as long as fetching from it.
-template <class Number>
-void fill_with_zeros(std::vector<Number>& numbers, std::size_t count) {
-    numbers.reserve(count);
-    ask_for_large_pages(numbers.data(), count * sizeof(Number));
-    numbers.resize(count);
-}
-
 /// (cell + fraction) / cells, kept in that cell when rounding would leave it.
 double coordinate(std::size_t cell, double fraction, std::size_t cells) {
     const auto count = static_cast<double>(cells);

@@ -144,7 +144,8 @@ std::vector<std::complex<double>> transform_columns(const Columns& in,
     const LineTransform line(LineTransform::Kind::complex, in.side, planning);
     const std::size_t span = 2 * factors.size() - 1;
     const std::size_t groups = (in.width + together - 1) / together;
-    auto out = zeros_in_large_pages<std::complex<double>>(in.planes * span * in.width);
+    std::vector<std::complex<double>> out;
+    fill_with_zeros(out, in.planes * span * in.width);
     const std::size_t size = std::max<std::size_t>(1, lines_at_a_time(in.side) / together);
     for_each_block(run, in.planes * groups, size, [&](const Block& b) {
         Gathered lines(in.side);
