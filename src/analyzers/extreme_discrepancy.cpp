@@ -57,7 +57,8 @@ double star_bound(const PointSet& points, Space space, const SearchLimits& limit
     const star::CornerGrid grid = star::corner_grid(on_space(points, space), run);
     const double known = block_bound(grid, space, std::min(few_corners, limits.work / 64), run);
     const double promised = 0.6 * std::sqrt(d / n);  // of random points, about
-    if (boxes(d) * promised >= known || run.stop.stop_requested()) return known;
+    const bool cheap = points.dimension() == 2;
+    if ((!cheap && boxes(d) * promised >= known) || run.stop.stop_requested()) return known;
     double bound = 1;
     if (points.dimension() == 2) {
         const star::Sweep sweep = star::sweep_2d(grid, limits, run);

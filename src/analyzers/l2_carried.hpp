@@ -15,8 +15,8 @@
 // correction, too.
 //
 // Shape   n x d points in [0, 1], d <= 400, weights such that no product leaves the doubles' range.
-// Cost    n^2 d / 2 factors; about twice what those of l2_pairs.hpp take, three times where
-//         coordinates are no multiples of 2^-53. Needs an instruction for a b + c with one
+// Cost    n^2 d / 2 factors; four times what those of l2_pairs.hpp take, up to fourteen
+//         where coordinates are no multiples of 2^-53. Needs an instruction for a b + c with one
 //         rounding.
 // Promise the same for any number of threads and any width of vectors. `error` bounds what rounding
 //         did.

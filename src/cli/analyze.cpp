@@ -458,8 +458,7 @@ class Analysis {
         m.results = average_.mean();
         if (analyzer_.refine) analyzer_.refine(m.results, average_.count(), options_);
         if (analyzer_.combine) analyzer_.combine(m.results, singles_, options_);
-        if (average_.count() > 1)
-            m.standard_error = only_of(m.results, average_.mean(), average_.standard_error());
+        if (average_.count() > 1) m.standard_error = only_of(m.results, average_.standard_error());
         if (m.largest_count > 0)
             session_.warn("the sets that were averaged differ in their number of points");
         save_grid(m.results, 0, false);

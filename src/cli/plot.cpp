@@ -347,8 +347,7 @@ class Plot {
                       .results = average.mean()};
         if (analyzer.refine) analyzer.refine(m.results, average.count(), options);
         if (analyzer.combine) analyzer.combine(m.results, singles, options);
-        if (average.count() > 1)
-            m.standard_error = only_of(m.results, average.mean(), average.standard_error());
+        if (average.count() > 1) m.standard_error = only_of(m.results, average.standard_error());
         return m;
     }
 

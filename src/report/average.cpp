@@ -2,8 +2,10 @@
 #include "report/average.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <string_view>
 
 namespace stipple {
 namespace {
@@ -105,7 +107,9 @@ Report without_words(const Report& report) {
 /// What is not a measured value of each set: the value it should have, and what stands for the
 /// spread or the chance of several.
 bool is_no_mean(std::string_view name) {
-    return name == "exact" || name == "standard_error" || name == "combined_p_value";
+    constexpr std::array names = {"exact",   "standard_error", "combined_p_value",
+                                  "p_value", "p_upper",        "p_lower"};
+    return std::ranges::find(names, name) != names.end();
 }
 
 }  // namespace
@@ -139,19 +143,17 @@ Report ReportAverage::standard_error() const {
         mapped(squares_, [k](double sum) { return std::sqrt(sum / (k * (k - 1))); }));
 }
 
-Report only_of(const Report& mean, const Report& averaged, const Report& errors) {
+Report only_of(const Report& mean, const Report& errors) {
     Report out;
     for (const auto& entry : errors.entries()) {
         const Item* item = mean.find(entry.name);
-        const Item* before = averaged.find(entry.name);
-        if (item == nullptr || before == nullptr || is_no_mean(entry.name)) continue;
+        if (item == nullptr || is_no_mean(entry.name)) continue;
         const auto* group = std::get_if<Report>(&entry.value);
         const auto* means = std::get_if<Report>(item);
-        const auto* raw = std::get_if<Report>(before);
-        if (group && means && raw) {
-            Report part = only_of(*means, *raw, *group);
+        if (group && means) {
+            Report part = only_of(*means, *group);
             if (!part.entries().empty()) out.add(entry.name, std::move(part));
-        } else if (*item == *before) {
+        } else {
             out.entries().push_back(entry);
         }
     }

@@ -37,8 +37,8 @@ class ReportAverage {
 /// A report's numbers, without words, flags, curves and grids.
 Report numbers_only(const Report& report);
 
-/// The standard errors of what is a mean: `mean` is `averaged` as an analyzer has refined it, and
-/// what it has taken out or put something else in the place of has none; nor have exact values.
-Report only_of(const Report& mean, const Report& averaged, const Report& errors);
+/// The standard errors of what `mean` has: an analyzer may take out of it what has no mean; nor
+/// have exact values, chances and errors one.
+Report only_of(const Report& mean, const Report& errors);
 
 }  // namespace stipple

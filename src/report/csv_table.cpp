@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Two or more lists of equal length in one group of a report, longer than the points have
-// coordinates, are curves: columns of a table with a row for each entry. All other lists (a corner,
-// a grid's extents, a mean for each axis) are numbers of their own: columns KEY.0, KEY.1... Tables
+// Two or more lists of equal length in one group of a report are curves, columns of a table with a
+// row for each entry, if they are longer than the points have coordinates, or if one of them holds
+// whole numbers. All other lists (a corner, a grid's extents, a mean for each axis) are numbers of
+// their own: columns KEY.0, KEY.1... Tables
 // of different groups or lengths follow each other and are empty where another's rows are, as after
 // pandas.concat; what is no curve is repeated on every row.
 
@@ -68,13 +69,26 @@ struct Rows {
 /// Sorts the entries of a report into single cells and tables.
 void Rows::add(const Report& report, const std::string& prefix, std::size_t dimension) {
     const auto keys = report.keys();
-    std::map<std::pair<std::string, std::size_t>, std::size_t> alike;  // lists of group and length
+    struct Alike {
+        std::size_t lists = 0;
+        bool whole = false;  ///< one of them holds whole numbers
+
+        [[nodiscard]] bool table(bool more_than_axes) const {
+            return lists > 1 && (more_than_axes || whole);
+        }
+    };
+    std::map<std::pair<std::string, std::size_t>, Alike> alike;  // of group and length
     const auto place = [&](const std::string& key, std::size_t length) {
         const auto dot = key.rfind('.');
         return std::pair(dot == std::string::npos ? "" : key.substr(0, dot), length);
     };
-    for (const auto& key : keys)
-        if (is_list(*report.find(key))) ++alike[place(key, list_cells(*report.find(key)).size())];
+    for (const auto& key : keys) {
+        const Report::Item& item = *report.find(key);
+        if (!is_list(item)) continue;
+        Alike& same = alike[place(key, list_cells(item).size())];
+        ++same.lists;
+        same.whole |= std::holds_alternative<Report::Integers>(item);
+    }
     std::map<std::pair<std::string, std::size_t>, std::size_t> table_of;
     for (const auto& key : keys) {
         const Report::Item& item = *report.find(key);
@@ -84,7 +98,7 @@ void Rows::add(const Report& report, const std::string& prefix, std::size_t dime
         }
         auto cells = list_cells(item);
         const auto at = place(key, cells.size());
-        if (alike[at] < 2 || cells.size() <= dimension) {
+        if (!alike[at].table(cells.size() > dimension)) {
             for (std::size_t i = 0; i < cells.size(); ++i)
                 single.emplace_back(fmt::format("{}{}.{}", prefix, key, i), std::move(cells[i]));
             continue;

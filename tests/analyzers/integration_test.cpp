@@ -377,7 +377,7 @@ TEST(Integration, TakesFormulas) {
               "usage: --exact: is the integral of an --expression; none is given");
     EXPECT_TRUE(error_of([&] {
                     of(set, {{"expression", "x+"}});
-                }).starts_with("usage: --expression: 'x+', column "));
+                }).starts_with("usage: --expression: 'x+': the formula ends at column 3, where "));
     EXPECT_TRUE(error_of([&] {
                     of(set, {{"expression", "1/(x-x)"}});
                 }).starts_with("input: at point 0 the integrand expression is inf"));

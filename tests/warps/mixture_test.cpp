@@ -161,7 +161,7 @@ TEST(Mixture, ChiSquareTellsRightWeightsFromWrongOnes) {
         const auto verdict = [&](const std::string& spec) {
             PointSet x = warped(*mapping(spec), make("random", points(200'000, 2)));
             x.domain = mapping(half_and_half(parts))->domain();
-            const Report found = analyze("chi-square", x, {{"level", "1e-6"}, {"cells", "11,7"}});
+            const Report found = analyze("chi-square", x, {{"level", "1e-6"}, {"cells", "11x7"}});
             EXPECT_LT(found.number("mass_error"), 1e-7) << parts;
             return found.text("verdict");
         };
