@@ -260,7 +260,12 @@ Report of_projections(const PointSet& points, std::size_t size, const Limits& li
     if (size > points.dimension())
         fail(ErrorKind::input, "--projections: {} is beyond the points' {} coordinates", size,
              points.dimension());
+    constexpr std::uint64_t most_rows = 1'000'000;
     const std::uint64_t count = binomial(points.dimension(), size);
+    if (count > most_rows)
+        fail_with_hint(ErrorKind::limit, "fewer axes, or --column for fewer coordinates",
+                       "--projections: {} of {} coordinates are {} projections; a table takes {}",
+                       size, points.dimension(), count, most_rows);
     const double row_bytes = static_cast<double>(8 * (size + 4));
     run.need_memory(static_cast<double>(count) * row_bytes +
                         static_cast<double>(8 * points.count() * size) * run.thread_count(),

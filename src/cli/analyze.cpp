@@ -92,7 +92,9 @@ Style style_of(const Arguments& arguments, const std::string& path) {
     if (format) fail(ErrorKind::usage, "--format: '{}' is not one of text, json, csv", *format);
     if (path.ends_with(".csv")) return Style::csv;
     if (path.ends_with(".txt")) return Style::text;
-    return path == "-" && isatty(STDOUT_FILENO) == 1 ? Style::text : Style::json;
+    // A launcher gives the process that speaks for all a terminal of its own.
+    const bool read_by_people = isatty(STDOUT_FILENO) == 1 && launched_ranks() == 1;
+    return path == "-" && read_by_people ? Style::text : Style::json;
 }
 
 /// What sets are from; joined ones are from all at once.

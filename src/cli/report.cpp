@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <type_traits>
@@ -69,6 +70,7 @@ class Reporter {
         for (const char* name : {"count", "seed", "warp", "start"})
             if (arguments_.has(name) && !arguments_.has("generate"))
                 fail(ErrorKind::usage, "--{}: is of --generate, which names a generator", name);
+        keep_inputs();
         io::Output output(path_, session_.run().stop);
         load();
         check_sets();
@@ -84,6 +86,15 @@ class Reporter {
 
   private:
     // ---------------------------------------------------------------- what is reported on
+
+    /// A page is no place for the points that it is about.
+    void keep_inputs() const {
+        std::error_code none;
+        for (const std::string& input : arguments_.inputs)
+            if (std::filesystem::is_regular_file(path_, none) &&
+                std::filesystem::equivalent(path_, input, none))
+                fail(ErrorKind::usage, "--output: {} is an input, which it would overwrite", path_);
+    }
 
     void load() {
         auto inputs = arguments_.inputs;

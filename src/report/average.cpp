@@ -63,6 +63,8 @@ bool merge(Item& mean, Item& squares, const Item& item, double k) {
         if (other) merge_groups(*group, std::get<Report>(squares), *other, k);
         return other != nullptr;
     }
+    // Labels, such as the counts of prefixes: their mean is what they are.
+    if (std::holds_alternative<Report::Integers>(mean) && mean == item) return true;
     const auto values = numbers(item);
     auto means = numbers(mean);
     auto sums = numbers(squares);
@@ -92,6 +94,17 @@ Report mapped(const Report& report, const F& f) {
     return out;
 }
 
+/// Lists of whole numbers stay what they are in a report for as long as others have the same.
+void keep_labels(Report& mean, const Report& report) {
+    for (auto& entry : mean.entries()) {
+        const Item* item = report.find(entry.name);
+        if (const auto* group = std::get_if<Report>(item))
+            keep_labels(std::get<Report>(entry.value), *group);
+        else if (std::holds_alternative<Report::Integers>(*item))
+            entry.value = *item;
+    }
+}
+
 /// The report without words, flags and grids.
 Report without_words(const Report& report) {
     Report out;
@@ -118,6 +131,7 @@ void ReportAverage::add(const Report& report) {
     ++count_;
     if (count_ == 1) {
         mean_ = mapped(report, [](double x) { return x; });
+        keep_labels(mean_, report);
         squares_ = mapped(report, [](double) { return 0.0; });
         return;
     }
@@ -147,7 +161,8 @@ Report only_of(const Report& mean, const Report& errors) {
     Report out;
     for (const auto& entry : errors.entries()) {
         const Item* item = mean.find(entry.name);
-        if (item == nullptr || is_no_mean(entry.name)) continue;
+        const bool label = item && std::holds_alternative<Report::Integers>(*item);
+        if (item == nullptr || label || is_no_mean(entry.name)) continue;
         const auto* group = std::get_if<Report>(&entry.value);
         const auto* means = std::get_if<Report>(item);
         if (group && means) {

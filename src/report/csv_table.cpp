@@ -63,11 +63,14 @@ struct Rows {
     std::vector<std::pair<std::string, std::string>> single;  ///< the same on each row
     std::vector<std::vector<std::pair<std::string, std::vector<std::string>>>> tables;
 
-    void add(const Report& report, const std::string& prefix, std::size_t dimension);
+    /// Lists are curves where those of `like`, under the same keys, are.
+    void add(const Report& report, const Report& like, const std::string& prefix,
+             std::size_t dimension);
 };
 
 /// Sorts the entries of a report into single cells and tables.
-void Rows::add(const Report& report, const std::string& prefix, std::size_t dimension) {
+void Rows::add(const Report& report, const Report& like, const std::string& prefix,
+               std::size_t dimension) {
     const auto keys = report.keys();
     struct Alike {
         std::size_t lists = 0;
@@ -82,8 +85,8 @@ void Rows::add(const Report& report, const std::string& prefix, std::size_t dime
         const auto dot = key.rfind('.');
         return std::pair(dot == std::string::npos ? "" : key.substr(0, dot), length);
     };
-    for (const auto& key : keys) {
-        const Report::Item& item = *report.find(key);
+    for (const auto& key : like.keys()) {
+        const Report::Item& item = *like.find(key);
         if (!is_list(item)) continue;
         Alike& same = alike[place(key, list_cells(item).size())];
         ++same.lists;
@@ -130,10 +133,10 @@ Rows rows_of(const Measurement& m) {
                    {"count", std::to_string(m.count)},
                    {"dimension", std::to_string(m.dimension)},
                    {"domain", m.domain}};
-    rows.add(m.results, "", m.dimension);
+    rows.add(m.results, m.results, "", m.dimension);
     const std::string prefix = "standard_error.";
     Rows errors;
-    if (m.standard_error) errors.add(*m.standard_error, prefix, m.dimension);
+    if (m.standard_error) errors.add(*m.standard_error, m.results, prefix, m.dimension);
     join_errors(rows, std::move(errors), prefix);
     return rows;
 }

@@ -24,14 +24,13 @@ Json json_of(const PageMeasure& measure, const PageSet& set) {
                         .options = measure.options,
                         .results = measure.results.value_or(Report())};
     const Json whole = Json::parse(to_json(std::span(&m, 1)));
-    Json object = {{"name", measure.name},
-                   {"analyzer", measure.analyzer},
-                   {"options", whole["options"]},
-                   {"command", measure.command}};
+    Json object = {
+        {"name", measure.name}, {"analyzer", measure.analyzer}, {"options", whole["options"]}};
     if (!measure.results) {
         object["left_out"] = measure.left_out;
         return object;
     }
+    object["command"] = measure.command;
     object["results"] = whole["results"];
     const std::string words = verdict_in_words(measure);
     if (!words.empty()) object["in_words"] = words;

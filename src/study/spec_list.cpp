@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <unordered_set>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -133,11 +134,12 @@ std::vector<std::string> split_specs(std::string_view text, std::string_view who
 std::vector<std::uint64_t> parse_counts(std::string_view text, std::string_view who,
                                         std::uint64_t low, std::uint64_t high) {
     std::vector<std::uint64_t> all;
+    std::unordered_set<std::uint64_t> seen;
     const auto items = split(text, ',');
     if (trim(text).empty()) fail(ErrorKind::usage, "{}: there are no numbers", who);
     for (const auto item : items)
         for (const std::uint64_t number : CountRange(item, who, low, high).numbers()) {
-            if (std::ranges::find(all, number) != all.end())
+            if (!seen.insert(number).second)
                 fail(ErrorKind::usage, "{}: {} stands twice in '{}'", who, number, text);
             all.push_back(number);
         }

@@ -159,6 +159,18 @@ TEST(Analyze, AnAverageSpectrumHasItsOwnAnisotropy) {
     EXPECT_TRUE(out["standard_error"]["radial"].contains("power"));
 }
 
+// Counts of prefixes are no measurements: they have no mean and no error, and make a table.
+TEST(Analyze, AnAverageOfTablesIsATable) {
+    const Sandbox box;
+    const std::string table = good(
+        box.shell("stipple analyze star-discrepancy --generate random -n 64 -m 3 --prefixes 16,64 "
+                  "-f csv --average"));
+    EXPECT_THAT(table, HasSubstr("prefixes.count,prefixes.value,"));
+    EXPECT_THAT(table, HasSubstr("standard_error.prefixes.value"));
+    EXPECT_THAT(table, Not(HasSubstr("standard_error.prefixes.count")));
+    EXPECT_EQ(std::ranges::count(table, '\n'), 3);
+}
+
 TEST(Analyze, PrintsTextAndTables) {
     const Sandbox box;
     box.write("p.csv", "0.5,0.5\n");
