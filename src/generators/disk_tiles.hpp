@@ -159,7 +159,7 @@ class CellTiles : public TilesBase<D> {
     [[nodiscard]] bool taken(const Index& cell) const { return taken_.has(cell); }
 
     /// Points that reach into these halves of a cell (halves_of), and some more.
-    void gather(const Index& cell, unsigned halves, NearDisks<D, float>& near) const {
+    void gather(const Index& cell, Halves halves, NearDisks<D, float>& near) const {
         near.clear();
         if (plain_) {
             const std::size_t at = grid_.spot_of(cell);

@@ -314,7 +314,7 @@ class Rain {
             const bool taken = tiles_.taken(cell);
             const std::size_t first = i;
             bool fine = false;
-            unsigned halves = 0;
+            Halves halves = 0;
             for (; i < windows.size() && windows[i].place == place; ++i) {
                 fine = fine || windows[i].level >= deep;
                 halves |= halves_of(windows[i]);
@@ -333,7 +333,7 @@ class Rain {
     }
 
     /// Puts the points that reach into halves of a cell on the desk, or into all of it.
-    void gather(const Tile& tile, const Index& cell, unsigned halves, Desk<D>& desk) const {
+    void gather(const Tile& tile, const Index& cell, Halves halves, Desk<D>& desk) const {
         if constexpr (Tiles::knows_parts)
             tiles_.gather(cell, halves, desk.near);
         else
