@@ -418,13 +418,24 @@ Report comparison(const std::vector<Task>& tasks, const Sums& sums, bool weighed
     return all;
 }
 
+/// The measure of what the points are on, as an integral over them.
+Tally measure_of(const PointSet& points) {
+    Tally inverse;
+    for (std::size_t i = 0; i < points.count(); ++i)
+        inverse.add(1 / points.domain->density(points[i]));
+    return inverse;
+}
+
 /// How uniform points are had. @throws Error(input) when there are none to compare with.
 Uniform uniform_for(const PointSet& points, const RegionView& view, const Support& support) {
     if (points.count() < 2) fail(ErrorKind::input, "--compare: needs at least 2 points, not 1");
     const Domain& domain = *points.domain;
-    if (!support.measure)
-        fail(ErrorKind::input, "--compare: there are no uniform points on {}: its measure is {}",
-             domain.spec(), support.finite ? "not known" : "infinite");
+    if (!support.finite)
+        fail(ErrorKind::input,
+             "--compare: there are no uniform points on {}: its measure is "
+             "infinite",
+             domain.spec());
+    if (!support.measure) return {Uniform::weighed, measure_of(points).mean()};
     if (support.whole && view.has_uniform()) return {Uniform::remade, domain.measure()};
     const double measure = support.measure->value;
     for (std::size_t i = 0; i < points.count(); ++i)
@@ -443,6 +454,17 @@ void tell_support(const Support& support, Report& report) {
     part.add("meaning",
              "the density is 0 on a part of the domain: estimates, and exact values where they are "
              "given, are integrals over the rest");
+    report.add("support", std::move(part));
+}
+
+/// Says that the measure of uniform points is an estimate, too.
+void tell_measure(const PointSet& points, Report& report) {
+    const Tally found = measure_of(points);
+    Report part;
+    if (const auto* item = report.find("support")) part = std::get<Report>(*item);
+    part.add("measure", found.mean());
+    if (independent(points)) part.add("measure_error", found.standard_error());
+    part.add("measure_is_estimate", true);
     report.add("support", std::move(part));
 }
 
@@ -472,6 +494,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
         report.add(tasks[k].name, std::move(one));
     }
     if (comparing) report.add("compare", comparison(tasks, sums, uniform.how == Uniform::weighed));
+    if (comparing && !support.measure) tell_measure(points, report);
     return report;
 }
 
@@ -538,7 +561,11 @@ Analyzer integration() {
               "false where the density is 0 on a part of the domain: all is then of the rest",
               false},
              {"support.measure", "of that rest, where it is known", false},
-             {"support.measure_error", "what it may be off by", false},
+             {"support.measure_error", "what it may be off by; of an estimate, one standard error",
+              false},
+             {"support.measure_is_estimate",
+              "true: --compare found the measure from the points' weights, as nobody knows it",
+              false},
              {"support.meaning", "the same in words", false},
              {"INTEGRAND.standard_error",
               "of the estimate: of several sets (--average) from the spread between them; of one "
