@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -198,4 +199,21 @@ TEST(Mixture, RefusesWhatCannotBeMixed) {
                   inverse_of(*mapping("mixture"), {0, 0, 1});
               }),
               "usage: --inverse: this warp has no inverse");
+}
+
+TEST(Mixture, EndsWhereAllOfItsShapesDo) {
+    const auto disks = mapping("mixture:components=[disk|disk:center=[2,0]]")->domain();
+    const auto holds = [&](double x, double y) {
+        const std::array<double, 2> point = {x, y};
+        return disks->contains(point);
+    };
+    EXPECT_TRUE(holds(1, 0)) << "of both";
+    EXPECT_TRUE(holds(-1, 0));
+    EXPECT_TRUE(holds(2, 1));
+    EXPECT_FALSE(holds(1, 0.9)) << "in the box, between them";
+    EXPECT_FALSE(holds(3 + 1e-9, 0));
+    EXPECT_FALSE(holds(std::nan(""), 0));
+    const auto caps = mapping("mixture:components=[cone:half-angle=20|hemisphere]")->domain();
+    const std::array<double, 3> below = {0, 0.6, -0.8};
+    EXPECT_FALSE(caps->contains(below));
 }
