@@ -31,6 +31,7 @@
 #include "core/rng.hpp"
 #include "core/spec.hpp"
 #include "core/text.hpp"
+#include "places.hpp"
 #include "study/pipeline.hpp"
 #include "warps/warp.hpp"
 

@@ -6,6 +6,7 @@
 
 #include "cli/arguments.hpp"
 #include "core/text.hpp"
+#include "places.hpp"
 #include "support/program.hpp"
 
 using namespace stipple::testing;

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "places.hpp"
 #include "support/program.hpp"
 
 using namespace stipple::testing;

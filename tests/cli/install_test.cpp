@@ -3,6 +3,7 @@
 // What `cmake --install` puts down is enough for another program to be built and run against.
 #include <gtest/gtest.h>
 
+#include "places.hpp"
 #include "support/program.hpp"
 
 using namespace stipple::testing;

@@ -9,6 +9,7 @@
 #include <iterator>
 #include <map>
 
+#include "places.hpp"
 #include "support/program.hpp"
 
 using namespace stipple::testing;

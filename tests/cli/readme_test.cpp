@@ -9,6 +9,7 @@
 #include <regex>
 #include <sstream>
 
+#include "places.hpp"
 #include "support/program.hpp"
 
 using namespace stipple::testing;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "places.hpp"
 #include "support/program.hpp"
 
 using namespace stipple::testing;

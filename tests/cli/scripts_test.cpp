@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <regex>
 
+#include "places.hpp"
 #include "support/program.hpp"
 
 using namespace stipple::testing;

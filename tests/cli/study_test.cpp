@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "places.hpp"
 #include "support/launcher.hpp"
 #include "support/program.hpp"
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <set>
 
+#include "places.hpp"
 #include "study/pipeline.hpp"
 #include "support/contract.hpp"
 

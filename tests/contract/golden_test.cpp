@@ -19,6 +19,7 @@
 
 #include "core/fingerprint.hpp"
 #include "core/text.hpp"
+#include "places.hpp"
 #include "study/chain.hpp"
 #include "support/contract.hpp"
 #include "support/warp_examples.hpp"

@@ -10,6 +10,8 @@
 #include <set>
 #include <string>
 
+#include "places.hpp"
+
 namespace {
 
 const std::map<std::string, std::set<std::string>> allowed = {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "places.hpp"
 #include "support/pictures.hpp"
 #include "support/warping.hpp"
 

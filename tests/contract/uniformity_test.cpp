@@ -15,6 +15,7 @@
 
 #include "core/rng.hpp"
 #include "core/text.hpp"
+#include "places.hpp"
 #include "study/chain.hpp"
 #include "support/contract.hpp"
 #include "support/warp_examples.hpp"

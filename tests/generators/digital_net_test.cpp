@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include "places.hpp"
 #include "support/exact.hpp"
 #include "support/nets.hpp"
 #include "support/scrambling.hpp"

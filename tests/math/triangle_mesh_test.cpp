@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 
+#include "places.hpp"
 #include "support/units.hpp"
 
 using namespace stipple;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "places.hpp"
 #include "support/units.hpp"
 
 using namespace stipple;

@@ -15,6 +15,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "places.hpp"
+
 namespace stipple::testing {
 namespace {
 

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "places.hpp"
 #include "support/pictures.hpp"
 #include "support/units.hpp"
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "places.hpp"
 #include "support/temporary_file.hpp"
 #include "support/warping.hpp"
 
