@@ -286,7 +286,8 @@ struct Uniform {
         weighed,      ///< none are had; sums of measure x f^2 / p tell of their variance
     };
     How how = none;
-    double measure = 0;  ///< of what they are on
+    double measure = 0;               ///< of what they are on
+    std::optional<Tally> found = {};  ///< by the weights, where nobody knows the measure
 };
 
 /// Values of all integrands at points of the domain.
@@ -435,7 +436,10 @@ Uniform uniform_for(const PointSet& points, const RegionView& view, const Suppor
              "--compare: there are no uniform points on {}: its measure is "
              "infinite",
              domain.spec());
-    if (!support.measure) return {Uniform::weighed, measure_of(points).mean()};
+    if (!support.measure) {
+        const Tally found = measure_of(points);
+        return {Uniform::weighed, found.mean(), found};
+    }
     if (support.whole && view.has_uniform()) return {Uniform::remade, domain.measure()};
     const double measure = support.measure->value;
     for (std::size_t i = 0; i < points.count(); ++i)
@@ -458,8 +462,7 @@ void tell_support(const Support& support, Report& report) {
 }
 
 /// Says that the measure of uniform points is an estimate, too.
-void tell_measure(const PointSet& points, Report& report) {
-    const Tally found = measure_of(points);
+void tell_measure(const Tally& found, const PointSet& points, Report& report) {
     Report part;
     if (const auto* item = report.find("support")) part = std::get<Report>(*item);
     part.add("measure", found.mean());
@@ -494,7 +497,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
         report.add(tasks[k].name, std::move(one));
     }
     if (comparing) report.add("compare", comparison(tasks, sums, uniform.how == Uniform::weighed));
-    if (comparing && !support.measure) tell_measure(points, report);
+    if (uniform.found) tell_measure(*uniform.found, points, report);
     return report;
 }
 

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/file_bytes.hpp"
 #include "core/fingerprint.hpp"
+#include "core/rng.hpp"
 #include "core/text.hpp"
 #include "study/pipeline.hpp"
 
@@ -250,6 +251,8 @@ std::vector<double> WarpChain::inverse(std::vector<double> rows) const {
         const auto at = places(step->coordinates, step->image.size());
         std::vector<double> cube(count * step->coordinates.size());
         step->mapping->inverse(gather(rows, step->width_out, at), cube);
+        // A rim is the image of what is just below 1, and the next warp takes nothing else.
+        for (double& x : cube) x = std::min(x, one_minus_ulp);
         rows =
             interleave(rows, step->width_out, others(step->width_out, at), cube, step->coordinates);
     }

@@ -62,8 +62,8 @@ class WarpChain {
     [[nodiscard]] std::vector<double> forward(std::vector<double> rows,
                                               std::uint64_t first = 0) const;
 
-    /// Back to the unit cube. @throws Error(usage) where a warp has no inverse, Error(input) for
-    /// points off the domain.
+    /// Back to the unit cube, below 1. @throws Error(usage) where a warp has no inverse,
+    /// Error(input) for points off the domain.
     [[nodiscard]] std::vector<double> inverse(std::vector<double> rows) const;
 
     /// Density of each row that forward() gave, with respect to the measure of domain().

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/rng.hpp"
 #include "support/units.hpp"
 
 using namespace stipple;
@@ -46,6 +47,20 @@ TEST(WarpChain, ImagesOfMoreNumbersMakeRowsLonger) {
     EXPECT_EQ(out[4], on_disk[1]);
     const auto back = longer.inverse(out);
     for (std::size_t k = 0; k < row.size(); ++k) EXPECT_NEAR(back[k], row[k], 1e-14) << k;
+}
+
+// What comes back is a point of the cube [0, 1), which every warp takes: never 1.
+TEST(WarpChain, RimsComeBackBelowOne) {
+    for (const char* warp : {"disk:method=concentric", "ellipse", "ball", "tent", "annulus"}) {
+        const std::size_t d = std::string_view(warp) == "ball" ? 3 : 2;
+        const auto there = chain({warp}, d);
+        for (const double x : there.inverse(there.forward(std::vector<double>(d, one_minus_ulp)))) {
+            EXPECT_LT(x, 1) << warp;
+            EXPECT_NEAR(x, 1, 1e-14) << warp;
+        }
+    }
+    const auto corner = chain({"disk:method=concentric"}, 2).inverse({1, 0});
+    EXPECT_EQ(corner, (std::vector<double>{one_minus_ulp, 0.5}));
 }
 
 TEST(WarpChain, DroppedPointsTakeTheirWholeRow) {
