@@ -9,6 +9,9 @@
 
 namespace stipple::warps {
 
+/// @throws Error(input) naming the point.
+[[noreturn]] void refuse_outside(std::span<const double> point, const Domain& domain);
+
 /// @throws Error(input) naming the first point of `rows` that the domain does not contain.
 void expect_inside(const Domain& domain, std::span<const double> rows);
 

@@ -24,6 +24,7 @@
 
 #include "core/error.hpp"
 #include "core/wide.hpp"
+#include "warps/inside.hpp"
 #include "warps/pace.hpp"
 #include "warps/warp.hpp"
 
@@ -40,9 +41,6 @@ template <class Image, std::size_t d, class Method>
 Arity<Image, d, Method> arity(Image (Method::*)(const std::array<double, d>&) const);
 
 }  // namespace detail
-
-/// @throws Error(input) naming the point.
-[[noreturn]] void refuse_outside(std::span<const double> point, const Domain& domain);
 
 template <class Method>
 using ArityOf = decltype(detail::arity(&Method::forward));

@@ -96,5 +96,5 @@ TEST(Annulus, RefusesWhatIsNoAnnulus) {
     EXPECT_EQ(error_of([] {
                   inverse_of(*mapping("annulus"), {0.25, 0});
               }),
-              "input: the point (0.25, 0) is outside the annulus");
+              "input: the point (0.25, 0) is outside the domain annulus");
 }

@@ -89,7 +89,7 @@ TEST(Ball, DomainSaysWhatItIsAndParsesBack) {
     EXPECT_EQ(error_of([&] {
                   inverse_of(*mapping("ball"), {1, 1, 0});
               }),
-              "input: the point (1, 1, 0) is outside the ball");
+              "input: the point (1, 1, 0) is outside the domain ball");
 }
 
 TEST(Ball, RefusesOptionsOutOfRange) {

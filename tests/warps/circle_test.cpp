@@ -121,7 +121,7 @@ TEST(Circle, DomainSaysWhatItIsAndParsesBack) {
     EXPECT_EQ(error_of([&] {
                   inverse_of(*mapping("circle"), {0.5, 0});
               }),
-              "input: the point (0.5, 0) is outside the circle");
+              "input: the point (0.5, 0) is outside the domain circle");
 }
 
 TEST(Circle, RefusesOptionsOutOfRange) {

@@ -115,7 +115,7 @@ TEST(Cone, DomainSaysWhatItIsAndParsesBack) {
     EXPECT_EQ(error_of([&] {
                   inverse_of(*mapping("cone"), {0, 0, -1});
               }),
-              "input: the point (0, 0, -1) is outside the cone");
+              "input: the point (0, 0, -1) is outside the domain cone");
 }
 
 TEST(Cone, RefusesOptionsOutOfRange) {

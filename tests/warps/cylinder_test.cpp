@@ -117,7 +117,7 @@ TEST(Cylinder, DomainSaysWhatItIsAndParsesBack) {
     EXPECT_EQ(error_of([&] {
                   inverse_of(*mapping("cylinder"), {0, 0, 0});
               }),
-              "input: the point (0, 0, 0) is outside the cylinder");
+              "input: the point (0, 0, 0) is outside the domain cylinder");
 }
 
 TEST(Cylinder, RefusesOptionsOutOfRange) {

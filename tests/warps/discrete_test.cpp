@@ -74,7 +74,7 @@ TEST(Discrete, InversionComesBackAliasDoesNot) {
     EXPECT_EQ(error_of([] {
                   inverse_of(*mapping(four), {1, 3.5});
               }),
-              "input: the point (1, 3.5) is outside the " + four);
+              "input: the point (1, 3.5) is outside the domain " + four);
 }
 
 TEST(Discrete, TwoDiceAreIndependent) {

@@ -119,11 +119,11 @@ TEST(Disk, InverseRefusesPointsOutsideAndNamesThem) {
     EXPECT_EQ(error_of([&] {
                   inverse_of(*map, {3.5, 0.25});
               }),
-              "input: the point (3.5, 0.25) is outside the disk:radius=2,center=[1,0]");
+              "input: the point (3.5, 0.25) is outside the domain disk:radius=2,center=[1,0]");
     EXPECT_EQ(error_of([&] {
                   inverse_of(*map, {std::nan(""), 0});
               }),
-              "input: the point (nan, 0) is outside the disk:radius=2,center=[1,0]");
+              "input: the point (nan, 0) is outside the domain disk:radius=2,center=[1,0]");
     for (const auto& method : methods)
         EXPECT_NE(error_of([&] {
                       inverse_of(*mapping("disk:method=" + method), {0.8, 0.61});

@@ -86,5 +86,5 @@ TEST(ExponentialWarp, RefusesRatesOutOfRange) {
     EXPECT_EQ(error_of([] {
                   inverse_of(*mapping("exponential"), {-1, 2});
               }),
-              "input: the point (-1, 2) is outside the exponential");
+              "input: the point (-1, 2) is outside the domain exponential");
 }

@@ -142,7 +142,7 @@ TEST(Hemisphere, DomainSaysItsLawAndParsesBack) {
     EXPECT_EQ(error_of([&] {
                   inverse_of(*mapping("hemisphere"), {0, 0, -1});
               }),
-              "input: the point (0, 0, -1) is outside the hemisphere");
+              "input: the point (0, 0, -1) is outside the domain hemisphere");
 }
 
 TEST(Hemisphere, RefusesOptionsOutOfRange) {

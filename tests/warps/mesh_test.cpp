@@ -179,7 +179,7 @@ TEST(Mesh, DomainKnowsWhatIsOnTheSurface) {
     EXPECT_EQ(error_of([&] {
                   inverse_of(*mapping(tetrahedron), {1, 1, 1});
               }),
-              "input: the point (1, 1, 1) is outside the " + tetrahedron);
+              "input: the point (1, 1, 1) is outside the domain " + tetrahedron);
 }
 
 TEST(Mesh, RefusesFilesWithoutASurface) {

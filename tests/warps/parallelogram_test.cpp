@@ -90,5 +90,5 @@ TEST(Parallelogram, RefusesWhatIsNoParallelogram) {
     EXPECT_EQ(error_of([] {
                   inverse_of(*mapping("parallelogram"), {1.5, 0});
               }),
-              "input: the point (1.5, 0) is outside the parallelogram");
+              "input: the point (1.5, 0) is outside the domain parallelogram");
 }

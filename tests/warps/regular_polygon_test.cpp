@@ -102,5 +102,5 @@ TEST(RegularPolygon, RefusesWhatIsNoPolygon) {
     EXPECT_EQ(error_of([] {
                   inverse_of(*mapping("regular-polygon:sides=4"), {0.75, 0.75});
               }),
-              "input: the point (0.75, 0.75) is outside the regular-polygon:sides=4");
+              "input: the point (0.75, 0.75) is outside the domain regular-polygon:sides=4");
 }

@@ -103,5 +103,5 @@ TEST(Sector, RefusesWhatIsNoSector) {
     EXPECT_EQ(error_of([] {
                   inverse_of(*mapping("sector"), {-0.25, 0});
               }),
-              "input: the point (-0.25, 0) is outside the sector");
+              "input: the point (-0.25, 0) is outside the domain sector");
 }

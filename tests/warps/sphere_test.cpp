@@ -108,7 +108,7 @@ TEST(Sphere, InverseRefusesPointsOffTheSphereAndNamesThem) {
     EXPECT_EQ(error_of([&] {
                   inverse_of(*map, {1, 0, 0.5});
               }),
-              "input: the point (1, 0, 0.5) is outside the sphere:radius=2,center=[1,0,0]");
+              "input: the point (1, 0, 0.5) is outside the domain sphere:radius=2,center=[1,0,0]");
     EXPECT_NE(error_of([&] { inverse_of(*map, {std::nan(""), 0, 0}); }), "");
     EXPECT_NE(error_of([&] { inverse_of(*map, {1e308, 0, 0}); }), "");
 }

@@ -178,7 +178,7 @@ TEST(SphericalRectangle, DomainSaysWhatItIsAndParsesBack) {
     EXPECT_EQ(error_of([&] {
                   inverse_of(*mapping(face), {0, 0, -1});
               }),
-              "input: the point (0, 0, -1) is outside the " + face);
+              "input: the point (0, 0, -1) is outside the domain " + face);
 }
 
 TEST(SphericalRectangle, RefusesWhatIsNoRectangleOrHasNoSolidAngle) {

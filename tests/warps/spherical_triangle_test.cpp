@@ -163,7 +163,7 @@ TEST(SphericalTriangle, DomainSaysWhatItIsAndParsesBack) {
     EXPECT_EQ(error_of([&] {
                   inverse_of(*mapping("spherical-triangle"), {0, 0, -1});
               }),
-              "input: the point (0, 0, -1) is outside the spherical-triangle");
+              "input: the point (0, 0, -1) is outside the domain spherical-triangle");
 }
 
 TEST(SphericalTriangle, RefusesWhatIsNoTriangle) {

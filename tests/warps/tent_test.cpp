@@ -107,5 +107,5 @@ TEST(Tent, RefusesWhatIsNoTent) {
     EXPECT_EQ(error_of([] {
                   inverse_of(*mapping("tent"), {1.5, 0});
               }),
-              "input: the point (1.5, 0) is outside the tent");
+              "input: the point (1.5, 0) is outside the domain tent");
 }

@@ -121,7 +121,7 @@ TEST(TorusSurface, DomainSaysWhatItIsAndParsesBack) {
     EXPECT_EQ(error_of([&] {
                   inverse_of(*mapping("torus-surface"), {0, 0, 0});
               }),
-              "input: the point (0, 0, 0) is outside the torus-surface");
+              "input: the point (0, 0, 0) is outside the domain torus-surface");
 }
 
 TEST(TorusSurface, RefusesOptionsOutOfRange) {

@@ -125,13 +125,13 @@ TEST(Triangle, InverseRefusesPointsOutsideAndNamesThem) {
     EXPECT_EQ(error_of([&] {
                   inverse_of(*map, {0.75, 0.5});
               }),
-              "input: the point (0.75, 0.5) is outside the triangle");
+              "input: the point (0.75, 0.5) is outside the domain triangle");
     const auto space = mapping(in_space);
     EXPECT_NO_THROW(inverse_of(*space, {0.5, 0.5, 0.75}));
     EXPECT_EQ(error_of([&] {
                   inverse_of(*space, {0.5, 0.5, 0.7501});
               }),
-              "input: the point (0.5, 0.5, 0.7501) is outside the "
+              "input: the point (0.5, 0.5, 0.7501) is outside the domain "
               "triangle:vertices=[1,0,0 0,2,0 0,0,3]")
         << "off the plane";
 }

@@ -112,5 +112,5 @@ TEST(VonMisesFisher, DomainSaysWhatItIsAndRefusesTheRest) {
     EXPECT_EQ(error_of([] {
                   inverse_of(*mapping("vmf"), {0, 0, 2});
               }),
-              "input: the point (0, 0, 2) is outside the von-mises-fisher");
+              "input: the point (0, 0, 2) is outside the domain von-mises-fisher");
 }
