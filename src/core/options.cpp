@@ -27,12 +27,17 @@ std::vector<std::string> words(std::string_view text, char separator) {
     fail(ErrorKind::usage, "--{}: '{}' is not {}", option.name, text, wanted);
 }
 
+/// Rows of a matrix may stand apart by spaces: 2,1 1,2.
 std::vector<double> parse_numbers(const Option& option, std::string_view text) {
     std::vector<double> numbers;
     for (const auto part : split(text, ',')) {
-        const auto value = parse_number(trim(part));
-        if (!value) refuse(option, text, "a list of numbers such as 0.5,1");
-        numbers.push_back(*value);
+        const std::size_t before = numbers.size();
+        for (const auto word : split(trim(part), ' ')) {
+            const auto value = parse_number(word);
+            if (value) numbers.push_back(*value);
+            if (!value && !word.empty()) refuse(option, text, "a list of numbers such as 0.5,1");
+        }
+        if (numbers.size() == before) refuse(option, text, "a list of numbers such as 0.5,1");
     }
     if (numbers.empty()) refuse(option, text, "a list of numbers such as 0.5,1");
     return numbers;

@@ -52,7 +52,7 @@ constexpr Param<Numbers> deviation{
 constexpr Param<Numbers> covariance{
     {.name = "covariance",
      .fallback = {},
-     .help = "Covariance matrix in place of deviations: d x d numbers, row after row"}};
+     .help = "Covariance matrix in place of deviations: d x d numbers, row after row: 2,1 1,2"}};
 
 const Schema& schema() {
     static const Schema options(mean, deviation, covariance);

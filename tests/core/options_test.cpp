@@ -53,6 +53,7 @@ TEST(Options, ValuesAreReadFromText) {
     EXPECT_TRUE(with("radius", "0.25").given(radius));
     EXPECT_TRUE(with("shift", "true")[shift]);
     EXPECT_EQ(with("center", "1, -2.5")[center], (std::vector<double>{1, -2.5}));
+    EXPECT_EQ(with("center", "2,1  1,2 ")[center], (std::vector<double>{2, 1, 1, 2}));
     EXPECT_EQ(with("vertices", "0,0  2,0 0,2")[vertices], (Table{{0, 0}, {2, 0}, {0, 2}}));
     EXPECT_EQ(with("shape", "40x25")[shape], (std::vector<std::int64_t>{40, 25}));
 }
@@ -67,6 +68,9 @@ TEST(Options, RefusalsSayTheValueAndWhatIsAllowed) {
               "usage: --method: 'polr' is not one of polar, concentric | did you mean 'polar'?");
     EXPECT_EQ(refusal("vertices", "0,0 1"),
               "usage: --vertices: '0,0 1' is not a list of points of one dimension");
+    for (const char* gap : {"1,,2", "1,", ",1", " ", "1 x"})
+        EXPECT_EQ(refusal("center", gap), "usage: --center: '" + std::string(gap) +
+                                              "' is not a list of numbers such as 0.5,1");
     EXPECT_EQ(refusal("shape", "4x0"), "usage: --shape: '4x0' is not a shape such as 40x25");
     EXPECT_EQ(refusal("bsae", "3"), "usage: unknown option 'bsae' | did you mean 'base'?");
 }
