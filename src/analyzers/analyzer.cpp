@@ -1,9 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "analyzers/analyzer.hpp"
 
+#include <algorithm>
+
 #include "core/error.hpp"
+#include "core/text.hpp"
 
 namespace stipple {
+
+const ResultKey* find_result(const Analyzer& analyzer, std::string_view key) {
+    const auto names = split(key, '.');
+    const auto alike = [](std::string_view part, std::string_view name) {
+        const bool any = std::ranges::all_of(part, [](char c) { return c >= 'A' && c <= 'Z'; });
+        return any || part == name;
+    };
+    const auto it = std::ranges::find_if(analyzer.results, [&](const ResultKey& result) {
+        return std::ranges::equal(split(result.key, '.'), names, alike);
+    });
+    return it == analyzer.results.end() ? nullptr : &*it;
+}
 
 void check_dimension(const Analyzer& analyzer, std::size_t dimension) {
     const auto& traits = analyzer.traits;

@@ -31,8 +31,11 @@ struct AnalyzerTraits {
 struct ResultKey {
     std::string key;  ///< dotted; a part in capitals stands for any name
     std::string help;
-    bool always = true;  ///< false: some options give it
+    bool always = true;           ///< false: some options give it
+    std::string_view words = {};  ///< that it may be, separated by |; empty: numbers, or any text
 };
+
+inline constexpr std::string_view true_or_false = "true|false";
 
 /// What is known of a set before its points come.
 struct Arrival {
@@ -99,6 +102,9 @@ struct Analyzer {
     /// what is worked out from each of them, such as a combined p-value. May be empty.
     std::function<void(Report& mean, std::span<const Report> sets, const Values&)> combine = {};
 };
+
+/// The record of the result under a dotted key; nullptr if there is none.
+const ResultKey* find_result(const Analyzer& analyzer, std::string_view key);
 
 /// @throws Error(input) when the points' dimension is not one that the analyzer takes.
 void check_dimension(const Analyzer& analyzer, std::size_t dimension);

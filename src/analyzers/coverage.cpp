@@ -91,9 +91,10 @@ Analyzer coverage() {
                         {"center", "of that ball"},
                         {"lower", "some ball is at least so large"},
                         {"upper", "none is larger"},
-                        {"exact", "whether the two bounds are the same (up to 2 dimensions)"},
+                        {"exact", "whether the two bounds are the same (up to 2 dimensions)", true,
+                         true_or_false},
                         {"mesh_ratio", "radius over half the smallest distance of two points"},
-                        {"metric", "torus or euclidean"}},
+                        {"metric", "torus or euclidean", true, "torus|euclidean"}},
             .analyze = analyze,
             .refine = refine};
 }

@@ -311,7 +311,7 @@ Analyzer differential() {
                          "points have -10 log10(expected_differences x sets averaged)"},
                         {"radial.cells", "pixels in the ring"},
                         {"mean_distance", "sqrt(V / n), in units of the points"},
-                        {"metric", "torus or euclidean"}},
+                        {"metric", "torus or euclidean", true, "torus|euclidean"}},
             .analyze = analyze,
             .refine = refine,
             .combine = combine};

@@ -336,8 +336,9 @@ Analyzer hyperuniformity() {
                      "of that number over all places of the window; exact on the torus"},
                     {"dispersion", "variance over that of n independent points, mean (1 - v / V)"},
                     {"mean_distance", "(V / n)^(1/d), in units of the points"},
-                    {"method", "pairs: exact, through them; windows: of those drawn"},
-                    {"metric", "torus or euclidean"}},
+                    {"method", "pairs: exact, through them; windows: of those drawn", true,
+                     "pairs|windows"},
+                    {"metric", "torus or euclidean", true, "torus|euclidean"}},
         .analyze = analyze,
         .refine = refine,
         .combine = combine};

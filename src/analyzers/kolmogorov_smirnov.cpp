@@ -253,7 +253,8 @@ Analyzer kolmogorov_smirnov() {
                     {"combined_p_lower", "1 - (1 - p)^axes of the smallest p_lower (Sidak)"},
                     {"verdict",
                      "uniform; non-uniform: an axis has a wrong density; stratified: one is more "
-                     "even than random"}},
+                     "even than random",
+                     true, uniformity_verdicts}},
         .accumulate =
             [](const Arrival& arrival, const Values& options, const RunContext& run) {
                 return std::make_unique<Collector>(arrival, options, run);

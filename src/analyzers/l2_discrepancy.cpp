@@ -211,7 +211,8 @@ Analyzer l2_discrepancy() {
             .options = Schema(kind, axis_weights, precise),
             .results = {{"KIND.value", "the discrepancy of that kind"},
                         {"KIND.squared", "its square"},
-                        {"KIND.method", "exact-sums, divide-and-conquer or all-pairs"},
+                        {"KIND.method", "exact-sums, divide-and-conquer or all-pairs", true,
+                         "exact-sums|divide-and-conquer|all-pairs"},
                         {"KIND.error",
                          "the value is off by at most this (three and more "
                          "dimensions; fewer are exact)",

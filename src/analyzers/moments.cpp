@@ -187,7 +187,8 @@ std::vector<ResultKey> results() {
     keys.push_back(
         {"exact.known",
          "whether the exact values of the domain's law are known: in closed form or, for "
-         "formulas, by quadrature within 1e-6 of the range"});
+         "formulas, by quadrature within 1e-6 of the range",
+         true, true_or_false});
     keys.push_back({"exact.law",
                     "whose they are: uniform on the domain, or its density; the law that is meant, "
                     "also where a biased method such as disk:method=naive made the points"});

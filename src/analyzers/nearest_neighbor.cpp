@@ -132,7 +132,7 @@ Analyzer nearest_neighbor() {
                          "for more than 8 dimensions"},
                         {"pair", "the two points (from 0) that have the smallest distance"},
                         {"duplicates", "points that are at the same place as another"},
-                        {"metric", "torus or euclidean"}},
+                        {"metric", "torus or euclidean", true, "torus|euclidean"}},
             .analyze = analyze,
             .refine = refine};
 }

@@ -283,8 +283,8 @@ Analyzer pair_correlation() {
                         {"max_distance", "the last bin's upper rim"},
                         {"bin_width", "of each bin"},
                         {"mean_distance", "(V / n)^(1/d), in units of the points"},
-                        {"kernel", "histogram or epanechnikov"},
-                        {"metric", "torus or euclidean"}},
+                        {"kernel", "histogram or epanechnikov", true, "histogram|epanechnikov"},
+                        {"metric", "torus or euclidean", true, "torus|euclidean"}},
             .analyze = analyze,
             .combine = combine};
 }

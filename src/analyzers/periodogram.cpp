@@ -542,9 +542,9 @@ std::vector<ResultKey> results() {
             {"total_variation", "Half the mean of |radial power - 1|: 0 for white noise"},
             {"low_frequency_exponent",
              "a in power ~ frequency^a near 0, where the lowest rings have power"},
-            {"method", "nufft or direct"},
-            {"window", "none or hann"},
-            {"boundary", "torus, or faded out by the window"}};
+            {"method", "nufft or direct", true, "nufft|direct"},
+            {"window", "none or hann", true, "none|hann"},
+            {"boundary", "torus, or faded out by the window", true, "torus|faded out"}};
 }
 
 }  // namespace

@@ -178,24 +178,26 @@ void refine(Report& mean, std::size_t sets, const Values& options) {
 }  // namespace
 
 Analyzer poisson_disk() {
-    return {.name = "poisson-disk",
-            .summary = "Verifies that a set is a maximal Poisson-disk set of a radius",
-            .source = "Ebeida et al. 2012, doi:10.1111/j.1467-8659.2012.03059.x",
-            .traits = {.max_dimension = 32, .unit_cube = false, .boxed = true},
-            .options = Schema(radius, metric, tolerance, expect),
-            .results = {{"radius", "that was verified"},
-                        {"minimum", "the smallest distance of two points"},
-                        {"coverage_radius",
-                         "of the largest ball in which no point is; in 3 and more dimensions, of "
-                         "the largest that was met, where none is too large"},
-                        {"center", "of that ball"},
-                        {"conflicts", "pairs of points that are nearer than the radius"},
-                        {"first_conflict", "the first such pair (points from 0); else empty"},
-                        {"maximal", "whether no place is farther than the radius from all points"},
-                        {"valid", "whether that is so and there are no conflicts"},
-                        {"metric", "torus or euclidean"}},
-            .analyze = analyze,
-            .refine = refine};
+    return {
+        .name = "poisson-disk",
+        .summary = "Verifies that a set is a maximal Poisson-disk set of a radius",
+        .source = "Ebeida et al. 2012, doi:10.1111/j.1467-8659.2012.03059.x",
+        .traits = {.max_dimension = 32, .unit_cube = false, .boxed = true},
+        .options = Schema(radius, metric, tolerance, expect),
+        .results = {{"radius", "that was verified"},
+                    {"minimum", "the smallest distance of two points"},
+                    {"coverage_radius",
+                     "of the largest ball in which no point is; in 3 and more dimensions, of "
+                     "the largest that was met, where none is too large"},
+                    {"center", "of that ball"},
+                    {"conflicts", "pairs of points that are nearer than the radius"},
+                    {"first_conflict", "the first such pair (points from 0); else empty"},
+                    {"maximal", "whether no place is farther than the radius from all points", true,
+                     true_or_false},
+                    {"valid", "whether that is so and there are no conflicts", true, true_or_false},
+                    {"metric", "torus or euclidean", true, "torus|euclidean"}},
+        .analyze = analyze,
+        .refine = refine};
 }
 
 }  // namespace stipple::analyzers

@@ -205,7 +205,7 @@ Analyzer serial() {
                     {"runs_about_half_z", "the same in standard deviations from its mean"},
                     {"combined_p_value",
                      "1 - (1 - p)^T of the smallest two-sided p of all T tests"},
-                    {"verdict", "independent, dependent"}},
+                    {"verdict", "independent, dependent", true, "independent|dependent"}},
         .accumulate = [](const Arrival& arrival, const Values& options,
                          const RunContext&) { return std::make_unique<Order>(arrival, options); },
         .combine = combine};

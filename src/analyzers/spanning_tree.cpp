@@ -95,7 +95,7 @@ Analyzer spanning_tree() {
                         {"length", "of all edges together"},
                         {"edges", "n - 1"},
                         {"duplicates", "edges of length 0"},
-                        {"metric", "torus or euclidean"}},
+                        {"metric", "torus or euclidean", true, "torus|euclidean"}},
             .analyze = analyze};
 }
 

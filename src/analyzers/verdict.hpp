@@ -26,7 +26,9 @@ inline constexpr Param<Choice> expect_uniformity_option{
     .choices = "uniform|stratified",
     .help = "Fail (exit code 1) when the verdict is another; stratified points are not 'uniform'"};
 
-/// As uniform, non-uniform or stratified: which tail of tests is the smaller, and whether its
+inline constexpr std::string_view uniformity_verdicts = "uniform|non-uniform|stratified";
+
+/// One of these verdicts: which tail of tests is the smaller, and whether its
 /// two-sided p is below the level.
 inline std::string verdict_of(double upper, double lower, double level) {
     if (2 * std::min(upper, lower) >= level) return "uniform";

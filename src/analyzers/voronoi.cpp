@@ -259,7 +259,7 @@ Analyzer voronoi() {
              {"centroid_offset.mean", "distance of a point from its cell's centroid"},
              {"centroid_offset.root_mean_square", "the root of the mean square of these"},
              {"centroid_offset.maximum", "the largest of these"},
-             {"metric", "torus or euclidean"}},
+             {"metric", "torus or euclidean", true, "torus|euclidean"}},
         .analyze = analyze};
 }
 

@@ -30,14 +30,15 @@
 namespace stipple::cli {
 namespace {
 
-bool tells(const Analyzer& analyzer, std::string_view key) {
-    return std::ranges::any_of(analyzer.results, [&](const auto& r) { return r.key == key; });
-}
-
 /// A condition; --check alone asks whether the set is valid.
 Check check_of(const std::string& text, const Analyzer& analyzer) {
-    if (text != bare_check) return parse_check(text);
-    if (tells(analyzer, "valid")) return {.key = "valid", .op = "==", .value = "true"};
+    if (text != bare_check) {
+        const Check check = parse_check(text);
+        const auto* result = find_result(analyzer, check.key.substr(0, check.key.find('[')));
+        if (result != nullptr) require_sense(check, *result);
+        return check;
+    }
+    if (find_result(analyzer, "valid")) return {.key = "valid", .op = "==", .value = "true"};
     std::vector<std::string> keys;
     for (const ResultKey& result : analyzer.results) keys.push_back(result.key);
     fail_with_hint(ErrorKind::usage, "its results are " + join(keys, ", "),
@@ -169,16 +170,20 @@ class Analysis {
         if (arguments_.integer("sets", 1, 1'000'000'000).value_or(1) > 1)
             fail_with_hint(ErrorKind::usage, "'stipple study' shares many sets out",
                            "--sets: ranks share one");
+        if (arguments_.has("generate")) return measure_together(*arguments_.get("generate"));
+        refuse_generated_options();
+        naming(inputs_.front(), [this] { measure_together(inputs_.front()); });
+    }
+
+    void measure_together(const std::string& source) {
         const auto start = Clock::now();
-        const bool generated = arguments_.has("generate");
-        if (!generated) refuse_generated_options();
         const SharedSet set =
-            generated ? shared_generated()
-                      : shared_files(arguments_, analyzer_, strengths(), ranks_, own_run());
-        Measurement m = measurement(generated ? *arguments_.get("generate") : inputs_.front(), 0,
-                                    set.count, *set.domain);
+            arguments_.has("generate")
+                ? shared_generated()
+                : shared_files(arguments_, analyzer_, strengths(), ranks_, own_run());
+        Measurement m = measurement(source, 0, set.count, *set.domain);
         m.set.reset();
-        if (sharing->together) {
+        if (sharing_of(analyzer_)->together) {
             m.results = searched_together(set);
         } else {
             auto found = analyze_shared(analyzer_, set, options_, ranks_, own_run());
@@ -503,7 +508,7 @@ class Analysis {
 
     /// What averaged sets disagree on is not in their mean, and holds for none of it.
     bool lost(const Check& check, const Report& results) const {
-        return averaged_ && !results.find(check.key) && tells(analyzer_, check.key);
+        return averaged_ && !results.find(check.key) && find_result(analyzer_, check.key);
     }
 
     bool holds(const Check& check, const Report& results) const {

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
-#include <type_traits>
+#include <string_view>
 
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
@@ -34,21 +34,50 @@ struct Waiting {
 
 std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
-/// A condition of --fail-on. @throws Error(usage) naming the option
+/// Keys under which a measure's results may be.
+std::vector<std::string> keys_of(const std::string& measure, const Analyzer& analyzer) {
+    std::vector<std::string> keys;
+    const auto any_name = [](char c) { return c >= 'A' && c <= 'Z'; };
+    for (const ResultKey& result : analyzer.results)
+        if (std::ranges::none_of(result.key, any_name)) keys.push_back(measure + "." + result.key);
+    for (const PageKey& known : page_keys())
+        if (std::string_view(known.key).starts_with(measure + ".") &&
+            std::ranges::find(keys, known.key) == keys.end())
+            keys.emplace_back(known.key);
+    return keys;
+}
+
+/// A condition of --fail-on, with its whole key: the name of a measure alone is its value.
+/// @throws Error(usage) for what no page has, and for what can never hold
 Check condition_of(const std::string& text) {
-    try {
-        return parse_check(text);
-    } catch (const Error&) {
-        fail(ErrorKind::usage,
-             "--fail-on: '{}' is not KEY>VALUE; with <, <=, >, >=, == or !=", text);
+    Check check = parse_check(text, "--fail-on");
+    const std::string measure = check.key.substr(0, check.key.find_first_of(".["));
+    const Analyzer* analyzer = page_analyzer(measure);
+    if (analyzer == nullptr)
+        fail_with_hint(ErrorKind::usage, suggest(measure, page_measures()),
+                       "--fail-on: '{}' does not begin with the name of a measure", check.key);
+    const bool alone = check.key == measure;
+    if (alone) check.key += ".value";
+    const std::string path = check.key.substr(0, check.key.find('['));
+    const ResultKey* result =
+        path == measure ? nullptr : find_result(*analyzer, path.substr(measure.size() + 1));
+    if (result == nullptr) {
+        const auto keys = keys_of(measure, *analyzer);
+        fail_with_hint(ErrorKind::usage,
+                       alone ? "its keys are " + join(keys, ", ") : suggest(check.key, keys),
+                       "--fail-on: there is no '{}'", check.key);
     }
+    require_sense(check, *result);
+    return check;
 }
 
 /// The condition that holds where this one does not.
 Check opposite_of(const Check& check) {
     static const std::map<std::string, std::string> opposites = {
         {"<", ">="}, {"<=", ">"}, {">", "<="}, {">=", "<"}, {"==", "!="}, {"!=", "=="}};
-    return {.key = check.key, .op = opposites.at(check.op), .value = check.value};
+    Check opposite = check;
+    opposite.op = opposites.at(check.op);
+    return opposite;
 }
 
 class Reporter {
@@ -269,30 +298,16 @@ class Reporter {
         return set;
     }
 
-    /// What --check would say, said of --fail-on.
-    template <class Work>
-    static std::invoke_result_t<Work> named(const Work& work) {
-        try {
-            return work();
-        } catch (const Error& e) {
-            std::string what = e.what();
-            if (what.starts_with("--check:")) what.replace(0, 7, "--fail-on");
-            throw Error(e.kind(), what, e.hint());
-        }
-    }
-
     /// Whether no condition of --fail-on holds, or may hold.
     bool judge(const std::vector<PageSet>& sets) const {
         bool fine = true;
-        for (const Check& condition : conditions_) {
-            const Check check = with_known_key(condition, sets);
+        for (const Check& check : conditions_) {
+            require_known(check.key, sets);
             for (const PageSet& set : sets) {
                 const Report all = set.all_results();
-                if (!has(all, check.key)) continue;
-                if (named([&] { return opposite_of(check).holds(all); })) continue;
+                if (!has(all, check.key) || opposite_of(check).holds(all)) continue;
                 say(fmt::format("stipple: {}: {} is {}, and --fail-on is {}{}{}\n", set.name,
-                                check.key, named([&] { return check.found(all); }), check.key,
-                                check.op, check.value));
+                                check.key, check.found(all), check.key, check.op, check.value));
                 fine = false;
             }
         }
@@ -304,27 +319,18 @@ class Reporter {
         return item != nullptr && !std::holds_alternative<Report>(*item);
     }
 
-    /// The key as the sets have it; the name of a measure alone is its value.
-    /// @throws Error(usage) for one that no set has
-    static Check with_known_key(Check check, const std::vector<PageSet>& sets) {
-        const auto known = [&](const std::string& key) {
-            return std::ranges::any_of(
-                sets, [&](const PageSet& set) { return has(set.all_results(), key); });
-        };
-        if (known(check.key)) return check;
-        if (known(check.key + ".value")) {
-            check.key += ".value";
-            return check;
+    /// @throws Error(usage) for a key that no set has, with the reason where a measure was left out
+    static void require_known(const std::string& key, const std::vector<PageSet>& sets) {
+        std::string hint;
+        for (const PageSet& set : sets) {
+            const Report all = set.all_results();
+            if (has(all, key)) return;
+            for (const PageMeasure& measure : set.measures)
+                if (key.starts_with(measure.name + "."))
+                    hint = measure.results ? suggest(key, all.keys())
+                                           : fmt::format("it was left out: {}", measure.left_out);
         }
-        std::vector<std::string> keys = page_measures();
-        for (const PageSet& set : sets)
-            for (auto& key : set.all_results().keys()) keys.push_back(std::move(key));
-        const auto meant = nearest_word(check.key, keys);
-        fail_with_hint(ErrorKind::usage,
-                       meant ? fmt::format("did you mean {}?", *meant)
-                             : "keys are MEASURE.RESULT, such as star-discrepancy.value; --json "
-                               "has them all",
-                       "--fail-on: no set has '{}'", check.key);
+        fail_with_hint(ErrorKind::usage, hint, "--fail-on: no set has '{}'", key);
     }
 
     /// The command that makes this page, less what cannot change it.

@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <optional>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -20,25 +23,32 @@ bool compare(double a, const std::string& op, double b) {
     return a != b;
 }
 
+/// What is wrong with a condition.
+template <class... Args>
+[[noreturn]] void refuse(const Check& check, fmt::format_string<Args...> what, Args&&... args) {
+    fail(ErrorKind::usage, "{}: {}", check.option, fmt::format(what, std::forward<Args>(args)...));
+}
+
 /// The number that a key means: "value" or, of several, "mean[0]".
-double number_of(const Report& report, std::string_view key) {
+double number_of(const Check& check, const Report& report, std::string_view key) {
     const auto open = key.find('[');
     const Report::Item* item = report.find(key.substr(0, open));
+    if (item == nullptr)
+        fail_with_hint(ErrorKind::usage, suggest(key.substr(0, open), report.keys()),
+                       "{}: there is no result '{}'", check.option, key);
     const auto refuse_list = [&](const auto& numbers) {
-        fail(ErrorKind::usage, "--check: '{}' has {} numbers; one of them is {}[0]", key,
-             numbers.size(), key);
+        refuse(check, "'{}' has {} numbers; one of them is {}[0]", key, numbers.size(), key);
     };
-    if (item != nullptr && open == std::string_view::npos) {
+    if (open == std::string_view::npos) {
         if (const auto* curve = std::get_if<Report::Curve>(item)) refuse_list(*curve);
         if (const auto* whole = std::get_if<Report::Integers>(item)) refuse_list(*whole);
     }
-    if (open == std::string_view::npos || !key.ends_with(']') || item == nullptr)
-        return report.number(key);
+    if (open == std::string_view::npos || !key.ends_with(']')) return report.number(key);
     const auto index = parse_unsigned(key.substr(open + 1, key.size() - open - 2));
     const auto pick = [&](const auto& numbers) {
         if (!index || *index >= numbers.size())
-            fail(ErrorKind::usage, "--check: '{}' is no key; {} has {} numbers, [0] to [{}]", key,
-                 key.substr(0, open), numbers.size(), numbers.size() - 1);
+            refuse(check, "'{}' is no key; {} has {} numbers, [0] to [{}]", key,
+                   key.substr(0, open), numbers.size(), numbers.size() - 1);
         return static_cast<double>(numbers[*index]);
     };
     if (const auto* curve = std::get_if<Report::Curve>(item)) return pick(*curve);
@@ -52,26 +62,26 @@ struct Range {
 };
 
 /// The bounds beside a `value`, where it stands beside a `lower` and an `upper` one.
-std::optional<Range> bounds_of(const Report& report, const std::string& key) {
-    const std::string path = key.substr(0, key.find('['));
-    const std::string index = key.substr(path.size());
+std::optional<Range> bounds_of(const Check& check, const Report& report) {
+    const std::string path = check.key.substr(0, check.key.find('['));
+    const std::string index = check.key.substr(path.size());
     const std::string group = path.substr(0, path.rfind('.') + 1);
     const auto has = [&](const char* name) { return report.find(group + name) != nullptr; };
     if (path != group + "value" || !has("lower") || !has("upper")) return {};
-    return Range{number_of(report, group + "lower" + index),
-                 number_of(report, group + "upper" + index)};
+    return Range{number_of(check, report, group + "lower" + index),
+                 number_of(check, report, group + "upper" + index)};
 }
 
 /// What a condition on a `value` is about: it must hold for both bounds.
-double bounded(const Report& report, const std::string& key, const std::string& op, double found) {
-    const auto range = bounds_of(report, key);
+double bounded(const Check& check, const Report& report, double found) {
+    const auto range = bounds_of(check, report);
     if (!range) return found;
-    if (op == "<" || op == "<=") return range->upper;
-    if (op == ">" || op == ">=") return range->lower;
+    if (check.op == "<" || check.op == "<=") return range->upper;
+    if (check.op == ">" || check.op == ">=") return range->lower;
     if (range->lower == range->upper) return found;
-    fail(ErrorKind::usage,
-         "--check: '{}' is only known to be between {} and {}; compare it with <, <=, > or >=", key,
-         format_number(range->lower), format_number(range->upper));
+    refuse(check,
+           "'{}' is only known to be between {} and {}; compare it with <, <=, > or >=", check.key,
+           format_number(range->lower), format_number(range->upper));
 }
 
 /// The word or flag under a key; empty if it is none.
@@ -83,48 +93,76 @@ std::string word_of(const Report& report, const std::string& key) {
     return {};
 }
 
+/// An operator as other languages write it; nothing for what is none there, either.
+std::string_view meant_by(std::string_view op) {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 5> known = {
+        {{"=", "=="}, {"===", "=="}, {"=<", "<="}, {"=>", ">="}, {"<>", "!="}}};
+    for (const auto& [typed, meant] : known)
+        if (op == typed) return meant;
+    return {};
+}
+
+/// "uniform, non-uniform or stratified"
+std::string listed(const std::vector<std::string_view>& words) {
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (i > 0) text += i + 1 < words.size() ? ", " : " or ";
+        text += words[i];
+    }
+    return text;
+}
+
 }  // namespace
 
-Check parse_check(std::string_view text) {
+Check parse_check(std::string_view text, const std::string& option) {
     const auto at = text.find_first_of("<>=!");
     const auto last = text.find_first_not_of("<>=!", at);
-    Check check;
+    Check check{.key = {}, .op = {}, .value = {}, .option = option};
     if (at != std::string_view::npos && last != std::string_view::npos) {
         check.key = trim(text.substr(0, at));
         check.op = text.substr(at, last - at);
         check.value = trim(text.substr(last));
     }
-    if (check.op == "=") check.op = "==";
     const bool known = check.op == "<" || check.op == "<=" || check.op == ">" || check.op == ">=" ||
                        check.op == "==" || check.op == "!=";
+    const auto meant = meant_by(check.op);
     if (check.key.empty() || check.value.empty() || !known)
-        fail(ErrorKind::usage, "--check: '{}' is not KEY<VALUE; with <, <=, >, >=, == or !=", text);
+        fail_with_hint(ErrorKind::usage,
+                       meant.empty() ? "" : fmt::format("did you mean '{}'?", meant),
+                       "{}: '{}' is not KEY<VALUE; with <, <=, >, >=, == or !=", option, text);
     return check;
+}
+
+void require_sense(const Check& check, const ResultKey& result) {
+    const auto words = split(result.words, '|');
+    if (words.empty()) return;
+    if (check.op != "==" && check.op != "!=")
+        refuse(check, "'{}' is {}; compare it with == or !=", check.key, listed(words));
+    if (std::ranges::find(words, check.value) == words.end())
+        refuse(check, "'{}' is never '{}'; it is {}", check.key, check.value, listed(words));
 }
 
 bool Check::holds(const Report& report) const {
     const std::string word = word_of(report, key);
     if (!word.empty()) {
         if (op != "==" && op != "!=")
-            fail(ErrorKind::usage, "--check: '{}' is '{}', a word; compare it with == or !=", key,
-                 word);
+            refuse(*this, "'{}' is '{}', a word; compare it with == or !=", key, word);
         return (word == value) == (op == "==");
     }
-    const double found = bounded(report, key, op, number_of(report, key));
+    const double found = bounded(*this, report, number_of(*this, report, key));
     const auto wanted = parse_number(value);
-    if (!wanted)
-        fail(ErrorKind::usage, "--check: '{}' is not a number to compare '{}' with", value, key);
+    if (!wanted) refuse(*this, "'{}' is not a number to compare '{}' with", value, key);
     return compare(found, op, *wanted);
 }
 
 std::string Check::found(const Report& report) const {
     std::string word = word_of(report, key);
     if (!word.empty()) return word;
-    const auto range = bounds_of(report, key);
+    const auto range = bounds_of(*this, report);
     if (range && range->lower < range->upper)
         return fmt::format("between {} and {}", format_number(range->lower),
                            format_number(range->upper));
-    return format_number(number_of(report, key));
+    return format_number(number_of(*this, report, key));
 }
 
 }  // namespace stipple

@@ -6,14 +6,16 @@
 #include <string>
 #include <string_view>
 
+#include "analyzers/analyzer.hpp"
 #include "core/report.hpp"
 
 namespace stipple {
 
 struct Check {
-    std::string key;    ///< dotted
-    std::string op;     ///< < <= > >= == !=
-    std::string value;  ///< a number, true, false, or a word
+    std::string key;                 ///< dotted
+    std::string op;                  ///< < <= > >= == !=
+    std::string value;               ///< a number, true, false, or a word
+    std::string option = "--check";  ///< by which it was given, for messages
 
     /// Whether it holds. @throws Error(usage): no such key, or no number where one is compared.
     [[nodiscard]] bool holds(const Report& report) const;
@@ -23,6 +25,10 @@ struct Check {
 };
 
 /// @throws Error(usage)
-Check parse_check(std::string_view text);
+Check parse_check(std::string_view text, const std::string& option = "--check");
+
+/// Refuses what is certain before anything is measured: a word that the result never is, or none
+/// where it is one. @throws Error(usage) naming what there is
+void require_sense(const Check& check, const ResultKey& result);
 
 }  // namespace stipple

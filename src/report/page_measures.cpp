@@ -145,4 +145,10 @@ std::vector<std::string> page_measures() {
     return names;
 }
 
+const Analyzer* page_analyzer(std::string_view measure) {
+    for (const Planned& plan : plans)
+        if (plan.name == measure) return &find_analyzer(plan.analyzer);
+    return nullptr;
+}
+
 }  // namespace stipple

@@ -8,8 +8,10 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "analyzers/analyzer.hpp"
 #include "report/page_content.hpp"
 
 namespace stipple {
@@ -33,5 +35,8 @@ std::vector<PageMeasure> measure_set(const PointSet& points, const PageInput& in
 
 /// Names of all measures, as their keys begin.
 std::vector<std::string> page_measures();
+
+/// The analyzer of the measure of that name; nullptr if there is none.
+const Analyzer* page_analyzer(std::string_view measure);
 
 }  // namespace stipple

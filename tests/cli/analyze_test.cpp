@@ -108,7 +108,8 @@ TEST(Analyze, ChecksAndExpectationsSetTheExitCode) {
               0);
     EXPECT_EQ(code({"star-discrepancy", "--check", "value < 0.001"}), 1);
     EXPECT_EQ(code({"star-discrepancy", "--check", "exact==true"}), 0);
-    EXPECT_EQ(code({"star-discrepancy", "--check", "method==guess"}), 1);
+    EXPECT_EQ(code({"star-discrepancy", "--check", "method==sweep-1d"}), 1);
+    EXPECT_EQ(code({"star-discrepancy", "--check", "method==guess"}), 2);
     EXPECT_EQ(code({"star-discrepancy", "--check", "valeu<1"}), 2);
     EXPECT_EQ(code({"star-discrepancy", "--check", "value~1"}), 2);
     EXPECT_EQ(code({"chi-square", "--expect", "stratified"}), 0);

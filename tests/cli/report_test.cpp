@@ -149,6 +149,28 @@ TEST(Report, FailsWhereBoundsLeaveItOpen) {
     EXPECT_EQ(box.shell(report + "'star-discrepancy>1'").code, 0);
 }
 
+// Before anything is measured.
+TEST(Report, RefusesConditionsThatNeverHold) {
+    const Sandbox box;
+    good(box.shell("stipple generate halton -n 20 -d 5 -o a.csv"));
+    const auto expect = [&](const char* condition, const char* words) {
+        expect_refusal(box.run({"report", "a.csv", "--max-work", "1000", "--fail-on", condition,
+                                "-o", "r.html"}),
+                       2, words);
+    };
+    expect("chi-square.verdict==foo", "it is uniform, non-uniform or stratified");
+    expect("star-discrepancy.exact==1", "it is true or false");
+    expect("star-discrepancy=1", "did you mean '=='?");
+    expect("l2-discrepancy>1", "its keys are l2-discrepancy.star.value, ");
+    expect("t-value>1", "its keys are t-value.t, ");
+    expect("nearest-neighbor>1", "its keys are nearest-neighbor.minimum, ");
+    expect("nearest-neighbor.minimun>1", "did you mean 'nearest-neighbor.minimum'?");
+    expect("disperson.value>1", "did you mean 'dispersion'?");
+    expect("l2-discrepancy.stra.value>1", "did you mean 'l2-discrepancy.star.value'?");
+    expect("periodogram.oscillation>1", "it was left out: periodogram takes points of dimension");
+    EXPECT_FALSE(box.exists("r.html"));
+}
+
 TEST(Report, RefusesWhatItCannotReportOn) {
     const Sandbox box;
     good(
@@ -165,9 +187,9 @@ TEST(Report, RefusesWhatItCannotReportOn) {
     expect_refusal(box.run({"report", "a.csv", "-n", "5", "-o", "r.html"}), 2, "--generate");
     expect_refusal(box.run({"report", "-", "-", "-o", "r.html"}), 2, "twice");
     expect_refusal(box.run({"report", "a.csv", "--fail-on", "value", "-o", "r.html"}), 2,
-                   "--fail-on: 'value' is not KEY>VALUE");
+                   "--fail-on: 'value' is not KEY<VALUE");
     expect_refusal(box.run({"report", "a.csv", "--fail-on", "star-discrepncy>1", "-o", "r.html"}),
-                   2, "did you mean star-discrepancy");
+                   2, "did you mean 'star-discrepancy'?");
     expect_refusal(box.run({"report", "a.csv", "--fail-on", "dispersion.method>1", "-o", "r.html"}),
                    2, "--fail-on");
     expect_refusal(box.run({"report", "a.csv", "-o", "no/such/r.html"}), 4, "no/such");

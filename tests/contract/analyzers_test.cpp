@@ -15,17 +15,6 @@ using namespace stipple::testing;
 
 namespace {
 
-/// Whether a key of a record means this key of a report: its parts in capitals mean any name.
-bool stands_for(const std::string& record, const std::string& key) {
-    const auto parts = split(record, '.');
-    const auto names = split(key, '.');
-    const auto same = [](std::string_view part, std::string_view name) {
-        const bool any = std::ranges::all_of(part, [](char c) { return c >= 'A' && c <= 'Z'; });
-        return any || part == name;
-    };
-    return std::ranges::equal(parts, names, same);
-}
-
 class EveryAnalyzer : public ::testing::TestWithParam<std::string> {
   protected:
     const Analyzer& unit = find_analyzer(GetParam());
@@ -68,17 +57,44 @@ TEST_P(EveryAnalyzer, GivesTheSameForPointsThatComeInBlocks) {
 
 TEST_P(EveryAnalyzer, GivesTheKeysOfItsRecord) {
     const Report found = report(512);
-    for (const auto& [key, help, always] : unit.results) {
-        const bool there = found.find(key) || std::ranges::any_of(found.keys(), [&](const auto& k) {
-                               return stands_for(key, k);
-                           });
-        EXPECT_EQ(there, always) << key;
-        EXPECT_FALSE(help.empty()) << key;
+    for (const ResultKey& result : unit.results) {
+        const bool there =
+            found.find(result.key) || std::ranges::any_of(found.keys(), [&](const auto& key) {
+                return find_result(unit, key) == &result;
+            });
+        EXPECT_EQ(there, result.always) << result.key;
+        EXPECT_FALSE(result.help.empty()) << result.key;
     }
-    for (const auto& key : found.keys()) {
-        const auto told = [&](const ResultKey& result) { return stands_for(result.key, key); };
-        EXPECT_EQ(std::ranges::count_if(unit.results, told), 1) << key;
+    for (const auto& key : found.keys()) EXPECT_NE(find_result(unit, key), nullptr) << key;
+}
+
+// Conditions on words are checked against the record before anything is measured.
+TEST_P(EveryAnalyzer, GivesNoWordThatItsRecordDoesNotTell) {
+    for (const std::size_t d : {1, 2, 3}) {
+        if (d < unit.traits.min_dimension || d > unit.traits.max_dimension) continue;
+        const Report found =
+            analyze(unit, make("random", points(256, d)), unit.options.defaults(), {});
+        for (const auto& key : found.keys()) {
+            const std::string_view words = find_result(unit, key)->words;
+            const Report::Item& item = *found.find(key);
+            if (std::holds_alternative<bool>(item)) {
+                EXPECT_EQ(words, true_or_false) << key;
+            } else if (const auto* word = std::get_if<std::string>(&item)) {
+                EXPECT_TRUE(words.empty() || std::ranges::count(split(words, '|'), *word) == 1)
+                    << key << " is " << *word;
+            } else {
+                EXPECT_EQ(words, "") << key;
+            }
+        }
     }
+}
+
+TEST_P(EveryAnalyzer, ExplainsEachWordOfItsResults) {
+    for (const ResultKey& result : unit.results)
+        for (const auto word : split(result.words, '|'))
+            EXPECT_TRUE(result.words == true_or_false ||
+                        result.help.find(word) != std::string::npos)
+                << result.key << ": " << word;
 }
 
 TEST_P(EveryAnalyzer, RefusesAnEmptySetAndWrongDimensions) {

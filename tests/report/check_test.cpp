@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "study/chain.hpp"
 #include "support/units.hpp"
 
 using namespace stipple;
@@ -35,6 +36,45 @@ TEST(Check, OfAValueBetweenBoundsHoldsForBoth) {
     EXPECT_EQ(error_of([] { holds("value==0.2", between_bounds(false)); }),
               "usage: --check: 'value' is only known to be between 0.2 and 0.3; compare it with <, "
               "<=, > or >=");
+}
+
+TEST(Check, KnowsTheOperatorsOfOtherLanguages) {
+    const auto refusal = [](const char* text) { return error_of([&] { parse_check(text); }); };
+    const std::string rule = " is not KEY<VALUE; with <, <=, >, >=, == or !=";
+    EXPECT_EQ(refusal("a=1"), "usage: --check: 'a=1'" + rule + " | did you mean '=='?");
+    EXPECT_EQ(refusal("a=<1"), "usage: --check: 'a=<1'" + rule + " | did you mean '<='?");
+    EXPECT_EQ(refusal("a<>1"), "usage: --check: 'a<>1'" + rule + " | did you mean '!='?");
+    EXPECT_EQ(refusal("a!1"), "usage: --check: 'a!1'" + rule);
+    EXPECT_EQ(refusal("<1"), "usage: --check: '<1'" + rule);
+    EXPECT_EQ(refusal("a == 1"), "");
+}
+
+TEST(Check, OfAWordIsOneThatTheResultMayBe) {
+    const auto refusal = [](const char* text) {
+        const Check check = parse_check(text, "--fail-on");
+        return error_of(
+            [&] { require_sense(check, *find_result(find_analyzer("chi-square"), check.key)); });
+    };
+    EXPECT_EQ(refusal("verdict==stratified"), "");
+    EXPECT_EQ(refusal("verdict!=uniform"), "");
+    EXPECT_EQ(refusal("p_value<0.1"), "");
+    EXPECT_EQ(refusal("verdict==foo"),
+              "usage: --fail-on: 'verdict' is never 'foo'; it is uniform, non-uniform or "
+              "stratified");
+    EXPECT_EQ(refusal("verdict<1"),
+              "usage: --fail-on: 'verdict' is uniform, non-uniform or stratified; compare it with "
+              "== or !=");
+    const Check flag = parse_check("exact==1");
+    EXPECT_EQ(
+        error_of([&] { require_sense(flag, *find_result(find_analyzer("dispersion"), flag.key)); }),
+        "usage: --check: 'exact' is never '1'; it is true or false");
+}
+
+TEST(Check, NamesTheResultsThatThereAre) {
+    EXPECT_EQ(error_of([] { holds("valeu<1", between_bounds(true)); }),
+              "usage: --check: there is no result 'valeu' | did you mean 'value'?");
+    EXPECT_EQ(error_of([] { holds("p<1", between_bounds(true)); }),
+              "usage: --check: there is no result 'p' | known: value, lower, upper, exact");
 }
 
 TEST(Check, OfATablesValuesHoldsForBothBounds) {
