@@ -267,8 +267,8 @@ Job arrays: parts of a set
   In a shell, part{0..63}.npy names them in their order; part*.npy does not: 10 is before 2.
 
 MPI: one set, measured by many ranks
-  'stipple --version' does not tell whether the build has MPI; a build without says so when a
-  launcher starts it. chi-square, kolmogorov-smirnov, moments and periodogram take files (each
+  'stipple --version' tells the build's MPI; a build without one says so when a launcher starts
+  it. chi-square, kolmogorov-smirnov, moments and periodogram take files (each
   rank its stretch of the points, wherever the files end) or --generate (nobody stores the
   points):
 

@@ -161,11 +161,21 @@ class MpiRanks : public Ranks {
 
 bool has_mpi() { return true; }
 
+std::string mpi_version() {
+    std::string text(MPI_MAX_LIBRARY_VERSION_STRING, '\0');
+    int size = 0;
+    MPI_Get_library_version(text.data(), &size);
+    text.resize(static_cast<std::size_t>(size));
+    return text.substr(0, text.find_first_of(",\n"));
+}
+
 std::unique_ptr<Ranks> join_ranks() { return std::make_unique<MpiRanks>(); }
 
 #else
 
 bool has_mpi() { return false; }
+
+std::string mpi_version() { return {}; }
 
 std::unique_ptr<Ranks> join_ranks() { return std::make_unique<Ranks>(); }
 

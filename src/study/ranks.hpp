@@ -39,6 +39,9 @@ unsigned threads_of(const Ranks& ranks, const RunContext& run);
 /// Whether this build has MPI.
 bool has_mpi();
 
+/// The name and version of the MPI of this build, "Open MPI v4.1.6"; empty without.
+std::string mpi_version();
+
 /// Joins the others that the launcher started. Without MPI in the build, this process alone.
 std::unique_ptr<Ranks> join_ranks();
 

@@ -60,7 +60,36 @@ TEST(Ranks, SpeakOnceOfWhatIsWrong) {
     EXPECT_THAT(alone.err, HasSubstr("ranks do not share dispersion"));
 }
 
+// The ranks agree on what is wrong with points, and rank 0 names their file as one process does.
+TEST(Ranks, NameTheFileThatIsAtFault) {
+    if (std::string(STIPPLE_SANITIZE) != "") GTEST_SKIP() << "MPI's own leaks are not ours";
+    const Sandbox box;
+    if (!can_launch(box)) GTEST_SKIP() << "no launcher";
+    box.write("outside.csv", "x,y\n0.1,0.2\n0.3,1.5\n");
+    box.write("good.csv", "x,y\n0.1,0.2\n0.3,0.5\n");
+    for (const std::string rest : {"moments outside.csv", "moments --concat good.csv outside.csv",
+                                   "star-discrepancy outside.csv"}) {
+        const std::string command = "stipple analyze " + rest;
+        const Outcome one = box.shell(command);
+        const Outcome two = box.shell(mpirun + "-n 2 " + command);
+        EXPECT_EQ(one.code, 3);
+        EXPECT_EQ(two.code, 3);
+        EXPECT_THAT(one.err, HasSubstr("outside.csv: 1 of "));
+        EXPECT_THAT(two.err, HasSubstr(one.err));
+    }
+}
+
+TEST(Ranks, AreToldByTheVersion) {
+    const Sandbox box;
+    EXPECT_THAT(good(box.run({"--version"})), HasSubstr(", Open MPI v"));
+}
+
 #else
+
+TEST(Ranks, AreToldByTheVersion) {
+    const Sandbox box;
+    EXPECT_THAT(good(box.run({"--version"})), HasSubstr(", without MPI\n"));
+}
 
 TEST(Ranks, NeedABuildWithMpi) {
     const Sandbox box;
