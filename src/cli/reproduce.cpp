@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/verbs.hpp"
+#include "cli/without_points.hpp"
 #include "core/error.hpp"
 #include "core/file_bytes.hpp"
 #include "core/fingerprint.hpp"
@@ -96,8 +97,8 @@ bool file_there(const std::string& path) {
 
 /// A picture by `stipple plot`, with what it tells of the set that it shows. False: no such
 /// picture.
-bool take_plot(Original& original, std::string_view png) {
-    const Json note = Json::parse(text_of_png(png, "stipple").value_or(""), nullptr, false);
+bool take_plot(Original& original, std::string_view picture) {
+    const Json note = Json::parse(io::picture_note(picture).value_or(""), nullptr, false);
     if (!note.is_object() || note.contains("format") || !note.contains("command")) return false;
     original.plotted = note["command"].get<std::string>();
     if (!note.contains("meta"))
@@ -113,10 +114,12 @@ bool take_carried(Original& original, std::string_view front, const RunContext& 
     std::optional<io::CarriedMeta> carried;
     const std::string beside = io::meta_path(original.path);
     const bool picture = front.starts_with(png_magic);
-    original.drawn = front.starts_with("ply\n") || front.starts_with("<svg");
-    if (picture && take_plot(original, io::Input(original.path, run).bytes())) return true;
+    const bool svg = front.starts_with("<svg") || front.starts_with("<?xml");
+    original.drawn = front.starts_with("ply\n") || svg;
     if (picture || original.drawn) {
-        carried = io::find_carried_meta(io::Input(original.path, run).bytes(), original.name);
+        const io::Input whole(original.path, run);
+        if (take_plot(original, whole.bytes())) return true;
+        carried = io::find_carried_meta(whole.bytes(), original.name);
         if (!carried) refuse_without_provenance(original);
     } else if (file_there(beside)) {
         carried = io::carried_meta(io::Input(beside, run).bytes(), beside);
@@ -143,16 +146,6 @@ std::unique_ptr<io::PointStream> open_original(const Original& original,
     return io::open_points(original.path, options, reading, original.format);
 }
 
-void refuse_report(const Original& original, std::string_view front) {
-    const auto top = front.substr(0, 400);
-    if (top.find("\"stipple.report\"") == std::string_view::npos) return;
-    fail_with_hint(
-        ErrorKind::input, "reproduce takes files of points",
-        "{}: it holds results of analyze, and names the points that they are of, but not "
-        "how these were made",
-        original.name);
-}
-
 Original read_original(const std::string& input, const RunContext& run) {
     std::error_code ignored;
     const bool pipe = input == "-" || (std::filesystem::exists(input, ignored) &&
@@ -160,7 +153,7 @@ Original read_original(const std::string& input, const RunContext& run) {
                                        !std::filesystem::is_directory(input, ignored));
     Original original{.name = io::source_name(input), .path = pipe ? spooled(input, run) : input};
     const io::Feed feed(original.path, run);
-    refuse_report(original, feed.front());
+    refuse_without_points(original.name, feed.front());
     if (!take_carried(original, feed.front(), run))
         original.meta = open_original(original, {}, run)->provenance();
     if (original.meta.generator.empty()) refuse_without_provenance(original);

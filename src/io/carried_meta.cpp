@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "io/carried_meta.hpp"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "io/provenance.hpp"
 #include "math/png_picture.hpp"
 
@@ -65,15 +68,16 @@ std::string_view svg_piece(std::string_view bytes) {
     return bytes.substr(begin, end + close_tag.size() - begin);
 }
 
-std::optional<CarriedMeta> of_svg(std::string_view bytes) {
+/// What stands in the metadata element; empty if there is none.
+std::string svg_text(std::string_view bytes) {
     const auto piece = svg_piece(bytes);
-    if (piece.empty()) return std::nullopt;
+    if (piece.empty()) return {};
     std::string text(
         piece.substr(open_tag.size(), piece.size() - open_tag.size() - close_tag.size()));
     replace_all(text, "&lt;", "<");
     replace_all(text, "&gt;", ">");
     replace_all(text, "&amp;", "&");
-    return of_lines("svg", text);
+    return text;
 }
 
 bool is_svg(std::string_view bytes) {
@@ -114,10 +118,20 @@ CarriedMeta carried_meta(std::string_view text, const std::string& source) {
 
 std::optional<CarriedMeta> find_carried_meta(std::string_view bytes, const std::string& source) {
     if (bytes.starts_with("ply\n")) return of_ply(bytes);
-    if (is_svg(bytes)) return of_svg(bytes);
+    if (is_svg(bytes)) return of_lines("svg", svg_text(bytes));
     if (!bytes.starts_with(png_magic)) return std::nullopt;
     const auto text = text_of_png(bytes, keyword);
     return text ? std::optional(carried_meta(*text, source)) : std::nullopt;
+}
+
+std::optional<std::string> picture_note(std::string_view bytes) {
+    if (bytes.starts_with(png_magic)) return text_of_png(bytes, keyword);
+    if (!is_svg(bytes)) return std::nullopt;
+    const std::string text = svg_text(bytes);
+    const std::string begin = fmt::format("{}: ", keyword);
+    for (const auto line : split(text, '\n'))
+        if (line.starts_with(begin)) return std::string(line.substr(begin.size()));
+    return std::nullopt;
 }
 
 std::string without_meta(std::string_view bytes) {

@@ -35,6 +35,9 @@ CarriedMeta carried_meta(std::string_view text, const std::string& source);
 /// What the bytes of ply, svg or PNG hold; nothing where they are neither or hold none.
 std::optional<CarriedMeta> find_carried_meta(std::string_view bytes, const std::string& source);
 
+/// What a picture by `stipple plot`, PNG or svg, tells of itself, as JSON; nothing for others.
+std::optional<std::string> picture_note(std::string_view bytes);
+
 /// The bytes of a ply or svg without what they hold of provenance.
 std::string without_meta(std::string_view bytes);
 

@@ -268,6 +268,43 @@ TEST(Reproduce, RefusesWhatTellsNothing) {
                           "generator 'rondom'; did you mean 'random'?"));
 }
 
+TEST(Reproduce, SaysWhatFilesWithoutPointsAre) {
+    const Sandbox box;
+    good(box.shell(
+        "stipple generate random -n 20 -o a.csv && stipple report a.csv -o r.html && "
+        "stipple report a.csv -o r.json && stipple analyze moments a.csv -o m.csv && "
+        "stipple generate halton -n 9 --meta -o h.npy && for t in csv jsonl; do stipple study "
+        "--generators halton,random -n 9 --seeds 2 --analyze moments --summary -o s.$t; done"));
+    for (const char* file : {"r.html", "r.json"})
+        EXPECT_THAT(refusal(box, file),
+                    HasSubstr("a report about points, which it does not hold; it names the command "
+                              "that makes it again"));
+    for (const char* file : {"s.csv", "s.jsonl", "s.summary.csv", "s.summary.jsonl",
+                             "s.comparisons.csv", "s.comparisons.jsonl"})
+        EXPECT_THAT(refusal(box, file), HasSubstr("a table of a study, without points; 'stipple "
+                                                  "generate' with a row's generator"));
+    EXPECT_THAT(refusal(box, "m.csv"), HasSubstr("m.csv: it holds results of analyze"));
+    EXPECT_THAT(refusal(box, "h.npy.meta.json"), HasSubstr("reproduce takes the file of points"));
+}
+
+TEST(Reproduce, MakesThePointsOfAPictureAgain) {
+    const Sandbox box;
+    good(
+        box.shell("stipple generate random -n 20 -w 'disk:center=[1,2]' -o p.json && stipple "
+                  "generate random -n 20 -o bare.csv && for f in svg png; do stipple plot p.json "
+                  "--title '<&>' -o p.$f && stipple plot bare.csv -o bare.$f; done"));
+    for (const std::string format : {"svg", "png"}) {
+        EXPECT_THAT(refusal(box, "p." + format),
+                    HasSubstr("it was drawn by 'stipple plot p.json --title <&>' of the points of "
+                              "'stipple generate random"));
+        EXPECT_EQ(box.run({"reproduce", "p." + format, "-o", format + ".csv"}).code, 0);
+        EXPECT_EQ(box.read(format + ".csv"), good(box.run({"convert", "p.json", "-f", "csv"})));
+        EXPECT_THAT(refusal(box, "bare." + format),
+                    HasSubstr("drawn by 'stipple plot bare.csv', of no single set that tells how "
+                              "it was made"));
+    }
+}
+
 TEST(Reproduce, LeavesNoFiles) {
     const Sandbox box;
     good(
