@@ -21,8 +21,9 @@ constexpr double rim = 16;  ///< around a picture, for its numbers
 
 /// Two of a set's axes, or the plane in which three are seen.
 struct Plane {
-    std::vector<Spot> spots;  ///< of all points
-    Box box;                  ///< that is shown
+    std::vector<Spot> spots = {};  ///< of all points
+    std::string pixels = {};       ///< a PNG picture in place of points
+    Box box;                       ///< that is shown
     std::string x_name;
     std::string y_name;
     std::vector<std::vector<Spot>> lines = {};     ///< the domain's rim, or a box's edges
@@ -78,6 +79,13 @@ std::uint8_t shade(std::uint32_t points, double mean) {
     return static_cast<std::uint8_t>(255 - 17 * std::lround(15 * ink));
 }
 
+std::string image(const char* kind, const Place& place, const std::string& uri) {
+    return fmt::format(
+        "<image class=\"{0}\" x=\"{1}\" y=\"{1}\" width=\"{2:.1f}\" height=\"{3:.1f}\" "
+        "preserveAspectRatio=\"none\" href=\"{4}\"/>\n",
+        kind, rim, place.width(), place.height(), uri);
+}
+
 /// Points as pixels.
 std::string density(const Plane& plane, const Place& place) {
     const auto columns = static_cast<std::size_t>(std::max(1.0, std::round(place.width())));
@@ -95,10 +103,7 @@ std::string density(const Plane& plane, const Place& place) {
     std::string bytes;
     bytes.reserve(counts.size());
     for (const std::uint32_t count : counts) bytes += static_cast<char>(shade(count, mean));
-    return fmt::format(
-        "<image class=\"density\" x=\"{0}\" y=\"{0}\" width=\"{1:.1f}\" height=\"{2:.1f}\" "
-        "preserveAspectRatio=\"none\" href=\"{3}\"/>\n",
-        rim, place.width(), place.height(), png_uri({columns, rows, 8, false}, bytes));
+    return image("density", place, png_uri({columns, rows, 8, false}, bytes));
 }
 
 std::string marked(const MarkedBox& box, const Box& square, const Place& place) {
@@ -150,7 +155,10 @@ std::string svg_of(const Plane& plane) {
     std::string out = fmt::format(
         "<svg class=\"points\" viewBox=\"0 0 {:.0f} {:.0f}\" role=\"img\" aria-label=\"{}\">\n",
         place.width() + 2 * rim, place.height() + 2 * rim, html_text(plane.alt));
-    out += plane.spots.size() <= most_page_dots ? dots(plane, place) : density(plane, place);
+    if (!plane.pixels.empty())
+        out += image("spectrum", place, plane.pixels);
+    else
+        out += plane.spots.size() <= most_page_dots ? dots(plane, place) : density(plane, place);
     for (const auto& line : plane.lines) out += line_of(line, place);
     if (plane.framed)
         out += fmt::format(
@@ -182,9 +190,8 @@ std::string axis_name(std::size_t dimension, std::size_t k) {
     return dimension <= 3 ? letters[k] : fmt::format("x{}", k + 1);
 }
 
-/// Labels that explain the boxes, each with a switch; where pictures are small and many, fewer are
-/// shown at first.
-std::string box_legend(const std::vector<MarkedBox>& boxes, bool crowded) {
+/// Labels that explain the boxes, each with a switch; shadows of them are not shown at first.
+std::string box_legend(const std::vector<MarkedBox>& boxes, bool shadows) {
     if (boxes.empty()) return {};
     std::string out = "<ul class=\"boxes\">\n";
     for (const MarkedBox& box : boxes)
@@ -192,7 +199,7 @@ std::string box_legend(const std::vector<MarkedBox>& boxes, bool crowded) {
             "<li><label><input type=\"checkbox\" data-box=\"{0}\"{3}> <span class=\"key {0}{1}\">"
             "</span> {2}</label></li>\n",
             box.kind, box.closed ? "" : " open", html_text(box.label),
-            box.kind == "star" || (box.kind == "empty" && !crowded) ? " checked" : "");
+            !shadows && (box.kind == "star" || box.kind == "empty") ? " checked" : "");
     return out + "</ul>\n";
 }
 
@@ -287,7 +294,10 @@ std::string pairs_figure(const PointSet& points, const PageSet& set) {
         }
     std::string caption = shown < d ? fmt::format("Pairs of the first {} of {} axes", shown, d)
                                     : std::string("Projections on every pair of axes");
-    if (!boxes.empty()) caption += ", with those of the worst boxes";
+    if (!boxes.empty())
+        caption +=
+            ". A worst box is drawn as its shadow: points in the shadow are in the box only if "
+            "they are in all of its shadows";
     return figure("wide", body + "</div>\n" + box_legend(boxes, true), caption + ".");
 }
 
@@ -408,17 +418,19 @@ std::string spectrum_figure(const PageSet& set) {
         for (std::size_t column = 0; column < small.columns; ++column)
             bytes += static_cast<char>(grey_of(small.values[row * small.columns + column]));
     const std::size_t block = block_side(grid->rows, most_pixels);
+    const auto last = static_cast<double>(small.rows * block / 2);
+    const Plane plane{
+        .pixels = png_uri({small.columns, small.rows, 8, false}, bytes),
+        .box = {.low = {-last, -last}, .high = {last, last}},
+        .x_name = "frequency along x",
+        .y_name = "frequency along y",
+        .alt = fmt::format("power spectrum of {}, frequency zero in the middle", set.name)};
     std::string caption = fmt::format(
         "Power at frequencies −{0} to {0}: black 0, grey 1 (white "
         "noise), white ∞",
-        grid->rows / 2);
+        last);
     if (block > 1) caption += fmt::format("; a pixel is the mean of {0} × {0}", block);
-    return figure("picture",
-                  fmt::format("<img class=\"spectrum\" alt=\"power spectrum of {}, frequency zero "
-                              "in the middle\" width=\"{}\" height=\"{}\" src=\"{}\">\n",
-                              html_text(set.name), small.columns, small.rows,
-                              png_uri({small.columns, small.rows, 8, false}, bytes)),
-                  caption + ".");
+    return figure("picture", svg_of(plane), caption + ".");
 }
 
 }  // namespace stipple

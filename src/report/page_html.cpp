@@ -23,10 +23,18 @@ std::string plural(std::uint64_t n, const char* one, const char* many) {
     return fmt::format("{} {}", n, n == 1 ? one : many);
 }
 
+/// "the unit cube", "the disk", "the domain disk:center=[1,2]"
+std::string domain_in_words(const std::string& spec) {
+    if (spec.find_first_of(": ") != std::string::npos) return "the domain " + spec;
+    std::string words = "the " + spec;
+    std::ranges::replace(words, '-', ' ');
+    return words;
+}
+
 std::string facts_of(const PageSet& set) {
-    std::string text = fmt::format("{} in {} on {}", plural(set.count, "point", "points"),
-                                   plural(set.dimension, "dimension", "dimensions"),
-                                   set.domain == "unit-cube" ? "the unit cube" : set.domain);
+    std::string text =
+        fmt::format("{} in {} on {}", plural(set.count, "point", "points"),
+                    plural(set.dimension, "dimension", "dimensions"), domain_in_words(set.domain));
     if (set.source != set.name)
         text += fmt::format(" · from {}", set.source == "-" ? "standard input" : set.source);
     if (set.number) text += fmt::format(" (set {})", *set.number);
@@ -68,8 +76,8 @@ std::string verdict_row(std::span<const PageSet> sets, const char* measure, cons
 }
 
 std::string arrow_of(Better better) {
-    if (better == Better::lower) return " <small title=\"lower is better\">↓</small>";
-    if (better == Better::higher) return " <small title=\"higher is better\">↑</small>";
+    if (better == Better::lower) return "&nbsp;<small title=\"lower is better\">↓</small>";
+    if (better == Better::higher) return "&nbsp;<small title=\"higher is better\">↑</small>";
     return {};
 }
 
@@ -85,7 +93,9 @@ std::string comparison_of(std::span<const PageSet> sets) {
                                   sets.size() > 1 ? "Comparison" : "Summary");
     for (const std::string& note : page_notes(sets))
         out += fmt::format("<p class=\"note\">{}</p>\n", html_text(note));
-    out += "<div class=\"scroll\"><table>\n" + comparison_head(sets) + "<tbody>\n" + size_row(sets);
+    out +=
+        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"comparison\"><table>\n" +
+        comparison_head(sets) + "<tbody>\n" + size_row(sets);
     std::string group;
     for (const PageRow& row : compare_sets(sets)) {
         if (group != row.key.group) {

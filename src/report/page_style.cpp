@@ -9,7 +9,7 @@ namespace stipple {
 const char* page_style() {
     return R"CSS(
 :root{color-scheme:light dark;--ground:#fff;--card:#fafafa;--ink:#1b1d21;--muted:#5d636d;
---line:#d5d8dd;
+--line:#d5d8dd;--shade:#00000060;
 --grid:#e9ebee;--band:#e4e6ea;--best:#e8f2ea;--star:#b3261e;--empty:#1a6b3c;--extreme:#6a3fa0;
 --periodic:#8a5a00;
 --c0:#0072b2;--c1:#d55e00;--c2:#00895f;--c3:#b0508a;--c4:#b07d00;--c5:#2f9fd0;--c6:#3c3c3c;
@@ -17,7 +17,7 @@ const char* page_style() {
 --c8:#a03030;--c9:#5f7f1f;--c10:#0f8f8f;--c11:#8f6f5f}
 @media screen and (prefers-color-scheme:dark){:root{--ground:#15171b;--card:#1b1e23;
 --ink:#e8eaed;--muted:#a3a9b3;
---line:#3a3f47;--grid:#2a2e35;--band:#2f343c;--best:#1d3527;--star:#ff8a80;--empty:#6fcf97;
+--line:#3a3f47;--shade:#ffffff60;--grid:#2a2e35;--band:#2f343c;--best:#1d3527;--star:#ff8a80;--empty:#6fcf97;
 --extreme:#c3a2f5;
 --periodic:#e0b050;--c0:#56b4e9;--c1:#f08030;--c2:#1abc90;--c3:#de96be;--c4:#f0be3c;
 --c5:#8fd0f5;--c6:#d0d0d0;
@@ -46,11 +46,13 @@ nav input{margin:0;accent-color:var(--c)}
 nav a{text-decoration-color:var(--c);text-decoration-thickness:2px;text-underline-offset:.25em}
 .swatch{display:inline-block;width:.7em;height:.7em;border-radius:50%;background:var(--c);
 margin-right:.45em}
-.scroll{overflow-x:auto;margin:.75rem 0;-webkit-overflow-scrolling:touch}
+.scroll{overflow-x:auto;margin:.75rem 0;-webkit-overflow-scrolling:touch;
+background:linear-gradient(to left,var(--ground) 30%,transparent) right/3rem 100% no-repeat local,
+linear-gradient(to left,var(--shade),transparent) right/1.25rem 100% no-repeat scroll}
 table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:.925rem}
 th,td{padding:.28rem .9rem .28rem 0;text-align:left;vertical-align:baseline;
 border-bottom:1px solid var(--grid);white-space:nowrap}
-td.number,th.number{text-align:right;padding-right:1.1rem}
+td.number,th.number{text-align:right;padding-right:1.1rem;padding-left:.5rem}
 thead th{border-bottom:1px solid var(--line);font-weight:600}
 thead th.number{white-space:normal;min-width:6.5rem;max-width:11rem;overflow-wrap:anywhere}
 #comparison th:first-child{position:sticky;left:0;z-index:1;background:var(--ground)}
@@ -58,7 +60,7 @@ thead th.number{white-space:normal;min-width:6.5rem;max-width:11rem;overflow-wra
 tr.group th{padding-top:.9rem;color:var(--muted);font-size:.8rem;font-weight:600;
 letter-spacing:.04em;text-transform:uppercase}
 td.best{font-weight:700;background:var(--best)}
-td.best::after{content:" ★";font-size:.75em;vertical-align:.1em}
+td.best::after{content:"\00a0★";font-size:.75em;vertical-align:.1em}
 td.none{color:var(--muted)}
 .words{white-space:normal;min-width:9rem}
 .verdict{display:inline-block;min-width:6.5em;font-weight:650}
@@ -67,9 +69,8 @@ gap:1.25rem 2.5rem;align-items:start}
 .figures .wide{grid-column:1/-1}
 figure{margin:.5rem 0;position:relative;min-width:0}
 figcaption{font-size:.825rem;margin-top:.2rem}
-svg,img{display:block;max-width:100%;height:auto}
-svg{width:100%}
-.picture svg,.picture img{max-width:32rem}
+svg{display:block;width:100%;height:auto}
+.picture svg{max-width:32rem}
 svg text{fill:var(--muted);font-size:11px;font-family:inherit}
 .chart svg text{font-size:12px}
 .dots{stroke:var(--ink);stroke-linecap:round;fill:none}
@@ -89,7 +90,7 @@ svg text{fill:var(--muted);font-size:11px;font-family:inherit}
 .boxes input{margin:0 .3rem 0 0;vertical-align:-.1em}
 .key{display:inline-block;width:1.1em;height:.75em;border:2px solid var(--b);margin-right:.3em}
 .key.open{border-style:dashed}
-.spectrum{width:100%;image-rendering:pixelated;background:#000}
+.spectrum{image-rendering:pixelated}
 .pairs{display:grid;gap:.4rem;
 grid-template-columns:repeat(auto-fill,minmax(min(45%,11rem),1fr))}
 .pairs svg text{font-size:13px}
@@ -108,8 +109,8 @@ gap:.25rem 2.5rem;align-items:start}
 .measure td{white-space:normal;overflow-wrap:anywhere}
 .measure th{font-weight:400;color:var(--muted)}.measure th,.measure td{padding-top:.15rem;
 padding-bottom:.15rem}
-pre{margin:.4rem 0;padding:.45rem .65rem;overflow-x:auto;border-radius:.3rem;
-background:var(--card);
+pre{margin:.4rem 0;padding:.45rem .65rem;white-space:pre-wrap;overflow-wrap:anywhere;
+border-radius:.3rem;background:var(--card);
 border:1px solid var(--grid);
 font:.8rem/1.45 ui-monospace,SFMono-Regular,Menlo,Consolas,"Liberation Mono",monospace}
 dl{display:grid;grid-template-columns:max-content 1fr;gap:.15rem 1.2rem;font-size:.9rem}
@@ -120,16 +121,19 @@ color:var(--muted)}
 @media (max-width:40rem){body{padding:0 .9rem 3rem}nav{margin:0 -.9rem;padding:.5rem .9rem}
 header{padding-top:1.25rem}
 th,td{padding-right:.7rem}table{font-size:.85rem}#comparison th:first-child{max-width:8.5rem;
-white-space:normal}th small{white-space:nowrap}
+white-space:normal}
+td.number,th.number{padding-right:.3rem;padding-left:.3rem;white-space:normal}
+thead th.number{min-width:0}
 .chart svg text{font-size:17px}.points text{font-size:13px}}
 @media print{:root{color-scheme:light;--ground:#fff;--ink:#000;--muted:#444;--line:#bbb;
 --grid:#ddd;--band:#e4e4e4}
 body{max-width:none;padding:0;font-size:9.5pt}nav{position:static;margin:0;padding:.3rem 0;
 max-height:none}nav input,.boxes input{display:none}
 figure,.measure,tr,.verdicts{break-inside:avoid}h2,h3{break-after:avoid}
-section.set{break-before:page}.scroll{overflow:visible}pre{white-space:pre-wrap;
-overflow-wrap:anywhere}
-.figures{grid-template-columns:1fr 1fr}.picture svg,.picture img{max-width:100%}#comparison{
+section.set{break-before:page}.scroll{overflow:visible;background:none}
+.swatch,.key,td.best{print-color-adjust:exact;-webkit-print-color-adjust:exact}
+.boxes li:has(input:not(:checked)){display:none}.chart svg text{font-size:17px}
+.figures{grid-template-columns:1fr 1fr}.picture svg{max-width:100%}#comparison{
 font-size:8pt}
 th,td{white-space:normal;padding-right:.5rem}}
 )CSS";

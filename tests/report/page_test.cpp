@@ -247,6 +247,41 @@ TEST(Figures, BoxesAreDrawnWhereTheyAre) {
                           "height=\"210.00\""));
 }
 
+// 64 points of the plane are measured up to frequency 16.
+TEST(Figures, SpectraHaveAFrameThatTellsTheFrequencies) {
+    const std::string figure = spectrum_figure(page_set("a", make("halton", points(64, 2))));
+    for (const char* words :
+         {"<image class=\"spectrum\" x=\"16\" y=\"16\" width=\"420.0\" height=\"420.0\"",
+          "<rect class=\"frame\" x=\"16\" y=\"16\" width=\"420.0\" height=\"420.0\"/>",
+          ">−16</text>", ">16</text>", ">frequency along x</text>",
+          "Power at frequencies −16 to 16: "})
+        EXPECT_THAT(figure, HasSubstr(words));
+    EXPECT_EQ(spectrum_figure(page_set("a", make("halton", points(64, 3)))), "");
+}
+
+TEST(Figures, BoxesOfMoreAxesAreSaidToBeShadows) {
+    for (const std::size_t d : {2, 3, 5}) {
+        const PointSet set = make("random", points(20, d));
+        const std::string figure = point_figures(set, page_set("a", set, 1000)).back();
+        const auto has = [&](const char* words) { return figure.find(words) != std::string::npos; };
+        EXPECT_EQ(has("drawn as its shadow"), d > 2) << d;
+        EXPECT_EQ(has(" checked>"), d == 2) << d;
+    }
+}
+
+TEST(Page, SaysInWordsWherePointsLive) {
+    PointSet set = make("random", points(20, 2));
+    for (double& x : set.flat()) x *= 0.5;
+    for (const auto& [domain, words] :
+         {std::pair{"unit-cube", "on the unit cube<"},
+          {"disk", "on the disk<"},
+          {"disk:center=[1,1]", "on the domain disk:center=[1,1]<"}}) {
+        set.domain = parse_domain(domain, 2);
+        EXPECT_THAT(page_html(page_of({page_set("a", set)})),
+                    HasSubstr(std::string("20 points in 2 dimensions ") + words));
+    }
+}
+
 TEST(Figures, EveryDimensionHasOne) {
     for (const std::size_t d : {1, 2, 3, 4, 9}) {
         const PointSet set = make("halton", points(50, d));
