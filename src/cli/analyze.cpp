@@ -574,7 +574,7 @@ class Analysis {
 }  // namespace
 
 int analyze(const Arguments& arguments, Session& session) {
-    const auto ranks = launched("analyze");
+    const auto ranks = launched("analyze", session.run());
     return Analysis(arguments, session, *ranks).go();
 }
 

@@ -29,14 +29,14 @@ std::uint64_t launched_ranks() {
 
 bool is_mute() { return environment({"OMPI_COMM_WORLD_RANK", "PMI_RANK"}).value_or(0) != 0; }
 
-std::unique_ptr<Ranks> launched(std::string_view verb) {
+std::unique_ptr<Ranks> launched(std::string_view verb, const RunContext& run) {
     const std::uint64_t ranks = launched_ranks();
     if (ranks == 1) return std::make_unique<Ranks>();
     if (!has_mpi())
         fail_with_hint(ErrorKind::usage, "build with -DSTIPPLE_MPI=ON, or start one process",
                        "{}: an MPI launcher started {} processes, and this build has no MPI", verb,
                        ranks);
-    return join_ranks();
+    return join_ranks(run.stop);
 }
 
 }  // namespace stipple::cli

@@ -18,6 +18,6 @@ std::uint64_t launched_ranks();
 bool is_mute();
 
 /// Joins the others. @throws Error(usage) where there are others and the build has no MPI
-std::unique_ptr<Ranks> launched(std::string_view verb);
+std::unique_ptr<Ranks> launched(std::string_view verb, const RunContext& run);
 
 }  // namespace stipple::cli

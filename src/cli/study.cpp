@@ -206,15 +206,17 @@ class Study {
         const StudyFile::Start start = arguments_.has("resume")      ? StudyFile::Start::resume
                                        : arguments_.has("overwrite") ? StudyFile::Start::anew
                                                                      : StudyFile::Start::fresh;
-        StudyFile file(path_, sweep_, table_, start, [this](const StudyRow& row) {
+        const auto listen = [this](const StudyRow& row) {
             if (row.failed()) failures_.add(row);
             if (summarized_) summary_.add(row);
-        });
+        };
+        StudyFile file(path_, sweep_, table_, start, listen, run);
         const UnitRunner runner(sweep_, table_, run.max_memory);
         for (const auto& sentence : runner.before_warps(run)) session_.warn(sentence);
         try {
             began_ = true;
             if (!run_study(sweep_, table_, file, ranks_, run)) return 0;
+            finish(file);
         } catch (const Error& e) {
             if (e.kind() != ErrorKind::cancelled || !file.has_journal()) throw;
             fail_with_hint(
@@ -222,7 +224,6 @@ class Study {
                 fmt::format("what is done is in {0} and {0}.journal; --resume goes on", path_),
                 "interrupted");
         }
-        finish(file);
         if (failures_.code() != 0) session_.warn(failures_.sentence(sweep_.units()));
         return failures_.code();
     }
@@ -232,8 +233,8 @@ class Study {
             file.finish();
             return;
         }
-        const auto means = summary_.means(table_.style(), summary_options_);
-        const auto pairs = summary_.comparisons(table_.style(), summary_options_);
+        const auto means = summary_.means(table_.style(), summary_options_, session_.run());
+        const auto pairs = summary_.comparisons(table_.style(), summary_options_, session_.run());
         if (file.is_stream()) {
             const char* gap = table_.style() == StudyTable::Style::csv ? "\n" : "";
             file.finish(gap + means + (pairs.empty() ? "" : gap + pairs));
@@ -284,7 +285,7 @@ int study(const Arguments& arguments, Session& session) {
         fail(ErrorKind::usage, "study takes no input; '{}' is not understood",
              arguments.inputs.front());
     const Arguments all = with_config(arguments, launched_ranks(), session.run());
-    const auto ranks = launched("study");
+    const auto ranks = launched("study", session.run());
     return Study(all, session, *ranks).go();
 }
 

@@ -285,7 +285,9 @@ MPI: one set, measured by many ranks
 MPI: many sets
   'mpirun -n 64 stipple study ...' shares the sets of a study; 'stipple help study' tells how it
   goes on after a crash. Rank 0 has every row on the disk within a second of getting it; when a
-  rank is lost, the launcher ends the others, and --resume does what is missing.
+  rank is lost, the launcher ends the others, and --resume does what is missing. After Ctrl-C
+  what is done stays as well, but Open MPI's mpirun exits with 1, whatever its ranks end with; a
+  signal to a rank itself makes rank and mpirun exit with 130.
 
 On paper: 10^12 points in the plane, made by 'random', on 1024 ranks of one core
   Counted with 31, 30 and 100 ns a point (measured on one core at 2 to 3 GHz), messages of 5 us

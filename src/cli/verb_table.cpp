@@ -120,11 +120,12 @@ constexpr VerbInfo report_verb = {
     "one self-contained HTML page on point sets: pictures, spectra, all measures, compared",
     R"(INPUTs are files of points; standard input by default, unless --generate names generators. The
 page needs nothing but itself: no network, no fonts, no scripts but its own; it is for screens of
-any size, light or dark, and for print. First a table that compares up to 12 sets of one
-dimension, with the best marked, and the curves of all; then for each set its picture with the
-worst boxes, projections (for d > 2), spectrum, radial power, pair correlation, discrepancies,
-distances, tests of uniformity in words, its provenance, and the commands that measure every
-number again.
+any size, light or dark, and for print. First a table that compares the sets, with the best marked,
+and the curves of all; then for each set its picture with the worst boxes, projections (for
+d > 2), spectrum, radial power, pair correlation, discrepancies, distances, tests of uniformity in
+words, its provenance, and the commands that measure every number again. The sets, up to 12, must
+have one and the same number of coordinates: points in the plane and points in space are not
+compared, and are refused together.
 
 What a measure does not take (a disk, where it needs the unit cube) is left out with the reason.
 Searches for worst boxes (in three and more dimensions, in two for some) end after --max-work
@@ -132,8 +133,8 @@ comparisons and give certain bounds. No clock decides anything: the same sets gi
 for any number of threads.
 
 KEYs of --fail-on are MEASURE.RESULT: star-discrepancy.value, l2-discrepancy.centered.value,
-chi-square.verdict, kolmogorov-smirnov.p_value[0]; --json has them all. MEASURE alone is its value.
-The page is written nevertheless.)",
+chi-square.verdict, kolmogorov-smirnov.p_value[0]; --json has them all. MEASURE alone is its value,
+where it has one. Words are compared with == and !=. The page is written nevertheless.)",
     R"(  stipple report a.csv b.csv -o report.html
   stipple report --generate halton --generate sobol:scramble=owen --generate random -n 512 -o report.html
   stipple report points.csv --json --fail-on 'star-discrepancy>0.5' --fail-on 'chi-square.verdict==non-uniform' -o report.json

@@ -272,6 +272,7 @@ void Output::open_beside(const std::string& target) {
         descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor_ >= 0 || errno == EEXIST) continue;
         temporary_.clear();
+        if (errno == ENOENT) fail(ErrorKind::io, "{}: no file can be made in its folder", path_);
         refuse(path_, errno);
     }
     owned_ = true;

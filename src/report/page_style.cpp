@@ -122,7 +122,7 @@ color:var(--muted)}
 header{padding-top:1.25rem}
 th,td{padding-right:.7rem}table{font-size:.85rem}#comparison th:first-child{max-width:8.5rem;
 white-space:normal}
-td.number,th.number{padding-right:.3rem;padding-left:.3rem;white-space:normal}
+td.number,th.number{padding-right:.25rem;padding-left:.25rem;white-space:normal}
 thead th.number{min-width:0}
 .chart svg text{font-size:17px}.points text{font-size:13px}}
 @media print{:root{color-scheme:light;--ground:#fff;--ink:#000;--muted:#444;--line:#bbb;

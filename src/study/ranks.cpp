@@ -11,6 +11,7 @@
 #include <list>
 #include <numeric>
 #include <thread>
+#include <utility>
 
 #include "core/error.hpp"
 #endif
@@ -28,7 +29,7 @@ namespace {
 
 class MpiRanks : public Ranks {
   public:
-    MpiRanks() {
+    explicit MpiRanks(std::stop_token stop) : stop_(std::move(stop)) {
         int provided = 0;
         MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
         MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
@@ -41,6 +42,7 @@ class MpiRanks : public Ranks {
     MpiRanks(const MpiRanks&) = delete;
     MpiRanks& operator=(const MpiRanks&) = delete;
     ~MpiRanks() override {
+        if (stop_.stop_requested()) return;
         for (Letter& letter : letters_) MPI_Wait(&letter.request, MPI_STATUS_IGNORE);
         MPI_Finalize();
     }
@@ -151,6 +153,7 @@ class MpiRanks : public Ranks {
         MPI_Request request = MPI_REQUEST_NULL;
     };
 
+    std::stop_token stop_;
     int rank_ = 0;
     int size_ = 1;
     int on_machine_ = 1;
@@ -169,7 +172,9 @@ std::string mpi_version() {
     return text.substr(0, text.find_first_of(",\n"));
 }
 
-std::unique_ptr<Ranks> join_ranks() { return std::make_unique<MpiRanks>(); }
+std::unique_ptr<Ranks> join_ranks(std::stop_token stop) {
+    return std::make_unique<MpiRanks>(std::move(stop));
+}
 
 #else
 
@@ -177,7 +182,7 @@ bool has_mpi() { return false; }
 
 std::string mpi_version() { return {}; }
 
-std::unique_ptr<Ranks> join_ranks() { return std::make_unique<Ranks>(); }
+std::unique_ptr<Ranks> join_ranks(std::stop_token) { return std::make_unique<Ranks>(); }
 
 #endif
 

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 
 #include "core/peers.hpp"
@@ -43,6 +44,8 @@ bool has_mpi();
 std::string mpi_version();
 
 /// Joins the others that the launcher started. Without MPI in the build, this process alone.
-std::unique_ptr<Ranks> join_ranks();
+/// @param stop that was asked for: nobody waits for the others in the end, as a launcher that ends
+/// its ranks lets none of them leave together
+std::unique_ptr<Ranks> join_ranks(std::stop_token stop);
 
 }  // namespace stipple

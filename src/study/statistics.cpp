@@ -79,7 +79,8 @@ Interval t_interval(const SampleSummary& sample, double confidence) {
 }
 
 Interval bootstrap_interval(std::span<const double> sample, double confidence,
-                            std::uint64_t resamples, std::uint64_t seed, std::uint64_t stream) {
+                            std::uint64_t resamples, std::uint64_t seed, std::uint64_t stream,
+                            const RunContext& run) {
     const std::uint64_t n = sample.size();
     const bool finite = std::ranges::all_of(sample, [](double x) { return std::isfinite(x); });
     if (n < 2 || resamples == 0 || !finite) return {unknown, unknown};
@@ -88,6 +89,7 @@ Interval bootstrap_interval(std::span<const double> sample, double confidence,
     const Rng rng(seed, stream);
     std::vector<double> means(resamples);
     for (std::uint64_t b = 0; b < resamples; ++b) {
+        run.check_stop();
         double sum = 0;
         for (std::uint64_t i = 0; i < n; ++i) sum += sample[rng.below(b * n + i, n)];
         means[b] = sum / static_cast<double>(n);

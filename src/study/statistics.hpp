@@ -22,6 +22,8 @@
 #include <span>
 #include <vector>
 
+#include "core/run_context.hpp"
+
 namespace stipple {
 
 struct Interval {
@@ -43,8 +45,10 @@ SampleSummary summarize(std::span<const double> sample);
 Interval t_interval(const SampleSummary& sample, double confidence);
 
 /// Percentile interval for the mean; `stream` separates samples that share a seed.
+/// @throws Error(cancelled)
 Interval bootstrap_interval(std::span<const double> sample, double confidence,
-                            std::uint64_t resamples, std::uint64_t seed, std::uint64_t stream = 0);
+                            std::uint64_t resamples, std::uint64_t seed, std::uint64_t stream = 0,
+                            const RunContext& run = {});
 
 /// A test of whether two means are the same; two-sided.
 struct MeanTest {

@@ -23,8 +23,17 @@ constexpr const char* journal_format = "stipple.study-journal";
 
 std::string journal_of(const std::string& path) { return path + ".journal"; }
 
+bool there(const std::string& path) {
+    struct stat status {};
+    return ::stat(path.c_str(), &status) == 0;
+}
+
 [[noreturn]] void refuse(const std::string& path) {
-    if (errno == ENOENT) fail(ErrorKind::io, "{}: no such folder", path);
+    const auto slash = path.rfind('/');
+    const std::string folder = slash == std::string::npos ? "." : path.substr(0, slash + 1);
+    if (errno == ENOENT)
+        fail(ErrorKind::io, "{}: {}", path,
+             there(folder) ? "no file can be made in its folder" : "no such folder");
     fail(ErrorKind::io, "{}: {}", path, std::generic_category().message(errno));
 }
 
@@ -47,11 +56,6 @@ bool write_all(int descriptor, std::string_view bytes, const std::string& path) 
 
 void cut_to(int descriptor, std::uint64_t size, const std::string& path) {
     if (::ftruncate(descriptor, static_cast<off_t>(size)) != 0) refuse(path);
-}
-
-bool there(const std::string& path) {
-    struct stat status {};
-    return ::stat(path.c_str(), &status) == 0;
 }
 
 /// Lines of a text, each with its end.
@@ -80,7 +84,7 @@ std::string timeless(const StudyTable& table, const std::string& line) {
 }  // namespace
 
 StudyFile::StudyFile(std::string path, const Sweep& sweep, const StudyTable& table, Start start,
-                     Listener listener)
+                     Listener listener, const RunContext& run)
     : path_(std::move(path)), sweep_(sweep), table_(table), listener_(std::move(listener)) {
     struct stat status {};
     const bool exists = path_ != "-" && ::stat(path_.c_str(), &status) == 0;
@@ -89,7 +93,7 @@ StudyFile::StudyFile(std::string path, const Sweep& sweep, const StudyTable& tab
     stream_ = path_ == "-" || (exists && !S_ISREG(status.st_mode));
     if (stream_ && start == Start::resume)
         fail(ErrorKind::usage, "--resume: needs a file; name the one to go on with by -o");
-    stream_ ? open_stream() : open_file(start);
+    stream_ ? open_stream() : open_file(start, run);
 }
 
 StudyFile::~StudyFile() {
@@ -111,7 +115,7 @@ void StudyFile::sync() {
     if (journal_ >= 0) ::fdatasync(journal_);
 }
 
-void StudyFile::open_file(Start start) {
+void StudyFile::open_file(Start start, const RunContext& run) {
     const bool resume = start == Start::resume;
     const bool unfinished = there(journal_of(path_));
     std::ifstream in(path_, std::ios::binary);
@@ -141,7 +145,7 @@ void StudyFile::open_file(Start start) {
         return;
     }
     if (unfinished) read_journal();
-    read_rows();
+    read_rows(run);
     const bool to_the_end = !partial_.empty() && next_ + 1 == sweep_.units();
     if (!unfinished && to_the_end) {  // a finished one: nothing is missing
         partial_.clear();
@@ -217,7 +221,7 @@ bool StudyFile::read_entry(std::istream& in, std::uint64_t offset) {
     return true;
 }
 
-void StudyFile::read_rows() {
+void StudyFile::read_rows(const RunContext& run) {
     std::ifstream in(path_, std::ios::binary);
     std::string line;
     std::uint64_t whole = 0;
@@ -229,6 +233,7 @@ void StudyFile::read_rows() {
         if (line + "\n" != table_.head()) refuse_other("{}");
     }
     while (whole_line(in, line)) {
+        run.check_stop();
         ++number;
         const auto row = table_.parse(line);
         if (!row) fail(ErrorKind::input, "{}:{}: is no row of a study", path_, number);

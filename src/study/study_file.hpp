@@ -41,9 +41,9 @@ class StudyFile {
 
     /// @param listener called with each row of the study in order, also those found in the file
     /// @throws Error: the file is there and no study's, or is a study's and nobody said what to do
-    /// with it, or is another one's than what is to be resumed; Error(io).
+    /// with it, or is another one's than what is to be resumed; Error(io), Error(cancelled).
     StudyFile(std::string path, const Sweep& sweep, const StudyTable& table, Start start,
-              Listener listener);
+              Listener listener, const RunContext& run);
 
     StudyFile(const StudyFile&) = delete;
     StudyFile& operator=(const StudyFile&) = delete;
@@ -75,9 +75,9 @@ class StudyFile {
     };
 
     void open_stream();
-    void open_file(Start start);
+    void open_file(Start start, const RunContext& run);
     void begin_journal();
-    void read_rows();
+    void read_rows(const RunContext& run);
     bool take_row(const StudyRow& row, std::uint64_t line);
     void read_journal();
     bool read_entry(std::istream& in, std::uint64_t offset);

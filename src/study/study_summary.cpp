@@ -104,14 +104,15 @@ std::uint64_t StudySummary::failures_of(const StudyRow& row) const {
     return it == failed_.end() ? 0 : it->second.sets;
 }
 
-std::string StudySummary::means(StudyTable::Style style, const SummaryOptions& options) const {
+std::string StudySummary::means(StudyTable::Style style, const SummaryOptions& options,
+                                const RunContext& run) const {
     std::string text;
     const auto add = [&](const StudyRow& row, std::span<const double> values,
                          std::uint64_t stream) {
         const SampleSummary s = summarize(values);
         const Interval t = t_interval(s, options.confidence);
-        const Interval boot =
-            bootstrap_interval(values, options.confidence, options.resamples, options.seed, stream);
+        const Interval boot = bootstrap_interval(values, options.confidence, options.resamples,
+                                                 options.seed, stream, run);
         text += line_of(style,
                         {word("table", "mean"),
                          word("generator", row.generator),
@@ -161,10 +162,11 @@ std::vector<StudySummary::Pair> StudySummary::pairs_of(const Topic& topic, bool 
     return pairs;
 }
 
-std::string StudySummary::comparisons(StudyTable::Style style,
-                                      const SummaryOptions& options) const {
+std::string StudySummary::comparisons(StudyTable::Style style, const SummaryOptions& options,
+                                      const RunContext& run) const {
     std::string text;
-    for (const Topic& topic : topics_in_order_)
+    for (const Topic& topic : topics_in_order_) {
+        run.check_stop();
         for (const auto& [a, b, sets_a, sets_b, test, p_holm] : pairs_of(topic, options.paired)) {
             const StudyRow& row = a->row;
             text += line_of(
@@ -180,6 +182,7 @@ std::string StudySummary::comparisons(StudyTable::Style style,
                  real("p_holm", p_holm), word("study", row.study)},
                 text.empty());
         }
+    }
     return text;
 }
 

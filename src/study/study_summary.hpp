@@ -31,11 +31,14 @@ class StudySummary {
     void add(const StudyRow& row);
 
     /// A row for each generator, dimension, count, measure and key.
-    [[nodiscard]] std::string means(StudyTable::Style style, const SummaryOptions& options) const;
+    /// @throws Error(cancelled)
+    [[nodiscard]] std::string means(StudyTable::Style style, const SummaryOptions& options,
+                                    const RunContext& run) const;
 
     /// A row for each pair of generators.
-    [[nodiscard]] std::string comparisons(StudyTable::Style style,
-                                          const SummaryOptions& options) const;
+    /// @throws Error(cancelled)
+    [[nodiscard]] std::string comparisons(StudyTable::Style style, const SummaryOptions& options,
+                                          const RunContext& run) const;
 
   private:
     /// What is said of one generator under one key.

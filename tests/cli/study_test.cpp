@@ -315,6 +315,21 @@ TEST(Study, ResumeKeepsWhatWaitsInTheJournal) {
     EXPECT_GE(std::stoi(good(box.shell(rows))), before);
 }
 
+// Rows are all there by then, and stay; so does the journal, which says that a summary is missing.
+TEST(Study, StopsWhileItSumsUp) {
+    const Sandbox box;
+    const std::string study =
+        "stipple study --generators 'random;halton' -n 64 --seeds 99 --analyze moments "
+        "--no-seconds "
+        "-o study.csv ";
+    const Outcome outcome =
+        box.shell("timeout --preserve-status -s INT -k 9 1 " + study + "--summary --bootstrap 1e7");
+    EXPECT_EQ(outcome.code, 130) << outcome.err;
+    EXPECT_EQ(box.files(), (std::vector<std::string>{"study.csv", "study.csv.journal"}));
+    EXPECT_EQ(good(box.shell(study + "--summary --resume")), "");
+    EXPECT_EQ(box.files().size(), 3U);
+}
+
 TEST(Study, InterruptKeepsWhatIsDoneAndExits130) {
     const Sandbox box;
     const Outcome outcome = box.shell(

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/error.hpp"
 #include "core/rng.hpp"
 
 using namespace stipple;
@@ -108,4 +109,12 @@ TEST(Statistics, BootstrapDependsOnSeedAndStreamAlone) {
     EXPECT_EQ(i.high, again.high);
     EXPECT_NE(i.low, bootstrap_interval(sample, 0.95, 200, 2, 2).low);
     EXPECT_NE(i.low, bootstrap_interval(sample, 0.95, 200, 1, 3).low);
+}
+
+TEST(Statistics, BootstrapStopsWhenAsked) {
+    std::stop_source stop;
+    stop.request_stop();
+    const std::vector<double> sample = {1, 2, 3};
+    EXPECT_THROW((void)bootstrap_interval(sample, 0.95, 200, 1, 2, {.stop = stop.get_token()}),
+                 Error);
 }
