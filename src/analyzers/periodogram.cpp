@@ -196,6 +196,55 @@ struct Strengths {
     double squares = 0;
 };
 
+/// The same of points that come in blocks, which may be shared out; these are summed as grids are.
+class StrengthSums {
+  public:
+    void add(double strength) {
+        if (points_ == block) close();
+        block_.sum += strength;
+        block_.squares += strength * strength;
+        ++points_;
+    }
+
+    [[nodiscard]] Strengths total() {
+        if (sum_.empty()) return block_;
+        if (points_ > 0) close();
+        Strengths all;
+        sum_.copy_to({&all.sum, 1}, {});
+        squares_.copy_to({&all.squares, 1}, {});
+        return all;
+    }
+
+    void pack(Packer& to) {
+        close();
+        sum_.pack(to);
+        squares_.pack(to);
+    }
+    /// This one's points are whole blocks.
+    void merge(Unpacker& from) {
+        if (points_ > 0) close();
+        sum_.merge(from);
+        squares_.merge(from);
+    }
+
+  private:
+    static constexpr std::uint64_t block = std::uint64_t{1} << 21;  ///< divides those of grids
+
+    void close() {
+        const double size = std::abs(block_.sum);
+        sum_.add({&block_.sum, 1}, size, {});
+        const double square = block_.squares;
+        squares_.add({&block_.squares, 1}, square, {});
+        block_ = {};
+        points_ = 0;
+    }
+
+    Strengths block_;
+    std::uint64_t points_ = 0;
+    ScaledGridSum sum_;
+    ScaledGridSum squares_;
+};
+
 /// Transform of the window at the frequencies f of an axis: 1 at 0 without one, else
 /// 1/2, -1/4 at 1 and -1.
 double window_transform(std::int64_t f, bool hann) {
@@ -288,7 +337,7 @@ class Summation final : public SharedAccumulator {
         const RunContext run = fitting(whole);
         if (outside_.count > 0) refuse(outside_, n_, *domain_, outside_hint(*domain_));
         if (n_ < 2) fail(ErrorKind::input, "periodogram needs at least 2 points; there is {}", n_);
-        if (!(strengths_.squares > 0))
+        if (!(strengths().squares > 0))
             fail(ErrorKind::input,
                  "--weights: all {} strengths are 0; white noise has power 1 "
                  "only where some are not",
@@ -306,20 +355,18 @@ class Summation final : public SharedAccumulator {
         Packer packer;
         packer.put(n_).put(all_equal_).put_all(first_);
         outside_.pack(packer);
+        if (weighted_) strengths_.pack(packer);
         sum_->pack(packer, run);
         return packer.take();
     }
 
     void merge(std::string_view state, const RunContext& run) override {
         Unpacker from(state);
-        const auto more = from.take<std::uint64_t>();
-        n_ += more;
-        // Without strengths these are counts.
-        strengths_.sum += static_cast<double>(more);
-        strengths_.squares += static_cast<double>(more);
+        n_ += from.take<std::uint64_t>();
         const bool equal = from.take<bool>();
         all_equal_ = from.take_all<double>() == first_ && all_equal_ && equal;
         outside_.add(Outside::unpacked(from));
+        if (weighted_) strengths_.merge(from);
         sum_->merge(from, run);
     }
 
@@ -379,12 +426,9 @@ class Summation final : public SharedAccumulator {
             const std::span<double> here(points.data() + begin, d_);
             if (!cube_) domain_->to_cube(point, here);
             const double strength = weighted_ ? rows[at + d_] : 1;
-            strengths_.sum += strength;
-            strengths_.squares += strength * strength;
+            if (weighted_) strengths_.add(strength);
             if (numbers_ > d_) points.push_back(strength * faded(here));
         }
-        if (same) strengths_.sum += static_cast<double>(rows.size() / d_);
-        if (same) strengths_.squares = strengths_.sum;
         return points;
     }
 
@@ -402,6 +446,11 @@ class Summation final : public SharedAccumulator {
         if (!all_equal_) return;
         if (first_.empty()) first_.assign(point.begin(), point.end());
         all_equal_ = std::ranges::equal(point, first_);
+    }
+
+    [[nodiscard]] Strengths strengths() {
+        const auto n = static_cast<double>(n_);
+        return weighted_ ? strengths_.total() : Strengths{n, n};
     }
 
     /// The window at a point of the cube.
@@ -424,7 +473,7 @@ class Summation final : public SharedAccumulator {
             nufft_.emplace(count, d_, frequency_, options_[tolerance], weighted);
             bytes = std::max(2 * bytes, nufft_->bytes());
             // What is summed over blocks: twice the grid.
-            if (count == most_points && !weighted)
+            if (count == most_points)
                 bytes += 16 * std::pow(static_cast<double>(nufft_->side()), d_);
         }
         run.need_memory(bytes + 8 * static_cast<double>(kept_.size()),
@@ -461,7 +510,7 @@ class Summation final : public SharedAccumulator {
         const double worst =
             nufft_ ? std::max(options_[tolerance], n_ > planned_ ? nufft_->error(n) : 0) : 0;
         report.add("tolerance", std::max(worst, rounding_floor(n_)));
-        Grid power = power_of(sums(run), strengths_, hann_, run);
+        Grid power = power_of(sums(run), strengths(), hann_, run);
         summarize(report, power, 1, options_, run);
         report.add("method", options_[method]);
         report.add("window", options_[window]);
@@ -485,7 +534,7 @@ class Summation final : public SharedAccumulator {
     std::vector<double> kept_;
     std::vector<double> first_;  ///< point of the set
     bool all_equal_ = true;
-    Strengths strengths_;
+    StrengthSums strengths_;
     Outside outside_;
     std::optional<Nufft> nufft_;
     std::unique_ptr<FourierSummation> sum_;
@@ -494,10 +543,8 @@ class Summation final : public SharedAccumulator {
 
 /// Blocks of points that have a grid of their own; few points are not shared out.
 std::uint64_t grain(const Arrival& arrival, const Values& options) {
-    if (options[method] == "direct" || options[window] == "hann" || options.given(weights))
-        fail(ErrorKind::usage,
-             "periodogram: ranks share --method nufft with --window none and without --weights; "
-             "start one process");
+    if (options[method] == "direct")
+        fail(ErrorKind::usage, "periodogram: ranks share --method nufft; start one process");
     if (arrival.count.value_or(0) <= kept_points) return kept_points;
     const std::size_t d = arrival.dimension();
     const std::size_t frequency = options.given(max_frequency)

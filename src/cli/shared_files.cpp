@@ -16,18 +16,22 @@ SharedSet shared_files(const Arguments& arguments, const Analyzer& analyzer,
     };
     const auto files = std::make_shared<SharedFiles>(arguments.inputs, open, ranks);
     const auto first = open(arguments.inputs.front());
-    const std::size_t d = files->dimension();
+    const bool weighted = !strengths.empty();
+    const std::size_t width = files->dimension();
+    const std::size_t d = width - (weighted ? 1 : 0);
     SharedSet set{.domain = domain_of(*first, d, analyzer, arguments, run),
                   .count = files->count(),
                   .dimension = d,
+                  .weighted = weighted,
                   .from = [files](std::uint64_t from) { return files->from(from); }};
     const auto bounds = arguments.get("bounds");
     if (!bounds) return set;
-    set.from = [files, box = parse_box(*bounds, d), &analyzer](std::uint64_t from) -> NextRows {
-        return [next = files->from(from), box, &analyzer,
+    set.from = [files, width, box = parse_box(*bounds, d),
+                &analyzer](std::uint64_t from) -> NextRows {
+        return [next = files->from(from), width, box, &analyzer,
                 at = from](std::span<double> rows) mutable {
             const std::size_t count = next(rows);
-            take_bounds(rows.first(count * box.dimension()), box.dimension(), box, at, analyzer);
+            take_bounds(rows.first(count * width), width, box, at, analyzer);
             at += count;
             return count;
         };

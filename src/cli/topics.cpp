@@ -268,9 +268,8 @@ Job arrays: parts of a set
 
 MPI: one set, measured by many ranks
   'stipple --version' tells the build's MPI; a build without one says so when a launcher starts
-  it. chi-square, kolmogorov-smirnov, moments and periodogram take files (each
-  rank its stretch of the points, wherever the files end) or --generate (nobody stores the
-  points):
+  it. chi-square, kolmogorov-smirnov, moments and periodogram take files (each rank its stretch
+  of the points, wherever the files end) or --generate (nobody stores the points):
 
       mpirun -n 64 stipple analyze moments --concat part{0..63}.npy
       srun -n 1024 stipple analyze chi-square --generate random -n 1e12
@@ -278,9 +277,9 @@ MPI: one set, measured by many ranks
   Points are cut into grains: 2^18 numbers or, for periodogram, as many points as its grid has
   cells, 2^21 to 2^26. A set of fewer grains than ranks leaves ranks idle. All ranks must see
   the files; npy and bin are read once, each point by one rank, text twice, since nobody knows
-  where its points stand. periodogram shares --method nufft without --window and --weights.
-  star-discrepancy shares its search in 3 and more dimensions, 64 cells a round: more than 64
-  ranks do not help. Each rank has all points, and climbs by itself.
+  where its points stand. periodogram shares --method nufft. star-discrepancy shares its search
+  in 3 and more dimensions, 64 cells a round: more than 64 ranks do not help. Each rank has all
+  points, and climbs by itself.
 
 MPI: many sets
   'mpirun -n 64 stipple study ...' shares the sets of a study; 'stipple help study' tells how it

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "core/parallel.hpp"
 #include "core/wide.hpp"
@@ -31,6 +32,28 @@ void add_cells(const double* cells, std::size_t count, std::uint64_t* coarse, st
 
 double signed_of(std::uint64_t bits) {
     return static_cast<double>(static_cast<std::int64_t>(bits));
+}
+
+/// cells *= 2^exponent
+void scale(std::span<double> cells, int exponent, const RunContext& run) {
+    if (exponent == 0) return;
+    const double factor = std::ldexp(1.0, exponent);
+    for_each_block(
+        run, cells.size(), block,
+        [&](const Block& b) {
+            for (std::uint64_t i = b.first; i < b.last; ++i) cells[i] *= factor;
+        },
+        true);
+}
+
+/// The least multiple of 4 with size <= 2^exponent; of a sum of such grids one loses 2^-61 of its
+/// size at most.
+int exponent_of(double size) {
+    if (!(size > 0)) return 0;
+    constexpr int farthest = 1000;
+    const int below = std::clamp(std::ilogb(size), -farthest, farthest);
+    const bool above = size > std::ldexp(1.0, below);
+    return 4 * static_cast<int>(std::ceil((below + (above ? 1 : 0)) / 4.0));
 }
 
 }  // namespace
@@ -65,6 +88,34 @@ void GridSum::merge(Unpacker& from) {
         mine->resize(std::max(mine->size(), more.size()));
         for (std::size_t i = 0; i < more.size(); ++i) (*mine)[i] += more[i];
     }
+}
+
+void ScaledGridSum::add(std::span<double> cells, double size, const RunContext& run) {
+    const int exponent = exponent_of(size);
+    scale(cells, -exponent, run);
+    sums_[exponent].add(cells, run);
+}
+
+void ScaledGridSum::copy_to(std::span<double> cells, const RunContext& run) const {
+    std::vector<double> part;
+    for (const auto& [exponent, sum] : sums_) {
+        const bool first = &sum == &sums_.begin()->second;
+        if (!first) part.resize(cells.size());
+        const std::span<double> here = first ? cells : std::span<double>(part);
+        sum.copy_to(here, run);
+        scale(here, exponent, run);
+        for (std::size_t i = 0; i < part.size(); ++i) cells[i] += part[i];
+    }
+}
+
+void ScaledGridSum::pack(Packer& to) const {
+    to.put<std::uint64_t>(sums_.size());
+    for (const auto& [exponent, sum] : sums_) sum.pack(to.put(exponent));
+}
+
+void ScaledGridSum::merge(Unpacker& from) {
+    const auto count = from.take<std::uint64_t>();
+    for (std::uint64_t i = 0; i < count; ++i) sums_[from.take<int>()].merge(from);
 }
 
 }  // namespace stipple

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,25 @@ class GridSum {
   private:
     std::vector<std::uint64_t> coarse_;  ///< modulo 2^64, as are the fine ones
     std::vector<std::uint64_t> fine_;
+};
+
+/// The same for numbers of any size: grids are added up with others of about their own size, and
+/// these sums in a fixed order. So it is rounding relative to each grid that is lost, not more.
+class ScaledGridSum {
+  public:
+    [[nodiscard]] bool empty() const { return sums_.empty(); }
+
+    /// @param size that decides what the grid is added to: its numbers are below 2^29 times that.
+    /// 1 for those that GridSum takes.
+    void add(std::span<double> cells, double size, const RunContext& run);
+
+    void copy_to(std::span<double> cells, const RunContext& run) const;
+
+    void pack(Packer& to) const;
+    void merge(Unpacker& from);
+
+  private:
+    std::map<int, GridSum> sums_;  ///< of grids over 2^key
 };
 
 }  // namespace stipple

@@ -162,24 +162,30 @@ std::span<double> FourierSummation::cells() const {
 }
 
 void FourierSummation::add(std::span<const double> rows, const RunContext& run) {
-    if (nufft_.weighted()) return spreader_.add(rows, run);
-    const std::size_t d = grid_.dimension;
+    const std::size_t numbers = grid_.dimension + (nufft_.weighted() ? 1 : 0);
     while (!rows.empty()) {
         if (points_ == block_) {
             close_block(run);
             zero(cells(), run);
         }
-        const std::uint64_t some = std::min<std::uint64_t>(rows.size() / d, block_ - points_);
-        spreader_.add(rows.first(static_cast<std::size_t>(some) * d), run);
+        const std::uint64_t some = std::min<std::uint64_t>(rows.size() / numbers, block_ - points_);
+        const auto here = rows.first(static_cast<std::size_t>(some) * numbers);
+        spreader_.add(here, run);
+        if (nufft_.weighted())
+            for (std::size_t at = numbers - 1; at < here.size(); at += numbers)
+                strongest_ = std::max(strongest_, std::abs(here[at]));
+        else
+            strongest_ = 1;
         points_ += some;
-        rows = rows.subspan(static_cast<std::size_t>(some) * d);
+        rows = rows.subspan(here.size());
     }
 }
 
 void FourierSummation::close_block(const RunContext& run) {
     spreader_.finish(run);
-    sum_.add(cells(), run);
+    sum_.add(cells(), strongest_, run);
     points_ = 0;
+    strongest_ = 0;
 }
 
 void FourierSummation::pack(Packer& to, const RunContext& run) {
@@ -197,7 +203,7 @@ FourierSums FourierSummation::finish(Planning planning, const RunContext& run) {
     quiet.progress = {};
     spreader_.finish(quiet);
     if (!sum_.empty()) {
-        if (points_ > 0) sum_.add(cells(), quiet);
+        if (points_ > 0) sum_.add(cells(), strongest_, quiet);
         sum_.copy_to(cells(), quiet);
         sum_ = {};
     }

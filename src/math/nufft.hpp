@@ -77,9 +77,9 @@ class Nufft {
     KaiserBessel window_;
 };
 
-/// A transform whose points come in portions. Those without strengths are spread over a grid for
-/// every block of them, and the grids are added as GridSum does it: so they may be shared out,
-/// block by block, and what becomes of the parts be merged.
+/// A transform whose points come in portions. They are spread over a grid for every block of them,
+/// and the grids are added as ScaledGridSum does it: so they may be shared out, block by block, and
+/// what becomes of the parts be merged.
 class FourierSummation {
   public:
     explicit FourierSummation(const Nufft& nufft);
@@ -108,7 +108,8 @@ class FourierSummation {
     Spreader spreader_;
     std::uint64_t block_;       ///< points
     std::uint64_t points_ = 0;  ///< of the block at hand
-    GridSum sum_;               ///< of all blocks before
+    double strongest_ = 0;      ///< of these: its strength, or 1
+    ScaledGridSum sum_;         ///< of all blocks before
 };
 
 /// The same by the plain sum, O(n (2F + 1)^d): the oracle. Phases are reduced before they are

@@ -66,21 +66,22 @@ class Share {
 
   private:
     void count_in() {
-        Arrival arrival{.domain = set_.domain, .count = set_.count};
+        Arrival arrival{.domain = set_.domain, .count = set_.count, .weighted = set_.weighted};
         const std::uint64_t grain = sharing_of(analyzer_)->grain(arrival, options_);
         const Stretch mine = stretch_of(set_.count, grain, ranks_);
         if (mine.first == mine.last && ranks_.rank() > 0) return;
         auto made = accumulator_for(analyzer_, arrival, set_.dimension, options_, run_);
         measure_.reset(&dynamic_cast<SharedAccumulator&>(*made.release()));
         if (mine.first > 0) {
-            std::vector<double> head(batch() * set_.dimension);
-            head.resize(set_.from(0)(head) * set_.dimension);
+            std::vector<double> head(batch() * width());
+            head.resize(set_.from(0)(head) * width());
             measure_->begin_at(mine.first, head);
         }
         add(mine, set_.from(mine.first));
     }
 
     [[nodiscard]] std::size_t batch() const { return arrival_batch(set_.dimension); }
+    [[nodiscard]] std::size_t width() const { return set_.dimension + (set_.weighted ? 1 : 0); }
 
     /// The next batch is fetched while one is looked at.
     void add(const Stretch& mine, const NextRows& next) {
@@ -91,7 +92,7 @@ class Share {
             const auto wanted =
                 static_cast<std::size_t>(std::min<std::uint64_t>(batch(), mine.last - asked));
             asked += wanted;
-            rows.resize(wanted * set_.dimension);
+            rows.resize(wanted * width());
             if (wanted > 0 && next(rows) < wanted)
                 fail(ErrorKind::input, "the input became shorter while it was read");
         };
@@ -103,7 +104,7 @@ class Share {
             run_.check_stop();
             auto fetched = std::async(policy, [&] { fetch(ahead); });
             measure_->add(rows, quiet);
-            done += rows.size() / set_.dimension;
+            done += rows.size() / width();
             run_.tick(done - mine.first, mine.last - mine.first);
             fetched.get();
         }

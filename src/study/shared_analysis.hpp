@@ -28,6 +28,7 @@ struct SharedSet {
     DomainPtr domain;
     std::uint64_t count = 0;
     std::size_t dimension = 1;
+    bool weighted = false;  ///< rows hold a strength behind the coordinates
     std::function<NextRows(std::uint64_t first)> from;  ///< gives its points from this one on
 };
 

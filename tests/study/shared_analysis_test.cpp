@@ -79,6 +79,58 @@ TEST(SharedAnalysis, AddsGridsOfSpectraToTheLastBit) {
     EXPECT_EQ(found_by(2, "periodogram", points, few), one);
 }
 
+TEST(SharedAnalysis, AddsGridsOfFadedPointsToTheLastBit) {
+    const PointSet points = make("random", {.count = 2'200'000, .dimension = 2});  // two grains
+    const Settings hann = {{"max-frequency", "8"}, {"tolerance", "1e-3"}, {"window", "hann"}};
+    EXPECT_EQ(found_by(2, "periodogram", points, hann),
+              text_of(analyze("periodogram", points, hann)));
+}
+
+// Strengths of the second block are far from those of the first; both count in the sum.
+TEST(SharedAnalysis, AddsGridsOfStrongAndWeakPointsToTheLastBit) {
+    const std::size_t n = 2'200'000;  // two grains
+    const PointSet bare = make("random", {.count = n, .dimension = 2});
+    const double faint = 0x1p-17;
+    std::vector<double> rows;
+    rows.reserve(3 * n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double strength = static_cast<double>(i % 1001) / 500 - 0.3;
+        rows.insert(rows.end(), {bare[i][0], bare[i][1], strength * (i < 2'097'152 ? faint : 1)});
+    }
+    const Analyzer& unit = find_analyzer("periodogram");
+    const auto from = [&](std::uint64_t first) -> NextRows {
+        return [&rows, at = 3 * static_cast<std::size_t>(first)](std::span<double> out) mutable {
+            const std::size_t some = std::min(rows.size() - at, out.size());
+            std::copy_n(rows.begin() + static_cast<std::ptrdiff_t>(at), some, out.begin());
+            at += some;
+            return some / 3;
+        };
+    };
+    const auto alone = [&](const Settings& settings) {
+        return analyze(unit, {.domain = bare.domain, .count = n, .weighted = true}, 2, from(0),
+                       values_of(unit, settings), {.threads = 2})
+            .report;
+    };
+    const Settings few = {{"max-frequency", "2"}, {"tolerance", "1e-6"}, {"weights", "3"}};
+    const Report one = alone(few);
+    std::string shared;
+    with_ranks(2, [&](Ranks& mine) {
+        const SharedSet set{
+            .domain = bare.domain, .count = n, .dimension = 2, .weighted = true, .from = from};
+        const auto found = analyze_shared(unit, set, values_of(unit, few), mine, {.threads = 1});
+        if (found) shared = text_of(found->report);
+    });
+    EXPECT_EQ(shared, text_of(one));
+    // The oracle: the plain sum, of other rounding.
+    Settings plain = few;
+    plain.push_back({"method", "direct"});
+    const Report direct = alone(plain);
+    const auto& exact = std::get<Grid>(*direct.find("grid")).values;
+    const auto& found = std::get<Grid>(*one.find("grid")).values;
+    for (std::size_t i = 0; i < exact.size(); ++i)
+        EXPECT_NEAR(found[i], exact[i], 1e-5 * (1 + exact[i])) << i;
+}
+
 // The worst box, and all else of the report, from searches of many rounds and of a few.
 TEST(SharedAnalysis, SearchesTogetherWhatOneSearches) {
     const Analyzer& unit = find_analyzer("star-discrepancy");
@@ -207,5 +259,43 @@ TEST(GridSum, ForgetsTheOrder) {
         long double sum = 0;
         for (const auto& grid : grids) sum += grid[k];
         EXPECT_NEAR(one[k], static_cast<double>(sum), 0x1p-60 + 1e-15 * std::abs(one[k])) << k;
+    }
+}
+
+// Grids of all sizes: each loses what is small beside itself alone.
+TEST(ScaledGridSum, ForgetsTheOrderAndKeepsTheDigits) {
+    const std::vector<double> sizes = {1, 1e-30, 3e8, 1e-30, 0, 7e120, 1e-300};
+    const auto cell = [&](std::size_t i, std::size_t k) {
+        return sizes[i] * (static_cast<double>((k * 7919 + i * 104'729) % 65'537) / 3e4 - 1);
+    };
+    const auto add = [&](ScaledGridSum& sum, std::size_t i) {
+        std::vector<double> cells(100);
+        for (std::size_t k = 0; k < 100; ++k) cells[k] = cell(i, k);
+        sum.add(cells, 2 * sizes[i], {});
+    };
+    for (const auto& chosen :
+         {std::vector<std::size_t>{0, 2}, {1, 3}, {6}, {0, 1, 2, 3, 4, 5, 6}}) {
+        ScaledGridSum forwards, backwards, part;
+        for (const std::size_t i : chosen) add(forwards, i);
+        for (std::size_t j = chosen.size(); j-- > 1;) add(backwards, chosen[j]);
+        add(part, chosen[0]);
+        Packer packer;
+        part.pack(packer);
+        const std::string bytes = packer.take();
+        Unpacker from(bytes);
+        backwards.merge(from);
+        std::vector<double> one(100), other(100);
+        forwards.copy_to(one, {});
+        backwards.copy_to(other, {});
+        EXPECT_EQ(one, other);
+        for (std::size_t k = 0; k < 100; ++k) {
+            long double sum = 0;
+            double largest = 0;
+            for (const std::size_t i : chosen) {
+                sum += cell(i, k);
+                largest = std::max(largest, std::abs(cell(i, k)));
+            }
+            EXPECT_NEAR(one[k], static_cast<double>(sum), 1e-15 * largest) << k;
+        }
     }
 }
