@@ -3,170 +3,34 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 
+#include "analyzers/l2_factors.hpp"
 #include "analyzers/l2_terms.hpp"
 #include "core/parallel.hpp"
 
-// The vectors never leave a function that is not inlined.
-#pragma GCC diagnostic ignored "-Wpsabi"
-
-#define STIPPLE_INLINE [[gnu::always_inline]] inline
-
 // Products need their rounding errors: an instruction where there is one, and slow where not.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define STIPPLE_FUSED [[gnu::target_clones("fma", "default")]]
-#else
-#define STIPPLE_FUSED
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#define STIPPLE_PICKS_VECTORS
 #endif
 
 namespace stipple::analyzers::l2 {
 namespace {
 
-constexpr std::size_t lanes = 4;
-constexpr std::size_t width = 64;  ///< points of a block
-constexpr std::size_t numbers_of_factor = 3;
+constexpr std::size_t numbers_of_factor = 4;
+constexpr std::size_t group = 4;  ///< points that meet a block together
+constexpr std::size_t lines_of_block = block_width / spread;
 
-using Four [[gnu::vector_size(8 * lanes)]] = double;
-using Bits [[gnu::vector_size(8 * lanes)]] = std::int64_t;
-
-STIPPLE_INLINE Four load(const double* from) {
-    Four v;
-    std::memcpy(&v, from, sizeof v);
-    return v;
-}
-STIPPLE_INLINE Four all(double x) { return Four{x, x, x, x}; }
-STIPPLE_INLINE Four least(Four a, Four b) { return a < b ? a : b; }
-STIPPLE_INLINE Bits sign(Four a) { return (Bits)a & (std::int64_t{1} << 63); }
-STIPPLE_INLINE Four flipped(Four a, Bits by) { return (Four)((Bits)a ^ by); }
-
-/// a b + c, rounded once.
-STIPPLE_INLINE Four fused(Four a, Four b, Four c) {
-    Four r;
-    for (std::size_t l = 0; l < lanes; ++l) r[l] = __builtin_fma(a[l], b[l], c[l]);
-    return r;
-}
-
-/// A number and its correction.
-struct Carried {
-    Four value;
-    Four lost;
+enum class Form {
+    least,
+    least_carried,
+    bend,
+    bend_fine,
+    bend_shifted,
+    bend_shifted_fine,
+    mixture,
+    mixture_fine,
+    excess
 };
-
-/// Sum of two doubles, exact.
-STIPPLE_INLINE Carried sum(Four a, Four b) {
-    const Four s = a + b;
-    const Four part = s - a;
-    return {s, (a - (s - part)) + (b - part)};
-}
-
-/// |x - y|; its correction is 0 for multiples of 2^-53.
-template <bool fine>
-STIPPLE_INLINE Carried distance(Four x, Four y) {
-    if constexpr (fine) {
-        const Carried t = sum(x, -y);
-        const Bits negative = sign(t.value);
-        return {flipped(t.value, negative), flipped(t.lost, negative)};
-    } else {
-        const Four t = x - y;
-        return {flipped(t, sign(t)), all(0)};
-    }
-}
-
-/// What is the same for all points on an axis: base = a + shift, where a factor may come near 0.
-struct AxisConstants {
-    double base = 0;
-    double shift = 0;
-    double lost = 0;  ///< of base
-};
-
-/// base + a b, less the shift: the base is at least twice as large as |a b|, or the product is
-/// positive.
-STIPPLE_INLINE Carried raised(Four a, Four b, Four base, Four shift, Four lost) {
-    const Four high = fused(a, b, base);
-    return {high - shift, fused(a, b, base - high) + lost};
-}
-
-// The factors of a point, whose numbers are in `row`, and of four of a block.
-
-/// One minimum, of numbers without corrections.
-struct Least {
-    static constexpr std::size_t columns = 1;
-    static constexpr bool exact = true;
-    STIPPLE_INLINE static Carried factor(const double* row, const double* block, AxisConstants) {
-        return {least(all(row[0]), load(block)), all(0)};
-    }
-};
-
-/// One minimum: of the numbers of the point that comes first in the order of column 0.
-struct LeastCarried {
-    static constexpr std::size_t columns = 3;
-    static constexpr bool exact = false;
-    STIPPLE_INLINE static Carried factor(const double* row, const double* block, AxisConstants) {
-        const auto mine = all(row[0]) < load(block);
-        return {mine ? all(row[1]) : load(block + width),
-                mine ? all(row[2]) : load(block + 2 * width)};
-    }
-};
-
-template <bool fine>
-struct Bend {
-    static constexpr std::size_t columns = 1;
-    static constexpr bool exact = false;
-    STIPPLE_INLINE static Carried factor(const double* row, const double* block,
-                                         AxisConstants axis) {
-        const auto [t, lost] = distance<fine>(all(row[0]), load(block));
-        const Four u = t - 1;
-        Four rest = all(axis.lost);
-        if constexpr (fine) rest += fused(t, t - (u + 1), lost * (t + u));
-        return raised(t, u, all(axis.base), all(axis.shift), rest);
-    }
-};
-
-template <bool fine>
-struct Mixture {
-    static constexpr std::size_t columns = 3;
-    static constexpr bool exact = false;
-    STIPPLE_INLINE static Carried factor(const double* row, const double* block, AxisConstants) {
-        const auto [t, lost] = distance<fine>(all(row[0]), load(block));
-        const Four base = all(row[1]) + load(block + width);  // exact: they have a bit to spare
-        const Four u = t - 1.5;
-        Four rest = all(row[2]) + load(block + 2 * width) + t * (t - (u + 1.5));
-        if constexpr (fine) rest += lost * (t + u);
-        return raised(t, u, base, all(0), rest);
-    }
-};
-
-struct Excess {
-    static constexpr std::size_t columns = 3;
-    static constexpr bool exact = false;
-    STIPPLE_INLINE static Carried factor(const double* row, const double* block,
-                                         AxisConstants axis) {
-        const Four x = all(row[0]);
-        const Four y = load(block);
-        const auto below = x < y;
-        const Four lower = below ? x : y;
-        const Four room = below ? load(block + width) : all(row[1]);
-        const Four lost = below ? load(block + 2 * width) : all(row[2]);
-        return raised(lower, room, all(axis.base), all(axis.shift),
-                      fused(lower, lost, all(axis.lost)));
-    }
-};
-
-template <class Form>
-STIPPLE_INLINE void multiply(Carried& product, const double* row, const double* block,
-                             const AxisConstants& axis) {
-    const Carried by = Form::factor(row, block, axis);
-    const Four next = product.value * by.value;
-    const Four rounded = fused(product.value, by.value, -next);
-    product.lost = fused(product.lost, by.value, rounded);
-    if constexpr (!Form::exact) product.lost = fused(product.value, by.lost, product.lost);
-    product.value = next;
-}
-
-enum class Form { least, least_carried, bend, bend_fine, mixture, mixture_fine, excess };
 
 /// Blocks of points, column after column in each; behind them one that is 1, and 0 where there are
 /// no points.
@@ -175,145 +39,205 @@ struct Table {
     std::size_t count = 0;
     std::size_t columns = 1;  ///< of a factor
     std::vector<AxisConstants> factors = {};
-    std::vector<double> numbers = {};
+    std::vector<Line> numbers = {};
 
     [[nodiscard]] std::size_t height() const { return factors.size() * columns + 1; }
     [[nodiscard]] const double* block(std::size_t b) const {
-        return numbers.data() + b * height() * width;
+        return numbers[b * height() * lines_of_block].at;
     }
+    void resize() { numbers.resize(block_count(count, block_width) * height() * lines_of_block); }
     double& at(std::size_t i, std::size_t column) {
-        return numbers[(i / width * height() + column) * width + i % width];
+        const std::size_t line =
+            (i / block_width * height() + column) * lines_of_block + i % block_width / spread;
+        return numbers[line].at[i % spread];
     }
 };
 
 struct Sums {
-    double sum[lanes] = {};
-    double lost[lanes] = {};
+    double sum[spread] = {};
+    double lost[spread] = {};
 
     [[nodiscard]] Quad total() const {
         Quad total = 0;
-        for (std::size_t l = 0; l < lanes; ++l) total += Quad(sum[l]) + lost[l];
+        for (std::size_t l = 0; l < spread; ++l) total += Quad(sum[l]) + lost[l];
         return total;
     }
 };
 
-/// Two points, the second of which may be no more than a place, and blocks [first, last).
+/// A group of points, some of which may be no more than places, and a block.
 struct Meeting {
     const Table* table;
-    const double* one;
-    const double* two;
-    std::size_t first;
-    std::size_t last;
+    const double* rows;   ///< numbers of each point of the group, `spread` times each
+    const double* block;  ///< may be the first of some
+    std::size_t blocks;
+    bool full;  ///< no places without points
 };
 
-STIPPLE_INLINE void add(Carried& total, const Carried& product, Four there) {
-    const Carried next = sum(total.value, product.value * there);
-    total.value = next.value;
-    total.lost += next.lost + product.lost * there;
-}
-
-/// Adds the products of two points with a block's.
-template <class Kernel>
-STIPPLE_INLINE void meet_block(const Meeting& m, const double* block, Carried& total) {
+/// The products of a group of points with as many of a block's as a vector holds.
+template <class Kernel, class V>
+STIPPLE_INLINE void products(const Meeting& m, const double* at, Carried<V>* p) {
+    constexpr std::size_t columns = Kernel::columns;
     const std::size_t factors = m.table->factors.size();
+    const std::size_t row = m.table->height() * spread;
     const AxisConstants* const axes = m.table->factors.data();
-    constexpr std::size_t c = Kernel::columns;
-    const double* const presence = block + factors * c * width;
-    for (std::size_t k = 0; k < width; k += 2 * lanes) {
-        const double* at = block + k;
-        Carried p[4] = {Kernel::factor(m.one, at, axes[0]), Kernel::factor(m.two, at, axes[0]),
-                        Kernel::factor(m.one, at + lanes, axes[0]),
-                        Kernel::factor(m.two, at + lanes, axes[0])};
-        for (std::size_t f = 1; f < factors; ++f) {
-            at += c * width;
-            multiply<Kernel>(p[0], m.one + f * c, at, axes[f]);
-            multiply<Kernel>(p[1], m.two + f * c, at, axes[f]);
-            multiply<Kernel>(p[2], m.one + f * c, at + lanes, axes[f]);
-            multiply<Kernel>(p[3], m.two + f * c, at + lanes, axes[f]);
-        }
-        const Four there = load(presence + k);
-        const Four there_too = load(presence + k + lanes);
-        const double second = m.two[factors * c];
-        add(total, p[0], there);
-        add(total, p[1], there * second);
-        add(total, p[2], there_too);
-        add(total, p[3], there_too * second);
+#pragma GCC unroll 4
+    for (std::size_t r = 0; r < group; ++r)
+        p[r] = Kernel::template factor<V>(m.rows + r * row, at, axes[0]);
+    for (std::size_t f = 1; f < factors; ++f) {
+        const double* const rows = m.rows + f * columns * spread;
+        const double* const block = at + f * columns * block_width;
+#pragma GCC unroll 4
+        for (std::size_t r = 0; r < group; ++r)
+            multiply<Kernel>(p[r], Kernel::template factor<V>(rows + r * row, block, axes[f]));
+    }
+    if (m.full) return;
+    const std::size_t last = factors * columns;
+#pragma GCC unroll 4
+    for (std::size_t r = 0; r < group; ++r) {
+        const V there =
+            load<V>(at + last * block_width) * load<V>(m.rows + r * row + last * spread);
+        p[r].value *= there;
+        p[r].lost *= there;
     }
 }
 
-template <class Kernel>
-STIPPLE_INLINE void meet_all(const Meeting& m, Sums& sums) {
-    Carried total{load(sums.sum), load(sums.lost)};
-    for (std::size_t b = m.first; b < m.last; ++b) meet_block<Kernel>(m, m.table->block(b), total);
-    std::memcpy(sums.sum, &total.value, sizeof total.value);
-    std::memcpy(sums.lost, &total.lost, sizeof total.lost);
+template <class V>
+STIPPLE_INLINE void add(Carried<V>& total, const Carried<V>& product) {
+    const V next = total.value + product.value;
+    const V part = next - total.value;
+    total.lost += ((total.value - (next - part)) + (product.value - part)) + product.lost;
+    total.value = next;
 }
 
-STIPPLE_FUSED void meet_least(const Meeting& m, Sums& s) { meet_all<Least>(m, s); }
-STIPPLE_FUSED void meet_least_carried(const Meeting& m, Sums& s) { meet_all<LeastCarried>(m, s); }
-STIPPLE_FUSED void meet_bend(const Meeting& m, Sums& s) { meet_all<Bend<false>>(m, s); }
-STIPPLE_FUSED void meet_bend_fine(const Meeting& m, Sums& s) { meet_all<Bend<true>>(m, s); }
-STIPPLE_FUSED void meet_mixture(const Meeting& m, Sums& s) { meet_all<Mixture<false>>(m, s); }
-STIPPLE_FUSED void meet_mixture_fine(const Meeting& m, Sums& s) { meet_all<Mixture<true>>(m, s); }
-STIPPLE_FUSED void meet_excess(const Meeting& m, Sums& s) { meet_all<Excess>(m, s); }
+/// Adds the products of a group of points with those of blocks, lane by lane the same in vectors of
+/// any width.
+template <class Kernel, class V>
+STIPPLE_INLINE void meet_all(const Meeting& m, Sums& sums) {
+    constexpr std::size_t parts = spread / lanes_of<V>;
+    const std::size_t block_size = m.table->height() * block_width;
+    Carried<V> total[parts];
+    for (std::size_t q = 0; q < parts; ++q)
+        total[q] = {load<V>(sums.sum + q * lanes_of<V>), load<V>(sums.lost + q * lanes_of<V>)};
+    for (std::size_t b = 0; b < m.blocks; ++b)
+        for (std::size_t k = 0; k < block_width; k += spread)
+#pragma GCC unroll 4
+            for (std::size_t q = 0; q < parts; ++q) {
+                Carried<V> p[group];
+                products<Kernel, V>(m, m.block + b * block_size + k + q * lanes_of<V>, p);
+#pragma GCC unroll 4
+                for (std::size_t r = 0; r < group; ++r) add(total[q], p[r]);
+            }
+    for (std::size_t q = 0; q < parts; ++q) {
+        std::memcpy(sums.sum + q * lanes_of<V>, &total[q].value, sizeof(V));
+        std::memcpy(sums.lost + q * lanes_of<V>, &total[q].lost, sizeof(V));
+    }
+}
 
-auto* meeting(Form form) {
+using Meet = void(const Meeting&, Sums&);
+
+template <class Kernel>
+void meet_anywhere(const Meeting& m, Sums& sums) {
+    meet_all<Kernel, Four>(m, sums);
+}
+
+#ifdef STIPPLE_PICKS_VECTORS
+template <class Kernel>
+[[gnu::target("avx2,fma")]] void meet_fours(const Meeting& m, Sums& sums) {
+    meet_all<Kernel, Four>(m, sums);
+}
+template <class Kernel>
+[[gnu::target("avx512f,avx512dq,prefer-vector-width=512")]] void meet_eights(const Meeting& m,
+                                                                             Sums& sums) {
+    meet_all<Kernel, Eight>(m, sums);
+}
+
+Vectors widest_here() {
+    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
+        return Vectors::eights;
+    const bool fours = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    return fours ? Vectors::fours : Vectors::anywhere;
+}
+
+template <class Kernel>
+Meet* meeting_of(Vectors widest) {
+    static const Vectors here = widest_here();
+    switch (std::min(widest, here)) {
+        case Vectors::eights:
+            return meet_eights<Kernel>;
+        case Vectors::fours:
+            return meet_fours<Kernel>;
+        default:
+            return meet_anywhere<Kernel>;
+    }
+}
+#else
+template <class Kernel>
+Meet* meeting_of(Vectors) {
+    return meet_anywhere<Kernel>;
+}
+#endif
+
+/// Calls body<Kernel>() for the kernel of a form.
+template <class Body>
+auto with_kernel(Form form, const Body& body) {
     switch (form) {
         case Form::least:
-            return meet_least;
+            return body.template operator()<Least>();
         case Form::least_carried:
-            return meet_least_carried;
+            return body.template operator()<LeastCarried>();
         case Form::bend:
-            return meet_bend;
+            return body.template operator()<Bend<false, true>>();
         case Form::bend_fine:
-            return meet_bend_fine;
+            return body.template operator()<Bend<true, true>>();
+        case Form::bend_shifted:
+            return body.template operator()<Bend<false, false>>();
+        case Form::bend_shifted_fine:
+            return body.template operator()<Bend<true, false>>();
         case Form::mixture:
-            return meet_mixture;
+            return body.template operator()<Mixture<false>>();
         case Form::mixture_fine:
-            return meet_mixture_fine;
+            return body.template operator()<Mixture<true>>();
         default:
-            return meet_excess;
+            return body.template operator()<Excess>();
     }
 }
 
-constexpr std::size_t together = 64;  ///< blocks whose sums are doubles
+Meet* meeting(Form form, Vectors widest) {
+    return with_kernel(form, [&]<class Kernel>() { return meeting_of<Kernel>(widest); });
+}
 
-/// The products of two points with the blocks [first, last).
-Quad sum_of_blocks(Meeting m, std::size_t first, std::size_t last) {
-    auto* const meet = meeting(m.table->form);
-    Quad total = 0;
-    for (std::size_t b = first; b < last; b += together) {
-        Sums sums;
-        m.first = b;
-        m.last = std::min(last, b + together);
-        meet(m, sums);
-        total += sums.total();
-    }
-    return total;
+/// The numbers of points [first, first + group) of a block, `spread` times each.
+void spread_rows(const Table& table, const double* block, std::size_t first, Line* to) {
+    for (std::size_t r = 0; r < group; ++r)
+        for (std::size_t column = 0; column < table.height(); ++column)
+            std::ranges::fill((to++)->at, block[column * block_width + first + r]);
 }
 
 /// Sum over all ordered pairs of points.
-Quad sum_over_pairs(const Table& table, const RunContext& run) {
-    std::vector<Quad> sums(block_count(table.count, width));
-    const std::size_t height = table.height();
-    for_each_block(run, table.count, width, [&](const Block& rows) {
+Quad sum_over_pairs(const Table& table, Vectors widest, const RunContext& run) {
+    constexpr std::size_t together = 16;  ///< blocks whose sums are doubles
+    Meet* const meet = meeting(table.form, widest);
+    std::vector<Quad> totals(block_count(table.count, block_width));
+    for_each_block(run, table.count, block_width, [&](const Block& block) {
+        std::vector<Line> rows(group * table.height());
+        const std::size_t count = block.last - block.first;
+        const auto sum_of = [&](std::size_t first, std::size_t last) {
+            Sums sums;
+            const bool full = count == block_width && last * block_width <= table.count;
+            for (std::size_t i = 0; i < count; i += group) {
+                run.check_stop();
+                spread_rows(table, table.block(block.index), i, rows.data());
+                meet({&table, rows[0].at, table.block(first), last - first, full}, sums);
+            }
+            return sums.total();
+        };
         Quad below = 0;
-        Quad own = 0;
-        std::vector<double> two_rows(2 * height);
-        const double* const block = table.block(rows.index);
-        for (std::size_t i = 0; i < rows.last - rows.first; i += 2) {
-            run.check_stop();
-            for (std::size_t column = 0; column < height; ++column)
-                for (std::size_t r = 0; r < 2; ++r)
-                    two_rows[r * height + column] = block[column * width + i + r];
-            const Meeting m{&table, two_rows.data(), two_rows.data() + height, 0, 0};
-            below += sum_of_blocks(m, 0, rows.index);
-            own += sum_of_blocks(m, rows.index, rows.index + 1);
-        }
-        sums[rows.index] = 2 * below + own;
+        for (std::size_t b = 0; b < block.index; b += together)
+            below += sum_of(b, std::min<std::size_t>(b + together, block.index));
+        totals[block.index] = 2 * below + sum_of(block.index, block.index + 1);
     });
     Quad total = 0;
-    for (const Quad& part : sums) total += part;
+    for (const Quad& part : totals) total += part;
     return total;
 }
 
@@ -328,10 +252,18 @@ Parts parts_of(const Quad& x) {
     return {high, static_cast<double>(x - Quad(high))};
 }
 
+/// a + x, with a correction of its own rounding alone.
+Parts sum_of(const Parts& a, double x) {
+    const double high = a.high + x;
+    const double part = high - a.high;
+    const double low = ((a.high - (high - part)) + (x - part)) + a.low;
+    return {high + low, low - ((high + low) - high)};
+}
+
 /// The high part a multiple of `step`.
-Parts parts_of(const Quad& x, double step) {
-    const double high = std::round(static_cast<double>(x) / step) * step;
-    return {high, static_cast<double>(x - Quad(high))};
+Parts on_grid(const Parts& a, double step) {
+    const double high = std::round(a.high / step) * step;
+    return {high, (a.high - high) + a.low};
 }
 
 /// The factor of an axis over its scale, as numbers of each point.
@@ -344,12 +276,17 @@ class AxisForm {
         if (kind == Kind::centered) scale_ *= curve;
         if (kind == Kind::mixture) scale_ /= 2;
         const Quad top = kind == Kind::diaphony ? Quad(1) / 6 : Quad(1) / 2;
-        if (bends()) base_ = inverse_ + top;
+        if (bends()) base_ = inverse_ + top - Quad(1) / 4;
         if (kind == Kind::extreme) base_ = inverse_;
         if (kind == Kind::mixture) {
-            const double twice = 2 * static_cast<double>(inverse_ + Quad(7) / 8);
+            base_ = inverse_ + Quad(7) / 8 - Quad(9) / 32;
+            const double twice = 2 * static_cast<double>(base_);
             step_ = std::ldexp(1.0, std::ilogb(twice) - 52);
         }
+        top_ = parts_of(kind == Kind::centered  ? Quad(inverse_ + 0.5)
+                        : kind == Kind::mixture ? Quad(base_ + 0.25)
+                                                : Quad(inverse_ + 1));
+        bottom_ = parts_of(kind == Kind::mixture ? Quad(base_ - 0.25) : inverse_);
     }
 
     [[nodiscard]] const Quad& scale() const { return scale_; }
@@ -363,41 +300,54 @@ class AxisForm {
         return kind_ == Kind::centered || (kind_ == Kind::extreme && alone_) ? 2 : 1;
     }
 
+    /// What is added to a factor and taken off again, lest it come near 0 before.
+    [[nodiscard]] double shift() const {
+        const bool small = (bends() && base_ < Quad(0.25)) || (is_excess() && base_ < Quad(0.5));
+        return small ? 1 : 0;
+    }
+
     [[nodiscard]] AxisConstants constants() const {
-        if (!bends() && !is_excess()) return {};
-        const double shift = base_ < Quad(0.5) ? 1 : 0;
-        const Parts base = parts_of(base_ + shift);
-        return {base.high, shift, base.low};
+        AxisConstants axis;
+        if (!bends() && !is_excess()) return axis;
+        const Parts base = parts_of(base_ + shift());
+        std::ranges::fill(axis.base.at, base.high);
+        std::ranges::fill(axis.shift.at, shift());
+        std::ranges::fill(axis.lost.at, base.low);
+        return axis;
     }
 
     /// More than the factors over the scale.
     [[nodiscard]] double most() const {
         if (kind_ == Kind::mixture) return static_cast<double>(2 * inverse_ + Quad(7) / 4);
-        if (bends()) return static_cast<double>(base_);
+        if (bends()) return static_cast<double>(base_ + 0.25);
         const auto one = static_cast<double>(inverse_ + 1);
         return factors() == 2 ? one * one : one;
     }
 
-    /// Numbers of a point: of a factor its place in the order, its value, and the correction.
+    /// Numbers of a point: of a factor its place in the order and the place's rest, its value and
+    /// the correction.
     void put(double x, double* to) const {
-        const Quad q = x;
         const auto write = [&](double place, const Parts& number) {
-            *to++ = place;
+            const bool split = bends() || kind_ == Kind::mixture;
+            const double at = split ? std::round(place * 0x1p53) * 0x1p-53 : place;
+            *to++ = at;
+            *to++ = place - at;
             *to++ = number.high;
             *to++ = number.low;
         };
         switch (kind_) {
             case Kind::star:
             case Kind::modified:
-                return write(-x, parts_of(inverse_ + 1 - q));
+                return write(-x, sum_of(top_, -x));
             case Kind::extreme:
                 if (alone_) write(x, {x, 0});
-                return write(alone_ ? -x : x, parts_of(1 - q));
+                return write(alone_ ? -x : x, sum_of({1, 0}, -x));
             case Kind::centered:
-                write(x, parts_of(inverse_ + std::max(x - 0.5, 0.0)));
-                return write(-x, parts_of(inverse_ + (x < 0.5 ? Quad(0.5) - q : Quad(0))));
+                write(x, sum_of(bottom_, std::max(x - 0.5, 0.0)));
+                return write(-x, x < 0.5 ? sum_of(top_, -x) : bottom_);
             case Kind::mixture:
-                return write(x, parts_of(inverse_ + Quad(7) / 8 - abs(Quad(q - 0.5)) / 2, step_));
+                return write(
+                    x, on_grid(x < 0.5 ? sum_of(bottom_, x / 2) : sum_of(top_, -x / 2), step_));
             default:
                 return write(x, {0, 0});
         }
@@ -410,10 +360,9 @@ class AxisForm {
     Quad scale_;
     Quad base_ = 0;
     double step_ = 0;
+    Parts top_ = {};     ///< what coordinates are taken from
+    Parts bottom_ = {};  ///< what they are added to
 };
-
-/// Whether differences of such coordinates may need rounding.
-bool is_fine(double x) { return x * 0x1p53 != std::floor(x * 0x1p53); }
 
 /// The axes that have a weight.
 struct Axes {
@@ -435,21 +384,46 @@ Axes axes_of(std::size_t dimension, Kind kind, const std::vector<double>& weight
     return axes;
 }
 
-/// The form that these points take: with corrections where there are any.
-Form form_of(const AxisForm& form, Kind kind, bool fine, bool corrected) {
+/// What of the numbers is not 0.
+struct Needs {
+    bool rests = false;
+    bool corrections = false;
+    bool constants = false;  ///< shifts or corrections of axes
+};
+
+Form form_of(const AxisForm& form, Kind kind, const Needs& needs) {
     if (form.is_excess()) return Form::excess;
-    if (form.bends()) return fine ? Form::bend_fine : Form::bend;
-    if (kind == Kind::mixture) return fine ? Form::mixture_fine : Form::mixture;
-    return corrected ? Form::least_carried : Form::least;
+    if (form.bends() && needs.constants)
+        return needs.rests ? Form::bend_shifted_fine : Form::bend_shifted;
+    if (form.bends()) return needs.rests ? Form::bend_fine : Form::bend;
+    if (kind == Kind::mixture) return needs.rests ? Form::mixture_fine : Form::mixture;
+    return needs.corrections ? Form::least_carried : Form::least;
 }
 
-/// What AxisForm::put gives for all points, three numbers a factor, and what there is to heed.
+/// Which of the numbers of AxisForm::put are columns.
+std::vector<std::size_t> columns_from(Form form) {
+    switch (form) {
+        case Form::least:
+            return {2};
+        case Form::bend:
+        case Form::bend_shifted:
+            return {0};
+        case Form::bend_fine:
+        case Form::bend_shifted_fine:
+            return {0, 1};
+        case Form::mixture_fine:
+            return {0, 1, 2, 3};
+        default:
+            return {0, 2, 3};
+    }
+}
+
+/// What AxisForm::put gives for all points, and what there is to heed.
 struct Rows {
     std::vector<double> numbers;
     std::size_t factors = 0;
     Quad means = 0;  ///< mean of the products of the factors' means
-    bool fine = false;
-    bool corrected = false;
+    Needs needs;
 };
 
 Rows rows_of(const PointSet& points, const Axes& axes, const RunContext& run) {
@@ -462,10 +436,11 @@ Rows rows_of(const PointSet& points, const Axes& axes, const RunContext& run) {
         Quad mean = 1;
         for (std::size_t j = 0; j < axes.places.size(); ++j) {
             const double x = points[i][axes.places[j]] + 0.0;
-            rows.fine = rows.fine || is_fine(x);
             axes.forms[j].put(x, to);
-            for (std::size_t f = 0; f < axes.forms[j].factors(); ++f, to += numbers_of_factor)
-                rows.corrected = rows.corrected || to[2] != 0;
+            for (std::size_t f = 0; f < axes.forms[j].factors(); ++f, to += numbers_of_factor) {
+                rows.needs.rests = rows.needs.rests || to[1] != 0;
+                rows.needs.corrections = rows.needs.corrections || to[3] != 0;
+            }
             mean *= axes.terms[j].mean(x);
         }
         rows.means += mean;
@@ -474,19 +449,16 @@ Rows rows_of(const PointSet& points, const Axes& axes, const RunContext& run) {
     return rows;
 }
 
-/// The numbers that the form needs, for all points and places.
+/// The columns of the form, for all points and places.
 void fill(Table& table, const Rows& rows) {
-    table.columns =
-        table.form == Form::least || table.form == Form::bend || table.form == Form::bend_fine
-            ? 1
-            : numbers_of_factor;
-    const std::size_t from = table.form == Form::least ? 1 : 0;
-    table.numbers.resize(block_count(table.count, width) * table.height() * width);
+    const std::vector<std::size_t> from = columns_from(table.form);
+    table.columns = from.size();
+    table.resize();
     const double* at = rows.numbers.data();
     for (std::size_t i = 0; i < table.count; ++i) {
         std::size_t column = 0;
         for (std::size_t f = 0; f < rows.factors; ++f, at += numbers_of_factor)
-            for (std::size_t q = 0; q < table.columns; ++q) table.at(i, column++) = at[from + q];
+            for (const std::size_t q : from) table.at(i, column++) = at[q];
         table.at(i, column) = 1;
     }
 }
@@ -505,34 +477,36 @@ bool carries(std::size_t dimension, Kind kind, const std::vector<double>& weight
 }
 
 Square carried_square(const PointSet& points, Kind kind, const std::vector<double>& weights,
-                      const RunContext& run) {
+                      const RunContext& run, Vectors widest) {
     const Axes axes = axes_of(points.dimension(), kind, weights);
     if (axes.places.empty()) {  // all weights are 0
         run.tick(1, 1);
         return {0, 0};
     }
-    const Rows rows = rows_of(points, axes, run);
-    Table table{.form = form_of(axes.forms[0], kind, rows.fine, rows.corrected),
-                .count = points.count()};
+    Rows rows = rows_of(points, axes, run);
+    Table table{.count = points.count()};
     Quad total = 1;
     Quad scale = 1;
     Quad most = 1;
+    bool shifted = false;
     for (std::size_t j = 0; j < axes.places.size(); ++j) {
         const AxisForm& form = axes.forms[j];
-        table.factors.insert(table.factors.end(), form.factors(), form.constants());
+        const AxisConstants constants = form.constants();
+        table.factors.insert(table.factors.end(), form.factors(), constants);
+        shifted = shifted || form.shift() != 0;
+        rows.needs.constants = rows.needs.constants || shifted || constants.lost.at[0] != 0;
         total *= axes.terms[j].total();
         scale *= form.scale();
         most *= form.scale() * form.most();
     }
+    table.form = form_of(axes.forms[0], kind, rows.needs);
     fill(table, rows);
     const Quad n = points.count();
-    const Quad pairs = scale * sum_over_pairs(table, run) / (n * n);
+    const Quad pairs = scale * sum_over_pairs(table, widest, run) / (n * n);
     const Quad squared = total - 2 * rows.means + pairs;
     require_finite(static_cast<double>(squared), kind, points.dimension());
     // Where factors come near 0, they lose by what is largest.
-    const bool near_zero = std::ranges::any_of(
-        table.factors, [](const AxisConstants& axis) { return axis.shift != 0; });
-    const double products = static_cast<double>(near_zero ? most : pairs);
+    const double products = static_cast<double>(shifted ? most : pairs);
     const auto chain = static_cast<double>(table.factors.size() + 4);
     const double error = (0x1p-80 + 0x1p-98 * chain * chain) * products +
                          0x1p-88 * static_cast<double>(total + rows.means) +

@@ -28,11 +28,8 @@
 //         d > 2: O(n^2 d) for each kind; in three and four dimensions O(n log^(d-1) n) for many
 //         points and the kinds star, extreme, centered and modified.
 // Promise the same for any number of threads. d <= 2: exact sums, rounded once at the end (of
-//         coordinates to multiples of 2^-63). d > 2: value is off by at most `error`, less than
-//         1e-12 of it for up to 10^9 / d pairs and with --precise. Of more pairs the products are
-//         plain doubles, which is four times as fast: 4e-10 was the most that 16384 points of
-//         Sobol' in 5 dimensions were off. In hundreds of dimensions or with weights far from 1 it
-//         is that for up to 10^8 / d pairs.
+//         coordinates to multiples of 2^-63). d > 2: value is off by at most `error`, which is less
+//         than 1e-12 of it (most often its own rounding) unless all but 2^-38 of it cancels.
 // Beware  SciPy's CD, WD and MD are `squared` of centered, wraparound and mixture; its L2-star is
 //         `value` of star. Diaphony is not divided by its largest value, sqrt((1 + pi^2/3)^d - 1).
 // Source  T. T. Warnock, in "Applications of Number Theory to Numerical Analysis" (1972) 319-343
@@ -69,13 +66,6 @@ constexpr Param<Numbers> axis_weights{
      .help =
          "Product weights, one for each coordinate, from 0 to 10^6: K = prod (1 + weight k) for "
          "every kind, so that projections count by the product of their weights"}};
-
-constexpr Param<bool> precise{
-    .name = "precise",
-    .help =
-        "Keep the error below 1e-12 of the value also for more than 10^9 / d pairs in 3 and more "
-        "dimensions: what rounding takes from every product is carried along, which takes four to "
-        "thirty times as long"};
 
 /// More points than any machine's memory holds; places of points fit 32 bits.
 constexpr std::size_t max_count = std::size_t{1} << 29;
@@ -119,10 +109,10 @@ double error_of_root(double squared, double error) {
 }
 
 /// Says so where all pairs take more than some ten minutes on one core.
-void warn_of_pairs(std::size_t n, std::size_t d, l2::Kind which, bool twice,
+void warn_of_pairs(std::size_t n, std::size_t d, l2::Kind which, bool carried,
                    const RunContext& run) {
     const double pairs = static_cast<double>(n) * static_cast<double>(n) / 2;
-    const double seconds = (twice ? 4e-9 : 0.4e-9) * pairs * static_cast<double>(d);
+    const double seconds = (carried ? 0.6e-9 : 4e-9) * pairs * static_cast<double>(d);
     if (seconds < 600) return;
     run.tell(
         fmt::format("{} l2-discrepancy takes all pairs of {} points in {} dimensions, some "
@@ -136,25 +126,22 @@ Report off_by(const l2::Square& square, const char* method) {
         .add("error", error_of_root(square.squared, square.error));
 }
 
-/// From plain doubles where what they lose is little enough, else with corrections.
+/// Of products that leave the range of doubles with their corrections: from plain doubles where
+/// what they lose is little enough.
 l2::Square near_enough(const PointSet& points, l2::Kind which, const std::vector<double>& weights,
-                       bool twice, const RunContext& run) {
+                       const RunContext& run) {
     constexpr double near = 1e-12;
-    constexpr double soon = 1e9;  // factors that corrections take half a second for
-    const auto n = static_cast<double>(points.count());
-    if (!twice && n * n * static_cast<double>(points.dimension()) > soon)
-        return l2::pair_square(points, which, weights, run);
-    if (!twice && l2::pairs_may_do(points.count(), points.dimension(), which)) {
-        const l2::Square plain = l2::pair_square(points, which, weights, run.stage(0, 0.4));
-        const double value = std::sqrt(std::max(plain.squared, 0.0));
-        if (error_of_root(plain.squared, plain.error) <= near * value) return plain;
-        return l2::carried_square(points, which, weights, run.stage(0.4, 1));
-    }
-    return l2::carried_square(points, which, weights, run);
+    constexpr double plain_share = 0.05;  // of the time of twins
+    if (l2::twins_are_quick(points.count(), points.dimension()))
+        return l2::twin_square(points, which, weights, run);
+    const l2::Square plain = l2::pair_square(points, which, weights, run.stage(0, plain_share));
+    const double value = std::sqrt(std::max(plain.squared, 0.0));
+    if (error_of_root(plain.squared, plain.error) <= near * value) return plain;
+    return l2::twin_square(points, which, weights, run.stage(plain_share, 1));
 }
 
 Report in_space(const PointSet& points, l2::Kind which, const std::vector<double>& weights,
-                bool twice, const RunContext& run) {
+                const RunContext& run) {
     const std::size_t n = points.count();
     const std::size_t d = points.dimension();
     if (l2::divides(d, which, weights) && l2::divide_wins(n, d, which)) {
@@ -162,25 +149,23 @@ Report in_space(const PointSet& points, l2::Kind which, const std::vector<double
         return off_by(l2::divide_square(points, which, weights, run), "divide-and-conquer");
     }
     const bool carried = l2::carries(d, which, weights);
-    const bool twins = !carried && (twice || l2::twins_are_quick(n, d));
-    warn_of_pairs(n, d, which, twins, run);
-    const double columns = carried ? 12 : twins ? 3 : 2;
+    warn_of_pairs(n, d, which, carried, run);
+    const double columns = carried ? 14 : 3;
     run.need_memory((columns * static_cast<double>(d) + 1) * static_cast<double>(n) * 8,
                     "the tables of l2-discrepancy");
-    return off_by(twins      ? l2::twin_square(points, which, weights, run)
-                  : !carried ? l2::pair_square(points, which, weights, run)
-                             : near_enough(points, which, weights, twice, run),
+    return off_by(carried ? l2::carried_square(points, which, weights, run)
+                          : near_enough(points, which, weights, run),
                   "all-pairs");
 }
 
 Report in_spaces(const PointSet& points, const std::vector<l2::Kind>& kinds,
-                 const std::vector<double>& weights, bool twice, const RunContext& run) {
+                 const std::vector<double>& weights, const RunContext& run) {
     Report results;
     const auto parts = static_cast<double>(kinds.size());
     for (std::size_t i = 0; i < kinds.size(); ++i) {
         const auto at = static_cast<double>(i);
         const RunContext part = run.stage(at / parts, (at + 1) / parts);
-        results.add(l2::record_of(kinds[i]).name, in_space(points, kinds[i], weights, twice, part));
+        results.add(l2::record_of(kinds[i]).name, in_space(points, kinds[i], weights, part));
     }
     run.tick(1, 1);
     return results;
@@ -194,7 +179,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     const std::vector<l2::Kind> kinds = l2::parse_kinds(options[kind]);
     const std::vector<double> weights = checked_weights(options, points.dimension());
     return points.dimension() <= 2 ? in_plane(points, kinds, weights, run)
-                                   : in_spaces(points, kinds, weights, options[precise], run);
+                                   : in_spaces(points, kinds, weights, run);
 }
 
 }  // namespace
@@ -208,7 +193,7 @@ Analyzer l2_discrepancy() {
                 "Hickernell 1998, doi:10.1090/S0025-5718-98-00894-1; Heinrich 1996, "
                 "doi:10.1090/S0025-5718-96-00756-4",
             .traits = {.max_dimension = 10'000},
-            .options = Schema(kind, axis_weights, precise),
+            .options = Schema(kind, axis_weights),
             .results = {{"KIND.value", "the discrepancy of that kind"},
                         {"KIND.squared", "its square"},
                         {"KIND.method", "exact-sums, divide-and-conquer or all-pairs", true,

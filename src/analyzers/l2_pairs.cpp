@@ -454,34 +454,7 @@ Prepared prepare(const PointSet& points, Kind kind, const std::vector<double>& w
     return out;
 }
 
-/// Mean of K(x, x) over that of K(x, y), on an axis.
-double steepness(Kind kind) {
-    switch (kind) {
-        case Kind::star:
-        case Kind::periodic:
-            return 3. / 2;
-        case Kind::modified:
-        case Kind::wraparound:
-            return 9. / 8;
-        case Kind::extreme:
-            return 2;
-        case Kind::centered:
-            return 15. / 13;
-        case Kind::mixture:
-            return 21. / 19;
-        default:
-            return 1 + diaphony / 6;
-    }
-}
-
 }  // namespace
-
-bool pairs_may_do(std::size_t count, std::size_t dimension, Kind kind) {
-    constexpr double near = 1e-12;
-    const auto d = static_cast<double>(dimension);
-    const double share = (std::pow(steepness(kind), d) - 1) / static_cast<double>(count);
-    return 0x1p-53 * roundings(kind) * d <= 2 * near * share;
-}
 
 Square pair_square(const PointSet& points, Kind kind, const std::vector<double>& weights,
                    const RunContext& run) {

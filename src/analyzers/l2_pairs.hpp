@@ -34,8 +34,4 @@ namespace stipple::analyzers::l2 {
 Square pair_square(const PointSet& points, Kind kind, const std::vector<double>& weights,
                    const RunContext& run);
 
-/// Whether its error may be below 1e-12 of the value: it is not for so many independent points, nor
-/// for any that are more even.
-bool pairs_may_do(std::size_t count, std::size_t dimension, Kind kind);
-
 }  // namespace stipple::analyzers::l2

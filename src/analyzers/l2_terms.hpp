@@ -3,6 +3,7 @@
 // Kernels of L2 discrepancies in numbers of 113 bits.
 #pragma once
 
+#include <array>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cstdint>
 #include <cstdlib>
@@ -17,7 +18,10 @@ using Quad = boost::multiprecision::cpp_bin_float_quad;
 class AxisTerms {
   public:
     AxisTerms(const KindRecord& record, bool alone, double weight)
-        : kernel_(record.kernel), one_(alone ? 0 : 1), unit_(Quad(record.scale) * weight / 48) {}
+        : kernel_(record.kernel), one_(alone ? 0 : 1), unit_(Quad(record.scale) * weight / 48) {
+        for (std::size_t i = 0; i < mean_.size(); ++i) mean_[i] = coefficient(kernel_.mean[i]);
+        mean_[0] += one_;
+    }
 
     [[nodiscard]] Quad product() const { return coefficient(kernel_.s11); }
     [[nodiscard]] Quad distance() const { return coefficient(kernel_.sigma); }
@@ -32,9 +36,13 @@ class AxisTerms {
     /// Mean of the factor over the other point.
     [[nodiscard]] Quad mean(double x) const {
         const Quad q = x;
-        return one_ + coefficient(kernel_.mean[0]) + coefficient(kernel_.mean[1]) * q +
-               coefficient(kernel_.mean[2]) * q * q +
-               coefficient(kernel_.mean[3]) * abs(Quad(q - 0.5));
+        Quad mean = mean_[0];
+        if (kernel_.mean[2] != 0)
+            mean += (mean_[2] * q + mean_[1]) * q;
+        else if (kernel_.mean[1] != 0)
+            mean += mean_[1] * q;
+        if (kernel_.mean[3] != 0) mean += mean_[3] * abs(Quad(q - 0.5));
+        return mean;
     }
 
     [[nodiscard]] Quad total() const { return one_ + coefficient(kernel_.total); }
@@ -58,6 +66,7 @@ class AxisTerms {
     AxisKernel kernel_;
     int one_;
     Quad unit_;
+    std::array<Quad, 4> mean_;  ///< coefficients of mean()
 };
 
 }  // namespace stipple::analyzers::l2
