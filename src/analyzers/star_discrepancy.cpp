@@ -183,16 +183,18 @@ Report analyze_together(const PointSet& points, const Values& options, Peers& pe
                    options, run);
 }
 
-/// A mean of boxes is none, nor is one of axes.
+/// A mean of boxes is none, nor is one of axes; the worst projection is that of the means.
 void refine(Report& mean, std::size_t sets, const Values&) {
     if (sets < 2) return;
     const auto drop = [](Report& from, std::string_view name) {
         std::erase_if(from.entries(), [&](const auto& entry) { return entry.name == name; });
     };
     drop(mean, "worst_box");
-    if (auto* item = mean.find("projections"))
-        for (const char* name : {"is_worst", "worst", "worst_is_certain"})
-            drop(std::get<Report>(*item), name);
+    auto* const item = mean.find("projections");
+    if (item == nullptr) return;
+    auto& table = std::get<Report>(*item);
+    for (const char* name : {"is_worst", "worst", "worst_is_certain"}) drop(table, name);
+    star::mark_worst(table);
 }
 
 }  // namespace
@@ -230,11 +232,13 @@ Analyzer star_discrepancy() {
                     {"prefixes.value", "its star discrepancy", false},
                     {"prefixes.lower", "which is at least this", false},
                     {"prefixes.upper", "and at most this", false},
+                    {"prefixes.exact", "1 where the two are the same, else 0", false},
                     {"projections.axis_1", "first axis of each projection, from 1", false},
                     {"projections.axis_2", "the second, and so on", false},
                     {"projections.value", "its star discrepancy", false},
                     {"projections.lower", "which is at least this", false},
                     {"projections.upper", "and at most this", false},
+                    {"projections.exact", "1 where the two are the same, else 0", false},
                     {"projections.is_worst",
                      "1 for the first with the largest value; among bounds, with the largest "
                      "lower one",

@@ -2,6 +2,7 @@
 #include "analyzers/star_families.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <mutex>
 
@@ -24,9 +25,12 @@ struct Columns {
     }
 
     void add_to(Report& table) && {
+        Report::Integers exact(value.size());
+        for (std::size_t row = 0; row < exact.size(); ++row) exact[row] = lower[row] == upper[row];
         table.add("value", std::move(value));
         table.add("lower", std::move(lower));
         table.add("upper", std::move(upper));
+        table.add("exact", std::move(exact));
     }
 
     Report::Curve value;
@@ -78,9 +82,11 @@ class Table {
         mine.warn = {};  // bounds are told of once for the table
         mine.threads = together > 1 ? 1 : run_.threads;
         const Limits limits = shares_.next(weight, together, run_);
+        const bool first = !begun_.exchange(true);
+        const bool skip = !first && !limits.exact && limits.search.late(run_);
         Report found;
         try {
-            found = measure_({points, limits, like}, mine);
+            found = skip ? least_known(points.count()) : measure_({points, limits, like}, mine);
         } catch (const Error& e) {
             if (e.kind() != ErrorKind::cancelled) throw;
             found = least_known(points.count());
@@ -112,6 +118,7 @@ class Table {
     const Measure& measure_;
     const RunContext& run_;
     Shares shares_;
+    std::atomic<bool> begun_ = false;
     std::size_t done_ = 0;
     std::mutex counting_;
 };
@@ -131,7 +138,9 @@ std::vector<std::size_t> given_sizes(const Values& options) {
             fail(ErrorKind::usage, "--prefixes: {} is not a number of points; expected 1, 2, ...",
                  format_number(size));
         const auto count = static_cast<std::size_t>(size);
-        if (!sizes.empty() && count <= sizes.back())
+        if (!sizes.empty() && count == sizes.back())
+            fail(ErrorKind::usage, "--prefixes: {} is there twice; expected rising numbers", count);
+        if (!sizes.empty() && count < sizes.back())
             fail(ErrorKind::usage, "--prefixes: {} stands behind {}; expected rising numbers",
                  count, sizes.back());
         sizes.push_back(count);
@@ -225,24 +234,17 @@ Report of_prefixes(const PointSet& points, const std::vector<std::size_t>& sizes
     return result;
 }
 
-/// The first of the projections with the largest value; the table marks it.
-void mark_worst(Report& table, std::size_t size) {
+/// What is known of the largest value of a table with marks.
+void add_largest(Report& table) {
     const auto& lower = table.curve("lower");
     const auto& upper = table.curve("upper");
     const auto worst = static_cast<std::size_t>(std::ranges::max_element(lower) - lower.begin());
     bool certain = true;
     for (std::size_t row = 0; row < upper.size(); ++row)
         certain = certain && (row == worst || upper[row] <= lower[worst]);
-    Report::Integers marks(lower.size());
-    marks[worst] = 1;
-    Report::Integers axes;
-    for (const std::size_t k : combination(worst, size))
-        axes.push_back(static_cast<std::int64_t>(k + 1));
     Report largest;
     for (const char* name : {"value", "lower", "upper"})
         largest.add(name, std::ranges::max(table.curve(name)));
-    table.add("is_worst", std::move(marks));
-    table.add("worst", std::move(axes));
     table.add("worst_is_certain", certain);
     table.add("largest", std::move(largest));
 }
@@ -289,11 +291,24 @@ Report of_projections(const PointSet& points, std::size_t size, const Limits& li
     for (std::size_t k = 0; k < size; ++k)
         result.add(fmt::format("axis_{}", k + 1), std::move(axes[k]));
     std::move(table.columns).add_to(result);
-    mark_worst(result, size);
+    mark_worst(result);
+    add_largest(result);
     return result;
 }
 
 }  // namespace
+
+void mark_worst(Report& table) {
+    const auto& lower = table.curve("lower");
+    const auto worst = static_cast<std::size_t>(std::ranges::max_element(lower) - lower.begin());
+    Report::Integers marks(lower.size());
+    marks[worst] = 1;
+    Report::Integers axes;
+    while (const auto* axis = table.find(fmt::format("axis_{}", axes.size() + 1)))
+        axes.push_back(std::get<Report::Integers>(*axis)[worst]);
+    table.add("is_worst", std::move(marks));
+    table.add("worst", std::move(axes));
+}
 
 bool wants_families(const Values& options) {
     if (options.given(prefixes) && options.given(every))

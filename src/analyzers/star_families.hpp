@@ -48,6 +48,9 @@ struct Member {
 /// Measures one set: its report has `value`, `lower` and `upper`.
 using Measure = std::function<Report(const Member&, const RunContext&)>;
 
+/// Marks the first row of a table of projections with the largest lower bound.
+void mark_worst(Report& table);
+
 /// Whether tables are asked for. @throws Error(usage) for sizes that no set has prefixes of.
 bool wants_families(const Values& options);
 
@@ -55,7 +58,7 @@ bool wants_families(const Values& options);
 /// the time ends it. The limits are for all together: work goes by the numbers of points, time by
 /// the same to those not yet begun. Each prefix starts from the worst box of the one before, and
 /// bounds hold for the neighbours, too, up to what the points between can change. Other sets that a
-/// stop leaves out have the bounds 1/(2n) and 1.
+/// stop or the time leaves out have the bounds 1/(2n) and 1.
 /// @throws Error(input) for prefixes and projections that these points do not have.
 Report families(const PointSet& points, const Values& options, const Limits& limits,
                 const Measure& measure, const RunContext& run);

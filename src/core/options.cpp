@@ -33,7 +33,9 @@ std::vector<double> parse_numbers(const Option& option, std::string_view text) {
     for (const auto part : split(text, ',')) {
         const std::size_t before = numbers.size();
         for (const auto word : split(trim(part), ' ')) {
-            const auto value = parse_number(word);
+            auto value = parse_number(word);
+            if (const auto whole = parse_integer(word); whole && !value)  // 2^20, 64k
+                value = static_cast<double>(*whole);
             if (value) numbers.push_back(*value);
             if (!value && !word.empty()) refuse(option, text, "a list of numbers such as 0.5,1");
         }

@@ -889,6 +889,9 @@ TEST(StarDiscrepancy, TellsThatOfEveryPrefix) {
         EXPECT_EQ(some.curve("prefixes.lower")[row], value) << sizes[row];
         EXPECT_EQ(some.curve("prefixes.upper")[row], value) << sizes[row];
     }
+    EXPECT_EQ(std::get<Report::Integers>(*some.find("prefixes.exact")),
+              (Report::Integers{1, 1, 1, 1}));
+    EXPECT_EQ(analyze("star-discrepancy", whole, {{"prefixes", "2^0,7,50,1e2"}}), some);
     EXPECT_EQ(some.find("value"), nullptr);
     const Report steps = analyze("star-discrepancy", whole, {{"every", "30"}});
     EXPECT_EQ(std::get<Report::Integers>(*steps.find("prefixes.count")),
@@ -957,7 +960,9 @@ TEST(StarDiscrepancy, LimitsAreForAllRowsOfATable) {
         const double value = exact.curve("prefixes.value")[row];
         EXPECT_LE(part.curve("prefixes.lower")[row], value) << row;
         EXPECT_GE(part.curve("prefixes.upper")[row], value) << row;
-        open += part.curve("prefixes.lower")[row] < part.curve("prefixes.upper")[row] ? 1U : 0U;
+        const bool between = part.curve("prefixes.lower")[row] < part.curve("prefixes.upper")[row];
+        EXPECT_EQ(std::get<Report::Integers>(*part.find("prefixes.exact"))[row], between ? 0 : 1);
+        open += between ? 1U : 0U;
     }
     EXPECT_GT(open, 0U);
     EXPECT_LT(open, 8U);
@@ -973,6 +978,13 @@ TEST(StarDiscrepancy, LimitsAreForAllRowsOfATable) {
     EXPECT_EQ(told.size(), 2U);
     EXPECT_THAT(told[1], HasSubstr("the first, of the projection to axes 1, 2, 3, 4, 5, "));
     EXPECT_FALSE(std::get<bool>(*timed.find("projections.worst_is_certain")));
+    // Once the time is over, a row costs a few looks at the clock; the first is measured.
+    looks = 0;
+    const Report late = rows({{"projections", "3"}, {"time-limit", "1e-9"}}, run);
+    EXPECT_LE(looks, 56 * 8 + 100);
+    EXPECT_LT(late.curve("projections.upper")[0], 1);
+    EXPECT_EQ(late.curve("projections.lower")[55], 0.5 / 160);
+    EXPECT_EQ(late.curve("projections.upper")[55], 1);
 }
 
 // The discrepancies of n points and of the first n - 1 differ by at most 1/n.
@@ -1068,7 +1080,7 @@ TEST(StarDiscrepancy, RefusesTablesThatTheSetDoesNotHave) {
     EXPECT_EQ(error({{"prefixes", "16,8"}}),
               "usage: --prefixes: 8 stands behind 16; expected rising numbers");
     EXPECT_EQ(error({{"prefixes", "8,8"}}),
-              "usage: --prefixes: 8 stands behind 8; expected rising numbers");
+              "usage: --prefixes: 8 is there twice; expected rising numbers");
     EXPECT_EQ(error({{"prefixes", "0,8"}}),
               "usage: --prefixes: 0 is not a number of points; expected 1, 2, ...");
     EXPECT_EQ(error({{"prefixes", "1.5"}}),

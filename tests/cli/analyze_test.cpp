@@ -401,6 +401,13 @@ TEST(Analyze, WritesDiscrepanciesOfPrefixesAndProjectionsAsTables) {
     EXPECT_EQ(out["results"]["projections"]["axis_1"], (json{1, 1, 2}));
     EXPECT_EQ(out["results"]["projections"]["is_worst"].size(), 3U);
     EXPECT_EQ(out["options"]["projections"], 2);
+    const auto mean = report_of(
+        box.shell("stipple generate random -n 20 -d 3 -m 9 | stipple analyze star-discrepancy "
+                  "--projections 2 --average"))["results"]["projections"];
+    const std::vector<double> means = mean["value"];
+    const auto worst = static_cast<std::size_t>(std::ranges::max_element(means) - means.begin());
+    EXPECT_EQ(mean["is_worst"][worst], 1);
+    EXPECT_EQ(mean["worst"], (json{mean["axis_1"][worst], mean["axis_2"][worst]}));
     const Outcome beyond = box.shell(
         "stipple generate halton -n 64 | stipple analyze "
         "star-discrepancy --prefixes 32,128");
