@@ -108,7 +108,7 @@ TEST(Document, TextNamesUnits) {
 TEST(Check, ComparesNumbersWordsAndFlags) {
     const Report report = sample().results;
     for (const char* text : {"value<0.2", "value <= 0.1", "value==0.1", "value!=1", "value>-1",
-                             "flag==true", "word=fine", "word!=bad", "flag!=false"})
+                             "flag==true", "word==fine", "word!=bad", "flag!=false"})
         EXPECT_TRUE(parse_check(text).holds(report)) << text;
     for (const char* text : {"value<0.1", "value>=0.2", "word==bad"})
         EXPECT_FALSE(parse_check(text).holds(report)) << text;
