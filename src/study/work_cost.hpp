@@ -3,15 +3,17 @@
 // How long the parts of a study will take: a model first, then the model corrected by what the
 // parts that are done took.
 //
-//     left = sum over generators and measures of (model of what is left) x (spent / model of what
-//            is done)
+//     left = sum over generators and measures, and over dimensions, of
+//            (model of what is left) x (spent / model of what is done)
 //
-// A generator or measure of which nothing is done yet has the correction of all that is.
+// Where nothing is done yet in a dimension, the correction is that of the generator or measure in
+// others; where there is none, that of all that is done.
 //
 // Beware  the model is made to order work and to cut it, within a factor of some ten.
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "study/sweep.hpp"
@@ -40,18 +42,33 @@ class WorkLeft {
     [[nodiscard]] double seconds() const;
 
   private:
-    /// One generator or one measure.
+    /// One generator or one measure, in one dimension.
     struct Part {
         double left = 0;
         double modelled = 0;  ///< of what is done
         double spent = 0;
+
+        void add(const Part& other) {
+            modelled += other.modelled;
+            spent += other.spent;
+        }
+        [[nodiscard]] double correction(double otherwise) const {
+            return modelled > 0 ? spent / modelled : otherwise;
+        }
     };
+
+    /// The part of a generator or, behind them, a measure for a cell.
+    [[nodiscard]] std::size_t part(std::size_t unit, std::uint64_t cell) const;
 
     /// Model costs of ranges, by part.
     [[nodiscard]] std::vector<double> model(const std::vector<UnitRange>& ranges) const;
 
+    /// Shares seconds out to those of some parts that have costs.
+    void spend(double seconds, std::span<const double> costs, std::size_t first, std::size_t count);
+
     const Sweep& sweep_;
-    std::vector<Part> parts_;  ///< generators, then measures
+    std::size_t dimensions_;
+    std::vector<Part> parts_;  ///< generators, then measures; each in all dimensions
 };
 
 }  // namespace stipple

@@ -96,6 +96,26 @@ TEST(WorkLeft, IsNothingInTheEndAndLearnsFromWhatIsDone) {
     EXPECT_NEAR(left.seconds(), 0, 1e-9 * modelled);
 }
 
+// Searches in 6 dimensions that are a thousand times faster than the model do not make those in the
+// plane faster.
+TEST(WorkLeft, LearnsForEachDimension) {
+    const Sweep s(SweepRequest{.generators = {"random"},
+                               .counts = {1000},
+                               .dimensions = {2, 6},
+                               .seeds = 10,
+                               .measures = {"star-discrepancy"}});
+    const auto cost = [&s](std::uint64_t cell) {
+        return std::pair(generate_cost(s, s.cell(cell)), measure_cost(s, s.cell(cell), 0));
+    };
+    const auto [made, measured] = cost(0);
+    const auto [made_6, measured_6] = cost(1);
+    WorkLeft left(s);
+    EXPECT_NEAR(left.seconds(), 10 * (made + measured + made_6 + measured_6), 1e-9);
+    left.finish({{10, 15}}, {5e-3 * made_6, 5e-3 * measured_6});
+    left.finish({{0, 5}}, {5 * made, 5 * measured});
+    EXPECT_NEAR(left.seconds(), 5 * (made + measured) + 5e-3 * (made_6 + measured_6), 1e-9);
+}
+
 TEST(Sweep, UnitsGoThroughGeneratorsThenDimensionsCountsSeedsMeasures) {
     const Sweep s = sweep();
     const Unit last = s.unit(s.units() - 1);
