@@ -121,16 +121,17 @@ std::vector<double> WorkLeft::model(const std::vector<UnitRange>& ranges) const 
     return costs;
 }
 
-void WorkLeft::forget(const std::vector<UnitRange>& ranges) {
-    const auto costs = model(ranges);
+void WorkLeft::forget(const std::vector<UnitRange>& ranges) { take_out(model(ranges)); }
+
+void WorkLeft::take_out(std::span<const double> costs) {
     for (std::size_t i = 0; i < parts_.size(); ++i)
         parts_[i].left = std::max(0.0, parts_[i].left - costs[i]);
 }
 
 void WorkLeft::finish(const std::vector<UnitRange>& ranges, const std::vector<double>& seconds) {
     if (ranges.empty() || seconds.empty()) return;
-    forget(ranges);
     const auto costs = model(ranges);
+    take_out(costs);
     const std::size_t generators = sweep_.generators().size() * dimensions_;
     spend(seconds[0], costs, 0, generators);
     for (std::size_t m = 1; m < seconds.size(); ++m)

@@ -63,6 +63,8 @@ class WorkLeft {
     /// Model costs of ranges, by part.
     [[nodiscard]] std::vector<double> model(const std::vector<UnitRange>& ranges) const;
 
+    void take_out(std::span<const double> costs);
+
     /// Shares seconds out to those of some parts that have costs.
     void spend(double seconds, std::span<const double> costs, std::size_t first, std::size_t count);
 
