@@ -210,8 +210,9 @@ class Study {
             if (row.failed()) failures_.add(row);
             if (summarized_) summary_.add(row);
         };
-        StudyFile file(path_, sweep_, table_, start, listen, run);
         const UnitRunner runner(sweep_, table_, run.max_memory);
+        runner.require_options(run);
+        StudyFile file(path_, sweep_, table_, start, listen, run);
         for (const auto& sentence : runner.before_warps(run)) session_.warn(sentence);
         try {
             began_ = true;

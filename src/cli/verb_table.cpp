@@ -102,10 +102,15 @@ cube, looks at the points before the warp; the column domain says so.
 What fails (a count that a generator cannot make, a time limit, a dimension that a measure cannot
 take) is a row with status failed and the reason; the exit code is then 5 if a limit of time or
 memory was met, else 3. The file is written as the study goes on, with FILE.journal for what is
-done out of order: after Ctrl-C (exit 130) or a crash both stay, and --resume goes on. A study
+done out of order: after Ctrl-C (exit 130) or a crash both stay, and --resume goes on, and repairs
+what was torn off at the end; rows that somebody took from the middle it cannot know of. A study
 that is there already is refused without --resume or --overwrite.
+
 --summary writes FILE.summary and FILE.comparisons with the extension of FILE (behind the rows
-where these go to standard output).
+where these go to standard output): means with standard errors, t and bootstrap intervals, and
+for each dimension, count, measure and key all pairs of generators, by Welch's t test or paired
+by seed, with Holm's correction over these pairs. A generator that no seed changes is a constant:
+it has no standard error, and against it Welch's test is that of one sample.
 
 'mpirun -n 8 stipple study ...' shares the work between ranks, where the build has MPI; rank 0 writes.)",
     R"(  stipple study --generators 'random,sobol:scramble=owen' -n 16..256*4 --seeds 8 --analyze star-discrepancy --summary -o study.csv

@@ -17,14 +17,10 @@ bool goes_on(std::string_view rest) {
     return end != std::string_view::npos && end > 0 && rest[end] == '=';
 }
 
-/// The base of which a number is a power with exponent 1 or more, the smallest; 1 for 1.
-std::uint64_t base_of(std::uint64_t number) {
-    for (std::uint64_t base = 2; base <= number / base; ++base) {
-        std::uint64_t rest = number;
-        while (rest % base == 0) rest /= base;
-        if (rest == 1) return base;
-    }
-    return number;
+/// Whether a number is a power of a base of 2 or more.
+bool is_power(std::uint64_t number, std::uint64_t base) {
+    while (number > 1 && number % base == 0) number /= base;
+    return number == 1;
 }
 
 /// One item of a list: a number, or a range of them.
@@ -43,7 +39,8 @@ class CountRange {
         if (first > last)
             fail(ErrorKind::usage, "{}: the range '{}' is empty: {} is above {}", who_, text_,
                  first, last);
-        if (mark == std::string_view::npos) return by_factor(first, last, common_base(first, last));
+        if (first == last) return {first};
+        if (mark == std::string_view::npos) return by_factor(first, last, base(first, last));
         const auto step = parse_unsigned(trim(rest.substr(mark + 1)));
         const bool factor = rest[mark] == '*';
         if (!step || *step < (factor ? 2 : 1))
@@ -56,6 +53,9 @@ class CountRange {
   private:
     std::uint64_t number(std::string_view text) const {
         text = trim(text);
+        if (text.empty())
+            fail(ErrorKind::usage, "{}: a number is missing{}", who_,
+                 text_.empty() ? "" : fmt::format(" in '{}'", text_));
         const auto value = parse_unsigned(text);
         if (!value)
             fail(ErrorKind::usage,
@@ -67,17 +67,21 @@ class CountRange {
         return *value;
     }
 
-    /// The base of which both ends are powers.
-    std::uint64_t common_base(std::uint64_t first, std::uint64_t last) const {
-        const std::uint64_t base = base_of(last);
-        if (first == last) return 2;
-        if (base > 1 && (first == 1 || base_of(first) == base)) return base;
-        fail_with_hint(ErrorKind::usage,
-                       fmt::format("{}..{}*2 goes by a factor, {}..{}+{} by a step", first, last,
-                                   first, last, std::max<std::uint64_t>(1, (last - first) / 4)),
-                       "{}: '{}' does not say which numbers between, and its ends are not powers "
-                       "of one base",
-                       who_, text_);
+    /// The base that is written: 2 of 2^4..2^16.
+    std::uint64_t base(std::uint64_t first, std::uint64_t last) const {
+        const auto mark = text_.find('^');
+        const auto end = text_.substr(0, mark);
+        const auto begin = end.find_last_of(". ") + 1;  // 0 where there is none
+        const auto written = mark == std::string_view::npos ? std::optional<std::uint64_t>()
+                                                            : parse_unsigned(end.substr(begin));
+        if (written && *written > 1 && is_power(first, *written) && is_power(last, *written))
+            return *written;
+        const auto step = std::max<std::uint64_t>(1, (last - first) / 8);
+        fail_with_hint(
+            ErrorKind::usage,
+            fmt::format("{}..{}*2 goes by a factor, {}..{}+{} by a step, 2^4..2^16 by powers",
+                        first, last, first, last, step),
+            "{}: '{}' does not say which numbers between", who_, text_);
     }
 
     static std::vector<std::uint64_t> by_factor(std::uint64_t first, std::uint64_t last,

@@ -273,7 +273,11 @@ class ConfigReader {
                 refuse(place, "expected a whole number or a range such as \"2^4..2^16\", got " +
                                   item.dump());
             const std::string part = item.is_string() ? item.get<std::string>() : item.dump();
-            checked(place, [&] { parse_counts(part, key.name, 1, std::uint64_t{1} << 53); });
+            try {
+                parse_counts(part, place, 1, std::uint64_t{1} << 53);
+            } catch (const Error& e) {
+                throw Error(ErrorKind::input, fmt::format("{}: {}", source_, e.what()), e.hint());
+            }
             if (!text.empty()) text += ',';
             text += part;
         };

@@ -124,8 +124,8 @@ void StudyFile::open_file(Start start, const RunContext& run) {
     // A crash may have left a part of the first line; its end was not reached then.
     const bool whole = !empty && whole_line(in, first);
     const bool ours = whole ? table_.is_head(first)
-                            : unfinished && (table_.head().starts_with(first) ||
-                                             first.starts_with("{\"generator\":"));
+                            : start != Start::fresh && (table_.head().starts_with(first) ||
+                                                        first.starts_with("{\"generator\":"));
     if (!empty && !ours)
         fail_with_hint(ErrorKind::input, "name another file with -o",
                        "{}: is there and is not a study's table", path_);
@@ -146,8 +146,7 @@ void StudyFile::open_file(Start start, const RunContext& run) {
     }
     if (unfinished) read_journal();
     read_rows(run);
-    const bool to_the_end = !partial_.empty() && next_ + 1 == sweep_.units();
-    if (!unfinished && to_the_end) {  // a finished one: nothing is missing
+    if (!unfinished && is_complete()) {
         partial_.clear();
         done_.add({0, next_ = sweep_.units()});
         return;
@@ -226,6 +225,7 @@ void StudyFile::read_rows(const RunContext& run) {
     std::string line;
     std::uint64_t whole = 0;
     std::uint64_t number = 0;
+    keys_before_.resize(sweep_.measures().size());
     if (table_.style() == StudyTable::Style::csv) {
         whole_line(in, line);
         ++number;
@@ -238,13 +238,25 @@ void StudyFile::read_rows(const RunContext& run) {
         const auto row = table_.parse(line);
         if (!row) fail(ErrorKind::input, "{}:{}: is no row of a study", path_, number);
         if (row->study != sweep_.fingerprint()) refuse_other("{}");
-        if (!take_row(*row, number)) partial_.clear();
+        if (!take_row(*row, number)) {
+            partial_.clear();
+            keys_before_[sweep_.unit(next_ - 1).measure] = std::exchange(keys_, {});
+        }
         partial_.push_back(line + "\n");
+        keys_.push_back(row->key);
         listener_(*row);
         whole += line.size() + 1;
     }
+    if (!line.empty()) keys_.clear();  // a row was torn
     cut_to(output_, whole, path_);
     done_.add({0, next_});
+}
+
+/// Whether a file without a journal has all rows: the last unit's results are those of a unit
+/// before it. How many a unit has is not known before it is done.
+bool StudyFile::is_complete() const {
+    const auto last = sweep_.unit(sweep_.units() - 1).measure;
+    return next_ + 1 == sweep_.units() && !keys_.empty() && keys_ == keys_before_[last];
 }
 
 /// Counts a row of the file. True: it is of the same unit as the row before.

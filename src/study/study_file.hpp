@@ -13,7 +13,8 @@
 //
 // A file that was cut short by a crash is cut back to its last whole line, and the journal to its
 // last whole entry. The last unit that the file has rows of may lack some: it is done again, and
-// only the rows that are not there are added.
+// only the rows that are not there are added. A file without a journal that has rows of the very
+// last unit is a finished one, if these are of the same results as those of the measure before.
 //
 // Beware   standard output, pipes and devices have no journal: rows wait in memory.
 #pragma once
@@ -78,6 +79,7 @@ class StudyFile {
     void open_file(Start start, const RunContext& run);
     void begin_journal();
     void read_rows(const RunContext& run);
+    bool is_complete() const;
     bool take_row(const StudyRow& row, std::uint64_t line);
     void read_journal();
     bool read_entry(std::istream& in, std::uint64_t offset);
@@ -97,8 +99,10 @@ class StudyFile {
     bool stream_ = false;
     std::uint64_t journal_size_ = 0;
     UnitSet done_;
-    std::uint64_t next_ = 0;            ///< unit whose rows come next
-    std::vector<std::string> partial_;  ///< lines of it that are there already
+    std::uint64_t next_ = 0;                             ///< unit whose rows come next
+    std::vector<std::string> partial_;                   ///< lines of it that are there already
+    std::vector<std::string> keys_;                      ///< of the results in them
+    std::vector<std::vector<std::string>> keys_before_;  ///< of each measure's unit before
     std::map<std::uint64_t, Waiting> waiting_;
 };
 

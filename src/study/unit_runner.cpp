@@ -60,8 +60,7 @@ std::size_t leading_scrambles(const std::vector<Spec>& warps) {
 
 /// Some points of the unit cube, apart from each other: odd multiples of those of sqrt(2),
 /// modulo 1.
-std::vector<double> some_points(std::size_t dimension) {
-    constexpr std::size_t count = 64;
+std::vector<double> some_points(std::size_t dimension, std::size_t count = 64) {
     constexpr double step = 0.41421356237309515;
     std::vector<double> rows;
     for (std::size_t i = 0; i < count; ++i)
@@ -72,15 +71,48 @@ std::vector<double> some_points(std::size_t dimension) {
     return rows;
 }
 
+RunContext silent(RunContext run) {
+    run.progress = {};
+    run.warn = {};
+    return run;
+}
+
 /// Whether a measure takes such points.
 bool measures(const Chosen<Analyzer>& measure, PointSet points, const RunContext& run) {
     try {
-        (void)analyze(*measure.unit, points, measure.values, run);
+        (void)analyze(*measure.unit, points, measure.values, silent(run));
     } catch (const Error& e) {
         if (e.kind() == ErrorKind::cancelled) throw;
         return e.kind() != ErrorKind::input && e.kind() != ErrorKind::usage;
     }
     return true;
+}
+
+PointSet cube_of(std::size_t dimension, std::size_t count = 64) {
+    return {some_points(dimension, count), dimension};
+}
+
+PointSet image_of(const WarpChain& chain, std::size_t count = 64) {
+    PointSet image(chain.forward(some_points(chain.dimension_in(), count)), chain.dimension_out());
+    image.domain = chain.domain();
+    return image;
+}
+
+/// What a measure has against its options when it sees such points, if it says so soon.
+std::optional<Error> refusal(const Chosen<Analyzer>& measure, const PointSet& points,
+                             const RunContext& run) {
+    constexpr double soon = 0.2;  // seconds
+    try {
+        over_time(silent(run), soon, [&](const RunContext& limited) {
+            (void)analyze(*measure.unit, points, measure.values, limited);
+        });
+    } catch (const Error& e) {
+        if (e.kind() == ErrorKind::cancelled) throw;
+        if (e.kind() == ErrorKind::usage) return e;
+    } catch (const std::exception&) {
+        return std::nullopt;  // the rows will say what is wrong
+    }
+    return std::nullopt;
 }
 
 /// Whether a measure looks at what the warps made: where it can, and where it cannot take points of
@@ -90,13 +122,8 @@ bool takes(const Chosen<Analyzer>& measure, const WarpChain& chain, const RunCon
     if (spec == "unit-cube") return true;
     if (measure.unit->traits.unit_cube) return false;
     if (measure.unit->traits.boxed && !spec.starts_with("box")) return false;
-    PointSet cube(some_points(chain.dimension_in()), chain.dimension_in());
-    PointSet image(chain.forward(some_points(chain.dimension_in())), chain.dimension_out());
-    image.domain = chain.domain();
-    RunContext quiet = run;
-    quiet.progress = {};
-    quiet.warn = {};
-    return measures(measure, std::move(image), quiet) || !measures(measure, std::move(cube), quiet);
+    return measures(measure, image_of(chain), run) ||
+           !measures(measure, cube_of(chain.dimension_in()), run);
 }
 
 /// Images of all points, block by block so that a stop is heard.
@@ -337,12 +364,31 @@ WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext&
     return bench.take();
 }
 
+std::span<const Spec> UnitRunner::warps_behind_scrambles() const {
+    return std::span<const Spec>(sweep_.warps()).subspan(leading_scrambles(sweep_.warps()));
+}
+
+std::optional<Error> UnitRunner::refusal_of(std::size_t measure, std::size_t dimension,
+                                            std::size_t count, const RunContext& run) const {
+    const auto& chosen = sweep_.measures()[measure];
+    const auto warps = warps_behind_scrambles();
+    if (warps.empty() || !takes_image(dimension, measure, run))
+        return refusal(chosen, cube_of(dimension, count), run);
+    std::optional<WarpChain> chain;
+    try {
+        chain.emplace(warps, dimension, ChainSet{}, run);
+    } catch (const Error& e) {
+        if (e.kind() == ErrorKind::cancelled) throw;
+        return std::nullopt;  // the rows will say what is wrong
+    }
+    return refusal(chosen, image_of(*chain, count), run);
+}
+
 bool UnitRunner::takes_image(std::size_t dimension, std::size_t measure,
                              const RunContext& run) const {
     const std::lock_guard lock(mutex_);
     const auto [it, fresh] = takes_image_.try_emplace({dimension, measure}, true);
-    const auto& warps = sweep_.warps();
-    const auto rest = std::span<const Spec>(warps).subspan(leading_scrambles(warps));
+    const auto rest = warps_behind_scrambles();
     if (!fresh || rest.empty()) return it->second;
     try {
         it->second = takes(sweep_.measures()[measure], WarpChain(rest, dimension, {}, run), run);
@@ -352,6 +398,24 @@ bool UnitRunner::takes_image(std::size_t dimension, std::size_t measure,
         throw;
     }
     return it->second;
+}
+
+void UnitRunner::require_options(const RunContext& run) const {
+    for (std::size_t m = 0; m < sweep_.measures().size(); ++m) {
+        std::optional<Error> first;
+        const auto refused = [&](std::size_t d) {
+            const auto few = refusal_of(m, d, 64, run);
+            if (few && !first) first = few;
+            // What depends on the number of points is said with other numbers.
+            const auto more = few ? refusal_of(m, d, 149, run) : std::nullopt;
+            return more && std::string_view(more->what()) == few->what();
+        };
+        if (std::ranges::all_of(sweep_.request().dimensions, refused))
+            throw Error(
+                first->kind(),
+                fmt::format("analyze: {}: {}", sweep_.measures()[m].unit->name, first->what()),
+                first->hint());
+    }
 }
 
 std::vector<std::string> UnitRunner::before_warps(const RunContext& run) const {

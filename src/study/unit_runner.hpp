@@ -13,10 +13,13 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/run_context.hpp"
 #include "study/study_table.hpp"
 #include "study/sweep.hpp"
@@ -59,7 +62,14 @@ class UnitRunner {
     /// The measures that do not, in a sentence each.
     [[nodiscard]] std::vector<std::string> before_warps(const RunContext& run) const;
 
+    /// @throws Error(usage): a measure's options that are wrong for every set of the study
+    void require_options(const RunContext& run) const;
+
   private:
+    [[nodiscard]] std::span<const Spec> warps_behind_scrambles() const;
+    [[nodiscard]] std::optional<Error> refusal_of(std::size_t measure, std::size_t dimension,
+                                                  std::size_t count, const RunContext& run) const;
+
     const Sweep& sweep_;
     const StudyTable& table_;
     std::uint64_t whole_memory_;

@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 namespace {
 
 constexpr const char* small =
-    "stipple study --generators 'random,sobol:scramble=owen,halton' -n 16..64 --seeds 4 "
+    "stipple study --generators 'random,sobol:scramble=owen,halton' -n 16..2^6 --seeds 4 "
     "--analyze 'star-discrepancy,l2-discrepancy:kind=centered' --no-seconds ";
 
 using Row = std::map<std::string, std::string>;
@@ -271,6 +271,35 @@ TEST(Study, ResumeAfterACutGivesTheSameBytes) {
     }
 }
 
+// A finished study has no journal; the file may have been copied in part since.
+TEST(Study, ResumeCompletesAFinishedTableThatWasCut) {
+    const Sandbox box;
+    const std::string study =
+        "stipple study --generators 'random,halton' -n 16,32 --analyze moments --no-seconds ";
+    ASSERT_EQ(good(box.shell(study + "-o whole.csv")), "");
+    const std::string whole = box.read("whole.csv");
+    const std::size_t last_line = whole.rfind('\n', whole.size() - 2) + 1;
+    for (const std::size_t cut :
+         {std::size_t{5}, whole.find('\n'), last_line, last_line + 20, whole.size() - 1,
+          whole.rfind('\n', last_line - 2) + 1, lines(whole, 6).size() + 3, whole.size()}) {
+        box.write("cut.csv", whole.substr(0, cut));
+        EXPECT_EQ(good(box.shell(study + "-o cut.csv --resume")), "") << cut;
+        EXPECT_EQ(box.read("cut.csv"), whole) << cut;
+        EXPECT_FALSE(box.exists("cut.csv.journal"));
+    }
+}
+
+// What a measure has against a set of few points, it may not have against more.
+TEST(Study, OptionsThatFitSomeSetsAreNoReasonToRefuseTheStudy) {
+    const Sandbox box;
+    const Outcome outcome = box.shell(
+        "stipple study --generators random -n 16,4096 --no-seconds --analyze "
+        "hyperuniformity:max-radius=12,min-radius=1 --keys exponent");
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_THAT(outcome.out, HasSubstr("--max-radius: 12 is more than a quarter"));
+    EXPECT_THAT(outcome.out, HasSubstr(",exponent,"));
+}
+
 TEST(Study, JsonLinesAreResumedToo) {
     const Sandbox box;
     ASSERT_EQ(good(box.shell(small + std::string("-o whole.jsonl"))), "");
@@ -446,7 +475,7 @@ TEST(Study, AConfigurationSaysTheSameAsOptions) {
     box.write("study.json",
               R"({"generators": ["random", {"name": "sobol", "options": {"scramble": "owen"}},
                                  "halton"],
-                  "count": "16..64", "seeds": 4, "seconds": false,
+                  "count": "2^4..64", "seeds": 4, "seconds": false,
                   "analyze": ["star-discrepancy", "l2-discrepancy:kind=centered"]})");
     const std::string typed = good(box.shell(small));
     EXPECT_EQ(good(box.shell("stipple study --config study.json")), typed);
@@ -482,6 +511,15 @@ TEST(Study, BadInputIsOneLineThatHelps) {
          "stipple: --pairs: 't' is not one of welch, paired\n"},
         {"--generators random --analyze moments --confidence 95",
          "stipple: --confidence: '95' is not a number between 0 and 1\n"},
+        {"--generators random --analyze l2-discrepancy:kind=centred -n 16,32 -d 2,3",
+         "stipple: analyze: l2-discrepancy: --kind: 'centred' is no kind of L2 discrepancy; did "
+         "you mean 'centered'?\n"},
+        {"--generators random --analyze differential:pixels=8 -w disk",
+         "stipple: analyze: differential: --pixels: 8 is even; one pixel is to be in the "
+         "middle\n"},
+        {"--generators random --analyze moments -d 1..6",
+         "stipple: --dimension: '1..6' does not say which numbers between; 1..6*2 goes by a "
+         "factor, 1..6+1 by a step, 2^4..2^16 by powers\n"},
         {"--generators random --analyze moments -f json",
          "stipple: --format: 'json' is not one of csv, jsonl\n"},
         {"--generators random --analyze moments -o study.json",
@@ -526,7 +564,7 @@ TEST(Study, RanksGiveTheBytesOfOneProcess) {
     }
     // A failing measurement is a row, for all ranks.
     const std::string failing =
-        "stipple study --generators 'grid,random' -n 16..64 --seeds 3 --analyze "
+        "stipple study --generators 'grid,random' -n 16..2^6 --seeds 3 --analyze "
         "star-discrepancy --no-seconds -o failing.csv";
     EXPECT_EQ(box.shell(failing).code, 3);
     const std::string expected = box.read("failing.csv");

@@ -55,6 +55,9 @@ TEST(Text, NearestWordIsOneThatCouldBeMeant) {
     EXPECT_EQ(nearest_word("haltom", known), "halton");
     EXPECT_EQ(nearest_word("hamm", known), "hammersley");
     EXPECT_FALSE(nearest_word("xyz", known));
+    // Two letters in the wrong order are one slip.
+    EXPECT_EQ(nearest_word("owne", std::vector<std::string>{"none", "owen"}), "owen");
+    EXPECT_EQ(nearest_word("sedes", std::vector<std::string>{"seed", "seeds"}), "seeds");
     EXPECT_EQ(suggest("xyz", known), "known: halton, hammersley, random");
 }
 

@@ -64,7 +64,7 @@ TEST(StudyConfig, ErrorsNameThePlaceAndWhatIsNearest) {
     EXPECT_EQ(error_in(R"({"generators": [{"nam": "sobol"}], "analyze": "moments"})"),
               "input: s.json: $.generators[0].nam: there is no such key | did you mean 'name'?");
     EXPECT_EQ(error_with(R"("count": [16, "64..16"])"),
-              "input: s.json: $.count[1]: count: the range '64..16' is empty: 64 is above 16");
+              "input: s.json: $.count[1]: the range '64..16' is empty: 64 is above 16");
     EXPECT_EQ(error_with(R"("count": [16.5])"),
               "input: s.json: $.count[0]: expected a whole number or a range such as "
               "\"2^4..2^16\", got 16.5");
