@@ -16,12 +16,16 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
 namespace stipple {
+
+/// Up to as many sums are gone through without asking how many there are.
+inline constexpr std::size_t few_sums = 16;
 
 /// Cuts [0, total] into buckets.
 class Buckets {
@@ -41,19 +45,22 @@ class Buckets {
     std::size_t last_ = 0;
 };
 
-/// Fills the `starts`, one more than there are buckets, for sums whose last is the total.
-inline void fill_guide(std::span<const double> sums, std::span<std::uint32_t> starts) {
+/// Fills the `starts`, one more than there are buckets, for sums whose last is the total. Gives the
+/// power of two above the most sums of a bucket, at most 16.
+inline std::size_t fill_guide(std::span<const double> sums, std::span<std::uint32_t> starts) {
     const Buckets buckets(sums.back(), starts.size() - 1);
     std::ranges::fill(starts, 0);
     for (const double sum : sums) ++starts[buckets.of(sum) + 1];
+    const std::size_t most = std::ranges::max(starts);
     for (std::size_t b = 1; b < starts.size(); ++b) starts[b] += starts[b - 1];
+    return std::min(few_sums, std::bit_ceil(most + 1));
 }
 
 /// The first of the sums above w < sums.back(), which lies in [low, high].
+/// @param few a power of two up to 16: what is done for as many sums is the same for all numbers
 inline std::size_t first_above(std::span<const double> sums, std::size_t low, std::size_t high,
-                               double w) {
+                               double w, std::size_t few = few_sums) {
     const std::size_t last = sums.size() - 1;
-    constexpr std::size_t few = 16;
     if (high - low < few) {
         // Always as many steps, which the machine can do for several numbers at a time. What they
         // meet beyond `high` is above w, too.

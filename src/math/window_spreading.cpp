@@ -16,19 +16,6 @@ inline __attribute__((always_inline)) void multiply_add(const Vector& a, double 
     for (std::size_t lane = 0; lane < 4; ++lane) c[lane] = __builtin_fma(a[lane], b, c[lane]);
 }
 
-/// What is the same for all points of a tile.
-struct Tile {
-    double side;
-    double shift;                         ///< 1/2 for odd windows, which centre on a grid point
-    double lead;                          ///< grid points of the window before the point's cell
-    std::size_t width;                    ///< of the window
-    const double* coefficients;           ///< of its polynomials
-    std::size_t numbers;                  ///< of a point: coordinates, and its strength
-    std::size_t extent;                   ///< cells of a row of the buffer
-    std::array<std::int64_t, 3> start{};  ///< its first cell, by coordinate
-    std::array<std::size_t, 3> reach = {1, 1, 1};  ///< cells that its points touch
-};
-
 /// Finds side * x of four numbers without rounding it: the upper 26 bits of x make an exact
 /// product. Gives the grid points at which their windows begin, and the places behind a grid point,
 /// in [0, 1).

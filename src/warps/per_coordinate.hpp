@@ -3,7 +3,9 @@
 // A mapping that gives each coordinate a law on the line, by inversion, whatever the others are:
 //
 //     struct Law {
-//         double forward(double u) const;           // [0, 1] to the line
+//         double forward(double u) const;           // [0, 1] to the line; or in two steps, a
+//         std::array<double, s> start(double u) const;  // what a search finds, and the rest, for
+//         double finish(double u, const std::array<double, s>& start) const;  // many at a time
 //         double inverse(double x) const;           // and back
 //         double place(double x) const;             // coordinate in the domain's cube
 //         double density(double x) const;           // 0 outside
@@ -21,6 +23,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -147,6 +150,30 @@ class LineDomain final : public Domain, public Gapped, public Weighable {
     std::string what_;
 };
 
+template <class Law>
+double image_of(const Law& law, double u) {
+    if constexpr (HasStart<Law>)
+        return law.finish(u, law.start(u));
+    else
+        return law.forward(u);
+}
+
+/// Up to `paced` numbers, with room of their own in between: what is written there is none of the
+/// law's tables.
+template <class Law>
+inline void map_in_steps(const Law& law, const double* in, double* out, std::size_t count) {
+    StartColumns<Law> starts;
+    std::array<double, paced> images;
+    Pace<std::uint32_t> pace;
+    for (std::size_t i = 0; i < count; ++i) starts.put(i, law.start(in[i]));
+    for (std::size_t i = 0; i < count; ++i) {
+        images[i] = law.finish(in[i], starts.get(i));
+        pace.mark(i);
+    }
+    pace.end();
+    std::copy_n(images.data(), count, out);
+}
+
 // The law is taken by value: what is written to the image cannot change it, so that its constants
 // stay in registers. All calls are inlined: one that is not keeps the loop from being widened.
 template <class Law>
@@ -156,8 +183,13 @@ STIPPLE_WIDE [[gnu::flatten]] void map_numbers(const Law law, std::span<const do
     for (std::size_t first = 0; first < cube.size(); first += paced) {
         const double* in = cube.data() + first;
         double* out = image.data() + first;
-        for (std::size_t i = 0; i < std::min(paced, cube.size() - first); ++i) {
-            out[i] = law.forward(in[i]);
+        const std::size_t count = std::min(paced, cube.size() - first);
+        if constexpr (HasStart<Law>) {
+            map_in_steps(law, in, out, count);
+            continue;
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            out[i] = image_of(law, in[i]);
             pace.mark(i);
         }
         pace.end();
@@ -168,7 +200,7 @@ template <class Law>
 STIPPLE_WIDE [[gnu::flatten]] void map_column(const Law law, std::span<const double> cube,
                                               std::span<double> image, std::size_t first,
                                               std::size_t step) {
-    for (std::size_t i = first; i < cube.size(); i += step) image[i] = law.forward(cube[i]);
+    for (std::size_t i = first; i < cube.size(); i += step) image[i] = image_of(law, cube[i]);
 }
 
 template <class Law>

@@ -65,8 +65,8 @@ std::array<double, d> row_of(std::span<const double> rows, std::size_t i) {
 
 namespace detail {
 
-template <class Start, std::size_t d, class Method>
-constexpr std::size_t start_size(Start (Method::*)(const std::array<double, d>&) const) {
+template <class Start, class Method, class Xi>
+constexpr std::size_t start_size(Start (Method::*)(Xi) const) {
     return std::tuple_size_v<Start>;
 }
 
