@@ -298,16 +298,18 @@ class Reporter {
         return set;
     }
 
-    /// Whether no condition of --fail-on holds, or may hold.
+    /// Whether no condition of --fail-on holds, or may hold: also of a set that was not measured.
     bool judge(const std::vector<PageSet>& sets) const {
         bool fine = true;
         for (const Check& check : conditions_) {
             require_known(check.key, sets);
             for (const PageSet& set : sets) {
                 const Report all = set.all_results();
-                if (!has(all, check.key) || opposite_of(check).holds(all)) continue;
+                const bool there = has(all, check.key);
+                if (there && opposite_of(check).holds(all)) continue;
                 say(fmt::format("stipple: {}: {} is {}, and --fail-on is {}{}{}\n", set.name,
-                                check.key, check.found(all), check.key, check.op, check.value));
+                                check.key, there ? check.found(all) : why_not(set, check.key),
+                                check.key, check.op, check.value));
                 fine = false;
             }
         }
@@ -319,16 +321,23 @@ class Reporter {
         return item != nullptr && !std::holds_alternative<Report>(*item);
     }
 
-    /// @throws Error(usage) for a key that no set has, with the reason where a measure was left out
+    /// The measure that a key is of.
+    static const PageMeasure& measure_of(const PageSet& set, const std::string& key) {
+        return *std::ranges::find(set.measures, key.substr(0, key.find('.')), &PageMeasure::name);
+    }
+
+    static std::string why_not(const PageSet& set, const std::string& key) {
+        const PageMeasure& measure = measure_of(set, key);
+        return measure.results ? "no result" : fmt::format("not known ({})", measure.left_out);
+    }
+
+    /// @throws Error(usage) for a key that the measure does not have
     static void require_known(const std::string& key, const std::vector<PageSet>& sets) {
         std::string hint;
         for (const PageSet& set : sets) {
             const Report all = set.all_results();
-            if (has(all, key)) return;
-            for (const PageMeasure& measure : set.measures)
-                if (key.starts_with(measure.name + "."))
-                    hint = measure.results ? suggest(key, all.keys())
-                                           : fmt::format("it was left out: {}", measure.left_out);
+            if (has(all, key) || !measure_of(set, key).results) return;
+            hint = suggest(key, all.keys());
         }
         fail_with_hint(ErrorKind::usage, hint, "--fail-on: no set has '{}'", key);
     }

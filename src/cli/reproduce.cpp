@@ -154,8 +154,10 @@ Original read_original(const std::string& input, const RunContext& run) {
     Original original{.name = io::source_name(input), .path = pipe ? spooled(input, run) : input};
     const io::Feed feed(original.path, run);
     refuse_without_points(original.name, feed.front());
-    if (!take_carried(original, feed.front(), run))
-        original.meta = open_original(original, {}, run)->provenance();
+    const bool carried = take_carried(original, feed.front(), run);
+    if (!carried && io::format_of_extension(original.path) == &io::format_named("bin"))
+        refuse_without_provenance(original);  // it has no place for one
+    if (!carried) original.meta = open_original(original, {}, run)->provenance();
     if (original.meta.generator.empty()) refuse_without_provenance(original);
     return original;
 }
@@ -219,6 +221,10 @@ Recipe recipe_of(const Original& original, const std::vector<Kind>& kinds, Sessi
         fail(ErrorKind::usage, "its command makes points by {}, its generator is {}",
              job.generator->name, generator.name);
     // Of sets in files of their own, each tells its own seed.
+    if (meta.seed - job.request.seed >= job.sets)
+        fail(ErrorKind::usage, "its command makes {} of seed {}, its seed is {}",
+             job.sets > 1 ? fmt::format("{} sets from one", job.sets) : "a set", job.request.seed,
+             meta.seed);
     if (job.request.seed != meta.seed) job.sets = 1;
     job.request.seed = meta.seed;
     job.command = meta.command;

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 
 #include "cli/launched.hpp"
@@ -107,6 +109,9 @@ SummaryOptions summary_options(const Arguments& arguments, std::uint64_t seed) {
     options.confidence =
         real_of(arguments, "confidence", 0, 1, "between 0 and 1").value_or(options.confidence);
     options.resamples = arguments.integer("bootstrap", 1, 10'000'000).value_or(options.resamples);
+    for (const char* name : {"pairs", "confidence", "bootstrap"})
+        if (arguments.has(name) && !arguments.has("summary"))
+            fail(ErrorKind::usage, "--{}: is of --summary, which is not given", name);
     return options;
 }
 
@@ -213,6 +218,7 @@ class Study {
         const UnitRunner runner(sweep_, table_, run.max_memory);
         runner.require_options(run);
         StudyFile file(path_, sweep_, table_, start, listen, run);
+        if (start == StudyFile::Start::anew && !file.is_stream()) remove_old_summary();
         for (const auto& sentence : runner.before_warps(run)) session_.warn(sentence);
         try {
             began_ = true;
@@ -238,12 +244,23 @@ class Study {
         const auto pairs = summary_.comparisons(table_.style(), summary_options_, session_.run());
         if (file.is_stream()) {
             const char* gap = table_.style() == StudyTable::Style::csv ? "\n" : "";
-            file.finish(gap + means + (pairs.empty() ? "" : gap + pairs));
+            file.finish(gap + means + gap + pairs);
             return;
         }
         file.finish();
         write_text(beside(path_, "summary"), means);
-        if (!pairs.empty()) write_text(beside(path_, "comparisons"), pairs);
+        write_text(beside(path_, "comparisons"), pairs);
+    }
+
+    /// Takes the summary of the study that was there away: it would be taken for one of the new.
+    void remove_old_summary() const {
+        for (const auto& path : {beside(path_, "summary"), beside(path_, "comparisons")}) {
+            std::ifstream in(path, std::ios::binary);
+            std::string first;
+            if (std::getline(in, first) &&
+                (first.starts_with("table,") || first.starts_with("{\"table\":")))
+                std::filesystem::remove(path);
+        }
     }
 
     /// Nobody means to start a study of months.

@@ -110,7 +110,10 @@ that is there already is refused without --resume or --overwrite.
 where these go to standard output): means with standard errors, t and bootstrap intervals, and
 for each dimension, count, measure and key all pairs of generators, by Welch's t test or paired
 by seed, with Holm's correction over these pairs. A generator that no seed changes is a constant:
-it has no standard error, and against it Welch's test is that of one sample.
+it has no standard error, and against it Welch's test is that of one sample; of two of them, only
+whether they differ is known. Generators of one seed share random numbers (those of jittered are
+those of random, moved into cells): --pairs paired makes use of that, Welch's test takes the sets
+as independent and is, where both move together, the more careful one.
 
 'mpirun -n 8 stipple study ...' shares the work between ranks, where the build has MPI; rank 0 writes.)",
     R"(  stipple study --generators 'random,sobol:scramble=owen' -n 16..256*4 --seeds 8 --analyze star-discrepancy --summary -o study.csv
@@ -139,7 +142,8 @@ for any number of threads.
 
 KEYs of --fail-on are MEASURE.RESULT: star-discrepancy.value, l2-discrepancy.centered.value,
 chi-square.verdict, kolmogorov-smirnov.p_value[0]; --json has them all. MEASURE alone is its value,
-where it has one. Words are compared with == and !=. The page is written nevertheless.)",
+where it has one. Words are compared with == and !=. A condition that bounds leave open, or that
+is of a measure that was left out, fails as well. The page is written nevertheless.)",
     R"(  stipple report a.csv b.csv -o report.html
   stipple report --generate halton --generate sobol:scramble=owen --generate random -n 512 -o report.html
   stipple report points.csv --json --fail-on 'star-discrepancy>0.5' --fail-on 'chi-square.verdict==non-uniform' -o report.json

@@ -15,8 +15,28 @@ constexpr std::size_t most_bytes = std::size_t{1} << 30;
 
 }  // namespace
 
+std::string file_trouble(int error) {
+    switch (error) {
+        case ENOENT:
+            return "no such file";
+        case EISDIR:
+            return "is a folder, not a file";
+        case EACCES:
+        case EPERM:
+            return "permission denied";
+        case ENOSPC:
+            return "no space left on the device";
+        case EROFS:
+            return "the file system is read-only";
+        case ENOTDIR:
+            return "a part of its path is not a folder";
+        default:
+            return std::generic_category().message(error);
+    }
+}
+
 std::string read_file(const std::string& path) {
-    const auto reason = [] { return std::generic_category().message(errno); };
+    const auto reason = [] { return file_trouble(errno); };
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                                &std::fclose);
     if (!file) fail(ErrorKind::io, "{}: {}", path, reason());

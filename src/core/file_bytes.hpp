@@ -7,6 +7,9 @@
 
 namespace stipple {
 
+/// What went wrong with a file, as messages say it. @param error errno
+std::string file_trouble(int error);
+
 /// Reads the file at once. @throws Error(io): missing, a directory, unreadable, over 1 GiB.
 std::string read_file(const std::string& path);
 

@@ -178,7 +178,9 @@ Value Option::parse(std::string_view text) const {
     if (type == "numbers") return parse_numbers(*this, text);
     if (type == "points") return parse_points(*this, text);
     if (type == "extents") return parse_extents(*this, text);
-    if (text.empty()) refuse(*this, text, type == "file" ? "a file's name" : "a text");
+    if (text.empty())
+        fail(ErrorKind::usage, "--{}: is empty; {} is expected", name,
+             type == "file" ? "a file's name" : "a text");
     return std::string(text);
 }
 

@@ -49,7 +49,8 @@ Generator pmj02() {
                 "intervals",
             .source =
                 "Christensen, Kensler, Kilpatrick 2018, doi:10.1111/cgf.13472; made by "
-                "nested uniform scrambling, Owen 1995, doi:10.1007/978-1-4612-2552-2_19",
+                "nested uniform scrambling, Owen 1995, doi:10.1007/978-1-4612-2552-2_19: the "
+                "points of sobol:scramble=owen of the same seed",
             .traits = {.min_dimension = 2, .max_dimension = 2},
             .options = Schema(),
             .sequence = make};

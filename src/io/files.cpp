@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/file_bytes.hpp"
 #include "core/text.hpp"
 #include "io/point_stream.hpp"
 #include "io/source_text.hpp"
@@ -31,14 +32,7 @@ struct Closing {
 };
 
 [[noreturn]] void refuse(const std::string& name, int error) {
-    std::string reason = std::generic_category().message(error);
-    if (error == ENOENT) reason = "no such file";
-    if (error == EISDIR) reason = "is a folder, not a file";
-    if (error == EACCES || error == EPERM) reason = "permission denied";
-    if (error == ENOSPC) reason = "no space left on the device";
-    if (error == EROFS) reason = "the file system is read-only";
-    if (error == ENOTDIR) reason = "a part of its path is not a folder";
-    fail(ErrorKind::io, "{}: {}", name, reason);
+    fail(ErrorKind::io, "{}: {}", name, file_trouble(error));
 }
 
 /// Waits until bytes (or their end) are there.

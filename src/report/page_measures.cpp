@@ -57,7 +57,15 @@ void need_few_pairs(const Planned& plan, const PointSet& points, const PageLimit
          points.count(), points.dimension(), plan.analyzer);
 }
 
-PageMeasure described(const Planned& plan, const PageInput& input, const PageLimits& limits,
+/// Comparisons of a search for a worst box. Beyond some points one for extreme and periodic boxes
+/// ends in the bounds of its beginning, however long it takes.
+std::int64_t work_for(const Planned& plan, std::size_t count, const PageLimits& limits) {
+    constexpr std::size_t many = 50'000;
+    return *plan.kind != '\0' && count > many ? std::max<std::int64_t>(1, limits.work / 8)
+                                              : limits.work;
+}
+
+PageMeasure described(const Planned& plan, const PageInput& input, std::int64_t work,
                       Values& values) {
     const Analyzer& analyzer = find_analyzer(plan.analyzer);
     PageMeasure measure{.name = plan.name, .title = plan.title, .analyzer = plan.analyzer};
@@ -67,7 +75,7 @@ PageMeasure described(const Planned& plan, const PageInput& input, const PageLim
         measure.command += fmt::format(" --{} {}", option, text);
     };
     if (*plan.kind != '\0') set("kind", plan.kind);
-    if (plan.searches) set("max-work", std::to_string(limits.work));
+    if (plan.searches) set("max-work", std::to_string(work));
     for (const Option& option : analyzer.options.options()) {
         const auto& item = values.find(option.name);
         if (!option.optional || item.given)
@@ -98,7 +106,7 @@ PageMeasure measured(const Planned& plan, const PointSet& points, const Cubed& c
                      const PageInput& input, const PageLimits& limits, const RunContext& run) {
     const Analyzer& analyzer = find_analyzer(plan.analyzer);
     Values values = analyzer.options.defaults();
-    PageMeasure measure = described(plan, input, limits, values);
+    PageMeasure measure = described(plan, input, work_for(plan, points.count(), limits), values);
     const PointSet* shown = &points;
     if (analyzer.traits.unit_cube && cube.points) {
         shown = &*cube.points;

@@ -37,6 +37,7 @@ MeanTest tested(double difference, double error, double degrees) {
     if (!std::isfinite(error) || !std::isfinite(difference)) return test;
     if (error == 0) {
         test.p_value = difference == 0 ? 1 : 0;
+        test.degrees = unknown;
         return test;
     }
     test.t = difference / error;

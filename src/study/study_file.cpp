@@ -10,9 +10,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numeric>
-#include <system_error>
 
 #include "core/error.hpp"
+#include "core/file_bytes.hpp"
 
 namespace stipple {
 namespace {
@@ -34,7 +34,7 @@ bool there(const std::string& path) {
     if (errno == ENOENT)
         fail(ErrorKind::io, "{}: {}", path,
              there(folder) ? "no file can be made in its folder" : "no such folder");
-    fail(ErrorKind::io, "{}: {}", path, std::generic_category().message(errno));
+    fail(ErrorKind::io, "{}: {}", path == "-" ? "stdout" : path, file_trouble(errno));
 }
 
 int opened(const std::string& path, int flags) {

@@ -164,26 +164,31 @@ std::vector<StudySummary::Pair> StudySummary::pairs_of(const Topic& topic, bool 
 
 std::string StudySummary::comparisons(StudyTable::Style style, const SummaryOptions& options,
                                       const RunContext& run) const {
+    const auto line = [&](const Pair& pair, bool first) {
+        const auto& [a, b, sets_a, sets_b, test, p_holm] = pair;
+        const StudyRow& row = a->row;
+        return line_of(
+            style,
+            {word("table", "comparison"), whole("dimension", row.dimension),
+             word("warps", row.warps), whole("count", row.count), word("measure", row.measure),
+             word("key", row.key), word("generator_a", row.generator),
+             word("generator_b", b->row.generator),
+             word("method", options.paired ? "paired" : "welch"), whole("sets_a", sets_a),
+             whole("sets_b", sets_b), real("difference", test.difference),
+             real("standard_error", test.standard_error), real("t", test.t),
+             real("degrees_of_freedom", test.degrees), real("p_value", test.p_value),
+             real("p_holm", p_holm), word("study", row.study)},
+            first);
+    };
     std::string text;
     for (const Topic& topic : topics_in_order_) {
         run.check_stop();
-        for (const auto& [a, b, sets_a, sets_b, test, p_holm] : pairs_of(topic, options.paired)) {
-            const StudyRow& row = a->row;
-            text += line_of(
-                style,
-                {word("table", "comparison"), whole("dimension", row.dimension),
-                 word("warps", row.warps), whole("count", row.count), word("measure", row.measure),
-                 word("key", row.key), word("generator_a", row.generator),
-                 word("generator_b", b->row.generator),
-                 word("method", options.paired ? "paired" : "welch"), whole("sets_a", sets_a),
-                 whole("sets_b", sets_b), real("difference", test.difference),
-                 real("standard_error", test.standard_error), real("t", test.t),
-                 real("degrees_of_freedom", test.degrees), real("p_value", test.p_value),
-                 real("p_holm", p_holm), word("study", row.study)},
-                text.empty());
-        }
+        for (const Pair& pair : pairs_of(topic, options.paired)) text += line(pair, text.empty());
     }
-    return text;
+    if (!text.empty() || style == StudyTable::Style::jsonl) return text;
+    const Sample none{};  // there are no pairs: the table has its names alone
+    const std::string names = line({&none, &none, 0, 0, {}, 0}, true);
+    return names.substr(0, names.find('\n') + 1);
 }
 
 }  // namespace stipple

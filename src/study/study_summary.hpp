@@ -35,7 +35,7 @@ class StudySummary {
     [[nodiscard]] std::string means(StudyTable::Style style, const SummaryOptions& options,
                                     const RunContext& run) const;
 
-    /// A row for each pair of generators.
+    /// A row for each pair of generators, if there are two that some set of went well.
     /// @throws Error(cancelled)
     [[nodiscard]] std::string comparisons(StudyTable::Style style, const SummaryOptions& options,
                                           const RunContext& run) const;

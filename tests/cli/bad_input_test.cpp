@@ -281,5 +281,5 @@ TEST(BadInput, TablesOfGeneratorsAreReadBeforeAnythingIsWritten) {
     }
     const Outcome missing = box.run({"generate", "sobol", "--directions", "missing.txt"});
     EXPECT_EQ(missing.code, 4);
-    EXPECT_EQ(missing.out + missing.err, "stipple: missing.txt: No such file or directory\n");
+    EXPECT_EQ(missing.out + missing.err, "stipple: missing.txt: no such file\n");
 }

@@ -167,8 +167,21 @@ TEST(Report, RefusesConditionsThatNeverHold) {
     expect("nearest-neighbor.minimun>1", "did you mean 'nearest-neighbor.minimum'?");
     expect("disperson.value>1", "did you mean 'dispersion'?");
     expect("l2-discrepancy.stra.value>1", "did you mean 'l2-discrepancy.star.value'?");
-    expect("periodogram.oscillation>1", "it was left out: periodogram takes points of dimension");
     EXPECT_FALSE(box.exists("r.html"));
+}
+
+// What nobody measured is no pass; the page says the same.
+TEST(Report, FailsWhereAMeasureWasLeftOut) {
+    const Sandbox box;
+    good(box.shell("stipple generate halton -n 20 -o a.csv"));
+    box.write("out.csv", "0.5,1.5\n0.2,0.3\n0.7,0.1\n");
+    for (const char* sets : {"a.csv out.csv", "out.csv"}) {
+        const Outcome outcome = box.shell(std::string("stipple report ") + sets +
+                                          " -o r.html --fail-on 'star-discrepancy>0.9'");
+        expect_refusal(outcome, 1, "out.csv: star-discrepancy.value is not known (");
+        EXPECT_THAT(outcome.err, Not(HasSubstr("a.csv: ")));
+        EXPECT_TRUE(box.exists("r.html"));
+    }
 }
 
 TEST(Report, RefusesWhatItCannotReportOn) {

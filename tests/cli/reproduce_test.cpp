@@ -252,8 +252,10 @@ TEST(Reproduce, RefusesWhatTellsNothing) {
     good(box.shell(
         "stipple generate random -n 10 -o a.csv && stipple generate random -n 10 -o a.npy "
         "&& stipple generate random -n 10 -o a.svg && stipple generate random -n 10 | "
-        "stipple analyze moments > r.json && stipple generate random -n 10 -o b.json"));
-    for (const char* file : {"a.csv", "a.npy", "a.svg"})
+        "stipple analyze moments > r.json && stipple generate random -n 10 -o b.json && "
+        "stipple generate random -n 10 -o a.bin && stipple generate random -n 5 --seed 3 -m 2 -o "
+        "c.json"));
+    for (const char* file : {"a.csv", "a.npy", "a.svg", "a.bin"})
         EXPECT_THAT(refusal(box, file), HasSubstr("it does not tell how its points were made; json "
                                                   "and jsonl always hold it; generate --meta"));
     EXPECT_THAT(refusal(box, "r.json"), HasSubstr("r.json: it holds results of analyze"));
@@ -266,6 +268,9 @@ TEST(Reproduce, RefusesWhatTellsNothing) {
     EXPECT_THAT(refusal(box, "b.json"),
                 HasSubstr("b.json: this stipple (0.1.0) cannot follow its provenance: unknown "
                           "generator 'rondom'; did you mean 'random'?"));
+    replace_in(box, "c.json", "--seed 3", "--seed 4");
+    EXPECT_THAT(refusal(box, "c.json"),
+                HasSubstr("its command makes 2 sets from one of seed 4, its seed is 3"));
 }
 
 TEST(Reproduce, SaysWhatFilesWithoutPointsAre) {

@@ -255,6 +255,23 @@ TEST(Study, SummaryHasMeansIntervalsAndComparisons) {
     }
 }
 
+// What is beside a table is of that table, or not there.
+TEST(Study, NothingOfTheStudyBeforeIsLeftBehind) {
+    const Sandbox box;
+    const std::string one =
+        "stipple study --generators random -n 16 --seeds 3 --analyze moments --keys mean -o s.csv ";
+    ASSERT_EQ(good(box.shell(small + std::string("-o s.csv --summary"))), "");
+    ASSERT_EQ(good(box.shell(one + "--overwrite --summary")), "");
+    const std::string pairs = box.read("s.comparisons.csv");
+    EXPECT_TRUE(pairs.starts_with("table,dimension,warps,count,measure,key,generator_a,"));
+    EXPECT_EQ(std::ranges::count(pairs, '\n'), 1) << "names alone: there are no pairs";
+    ASSERT_EQ(good(box.shell(one + "--overwrite")), "");
+    EXPECT_EQ(box.files(), std::vector<std::string>{"s.csv"});
+    box.write("s.summary.csv", "somebody's own\n");
+    ASSERT_EQ(good(box.shell(one + "--overwrite")), "");
+    EXPECT_EQ(box.read("s.summary.csv"), "somebody's own\n");
+}
+
 TEST(Study, ResumeAfterACutGivesTheSameBytes) {
     const Sandbox box;
     ASSERT_EQ(good(box.shell(small + std::string("-o whole.csv"))), "");
@@ -509,6 +526,8 @@ TEST(Study, BadInputIsOneLineThatHelps) {
          "stipple: generators: 'random' stands twice\n"},
         {"--generators random --analyze moments --pairs t",
          "stipple: --pairs: 't' is not one of welch, paired\n"},
+        {"--generators random --analyze moments --pairs paired",
+         "stipple: --pairs: is of --summary, which is not given\n"},
         {"--generators random --analyze moments --confidence 95",
          "stipple: --confidence: '95' is not a number between 0 and 1\n"},
         {"--generators random --analyze l2-discrepancy:kind=centred -n 16,32 -d 2,3",

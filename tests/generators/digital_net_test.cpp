@@ -211,7 +211,7 @@ TEST(DigitalNet, SaysWhereAFileIsWrong) {
     EXPECT_EQ(error_of([] {
                   make("digital-net", {}, {{"matrices", "/no/such/file"}});
               }),
-              "io: /no/such/file: No such file or directory");
+              "io: /no/such/file: no such file");
     EXPECT_EQ(refusal(""), "input: FILE: no matrix; expected generating matrices");
     EXPECT_EQ(
         refusal("2 1 1 1\n1\n"),

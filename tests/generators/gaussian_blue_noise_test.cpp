@@ -168,7 +168,7 @@ TEST(GaussianBlueNoise, RefusesWrongOptionsInOneLine) {
     EXPECT_EQ(error_of([] {
                   make(name, points(9, 2), {{"density", "/nowhere.png"}});
               }),
-              "io: /nowhere.png: No such file or directory");
+              "io: /nowhere.png: no such file");
     EXPECT_EQ(error_of([] {
                   Request request = points(9, 2);
                   request.bounds = Box{{0, 0}, {1, 1e4}};

@@ -274,7 +274,7 @@ TEST(SampleElimination, RefusesWhatCannotBe) {
     EXPECT_NE(refusal({}, {{"from", "FILE"}, {"manifold-dimension", "3"}}), "");
     EXPECT_NE(refusal({}, {{"ratio", "0.5"}}), "");
     EXPECT_NE(refusal({}, {{"torus", "true"}, {"bounded", "true"}}), "");
-    EXPECT_EQ(refusal({}, {{"from", "/no/such"}}), "io: /no/such: No such file or directory");
+    EXPECT_EQ(refusal({}, {{"from", "/no/such"}}), "io: /no/such: no such file");
     EXPECT_EQ(refusal(points(10'000'000, 2), {}).substr(0, 6), "limit:");
     const TemporaryFile flat(csv_of(points_of({{1, 1}, {1, 2}, {1, 3}})));
     EXPECT_EQ(refusal({}, {{"from", flat.path()}}),

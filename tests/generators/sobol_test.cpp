@@ -236,7 +236,7 @@ TEST(Sobol, SaysWhatIsWrongWithDirectionNumbers) {
     EXPECT_EQ(error_of([] {
                   make("sobol", points(4, 2), {{"directions", "/no/such"}});
               }),
-              "io: /no/such: No such file or directory");
+              "io: /no/such: no such file");
 }
 
 TEST(Sobol, RefusesDimensionsBeyondItsTable) {

@@ -237,6 +237,7 @@ TEST(ReadDensity, RefusesBadFilesInOneLine) {
 
 TEST(ReadDensity, SaysWhyAFileCannotBeRead) {
     EXPECT_EQ(error_of([] { read_density("/nowhere/d.png", false, {}); }),
-              "io: /nowhere/d.png: No such file or directory");
-    EXPECT_EQ(error_of([] { read_density("/tmp", false, {}); }), "io: /tmp: Is a directory");
+              "io: /nowhere/d.png: no such file");
+    EXPECT_EQ(error_of([] { read_density("/tmp", false, {}); }),
+              "io: /tmp: is a folder, not a file");
 }

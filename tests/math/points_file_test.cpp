@@ -61,5 +61,5 @@ TEST(PointsFile, SaysWhereItIsWrong) {
              {"{\"a\":1}\n", "f:1:1: neither names nor numbers; expected text, a point a line"}})
         EXPECT_EQ(error_of([&] { read(text); }), std::string("input: ") + message) << text;
     EXPECT_EQ(error_of([] { read_points("/no/such/file", {}); }),
-              "io: /no/such/file: No such file or directory");
+              "io: /no/such/file: no such file");
 }
