@@ -25,8 +25,8 @@
 //
 // Shape   points n x d in [0, 1];  results >= 0, pure numbers, smaller is more even.
 // Cost    d <= 2: O(n log n) for all kinds together (about 0.4 s at n = 10^6 on one core).
-//         d > 2: O(n^2 d) for each kind; in three and four dimensions O(n log^(d-1) n) for many
-//         points and the kinds star, extreme, centered and modified.
+//         d > 2: O(n^2 d) for each kind; of many points O(n log^2 n) in three dimensions, and in
+//         four O(n log^3 n) for the kinds star, extreme, centered and modified.
 // Promise the same for any number of threads. d <= 2: exact sums, rounded once at the end (of
 //         coordinates to multiples of 2^-63). d > 2: value is off by at most `error`, which is less
 //         than 1e-12 of it (most often its own rounding) unless all but 2^-38 of it cancels.
@@ -145,7 +145,7 @@ Report in_space(const PointSet& points, l2::Kind which, const std::vector<double
     const std::size_t n = points.count();
     const std::size_t d = points.dimension();
     if (l2::divides(d, which, weights) && l2::divide_wins(n, d, which)) {
-        run.need_memory(l2::divide_memory(n, d), "the tables of l2-discrepancy");
+        run.need_memory(l2::divide_memory(n, d, which), "the tables of l2-discrepancy");
         return off_by(l2::divide_square(points, which, weights, run), "divide-and-conquer");
     }
     const bool carried = l2::carries(d, which, weights);

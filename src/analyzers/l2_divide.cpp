@@ -8,6 +8,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "analyzers/l2_divide_terms.hpp"
 #include "analyzers/l2_numbers.hpp"
 #include "core/parallel.hpp"
 
@@ -310,8 +311,10 @@ Square square_of(const PointSet& points, const std::vector<double>& weights, boo
 
 }  // namespace
 
-bool divides(std::size_t dimension, Kind kind, const std::vector<double>& weights) {
-    if (dimension < 3 || dimension > max_axes) return false;
+namespace {
+
+/// Whether a kind is one product on either side of the diagonal.
+bool is_one_product(Kind kind, const std::vector<double>& weights) {
     double most = 1;  // room for sums above the point
     for (const double weight : weights) most *= 1 + weight;
     switch (kind) {
@@ -326,20 +329,30 @@ bool divides(std::size_t dimension, Kind kind, const std::vector<double>& weight
     }
 }
 
+}  // namespace
+
+bool divides(std::size_t dimension, Kind kind, const std::vector<double>& weights) {
+    if (dimension < 3 || dimension > max_axes) return false;
+    return is_one_product(kind, weights) || (dimension == 3 && terms_divide(kind, weights));
+}
+
 bool divide_wins(std::size_t count, std::size_t dimension, Kind kind) {
     // Measured; the pairs of star and modified have half the factors.
+    if (!is_one_product(kind, {})) return count >= 50'000 && count <= std::size_t{1} << 23;
     if (count >= std::size_t{1} << 27) return false;  // no room for sums
     const bool simple = kind == Kind::star || kind == Kind::modified;
     if (dimension == 3) return count >= (simple ? 28'000U : 17'000U);
     return count >= (simple ? 200'000U : 100'000U);
 }
 
-double divide_memory(std::size_t count, std::size_t dimension) {
+double divide_memory(std::size_t count, std::size_t dimension, Kind kind) {
+    if (!is_one_product(kind, {})) return divide_terms_memory(count);
     return 2 * static_cast<double>(sizeof(Item) * count * (dimension - 1));
 }
 
 Square divide_square(const PointSet& points, Kind kind, const std::vector<double>& weights,
                      const RunContext& run) {
+    if (!is_one_product(kind, weights)) return divide_terms_square(points, kind, weights, run);
     const bool alone = weights.empty() && !record_of(kind).projections;
     if (kind == Kind::extreme) return square_of<Between>(points, weights, alone, run);
     if (kind == Kind::centered) return square_of<Centered>(points, weights, alone, run);

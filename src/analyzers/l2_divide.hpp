@@ -22,9 +22,9 @@
 // Cost    O(n log^(d-1) n) time: on one core 0.3 s for 65 536 points in three dimensions and 8 s
 //         for 10^6 (all pairs: 0.6 s and 140 s), 8 s for 200 000 in four. 128 (d - 1) bytes a
 //         point.
-// Beware  periodic, wraparound, mixture and diaphony are sums of three such products, so that a
-//         point would have 27 weights in three dimensions: an estimate of 17 s for 131 072
-//         points, where all pairs take 6 s. That is why they are not here.
+// Beware  periodic, wraparound, mixture and diaphony are sums of three such products: in three
+//         dimensions they are left to l2_divide_terms.hpp, in four a point would have 81 weights,
+//         and all pairs are quicker.
 // Promise the same for any number of threads. The square is off by less than 2^-80 and its own
 //         rounding; and by what coordinates lose that are no multiples of 2^-63, most below 2^-10.
 // Source  S. Heinrich, Math. Comp. 65 (1996) 1621-1633, doi:10.1090/S0025-5718-96-00756-4;
@@ -47,7 +47,7 @@ bool divides(std::size_t dimension, Kind kind, const std::vector<double>& weight
 bool divide_wins(std::size_t count, std::size_t dimension, Kind kind);
 
 /// Bytes that it needs.
-double divide_memory(std::size_t count, std::size_t dimension);
+double divide_memory(std::size_t count, std::size_t dimension, Kind kind);
 
 /// The squared discrepancy. @param weights of the axes, or none
 Square divide_square(const PointSet& points, Kind kind, const std::vector<double>& weights,

@@ -165,9 +165,33 @@ constexpr Kind reflectable[] = {Kind::extreme,    Kind::periodic, Kind::centered
                                 Kind::wraparound, Kind::mixture,  Kind::diaphony};
 
 /// Kinds that divide and conquer takes.
-constexpr Kind divisible[] = {Kind::star, Kind::extreme, Kind::centered, Kind::modified};
+std::vector<Kind> divisible(std::size_t dimension) {
+    std::vector<Kind> kinds;
+    for (const Kind kind : analyzers::l2::all_kinds)
+        if (analyzers::l2::divides(dimension, kind, {})) kinds.push_back(kind);
+    return kinds;
+}
 
 std::string name_of(Kind kind) { return std::string(analyzers::l2::record_of(kind).name); }
+
+/// Middles of as many cells of a line.
+std::vector<double> middles(std::size_t side) {
+    std::vector<double> line;
+    for (std::size_t i = 0; i < side; ++i)
+        line.push_back(static_cast<double>(2 * i + 1) / static_cast<double>(2 * side));
+    return line;
+}
+
+PointSet cubed(const std::vector<double>& line) {
+    const std::size_t side = line.size();
+    PointSet cube(side * side * side, 3);
+    for (std::size_t i = 0; i < cube.count(); ++i) {
+        cube[i][0] = line[i % side];
+        cube[i][1] = line[i / side % side];
+        cube[i][2] = line[i / side / side];
+    }
+    return cube;
+}
 
 }  // namespace
 
@@ -389,8 +413,7 @@ TEST(L2Discrepancy, OfTwinsIsExactWhereMuchCancels) {
          {random_set(300, 2, 1), on_lattice(277, 2, 40, 2), make("sobol", points(1024, 2)),
           make("sobol", points(1024, 3)), make("halton", points(500, 4))})
         for (const Kind kind : analyzers::l2::all_kinds) {
-            if (set.dimension() > 2 && std::ranges::find(divisible, kind) == std::end(divisible))
-                continue;
+            if (set.dimension() > 2 && !analyzers::l2::divides(set.dimension(), kind, {})) continue;
             const auto twins = analyzers::l2::twin_square(set, kind, {}, {.threads = 2});
             const double exact = set.dimension() == 2
                                      ? squared(report_of(set), name_of(kind))
@@ -488,16 +511,16 @@ TEST(L2Discrepancy, OfDividedSetsIsExact) {
     const Weights weights{0.25, 1.5, 0, 2};
     for (const std::size_t d : {3, 4})
         for (const PointSet& set : small_sets(d))
-            for (const Kind kind : divisible) {
-                if (d == 4 && set.count() > 7) continue;
+            for (const Kind kind : divisible(d)) {
+                if (kind == Kind::diaphony || (d == 4 && set.count() > 7)) continue;
                 const auto& by_definition = definition(name_of(kind));
                 EXPECT_LE(off(analyzers::l2::divide_square(set, kind, {}, {}).squared,
                               exact_square(set, by_definition)),
                           0x1p-51)
                     << name_of(kind) << ", n = " << set.count() << ", d = " << d;
-                if (kind == Kind::extreme || set.count() > 7) continue;
                 const Weights mine(weights.begin(),
                                    weights.begin() + static_cast<std::ptrdiff_t>(d));
+                if (!analyzers::l2::divides(d, kind, mine) || set.count() > 7) continue;
                 EXPECT_LE(off(analyzers::l2::divide_square(set, kind, mine, {}).squared,
                               exact_square(set, by_definition, mine)),
                           0x1p-51)
@@ -508,7 +531,7 @@ TEST(L2Discrepancy, OfDividedSetsIsExact) {
 TEST(L2Discrepancy, OfDividedSetsIsThatOfAllPairs) {
     for (const auto& [n, d] : {std::pair<std::size_t, std::size_t>{5000, 3}, {700, 4}})
         for (const PointSet& set : {random_set(n, d, n), on_lattice(n, d, 20, n)})
-            for (const Kind kind : divisible) {
+            for (const Kind kind : divisible(d)) {
                 const double divided =
                     analyzers::l2::divide_square(set, kind, {}, {.threads = 1}).squared;
                 const auto pairs = analyzers::l2::pair_square(set, kind, {}, {});
@@ -519,21 +542,23 @@ TEST(L2Discrepancy, OfDividedSetsIsThatOfAllPairs) {
 }
 
 TEST(L2Discrepancy, DividesManyPointsInThreeDimensions) {
-    const std::size_t side = 32;
-    std::vector<double> line;
-    for (std::size_t i = 0; i < side; ++i)
-        line.push_back(static_cast<double>(2 * i + 1) / (2 * side));
-    PointSet cube(side * side * side, 3);
-    for (std::size_t i = 0; i < cube.count(); ++i) {
-        cube[i][0] = line[i % side];
-        cube[i][1] = line[i / side % side];
-        cube[i][2] = line[i / side / side];
-    }
-    const Report report = report_of(cube, {}, "star,centered");
+    const auto line = middles(32);
+    const Report report = report_of(cubed(line), {}, "star,centered");
     for (const char* name : {"star", "centered"}) {
         EXPECT_EQ(report.text(std::string(name) + ".method"), "divide-and-conquer");
         EXPECT_LE(off(squared(report, name), product_square(line, definition(name), 3)), 0x1p-51);
     }
+    for (const Kind kind : {Kind::periodic, Kind::wraparound, Kind::mixture}) {
+        EXPECT_TRUE(analyzers::l2::divide_wins(50'000, 3, kind));
+        EXPECT_FALSE(analyzers::l2::divide_wins(10'000, 3, kind));
+        const auto few = middles(11);
+        const auto divided = analyzers::l2::divide_square(cubed(few), kind, {}, {.threads = 2});
+        const Fraction exact = product_square(few, definition(name_of(kind)), 3);
+        EXPECT_LE(off(divided.squared, exact), 0x1p-51) << name_of(kind);
+        EXPECT_NEAR(divided.squared, static_cast<double>(exact), divided.error);
+    }
+    EXPECT_FALSE(analyzers::l2::divides(4, Kind::wraparound, {}));
+    EXPECT_FALSE(analyzers::l2::divides(3, Kind::wraparound, {1, 1, 1e5})) << "no room for sums";
 }
 
 TEST(L2Discrepancy, DoesNotDependOnTheOrderOfPointsAndAxes) {
