@@ -104,7 +104,7 @@ Report in_plane(const PointSet& points, const std::vector<l2::Kind>& kinds,
 /// The most that the root of `squared` is off where the square is off by `error`.
 double error_of_root(double squared, double error) {
     const double value = std::sqrt(std::max(squared, 0.0));
-    if (squared > error) return value - std::sqrt(squared - error) + 0x1p-52 * value;
+    if (squared > error) return value - std::sqrt(squared - error) + 0x1p-51 * value;
     return std::sqrt(std::max(squared, 0.0) + error);
 }
 

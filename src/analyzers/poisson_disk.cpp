@@ -7,7 +7,8 @@
 //
 // R is that of --radius; else that which the points' provenance tells, where it has the radius they
 // were made with; else the smallest distance that the set has, so that it is spaced. Distances go
-// across opposite faces, unless --metric or the provenance (bounded) says that they do not.
+// across opposite faces, unless --metric or the provenance (bounded) says that they do not. Sets
+// made with a density, a map of radii or a mask are refused without --radius.
 //
 // The largest empty ball (analyzers/empty_ball.hpp) decides on the second. The last gaps that a
 // generator fills are as small as rounding, so that a radius larger than R by less than --tolerance
@@ -74,9 +75,20 @@ std::string metric_of(const PointSet& points, const Values& options) {
     return options[metric];
 }
 
+/// @throws Error(input) for sets that one radius all over the box is not meant for
+void require_one_radius(const PointSet& points) {
+    for (const char* option : {"density", "radius-map", "mask"})
+        if (const auto file = told(points, option); file && !file->empty())
+            fail_with_hint(ErrorKind::input, "--radius R verifies one radius all the same",
+                           "the points were made with --{}: {}", option,
+                           std::string_view(option) == "mask" ? "a part of the box is left out"
+                                                              : "their radius varies");
+}
+
 /// The R that is to be verified, for a set of that smallest distance (squared).
 double radius_of(const PointSet& points, const Values& options, double squared) {
     if (options.given(radius)) return options[radius];
+    require_one_radius(points);
     if (const auto text = told(points, "radius"))
         if (const auto number = parse_number(*text); number && *number > 0) return *number;
     if (!std::isfinite(squared))

@@ -49,7 +49,7 @@ inline constexpr Param<std::int64_t> max_work{
     .low = 1,
     .unit = "comparisons",
     .help =
-        "Stop when the search (in 3 and more dimensions, in 2 for the kinds extreme and periodic) "
+        "Stop when a search (in 3 and more dimensions; in 2 for extreme and periodic boxes) "
         "has compared this many coordinates, the same on any machine; 10^9 take one to four "
         "seconds on one core. For all rows of a table together, by their numbers of points"};
 

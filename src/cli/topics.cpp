@@ -67,10 +67,25 @@ Star discrepancy
 
     stipple generate halton -n 100 | stipple analyze star-discrepancy
 
+Extreme and periodic discrepancy, dispersion
+  --kind extreme takes all boxes [a,b) with a <= b instead, --kind periodic also those that
+  go on across the faces, where a coordinate of 1 is that of 0; with their faces or without,
+  whichever differs more. dispersion is the largest volume of a box without a point.
+
+    stipple generate halton -n 100 | stipple analyze star-discrepancy --kind periodic
+
 L2 discrepancies
   The same differences, squared and averaged over boxes: `value` is the root, `squared` the
   square, both always given. star is Warnock's; centered and wraparound are Hickernell's
   (1998), mixture is Zhou, Fang and Ning's (2013). SciPy's CD, WD and MD are their squares.
+  All of them are squared = II K(x,y) dx dy - 2/n sum_i I K(x_i,y) dy + sum_ij K(x_i,x_j) / n^2
+  with a product K over the axes of k for star, extreme and periodic, of 1 + k for the others,
+  of 1 + w k with --weights; with t = |x - y|, k is
+
+    star, modified        1 - max(x,y)         extreme     min(x,y) - x y
+    periodic, wraparound  1/2 - t + t^2        centered    (|x-1/2| + |y-1/2| - t) / 2
+    diaphony              2 pi^2 (1/6 - t + t^2)
+    mixture               7/8 - (|x-1/2| + |y-1/2| + 3t) / 4 + t^2 / 2
 
     stipple generate sobol -n 256 -d 4 | stipple analyze l2-discrepancy --kind centered
 

@@ -10,7 +10,8 @@ namespace stipple {
 
 inline constexpr Param<Path> density_option{
     {.name = "density",
-     .help = "Picture (PNG, PFM) or array (NPY): points per area go by its values"}};
+     .help =
+         "Picture (PNG, PFM) or array (NPY, row 0 at y = 0): points per area go by its values"}};
 inline constexpr Param<bool> invert_option{
     .name = "invert", .help = "Points where --density is dark, as ink on paper"};
 

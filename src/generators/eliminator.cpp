@@ -142,15 +142,19 @@ class Elimination {
 
 }  // namespace
 
+double unit_ball_volume(std::size_t dimension) {
+    double ball = dimension % 2 == 0 ? pi : 2;  // of 2 or 1 dimensions
+    for (std::size_t d = dimension % 2 == 0 ? 4 : 3; d <= dimension; d += 2)
+        ball *= 2 * pi / static_cast<double>(d);
+    return ball;
+}
+
 double packing_radius(double count, std::size_t dimension, double measure) {
     const double share = measure / count;
     if (dimension == 1) return share / 2;
     if (dimension == 2) return std::sqrt(share / (2 * std::sqrt(3.0)));
     if (dimension == 3) return nth_root(share / (4 * std::sqrt(2.0)), 3);
-    double ball = dimension % 2 == 0 ? pi : 2;  // volume of the unit ball of 2 or 1 dimensions
-    for (std::size_t d = dimension % 2 == 0 ? 4 : 3; d <= dimension; d += 2)
-        ball *= 2 * pi / static_cast<double>(d);
-    return nth_root(share / ball, dimension);
+    return nth_root(share / unit_ball_volume(dimension), dimension);
 }
 
 double elimination_memory(double points, std::size_t dimension) {

@@ -67,16 +67,18 @@ constexpr Param<std::int64_t> about{.name = "n-approx",
                                         "--count"};
 constexpr Param<Path> density{
     {.name = "density",
-     .help =
-         "Picture (PNG, PFM) or array (NPY): points per area go by its values, none where it is 0. "
-         "The densest place has --radius; two points keep the smaller of their radii. In 2-D, "
-         "as the next three"}};
-constexpr Param<Path> radius_map{
-    {.name = "radius-map",
-     .help = "Array (NPY) of radii; two points keep the smaller of theirs. Scaled to a least one "
-             "of --radius, or for --count or --n-approx"}};
+     .help = "Picture (PNG, PFM) or array (NPY, row 0 at y = 0): points per area go by its values, "
+             "none "
+             "where it is 0. "
+             "The densest place has --radius; two points keep the smaller of their radii. In 2-D, "
+             "as the next three"}};
+constexpr Param<Path> radius_map{{.name = "radius-map",
+                                  .help = "Array (NPY, row 0 at y = 0) of radii; two points keep "
+                                          "the smaller of theirs. Scaled to a least one "
+                                          "of --radius, or for --count or --n-approx"}};
 constexpr Param<Path> mask{
-    {.name = "mask", .help = "Picture (PNG) or array (NPY): points only where it is not 0"}};
+    {.name = "mask",
+     .help = "Picture (PNG) or array (NPY, row 0 at y = 0): points only where it is not 0"}};
 constexpr Param<Choice> order{.name = "order",
                               .fallback = "random",
                               .choices = "random|progressive",

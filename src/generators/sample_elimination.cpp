@@ -8,8 +8,10 @@
 // The largest distance that counts is that of N points in their densest packing, 2 r_max: on an
 // interval, 2 r_max = L / N; in the plane r_max^2 = A / (2 sqrt(3) N), in space
 // r_max^3 = V / (4 sqrt(2) N), in d > 3 dimensions r_max^d = V / (N C_d), C_d the volume of the
-// unit ball. The points of a file may lie on a surface: --manifold-dimension 2 --measure 12.566
-// takes d and A from the unit sphere, while distances stay those in space.
+// unit ball. The points of a file may fill a part of their box, or lie on a surface:
+// --manifold-dimension 2 --measure 12.566 takes d and A from the unit sphere, while distances stay
+// those in space. Where nobody says what they fill, they do (generators/crowd_extent.hpp), unless
+// that is about their box: with a measure that is a fourth too large all near pairs weigh the same.
 //
 // --order random       the points that are left, in the order in which they came
 // --order progressive  of those that are left, half are eliminated in the same way, with r_max of
@@ -28,6 +30,7 @@
 
 #include "core/text.hpp"
 #include "generators/box_space.hpp"
+#include "generators/crowd_extent.hpp"
 #include "generators/eliminator.hpp"
 #include "generators/generator.hpp"
 #include "math/draws.hpp"
@@ -46,22 +49,28 @@ constexpr Param<Choice> order{.name = "order",
                               .fallback = "random",
                               .choices = "random|progressive",
                               .help = "As the points came, or such that every prefix is spread"};
-constexpr Param<Path> from{{.name = "from",
-                            .unit = "file",
-                            .help = "Text file of points to choose from, instead of random ones"}};
+constexpr Param<Path> from{
+    {.name = "from",
+     .unit = "file",
+     .help = "Text file of points to choose from (on a warp's domain, too), not random ones: "
+             "a fifth of them by default, with bounded distances, no seed"}};
 constexpr Param<std::int64_t> manifold{
     .name = "manifold-dimension",
     .low = 1,
     .high = static_cast<std::int64_t>(most_directions),
     .optional = true,
-    .help = "Dimension of the curve or surface that a file's points are on"};
+    .help =
+        "Dimension of the curve or surface that a file's points are on; else found by their "
+        "distances"};
 constexpr Param<double> measure{
     .name = "measure",
     .low = 0,
     .low_open = true,
     .optional = true,
     .unit = "length, area, ...",
-    .help = "Length of that curve, area of the surface...; else that of the box"};
+    .help =
+        "Length of that curve, area of the surface...; else that of the box, or what their "
+        "distances say where they fill less"};
 
 /// All points to choose from, and what they are in.
 struct Crowd {
@@ -96,12 +105,6 @@ Plan plan_for_file(const Request& request, const Values& options) {
     if (options[manifold] > static_cast<std::int64_t>(d))
         fail(ErrorKind::usage, "--manifold-dimension: {} is above the {} coordinates of a point",
              options[manifold], d);
-    if (options.given(manifold) && options[manifold] < static_cast<std::int64_t>(d) &&
-        !options.given(measure))
-        fail(ErrorKind::usage,
-             "--manifold-dimension {} needs --measure too, what the box does not "
-             "tell",
-             options[manifold]);
     return plan_in_box(complete, options);
 }
 
@@ -152,19 +155,39 @@ Crowd random_crowd(const Plan& plan, const Values& options, const RunContext& ru
     return crowd;
 }
 
+/// What a file's points fill: as it is said, their box if they fill it, or what they say.
+CrowdExtent extent_of_file(const Crowd& crowd, const Values& options, const RunContext& run) {
+    constexpr double most_of_it = 0.88;
+    const BoxSpace& space = crowd.space;
+    const std::size_t d = space.box.dimension();
+    const bool said = options.given(manifold);
+    const std::size_t wanted = said ? static_cast<std::size_t>(options[manifold]) : 0;
+    if (options.given(measure)) return {said ? wanted : d, options[measure]};
+    const CrowdExtent box{d, space.measure()};
+    if (space.torus || wanted == d) return box;
+    const CrowdExtent whole = crowd_extent(crowd.rows, d, d, run);
+    if (!said && (whole.dimension == 0 || whole.measure >= most_of_it * box.measure)) return box;
+    const CrowdExtent found = crowd_extent(crowd.rows, d, wanted, run);
+    if (found.dimension == 0)
+        fail(ErrorKind::input,
+             "{}: too few different points to tell the measure of what they are "
+             "on; --measure says it",
+             options[from]);
+    run.tell(fmt::format(
+        "{}: the points fill a part of {} dimension{} of their box, of a measure of about {:.3g}; "
+        "--manifold-dimension and --measure say what they are on",
+        options[from], found.dimension, found.dimension == 1 ? "" : "s", found.measure));
+    return found;
+}
+
 /// Chooses points of a crowd: numbers of its rows.
 class Chooser {
   public:
-    Chooser(const Crowd& crowd, const Values& options, const RunContext& run)
-        : crowd_(crowd),
-          run_(run),
-          dimension_(crowd.space.box.dimension()),
-          manifold_(options.given(manifold) ? static_cast<std::size_t>(options[manifold])
-                                            : dimension_),
-          measure_(options.given(measure) ? options[measure] : crowd.space.measure()) {}
+    Chooser(const Crowd& crowd, const CrowdExtent& extent, const RunContext& run)
+        : crowd_(crowd), run_(run), dimension_(crowd.space.box.dimension()), extent_(extent) {}
 
     [[nodiscard]] double radius(std::uint64_t kept) const {
-        return packing_radius(static_cast<double>(kept), manifold_, measure_);
+        return packing_radius(static_cast<double>(kept), extent_.dimension, extent_.measure);
     }
 
     /// `kept` of all, in the order in which they came.
@@ -220,8 +243,7 @@ class Chooser {
     const Crowd& crowd_;
     const RunContext& run_;
     std::size_t dimension_;
-    std::size_t manifold_;
-    double measure_;
+    CrowdExtent extent_;
 };
 
 PointSet make(const Plan& plan, const Values& options, const RunContext& outside) {
@@ -229,7 +251,9 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& outside
     const bool file = options.given(from);
     const Crowd crowd = file ? crowd_of_file(plan, options, run) : random_crowd(plan, options, run);
     const std::size_t d = plan.dimension;
-    Chooser chooser(crowd, options, run);
+    const CrowdExtent extent =
+        file ? extent_of_file(crowd, options, run) : CrowdExtent{d, crowd.space.measure()};
+    Chooser chooser(crowd, extent, run);
     const double r_max = chooser.radius(plan.count);
     if (!(r_max > 0))
         fail_with_hint(ErrorKind::input,

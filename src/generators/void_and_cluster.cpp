@@ -65,8 +65,7 @@ constexpr double most_cells = 0x1p31;
 /// @throws Error(usage)
 Torus torus_of(const std::vector<std::int64_t>& extents, const std::string& text) {
     if (extents.size() != 2)
-        fail(ErrorKind::usage, "--size: {} has {} extents; expected two, such as 64x64", text,
-             extents.size());
+        fail(ErrorKind::usage, "--size: {}: two numbers are expected, such as 64x64", text);
     const auto whole = static_cast<double>(extents[0]) * static_cast<double>(extents[1]);
     if (whole >= most_cells)
         fail(ErrorKind::usage, "--size: {} is outside 1x1 to 2^31 cells", text);

@@ -98,7 +98,7 @@ Cells read_cells(const std::string& path, bool invert, const RunContext& run) {
     else
         fail(ErrorKind::input, "{}: neither a PNG or PFM picture nor an NPY array", path);
     if (std::ranges::all_of(cells.values, [](double value) { return value == 0; }))
-        fail(ErrorKind::input, "{}: all densities are 0{}; there is no place for a point", path,
+        fail(ErrorKind::input, "{}: all values are 0{}; there is no place for a point", path,
              invert ? " when inverted" : "");
     return cells;
 }
@@ -274,7 +274,7 @@ DensityMap read_density(const std::string& path, bool invert, const RunContext& 
 PlaneValues read_lengths(const std::string& path, const RunContext& run) {
     const std::string bytes = read_file(path);
     if (!bytes.starts_with(npy_magic))
-        fail(ErrorKind::input, "{}: no NPY array, as lengths are to be", path);
+        fail(ErrorKind::input, "{}: not an NPY array, which lengths have to be in", path);
     Cells cells = cells_of_array(bytes, path, run);
     check_values(
         cells, path, [](double value) { return value > 0 && std::isfinite(value); },

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +9,7 @@
 
 using namespace stipple;
 using namespace stipple::testing;
+using ::testing::HasSubstr;
 
 namespace {
 
@@ -123,6 +125,12 @@ TEST(PoissonDiskVerification, TakesTheRadiusFromTheProvenanceElseTheSmallestDist
     EXPECT_FALSE(flag(analyze(unit, set), "maximal"));  // the corner of the square
     EXPECT_EQ(analyze(unit, set, {{"metric", "torus"}}).text("metric"), "torus");
     EXPECT_EQ(measure(unit, "radius", set, {{"radius", "0.2"}}), 0.2);
+    for (const char* varied : {"density", "radius-map", "mask"}) {
+        set.provenance.options = {{"radius", "0.1"}, {varied, "file.npy"}};
+        EXPECT_THAT(error_of([&] { analyze(unit, set); }),
+                    HasSubstr(std::string("the points were made with --") + varied));
+        EXPECT_EQ(measure(unit, "radius", set, {{"radius", "0.1"}}), 0.1);
+    }
     set.provenance.warps = {"disk"};  // the radius was one of other points
     EXPECT_EQ(measure(unit, "radius", set), 0.125);
 }

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "core/rng.hpp"
+#include "generators/crowd_extent.hpp"
 #include "generators/eliminator.hpp"
 #include "support/spacing.hpp"
 #include "support/temporary_file.hpp"
@@ -244,6 +245,60 @@ TEST(SampleElimination, SpreadsPointsOfASurface) {
     const double good = spread({{"manifold-dimension", "2"}, {"measure", "12.566370614359172"}});
     EXPECT_GT(good, 0.65 * 2 * packing_radius(200, 2, area));
     EXPECT_GT(good, spread({{"manifold-dimension", "2"}, {"measure", "0.1"}}));
+    // Nobody has to say it.
+    EXPECT_GT(spread({}), 0.6 * 2 * packing_radius(200, 2, area));
+    EXPECT_GT(spread({{"manifold-dimension", "2"}}), 0.6 * 2 * packing_radius(200, 2, area));
+}
+
+// The measure of what points fill, of their own dimension; a jittered set is as good as a random
+// one.
+TEST(SampleElimination, FindsWhatPointsFill) {
+    const Rng rng(5);
+    const auto expect = [&](const PointSet& set, std::size_t d, double truth, double share) {
+        const CrowdExtent found = crowd_extent(set.flat(), set.dimension(), 0, {});
+        EXPECT_EQ(found.dimension, d);
+        EXPECT_NEAR(found.measure, truth, share * truth);
+    };
+    for (const std::size_t n : {400, 3000, 100'000}) {
+        PointSet disk(n, 2);
+        PointSet jittered(n, 2);
+        PointSet line(n, 3);
+        for (std::size_t i = 0; i < n; ++i) {
+            const double angle = 6.283185307179586 * rng.uniform(2 * i);
+            const double radius = std::sqrt(rng.uniform(2 * i + 1));
+            disk[i][0] = radius * std::cos(angle);
+            disk[i][1] = radius * std::sin(angle);
+            const auto side = static_cast<std::size_t>(std::sqrt(static_cast<double>(n)));
+            jittered[i][0] = (static_cast<double>(i % side) + rng.uniform(2 * i)) / 10;
+            jittered[i][1] = (static_cast<double>(i / side) + rng.uniform(2 * i + 1)) / 10;
+            line[i][0] = line[i][1] = line[i][2] = rng.uniform(i);
+        }
+        expect(disk, 2, 3.141592653589793, 0.1);
+        expect(jittered, 2, static_cast<double>(n) / 100, 0.1);
+        expect(line, 1, std::sqrt(3.0), 0.1);
+    }
+    EXPECT_EQ(crowd_extent(PointSet(500, 2).flat(), 2, 0, {}).dimension, 0U) << "all in one place";
+    EXPECT_EQ(crowd_extent(PointSet(50, 2).flat(), 2, 0, {}).dimension, 0U) << "too few";
+}
+
+TEST(SampleElimination, SpreadsPointsOfADisk) {
+    const Rng rng(6);
+    PointSet disk(3000, 2);
+    for (std::size_t i = 0; i < disk.count(); ++i) {
+        const double angle = 6.283185307179586 * rng.uniform(2 * i);
+        const double radius = std::sqrt(rng.uniform(2 * i + 1));
+        disk[i][0] = radius * std::cos(angle);
+        disk[i][1] = radius * std::sin(angle);
+    }
+    const TemporaryFile file(csv_of(disk));
+    const double most = 2 * packing_radius(500, 2, 3.141592653589793);
+    const auto spread = [&](Settings settings) {
+        settings.emplace_back("from", file.path());
+        const PointSet set = make(unit, {.count = 500}, settings);
+        return smallest_distance(set, {{{-1, -1}, {1, 1}}, false});
+    };
+    EXPECT_GT(spread({}), 0.62 * most);
+    EXPECT_LT(spread({{"measure", "4"}}), 0.2 * most) << "that of the box is too large";
 }
 
 TEST(SampleElimination, RefusesWhatCannotBe) {
@@ -270,7 +325,8 @@ TEST(SampleElimination, RefusesWhatCannotBe) {
               "usage: --manifold-dimension and --measure are of points from a file; give --from "
               "too");
     EXPECT_EQ(refusal({}, {{"from", "FILE"}, {"manifold-dimension", "1"}}),
-              "usage: --manifold-dimension 1 needs --measure too, what the box does not tell");
+              "input: FILE: too few different points to tell the measure of what they are on; "
+              "--measure says it");
     EXPECT_NE(refusal({}, {{"from", "FILE"}, {"manifold-dimension", "3"}}), "");
     EXPECT_NE(refusal({}, {{"ratio", "0.5"}}), "");
     EXPECT_NE(refusal({}, {{"torus", "true"}, {"bounded", "true"}}), "");

@@ -562,7 +562,7 @@ TEST(VariedDisks, RefusesContradictionsAndBadFiles) {
     EXPECT_EQ(refusal({{"radius-map", nan.path()}}).substr(0, 6), "input:");
     EXPECT_EQ(refusal({{"radius-map", flat.path()}}).substr(0, 6), "input:");
     EXPECT_EQ(refusal({{"radius-map", picture.path()}}),
-              "input: " + picture.path() + ": no NPY array, as lengths are to be");
+              "input: " + picture.path() + ": not an NPY array, which lengths have to be in");
     EXPECT_EQ(refusal({{"density", cut.path()}}).substr(0, 6), "input:");
     EXPECT_EQ(refusal({{"density", path + ".missing"}}).substr(0, 3), "io:");
     EXPECT_EQ(refusal({{"density", path}, {"radius", "1e-5"}}).substr(0, 6), "limit:");

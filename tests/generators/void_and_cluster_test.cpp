@@ -130,8 +130,7 @@ TEST(VoidAndCluster, RefusesWrongOptionsInOneLine) {
         return error_of([&] { make(name, points(n, 2), settings); });
     };
     EXPECT_EQ(error({{"size", "8x8"}}), "usage: --size: 8x8 has 64 cells, too few for 100 points");
-    EXPECT_EQ(error({{"size", "8"}}),
-              "usage: --size: 8 has 1 extents; expected two, such as 64x64");
+    EXPECT_EQ(error({{"size", "8"}}), "usage: --size: 8: two numbers are expected, such as 64x64");
     EXPECT_EQ(error({{"size", "65536x65536"}}),
               "usage: --size: 65536x65536 is outside 1x1 to 2^31 cells");
     EXPECT_EQ(error({{"invert", "true"}}), "usage: --invert: there is no --density to invert");
