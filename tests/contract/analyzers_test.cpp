@@ -143,7 +143,7 @@ TEST_P(EveryAnalyzer, ProgressRisesToTheEnd) {
 
 TEST_P(EveryAnalyzer, StopsAtOnce) {
     expect_to_stop_at_once([&](const RunContext& run) {
-        const Report known = report(1 << 19, run);
+        const Report known = report(1 << 18, run);
         // Bounds that are certain till then are an answer, too.
         if (known.find("lower") && known.number("lower") < known.number("upper")) run.check_stop();
     });
