@@ -7,6 +7,7 @@
 
 #include "analyzers/outside.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "math/grid_nearest.hpp"
 
 namespace stipple::analyzers {
@@ -29,6 +30,24 @@ std::optional<Box> box_of(const Domain& domain) {
     return domain.bounding_box();
 }
 
+/// @throws Error(input) where the square of the box's diagonal is more than float64 holds.
+void require_squares(const Box& box, const char* too_wide) {
+    double sum = 0;
+    std::size_t widest = 0;
+    for (std::size_t k = 0; k < box.dimension(); ++k) {
+        sum += box.extent(k) * box.extent(k);
+        if (box.extent(k) > box.extent(widest)) widest = k;
+    }
+    if (!std::isfinite(sum))
+        fail(ErrorKind::input, "{} for squared distances in float64: x{} from {} to {}", too_wide,
+             widest + 1, format_number(box.low[widest]), format_number(box.high[widest]));
+}
+
+void require_squares(const PointSet& points) {
+    const std::vector<double> first(points[0].begin(), points[0].end());
+    require_squares(bounding_box(points.flat(), {first, first}), "the points lie too far apart");
+}
+
 }  // namespace
 
 std::vector<double> Distances::sides() const {
@@ -45,14 +64,19 @@ Distances distances_of(const PointSet& points, const std::string& asked) {
                  "--metric: a torus joins the faces of a unit cube or a box; the points live on {}",
                  points.domain->spec());
         distances.torus = false;
+        require_squares(points);
         return distances;
     }
     const Outside outside = outside_of(points);
-    if (outside.count == 0) return distances;
+    if (outside.count == 0) {
+        require_squares(*distances.box, "the box that the points live on is too wide");
+        return distances;
+    }
     if (distances.torus)
         refuse(outside, points,
                "--domain names what the points live on; --metric euclidean takes points anywhere");
     distances.box.reset();
+    require_squares(points);
     return distances;
 }
 
@@ -66,6 +90,7 @@ Distances distances_in_box(const PointSet& points, const std::string& asked, con
     const Outside outside = outside_of(points);
     if (outside.count > 0)
         refuse(outside, points, "--domain 'box:bounds=[lo..hi,...]' names another box");
+    require_squares(*box, "the box that the points live on is too wide");
     return {.torus = asked != "euclidean", .box = box};
 }
 

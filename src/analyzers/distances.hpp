@@ -38,7 +38,8 @@ struct Distances {
 
 /// What `asked` (torus, euclidean, or nothing) means for the points.
 /// @throws Error(usage) for a torus of what is no box
-/// @throws Error(input) for points outside the domain, unless they were said to be Euclidean
+/// @throws Error(input) for points outside the domain, unless they were said to be Euclidean,
+///         and for points (or their box) that float64 cannot hold the squared distances of
 Distances distances_of(const PointSet& points, const std::string& asked);
 
 /// The same for measures that need to know the box. @throws Error(input) as well without one

@@ -16,8 +16,7 @@
 // d = 1, 2, 3 and 8, so that the ratio is at most 1 on the torus; between, none is known. The key
 // is left out for d > 8, and where the points are in no box.
 //
-// Shape   points n x d. A duplicate has distance 0. A single point on the torus is its own
-//         neighbour, across the shortest side; elsewhere it has none and is refused.
+// Shape   n >= 2 points of any dimension. A duplicate has distance 0.
 // Cost    O(n log n) for few dimensions; on one core 10^6 even points take 0.3 s in 2-D, 0.6 s in
 //         3-D; clustered ones in 2-D 1 s, as those do that a grid does not fit.
 // Promise exact: distances are the roots of sums of squares in float64, as comparing all pairs
@@ -88,8 +87,8 @@ Sums sum_up(const std::vector<Neighbor>& neighbors, double mean, const RunContex
 
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
     const Distances distances = distances_of(points, options[metric]);
-    if (points.count() == 1 && !distances.torus)
-        fail(ErrorKind::input, "nearest-neighbor needs at least two points; this one has none");
+    if (points.count() == 1)
+        fail(ErrorKind::input, "nearest-neighbor needs at least two points; this is one");
     const auto neighbors = nearest_neighbors(points, distances, run);
     const ClosestPair closest = closest_pair(neighbors);
     const auto n = static_cast<double>(points.count());

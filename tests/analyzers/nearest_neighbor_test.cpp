@@ -169,17 +169,33 @@ TEST(NearestNeighbor, RandomPointsHaveTheMeanDistanceOfAPoissonProcess) {
     EXPECT_NEAR(mean * std::sqrt(100'000), 0.5, 0.01);
 }
 
-TEST(NearestNeighbor, ASinglePointOnTheTorusIsItsOwnNeighbour) {
+TEST(NearestNeighbor, RefusesASinglePoint) {
     PointSet one = points_of({{0.5, 0.5}});
-    EXPECT_EQ(measure(unit, "minimum", one), 1);
-    EXPECT_EQ(*std::get_if<Report::Integers>(analyze(unit, one).find("pair")),
-              (Report::Integers{0, 0}));
+    const char* message = "input: nearest-neighbor needs at least two points; this is one";
+    for (const char* metric : {"torus", "euclidean"})
+        EXPECT_EQ(error_of([&] { analyze(unit, one, {{"metric", metric}}); }), message);
     one.domain = box_domain({{0, 0}, {3, 2}});
-    EXPECT_EQ(measure(unit, "minimum", one), 2);
-    EXPECT_EQ(error_of([&] {
-                  analyze(unit, one, {{"metric", "euclidean"}});
-              }),
-              "input: nearest-neighbor needs at least two points; this one has none");
+    EXPECT_EQ(error_of([&] { analyze(unit, one); }), message);
+}
+
+// The square of 1e154 is 1e308, the sum of two of them is not; that of 2e200 is far beyond.
+TEST(NearestNeighbor, RefusesSquaresBeyondFloat64) {
+    const PointSet far = points_of({{1e200, 1e-320}, {-1e200, 0.5}, {3, 3}});
+    const auto refusal = [](const char* analyzer, const PointSet& set) {
+        return error_of([&] { analyze(analyzer, set, {{"metric", "euclidean"}}); });
+    };
+    for (const char* analyzer : {"nearest-neighbor", "spanning-tree"})
+        EXPECT_EQ(refusal(analyzer, far),
+                  "input: the points lie too far apart for squared distances in float64: x1 from "
+                  "-1e+200 to 1e+200");
+    EXPECT_EQ(refusal(unit, points_of({{0}, {1e154}})), "");
+    EXPECT_NE(refusal(unit, points_of({{0, 0}, {0, 1.1e154}, {1.1e154, 0}})), "");
+    PointSet wide = points_of({{0.25}, {0.5}});
+    wide.domain = box_domain({{0}, {2e155}});
+    for (const char* analyzer : {"nearest-neighbor", "pair-correlation"})
+        EXPECT_EQ(error_of([&] { analyze(analyzer, wide); }),
+                  "input: the box that the points live on is too wide for squared distances in "
+                  "float64: x1 from 0 to 2e+155");
 }
 
 TEST(NearestNeighbor, MeasuresStraightWhereThereAreNoFaces) {
