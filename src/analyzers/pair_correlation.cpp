@@ -32,6 +32,8 @@
 //         Applications", 3rd ed., Wiley 2013, sections 4.3 and 4.7; A. C. Oeztireli, M. Gross, ACM
 //         Trans. Graph. 31:6 (2012) 170, doi:10.1145/2366145.2366189 (of sampling patterns).
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -231,10 +233,18 @@ Curves smooth(const Plan& plan, const PairCounts& counts, const RunContext& run)
     return curves;
 }
 
+bool all_equal(const PointSet& points) {
+    for (std::size_t i = 1; i < points.count(); ++i)
+        if (!std::ranges::equal(points[i], points[0])) return false;
+    return true;
+}
+
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
     if (points.count() < 2)
         fail(ErrorKind::input, "pair-correlation needs at least two points; this is one");
     const Plan plan = plan_for(points, options);
+    if (all_equal(points))
+        run.tell(fmt::format("all {} points are equal: no pair has a distance", points.count()));
     const PairCounts counts =
         count_pairs(points, plan.distances, plan.width, plan.bins + plan.spread, plan.spread > 0,
                     run.stage(0, 0.98));

@@ -23,15 +23,16 @@
 //                        interpolated. 0 if no disk has
 //     oscillation        10 times the root of the mean of (P_k - 1)^2 over the frequency vectors of
 //                        rings a..b: a is the first with P_k >= 0.98 (else that of most power),
-//                        b = a + 5 n^(1/d), at most F
+//                        b = a + 5 n^(1/d), at most F: complete, and as published, only where
+//                        there is such a ring a and F is no less than b
 //     total variation    half the mean of |P_k - 1| over the frequency vectors of all rings: 0 for
-//                        white noise, near 1 for a lattice
+//                        white noise, near 1 for a lattice; the larger F, the smaller for others
 //     exponent           slope of log P_k against log k, rings weighted by their vectors, for
 //                        k <= n^(1/d) / 4 (but at least up to 4): a in P ~ f^a near 0. Rings
 //                        without power beyond the tolerance are left out
 //
-// Shape   points in [0, 1]^d or a box, d = 1, 2, 3, also in pieces; the 2-D power has row = f_1,
-//         column = f_0, -F..F.
+// Shape   points in [0, 1]^d or a box, d = 1, 2, 3, also in pieces; strengths 0 or from 1e-100 to
+//         1e100 in size; the 2-D power has row = f_1, column = f_0, -F..F.
 // Units   cycles a unit length (of a box: a side); published tables give the effective Nyquist
 //         frequency over `regular_nyquist`, n^(1/d) / 2, which is that of a regular grid.
 // Cost    O(n w^d + (4F)^d log F), see math/nufft.hpp; `direct` O(n (2F)^d). Sets of up to 2^20
@@ -52,12 +53,14 @@
 #include <numbers>
 #include <optional>
 
+#include "analyzers/distances.hpp"
 #include "analyzers/outside.hpp"
 #include "analyzers/periodogram_rings.hpp"
 #include "analyzers/shared.hpp"
 #include "core/error.hpp"
 #include "core/large_pages.hpp"
 #include "core/parallel.hpp"
+#include "core/text.hpp"
 #include "core/wide.hpp"
 #include "math/nufft.hpp"
 
@@ -72,7 +75,8 @@ constexpr Param<std::int64_t> max_frequency{
     .unit = "cycles a unit length",
     .help =
         "Frequencies go from -F to F along each axis; without it twice n^(1/d), rounded up, "
-        "but at least 16 and at most 65536, 1024 or 64 in 1, 2 or 3 dimensions"};
+        "but at least 16 and at most 65536, 1024 or 64 in 1, 2 or 3 dimensions; the oscillation "
+        "needs 5 n^(1/d) more than where power reaches 1, 6.5 n^(1/d) or so"};
 
 constexpr Param<Choice> method{
     .name = "method",
@@ -104,7 +108,8 @@ constexpr Param<Choice> window{
 constexpr Param<Text> weights{
     {.name = "weights",
      .unit = "column",
-     .help = "Name or number of the column that holds the strength of each point"}};
+     .help = "Name or number of the column, none of the coordinates, that holds the strength w of "
+             "each point: power is |sum w e|^2 / sum w^2"}};
 
 constexpr Param<Path> wisdom{
     {.name = "wisdom",
@@ -181,7 +186,9 @@ void summarize(Report& report, const Grid& power, std::size_t sets, const Values
     const double nyquist = effective_nyquist(rings);
     report.add("effective_nyquist", nyquist / unit, unit_name);
     report.add("relative_nyquist", nyquist / regular);
-    report.add("oscillation", oscillation(rings, regular));
+    const Oscillation swings = oscillation(rings, regular);
+    report.add("oscillation", swings.value);
+    report.add("oscillation_complete", swings.complete);
     report.add("total_variation", total_variation(rings));
     const double asked = report.number("tolerance");
     std::erase_if(report.entries(),
@@ -379,6 +386,9 @@ class Summation final : public SharedAccumulator {
     }
 
     void check_options() const {
+        if (options_.given(tolerance) && options_[method] == "direct")
+            fail(ErrorKind::usage,
+                 "--tolerance is of --method nufft; direct is as exact as float64 is");
         if (options_[tolerance] < floor_of_floats)
             fail(ErrorKind::usage,
                  "--tolerance: {} is below {}, the floor of what float64 gives; --method direct is "
@@ -388,6 +398,9 @@ class Summation final : public SharedAccumulator {
             fail(ErrorKind::usage, "--image: takes points of dimension 2 or 3; these have 1");
         if (options_.given(slice) && d_ != 3)
             fail(ErrorKind::usage, "--slice: takes points of dimension 3; these have {}", d_);
+        for (const std::string_view name : {image_scale.name, image_bits.name, slice.name})
+            if (options_.find(name).given && !options_.given(image_file))
+                fail(ErrorKind::usage, "--{} is of --image, which is not given", name);
     }
 
     [[nodiscard]] std::size_t frequency_for(std::uint64_t count) const {
@@ -426,10 +439,28 @@ class Summation final : public SharedAccumulator {
             const std::span<double> here(points.data() + begin, d_);
             if (!cube_) domain_->to_cube(point, here);
             const double strength = weighted_ ? rows[at + d_] : 1;
-            if (weighted_) strengths_.add(strength);
+            if (weighted_) {
+                require_fitting(strength, at_ + n_ + at / given);
+                strengths_.add(strength);
+            }
             if (numbers_ > d_) points.push_back(strength * faded(here));
         }
         return points;
+    }
+
+    /// @throws Error(input) for a strength that the sum of squares might lose or overflow with:
+    /// what is in range gives the same power at any scale.
+    static void require_fitting(double strength, std::uint64_t index) {
+        constexpr double least = 1e-100;
+        constexpr double most = 1e100;
+        const double size = std::abs(strength);
+        if (size == 0 || (size >= least && size <= most)) return;
+        fail_with_hint(
+            ErrorKind::input,
+            "power does not depend on their scale: divide all by the largest, and put 0 for "
+            "those that are then too small",
+            "--weights: the strength of point {} is {}; expected 0, or {} to {} in size", index,
+            format_number(strength), format_number(least), format_number(most));
     }
 
     /// Whether there is nothing to note: all points are in the unit cube, and not the first ones.
@@ -562,6 +593,15 @@ void refine(Report& mean, std::size_t sets, const Values& options) {
     summarize(mean, power, sets, options, {});
 }
 
+/// A mean over different normalised frequencies is none.
+void combine(Report&, std::span<const Report> sets, const Values& options) {
+    if (options[normalize] && !alike(sets, "regular_nyquist"))
+        fail_with_hint(ErrorKind::usage,
+                       "give them the same number of points, or leave --normalize-frequency out",
+                       "--average: the sets differ in their number of points, and so in their "
+                       "normalised frequencies");
+}
+
 /// Sets of other sizes are measured at the first one's frequencies, so that they have a mean.
 void follow(const Report& first, Values& options) {
     if (options.given(max_frequency)) return;
@@ -585,8 +625,14 @@ std::vector<ResultKey> results() {
             {"relative_nyquist", "The same over regular_nyquist, as published tables give it"},
             {"oscillation",
              "10 x root mean square of radial power - 1, from where it first reaches 0.98 over "
-             "n^(1/d) x 5 frequencies, or up to F: needs an F that large"},
-            {"total_variation", "Half the mean of |radial power - 1|: 0 for white noise"},
+             "n^(1/d) x 5 frequencies, or up to F"},
+            {"oscillation_complete",
+             "Whether F is large enough for all of these: only then it compares with published "
+             "ones",
+             true, true_or_false},
+            {"total_variation",
+             "Half the mean of |radial power - 1| over the rings, weighted by their cells: 0 for "
+             "white noise; depends on F"},
             {"low_frequency_exponent",
              "a in power ~ frequency^a near 0, where the lowest rings have power"},
             {"method", "nufft or direct", true, "nufft|direct"},
@@ -614,7 +660,8 @@ Analyzer periodogram() {
                 return std::make_unique<Summation>(arrival, options, run);
             },
         .refine = refine,
-        .follow = follow};
+        .follow = follow,
+        .combine = combine};
 }
 
 }  // namespace stipple::analyzers

@@ -82,15 +82,15 @@ double effective_nyquist(const Rings& rings) {
     return std::min(radius, static_cast<double>(rings.power.size())) / 2;
 }
 
-double oscillation(const Rings& rings, double regular_nyquist) {
+Oscillation oscillation(const Rings& rings, double regular_nyquist) {
     const auto& power = rings.power;
     auto first = std::ranges::find_if(power, [](double p) { return p >= 0.98; });
-    if (first == power.end()) first = std::ranges::max_element(power);
+    const bool reached = first != power.end();
+    if (!reached) first = std::ranges::max_element(power);
     const auto a = static_cast<std::size_t>(first - power.begin());
     const double reach = static_cast<double>(a) + std::round(10 * regular_nyquist);
-    const std::size_t b = reach < static_cast<double>(power.size())
-                              ? static_cast<std::size_t>(reach)
-                              : power.size() - 1;
+    const bool cut = reach >= static_cast<double>(power.size());
+    const std::size_t b = cut ? power.size() - 1 : static_cast<std::size_t>(reach);
     double sum = 0;
     double cells = 0;
     for (std::size_t i = a; i <= b; ++i) {
@@ -98,7 +98,7 @@ double oscillation(const Rings& rings, double regular_nyquist) {
         sum += weight * (power[i] - 1) * (power[i] - 1);
         cells += weight;
     }
-    return 10 * std::sqrt(sum / cells);
+    return {10 * std::sqrt(sum / cells), reached && !cut};
 }
 
 double total_variation(const Rings& rings) {

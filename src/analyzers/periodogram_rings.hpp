@@ -27,7 +27,14 @@ Rings rings_of(const Grid& power, const RunContext& run);
 double anisotropy_db(double variance, double mean);
 
 double effective_nyquist(const Rings& rings);
-double oscillation(const Rings& rings, double regular_nyquist);
+
+/// Complete, if its rings begin where the power first reaches 0.98 and none are cut off by F.
+struct Oscillation {
+    double value;
+    bool complete;
+};
+Oscillation oscillation(const Rings& rings, double regular_nyquist);
+
 double total_variation(const Rings& rings);
 
 /// Nothing where fewer than 3 of the lowest rings have a power above `least`.

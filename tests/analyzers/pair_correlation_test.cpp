@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "analyzers/pair_measure.hpp"
 #include "core/rng.hpp"
@@ -262,4 +264,18 @@ TEST(PairCorrelation, RefusesWhatHasNoPairs) {
     // Two points at one place are a pair at distance 0.
     const Report same = report(points_of({{0.5, 0.5}, {0.5, 0.5}}));
     EXPECT_EQ(std::get<Report::Integers>(*same.find("pairs"))[0], 1);
+}
+
+TEST(PairCorrelation, WarnsOfPointsThatAreAllEqual) {
+    const auto warnings = [](const PointSet& set) {
+        std::vector<std::string> told;
+        RunContext run;
+        run.warn = [&told](const std::string& sentence) { told.push_back(sentence); };
+        (void)analyze(unit, set, {}, run);
+        return told;
+    };
+    const PointSet equal = points_of({{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}});
+    EXPECT_EQ(warnings(equal),
+              std::vector<std::string>{"all 3 points are equal: no pair has a distance"});
+    EXPECT_TRUE(warnings(points_of({{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.25}})).empty());
 }

@@ -23,6 +23,8 @@ const Report::Integers& cells_of(const Report& report) {
     return std::get<Report::Integers>(*report.find("radial.cells"));
 }
 
+bool flag(const Report& report, std::string_view key) { return std::get<bool>(*report.find(key)); }
+
 /// Power at (f0, f1).
 double power_at(const Report& report, std::int64_t f0, std::int64_t f1 = 0) {
     const Grid& grid = grid_of(report);
@@ -318,6 +320,44 @@ TEST(Periodogram, EffectiveNyquistAndOscillationByHand) {
     report.add("grid", power);
     unit.refine(report, 1, unit.options.defaults());
     EXPECT_NEAR(report.number("oscillation"), 10 * std::sqrt(4 * raised / cells), 1e-12);
+    EXPECT_FALSE(flag(report, "oscillation_complete"));
+}
+
+// Power is 1 from the first ring on, so that the window is the rings 1..1 + 5 n^(1/d).
+TEST(Periodogram, OscillationIsCompleteWhereItsWindowIs) {
+    const Analyzer& unit = find_analyzer("periodogram");
+    const auto complete = [&](std::size_t last, double power) {
+        const std::size_t width = 2 * last + 1;
+        Report report;
+        report.add("grid", Grid{.rows = width,
+                                .columns = width,
+                                .values = std::vector<double>(width * width, power)});
+        report.add("regular_nyquist", 2.0);
+        report.add("tolerance", 1e-9);
+        unit.refine(report, 1, unit.options.defaults());
+        return flag(report, "oscillation_complete");
+    };
+    EXPECT_FALSE(complete(20, 1));
+    EXPECT_TRUE(complete(21, 1));
+    EXPECT_FALSE(complete(21, 0.9)) << "it never begins";
+}
+
+// Frequencies over n^(1/d) of sets of different n are different ones.
+TEST(Periodogram, NormalizedFrequenciesOfOtherSizesHaveNoMean) {
+    const Analyzer& unit = find_analyzer("periodogram");
+    const std::vector<Report> sets = {spectrum(make("random", points(100, 2))),
+                                      spectrum(make("random", points(110, 2)))};
+    const auto refusal = [&](const char* normalize) {
+        Values values = unit.options.defaults();
+        unit.options.set(values, "normalize-frequency", normalize);
+        Report mean;
+        return error_of([&] { unit.combine(mean, sets, values); });
+    };
+    EXPECT_EQ(refusal("true"),
+              "usage: --average: the sets differ in their number of points, and so in their "
+              "normalised frequencies | give them the same number of points, or leave "
+              "--normalize-frequency out");
+    EXPECT_EQ(refusal("false"), "");
 }
 
 // What a regular grid can do: its first peaks, at f = k, end the empty disk.
@@ -368,6 +408,12 @@ TEST(Periodogram, RefusesWhatItCannotDo) {
     EXPECT_EQ(refusal(set, {{"tolerance", "1e-14"}}),
               "usage: --tolerance: 1e-14 is below 1e-13, the floor of what float64 gives; --method "
               "direct is as exact as float64 is");
+    EXPECT_EQ(refusal(set, {{"tolerance", "1e-12"}, {"method", "direct"}}),
+              "usage: --tolerance is of --method nufft; direct is as exact as float64 is");
+    EXPECT_EQ(refusal(set, {{"image-bits", "16"}}),
+              "usage: --image-bits is of --image, which is not given");
+    EXPECT_EQ(refusal(set, {{"image-scale", "log"}}),
+              "usage: --image-scale is of --image, which is not given");
     EXPECT_EQ(refusal(set, {{"tolerance", "0.2"}}), "usage: --tolerance: 0.2 is outside [0, 0.1]");
     EXPECT_EQ(refusal(make("random", points(10, 1)), {{"image", "a.png"}}),
               "usage: --image: takes points of dimension 2 or 3; these have 1");
@@ -380,7 +426,7 @@ TEST(Periodogram, RefusesWhatItCannotDo) {
     for (const std::string method : {"nufft", "direct"}) {
         const std::string large = refusal(set, {{"max-frequency", "5000"}, {"method", method}},
                                           {.max_memory = std::uint64_t{1} << 30});
-        EXPECT_TRUE(large.starts_with("limit: --max-frequency 5000 needs ")) << large;
+        EXPECT_TRUE(large.starts_with("limit: --max-frequency 5000 would take ")) << large;
     }
     std::stop_source source;
     source.request_stop();
@@ -471,6 +517,34 @@ TEST(Periodogram, StrengthsByHand) {
         }),
         "input: --weights: all 2 strengths are 0; white noise has power 1 only where some are "
         "not");
+}
+
+// A power of two as a factor of all strengths changes no bit; beyond 1e-100 and 1e100 they are
+// refused, as a square would soon be 0 or infinite.
+TEST(Periodogram, PowerDoesNotDependOnTheScaleOfStrengths) {
+    const auto scaled = [](double factor, const std::string& window) {
+        const PointSet set = make("random", points(300, 3));
+        std::vector<std::vector<double>> rows;
+        for (std::size_t i = 0; i < 300; ++i)
+            rows.push_back({set[i][0], set[i][1], (set[i][2] - 0.3) * factor});
+        return weighted(rows, {{"max-frequency", "12"}, {"window", window}});
+    };
+    for (const std::string window : {"none", "hann"}) {
+        const Report one = scaled(1, window);
+        for (const int exponent : {-300, 3, 300})
+            EXPECT_EQ(scaled(std::ldexp(1, exponent), window), one) << exponent;
+    }
+    const auto refusal = [](double strength) {
+        return error_of([&] { (void)weighted({{0.1, 1}, {0.4, strength}, {0.7, 0}}, {}); });
+    };
+    EXPECT_EQ(refusal(-1e300),
+              "input: --weights: the strength of point 1 is -1e+300; expected 0, or 1e-100 to "
+              "1e+100 in size | power does not depend on their scale: divide all by the largest, "
+              "and put 0 for those that are then too small");
+    EXPECT_NE(refusal(2e-200), "");
+    EXPECT_EQ(refusal(1e100), "");
+    EXPECT_EQ(refusal(1e-100), "");
+    EXPECT_EQ(refusal(0), "");
 }
 
 // Strength 1 everywhere changes nothing; strengths that are drawn leave white noise white.

@@ -122,9 +122,7 @@ TEST(SharedAnalysis, AddsGridsOfStrongAndWeakPointsToTheLastBit) {
     });
     EXPECT_EQ(shared, text_of(one));
     // The oracle: the plain sum, of other rounding.
-    Settings plain = few;
-    plain.push_back({"method", "direct"});
-    const Report direct = alone(plain);
+    const Report direct = alone({{"max-frequency", "2"}, {"method", "direct"}, {"weights", "3"}});
     const auto& exact = std::get<Grid>(*direct.find("grid")).values;
     const auto& found = std::get<Grid>(*one.find("grid")).values;
     for (std::size_t i = 0; i < exact.size(); ++i)
