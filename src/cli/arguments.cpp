@@ -120,9 +120,11 @@ class Parser {
             app_.parse(std::move(words));
         } catch (const CLI::ArgumentMismatch& e) {
             const std::string text = e.what();
-            if (text.find("At Most 1 required") == std::string::npos)
-                fail(ErrorKind::usage, "{}", text);
-            fail(ErrorKind::usage, "{} is given more than once", text.substr(0, text.find(':')));
+            const std::string option = text.substr(0, text.find(':'));
+            if (text.find("At Most 1 required") != std::string::npos)
+                fail(ErrorKind::usage, "{} is given more than once", option);
+            if (text.ends_with("missing")) fail(ErrorKind::usage, "{} needs a value", option);
+            fail(ErrorKind::usage, "{}", text);
         } catch (const CLI::ParseError& e) {
             fail(ErrorKind::usage, "{}", e.what());
         }

@@ -5,15 +5,21 @@
 
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "study/chain.hpp"
 
 namespace stipple::cli {
 namespace {
 
-/// The box of the points' extremes, with a direction that has no extent made as wide as 1.
-Box box_around(const PointSet& points) {
+/// The box of the points' extremes.
+Box extremes_of(const PointSet& points) {
     const std::vector<double> first(points[0].begin(), points[0].end());
-    Box box = bounding_box(points.flat(), {first, first});
+    return bounding_box(points.flat(), {first, first});
+}
+
+/// The same, with a direction that has no extent made as wide as 1.
+Box box_around(const PointSet& points) {
+    Box box = extremes_of(points);
     for (std::size_t k = 0; k < box.dimension(); ++k)
         if (!(box.high[k] > box.low[k])) box.high[k] = box.low[k] + 1;
     return box;
@@ -37,6 +43,17 @@ void into_unit_cube(std::span<double> rows, std::size_t width, const Box& box) {
 }
 
 }  // namespace
+
+void require_width(const PointSet& points, const std::string& input) {
+    constexpr double most = 1e307;  // and room for margins around
+    const Box box = extremes_of(points);
+    for (std::size_t k = 0; k < box.dimension(); ++k)
+        if (box.low[k] < -most || box.high[k] > most)
+            fail(ErrorKind::input,
+                 "{}the box around the points is too wide for float64: x{} goes from {} to {}",
+                 input.empty() ? "" : (input == "-" ? "stdin" : input) + ": ", k + 1,
+                 format_number(box.low[k]), format_number(box.high[k]));
+}
 
 void take_bounds(std::span<double> rows, std::size_t width, const Box& box, std::uint64_t first,
                  const Analyzer& analyzer) {
@@ -98,6 +115,7 @@ PointSet prepared(PointSet points, const Analyzer& analyzer, const Arguments& ar
         return points;
     }
     if (arguments.has("rescale")) {
+        require_width(points);
         const Box box = box_around(points);
         return to_unit_cube(std::move(points), box);
     }

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include "analyzers/analyzer.hpp"
 #include "cli/arguments.hpp"
@@ -27,6 +28,10 @@ void take_bounds(std::span<double> rows, std::size_t width, const Box& box, std:
 /// What the points of a file live on, as options or the file say.
 DomainPtr domain_of(const io::PointStream& stream, std::size_t dimension, const Analyzer& analyzer,
                     const Arguments& arguments, const RunContext& run);
+
+/// @throws Error(input) for coordinates so large that a box around them is too wide for float64.
+/// @param input names them in the message; empty: the caller does
+void require_width(const PointSet& points, const std::string& input = {});
 
 /// Points of another domain may lie in the cube and be no sample of it.
 /// @throws Error(input) where the set says that it has another domain.

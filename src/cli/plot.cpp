@@ -10,6 +10,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "cli/bounds.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -167,6 +168,7 @@ class Plot {
         auto sets = explained([&] { return read_input(file.bytes(), input, arguments_, run); },
                               input, "plot takes points, or the JSON of 'stipple analyze'");
         for (std::size_t i = 0; i < sets.size(); ++i) {
+            require_width(sets[i], input);
             if (const auto domain = arguments_.get("domain"))
                 sets[i].domain = parse_domain(*domain, sets[i].dimension());
             sets_.push_back(
@@ -255,9 +257,13 @@ class Plot {
         return spectral_table(sets);
     }
 
-    [[nodiscard]] static TableNames names_of(bool differences) {
-        if (!differences) return {};
-        return {.x = "Δx (pixels)", .y = "Δy (pixels)", .shade = "density"};
+    /// Of a table of differences, with the side of its pixels where that is known.
+    [[nodiscard]] static TableNames names_of(std::optional<double> pixel) {
+        if (!pixel) return {.x = "Δx (pixels)", .y = "Δy (pixels)", .shade = "density"};
+        return {.x = "Δx / mean distance",
+                .y = "Δy / mean distance",
+                .shade = "density",
+                .cell = *pixel};
     }
 
     std::string saved(const SpectralTable& table) {
@@ -265,27 +271,29 @@ class Plot {
             arguments_.get("title").value_or(title_of_points(sets_[0].points, sets_[0].source));
         if (table.dimension == 1) return drawn(power_chart(table.values, title));
         const std::string plane = table.dimension == 3 ? "plane fz = 0" : "";
-        return drawn_table(table.values, title, plane, table.differences);
+        return drawn_table(table.values, title, plane,
+                           table.differences ? names_of(std::nullopt) : TableNames());
     }
 
     std::string spectrum() {
         const bool differences = chart_ == "differential";
-        const Grid power = analyzed_table();
+        const Report found = analyzed_table();
         const std::string what = differences ? "Pair differences" : "Power spectrum";
         const std::string title = arguments_.get("title").value_or(
             what + " of " + title_of_points(sets_[0].points, sets_[0].source));
-        return drawn_table(power, title, subtitle_of(sets_[0]), differences);
+        return drawn_table(std::get<Grid>(*found.find("grid")), title, subtitle_of(sets_[0]),
+                           differences ? names_of(found.number("pixel")) : TableNames());
     }
 
     std::string drawn_table(const Grid& table, const std::string& title,
-                            const std::string& subtitle, bool differences) {
+                            const std::string& subtitle, const TableNames& names) {
         if (medium_ == Medium::text) return spectrum_as_text(table, title, room_);
-        return finished(draw_spectrum(table, title, subtitle, style_, names_of(differences)));
+        return finished(draw_spectrum(table, title, subtitle, style_, names));
     }
 
-    /// The table that an analyzer makes of the one input.
-    Grid analyzed_table() {
-        const auto found = analyzed(chart_ == "differential" ? "differential" : "periodogram");
+    /// What an analyzer finds of the one input, a table among it.
+    Report analyzed_table() {
+        auto found = analyzed(chart_ == "differential" ? "differential" : "periodogram");
         if (found.size() > 1)
             fail_with_hint(ErrorKind::usage, "draw one at a time, or --chart radial",
                            "--chart: one {} makes a picture; there are {} inputs", chart_,
@@ -295,7 +303,7 @@ class Plot {
                            "--chart: a {} in the plane needs points of 2 coordinates; these have "
                            "{}",
                            chart_, found[0].dimension);
-        return std::get<Grid>(*found[0].results.find("grid"));
+        return std::move(found[0].results);
     }
 
     std::string distances() {
@@ -327,6 +335,8 @@ class Plot {
         ReportAverage average;
         std::vector<Report> singles;
         for (std::size_t i = first; i < last; ++i) {
+            explained([&] { check_dimension(analyzer, sets_[i].points.dimension()); },
+                      sets_[i].source, "");
             const auto measure = [&] {
                 return stipple::analyze(analyzer, sets_[i].points, options, session_.run());
             };

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string_view>
 
+#include "cli/bounds.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -151,6 +152,7 @@ class Reporter {
     void add_file(const std::string& input) {
         auto sets = read_input(input, arguments_, session_.run());
         for (std::size_t i = 0; i < sets.size(); ++i) {
+            require_width(sets[i], input);
             if (const auto domain = arguments_.get("domain"))
                 sets[i].domain = parse_domain(*domain, sets[i].dimension());
             Waiting next;

@@ -16,7 +16,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
+#include "core/error.hpp"
+#include "core/text.hpp"
 #include "io/carried_meta.hpp"
 #include "io/decimal.hpp"
 #include "io/disk_size.hpp"
@@ -51,8 +54,18 @@ struct Sheet {
     double radius = 0;
 };
 
+/// @throws Error(input) where a side is no number of float64.
+const Box& finite(const Box& box) {
+    for (std::size_t k = 0; k < box.dimension(); ++k)
+        if (!std::isfinite(box.extent(k)))
+            fail(ErrorKind::input,
+                 "svg: the box around the points is too wide for float64: x{} goes from {} to {}",
+                 k + 1, format_number(box.low[k]), format_number(box.high[k]));
+    return box;
+}
+
 Box box_of(const Layout& layout) {
-    if (layout.extent) return *layout.extent;
+    if (layout.extent) return finite(*layout.extent);
     const std::size_t d = layout.dimension;
     if (!layout.provenance.bounds.empty()) return parse_box(layout.provenance.bounds, d);
     return {std::vector<double>(d, 0.0), std::vector<double>(d, 1.0)};

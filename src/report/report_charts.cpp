@@ -157,7 +157,14 @@ void make_gaps(std::vector<Series>& all) {
     }
 }
 
-/// Effective Nyquist frequency and oscillation, of a single measurement.
+bool holds(const Report& report, std::string_view key) {
+    const Report::Item* item = report.find(key);
+    const bool* flag = item == nullptr ? nullptr : std::get_if<bool>(item);
+    return flag != nullptr && *flag;
+}
+
+/// Effective Nyquist frequency and, where the frequencies go far enough for one that compares,
+/// oscillation, of a single measurement.
 std::string summary_of_spectrum(Measurements ms) {
     if (ms.size() > 1) return {};
     std::string text;
@@ -165,7 +172,7 @@ std::string summary_of_spectrum(Measurements ms) {
     const auto oscillation = number_at(ms[0].results, "oscillation");
     if (nyquist && std::isfinite(*nyquist))
         text += fmt::format("effective Nyquist frequency {}", rounded(*nyquist));
-    if (oscillation && std::isfinite(*oscillation))
+    if (oscillation && std::isfinite(*oscillation) && holds(ms[0].results, "oscillation_complete"))
         text += fmt::format("{}oscillation {}", text.empty() ? "" : ", ", rounded(*oscillation));
     return text;
 }
@@ -204,7 +211,9 @@ Chart spectrum_chart(Measurements ms) {
     make_gaps(anisotropy.series);
     if (const Guide guide = noise_anisotropy(ms); !guide.y.empty())
         anisotropy.guides.push_back(guide);
-    const bool drawn = finite_in(anisotropy.series, top);
+    // A ring of one dimension is two opposite frequencies, which have one power.
+    const bool line = std::ranges::all_of(ms, [](const auto& m) { return m.dimension == 1; });
+    const bool drawn = !line && finite_in(anisotropy.series, top);
     chart.panels.push_back(std::move(power));
     if (drawn) chart.panels.push_back(std::move(anisotropy));
     return chart;
@@ -257,7 +266,7 @@ bool names_abscissa(const std::string& name) {
 
 /// Lists that say how sure others are, and are no curves of their own.
 bool names_weight(const std::string& name) {
-    return name == "cells" || name == "pairs" || name == "deviation";
+    return name == "cells" || name == "pairs" || name == "deviation" || name == "exact";
 }
 
 struct CurveGroup {
@@ -380,8 +389,15 @@ void make_bars(ChartPanel& panel) {
     panel.log_x = panel.log_y = false;
 }
 
+/// "radius", and in what where that is no length of the points.
+std::string abscissa_of(const std::string& analyzer, const std::string& x) {
+    const bool by_mean = (analyzer == "hyperuniformity" && x == "radius") ||
+                         (analyzer == "differential" && x == "distance");
+    return words_of(x) + (by_mean ? " / mean distance" : "");
+}
+
 ChartPanel curve_panel(Measurements ms, const CurveGroup& group, const std::string& y) {
-    ChartPanel panel{.x_name = words_of(group.x),
+    ChartPanel panel{.x_name = abscissa_of(ms[0].analyzer, group.x),
                      .y_name = y == "value" ? words_of(ms[0].analyzer) : words_of(y),
                      .series = series_of(ms, group.prefix, group.x, y),
                      .guides = references(ms, group, y)};

@@ -42,9 +42,10 @@ Drawing draw_spectrum(const Grid& power, const std::string& title, const std::st
     if (std::ranges::any_of(power.values, [](double p) { return !(p >= 0); }))
         fail(ErrorKind::input, "a spectrum has no negative power; this table has");
     const Theme& theme = *style.theme;
-    const double last = static_cast<double>(power.rows / 2) + 0.5;
-    const Axis x{.low = -last, .high = last, .whole = true, .name = names.x};
-    const Axis y{.low = -last, .high = last, .whole = true, .name = names.y};
+    const double last = (static_cast<double>(power.rows / 2) + 0.5) * names.cell;
+    const bool whole = names.cell == 1;
+    const Axis x{.low = -last, .high = last, .whole = whole, .name = names.x};
+    const Axis y{.low = -last, .high = last, .whole = whole, .name = names.y};
     Drawing drawing{.width = style.width > 0 ? style.width : 640,
                     .height = 0,
                     .ground = theme.ground,

@@ -18,6 +18,7 @@ struct TableNames {
     std::string x = "frequency fx";
     std::string y = "frequency fy";
     std::string shade = "power";
+    double cell = 1;  ///< side of a cell of the table, as the axes have it
 };
 
 /// @throws Error(input) for what is not square, of an odd side, and without negative numbers.

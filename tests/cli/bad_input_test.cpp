@@ -283,3 +283,33 @@ TEST(BadInput, TablesOfGeneratorsAreReadBeforeAnythingIsWritten) {
     EXPECT_EQ(missing.code, 4);
     EXPECT_EQ(missing.out + missing.err, "stipple: missing.txt: no such file\n");
 }
+
+// A box from -1e308 to 1e308 is wider than any number.
+TEST(BadInput, BoxesWiderThanFloat64) {
+    const Sandbox box;
+    box.write("big.csv", "1e308,0\n-1e308,1\n");
+    const char* words =
+        "big.csv: the box around the points is too wide for float64: x1 goes from -1e+308 to "
+        "1e+308";
+    expect_refusal(box.run({"analyze", "star-discrepancy", "big.csv", "--rescale"}), 3, words);
+    for (const char* chart : {"points", "density", "histogram"})
+        expect_refusal(box.run({"plot", "big.csv", "--chart", chart, "-o", "p.svg"}), 3, words);
+    expect_refusal(box.run({"report", "big.csv", "-o", "p.html"}), 3, words);
+    expect_refusal(box.run({"convert", "big.csv", "-o", "p.svg"}), 3, "is too wide for float64");
+    EXPECT_EQ(box.files(), std::vector<std::string>{"big.csv"});
+}
+
+TEST(BadInput, OptionsWithoutTheirValue) {
+    const Sandbox box;
+    expect_refusal(box.run({"generate", "halton", "--count"}), 2, "--count needs a value");
+    expect_refusal(box.run({"generate", "halton", "-n"}), 2, "--count needs a value");
+    expect_refusal(box.run({"analyze", "periodogram", "p.csv", "--max-frequency"}), 2,
+                   "--max-frequency needs a value");
+}
+
+TEST(BadInput, ChartsOfTheWrongDimensionHintAtNothingThatHelps) {
+    const Sandbox box;
+    box.write("p.csv", "0.1,0.2,0.3\n0.4,0.5,0.6\n");
+    const Outcome outcome = box.run({"plot", "p.csv", "--chart", "differential", "-o", "p.svg"});
+    expect_refusal(outcome, 3, "p.csv: differential takes points of dimension 2; these have 3\n");
+}

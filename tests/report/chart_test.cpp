@@ -291,6 +291,49 @@ TEST(ReportCharts, NoPowerIsAGapInTheAnisotropy) {
     EXPECT_EQ(chart.panels[1].series.at(0).y[1], -3);
 }
 
+// A ring of one dimension is a frequency and its opposite, which have one power.
+TEST(ReportCharts, NoAnisotropyInOneDimension) {
+    std::vector<Measurement> ms = {spectrum("a.csv", {0.5, 1, 1})};
+    EXPECT_EQ(chart_of(ms).panels.size(), 2U);
+    ms[0].dimension = 1;
+    EXPECT_EQ(chart_of(ms).panels.size(), 1U);
+}
+
+TEST(ReportCharts, TellsTheOscillationOnlyWhereItIsComplete) {
+    std::vector<Measurement> ms = {spectrum("a.csv", {0.5, 1, 1})};
+    ms[0].results.add("oscillation", 1.25);
+    const auto told = [&] { return chart_of(ms).subtitle.find("oscillation 1.25"); };
+    EXPECT_EQ(told(), std::string::npos);
+    ms[0].results.add("oscillation_complete", false);
+    EXPECT_EQ(told(), std::string::npos);
+    ms[0].results.add("oscillation_complete", true);
+    EXPECT_NE(told(), std::string::npos);
+}
+
+TEST(ReportCharts, FlagsAreNoCurves) {
+    Report prefixes;
+    prefixes.add("count", Report::Curve{1, 2, 3});
+    prefixes.add("value", Report::Curve{0.5, 0.25, 0.125});
+    prefixes.add("exact", Report::Curve{1, 1, 0});
+    const std::vector<Measurement> ms = {
+        measurement("star-discrepancy", Report().add("prefixes", prefixes), "a.csv"),
+        measurement("star-discrepancy", Report().add("prefixes", prefixes), "b.csv")};
+    const Chart chart = chart_of(ms);
+    ASSERT_EQ(chart.panels.size(), 1U);
+    EXPECT_EQ(chart.panels[0].y_name, "star discrepancy");
+}
+
+TEST(ReportCharts, TellsMeanDistancesOnTheAxis) {
+    Report results;
+    results.add("radius", Report::Curve{1, 2, 3});
+    results.add("variance", Report::Curve{1, 2, 3});
+    const auto x_name = [&](const char* analyzer) {
+        return chart_of(std::vector{measurement(analyzer, results, "a.csv")}).panels.at(0).x_name;
+    };
+    EXPECT_EQ(x_name("hyperuniformity"), "radius / mean distance");
+    EXPECT_EQ(x_name("another"), "radius");
+}
+
 TEST(ReportCharts, NumbersOfOneSizeAreAHistogramThatCountsThem) {
     std::vector<Measurement> ms;
     for (int i = 0; i < 50; ++i) ms.push_back(number(0.1 + 0.01 * (i % 7), 64));
