@@ -54,7 +54,7 @@ void RunContext::tell(const std::string& sentence) const {
 void RunContext::need_memory(double bytes, std::string_view what) const {
     if (bytes > static_cast<double>(max_memory))
         fail_with_hint(ErrorKind::limit, "raise the limit with --max-memory",
-                       "{} would take {} of memory; the limit is {}", what, format_bytes(bytes),
+                       "{} needs {} of memory; the limit is {}", what, format_bytes(bytes),
                        format_bytes(static_cast<double>(max_memory)));
 }
 

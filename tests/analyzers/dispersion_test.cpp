@@ -295,6 +295,6 @@ TEST(Dispersion, RefusesWhatItCannotTake) {
     run = {.max_memory = 1000};
     EXPECT_EQ(error_of([&] {
                   analyze("dispersion", make("random", points(300, 2)), {}, run);
-              }).substr(0, 55),
-              "limit: the search for the largest empty box would take ");
+              }).substr(0, 50),
+              "limit: the search for the largest empty box needs ");
 }

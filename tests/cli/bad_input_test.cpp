@@ -244,7 +244,7 @@ TEST(BadInput, CtrlCLeavesNothingBehind) {
     EXPECT_THAT(waiting.err, HasSubstr("stipple: interrupted"));
 }
 
-// The exact value would take hours.
+// The exact value needs hours.
 TEST(BadInput, CtrlCDuringASearchPrintsTheBoundsFoundSoFarButWritesNoFile) {
     const Sandbox box;
     const std::string search =

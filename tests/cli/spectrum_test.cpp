@@ -194,6 +194,6 @@ TEST(Spectrum, RefusesWhatDoesNotGoTogether) {
     refused("--generate random -n 1", 3, "periodogram needs at least 2 points; there is 1");
     refused("--generate random --max-frequency 0", 2, "--max-frequency: 0 is outside [1, 1000000]");
     refused("--generate random --max-frequency 100000 --max-memory 2G", 5,
-            "--max-frequency 100000 would take ");
+            "--max-frequency 100000 needs ");
     refused("--generate random -d 4", 3, "periodogram takes points of dimension 1 to 3");
 }

@@ -174,5 +174,5 @@ TEST(KdTree, OfNoPointsFindsNone) {
 TEST(KdTree, RefusesWhatNeedsMoreMemoryThanAllowed) {
     EXPECT_TRUE(error_of([] {
                     KdTree(Doubles(2000), 2, {}, {.max_memory = 1000});
-                }).starts_with("limit: a search tree would take "));
+                }).starts_with("limit: a search tree needs "));
 }

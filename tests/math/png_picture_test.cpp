@@ -114,8 +114,7 @@ TEST(PngPicture, SurvivesAnyChangedByte) {
 
 TEST(PngPicture, RefusesWhatNeedsTooMuchMemory) {
     const std::string bytes = png_of(100, 100, Samples(10'000));
-    EXPECT_EQ(
-        error_of([&] { read_png(bytes, "p.png", {.max_memory = 100'000}); }),
-        "limit: the picture p.png would take 234 KiB of memory; the limit is 97.7 KiB | raise "
-        "the limit with --max-memory");
+    EXPECT_EQ(error_of([&] { read_png(bytes, "p.png", {.max_memory = 100'000}); }),
+              "limit: the picture p.png needs 234 KiB of memory; the limit is 97.7 KiB | raise "
+              "the limit with --max-memory");
 }

@@ -132,8 +132,7 @@ TEST(VoidAndClusterOrder, TheFirstTenthIsAtRest) {
 }
 
 TEST(VoidAndClusterOrder, RefusesWhatNeedsTooMuchMemory) {
-    EXPECT_EQ(
-        error_of([] { void_and_cluster_order(100, 100, 1, 1, {.max_memory = 100'000}); }),
-        "limit: the torus of cells would take 439 KiB of memory; the limit is 97.7 KiB | raise "
-        "the limit with --max-memory");
+    EXPECT_EQ(error_of([] { void_and_cluster_order(100, 100, 1, 1, {.max_memory = 100'000}); }),
+              "limit: the torus of cells needs 439 KiB of memory; the limit is 97.7 KiB | raise "
+              "the limit with --max-memory");
 }

@@ -167,6 +167,6 @@ TEST(Image, RefusesWhatIsNoPictureAndPointsOutside) {
                   warp.make(spec.values(warp.options), 2, {.max_memory = 40});
               }),
               "limit: the array " + file.path() +
-                  " would take 48 bytes of memory; the limit is 40 "
+                  " needs 48 bytes of memory; the limit is 40 "
                   "bytes | raise the limit with --max-memory");
 }
