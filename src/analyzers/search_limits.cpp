@@ -71,11 +71,14 @@ void Limits::judge(const Bounds& found, const std::string& what, const std::stri
                    const RunContext& run) const {
     const bool cut = found.ending == Ending::work || found.ending == Ending::time;
     if (exact && (cut || found.ending == Ending::tolerance)) give_up(found, what, whose);
-    if (cut)
-        run.tell(
-            fmt::format("{} is not exact, but between {} and {}; the value given is the lower of "
-                        "these",
-                        what, format_number(found.lower), format_number(found.upper)));
+    if (!cut) return;
+    const std::string missed =
+        search.tolerance > 0
+            ? fmt::format(" (--tolerance {} was not reached)", format_number(search.tolerance))
+            : "";
+    run.tell(fmt::format(
+        "{} is not exact, but between {} and {}{}; the value given is the lower of these", what,
+        format_number(found.lower), format_number(found.upper), missed));
 }
 
 }  // namespace stipple::analyzers

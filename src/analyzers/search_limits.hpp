@@ -32,8 +32,7 @@ inline constexpr Param<double> time_limit{
     .unit = "seconds",
     .help =
         "Stop after this time, in place of --max-work; what bounds it gives depends on the "
-        "machine and its load. The sorting of millions of points is not cut short. For all rows "
-        "of a table together: each has its share of the time that is left"};
+        "machine and its load. The sorting of millions of points is not cut short"};
 
 inline constexpr Param<double> tolerance{
     .name = "tolerance",
@@ -51,7 +50,7 @@ inline constexpr Param<std::int64_t> max_work{
     .help =
         "Stop when a search (in 3 and more dimensions; in 2 for extreme and periodic boxes) "
         "has compared this many coordinates, the same on any machine; 10^9 take one to four "
-        "seconds on one core. For all rows of a table together, by their numbers of points"};
+        "seconds on one core"};
 
 }  // namespace limit
 

@@ -77,10 +77,9 @@ class Table {
     /// One of `together` that are measured at a time, each on so many threads.
     Report fill(std::size_t row, const PointSet& points, double weight, double together,
                 const Report* like) {
-        RunContext mine = run_;
-        mine.progress = {};
+        RunContext mine = together > 1 ? run_ : progress_of(points.count());
+        if (together > 1) mine.progress = {}, mine.threads = 1;
         mine.warn = {};  // bounds are told of once for the table
-        mine.threads = together > 1 ? 1 : run_.threads;
         const Limits limits = shares_.next(weight, together, run_);
         const bool first = !begun_.exchange(true);
         const bool skip = !first && !limits.exact && limits.search.late(run_);
@@ -114,6 +113,19 @@ class Table {
     Columns columns;
 
   private:
+    /// A run for the next row, alone: its progress is that row's part of the table's, and says what
+    /// is certain of the set of so many points.
+    [[nodiscard]] RunContext progress_of(std::size_t count) const {
+        const double rows = static_cast<double>(rows_);
+        const double done = static_cast<double>(done_);
+        RunContext part = run_.stage(done / rows, (done + 1) / rows);
+        if (run_.note)
+            part.note = [note = run_.note, count](const std::string& words) {
+                note(fmt::format("{} points: {}", count, words));
+            };
+        return part;
+    }
+
     std::size_t rows_;
     const Measure& measure_;
     const RunContext& run_;

@@ -18,7 +18,10 @@ namespace stipple::analyzers::star {
 inline constexpr Param<Numbers> prefixes{
     {.name = "prefixes",
      .unit = "points",
-     .help = "Instead of the whole set, its first so many points, rising: 16,32,64; a table"}};
+     .help =
+         "Instead of the whole set, its first so many points, rising: 16,32,64; a table. Limits "
+         "of work and time are for all rows of a table together: work goes by their numbers of "
+         "points, and each has its share of the time that is left"}};
 
 inline constexpr Param<std::int64_t> every{
     .name = "every",

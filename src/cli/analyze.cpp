@@ -363,7 +363,10 @@ class Analysis {
             const auto named = [&](const auto& part) {
                 return what.starts_with(std::string(part) + ":");
             };
-            if (e.kind() != ErrorKind::input || named(name)) throw;
+            // A limit is met by what a file holds as well; of stdin there is nothing to tell apart.
+            const bool of_file =
+                e.kind() == ErrorKind::input || (e.kind() == ErrorKind::limit && input != "-");
+            if (!of_file || named(name)) throw;
             // What is wrong with one of joined files names it.
             for (const auto part : split(name, ','))
                 if (named(trim(part))) throw;

@@ -690,6 +690,11 @@ TEST(StarDiscrepancy, ExactOrNothingExceptWhatIsCertain) {
               fmt::format("the star discrepancy is not exact, but between {} and {}; the value "
                           "given is the lower of these",
                           part.worst.value(), part.upper));
+    told.clear();
+    analyze("star-discrepancy", p,
+            {{"max-work", "20000000"}, {"method", "bounds"}, {"tolerance", "0.001"}}, run);
+    ASSERT_EQ(told.size(), 1U);
+    EXPECT_THAT(told[0], HasSubstr(" (--tolerance 0.001 was not reached); the value given is"));
 }
 
 // A clock that goes on by a hundredth of a second whenever it is looked at.
@@ -941,6 +946,24 @@ TEST(StarDiscrepancy, TablesAreTheSameForAnyNumberOfThreads) {
     run.progress = [&](double done) { seen.push_back(done); };
     analyze("star-discrepancy", p, settings, run);
     EXPECT_TRUE(std::ranges::is_sorted(seen));
+    EXPECT_EQ(seen.back(), 1);
+}
+
+// Where prefixes are measured one after the other, each says what is certain of it.
+TEST(StarDiscrepancy, TablesOfPrefixesTellTheGap) {
+    std::vector<std::string> words;
+    std::vector<double> seen;
+    RunContext run{.threads = 1};
+    run.progress = [&](double done) { seen.push_back(done); };
+    run.note = [&](const std::string& note) { words.push_back(note); };
+    analyze("star-discrepancy", halton(160, 8), {{"prefixes", "140,160"}}, run);
+    const auto said = [&](const std::string& about) {
+        return std::ranges::any_of(words, [&](const auto& w) { return w.starts_with(about); });
+    };
+    EXPECT_TRUE(said("140 points: between 0."));
+    EXPECT_TRUE(said("160 points: between 0."));
+    EXPECT_TRUE(std::ranges::is_sorted(seen));
+    EXPECT_TRUE(std::ranges::any_of(seen, [](double done) { return done > 0.5 && done < 1; }));
     EXPECT_EQ(seen.back(), 1);
 }
 

@@ -127,6 +127,23 @@ TEST(Analyze, ChecksAndExpectationsSetTheExitCode) {
     EXPECT_THAT(two.err, HasSubstr("stipple: h.csv: the star discrepancy is not exact"));
 }
 
+TEST(Analyze, LimitsNameTheFile) {
+    const Sandbox box;
+    box.write("deep.csv", box.run({"generate", "random", "-n", "300", "-d", "9"}).out);
+    const auto refused = [&](const std::vector<std::string>& inputs) {
+        std::vector<std::string> call{"analyze", "star-discrepancy", "--method",
+                                      "exact",   "--max-work",       "1000"};
+        call.insert(call.end(), inputs.begin(), inputs.end());
+        const Outcome outcome = box.run(call);
+        EXPECT_EQ(outcome.code, 5);
+        return outcome.err;
+    };
+    constexpr const char* why = "the star discrepancy of 300 points in 9 dimensions takes more";
+    EXPECT_THAT(refused({"deep.csv"}), HasSubstr(std::string("stipple: deep.csv: ") + why));
+    EXPECT_THAT(refused({"deep.csv", "deep.csv"}),
+                HasSubstr(std::string("stipple: deep.csv: ") + why));
+}
+
 TEST(Analyze, SeveralInputsAndSetsAreAnArrayOrAMean) {
     const Sandbox box;
     box.write("a.csv", box.run({"generate", "random", "-n", "200", "-m", "3"}).out);
