@@ -35,6 +35,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 
@@ -55,7 +56,8 @@ constexpr std::int32_t spill = 16;
 
 /// In the state of a point, 1 for each axis on which it is undecided; below that, twice the axes on
 /// which it is above hi plus those on which it is at hi.
-constexpr std::int32_t undecided_unit = 1 << 16;
+constexpr int undecided_bits = 16;
+constexpr std::int32_t undecided_unit = 1 << undecided_bits;
 
 std::int32_t signed_place(std::uint32_t place) { return static_cast<std::int32_t>(place); }
 
@@ -82,15 +84,30 @@ STIPPLE_WIDE void gather(const std::int32_t* from, const std::uint32_t* places, 
     for (std::size_t i = 0; i < size; ++i) to[i] = from[places[i]];
 }
 
-/// terms[y] = (values[y] - origin) * weight + counted[y] * inverse; gives the least.
-STIPPLE_WIDE double fill_terms(const double* values, const double* counted, std::size_t size,
-                               double origin, double weight, double inverse, double* terms) {
-    double least[4] = {infinity, infinity, infinity, infinity};
-    for (std::size_t y = 0; y < size; ++y) {
-        terms[y] = (values[y] - origin) * weight + counted[y] * inverse;
-        least[y % 4] = terms[y] < least[y % 4] ? terms[y] : least[y % 4];
+/// Candidates are worked on eight at a time.
+constexpr std::size_t lanes = 8;
+using Doubles = double __attribute__((vector_size(64)));
+using Integers = std::int32_t __attribute__((vector_size(32)));
+
+/// terms[i] = (values[places[i]] - origin) * weight + counts[i] * inverse, for a multiple of eight
+/// places; gives the least.
+STIPPLE_WIDE double fill_terms(const double* values, const std::int32_t* places,
+                               const std::int32_t* counts, std::size_t size, double origin,
+                               double weight, double inverse, double* terms) {
+    Doubles least = infinity - Doubles{};
+    for (std::size_t i = 0; i < size; i += lanes) {
+        Doubles value;
+        for (std::size_t l = 0; l < lanes; ++l) value[l] = values[places[i + l]];
+        Integers count;
+        std::memcpy(&count, counts + i, sizeof count);
+        const Doubles term =
+            (value - origin) * weight + __builtin_convertvector(count, Doubles) * inverse;
+        std::memcpy(terms + i, &term, sizeof term);
+        least = term < least ? term : least;
     }
-    return std::min({least[0], least[1], least[2], least[3]});
+    double least_of_all = least[0];
+    for (std::size_t l = 1; l < lanes; ++l) least_of_all = std::min(least_of_all, least[l]);
+    return least_of_all;
 }
 
 }  // namespace
@@ -130,7 +147,7 @@ CellBounder<side>::CellBounder(const CornerGrid& grid, const Axes& logs, WorstBo
       inverse_(1 / static_cast<double>(grid.count)),
       rounding_(static_cast<double>((d_ + 8) * (d_ + 8)) * 0x1p-52),
       bins_(d_),
-      counted_(d_),
+      candidates_(d_),
       terms_(d_),
       least_(d_),
       weights_(d_),
@@ -185,23 +202,28 @@ void CellBounder<side>::filter(const Cell& cell, const Active& from, Active& min
 template <Side side>
 void CellBounder<side>::select(const Cell& cell, const Active& from, Active& mine) {
     kept_.resize(from.size);
-    on_face_.clear();
+    on_face_.resize(side == Side::open ? from.size : 0);
     std::size_t inside = 0;
-    mine.settled = from.settled;
-    for (std::uint32_t i = 0; i < from.size; ++i) {
-        const std::int32_t over = state_[i] % undecided_unit;
-        const std::int32_t undecided = state_[i] / undecided_unit;
-        if (side == Side::open && over == 1) on_face_.push_back(i);
-        if (over > 0) continue;
-        if (undecided == 0 && !ends_at_lo(cell, from, i)) {
-            ++mine.settled;
-            continue;
+    std::size_t on_face = 0;
+    std::uint64_t settled = 0;
+    for (std::uint32_t i = 0; i < from.size; ++i) {  // without branches: nobody could foresee them
+        const std::int32_t over = state_[i] & (undecided_unit - 1);
+        const std::int32_t undecided = state_[i] >> undecided_bits;
+        if constexpr (side == Side::open) {
+            on_face_[on_face] = i;
+            on_face += over == 1 ? 1 : 0;
         }
+        const bool sure = over == 0 && undecided == 0;
+        const bool settles = sure && !ends_at_lo(cell, from, i);
+        settled += settles ? 1 : 0;
         state_[inside] = undecided;
-        kept_[inside++] = i;
+        kept_[inside] = i;
+        inside += over == 0 && !settles ? 1 : 0;
     }
+    mine.settled = from.settled + settled;
     kept_.resize(inside);
-    kept_.insert(kept_.end(), on_face_.begin(), on_face_.end());
+    kept_.insert(kept_.end(), on_face_.begin(),
+                 on_face_.begin() + static_cast<std::ptrdiff_t>(on_face));
     mine.inside = inside;
 }
 
@@ -223,7 +245,7 @@ void CellBounder<side>::count(const Cell& cell, const Active& active) {
     if (side == Side::closed) assign(cell, active);
     for (std::size_t k = 0; k < d_; ++k) {
         fill_bins(cell, active, k);
-        fill_counted(k);
+        list_candidates(k);
         work_ += active.size + bins_[k].size();
     }
     if (side == Side::open)
@@ -270,18 +292,30 @@ void CellBounder<side>::fill_bins(const Cell& cell, const Active& active, std::s
     if (side == Side::open && cell.hi[k] + 1 == grid_.values[k].size()) bins.back() |= candidate;
 }
 
-/// c_k(y) for open boxes, which end before their point, -c_k(y) for closed ones.
+/// The candidates of an axis, with c_k(y) for open boxes, which end before their point, and -c_k(y)
+/// for closed ones. The last one fills up the eight.
 template <Side side>
-void CellBounder<side>::fill_counted(std::size_t k) {
+void CellBounder<side>::list_candidates(std::size_t k) {
     const auto bins = std::span(bins_[k]).subspan(spill);
-    auto& counted = counted_[k];
-    counted.resize(bins.size());
-    std::uint32_t points = 0;
+    auto& [found, places, counts] = candidates_[k];
+    if (places.size() < bins.size() + lanes) {
+        places.resize(bins.size() + lanes);
+        counts.resize(places.size());
+        terms_[k].resize(places.size());
+    }
+    std::size_t size = 0;
+    std::int32_t points = 0;
     for (std::size_t y = 0; y < bins.size(); ++y) {
-        const std::uint32_t before = points;
-        points += bins[y] & ~candidate;
-        const double count = side == Side::open ? before : -1.0 * points;
-        counted[y] = (bins[y] & candidate) != 0 ? count : infinity;
+        const std::int32_t before = points;
+        points += static_cast<std::int32_t>(bins[y] & ~candidate);
+        places[size] = static_cast<std::int32_t>(y);
+        counts[size] = side == Side::open ? before : -points;
+        size += bins[y] / candidate;
+    }
+    found = size;
+    for (std::size_t i = size; i % lanes != 0; ++i) {
+        places[i] = places[size - 1];
+        counts[i] = counts[size - 1];
     }
 }
 
@@ -387,25 +421,36 @@ bool CellBounder<side>::exclude(const Axes& values, const Cell& seen, Cell& cell
     const double share = static_cast<double>(inside_lo_) * inverse_;
     double bound = (side == Side::open ? base_ - share : share - base_) + margin_;
     for (std::size_t k = 0; k < d_; ++k) {
-        const std::size_t places = counted_[k].size();
+        const auto& [size, places, counts] = candidates_[k];
         const double* first = values[k].data() + seen.lo[k] - shift<side>;
-        terms_[k].resize(places);
-        least_[k] = side == Side::open
-                        ? fill_terms(first, counted_[k].data(), places, first[places - 1],
-                                     -weights_[k], inverse_, terms_[k].data())
-                        : fill_terms(first, counted_[k].data(), places, first[0], weights_[k],
-                                     inverse_, terms_[k].data());
+        const double origin = side == Side::open ? first[seen.hi[k] - seen.lo[k]] : first[0];
+        const double weight = side == Side::open ? -weights_[k] : weights_[k];
+        least_[k] = fill_terms(first, places.data(), counts.data(), size, origin, weight, inverse_,
+                               terms_[k].data());
         bound -= least_[k];
     }
     cell.bound = std::min(cell.bound, bound);
     if (!(bound >= worst_.value())) return false;
-    for (std::size_t k = 0; k < d_; ++k) {
-        const double most = least_[k] + (bound - worst_.value()) + margin_;
-        const auto out = [&](std::uint32_t y) { return !(terms_[k][y - seen.lo[k]] <= most); };
-        while (cell.lo[k] <= cell.hi[k] && out(cell.lo[k])) ++cell.lo[k];
-        while (cell.lo[k] < cell.hi[k] && out(cell.hi[k])) --cell.hi[k];
-        if (cell.lo[k] > cell.hi[k]) return false;
-    }
+    for (std::size_t k = 0; k < d_; ++k)
+        if (!cut_ends(k, least_[k] + (bound - worst_.value()) + margin_, seen, cell)) return false;
+    return true;
+}
+
+/// Takes the ends of an axis without a candidate whose term is at most this; false if none is left.
+template <Side side>
+bool CellBounder<side>::cut_ends(std::size_t k, double most, const Cell& seen, Cell& cell) {
+    const auto& [size, places, counts] = candidates_[k];
+    const auto place = [&](std::size_t i) {
+        return seen.lo[k] + static_cast<std::uint32_t>(places[i]);
+    };
+    const auto out = [&](std::size_t i) { return !(terms_[k][i] <= most); };
+    std::size_t first = 0;
+    while (first < size && (place(first) < cell.lo[k] || out(first))) ++first;
+    std::size_t last = size;
+    while (last > first && (place(last - 1) > cell.hi[k] || out(last - 1))) --last;
+    if (first == last) return false;
+    cell.lo[k] = place(first);
+    cell.hi[k] = place(last - 1);
     return true;
 }
 

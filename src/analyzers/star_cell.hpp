@@ -70,6 +70,14 @@ class CellBounder {
   private:
     using Axes = std::vector<std::vector<double>>;
 
+    /// Places of an axis, from lo on, where a box may be worst, and signed counts of the points
+    /// charged up to there; room for more than `size`.
+    struct Candidates {
+        std::size_t size = 0;
+        std::vector<std::int32_t> places;
+        std::vector<std::int32_t> counts;
+    };
+
     [[nodiscard]] double value(std::size_t k, std::uint32_t y) const;
     void filter(const Cell& cell, const Active& from, Active& mine);
     void select(const Cell& cell, const Active& from, Active& mine);
@@ -77,7 +85,7 @@ class CellBounder {
     void count(const Cell& cell, const Active& active);
     void assign(const Cell& cell, const Active& active);
     void fill_bins(const Cell& cell, const Active& active, std::size_t k);
-    void fill_counted(std::size_t k);
+    void list_candidates(std::size_t k);
     void offer(const Corner& y, std::uint64_t points);
     bool reduce(const Cell& seen, Cell& cell);
     void sort_axes(const Cell& cell);
@@ -85,6 +93,7 @@ class CellBounder {
     void weigh_by_logarithms(const Cell& cell);
     [[nodiscard]] double chord(double low, double high) const;
     bool exclude(const Axes& values, const Cell& seen, Cell& cell);
+    bool cut_ends(std::size_t k, double most, const Cell& seen, Cell& cell);
 
     const CornerGrid& grid_;
     const Axes& logs_;
@@ -99,8 +108,8 @@ class CellBounder {
     std::uint64_t inside_lo_ = 0;                   ///< points inside for all its corners
     std::uint64_t inside_hi_ = 0;                   ///< for its largest corner
     std::vector<std::vector<std::uint32_t>> bins_;  ///< see count
-    Axes counted_;                                  ///< signed counts of each place; inf: none
-    Axes terms_;                                    ///< of the bound, for each place
+    std::vector<Candidates> candidates_;            ///< of each axis
+    Axes terms_;                                    ///< of the bound, for each candidate
     std::vector<double> least_;                     ///< of the terms of each axis
     std::vector<double> weights_;                   ///< of a step on each axis
     double base_ = 0;                               ///< volume at the anchor of the bound
