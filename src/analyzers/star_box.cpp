@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "analyzers/axis_places.hpp"
+#include "core/large_pages.hpp"
 #include "core/parallel.hpp"
 
 namespace stipple::analyzers::star {
@@ -23,7 +24,8 @@ std::vector<std::uint32_t> in_no_box(const PointSet& points, Boxes boxes) {
 /// be at 1.
 void index_axis(const PointSet& points, std::size_t axis, const std::vector<std::uint32_t>& at_one,
                 CornerGrid& grid, const RunContext& run) {
-    std::vector<Placed> items(points.count());
+    std::vector<Placed> items;
+    fill_with_zeros(items, points.count());
     for (std::size_t i = 0; i < items.size(); ++i)
         items[i] = {points[i][axis] + 0.0, static_cast<std::uint32_t>(i)};  // -0 becomes 0
     for (const std::uint32_t i : at_one) items[i].value = 1;

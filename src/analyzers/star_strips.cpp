@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/large_pages.hpp"
 #include "core/wide.hpp"
 
 namespace stipple::analyzers::star {
@@ -16,17 +17,25 @@ using LooseFloats = float __attribute__((vector_size(32), aligned(4), may_alias)
 using Doubles = double __attribute__((vector_size(32)));
 using LooseDoubles = double __attribute__((vector_size(32), aligned(8), may_alias));
 
-/// Lines are kept in single precision, w z - c with |w| <= 2 B, c <= B and 0 <= z <= 1, in rows of
-/// whole vectors.
+/// Lines of a strip are kept in single precision, w z - c with |w| <= 2 B, c <= B and 0 <= z <= 1,
+/// in rows of whole vectors.
 constexpr std::size_t lanes = sizeof(Floats) / sizeof(float);
+
+/// Those of blocks, which are far too many for a cache, have 16 bits for each w and c: w is rounded
+/// up to a multiple of a step of 2 B / 65535, which makes lines higher.
+using Short = std::uint16_t;
+using Shorts = Short __attribute__((vector_size(16)));
+using LooseShorts = Short __attribute__((vector_size(16), aligned(2), may_alias));
+constexpr double most_short = 65535;
 
 std::size_t padded(std::size_t size) { return (size + lanes - 1) / lanes * lanes; }
 
 /// More than rounding takes from a chord, in points.
 constexpr double margin = 0x1p-8;
 
-/// No line: far below all.
+/// No line: far below all, and so it stays when points are added.
 constexpr float no_line = 1e30F;
+constexpr Short no_short_line = 0x8000;
 
 /// Points in a group over n^(1/3), by trial.
 constexpr double group_factor = 1;
@@ -37,6 +46,15 @@ struct Heights {
     double low;
     double high;
 };
+
+[[gnu::always_inline]] inline Heights most_of(const Floats& low, const Floats& high) {
+    float tops[2] = {low[0], high[0]};
+    for (std::size_t k = 1; k < lanes; ++k) {
+        tops[0] = std::max(tops[0], low[k]);
+        tops[1] = std::max(tops[1], high[k]);
+    }
+    return {tops[0], tops[1]};
+}
 
 /// The highest of the lines w z - c at two z.
 STIPPLE_WIDE Heights highest(const float* w, const float* c, std::size_t size, float z_low,
@@ -51,12 +69,25 @@ STIPPLE_WIDE Heights highest(const float* w, const float* c, std::size_t size, f
         low = at_low > low ? at_low : low;
         high = at_high > high ? at_high : high;
     }
-    float tops[2] = {low[0], high[0]};
-    for (std::size_t k = 1; k < lanes; ++k) {
-        tops[0] = std::max(tops[0], low[k]);
-        tops[1] = std::max(tops[1], high[k]);
+    return most_of(low, high);
+}
+
+/// The same of w step z - c.
+STIPPLE_WIDE Heights highest(const Short* w, const Short* c, std::size_t size, float z_low,
+                             float z_high) {
+    Floats low = Floats{} - no_line;
+    Floats high = low;
+    for (std::size_t i = 0; i < size; i += lanes) {
+        const Shorts weights = *reinterpret_cast<const LooseShorts*>(w + i);
+        const Shorts counts = *reinterpret_cast<const LooseShorts*>(c + i);
+        const Floats weight = __builtin_convertvector(weights, Floats);
+        const Floats points = __builtin_convertvector(counts, Floats);
+        const Floats at_low = weight * z_low - points;
+        const Floats at_high = weight * z_high - points;
+        low = at_low > low ? at_low : low;
+        high = at_high > high ? at_high : high;
     }
-    return {tops[0], tops[1]};
+    return most_of(low, high);
 }
 
 /// The highest of p y + x slope + height, whose heights then change by `add`.
@@ -81,8 +112,9 @@ STIPPLE_WIDE double pass(double* height, const double* y, const double* slope, s
     return top;
 }
 
-void add_to(float* c, std::size_t size, float by) {
-    for (std::size_t i = 0; i < size; ++i) c[i] += by;
+template <class Number>
+void add_to(Number* c, std::size_t size, Number by) {
+    for (std::size_t i = 0; i < size; ++i) c[i] = static_cast<Number>(c[i] + by);
 }
 
 /// Adds to whole vectors.
@@ -90,15 +122,21 @@ STIPPLE_WIDE void add_to_vectors(float* c, std::size_t size, float by) {
     for (std::size_t i = 0; i < size; i += lanes) *reinterpret_cast<LooseFloats*>(c + i) += by;
 }
 
+STIPPLE_WIDE void add_to_vectors(Short* c, std::size_t size, Short by) {
+    for (std::size_t i = 0; i < size; i += lanes) *reinterpret_cast<LooseShorts*>(c + i) += by;
+}
+
 /// Adds to c[from] and all behind it; `size` is one of whole vectors.
-void add_from(float* c, std::size_t from, std::size_t size, float by) {
+template <class Number>
+void add_from(Number* c, std::size_t from, std::size_t size, Number by) {
     const std::size_t whole = padded(from);
     add_to(c + from, whole - from, by);
     add_to_vectors(c + whole, size - whole, by);
 }
 
 /// Adds to all before c[to].
-void add_before(float* c, std::size_t to, float by) {
+template <class Number>
+void add_before(Number* c, std::size_t to, Number by) {
     const std::size_t whole = to / lanes * lanes;
     add_to_vectors(c, whole, by);
     add_to(c + whole, to - whole, by);
@@ -131,11 +169,13 @@ class Sweep {
           slope_(y_.size()),
           height_(y_.size()),
           raised_(y_.size()),
-          row_(y_.size() + 1) {
+          row_(y_.size() + 1),
+          step_(plane.count * plane.widest / most_short) {
         for (std::size_t u = 0; u < y_.size(); ++u)
             row_[u + 1] = row_[u] + padded(size_of(plane.blocks, u));
-        weight_.assign(row_.back(), 0);
-        points_.assign(row_.back(), no_line);
+        fill_with_zeros(weight_, row_.back());
+        fill_with_zeros(points_, row_.back());
+        std::ranges::fill(points_, no_short_line);
         for (std::size_t u = 0; u < y_.size(); ++u) fill_block(u);
         start(from, run);
     }
@@ -178,8 +218,9 @@ class Sweep {
         const std::size_t size = size_of(plane_.blocks, u);
         y_[u] = side == Side::open ? ys_[first] : ys_[first + size - 1];
         for (std::size_t j = 0; j < size; ++j) {
+            const double weight = plane_.count * std::abs(ys_[first + j] - y_[u]);
             weight_[row_[u] + j] =
-                static_cast<float>(plane_.count * std::abs(ys_[first + j] - y_[u]));
+                static_cast<Short>(std::min(most_short, std::ceil(weight / step_)));
             points_[row_[u] + j] = 0;
         }
     }
@@ -192,7 +233,7 @@ class Sweep {
             const Dot& dot = plane_.dots[i];
             ++points_in[dot.block];
             if (size_of(plane_.blocks, dot.block) > 1)
-                points_[row_[dot.block] + dot.second - plane_.blocks.first[dot.block]] += 1;
+                ++points_[row_[dot.block] + dot.second - plane_.blocks.first[dot.block]];
         }
         std::uint64_t below = 0;
         for (std::size_t u = 0; u < y_.size(); ++u) {
@@ -223,11 +264,16 @@ class Sweep {
     /// From points at places to points before (open), behind (closed) each place.
     void sum_block(std::size_t u) {
         const auto line = std::span(points_).subspan(row_[u], size_of(plane_.blocks, u));
-        float sum = 0;
+        Short sum = 0;
         for (std::size_t k = 0; k < line.size(); ++k) {
-            float& here = line[side == Side::open ? k : line.size() - 1 - k];
-            sum += std::exchange(here, sum);
+            Short& here = line[side == Side::open ? k : line.size() - 1 - k];
+            sum = static_cast<Short>(sum + std::exchange(here, sum));
         }
+    }
+
+    [[nodiscard]] Heights block_heights(std::size_t u, double low, double high) const {
+        return highest(&weight_[row_[u]], &points_[row_[u]], row_[u + 1] - row_[u],
+                       static_cast<float>(low * step_), static_cast<float>(high * step_));
     }
 
     /// The chord of a block from one strip to another; no point of the block lies in between.
@@ -235,8 +281,7 @@ class Sweep {
         constexpr double parts = 4096;  // heights stay exact multiples of 1 / parts
         const double low = strip_x(from);
         const double high = strip_x(to);
-        const Heights ends = highest(&weight_[row_[u]], &points_[row_[u]], row_[u + 1] - row_[u],
-                                     static_cast<float>(low), static_cast<float>(high));
+        const Heights ends = block_heights(u, low, high);
         const Chord over = chord(ends, low, high);
         const double raised = std::ceil(over.height * parts) / parts;
         slope_[u] = over.slope;
@@ -275,7 +320,7 @@ class Sweep {
 
     /// Asks for the lines of a block, which are seldom in a cache, some time before they are used.
     void fetch(std::size_t u) const {
-        constexpr std::size_t together = 64 / sizeof(float);  // in a line of the cache
+        constexpr std::size_t together = 64 / sizeof(Short);  // in a line of the cache
         for (std::size_t k = row_[u]; k < row_[u + 1]; k += together) {
             __builtin_prefetch(&points_[k], 1);
             __builtin_prefetch(&weight_[k]);
@@ -291,9 +336,9 @@ class Sweep {
             const std::size_t size = size_of(plane_.blocks, u);
             const std::size_t at = plane_.dots[dot].second - plane_.blocks.first[u];
             if (size > 1 && side == Side::open)
-                add_from(&points_[row_[u]], at + 1, row_[u + 1] - row_[u], 1);
+                add_from(&points_[row_[u]], at + 1, row_[u + 1] - row_[u], Short{1});
             else if (size > 1)
-                add_before(&points_[row_[u]], at, 1);
+                add_before(&points_[row_[u]], at, Short{1});
             if (i + 1 == entering_.size() || entering_[i + 1].block != u)
                 bound_block(u, strip + 1, plane_.next[dot]);
         }
@@ -333,16 +378,14 @@ class Sweep {
     /// Offers the boxes of a strip and block, given the signed number of points in their corner.
     void look_at(std::size_t u, double signed_points) {
         const auto y = static_cast<float>(y_[u]);
-        const auto x = static_cast<float>(x_);
         const double best_a = strip_heights(y, y).low;
-        const double best_j =
-            highest(&weight_[row_[u]], &points_[row_[u]], row_[u + 1] - row_[u], x, x).low;
+        const double best_j = block_heights(u, x_, x_).low;
         const double area = plane_.count * x_ * y_[u];
         const double base = signed_points + (side == Side::open ? area : -area);
         const double room = base + best_a + best_j + corner_ + margin - level();
         if (room < 0) return;
-        gather(&weight_[row_[u]], &points_[row_[u]], size_of(plane_.blocks, u), x, best_j - room,
-               of_block_);
+        gather(&weight_[row_[u]], &points_[row_[u]], size_of(plane_.blocks, u),
+               static_cast<float>(x_ * step_), best_j - room, of_block_);
         of_strip_.assign(1, {0, best_a});
         if (const std::size_t size = size_of(plane_.strips, strip_); size > 1)
             gather(strip_weight_.data(), strip_points_.data(), size, y, best_a - room, of_strip_);
@@ -356,11 +399,12 @@ class Sweep {
 
     /// The lines of at least some height at z, the highest first: once its box was offered, those
     /// of others seldom need to be compared exactly.
-    static void gather(const float* w, const float* c, std::size_t size, float z, double least,
+    template <class Number>
+    static void gather(const Number* w, const Number* c, std::size_t size, float z, double least,
                        std::vector<Line>& lines) {
         lines.clear();
         for (std::uint32_t i = 0; i < size; ++i) {
-            const double height = w[i] * z - c[i];
+            const double height = static_cast<float>(w[i]) * z - static_cast<float>(c[i]);
             if (height < least) continue;
             lines.push_back({i, height});
             if (height > lines.front().height) std::swap(lines.front(), lines.back());
@@ -396,8 +440,9 @@ class Sweep {
     std::vector<double> height_;    ///< of its chord, with the points in its corner
     std::vector<double> raised_;    ///< of its chord alone
     std::vector<std::size_t> row_;  ///< where its lines are
-    std::vector<float> weight_;     ///< of every line
-    std::vector<float> points_;     ///< of every line
+    double step_;                   ///< of weights
+    std::vector<Short> weight_;     ///< of every line
+    std::vector<Short> points_;     ///< of every line
 
     // Of the strip at hand.
     std::size_t strip_ = 0;
@@ -428,7 +473,8 @@ Groups groups_of(const std::vector<double>& values, const std::vector<std::uint3
 }
 
 std::vector<std::uint32_t> points_at(const CornerGrid& grid, std::size_t axis) {
-    std::vector<std::uint32_t> points(grid.values[axis].size());
+    std::vector<std::uint32_t> points;
+    fill_with_zeros(points, grid.values[axis].size());
     for (const auto place : grid.ranks[axis]) ++points[place];
     return points;
 }
@@ -438,13 +484,20 @@ void place_dots(const CornerGrid& grid, std::vector<std::uint32_t> points, Plane
                 const RunContext& run) {
     std::uint32_t before = 0;
     for (auto& at : points) before += std::exchange(at, before);
-    std::vector<std::uint32_t> block_of(grid.values[1].size());
+    std::vector<std::uint32_t> block_of;
+    fill_with_zeros(block_of, grid.values[1].size());
     for (std::uint32_t u = 0; u < plane.blocks.count(); ++u)
         std::fill(block_of.begin() + plane.blocks.first[u],
                   block_of.begin() + plane.blocks.first[u + 1], u);
-    plane.dots.resize(grid.count);
+    fill_with_zeros(plane.dots, grid.count);
+    constexpr std::size_t ahead = 16;
     for (std::size_t i = 0; i < grid.count; ++i) {
         if (i % checks_apart == 0) run.check_stop();
+        if (i + 2 * ahead < grid.count) {  // what they lead to is seldom in a cache
+            __builtin_prefetch(&points[grid.ranks[0][i + 2 * ahead]], 1);
+            __builtin_prefetch(&block_of[grid.ranks[1][i + ahead]]);
+            __builtin_prefetch(&plane.dots[points[grid.ranks[0][i + ahead]]], 1);
+        }
         const std::uint32_t first = grid.ranks[0][i];
         const std::uint32_t second = grid.ranks[1][i];
         plane.dots[points[first]++] = {first, second, block_of[second]};
@@ -456,7 +509,7 @@ void place_dots(const CornerGrid& grid, std::vector<std::uint32_t> points, Plane
 }
 
 void find_next(Plane& plane, const RunContext& run) {
-    plane.next.resize(plane.dots.size());
+    fill_with_zeros(plane.next, plane.dots.size());
     const auto last = static_cast<std::uint32_t>(plane.strips.count() - 1);
     std::vector<std::uint32_t> next(plane.blocks.count(), last);
     for (std::size_t s = plane.strips.count(); s-- > 0;) {

@@ -84,7 +84,7 @@ void sweep_parts(const Plane& points, std::vector<WorstBox>& worst, const Search
 }  // namespace
 
 Sweep sweep_2d(const CornerGrid& grid, const SearchLimits& limits, const RunContext& run) {
-    const double each = 24 + 12 * std::min(4.0, static_cast<double>(run.thread_count()));
+    const double each = 24 + 8 * std::min(4.0, static_cast<double>(run.thread_count()));
     run.need_memory(each * static_cast<double>(grid.count), "the sweep over the square");
     // Each part takes in what lies left of it first, and has a worst box to find of its own.
     const std::size_t parts = grid.count < 100'000 ? 1 : 2;

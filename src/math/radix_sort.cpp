@@ -6,6 +6,8 @@
 #include <bit>
 #include <utility>
 
+#include "core/large_pages.hpp"
+
 namespace stipple {
 namespace {
 
@@ -38,7 +40,8 @@ void radix_sort(std::vector<Placed>& items, const RunContext& run) {
     each(n, run, [&](std::size_t i) {
         for (unsigned d = 0; d < digits; ++d) ++counts[d][digit(items[i], d)];
     });
-    std::vector<Placed> other(n);
+    std::vector<Placed> other;
+    fill_with_zeros(other, n);
     for (unsigned d = 0; d < digits; ++d) {
         Histogram& next = counts[d];
         if (std::ranges::find(next, n) != next.end()) continue;  // all have the same digit
