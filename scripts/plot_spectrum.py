@@ -20,6 +20,7 @@ EXAMPLES = """\
 
 LOG_ABOVE = 12  # radial power; a higher peak gets a logarithmic axis
 LOG_FLOOR = 1e-4  # of that axis: what is lower, as between a grid's peaks, is rounding
+EQUAL_POWERS = -100  # dB of a ring of equal powers
 DASHES = (0, (5, 3))
 
 
@@ -144,33 +145,39 @@ def draw_power(axes, frequency, power, cells, sets, error):
     axes.legend(loc="best", handlelength=1.4, labelspacing=0.25)
 
 
+def has_directions(anisotropy):
+    """Whether some ring's powers differ: on a line they cannot, for f and -f have the same."""
+    return np.nanmax(anisotropy, initial=EQUAL_POWERS) > EQUAL_POWERS
+
+
 def draw_anisotropy(axes, frequency, anisotropy, sets):
     expected = -10 * np.log10(sets) + 0.0
     word = f"white noise: {expected:.3g} dB".replace("-", "\u2212")
     axes.axhline(expected, color=io.GREY, linestyle=DASHES, linewidth=0.9, label=word)
     axes.plot(frequency, anisotropy, color=io.COLOURS[1])
-    # A ring of equal powers has -100 dB; it must not flatten all others.
+    # It must not flatten all others.
     usual = np.nanpercentile(anisotropy, [5, 100]) if np.isfinite(anisotropy).any() else [0, 0]
     axes.set_ylim(min(expected, usual[0]) - 5, max(expected, usual[1]) + 5)
     axes.set_ylabel("anisotropy [dB]")
-    axes.set_xlabel("frequency |f| [cycles per unit length]")
     axes.legend(loc="best", handlelength=2.4)
 
 
 def draw(report, rings, grid, sets):
     plt = io.canvas()
+    frequency, power, anisotropy, cells = rings
+    panels = 2 if has_directions(anisotropy) else 1
     if grid is None:
-        figure = plt.figure(figsize=(4.8, 4.2), layout="constrained")
-        upper, lower = figure.subplots(2, 1, sharex=True)
+        figure = part = plt.figure(figsize=(4.8, 2.1 * panels), layout="constrained")
     else:
         figure = plt.figure(figsize=(7.8, 3.5), layout="constrained")
-        left, right = figure.subfigures(1, 2, width_ratios=(1, 1.05))
+        left, part = figure.subfigures(1, 2, width_ratios=(1, 1.05))
         draw_grid(plt, left, left.subplots(), *grid)
-        upper, lower = right.subplots(2, 1, sharex=True)
-    frequency, power, anisotropy, cells = rings
-    draw_power(upper, frequency, power, cells, sets, report.curve("radial.power", errors=True))
-    draw_anisotropy(lower, frequency, anisotropy, sets)
-    lower.set_xlim(0, frequency[-1] + 0.5)
+    axes = part.subplots(panels, 1, sharex=True, squeeze=False)[:, 0]
+    draw_power(axes[0], frequency, power, cells, sets, report.curve("radial.power", errors=True))
+    if panels == 2:
+        draw_anisotropy(axes[1], frequency, anisotropy, sets)
+    axes[-1].set_xlabel("frequency |f| [cycles per unit length]")
+    axes[-1].set_xlim(0, frequency[-1] + 0.5)
     return figure
 
 

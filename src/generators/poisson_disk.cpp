@@ -59,6 +59,7 @@ constexpr Param<double> radius{.name = "radius",
                                    "Instead of --count, which finds the radius"};
 constexpr Param<std::int64_t> about{.name = "n-approx",
                                     .low = 1,
+                                    .high = std::int64_t{1} << 53,
                                     .optional = true,
                                     .unit = "points",
                                     .help =

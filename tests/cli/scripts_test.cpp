@@ -164,6 +164,18 @@ TEST(PlotSpectrum, DrawsReportsFromAFileAndAPipe) {
     EXPECT_THAT(texts(box.read("c.svg")), HasSubstr("white noise: \u221210 dB\n"));
 }
 
+// f and -f have the same power, so that there is no anisotropy on a line.
+TEST(PlotSpectrum, HasOnePanelForPointsOnALine) {
+    const Sandbox box;
+    expect_quiet(run(box,
+                     "stipple generate jittered -n 64 -d 1 | stipple analyze periodogram "
+                     "--max-frequency 40 -o s.json && plot_spectrum.py s.json -o s.svg"));
+    const std::string words = texts(box.read("s.svg"));
+    EXPECT_THAT(words, HasSubstr("radial power"));
+    EXPECT_THAT(words, HasSubstr("frequency |f|"));
+    EXPECT_EQ(words.find("anisotropy"), std::string::npos);
+}
+
 TEST(PlotSpectrum, RefusesBadInputInOneLine) {
     const Sandbox box;
     const std::string make = "stipple generate random -n 50 -m 2 -o p.csv && stipple analyze ";
