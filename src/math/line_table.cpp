@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t most_pieces = std::size_t{1} << 20;
 constexpr std::size_t first_pieces = 97;  // no whole part of a period that people choose
+constexpr std::size_t scouts = std::size_t{1} << 16;  // places looked at, at least
 
 /// A piece with f at 0, 1/4, 1/2, 3/4 and 1 of it.
 struct Sampled {
@@ -76,6 +77,7 @@ class LineTabulator {
         std::vector<double> ends = {range.low};
         ends.insert(ends.end(), range.breaks.begin(), range.breaks.end());
         ends.push_back(range.high);
+        std::vector<Sampled> pieces;
         for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
             const double left = k == 0 ? ends[k] : std::nextafter(ends[k], range.high);
             const double right =
@@ -92,8 +94,43 @@ class LineTabulator {
                 piece.f[2] = value(piece.at(0.5));
                 piece.f[4] = value(i + 1 == first_pieces ? right : piece.high);
                 fill_quarters(piece);
-                add(piece);
+                pieces.push_back(piece);
             }
+        }
+        places_.resize(std::max<std::size_t>(16, scouts / pieces.size()));
+        for (const Sampled& piece : pieces) scout(piece);
+    }
+
+    /// Adds a piece after a look at many places of it; cut at all of them if f is not there what
+    /// the quarters lead to expect, for else something narrow would be missed.
+    void scout(const Sampled& piece) {
+        const std::size_t cuts = places_.size();
+        const auto part = [&](std::size_t i) {
+            return static_cast<double>(i + 1) / static_cast<double>(cuts + 1);
+        };
+        for (std::size_t i = 0; i < cuts; ++i) places_[i] = piece.at(part(i));
+        values_.resize(cuts);
+        f_(places_, values_);
+        double worst = 0;
+        for (std::size_t i = 0; i < cuts; ++i) {
+            require_density(what_, {&places_[i], 1}, values_[i]);
+            const double line = (1 - part(i)) * piece.f[0] + part(i) * piece.f[4];
+            worst = std::max(worst, std::abs(values_[i] - line));
+        }
+        constexpr double rounding = 1e-12;
+        const double expected = 2 * piece.error() / piece.width();
+        if (worst <= expected + rounding * std::ranges::max(piece.f)) return add(piece);
+        Sampled cut{piece.low, 0, {piece.f[0]}};
+        for (std::size_t i = 0; i <= cuts; ++i) {
+            cut.high = i < cuts ? places_[i] : piece.high;
+            cut.f[4] = i < cuts ? values_[i] : piece.f[4];
+            if (cut.low < cut.high) {
+                cut.f[2] = value(cut.at(0.5));
+                fill_quarters(cut);
+                add(cut);
+            }
+            cut.low = cut.high;
+            cut.f[0] = cut.f[4];
         }
     }
 
@@ -184,6 +221,8 @@ class LineTabulator {
     const RunContext& run_;
     std::vector<Sampled> pieces_;
     std::priority_queue<std::pair<double, std::size_t>> worst_;
+    std::vector<double> places_;  ///< of scouts
+    std::vector<double> values_;
     double error_ = 0;
     double mass_ = 0;
 };

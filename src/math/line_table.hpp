@@ -14,8 +14,8 @@
 // Cost    about 1 / sqrt(8 tolerance / f'') pieces; O(1) a point on average (guide table).
 // Promise a piece in which f was seen to be 0 between points holds no mass, so that no point lands
 //         beyond a jump to 0; rising in u.
-// Beware  f is looked at in 5 points of 97 pieces at least: what is narrower and not at a break may
-//         not be seen.
+// Beware  f is looked at in 2^16 places at least: what is narrower than the range over that and not
+//         at a break may not be seen.
 #pragma once
 
 #include <cstdint>

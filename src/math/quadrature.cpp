@@ -68,11 +68,11 @@ Estimate integrate_interval(const std::function<double(double)>& f, double low, 
         total.value += sign * interval.sum.value;
         total.error += sign * interval.sum.error;
     };
-    constexpr int first = 3;  // so that a feature in the middle of a side is not missed by symmetry
-    for (int i = 0; i < first; ++i) {
-        const double step = (high - low) / first;
-        intervals.push(measured(f, low + i * step, i + 1 < first ? low + (i + 1) * step : high));
-    }
+    const double step = (high - low) / static_cast<double>(effort.first);
+    const auto cut = [&](std::size_t i) {
+        return i < effort.first ? low + static_cast<double>(i) * step : high;
+    };
+    for (std::size_t i = 0; i < effort.first; ++i) intervals.push(measured(f, cut(i), cut(i + 1)));
     const auto sum = [&] {
         total = {};
         auto left = intervals;

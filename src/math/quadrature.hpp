@@ -25,6 +25,8 @@ namespace stipple {
 struct Effort {
     double tolerance = 1e-10;
     std::size_t most = 200;
+    std::size_t first = 3;  ///< intervals to begin with; odd, so that a feature in the middle of a
+                            ///< side is not missed by symmetry
 };
 
 Estimate integrate_interval(const std::function<double(double)>& f, double low, double high,

@@ -16,18 +16,25 @@ constexpr std::size_t most_patches = std::size_t{1} << 22;
 constexpr std::size_t most_in_strip = 8192;
 constexpr std::size_t first_strips = 13;
 constexpr std::size_t first_patches = 7;
+constexpr std::size_t scouts = 512;  // along each axis
 
 /// A patch with f on the lines x_low, the middle and x_high, at 0, 1/4, 1/2, 3/4 and 1 of it.
 struct SampledPatch {
     double low;
     double high;
     std::array<std::array<double, 5>, 3> f;
+    double hidden = 0;  ///< difference where f was looked at besides, if these do not show it
 
     [[nodiscard]] double at(double part) const { return low + part * (high - low); }
 
+    /// From the corners, for shares of the extents.
+    [[nodiscard]] double bilinear(double s, double t) const {
+        return (1 - s) * ((1 - t) * f[0][0] + t * f[0][4]) + s * ((1 - t) * f[2][0] + t * f[2][4]);
+    }
+
     /// Largest difference from a line along y.
     [[nodiscard]] double bend() const {
-        double worst = 0;
+        double worst = hidden;
         for (const auto& line : f)
             for (std::size_t k = 1; k < 4; ++k) {
                 const double part = 0.25 * static_cast<double>(k);
@@ -39,7 +46,7 @@ struct SampledPatch {
 
     /// Largest difference from a line along x.
     [[nodiscard]] double slope() const {
-        double worst = 0;
+        double worst = hidden;
         for (std::size_t k = 0; k < 5; ++k)
             worst = std::max(worst, std::abs(f[1][k] - 0.5 * (f[0][k] + f[2][k])));
         return worst;
@@ -82,6 +89,7 @@ class StripTabulator {
         : what_(what), f_(f), box_(box), tolerance_(tolerance), run_(run) {}
 
     std::vector<Strip> tabulate() {
+        send_scouts();
         for (std::size_t i = 0; i < first_strips; ++i) insert(made(cut(i), cut(i + 1)), i);
         while (error_ > tolerance_ * mass_) split_worst();
         std::ranges::sort(strips_, {}, &SampledStrip::low);
@@ -136,6 +144,74 @@ class StripTabulator {
             for (const std::size_t k : which) line[k] = values_[i++];
     }
 
+    /// Where a scout of an axis is.
+    [[nodiscard]] double post(std::size_t axis, std::size_t i) const {
+        const double part = (static_cast<double>(i) + 0.5) / double{scouts};
+        return box_.low[axis] + part * box_.extent(axis);
+    }
+
+    /// The first scout of an axis at a place or beyond.
+    [[nodiscard]] std::size_t first_from(std::size_t axis, double place) const {
+        const double at = (place - box_.low[axis]) / box_.extent(axis) * double{scouts} - 0.5;
+        return static_cast<std::size_t>(std::clamp(std::ceil(at), 0.0, double{scouts}));
+    }
+
+    /// Looks at f all over the box.
+    void send_scouts() {
+        for (std::size_t i = 0; i < scouts; ++i) {
+            run_.check_stop();
+            points_.clear();
+            for (std::size_t j = 0; j < scouts; ++j) {
+                points_.push_back(post(0, i));
+                points_.push_back(post(1, j));
+            }
+            look();
+            seen_.insert(seen_.end(), values_.begin(), values_.end());
+        }
+    }
+
+    /// Notes the largest difference between a patch and what else is known of f there, if its own
+    /// samples do not lead to expect it.
+    void hear(const SampledStrip& strip, SampledPatch& patch) const {
+        const double worst = std::max(from_scouts(strip, patch), from_elder(strip, patch));
+        constexpr double rounding = 1e-12;
+        const double expected = 2 * (patch.bend() + patch.slope()) + rounding * patch.top();
+        if (worst > expected) patch.hidden = worst;
+    }
+
+    /// Largest difference between the patch's table and what scouts saw.
+    [[nodiscard]] double from_scouts(const SampledStrip& strip, const SampledPatch& patch) const {
+        double worst = 0;
+        const std::size_t last_x = first_from(0, strip.high);
+        const std::size_t last_y = first_from(1, patch.high);
+        for (std::size_t i = first_from(0, strip.low); i < last_x; ++i) {
+            const double s = (post(0, i) - strip.low) / strip.width();
+            for (std::size_t j = first_from(1, patch.low); j < last_y; ++j) {
+                const double t = (post(1, j) - patch.low) / (patch.high - patch.low);
+                worst = std::max(worst, std::abs(seen_[i * scouts + j] - patch.bilinear(s, t)));
+            }
+        }
+        return worst;
+    }
+
+    /// The same for what the whole strip's samples show on the sides of its half.
+    [[nodiscard]] double from_elder(const SampledStrip& strip, const SampledPatch& patch) const {
+        if (elder_ == nullptr) return 0;
+        const std::size_t left = strip.low == elder_->low ? 0 : 1;  // line
+        const auto behind =
+            std::ranges::upper_bound(elder_->patches, patch.low, {}, &SampledPatch::high);
+        double worst = 0;
+        for (auto p = behind; p != elder_->patches.end() && p->low < patch.high; ++p)
+            for (std::size_t k = 0; k < 5; ++k) {
+                const double y = p->at(0.25 * static_cast<double>(k));
+                if (!(y >= patch.low && y <= patch.high)) continue;
+                const double t = (y - patch.low) / (patch.high - patch.low);
+                worst = std::max({worst, std::abs(p->f[left][k] - patch.bilinear(0, t)),
+                                  std::abs(p->f[left + 1][k] - patch.bilinear(1, t))});
+            }
+        return worst;
+    }
+
     SampledStrip made(double low, double high) {
         SampledStrip strip{low, high};
         for (std::size_t j = 0; j < first_patches; ++j) {
@@ -143,8 +219,9 @@ class StripTabulator {
                 const double part = static_cast<double>(i) / first_patches;
                 return i == first_patches ? box_.high[1] : box_.low[1] + part * box_.extent(1);
             };
-            SampledPatch patch{y(j), y(j + 1), {}};
+            SampledPatch patch{.low = y(j), .high = y(j + 1), .f = {}};
             sample(strip, patch, {0, 1, 2, 3, 4});
+            hear(strip, patch);
             strip.patches.push_back(patch);
         }
         refine(strip);
@@ -200,14 +277,16 @@ class StripTabulator {
         const double middle = whole.at(0.5);
         if (!(whole.low < middle && middle < whole.high)) return false;
         account(j, -1);
-        SampledPatch lower{whole.low, middle, {}};
-        SampledPatch upper{middle, whole.high, {}};
+        SampledPatch lower{.low = whole.low, .high = middle, .f = {}};
+        SampledPatch upper{.low = middle, .high = whole.high, .f = {}};
         for (std::size_t line = 0; line < 3; ++line) {
             lower.f[line] = {whole.f[line][0], 0, whole.f[line][1], 0, whole.f[line][2]};
             upper.f[line] = {whole.f[line][2], 0, whole.f[line][3], 0, whole.f[line][4]};
         }
         sample(strip, lower, {1, 3});
         sample(strip, upper, {1, 3});
+        hear(strip, lower);
+        hear(strip, upper);
         strip.patches[j] = lower;
         strip.patches.push_back(upper);
         account(j, 1);
@@ -225,8 +304,10 @@ class StripTabulator {
         error_ -= strip.error;
         mass_ -= strip.mass;
         count_ -= strip.patches.size();
+        elder_ = &strip;
         insert(made(strip.low, middle), index);
         insert(made(middle, strip.high), strips_.size());
+        elder_ = nullptr;
         if (strips_.size() % 1024 == 0) sum_anew();
     }
 
@@ -271,6 +352,8 @@ class StripTabulator {
     std::priority_queue<std::pair<double, std::size_t>> worst_;
     std::vector<double> points_;
     std::vector<double> values_;
+    std::vector<double> seen_;             ///< by scouts
+    const SampledStrip* elder_ = nullptr;  ///< whose half is made
     std::size_t count_ = 0;
     double error_ = 0;
     double mass_ = 0;

@@ -14,6 +14,8 @@
 // Cost    1 / sqrt(tolerance) strips and patches of each for a smooth f; 1 / tolerance strips of
 //         some 20 patches where f jumps along a slanting line. 56 bytes a patch. O(1) plus the
 //         logarithm of a strip's patches for a point.
+// Beware  f is looked at on a grid of 512 x 512 places at least: what is narrower than that may not
+//         be seen.
 // Promise a patch in which f was seen to be 0 inside holds no mass, so that no point lands beyond a
 //         jump to 0 that the patch was seen to hold. x rises in xi0; y in xi1 for a given x.
 #pragma once

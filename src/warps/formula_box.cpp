@@ -14,11 +14,12 @@
 namespace stipple::warps {
 namespace {
 
-// One coordinate inside the other: in three, what is affordable is less.
+// One coordinate inside the other: in three, what is affordable is less. Intervals to begin with
+// are many enough to see what is narrow.
 Effort effort_for(std::size_t dimension) {
-    if (dimension <= 1) return {1e-12, 2000};
-    if (dimension == 2) return {1e-9, 150};
-    return {1e-5, 12};
+    if (dimension <= 1) return {1e-12, 5000, 1023};
+    if (dimension == 2) return {1e-9, 150, 25};
+    return {1e-5, 12, 5};
 }
 
 Effort effort_in_cell(std::size_t dimension) {
@@ -28,7 +29,7 @@ Effort effort_in_cell(std::size_t dimension) {
 }
 
 Effort effort_for_moments(std::size_t dimension) {
-    return dimension <= 1 ? Effort{1e-10, 400} : Effort{1e-7, 40};
+    return dimension <= 1 ? Effort{1e-10, 400, 63} : Effort{1e-7, 60, 15};
 }
 
 }  // namespace

@@ -74,6 +74,20 @@ TEST(TabulateLine, StaysWithinItsTolerance) {
         }
 }
 
+// Bumps of 6/100 000 of the range, somewhere between the places that the first pieces know: their
+// mass is 2 h / (2 h + 0.001 (1 - 2 h)) of all.
+TEST(TabulateLine, SeesWhatIsNarrow) {
+    Rng rng(3);
+    for (std::uint64_t i = 0; i < 40; ++i) {
+        constexpr double half = 3e-5;
+        const double center = 0.01 + 0.98 * rng.uniform(i);
+        const LineTable table(
+            tabulated([&](double x) { return std::abs(x - center) < half ? 1 : 0.001; }));
+        const double mass = table.find(center + half) - table.find(center - half);
+        EXPECT_NEAR(mass, 2 * half / (2 * half + 0.001 * (1 - 2 * half)), 2e-6) << center;
+    }
+}
+
 TEST(TabulateLine, TakesAJumpAtABreakExactly) {
     const auto pieces = tabulated([](double x) { return x < 0.3 ? 1 : 3; }, {0, 1, {0.3}}, 1e-12);
     EXPECT_EQ(pieces.size(), 2 * 97U);

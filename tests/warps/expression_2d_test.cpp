@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "study/chain.hpp"
@@ -105,6 +106,33 @@ TEST(Expression2d, ToleranceIsKept) {
         const auto map = mapping("expression-2d:density=[x+y<1?1:0],tolerance=" + tolerance);
         EXPECT_NEAR(moments_of(*map, 300).x, 1 / 3.0, std::stod(tolerance));
     }
+}
+
+// Small disks and a narrow bell between the places that the first patches know. Of a disk's area a,
+// a / (a + 0.001 (1 - a)) is its share of the mass, which is looked at by 160 000 points of a grid.
+TEST(Expression2d, SeesWhatIsNarrow) {
+    for (const auto& [x, y, r] : {std::array{0.31, 0.7, 0.02}, std::array{0.883, 0.117, 0.004}}) {
+        const auto map = mapping(fmt::format(
+            "expression-2d:density=[(x-{0})^2+(y-{1})^2<{2}^2?1:0.001],tolerance=0.001", x, y, r));
+        constexpr std::size_t n = 400;
+        std::size_t inside = 0;
+        for (std::size_t i = 0; i < n * n; ++i) {
+            std::array<double, 2> at{};
+            map->forward(std::array{(static_cast<double>(i % n) + 0.5) / n,
+                                    (static_cast<double>(i / n) + 0.5) / n},
+                         at, {});
+            inside += std::hypot(at[0] - x, at[1] - y) < r ? 1U : 0U;
+        }
+        const double area = M_PI * r * r;
+        const double whole = area + 0.001 * (1 - area);
+        EXPECT_NEAR(static_cast<double>(inside) / (n * n), area / whole, 0.002) << x << " " << r;
+        EXPECT_NEAR(map->density(std::array{x, y}), 1 / whole, 1e-3 / whole);
+    }
+    const auto bell = mapping("expression-2d:density=[exp(-1e6*((x-0.3)^2+(y-0.7)^2))]");
+    const PlaneMoments m = moments_of(*bell, 300);
+    EXPECT_NEAR(m.x, 0.3, 2e-6);
+    EXPECT_NEAR(m.yy, 0.5e-6, 1e-8);
+    EXPECT_NEAR(bell->density(std::array{0.3, 0.7}), 1e6 / M_PI, 10);
 }
 
 TEST(Expression2d, ProbabilitiesOfCellsAreIntegrals) {

@@ -48,6 +48,15 @@ TEST(Rejection, PointsFollowTheFormula) {
     EXPECT_NEAR(map->domain()->probability({{0, 0}, {0.5, 0.5}}).value, 1 / 8.0, 1e-9);
 }
 
+TEST(Rejection, DensityOfWhatIsNarrowIsOverItsIntegral) {
+    const double area = M_PI * 1e-4;
+    const auto disk =
+        mapping("rejection:density=[(x-0.31)^2+(y-0.7)^2<1e-4?1:0.001],bounds=[0..1,0..1]");
+    EXPECT_NEAR(disk->density(std::vector{0.31, 0.7}), 1 / (area + 0.001 * (1 - area)), 0.05);
+    const auto bump = mapping("rejection:density=[abs(x-0.31)<1e-4?1:0.001],bounds=0..1");
+    EXPECT_NEAR(bump->density(std::vector{0.31}), 1 / (2e-4 + 0.001 * (1 - 2e-4)), 1e-3);
+}
+
 TEST(Rejection, NamesThePlaceWhereTheBoundIsBroken) {
     const auto map = mapping("rejection:density=x+y,bound=1");
     std::vector<double> image(2);
