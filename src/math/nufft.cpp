@@ -52,7 +52,7 @@ bool keeps_digits(const KaiserBessel& window, std::size_t dimension, double allo
 double rounding_floor(std::size_t count) {
     const auto n = static_cast<double>(count);
     // Measured below 7e-14 a point up to n = 10^6; beyond, the sums of ever more buffers of a tile.
-    return (1e-13 + n * 0x1p-62) * std::sqrt(n);
+    return (1.5e-13 + n * 0x1p-62) * std::sqrt(n);
 }
 
 Nufft::Nufft(std::uint64_t count, std::size_t dimension, std::size_t max_frequency,

@@ -15,10 +15,10 @@
 //         points come.
 // Promise |error| <= max(tolerance, floor) sqrt(n) at every f, for every set: the window's error is
 //         held below tolerance / sqrt(n) for each point, so that not even points in phase exceed
-//         it. floor = rounding_floor(n), about 1e-13 sqrt(n), is what float64 may leave when all n
-//         points are in phase; where they are not, smaller tolerances hold as well. With strengths
-//         sqrt(sum s_j^2) stands for sqrt(n).
-//         The same bits for any number of threads, and however the points are portioned.
+//         it. floor = rounding_floor(n), about 1.5e-13 sqrt(n), is what float64 may leave when all
+//         n points are in phase; where they are not, smaller tolerances hold as well. With
+//         strengths sqrt(sum s_j^2) stands for sqrt(n). The same bits for any number of threads,
+//         and however the points are portioned.
 // Source  A. Dutt, V. Rokhlin, SIAM J. Sci. Comput. 14 (1993) 1368-1393, doi:10.1137/0914081;
 //         A. H. Barnett, J. Magland, L. af Klinteberg, SIAM J. Sci. Comput. 41 (2019) C479-C504,
 //         doi:10.1137/18M120885X.
