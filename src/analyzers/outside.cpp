@@ -25,6 +25,8 @@ std::string outside_hint(const Domain& domain) {
     std::string hint = "--domain names what the points live on";
     if (domain.spec() == "unit-cube")
         hint += "; --rescale or --bounds lo..hi moves them into the cube";
+    if (domain.cube_dimension() < domain.dimension())
+        hint += "; float32 and few digits take points off a surface: write them as float64";
     return hint;
 }
 

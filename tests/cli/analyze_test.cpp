@@ -127,6 +127,16 @@ TEST(Analyze, ChecksAndExpectationsSetTheExitCode) {
     EXPECT_THAT(two.err, HasSubstr("stipple: h.csv: the star discrepancy is not exact"));
 }
 
+TEST(Analyze, SaysWhatTakesPointsOffASurface) {
+    const Sandbox box;
+    const Outcome outcome = box.shell(
+        "stipple generate random -n 100 -w sphere -f bin --dtype f32 | stipple analyze chi-square "
+        "-d 3 --from bin --dtype f32 --domain sphere");
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("points are outside the domain sphere"));
+    EXPECT_THAT(outcome.err, HasSubstr("float32 and few digits take points off a surface"));
+}
+
 TEST(Analyze, LimitsNameTheFile) {
     const Sandbox box;
     box.write("deep.csv", box.run({"generate", "random", "-n", "300", "-d", "9"}).out);
