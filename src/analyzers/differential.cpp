@@ -308,7 +308,8 @@ Analyzer differential() {
                         {"radial.density", "mean over the ring; independent points have 1"},
                         {"radial.anisotropy_db",
                          "variance over the ring / squared mean, in dB, at least -100; independent "
-                         "points have -10 log10(expected_differences x sets averaged)"},
+                         "points have -10 log10(expected_differences x sets averaged); of averaged "
+                         "sets that of their mean image, without a standard error"},
                         {"radial.cells", "pixels in the ring"},
                         {"mean_distance", "sqrt(V / n), in units of the points"},
                         {"metric", "torus or euclidean", true, "torus|euclidean"}},

@@ -607,35 +607,39 @@ void follow(const Report& first, Values& options) {
 }
 
 std::vector<ResultKey> results() {
-    return {{"max_frequency", "F: frequencies go from -F to F"},
-            {"regular_nyquist", "n^(1/d) / 2, the Nyquist frequency of a regular grid"},
-            {"tolerance",
-             "Bound of the error of the complex sums, relative to sqrt(n); no less than what "
-             "rounding leaves where all points are in phase"},
-            {"radial.frequency", "Frequency k of each ring, k - 1/2 <= |f| < k + 1/2"},
-            {"radial.power", "Mean power over the ring; white noise has 1"},
-            {"radial.anisotropy_db", "Variance over the ring / squared mean, in dB, at least -100"},
-            {"radial.cells", "Frequency vectors in the ring"},
-            {"expected_anisotropy_db",
-             "Anisotropy of white noise: 0, less 10 log10 of the number of sets averaged"},
-            {"effective_nyquist",
-             "Half the largest radius, at most F, within which the mean power is at most 0.1"},
-            {"relative_nyquist", "The same over regular_nyquist, as published tables give it"},
-            {"oscillation",
-             "10 x root mean square of radial power - 1, from where it first reaches 0.98 over "
-             "n^(1/d) x 5 frequencies, or up to F"},
-            {"oscillation_complete",
-             "Whether F is large enough for all of these: only then it compares with published "
-             "ones",
-             true, true_or_false},
-            {"total_variation",
-             "Half the mean of |radial power - 1| over the rings, weighted by their cells: 0 for "
-             "white noise; depends on F"},
-            {"low_frequency_exponent",
-             "a in power ~ frequency^a near 0, where the lowest rings have power"},
-            {"method", "nufft or direct", true, "nufft|direct"},
-            {"window", "none or hann", true, "none|hann"},
-            {"boundary", "torus, or faded out by the window", true, "torus|faded out"}};
+    return {
+        {"max_frequency", "F: frequencies go from -F to F"},
+        {"regular_nyquist", "n^(1/d) / 2, the Nyquist frequency of a regular grid"},
+        {"tolerance",
+         "Bound of the error of the complex sums, relative to sqrt(n); no less than what "
+         "rounding leaves where all points are in phase"},
+        {"radial.frequency", "Frequency k of each ring, k - 1/2 <= |f| < k + 1/2"},
+        {"radial.power", "Mean power over the ring; white noise has 1"},
+        {"radial.anisotropy_db",
+         "Variance over the ring / squared mean, in dB, at least -100; of averaged sets that of "
+         "their mean power, without a standard error"},
+        {"radial.cells", "Frequency vectors in the ring"},
+        {"expected_anisotropy_db",
+         "Anisotropy of white noise: 0, less 10 log10 of the number of sets averaged"},
+        {"effective_nyquist",
+         "Half the largest radius, at most F, within which the mean power is at most 0.1; of "
+         "averaged sets that of their mean power, without a standard error"},
+        {"relative_nyquist", "The same over regular_nyquist, as published tables give it"},
+        {"oscillation",
+         "10 x root mean square of radial power - 1, from where it first reaches 0.98 over "
+         "n^(1/d) x 5 frequencies, or up to F"},
+        {"oscillation_complete",
+         "Whether F is large enough for all of these: only then it compares with published "
+         "ones",
+         true, true_or_false},
+        {"total_variation",
+         "Half the mean of |radial power - 1| over the rings, weighted by their cells: 0 for "
+         "white noise; depends on F"},
+        {"low_frequency_exponent",
+         "a in power ~ frequency^a near 0, where the lowest rings have power"},
+        {"method", "nufft or direct", true, "nufft|direct"},
+        {"window", "none or hann", true, "none|hann"},
+        {"boundary", "torus, or faded out by the window", true, "torus|faded out"}};
 }
 
 }  // namespace

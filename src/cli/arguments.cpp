@@ -326,7 +326,9 @@ const std::vector<CommonOption>& common_options() {
          analyze | plot | report},
         {"--rescale", "", "", "map the bounding box of the points to the unit cube before",
          analyze},
-        {"--average", "", "", "one result: the mean over all sets, with standard errors", analyze},
+        {"--average", "", "",
+         "one result: the mean over all sets, with standard errors of what scatters as means do",
+         analyze},
         {"--check", "[KEY<VALUE]", "",
          "exit with 1 unless it holds; also <= > >= == !=; of several numbers one: mean[0]; alone: "
          "valid==true",

@@ -117,11 +117,22 @@ Report without_words(const Report& report) {
     return out;
 }
 
-/// What is not a measured value of each set: the value it should have, and what stands for the
-/// spread or the chance of several.
+/// What is not a measured value of each set (the value it should have, and what stands for the
+/// spread or the chance of several), and what an analyzer works out anew from the mean and what
+/// scatters otherwise than a mean does: decibels as much for many sets as for one, and the place
+/// where a threshold is met as the curve's slope has it.
 bool is_no_mean(std::string_view name) {
-    constexpr std::array names = {"exact",   "standard_error", "combined_p_value",
-                                  "p_value", "p_upper",        "p_lower"};
+    constexpr std::array names = {"exact",
+                                  "standard_error",
+                                  "exponent_standard_error",
+                                  "combined_p_value",
+                                  "p_value",
+                                  "p_upper",
+                                  "p_lower",
+                                  "anisotropy_db",
+                                  "expected_anisotropy_db",
+                                  "effective_nyquist",
+                                  "relative_nyquist"};
     return std::ranges::find(names, name) != names.end();
 }
 

@@ -38,7 +38,8 @@ class ReportAverage {
 Report numbers_only(const Report& report);
 
 /// The standard errors of what `mean` has: an analyzer may take out of it what has no mean; nor
-/// have exact values, chances and errors one.
+/// have exact values, chances and errors one, nor what follows from the mean and scatters in its
+/// own way, such as an anisotropy.
 Report only_of(const Report& mean, const Report& errors);
 
 }  // namespace stipple

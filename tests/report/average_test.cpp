@@ -4,8 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+
+#include "core/spec.hpp"
+#include "support/units.hpp"
 
 using namespace stipple;
+using namespace stipple::testing;
 
 namespace {
 
@@ -16,6 +21,53 @@ Report sample(double x, std::int64_t n, const char* word) {
     report.add("value", x).add("count", n).add("word", word).add("exact", true).add("inner", inner);
     report.add("grid", Grid{1, 2, {x, -x}});
     return report;
+}
+
+/// The numbers under a key, one or many.
+Report::Curve numbers_at(const Report& report, const std::string& key) {
+    const Report::Item& item = *report.find(key);
+    if (const auto* curve = std::get_if<Report::Curve>(&item)) return *curve;
+    return {report.number(key)};
+}
+
+/// Variances, summed over the numbers of a key.
+struct Scatter {
+    double found = 0;   ///< of the means of many groups of sets
+    double stated = 0;  ///< mean of the squares of the standard errors that these state
+};
+
+/// What groups of random sets state for each key that has a standard error.
+std::map<std::string, Scatter> scatter_of(const char* words, const char* generator) {
+    constexpr std::size_t groups = 60;
+    constexpr std::size_t sets = 8;
+    const Spec spec = parse_spec(words);
+    const Analyzer& unit = find_analyzer(spec.name);
+    const Values options = spec.values(unit.options);
+    std::map<std::string, std::vector<Report::Curve>> values;
+    std::map<std::string, Scatter> found;
+    for (std::size_t group = 0; group < groups; ++group) {
+        ReportAverage average;
+        for (std::size_t set = 0; set < sets; ++set)
+            average.add(analyze(unit,
+                                make(generator, points(64, 2), {}, {.seed = group * sets + set}),
+                                options, {}));
+        Report mean = average.mean();
+        unit.refine(mean, sets, options);
+        const Report errors = only_of(mean, average.standard_error());
+        for (const std::string& key : errors.keys()) {
+            values[key].push_back(numbers_at(mean, key));
+            for (const double error : numbers_at(errors, key))
+                found[key].stated += error * error / groups;
+        }
+    }
+    for (const auto& [key, all] : values)
+        for (std::size_t i = 0; i < all[0].size(); ++i) {
+            ReportAverage average;
+            for (const auto& curve : all) average.add(Report().add("value", curve[i]));
+            const double error = average.standard_error().number("value");
+            found[key].found += error * error * groups;
+        }
+    return found;
 }
 
 }  // namespace
@@ -74,10 +126,24 @@ TEST(ReportAverage, WhatIsNoMeanHasNoStandardError) {
     for (const double x : {1.0, 2.0}) {
         Report report;
         report.add("estimate", x).add("p_value", x).add("combined_p_value", x);
+        report.add("exponent_standard_error", x);
         report.add("exact", Report().add("mean", 1.0));
         report.add("one", Report().add("exact", 1.0).add("standard_error", x).add("error", x));
         average.add(report);
     }
     EXPECT_EQ(only_of(average.mean(), average.standard_error()).keys(),
               (std::vector<std::string>{"estimate", "one.error"}));
+}
+
+// A standard deviation of 60 values has an error of 9 %.
+TEST(ReportAverage, StandardErrorsAreThoseOfTheValuesBesideThem) {
+    for (const char* analyzer : {"periodogram:max-frequency=16", "differential:pixels=63"})
+        for (const char* generator : {"best-candidate", "n-rooks"})
+            for (const auto& [key, scatter] : scatter_of(analyzer, generator)) {
+                constexpr double rounding = 1e-20;
+                const double ratio =
+                    std::sqrt((scatter.found + rounding) / (scatter.stated + rounding));
+                EXPECT_GT(ratio, 0.7) << analyzer << ' ' << generator << ' ' << key;
+                EXPECT_LT(ratio, 1.4) << analyzer << ' ' << generator << ' ' << key;
+            }
 }
