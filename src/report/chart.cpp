@@ -34,6 +34,25 @@ struct Span {
     }
 };
 
+bool marked(const std::vector<ChartPanel>& panels) {
+    return std::ranges::any_of(panels, [](const ChartPanel& panel) {
+        return std::ranges::any_of(panel.series, &Series::marks);
+    });
+}
+
+/// Room for what would lie on the ends, a share of the axis at each.
+void widen(Axis& axis, double share, bool keep_low = false) {
+    if (axis.log) {
+        const double more = std::pow(axis.high / axis.low, share);
+        axis.low /= more;
+        axis.high *= more;
+        return;
+    }
+    const double more = share * (axis.high - axis.low);
+    if (!keep_low) axis.low -= more;
+    axis.high += more;
+}
+
 Axis x_axis(const std::vector<ChartPanel>& panels, const PictureStyle& style) {
     const ChartPanel& last = panels.back();
     Span span{.log = style.log_x.value_or(last.log_x)};
@@ -42,13 +61,18 @@ Axis x_axis(const std::vector<ChartPanel>& panels, const PictureStyle& style) {
         for (const Bars& bars : panel.bars) span.take(bars.edges);
         span.take(panel.rug);
     }
+    Axis axis{.low = span.low,
+              .high = span.high,
+              .log = span.log,
+              .whole = last.whole_x,
+              .name = last.x_name};
     // What begins next to zero begins there.
     const bool near_zero = !span.log && span.low > 0 && span.low < 0.04 * span.high;
-    return {.low = near_zero ? 0 : span.low,
-            .high = span.high,
-            .log = span.log,
-            .whole = last.whole_x,
-            .name = last.x_name};
+    if (near_zero) axis.low = 0;
+    constexpr double share = 0.02;  // more than a mark takes
+    if (marked(panels) && span.low < span.high)
+        widen(axis, share, near_zero && span.low > share * span.high);
+    return axis;
 }
 
 /// Whether the y axis is logarithmic: as asked, but where there are numbers below 0, as of
@@ -84,13 +108,9 @@ Axis y_axis(const ChartPanel& panel, const PictureStyle& style) {
     axis.mend();
     if (axis.log) {
         axis.low = std::max(axis.low, panel.least_y > 0 ? panel.least_y : 0);
-        const double more = std::pow(axis.high / axis.low, 0.05);
-        axis.low /= more;
-        axis.high *= more;
+        widen(axis, 0.05);
     } else {
-        const double more = 0.06 * (axis.high - axis.low);
-        if (!(panel.from_zero && axis.low == 0)) axis.low -= more;
-        axis.high += more;
+        widen(axis, 0.06, panel.from_zero && axis.low == 0);
     }
     return axis;
 }

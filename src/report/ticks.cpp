@@ -42,28 +42,47 @@ Step next(Step step) {
     return {1, step.exponent + 1};
 }
 
+Step previous(Step step) {
+    if (step.digit == 5) return {2, step.exponent};
+    if (step.digit == 2) return {1, step.exponent};
+    return {5, step.exponent - 1};
+}
+
 /// Multiples of the step in [low, high], counted in steps.
 std::pair<double, double> multiples(double low, double high, double step) {
     constexpr double slack = 1e-9;
     return {std::ceil(low / step - slack), std::floor(high / step + slack)};
 }
 
+/// Which of some whole numbers are told.
+struct Numbered {
+    double from;
+    double stride;
+    [[nodiscard]] bool operator()(double k) const { return std::fmod(k - from, stride) == 0; }
+};
+
+/// At most `most` of first..last, but two where there are: multiples of a stride, if they do.
+Numbered spread(double first, double last, std::size_t most) {
+    const double stride = std::floor((last - first) / static_cast<double>(most)) + 1;
+    const double from = std::ceil(first / stride) * stride;
+    return {from + stride <= last ? from : first, stride};
+}
+
 /// Decades, or every second, third, ... of them, so that at most `most` have numbers.
 void add_decades(double low, double high, std::size_t most, Ticks& ticks) {
     const int first = static_cast<int>(std::ceil(std::log10(low) - 1e-9));
     const int last = static_cast<int>(std::floor(std::log10(high) + 1e-9));
-    int stride = 1;
-    while (static_cast<std::size_t>((last - first) / stride + 1) > most) ++stride;
+    if (first >= last) return;
+    const Numbered numbered = spread(first, last, most);
     const bool plain = first >= -3 && last <= 4;
     for (int k = first; k <= last; ++k) {
-        const bool numbered = (k % stride + stride) % stride == 0;
-        if (!numbered)
+        if (!numbered(k))
             ticks.minor.push_back(ten_to(k));
         else
             ticks.numbers.push_back(
                 {ten_to(k), plain ? printed(ten_to(k), std::max(0, -k)) : power_of_ten(k)});
     }
-    if (stride > 1) return;
+    if (numbered.stride > 1) return;
     for (int k = first - 1; k <= last; ++k)
         for (int digit = 2; digit < 10; ++digit) {
             const double value = digit * ten_to(k);
@@ -117,13 +136,20 @@ std::string power_of_ten(int exponent) {
 }
 
 Ticks linear_ticks(double low, double high, std::size_t most, bool whole) {
-    Step step = step_at_least((high - low) / static_cast<double>(std::max<std::size_t>(most, 2)));
+    most = std::max<std::size_t>(most, 2);
+    Step step = step_at_least((high - low) / static_cast<double>(most));
     if (whole && step.exponent < 0) step = {1, 0};
     auto [first, last] = multiples(low, high, step.value());
     while (last - first + 1 > static_cast<double>(most)) {
         step = next(step);
         std::tie(first, last) = multiples(low, high, step.value());
     }
+    // One number tells nothing: some of those of the finer step.
+    if (first >= last && !(whole && step.value() <= 1)) {
+        step = previous(step);
+        std::tie(first, last) = multiples(low, high, step.value());
+    }
+    const Numbered numbered = spread(first, last, most);
     Ticks ticks;
     const double largest = std::max(std::abs(low), std::abs(high));
     if (largest >= 1e5 || largest < 1e-2)
@@ -131,7 +157,8 @@ Ticks linear_ticks(double low, double high, std::size_t most, bool whole) {
     const int digits = std::max(0, ticks.exponent - step.exponent);
     for (double k = first; k <= last; ++k) {
         const double value = k * step.value();
-        ticks.numbers.push_back({value, printed(value / ten_to(ticks.exponent), digits)});
+        if (numbered(k))
+            ticks.numbers.push_back({value, printed(value / ten_to(ticks.exponent), digits)});
     }
     return ticks;
 }

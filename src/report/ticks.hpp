@@ -20,7 +20,8 @@ struct Ticks {
     int exponent = 0;                ///< numbers are to be taken times 10 to this
 };
 
-/// At most `most` (2 or more) numbers in [low, high], low < high; whole: of whole numbers only.
+/// At most `most` (2 or more) numbers in [low, high], low < high, and at least two; whole: of whole
+/// numbers only, be it one.
 Ticks linear_ticks(double low, double high, std::size_t most, bool whole = false);
 
 /// The same on a logarithmic axis, 0 < low < high.

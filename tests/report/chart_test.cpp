@@ -411,3 +411,22 @@ TEST(SpectrumPicture, IsGreyByShareWithTheLastRowOnTop) {
     power = {.rows = 2, .columns = 2, .values = {1, 1, 1, 1}};
     EXPECT_THROW(draw_spectrum(power, "t", "", {}), Error);
 }
+// A mark at an end of the axis is seen whole; so it is on a linear one.
+TEST(ReportCharts, MarksAtTheEndsAreWithinTheFrame) {
+    const std::vector<Measurement> ms = {number(0.3, 100), number(0.2, 1024), number(0.1, 2000)};
+    for (const bool log : {false, true}) {
+        PictureStyle style;
+        style.log_x = log;
+        const Chart chart = chart_of(ms);
+        ASSERT_TRUE(chart.panels.at(0).series.at(0).marks);
+        const Drawing drawing = draw_chart(chart, style);
+        const auto disks = shapes_of<Disks>(drawing);
+        const auto windows = shapes_of<Window>(drawing);
+        ASSERT_FALSE(disks.empty());
+        const Area& frame = windows.at(0)->area;
+        for (const Spot& spot : disks[0]->centres) {
+            EXPECT_GE(spot.x - disks[0]->radius, frame.left) << log;
+            EXPECT_LE(spot.x + disks[0]->radius, frame.right()) << log;
+        }
+    }
+}

@@ -225,6 +225,32 @@ TEST(Ticks, OfALogarithmicAxisArePowersOfTen) {
     EXPECT_GE(log_ticks(5.1, 5.9, 8).numbers.size(), 2U);
 }
 
+// No step of 1, 2 or 5 has from two to so many numbers in these ranges.
+TEST(Ticks, AreTwoAtLeast) {
+    EXPECT_THAT(texts(linear_ticks(-4.5, 4.1, 4)), ElementsAre("−4", "0", "4"));
+    EXPECT_THAT(texts(linear_ticks(1.5, 6.5, 2)), ElementsAre("2", "6"));
+    EXPECT_THAT(texts(linear_ticks(-4.9, 0.1, 2)), ElementsAre("−4", "0"));
+    EXPECT_THAT(texts(log_ticks(0.9e-5, 1.1e-3, 2)), ElementsAre("10⁻⁵", "10⁻³"));
+    EXPECT_THAT(texts(linear_ticks(0.5, 1.5, 9, true)), ElementsAre("1"));
+}
+
+TEST(Ticks, AreTwoToSoManyInAnyRangeAndWithinIt) {
+    for (double high = 1; high < 1000; high *= 1.013)
+        for (const double below : {-30.0, -1.0, -0.93, -0.11, 0.0, 0.003, 0.31, 0.9})
+            for (std::size_t most = 2; most <= 11; ++most)
+                for (const bool log : {false, true}) {
+                    const double low = below * high;
+                    if (log && low <= 0) continue;
+                    const Ticks ticks =
+                        log ? log_ticks(low, high, most) : linear_ticks(low, high, most);
+                    const auto& all = ticks.numbers;
+                    ASSERT_GE(all.size(), 2U) << low << " to " << high << ", " << most;
+                    ASSERT_LE(all.size(), most) << low << " to " << high;
+                    ASSERT_GE(all.front().value, low - 1e-8 * high);
+                    ASSERT_LE(all.back().value, high * (1 + 1e-8));
+                }
+}
+
 // Whatever the range and the room, numbers side by side keep their distance.
 TEST(Ticks, NeverOverlap) {
     for (const double high : {1e-9, 0.0123, 1.0, 7.3, 99.9, 12345.6, 9.99e9})
@@ -233,7 +259,7 @@ TEST(Ticks, NeverOverlap) {
                 const Axis axis{.low = log ? high / 3e4 : -high, .high = high, .log = log};
                 double end = -1e9;
                 const Ticks ticks = axis.ticks(length, false);
-                EXPECT_GE(ticks.numbers.size(), 1U);
+                EXPECT_GE(ticks.numbers.size(), 2U);
                 if (ticks.numbers.size() <= 2) continue;
                 for (const Tick& tick : ticks.numbers) {
                     const double half = text_width(tick.text, number_size) / 2;
