@@ -226,10 +226,22 @@ class Plot {
         if (table) return spectrum();
         check_dimensions();
         if (chart_ == "distances") return distances();
+        if (chart_ != "histogram") refuse_scales("points");
         const PointsPicture picture = points_picture();
         if (chart_ == "histogram") return drawn(histogram_chart(picture));
         if (medium_ == Medium::text) return points_as_text(picture, room_);
         return finished(draw_points(picture, style_, session_.run()));
+    }
+
+    /// @throws Error(usage) for a logarithmic axis of what lies where it is
+    void refuse_scales(const char* what) const {
+        for (const auto& [name, log] :
+             {std::pair{"x-scale", style_.log_x}, {"y-scale", style_.log_y}})
+            if (log.value_or(false))
+                fail_with_hint(ErrorKind::usage,
+                               "--chart histogram, distances, radial and pair-correlation have "
+                               "axes that can be",
+                               "--{}: a picture of {} has no logarithmic axes", name, what);
     }
 
     std::string drawn(const Chart& chart) {
@@ -270,6 +282,7 @@ class Plot {
         const std::string title =
             arguments_.get("title").value_or(title_of_points(sets_[0].points, sets_[0].source));
         if (table.dimension == 1) return drawn(power_chart(table.values, title));
+        refuse_scales("a table");
         const std::string plane = table.dimension == 3 ? "plane fz = 0" : "";
         return drawn_table(table.values, title, plane,
                            table.differences ? names_of(std::nullopt) : TableNames());
@@ -277,6 +290,7 @@ class Plot {
 
     std::string spectrum() {
         const bool differences = chart_ == "differential";
+        refuse_scales(differences ? "differences" : "a spectrum");
         const Report found = analyzed_table();
         const std::string what = differences ? "Pair differences" : "Power spectrum";
         const std::string title = arguments_.get("title").value_or(

@@ -175,6 +175,24 @@ TEST(Plot, DarkIsDark) {
     EXPECT_THAT(good(box.shell(points + "dark")), HasSubstr("fill=\"#16181c\""));
 }
 
+TEST(Plot, RefusesLogarithmicAxesOfWhatHasNone) {
+    const Sandbox box;
+    good(box.shell("stipple generate random -n 100 -o p.csv"));
+    good(box.shell("stipple analyze periodogram p.csv --max-frequency 4 --grid g.npy"));
+    for (const std::string axis : {"--x-scale", "--y-scale"}) {
+        for (const std::string chart : {"points", "density", "spectrum", "differential"})
+            for (const std::string format : {"svg", "text"})
+                expect_refusal(
+                    box.run({"plot", "p.csv", "--chart", chart, "-f", format, axis, "log"}), 2,
+                    axis + ": a picture of");
+        expect_refusal(box.run({"plot", "p.csv", axis, "log"}), 2, axis + ": a picture of points");
+        expect_refusal(box.run({"plot", "g.npy", axis, "log"}), 2, axis + ": a picture of a table");
+        for (const std::string chart : {"histogram", "distances", "radial", "pair-correlation"})
+            good(box.run({"plot", "p.csv", "--chart", chart, axis, "log"}));
+        good(box.run({"plot", "p.csv", axis, "linear"}));
+    }
+}
+
 TEST(Plot, RefusesWhatIsNoPictureAndLeavesNoFile) {
     const Sandbox box;
     good(box.shell("stipple generate random -n 100 -o p.csv"));
