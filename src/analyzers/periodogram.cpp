@@ -16,8 +16,9 @@
 //
 //     radial power       P_k = mean of P over the ring k - 1/2 <= |f| < k + 1/2,  k = 1..F
 //     anisotropy         variance of P over the ring (mean squared deviation) / P_k^2, in dB;
-//                        no less than -100 dB, which is what a ring of equal powers gets. White
-//                        noise has 0 dB, a mean of R sets -10 log10 R
+//                        no less than -100 dB, which is what a ring of equal powers gets, and one
+//                        without power beyond the tolerance. White noise has 0 dB, a mean of R
+//                        sets -10 log10 R
 //     effective Nyquist  R / 2, where R is the largest radius, at most F, of a disk |f| < R that
 //                        has a mean power of at most 1/10; between the rims of rings the mean is
 //                        interpolated. 0 if no disk has
@@ -168,12 +169,14 @@ void summarize(Report& report, const Grid& power, std::size_t sets, const Values
     const Rings rings = rings_of(power, run);
     const double regular = report.number("regular_nyquist");
     const double unit = options[normalize] ? 2 * regular : 1;
+    const double error = report.number("tolerance");
+    const double least = error * error;  // what is lower may be rounding only
     const char* unit_name = options[normalize] ? "cycles a mean distance" : "cycles a unit length";
     Report::Curve frequency;
     Report::Curve anisotropy;
     for (std::size_t i = 0; i < rings.power.size(); ++i) {
         frequency.push_back(static_cast<double>(i + 1) / unit);
-        anisotropy.push_back(anisotropy_db(rings.variance[i], rings.power[i]));
+        anisotropy.push_back(anisotropy_db(rings.variance[i], rings.power[i], least));
     }
     Report radial;
     radial.add("frequency", std::move(frequency), unit_name);
@@ -190,10 +193,9 @@ void summarize(Report& report, const Grid& power, std::size_t sets, const Values
     report.add("oscillation", swings.value);
     report.add("oscillation_complete", swings.complete);
     report.add("total_variation", total_variation(rings));
-    const double asked = report.number("tolerance");
     std::erase_if(report.entries(),
                   [](const auto& e) { return e.name == "low_frequency_exponent"; });
-    if (const auto slope = low_frequency_exponent(rings, regular, asked * asked))
+    if (const auto slope = low_frequency_exponent(rings, regular, least))
         report.add("low_frequency_exponent", *slope);
 }
 
@@ -607,39 +609,40 @@ void follow(const Report& first, Values& options) {
 }
 
 std::vector<ResultKey> results() {
-    return {
-        {"max_frequency", "F: frequencies go from -F to F"},
-        {"regular_nyquist", "n^(1/d) / 2, the Nyquist frequency of a regular grid"},
-        {"tolerance",
-         "Bound of the error of the complex sums, relative to sqrt(n); no less than what "
-         "rounding leaves where all points are in phase"},
-        {"radial.frequency", "Frequency k of each ring, k - 1/2 <= |f| < k + 1/2"},
-        {"radial.power", "Mean power over the ring; white noise has 1"},
-        {"radial.anisotropy_db",
-         "Variance over the ring / squared mean, in dB, at least -100; of averaged sets that of "
-         "their mean power, without a standard error"},
-        {"radial.cells", "Frequency vectors in the ring"},
-        {"expected_anisotropy_db",
-         "Anisotropy of white noise: 0, less 10 log10 of the number of sets averaged"},
-        {"effective_nyquist",
-         "Half the largest radius, at most F, within which the mean power is at most 0.1; of "
-         "averaged sets that of their mean power, without a standard error"},
-        {"relative_nyquist", "The same over regular_nyquist, as published tables give it"},
-        {"oscillation",
-         "10 x root mean square of radial power - 1, from where it first reaches 0.98 over "
-         "n^(1/d) x 5 frequencies, or up to F"},
-        {"oscillation_complete",
-         "Whether F is large enough for all of these: only then it compares with published "
-         "ones",
-         true, true_or_false},
-        {"total_variation",
-         "Half the mean of |radial power - 1| over the rings, weighted by their cells: 0 for "
-         "white noise; depends on F"},
-        {"low_frequency_exponent",
-         "a in power ~ frequency^a near 0, where the lowest rings have power"},
-        {"method", "nufft or direct", true, "nufft|direct"},
-        {"window", "none or hann", true, "none|hann"},
-        {"boundary", "torus, or faded out by the window", true, "torus|faded out"}};
+    return {{"max_frequency", "F: frequencies go from -F to F"},
+            {"regular_nyquist", "n^(1/d) / 2, the Nyquist frequency of a regular grid"},
+            {"tolerance",
+             "Bound of the error of the complex sums, relative to sqrt(n); no less than what "
+             "rounding leaves where all points are in phase"},
+            {"radial.frequency", "Frequency k of each ring, k - 1/2 <= |f| < k + 1/2"},
+            {"radial.power", "Mean power over the ring; white noise has 1"},
+            {"radial.anisotropy_db",
+             "Variance over the ring / squared mean, in dB, at least -100, as rings of equal "
+             "powers and "
+             "such below tolerance^2 have; of averaged sets that of their mean power, without a "
+             "standard error"},
+            {"radial.cells", "Frequency vectors in the ring"},
+            {"expected_anisotropy_db",
+             "Anisotropy of white noise: 0, less 10 log10 of the number of sets averaged"},
+            {"effective_nyquist",
+             "Half the largest radius, at most F, within which the mean power is at most 0.1; of "
+             "averaged sets that of their mean power, without a standard error"},
+            {"relative_nyquist", "The same over regular_nyquist, as published tables give it"},
+            {"oscillation",
+             "10 x root mean square of radial power - 1, from where it first reaches 0.98 over "
+             "n^(1/d) x 5 frequencies, or up to F"},
+            {"oscillation_complete",
+             "Whether F is large enough for all of these: only then it compares with published "
+             "ones",
+             true, true_or_false},
+            {"total_variation",
+             "Half the mean of |radial power - 1| over the rings, weighted by their cells: 0 for "
+             "white noise; depends on F"},
+            {"low_frequency_exponent",
+             "a in power ~ frequency^a near 0, where the lowest rings have power"},
+            {"method", "nufft or direct", true, "nufft|direct"},
+            {"window", "none or hann", true, "none|hann"},
+            {"boundary", "torus, or faded out by the window", true, "torus|faded out"}};
 }
 
 }  // namespace

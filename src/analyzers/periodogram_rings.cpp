@@ -57,9 +57,10 @@ Rings rings_of(const Grid& power, const RunContext& run) {
     return rings;
 }
 
-double anisotropy_db(double variance, double mean) {
+double anisotropy_db(double variance, double mean, double least) {
+    if (!(mean > least)) return lowest_db;
     const double ratio = variance / (mean * mean);
-    return ratio > 1e-10 ? 10 * std::log10(ratio) : lowest_db;  // also where mean is 0: 0 / 0
+    return ratio > 1e-10 ? 10 * std::log10(ratio) : lowest_db;
 }
 
 double effective_nyquist(const Rings& rings) {

@@ -23,8 +23,8 @@ struct Rings {
 /// @param power at the frequencies -F..F of each axis, one row for each (f_2, f_1).
 Rings rings_of(const Grid& power, const RunContext& run);
 
-/// In dB, no less than -100.
-double anisotropy_db(double variance, double mean);
+/// Of a ring in dB, no less than -100; that, too, where its power is no more than `least`.
+double anisotropy_db(double variance, double mean, double least);
 
 double effective_nyquist(const Rings& rings);
 

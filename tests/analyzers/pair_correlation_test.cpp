@@ -276,6 +276,6 @@ TEST(PairCorrelation, WarnsOfPointsThatAreAllEqual) {
     };
     const PointSet equal = points_of({{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.5}});
     EXPECT_EQ(warnings(equal),
-              std::vector<std::string>{"all 3 points are equal: no pair has a distance"});
+              std::vector<std::string>{"all 3 points are equal: all distances are 0"});
     EXPECT_TRUE(warnings(points_of({{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.25}})).empty());
 }

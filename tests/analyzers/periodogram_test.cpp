@@ -472,6 +472,23 @@ TEST(Periodogram, LowFrequencyExponentOfJitterIsTwoAndOfNoiseZero) {
     EXPECT_EQ(spectrum(corner_grid(32)).find("low_frequency_exponent"), nullptr);
 }
 
+// All power of a lattice of 16 x 16 points is at (16, 0), (16, 16) and the like: of it the ring of
+// 16 has 256 at 4 places of c, a variance of 256^2 (4/c - 16/c^2) by a squared mean of
+// (1024/c)^2. What rounding leaves elsewhere has no anisotropy, neither of one set nor of a mean.
+TEST(Periodogram, RingsWithoutPowerHaveNoAnisotropy) {
+    for (const char* method : {"nufft", "direct"}) {
+        const Report lattice =
+            spectrum(corner_grid(16), {{"max-frequency", "16"}, {"method", method}});
+        for (const Report& report : {lattice, mean_of({lattice, lattice})}) {
+            const auto& anisotropy = report.curve("radial.anisotropy_db");
+            for (std::size_t i = 0; i < 15; ++i) EXPECT_EQ(anisotropy[i], -100) << method << i + 1;
+            const auto& cells = std::get<Report::Integers>(*lattice.find("radial.cells"));
+            const auto c = static_cast<double>(cells[15]);
+            EXPECT_NEAR(anisotropy[15], 10 * std::log10(c / 4 - 1), 1e-6) << method;
+        }
+    }
+}
+
 TEST(Periodogram, NormalizedFrequenciesAreCyclesAMeanDistance) {
     const PointSet set = make("jittered", points(400, 2));
     const Report plain = spectrum(set);
