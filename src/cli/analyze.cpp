@@ -447,7 +447,7 @@ class Analysis {
             fail(ErrorKind::usage, "--average: the sets have points of {} and of {} coordinates",
                  measurements_[0].dimension, m.dimension);
         average_.add(m.results);
-        if (average_.count() == 1 && analyzer_.follow) analyzer_.follow(m.results, options_);
+        if (average_.count() == 1) follow(m.results);
         if (analyzer_.combine) singles_.push_back(numbers_only(m.results));
         if (average_.count() == 1) {
             measurements_.push_back(std::move(m));
@@ -461,6 +461,23 @@ class Analysis {
         }
     }
 
+    /// Fixes what the first set decides for all.
+    void follow(const Report& first) {
+        if (!analyzer_.follow) return;
+        const Values asked = options_;
+        analyzer_.follow(first, options_);
+        for (const auto& item : options_.items())
+            if (item != asked.find(item.name))
+                followed_.push_back(fmt::format("--{} {}", item.name, format_value(item.value)));
+    }
+
+    void warn_of_sizes() const {
+        std::string text = "the sets that were averaged differ in their number of points";
+        if (!followed_.empty())
+            text += fmt::format("; all are measured with {}, as the first", join(followed_, " "));
+        session_.warn(text);
+    }
+
     void finish_average() {
         Measurement& m = measurements_[0];
         m.set.reset();
@@ -469,8 +486,7 @@ class Analysis {
         if (analyzer_.refine) analyzer_.refine(m.results, average_.count(), options_);
         if (analyzer_.combine) analyzer_.combine(m.results, singles_, options_);
         if (average_.count() > 1) m.standard_error = only_of(m.results, average_.standard_error());
-        if (m.largest_count > 0)
-            session_.warn("the sets that were averaged differ in their number of points");
+        if (m.largest_count > 0) warn_of_sizes();
         save_grid(m.results, 0, false);
     }
 
@@ -570,7 +586,8 @@ class Analysis {
     std::vector<Measurement> measurements_;
     std::vector<std::string> unmet_;
     ReportAverage average_;
-    std::vector<Report> singles_;  ///< what was averaged, where it is needed
+    std::vector<std::string> followed_;  ///< options that the first of averaged sets decided
+    std::vector<Report> singles_;        ///< what was averaged, where it is needed
     SetBatch batch_;
 };
 

@@ -78,7 +78,12 @@ TEST(Spectrum, SetsOfDifferentSizesHaveAMeanWhichIsSaid) {
     box.write("b.csv", box.run({"generate", "random", "-n", "100"}).out);
     const Outcome mean = box.run({"analyze", "periodogram", "a.csv", "b.csv", "--average"});
     EXPECT_EQ(report_of(mean)["results"]["max_frequency"], 40);
-    EXPECT_THAT(mean.err, HasSubstr("differ in their number of points"));
+    EXPECT_THAT(mean.err, HasSubstr("differ in their number of points; all are measured with "
+                                    "--max-frequency 40, as the first\n"));
+    EXPECT_THAT(
+        box.run({"analyze", "periodogram", "a.csv", "b.csv", "--average", "--max-frequency", "8"})
+            .err,
+        HasSubstr("differ in their number of points\n"));
 }
 
 // More text than is read at once: the sets come one after the other, whole.
