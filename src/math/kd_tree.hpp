@@ -20,12 +20,13 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/run_context.hpp"
@@ -161,20 +162,29 @@ void KdTree::walk(const double* place, const Enter& enter, const Visit& visit) c
         }
         return sum;
     };
-    std::array<std::size_t, 66> stack;
-    std::size_t size = 0;
-    stack[size++] = 1;
-    while (size > 0) {
-        const std::size_t node = stack[--size];
-        if (!enter(box_of(node))) continue;
-        if (node >= leaves_) {
-            const auto [first, last] = range_of(node);
-            for (std::size_t i = first; i < last; ++i) visit(indices_[i], row(i));
-            continue;
+    // Down to the nearer half each time, then on from the nearest of all that wait: of boxes that
+    // have the place on their rims, all at distance 0, the first may lead far away.
+    constexpr std::size_t usual = 64;
+    std::vector<std::pair<double, std::size_t>> waiting;
+    waiting.reserve(usual);
+    waiting.emplace_back(0, 1);
+    while (!waiting.empty()) {
+        std::ranges::pop_heap(waiting, std::greater());
+        std::size_t node = waiting.back().second;
+        waiting.pop_back();
+        while (enter(box_of(node))) {
+            if (node >= leaves_) {
+                const auto [first, last] = range_of(node);
+                for (std::size_t i = first; i < last; ++i) visit(indices_[i], row(i));
+                break;
+            }
+            const double left = gap(2 * node);
+            const double right = gap(2 * node + 1);
+            const std::size_t farther = 2 * node + (left <= right ? 1 : 0);
+            waiting.emplace_back(std::max(left, right), farther);
+            std::ranges::push_heap(waiting, std::greater());
+            node = farther ^ 1;
         }
-        const bool left_first = gap(2 * node) <= gap(2 * node + 1);
-        stack[size++] = 2 * node + (left_first ? 1 : 0);
-        stack[size++] = 2 * node + (left_first ? 0 : 1);
     }
 }
 

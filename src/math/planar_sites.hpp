@@ -8,7 +8,8 @@
 //
 // Shape    1 <= n < 2^32 points of a rectangle of positive sides; those beyond count with its rim.
 // Cost     O(n), O(m log m) for m points crowded into one cell of the grid; 60 bytes a point. Cells
-//          by the tree O(log n) each, 4 us for 10^5; 50 bytes a point for the tree, on the torus
+//          by the tree O(log n) each, 4 us for 10^5, but O(k) for k points of one circle with none
+//          inside, of which each has to be looked at; 50 bytes a point for the tree, on the torus
 //          450.
 // Promise  which places there are, and their order, does not depend on the points' order.
 #pragma once
