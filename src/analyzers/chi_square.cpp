@@ -8,8 +8,8 @@
 //
 //     p_upper = P(chi2 >= X^2),  p_lower = P(chi2 <= X^2),  p = min(1, 2 min(p_upper, p_lower))
 //
-// (p_lower not below the chance of the most even counts that there are, which chi-square takes for
-// 0: three points in each of three cells are nothing rare.)
+// (p_lower with what whole counts add to it where groups are few, see pearson.hpp: five points in
+// each of three cells are nothing rare.)
 //
 // p < level with the upper tail the smaller one: non-uniform, the counts differ too much from what
 // is expected. With the lower tail: stratified, they differ less than those of random points do.
@@ -28,7 +28,8 @@
 //
 // Several sets: sum, the sum of their statistics has the sum of their degrees of freedom; sidak,
 // 1 - (1 - p)^R of the smallest p; fisher, -2 sum ln p is chi-square with 2 R degrees of freedom;
-// each for the upper and the lower tails by themselves.
+// each for the upper and the lower tails by themselves. The sum's lower tail is not below the
+// product of those of the sets.
 //
 // Probabilities that are known within errors only leave the statistic in a range (pearson.hpp).
 // Where both ends of it would not give the same verdict, there is none: the analyzer fails.
@@ -144,10 +145,11 @@ struct Judged {
     Tails greatest;
 };
 
-Judged judge(double statistic, double doubt, double freedom) {
-    return {.found = chi_square_tails(statistic, freedom),
-            .least = chi_square_tails(std::max(statistic - doubt, 0.0), freedom),
-            .greatest = chi_square_tails(statistic + doubt, freedom)};
+template <class F>
+Judged judge(double statistic, double doubt, const F& tails) {
+    return {.found = tails(statistic),
+            .least = tails(std::max(statistic - doubt, 0.0)),
+            .greatest = tails(statistic + doubt)};
 }
 
 double together(const Tails& plain, const Tails* second) {
@@ -192,10 +194,7 @@ void conclude(Report& report, const Judged& plain, const std::optional<Judged>& 
 Judged judge(const Fit& fit) {
     const Tails never{.upper = 0, .lower = 1};
     if (fit.impossible > 0) return {never, never, never};
-    Judged judged = judge(fit.statistic, fit.doubt, fit.freedom());
-    for (Tails* tails : {&judged.found, &judged.least, &judged.greatest})
-        tails->lower = std::max(tails->lower, fit.most_even);
-    return judged;
+    return judge(fit.statistic, fit.doubt, [&](double x) { return count_tails(x, fit); });
 }
 
 Report shifted_report(const Fit& fit) {
@@ -335,30 +334,29 @@ class Counter final : public SharedAccumulator {
     std::mutex adding_;
 };
 
-/// Of several sets: the sum of their statistics has the sum of their degrees of freedom.
-Judged judge_sum(const Report& mean, double sets) {
-    const Tails never{.upper = 0, .lower = 1};
-    if (mean.number("impossible_points") > 0) return {never, never, never};
-    return judge(sets * mean.number("statistic"), sets * mean.number("statistic_error"),
-                 sets * mean.number("degrees_of_freedom"));
-}
-
 void refine(Report& mean, std::size_t sets, const Values& options) {
     const auto m = static_cast<double>(sets);
     const double freedom = mean.number("degrees_of_freedom");
-    std::optional<Judged> second;
-    if (auto* item = mean.find("shifted")) {
-        auto& other = std::get<Report>(*item);
-        second = judge_sum(other, m);
-        other.add("p_value", second->found.two_sided())
-            .add("p_upper", second->found.upper)
-            .add("p_lower", second->found.lower);
-    }
-    conclude(mean, judge_sum(mean, m), second, options);
     const double shrink = detectable_noncentrality(m * freedom, options[level_option]) / m /
                           detectable_noncentrality(freedom, options[level_option]);
     mean.add("smallest_detectable_effect",
              mean.number("smallest_detectable_effect") * std::sqrt(shrink));
+}
+
+/// Of several sets: the sum of their statistics has the sum of their degrees of freedom.
+Judged summed(const Report& mean, std::span<const Report> sets, const std::string& prefix) {
+    const Tails never{.upper = 0, .lower = 1};
+    if (mean.number(prefix + "impossible_points") > 0) return {never, never, never};
+    const auto m = static_cast<double>(sets.size());
+    double evenest = 1;
+    for (const Report& set : sets) evenest *= set.number(prefix + "p_lower");
+    const double freedom = m * mean.number(prefix + "degrees_of_freedom");
+    return judge(m * mean.number(prefix + "statistic"), m * mean.number(prefix + "statistic_error"),
+                 [&](double x) {
+                     Tails tails = chi_square_tails(x, freedom);
+                     tails.lower = std::max(tails.lower, evenest);
+                     return tails;
+                 });
 }
 
 /// What a set's own report says of it.
@@ -366,8 +364,14 @@ Judged judged_set(const Report& set, const std::string& prefix) {
     const Tails found{set.number(prefix + "p_upper"), set.number(prefix + "p_lower")};
     const double doubt = set.number(prefix + "statistic_error");
     if (doubt == 0 || set.number(prefix + "impossible_points") > 0) return {found, found, found};
-    Judged judged =
-        judge(set.number(prefix + "statistic"), doubt, set.number(prefix + "degrees_of_freedom"));
+    const double freedom = set.number(prefix + "degrees_of_freedom");
+    const double statistic = set.number(prefix + "statistic");
+    const double counts = found.lower - chi_square_tails(statistic, freedom).lower;
+    Judged judged = judge(statistic, doubt, [&](double x) {
+        Tails tails = chi_square_tails(x, freedom);
+        tails.lower += counts;
+        return tails;
+    });
     judged.found = found;
     return judged;
 }
@@ -385,17 +389,19 @@ Judged combined(std::span<const Report> sets, const std::string& prefix, const s
 
 void combine(Report& mean, std::span<const Report> sets, const Values& options) {
     const std::string how = options[combination];
-    if (how == "sum") return;
+    const auto together = [&](const std::string& prefix) {
+        return how == "sum" ? summed(mean, sets, prefix) : combined(sets, prefix, how);
+    };
     std::optional<Judged> second;
     if (auto* item = mean.find("shifted")) {
-        second = combined(sets, "shifted.", how);
+        second = together("shifted.");
         std::get<Report>(*item)
             .add("p_value", second->found.two_sided())
             .add("p_upper", second->found.upper)
             .add("p_lower", second->found.lower);
     }
     mean.forget_unmet();
-    conclude(mean, combined(sets, "", how), second, options);
+    conclude(mean, together(""), second, options);
 }
 
 std::vector<ResultKey> results() {
@@ -404,7 +410,7 @@ std::vector<ResultKey> results() {
         {"degrees_of_freedom", "groups of cells less 1"},
         {"p_value", "two-sided: twice the smaller of p_upper and p_lower, at most 1"},
         {"p_upper", "chance that random points have as large a statistic"},
-        {"p_lower", "chance that random points have as small a statistic"},
+        {"p_lower", "chance that random points have as small a statistic; their counts are whole"},
         {"verdict", "uniform; non-uniform: counts differ too much; stratified: too little", true,
          uniformity_verdicts},
         {"cells", "cells laid out"},

@@ -44,6 +44,35 @@ double most_even_chance(std::uint64_t n, std::uint64_t groups) {
     return std::min(1.0, std::exp(ways + counts - static_cast<double>(n) * std::log(k)));
 }
 
+/// ln(n! / (n^n e^-n)) by Stirling's series, to 1e-8 from n = 5 on.
+double log_excess(double n) {
+    constexpr double two_pi = 6.28318530717958647693;
+    const double square = n * n;
+    return 0.5 * std::log(two_pi * n) + (1.0 / 12 - (1.0 / 360 - 1 / (1260 * square)) / square) / n;
+}
+
+/// q_1, q_2, ... of groups that expect this, the least first: all, or those above 1e-30.
+class Likeliest {
+  public:
+    explicit Likeliest(std::uint64_t n) : whole_(static_cast<double>(n)), rest_(whole_) {}
+
+    /// Not for the last group, whose count is what the others leave.
+    void add(double expected) {
+        if (!found_.empty() && found_.back() < 1e-30) return;
+        rest_ -= expected;
+        log_ -= log_excess(expected);
+        found_.push_back(std::exp(log_excess(whole_) + log_ - log_excess(rest_)));
+    }
+
+    std::vector<double> take() { return std::move(found_); }
+
+  private:
+    double whole_;
+    double rest_;  ///< expected in groups to come
+    double log_ = 0;
+    std::vector<double> found_;
+};
+
 /// Cells that points can be in, the least probable first; counts the points that are in others.
 std::vector<std::uint64_t> possible_cells(std::span<const std::uint64_t> counts,
                                           std::span<const Estimate> masses, Fit& found) {
@@ -117,6 +146,7 @@ Fit fit_equal(std::span<const std::uint64_t> counts, std::uint64_t n, const RunC
     const std::uint64_t total = counts.size();
     const std::uint64_t size = group_size(n, total);
     Fit found{.groups = total / size, .pooled = size > 1 ? total : 0};
+    Likeliest likeliest(n);
     for (std::uint64_t g = 0; g < found.groups; ++g) {
         if (g % 65536 == 0) run.check_stop();
         const std::uint64_t first = g * size;
@@ -130,7 +160,9 @@ Fit fit_equal(std::span<const std::uint64_t> counts, std::uint64_t n, const RunC
                                 (static_cast<double>(last - first) / static_cast<double>(total));
         const double off = scaled / static_cast<double>(total);
         found.statistic += off * off / expected;
+        if (g + 1 < found.groups) likeliest.add(expected);
     }
+    found.likeliest = likeliest.take();
     if (total % size == 0) found.most_even = most_even_chance(n, found.groups);
     return found;
 }
@@ -150,11 +182,14 @@ Fit fit_masses(std::span<const std::uint64_t> counts, std::span<const Estimate> 
     run.check_stop();
     const auto groups = pool(cells, n);
     found.groups = groups.size();
+    Likeliest likeliest(n);
     for (const Group& group : groups) {
         const double off = static_cast<double>(group.observed) - group.expected;
         found.statistic += off * off / group.expected;
         if (group.cells > 1) found.pooled += group.cells;
+        if (&group != &groups.back()) likeliest.add(group.expected);
     }
+    found.likeliest = likeliest.take();
     found.doubt = doubt_of(found.statistic, groups);
     return found;
 }
@@ -165,6 +200,20 @@ Tails chi_square_tails(double statistic, double freedom) {
     if (std::isinf(statistic)) return {.upper = 0, .lower = 1};
     return {.upper = boost::math::gamma_q(freedom / 2, statistic / 2, Quiet()),
             .lower = boost::math::gamma_p(freedom / 2, statistic / 2, Quiet())};
+}
+
+Tails count_tails(double statistic, const Fit& fit) {
+    Tails tails = chi_square_tails(statistic, fit.freedom());
+    const auto all = static_cast<std::size_t>(fit.groups - 1);
+    double mixed = 0;
+    for (std::size_t s = 1; s <= fit.likeliest.size(); ++s) {
+        const auto others = static_cast<double>(all - s);
+        mixed += fit.likeliest[s - 1] * (s < all ? chi_square_tails(statistic, others).lower : 1);
+    }
+    const double whole = fit.likeliest.size() == all ? fit.likeliest.back() : 0;
+    tails.lower =
+        std::min(1.0, std::max({tails.lower + tails.upper * whole, mixed, fit.most_even}));
+    return tails;
 }
 
 double sidak(double p, double tests) { return p < 1 ? -std::expm1(tests * std::log1p(-p)) : 1; }

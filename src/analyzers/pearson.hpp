@@ -16,6 +16,19 @@
 //
 //     (X - D)^2 / (1 + r)  <=  right statistic  <=  (X + D)^2 / (1 - r),    r = max d_i / E_i
 //
+// Counts are whole, so that few groups leave few values to X^2, and a value as small as any has a
+// chance that chi-square, being continuous, takes for next to nothing. Let q_s be the chance of the
+// likeliest counts in the s groups that expect the least, and F_f the chi-square distribution
+// function (F_0 = 1). Taking these s groups as they are and the others as a continuum gives
+// q_s F_(f-s), and a ball holds about as many lattice points as its volume and those of its
+// sections make together, so that
+//
+//     lower tail = max(F_f + q_f (1 - F_f), sum_{s=1..f} q_s F_(f-s)),    f = degrees of freedom,
+//
+// not below the chance of the most even counts there are, where that is known. With two groups a
+// small tail is exact (in the normal limit); with more, random counts have a tail of at most P with
+// a chance of at most 2 P. Terms beyond F_f vanish as groups and expectations grow.
+//
 // Promise equal cells: (K (O - E))^2 is worked out in whole numbers.
 #pragma once
 
@@ -31,11 +44,12 @@ namespace stipple::analyzers {
 struct Fit {
     double statistic = 0;
     std::uint64_t groups = 0;
-    std::uint64_t pooled = 0;      ///< cells that were put together with others
-    std::uint64_t impossible = 0;  ///< points in cells of probability 0
-    double mass_error = 0;         ///< sum over the cells' probabilities
-    double doubt = 0;              ///< most by which it may be off the right statistic
-    double most_even = 0;          ///< chance of the least statistic there is; 0: not known
+    std::uint64_t pooled = 0;            ///< cells that were put together with others
+    std::uint64_t impossible = 0;        ///< points in cells of probability 0
+    double mass_error = 0;               ///< sum over the cells' probabilities
+    double doubt = 0;                    ///< most by which it may be off the right statistic
+    double most_even = 0;                ///< chance of the least statistic there is; 0: not known
+    std::vector<double> likeliest = {};  ///< q_1, q_2, ... as far as they matter
 
     [[nodiscard]] double freedom() const { return static_cast<double>(groups - 1); }
 };
@@ -57,6 +71,9 @@ struct Tails {
 
 /// Of chi-square with these degrees of freedom.
 Tails chi_square_tails(double statistic, double freedom);
+
+/// The same with what whole counts make of the lower tail, for a statistic on the groups of `fit`.
+Tails count_tails(double statistic, const Fit& fit);
 
 /// One of several independent tests: the least of their p-values, 1 - (1 - p)^T; each tail by
 /// itself.

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <map>
 #include <stop_token>
 
+#include "study/chain.hpp"
 #include "support/steps.hpp"
 #include "support/warping.hpp"
 
@@ -104,7 +107,10 @@ TEST(ChiSquare, HaltonValuesAndTinyTails) {
 TEST(ChiSquare, JitterOnItsOwnStrataIsZero) {
     const Report report = analyze("chi-square", jittered(10, 1), {{"cells", "10x5"}});
     EXPECT_EQ(report.number("statistic"), 0);
-    EXPECT_EQ(report.number("p_lower"), 0);
+    // Fifteen groups of 6 points and one of 10 have these counts with a chance of
+    const double chance = std::exp(std::lgamma(101) - 15 * std::lgamma(7) - std::lgamma(11) +
+                                   90 * std::log(0.06) + 10 * std::log(0.1));
+    EXPECT_NEAR(report.number("p_lower"), chance, 1e-7 * chance);
     EXPECT_EQ(report.number("p_upper"), 1);
     EXPECT_EQ(report.text("verdict"), "stratified");
     EXPECT_EQ(report.number("pooled_cells"), 50) << "2 points each";
@@ -119,7 +125,9 @@ TEST(ChiSquare, TwoCellsByHand) {
     EXPECT_DOUBLE_EQ(report.number("statistic"), 3.2);
     EXPECT_EQ(report.number("degrees_of_freedom"), 1);
     EXPECT_NEAR(report.number("p_upper"), std::erfc(std::sqrt(1.6)), 1e-15);
-    EXPECT_NEAR(report.number("p_lower"), std::erf(std::sqrt(1.6)), 1e-15);
+    const double middle = 184756.0 / (1 << 20);  // C(20, 10) / 2^20: chance of 10 and 10
+    EXPECT_NEAR(report.number("p_lower"),
+                std::erf(std::sqrt(1.6)) + middle * std::erfc(std::sqrt(1.6)), 1e-9);
     EXPECT_NEAR(report.number("p_value"), 2 * std::erfc(std::sqrt(1.6)), 1e-15);
     EXPECT_EQ(report.text("verdict"), "uniform");
 }
@@ -341,6 +349,9 @@ TEST(ChiSquare, ManySetsAreJudgedTogether) {
         .add("statistic_error", 0.0)
         .add("impossible_points", 0.0);
     unit.refine(mean, 10, unit.options.defaults());
+    Report set;
+    set.add("p_lower", 0.9);
+    unit.combine(mean, std::vector<Report>(10, set), unit.options.defaults());
     EXPECT_NEAR(mean.number("p_upper"), 5.924540335484e-6, 1e-15);  // 300 at 200 degrees
     EXPECT_EQ(mean.text("verdict"), "non-uniform");
     EXPECT_LT(mean.number("smallest_detectable_effect"), 0.1);
@@ -459,7 +470,7 @@ TEST(ChiSquare, OnePointWhereNoneCanBeIsEnough) {
     const Analyzer& unit = find_analyzer("chi-square");
     Report mean = fine;
     mean.add("impossible_points", 0.01);
-    unit.refine(mean, 100, unit.options.defaults());
+    unit.combine(mean, std::vector<Report>(100, fine), unit.options.defaults());
     EXPECT_EQ(mean.text("verdict"), "non-uniform");
 }
 
@@ -509,7 +520,8 @@ TEST(ChiSquare, AVerdictThatErrorsOfMassesCouldTurnIsRefused) {
     const Report even = judged({50, 50}, 1e-6);
     EXPECT_EQ(even.number("mass_error"), 2e-6);
     EXPECT_NEAR(even.number("statistic_error"), 400e-12, 1e-14);
-    EXPECT_EQ(even.text("verdict"), "stratified");
+    EXPECT_NEAR(even.number("p_lower"), 0.0795892374, 1e-10) << "C(100, 50) / 2^100";
+    EXPECT_EQ(even.text("verdict"), "uniform");
     const Report odd = judged({60, 40}, 1e-3);  // X = 2, D = 0.02, r = 0.002
     EXPECT_NEAR(odd.number("statistic_error"), 2.02 * 2.02 / 0.998 - 4, 1e-12);
     EXPECT_EQ(odd.text("verdict"), "uniform");
@@ -566,6 +578,90 @@ TEST(ChiSquare, EvenCountsInFewCellsAreNotRare) {
     EXPECT_LE(alarms, 10);
 }
 
+namespace {
+
+/// So many points at each outcome of a discrete law.
+PointSet outcomes(const DomainPtr& law, const std::vector<std::uint64_t>& counts) {
+    std::vector<double> flat;
+    for (std::size_t i = 0; i < counts.size(); ++i)
+        flat.insert(flat.end(), counts[i], static_cast<double>(i));
+    return on(law, PointSet(std::move(flat), 1));
+}
+
+/// The chance of these counts.
+double multinomial(const std::vector<double>& p, const std::vector<std::uint64_t>& counts) {
+    double n = 0;
+    double log = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const auto c = static_cast<double>(counts[i]);
+        n += c;
+        log += c * std::log(p[i]) - std::lgamma(c + 1);
+    }
+    return std::exp(log + std::lgamma(n + 1));
+}
+
+/// Oracle: the chance that n independent outcomes are called stratified, all counts up to `reach`
+/// from what is expected looked at, of which the last outcome takes what is left.
+double false_strata(const std::vector<double>& p, std::uint64_t n, double level, int reach) {
+    std::vector<std::string> words;
+    for (const double x : p) words.push_back(fmt::format("{}", x));
+    const DomainPtr law = parse_domain(
+        fmt::format("discrete:probabilities=[{}],normalize=true", fmt::join(words, " ")), 1);
+    double chance = 0;
+    std::vector<std::uint64_t> counts(p.size());
+    const auto look = [&](const auto& again, std::size_t i, std::uint64_t left) -> void {
+        if (i + 1 == p.size()) {
+            counts[i] = left;
+            if (verdict(outcomes(law, counts), {{"level", fmt::format("{}", level)}}) ==
+                "stratified")
+                chance += multinomial(p, counts);
+            return;
+        }
+        const auto middle = static_cast<int>(std::floor(static_cast<double>(n) * p[i]));
+        for (int c = std::max(middle - reach, 0); c <= middle + reach + 1; ++c) {
+            counts[i] = static_cast<std::uint64_t>(c);
+            if (counts[i] <= left) again(again, i + 1, left - counts[i]);
+        }
+    };
+    look(look, 0, n);
+    return chance;
+}
+
+}  // namespace
+
+// Counts are whole: a statistic of 0 has a chance, which is large where groups are few.
+TEST(ChiSquare, RandomOutcomesAreNotCalledStratified) {
+    for (const auto& [p, n, reach] :
+         {std::tuple<std::vector<double>, std::uint64_t, int>{{0.999, 0.001}, 5000, 8},
+          {{0.001, 0.999}, 5500, 8},
+          {{0.5, 0.5}, 20, 8},
+          {{0.5, 0.5}, 1024, 40},
+          {{0.3, 0.7}, 1030, 40},
+          {{1. / 3, 1. / 3, 1. / 3}, 60, 6},
+          {{1. / 3, 1. / 3, 1. / 3}, 1024, 12},
+          {{0.005, 0.4975, 0.4975}, 1000, 12},
+          {{0.25, 0.25, 0.25, 0.25}, 22, 4}})
+        for (const double level : {0.05, 0.01, 0.001})
+            EXPECT_LE(false_strata(p, n, level, reach), level)
+                << n << " points, " << p.size() << " outcomes, the first " << p[0];
+}
+
+// Where even counts are rare they are seen: 125 points at each of 8 outcomes, (2 pi 1000)^(-7/2)
+// 8^4 = 2e-10; 2^22 points in two equal parts, (pi 2^21)^(-1/2) = 0.00039.
+TEST(ChiSquare, EvenOutcomesAreCalledStratified) {
+    const DomainPtr eight =
+        parse_domain("discrete:probabilities=[.125 .125 .125 .125 .125 .125 .125 .125]", 1);
+    const Report report =
+        analyze("chi-square", outcomes(eight, std::vector<std::uint64_t>(8, 125)));
+    EXPECT_EQ(report.text("verdict"), "stratified");
+    EXPECT_NEAR(report.number("p_lower"),
+                multinomial(std::vector<double>(8, 0.125), std::vector<std::uint64_t>(8, 125)),
+                1e-16);
+    const PointSet halves = outcomes(parse_domain("discrete", 1), {1u << 21, 1u << 21});
+    EXPECT_NEAR(measure("chi-square", "p_lower", halves), 0.00038960, 1e-8);
+    EXPECT_EQ(verdict(halves), "stratified");
+}
+
 // Tails by the formulas, for sets with p_upper 0.1, 0.001, 0.9 and p_lower 0.9, 0.999, 0.1.
 TEST(ChiSquare, SetsAreCombinedAsAsked) {
     const Analyzer& unit = find_analyzer("chi-square");
@@ -587,7 +683,26 @@ TEST(ChiSquare, SetsAreCombinedAsAsked) {
     // P(chi2_6 > x) = exp(-x/2) (1 + x/2 + x^2/8), x/2 = -ln(0.1 * 0.001 * 0.9)
     const double h = -std::log(0.1 * 0.001 * 0.9);
     EXPECT_NEAR(combined("fisher").number("p_upper"), std::exp(-h) * (1 + h + h * h / 2), 1e-14);
-    EXPECT_EQ(combined("sum").number("p_value"), 0.5) << "left as refine made it";
+}
+
+// Three sets with statistic 0 are not rarer than the product of their chances says.
+TEST(ChiSquare, SummedSetsHaveALowerTailToo) {
+    const Analyzer& unit = find_analyzer("chi-square");
+    const auto sum = [&](double statistic, double p_lower) {
+        Report set;
+        set.add("p_lower", p_lower);
+        Report mean;
+        mean.add("statistic", statistic)
+            .add("degrees_of_freedom", 1.0)
+            .add("statistic_error", 0.0)
+            .add("impossible_points", 0.0);
+        unit.combine(mean, std::vector<Report>(3, set), unit.options.defaults());
+        return mean;
+    };
+    EXPECT_NEAR(sum(0, 0.2).number("p_lower"), 0.008, 1e-15);
+    EXPECT_EQ(sum(0, 0.2).text("verdict"), "uniform");
+    EXPECT_EQ(sum(0, 0.01).text("verdict"), "stratified");
+    EXPECT_NEAR(sum(1, 0.1).number("p_lower"), 0.60837482, 1e-8) << "P(chi2_3 <= 3)";
 }
 
 namespace {
