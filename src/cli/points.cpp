@@ -287,7 +287,9 @@ int warp(const Arguments& arguments, Session& session) {
     const auto stream = open_input(path, arguments, run);
     const bool inverse = arguments.has("inverse");
     if (can_stream(*stream, target))
-        write_warped(*stream, spec, inverse, target, run);
+        write_warped(*stream,
+                     input_domain(stream->provenance(), stream->dimension(), arguments, run), spec,
+                     inverse, target, run);
     else
         write_warped(named(stream->read_all(run), arguments, run), spec, inverse, target, run);
     return 0;

@@ -107,8 +107,13 @@ std::vector<std::size_t> all_of(std::size_t dimension) {
 }  // namespace
 
 WarpChain::WarpChain(std::span<const Spec> specs, std::size_t dimension, const ChainSet& set,
-                     const RunContext& run)
+                     const RunContext& run, std::vector<Factor> warped)
     : dimension_in_(dimension), dimension_out_(dimension) {
+    for (Factor& before : warped)
+        steps_.push_back({.domain = std::move(before.domain),
+                          .image = std::move(before.coordinates),
+                          .width_in = dimension,
+                          .width_out = dimension});
     for (const Spec& spec : specs) add(spec, set, run);
     find_domain();
 }
@@ -173,7 +178,8 @@ void WarpChain::refuse_coordinates(const Spec& spec, std::size_t takes, const St
     const std::string wants =
         fmt::format("warp {} takes {} coordinate{}", spec.name, takes, takes == 1 ? "" : "s");
     if (!spec.coordinates.empty())
-        fail(ErrorKind::usage, "{}; {} are named: {}@{}", wants, step.coordinates.size(), spec.name,
+        fail(ErrorKind::usage, "{}; {} {} named: {}@{}", wants, step.coordinates.size(),
+             step.coordinates.size() == 1 ? "is" : "are", spec.name,
              format_coordinates(step.coordinates));
     std::string hint;
     if (takes < step.width_in)
@@ -188,7 +194,8 @@ void WarpChain::add_warp(const Warp& warp, const Spec& spec, const RunContext& r
     step.mapping = warp.make(values, step.coordinates.size(), run);
     const std::size_t takes = step.mapping->cube_dimension();
     if (takes != step.coordinates.size()) refuse_coordinates(spec, takes, step);
-    const std::size_t gives = step.mapping->domain()->dimension();
+    step.domain = step.mapping->domain();
+    const std::size_t gives = step.domain->dimension();
     step.width_out = step.width_in - takes + gives;
     step.image = places(step.coordinates, gives);
     const auto rest = others(step.width_in, step.coordinates);
@@ -205,8 +212,8 @@ void WarpChain::find_domain() {
     std::vector<Factor> factors;
     std::vector<std::size_t> warped;
     for (const Step& step : steps_) {
-        if (!step.mapping) continue;
-        factors.push_back({step.mapping->domain(), step.image});
+        if (!step.domain) continue;
+        factors.push_back({step.domain, step.image});
         warped.insert(warped.end(), step.image.begin(), step.image.end());
     }
     const auto rest = others(dimension_out_, warped);
@@ -222,6 +229,7 @@ bool WarpChain::drops() const {
 
 std::vector<double> WarpChain::forward(std::vector<double> rows, std::uint64_t first) const {
     for (const Step& step : steps_) {
+        if (!step.mapping && !step.randomization) continue;
         const std::size_t count = rows.size() / step.width_in;
         const bool whole = step.coordinates == all_of(step.width_in);
         auto part = whole ? std::move(rows) : gather(rows, step.width_in, step.coordinates);
@@ -263,10 +271,10 @@ std::vector<double> WarpChain::density(std::span<const double> rows) const {
     std::vector<double> density(rows.size() / dimension_out_, 1.0);
     std::vector<double> point;
     for (const Step& step : steps_)
-        for (std::size_t i = 0; step.mapping && i < density.size(); ++i) {
+        for (std::size_t i = 0; step.domain && i < density.size(); ++i) {
             point.clear();
             for (const std::size_t k : step.image) point.push_back(rows[i * dimension_out_ + k]);
-            density[i] *= step.mapping->density(point);
+            density[i] *= step.mapping ? step.mapping->density(point) : step.domain->density(point);
         }
     return density;
 }
@@ -295,7 +303,11 @@ std::vector<std::pair<std::string, std::string>> fingerprints(std::span<const st
     return all;
 }
 
-DomainPtr parse_domain(std::string_view text, std::size_t dimension, const RunContext& run) {
+namespace {
+
+/// What parts of " x " mean, each of `dimension` coordinates where it names none.
+std::vector<Factor> parse_factors(std::string_view text, std::size_t dimension,
+                                  const RunContext& run) {
     std::vector<Factor> factors;
     while (!text.empty()) {
         const auto times = end_of_factor(text);
@@ -316,6 +328,13 @@ DomainPtr parse_domain(std::string_view text, std::size_t dimension, const RunCo
         factors.push_back(
             {std::move(domain), spec.coordinates.empty() ? all_of(dimension) : spec.coordinates});
     }
+    return factors;
+}
+
+}  // namespace
+
+DomainPtr parse_domain(std::string_view text, std::size_t dimension, const RunContext& run) {
+    auto factors = parse_factors(text, dimension, run);
     std::vector<std::size_t> covered;
     for (const auto& [domain, coordinates] : factors) {
         if (domain->dimension() != coordinates.size())
@@ -330,6 +349,29 @@ DomainPtr parse_domain(std::string_view text, std::size_t dimension, const RunCo
     if (factors.size() == 1 && factors[0].coordinates == all_of(dimension))
         return factors[0].domain;
     return product_domain(std::move(factors));
+}
+
+std::vector<Factor> warped_factors(const DomainPtr& domain, std::span<const std::size_t> boxless,
+                                   const RunContext& run) {
+    const std::size_t d = domain->dimension();
+    const std::string text = domain->spec();
+    const bool product = end_of_factor(text) != std::string_view::npos;
+    std::vector<Factor> warped;
+    for (Factor& factor :
+         product ? parse_factors(text, d, run) : std::vector<Factor>{{domain, all_of(d)}}) {
+        const std::string name = parse_spec(factor.domain->spec()).name;
+        if (name == "unit-cube") continue;
+        if (name != "box") {
+            warped.push_back(std::move(factor));
+            continue;
+        }
+        const Box box = factor.domain->bounding_box();
+        for (std::size_t k = 0; k < box.dimension(); ++k)
+            if (std::ranges::find(boxless, factor.coordinates[k]) == boxless.end())
+                warped.push_back(
+                    {box_domain({{box.low[k]}, {box.high[k]}}), {factor.coordinates[k]}});
+    }
+    return warped;
 }
 
 }  // namespace stipple

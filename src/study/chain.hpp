@@ -30,9 +30,10 @@ struct ChainSet {
 
 class WarpChain {
   public:
+    /// @param warped coordinates that are on domains of their own already, and stay as they are
     /// @throws Error(usage): unknown warps, coordinates that are not there or no longer uniform.
     WarpChain(std::span<const Spec> specs, std::size_t dimension, const ChainSet& set = {},
-              const RunContext& run = {});
+              const RunContext& run = {}, std::vector<Factor> warped = {});
 
     [[nodiscard]] bool empty() const { return steps_.empty(); }
     [[nodiscard]] std::size_t dimension_in() const { return dimension_in_; }
@@ -70,8 +71,9 @@ class WarpChain {
     [[nodiscard]] std::vector<double> density(std::span<const double> rows) const;
 
   private:
-    /// Either a mapping or a randomization.
+    /// Either a mapping or a randomization; or what was before, which changes nothing.
     struct Step {
+        DomainPtr domain = {};  ///< of what it gave; none of a randomization
         std::unique_ptr<Mapping> mapping = {};
         std::unique_ptr<Randomization> randomization = {};
         std::vector<std::size_t> coordinates = {};  ///< taken from the row before
@@ -113,5 +115,10 @@ std::vector<std::pair<std::string, std::string>> fingerprints(std::span<const st
 /// The domain that a text means: unit-cube, box:bounds=[lo..hi,...], a warp's spec, or several with
 /// coordinates joined by " x ". @throws Error(usage)
 DomainPtr parse_domain(std::string_view text, std::size_t dimension, const RunContext& run = {});
+
+/// What a domain is put together from, in the sense of parse_domain, less what is of the unit cube.
+/// The axes of a box are factors of their own, those `boxless` left out.
+std::vector<Factor> warped_factors(const DomainPtr& domain, std::span<const std::size_t> boxless,
+                                   const RunContext& run);
 
 }  // namespace stipple

@@ -318,12 +318,15 @@ std::vector<std::string> Columns::names() const {
 }
 
 /// Files hold no infinite numbers: no reader would take them.
-static double finite(const char* column, double value, std::span<const double> point) {
+static double finite(const char* column, double value, std::span<const double> point,
+                     const Route& route) {
     if (std::isfinite(value)) return value;
     std::vector<std::string> words;
     for (const double x : point) words.push_back(format_number(x));
     fail_with_hint(ErrorKind::input,
-                   "--start 1 leaves out a sequence's first point, where coordinates are 0",
+                   route.starts
+                       ? "--start 1 leaves out a sequence's first point, where coordinates are 0"
+                       : "",
                    "--with-{}: it is infinite at the point ({})", column, join(words, ", "));
 }
 
@@ -338,8 +341,8 @@ std::vector<double> with_columns(std::span<const double> rows, const WarpChain& 
         wide.insert(wide.end(), row.begin(), row.end());
         const double pdf = density[i] / route.volume;
         const double weight = route.volume / density[i];
-        if (route.columns.pdf) wide.push_back(finite("pdf", pdf, row));
-        if (route.columns.weight) wide.push_back(finite("weight", weight, row));
+        if (route.columns.pdf) wide.push_back(finite("pdf", pdf, row, route));
+        if (route.columns.weight) wide.push_back(finite("weight", weight, row, route));
     }
     return wide;
 }

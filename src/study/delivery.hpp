@@ -36,6 +36,7 @@ struct Route {
     Columns columns = {};            ///< added as last numbers
     double volume = 1;               ///< measure of what the chain's unit cube was scaled to
     bool inverse = false;            ///< goes back to the unit cube
+    bool starts = false;             ///< its first point can be left out by --start
 };
 
 /// Sets with everything that is needed to write them one after the other.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -142,16 +143,68 @@ void refuse_inverse_density(bool inverse, const Target& target) {
              target.columns.names().front());
 }
 
-/// The points of a stream before these are in the closed unit cube; so must these be.
-void require_unit_cube(std::span<const double> rows, std::size_t d, std::uint64_t first) {
-    const auto inside = [](double x) { return x >= 0 && x <= 1; };
-    const auto it = std::ranges::find_if_not(rows, inside);
-    if (it == rows.end()) return;
-    const auto index = static_cast<std::size_t>(it - rows.begin()) / d;
-    std::vector<std::string> numbers;
-    for (const double x : rows.subspan(index * d, d)) numbers.push_back(format_number(x));
-    fail(ErrorKind::input, "point {} is outside the unit cube [0, 1]^{}: ({})", first + index, d,
-         join(numbers, ", "));
+/// The coordinates that a unit takes, of rows of d: no others need be in the unit cube.
+class Taken {
+  public:
+    Taken(const Spec& spec, std::size_t d) : d_(d), named_(!spec.coordinates.empty()) {
+        for (const std::size_t k : spec.coordinates)
+            if (k < d) at_.push_back(k);  // what is beyond is refused later
+        if (named_) return;
+        at_.resize(d);
+        std::iota(at_.begin(), at_.end(), std::size_t{0});
+    }
+
+    [[nodiscard]] const std::vector<std::size_t>& coordinates() const { return at_; }
+
+    /// @throws Error(input) counting the points outside
+    void require_in_cube(const PointSet& points) const {
+        std::size_t count = 0;
+        std::size_t first = 0;
+        for (std::size_t i = 0; i < points.count(); ++i)
+            if (!in_cube(points[i]) && count++ == 0) first = i;
+        if (count == 0) return;
+        fail(ErrorKind::input, "{} of {} points are outside {}; the first is point {}: ({})", count,
+             points.count(), cube(), first, numbers(points[first]));
+    }
+
+    /// The points of a stream before these are in the cube; so must these be.
+    void require_in_cube(std::span<const double> rows, std::uint64_t first) const {
+        for (std::size_t i = 0; i < rows.size(); i += d_)
+            if (const auto row = rows.subspan(i, d_); !in_cube(row))
+                fail(ErrorKind::input, "point {} is outside {}: ({})", first + i / d_, cube(),
+                     numbers(row));
+    }
+
+  private:
+    [[nodiscard]] bool in_cube(std::span<const double> row) const {
+        return std::ranges::all_of(at_, [&](std::size_t k) { return row[k] >= 0 && row[k] <= 1; });
+    }
+    [[nodiscard]] std::string cube() const {
+        const std::string all = fmt::format("the unit cube [0, 1]^{}", at_.size());
+        return named_ ? fmt::format("{} in coordinates {}", all, format_coordinates(at_)) : all;
+    }
+    [[nodiscard]] std::string numbers(std::span<const double> row) const {
+        std::vector<std::string> texts;
+        for (const std::size_t k : at_) texts.push_back(format_number(row[k]));
+        return join(texts, ", ");
+    }
+
+    std::size_t d_;
+    bool named_;
+    std::vector<std::size_t> at_;
+};
+
+/// Whether all coordinates that are neither taken nor warped before are in the unit cube, on which
+/// they are said to be.
+bool others_in_cube(const PointSet& points, const Taken& taken, const std::vector<Factor>& warped) {
+    std::vector<bool> known(points.dimension());
+    for (const std::size_t k : taken.coordinates()) known[k] = true;
+    for (const Factor& factor : warped)
+        for (const std::size_t k : factor.coordinates) known[k] = true;
+    for (std::size_t k = 0; k < known.size(); ++k)
+        for (std::size_t i = 0; i < points.count() && !known[k]; ++i)
+            if (!(points[i][k] >= 0 && points[i][k] <= 1)) return false;
+    return true;
 }
 
 /// A text whose number of sets was not known when the first was begun must have no more.
@@ -276,7 +329,10 @@ class Producer {
               .extent = [this](std::size_t) { return domain()->bounding_box(); },
               .counts = std::vector<std::uint64_t>(job_.sets, count),
               .dimension = chain_->dimension_out(),
-              .route = {bounds_, target_.columns, chain_->empty() ? domain()->measure() : 1}},
+              .route = {.bounds = bounds_,
+                        .columns = target_.columns,
+                        .volume = chain_->empty() ? domain()->measure() : 1,
+                        .starts = true}},
              target_, run_);
     }
 
@@ -372,13 +428,19 @@ void write_sets(std::vector<PointSet> sets, const Target& target, const RunConte
 void write_warped(std::vector<PointSet> sets, const Spec& warp, bool inverse, const Target& target,
                   const RunContext& run) {
     const std::size_t d = sets.front().dimension();
-    const WarpChain chain({&warp, 1}, inverse ? dimension_before(warp, d, run) : d, {}, run);
+    const Taken taken(warp, d);
+    std::vector<Factor> before;
+    if (!inverse) before = warped_factors(sets.front().domain, taken.coordinates(), run);
+    const WarpChain chain({&warp, 1}, inverse ? dimension_before(warp, d, run) : d, {}, run,
+                          before);
     refuse_inverse_density(inverse, target);
     const auto inputs = fingerprints(chain.files());
     for (PointSet& set : sets) {
-        if (!inverse) require_unit_cube(set);
+        if (!inverse) taken.require_in_cube(set);
+        const bool said = inverse || others_in_cube(set, taken, before);
         set = image_of(set, chain, inverse, 0, run);
         record_warp(set, chain, inverse, inputs);
+        if (!said) set.provenance.domain.clear();
     }
     ship_images(sets, chain, 0, sets.size(), target, run);
 }
@@ -389,11 +451,14 @@ bool can_stream(const io::PointStream& stream, const Target& target) {
            !file_per_set(target.path);
 }
 
-void write_warped(io::PointStream& stream, const Spec& warp, bool inverse, const Target& target,
-                  const RunContext& run) {
+void write_warped(io::PointStream& stream, const DomainPtr& on, const Spec& warp, bool inverse,
+                  const Target& target, const RunContext& run) {
     const std::size_t d = stream.dimension();
+    const Taken taken(warp, d);
+    std::vector<Factor> before;
+    if (!inverse) before = warped_factors(on, taken.coordinates(), run);
     const auto chain = std::make_shared<WarpChain>(
-        std::span(&warp, 1), inverse ? dimension_before(warp, d, run) : d, ChainSet{}, run);
+        std::span(&warp, 1), inverse ? dimension_before(warp, d, run) : d, ChainSet{}, run, before);
     refuse_inverse_density(inverse, target);
     const std::size_t sets = stream.sets().value_or(1);
     const auto source = [&](std::size_t /*set*/, const RunContext&) {
@@ -402,10 +467,10 @@ void write_warped(io::PointStream& stream, const Spec& warp, bool inverse, const
         return Source{.dimension = d,
                       .fill = {},
                       .read =
-                          [&stream, inverse, d, at](std::span<double> rows) {
+                          [&stream, &taken, inverse, d, at](std::span<double> rows) {
                               const std::size_t count = stream.read(rows);
                               if (count == 0) refuse_second_set(stream);
-                              if (!inverse) require_unit_cube(rows.first(count * d), d, *at);
+                              if (!inverse) taken.require_in_cube(rows.first(count * d), *at);
                               *at += count;
                               return count;
                           },
@@ -430,14 +495,18 @@ void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, st
         fail(ErrorKind::usage, "--seed: {} and {} sets go beyond the 64 bits of a seed", seed,
              replications * sets.size());
     std::vector<PointSet> images;
+    const Taken taken(scramble, sets.front().dimension());
+    const auto before = warped_factors(sets.front().domain, taken.coordinates(), run);
     for (const PointSet& set : sets) {
-        require_unit_cube(set);
+        taken.require_in_cube(set);
+        const bool said = others_in_cube(set, taken, before);
         for (std::uint64_t r = 0; r < replications; ++r) {
             Spec spec = scramble;
             spec.settings.emplace_back(scramble_seed.name, std::to_string(seed + images.size()));
-            const WarpChain chain({&spec, 1}, set.dimension(), {.count = set.count()});
+            const WarpChain chain({&spec, 1}, set.dimension(), {.count = set.count()}, run, before);
             images.push_back(image_of(set, chain, false, 0, run));
             record_warp(images.back(), chain, false, fingerprints(chain.files()));
+            if (!said) images.back().provenance.domain.clear();
         }
     }
     const WarpChain nothing({}, images.front().dimension());

@@ -69,7 +69,8 @@ void produce(const Production& production, const Target& target, const RunContex
 void write_sets(std::vector<PointSet> sets, const Target& target, const RunContext& run);
 
 /// Writes the images of sets under a warp or, with `inverse`, what it makes them from.
-/// @throws Error(input) for points outside the unit cube, or the warp's domain
+/// @throws Error(input) where coordinates that the warp takes are outside the unit cube, or points
+/// off its domain; Error(usage) where they are on another domain already
 void write_warped(std::vector<PointSet> sets, const Spec& warp, bool inverse, const Target& target,
                   const RunContext& run);
 
@@ -78,9 +79,10 @@ bool can_stream(const io::PointStream& stream, const Target& target);
 
 /// The same for points that come in blocks, in constant memory. What is wrong with a point ends it
 /// when it comes; a file is not left then, but a pipe had the points before.
+/// @param on what they live on
 /// @throws Error(input) also for a text of several sets
-void write_warped(io::PointStream& stream, const Spec& warp, bool inverse, const Target& target,
-                  const RunContext& run);
+void write_warped(io::PointStream& stream, const DomainPtr& on, const Spec& warp, bool inverse,
+                  const Target& target, const RunContext& run);
 
 /// Writes `replications` of each set, independently scrambled with the seeds seed, seed + 1, ...
 /// @throws Error(input) for points outside the unit cube

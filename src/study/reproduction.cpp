@@ -11,6 +11,7 @@
 #include "core/text.hpp"
 #include "io/binary.hpp"
 #include "io/decimal.hpp"
+#include "study/chain.hpp"
 #include "study/pipeline.hpp"
 
 namespace stipple {
@@ -67,8 +68,12 @@ std::vector<PointSet> collect(const Making& making, const Written& written, cons
         return true;
     }));
     std::vector<PointSet> out;
+    DomainPtr domain = unit_cube(layout.width());
+    if (const std::string& text = layout.provenance.domain; !text.empty() && text != "unit-cube")
+        domain = parse_domain(text, layout.width(), run);
     for (auto& rows : sets) {
         out.emplace_back(std::move(rows), layout.width());
+        out.back().domain = domain;
         out.back().provenance = layout.provenance;
     }
     return out;

@@ -176,6 +176,55 @@ TEST(Generate, AWarpOnSomeCoordinatesLeavesTheOthers) {
             EXPECT_EQ(warped["points"][i][k], plain["points"][i][k]);
 }
 
+// A file that says its domain tells what is warped; else, nothing is known of other coordinates.
+TEST(Generate, AWarpAsksNothingOfCoordinatesItLeaves) {
+    const Sandbox box;
+    const std::vector<std::string> random = {"generate", "random", "-n", "50", "-d", "5", "-f"};
+    const auto with = [&](std::vector<std::string> more) {
+        auto words = random;
+        words.insert(words.end(), more.begin(), more.end());
+        return good(box.run(words));
+    };
+    const std::string pixel = "pixel@1,2:resolution=4x3";
+    const auto at_once = json::parse(with({"json", "-w", "disk@4,5", "-w", pixel, "--with-pdf"}));
+    const std::string disk = with({"json", "-w", "disk@4,5"});
+    const auto later =
+        json::parse(good(box.run({"warp", pixel, "-f", "json", "--with-pdf"}, disk)));
+    EXPECT_EQ(later["points"], at_once["points"]);
+    EXPECT_EQ(later["meta"]["domain"], at_once["meta"]["domain"]);
+    EXPECT_EQ(good(box.run({"warp", pixel}, with({"csv", "-w", "disk@4,5"}))),
+              with({"csv", "-w", "disk@4,5", "-w", pixel}));
+    EXPECT_EQ(box.run({"warp", "sphere@3,4"}, disk).err,
+              "stipple: warp sphere: coordinate 4 is already on another domain; it takes "
+              "coordinates of the unit cube\n");
+    // A warp that gives more numbers moves the domain of those behind it.
+    const auto moved = json::parse(good(box.run({"warp", "sphere@1,2", "-f", "json"}, disk)));
+    EXPECT_EQ(moved["meta"]["domain"], "disk@5,6 x sphere@1,2,3 x unit-cube@4");
+    box.write("two.json", good(box.run({"warp", pixel, "-f", "json"}, disk)));
+    EXPECT_EQ(box.run({"reproduce", "two.json"}).code, 0);
+
+    const std::string timed = "x,y,t\n0.1,0.2,7\n";
+    EXPECT_EQ(good(box.run({"warp", "tent@1:radius=1"}, timed)).substr(6),
+              "-0.5527864045000421,0.2,7\n");
+    const auto unsaid = json::parse(good(box.run({"warp", "disk@1,2", "-f", "json"}, timed)));
+    EXPECT_EQ(unsaid["meta"]["domain"], "");
+    EXPECT_EQ(box.run({"warp", "owen@1,2"}, timed).code, 0);
+    EXPECT_EQ(box.run({"warp", "disk@2,3", "-f", "json"}, timed).err,
+              "stipple: 1 of 1 points are outside the unit cube [0, 1]^2 in coordinates 2,3; the "
+              "first is point 0: (0.2, 7)\n");
+}
+
+// Only generate has a --start.
+TEST(Generate, AnInfiniteDensityIsHintedAtWhereThatHelps) {
+    const Sandbox box;
+    const std::vector<std::string> naive = {"disk:method=naive", "--with-pdf"};
+    EXPECT_EQ(box.run({"warp", naive[0], naive[1]}, "0,0\n").err,
+              "stipple: --with-pdf: it is infinite at the point (0, 0)\n");
+    EXPECT_TRUE(box.run({"generate", "halton", "-n", "3", "-d", "2", "-w", naive[0], naive[1]})
+                    .err.ends_with("(0, 0); --start 1 leaves out a sequence's first point, where "
+                                   "coordinates are 0\n"));
+}
+
 TEST(Generate, RejectionSaysHowManyPointsItKept) {
     const Sandbox box;
     const Outcome outcome =
