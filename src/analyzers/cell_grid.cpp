@@ -121,7 +121,8 @@ CellGrid asked_grid(const std::vector<std::int64_t>& extents, std::size_t axes) 
         product *= static_cast<double>(grid[k]);
     }
     if (product < 2 || product > static_cast<double>(most_cells))
-        fail(ErrorKind::usage, "--cells: {:.6g} cells are outside [2, {}]", product, most_cells);
+        fail(ErrorKind::usage, "--cells: their number, {:.6g}, is outside [2, {}]", product,
+             most_cells);
     return grid;
 }
 

@@ -13,7 +13,9 @@
 //
 // p < level with the upper tail the smaller one: non-uniform, the counts differ too much from what
 // is expected. With the lower tail: stratified, they differ less than those of random points do.
-// Else: uniform. A point in a cell of probability 0 is impossible: non-uniform, p = 0.
+// Else: uniform. A point in a cell of probability 0 is impossible: non-uniform, p = 0. So is one in
+// a gap of the density that the domain knows of, farther from its edges than points in single
+// precision are rounded.
 //
 // The default grid has the largest product of odd primes near 2 n^(2/5) (Mann and Wald's rate), at
 // most n / 5, on as many of the first axes as take 3 cells each: odd primes, since strata are cut
@@ -54,6 +56,7 @@
 //         Statistical Association 62 (1967) 626-633, doi:10.1080/01621459.1967.10482935.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <mutex>
 #include <optional>
@@ -65,6 +68,7 @@
 #include "analyzers/verdict.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "core/support.hpp"
 
 namespace stipple::analyzers {
 namespace {
@@ -89,6 +93,52 @@ constexpr Param<Choice> combination{
         "smallest p (Sidak), or the product of the p (Fisher)"};
 
 constexpr std::uint64_t held_points = grid_counts[0];  ///< of a stream, before the grid is known
+
+/// Where no point can be, whatever the cell it is in: the gaps of a domain's density.
+class Gaps {
+  public:
+    explicit Gaps(DomainPtr domain) : domain_(std::move(domain)) {
+        const auto* gapped = dynamic_cast<const Gapped*>(domain_.get());
+        if (!gapped || !gapped->shows_gaps()) return;
+        support_ = gapped->support();
+        const Box around = domain_->bounding_box();
+        for (std::size_t k = 0; k < around.dimension(); ++k)
+            margins_.push_back(rounding *
+                               std::max(std::abs(around.low[k]), std::abs(around.high[k])));
+    }
+
+    [[nodiscard]] bool hold(std::span<const double> point) const {
+        if (support_.whole) return false;
+        if (support_.boxes.empty())
+            return support_.by_density && point.size() == 2 && dark_around(point);
+        return std::ranges::none_of(support_.boxes,
+                                    [&](const Box& box) { return near(box, point); });
+    }
+
+  private:
+    static constexpr double rounding = 1e-6;
+
+    [[nodiscard]] bool near(const Box& box, std::span<const double> point) const {
+        for (std::size_t k = 0; k < point.size(); ++k)
+            if (!(point[k] >= box.low[k] - margins_[k] && point[k] <= box.high[k] + margins_[k]))
+                return false;
+        return true;
+    }
+
+    [[nodiscard]] bool dark_around(std::span<const double> point) const {
+        if (domain_->density(point) > 0) return false;
+        for (const double i : {-1, 0, 1})
+            for (const double j : {-1, 0, 1}) {
+                const std::array at = {point[0] + i * margins_[0], point[1] + j * margins_[1]};
+                if (domain_->density(at) > 0) return false;
+            }
+        return true;
+    }
+
+    DomainPtr domain_;
+    Support support_ = {.boxes = {}};  ///< all of the domain, where no gaps are shown
+    std::vector<double> margins_;
+};
 
 /// A grid with the points in each of its cells.
 class Tally {
@@ -213,7 +263,10 @@ Report shifted_report(const Fit& fit) {
 class Counter final : public SharedAccumulator {
   public:
     Counter(const Arrival& arrival, const Values& options, const RunContext& run)
-        : domain_(arrival.domain), options_(options), axes_(domain_->cube_dimension()) {
+        : domain_(arrival.domain),
+          gaps_(domain_),
+          options_(options),
+          axes_(domain_->cube_dimension()) {
         if (options.given(cells)) {
             tallies_.emplace_back(asked_grid(options[cells], axes_), options[shifted], 0, run);
         } else if (arrival.count) {
@@ -250,7 +303,7 @@ class Counter final : public SharedAccumulator {
 
     std::string state(const RunContext&) override {
         Packer packer;
-        packer.put(n_);
+        packer.put(n_).put(in_gaps_);
         outside_.pack(packer);
         tallies_.front().pack(packer);
         return packer.take();
@@ -259,6 +312,7 @@ class Counter final : public SharedAccumulator {
     void merge(std::string_view state, const RunContext&) override {
         Unpacker from(state);
         n_ += from.take<std::uint64_t>();
+        in_gaps_ += from.take<std::uint64_t>();
         outside_.add(Outside::unpacked(from));
         tallies_.front().merge(from);
     }
@@ -270,17 +324,20 @@ class Counter final : public SharedAccumulator {
         std::vector<double> cube(axes_);
         std::vector<double> cubes;
         Outside lost;
+        std::uint64_t in_gaps = 0;
         for (std::size_t i = 0; i < rows.size(); i += d) {
             const auto point = rows.subspan(i, d);
             if (!domain_->contains(point)) {
                 lost.add(first + i / d, point);
                 continue;
             }
+            in_gaps += gaps_.hold(point);
             domain_->to_cube(point, cube);
             cubes.insert(cubes.end(), cube.begin(), cube.begin() + kept_axes());
         }
         const std::lock_guard lock(adding_);
         outside_.add(lost);
+        in_gaps_ += in_gaps;
         const auto width = static_cast<std::size_t>(kept_axes());
         for (Tally& tally : tallies_) tally.add(cubes, width);
         if (tallies_.empty()) held_.insert(held_.end(), cubes.begin(), cubes.end());
@@ -299,14 +356,20 @@ class Counter final : public SharedAccumulator {
         held_ = {};
     }
 
+    [[nodiscard]] Fit fit(const Tally& tally, bool second, const RunContext& run) const {
+        Fit found = tally.fit(*domain_, second, n_, run);
+        found.impossible = std::max(found.impossible, in_gaps_);  // cells of probability 0 are gaps
+        return found;
+    }
+
     [[nodiscard]] Report judged(const Tally& tally, const RunContext& run) const {
-        const Fit plain = tally.fit(*domain_, false, n_, run);
+        const Fit plain = fit(tally, false, run);
         Report report;
         report.add("statistic", plain.statistic).add("degrees_of_freedom", plain.groups - 1);
         std::optional<Judged> second;
         std::optional<Fit> other;
         if (options_[shifted]) {
-            other = tally.fit(*domain_, true, n_, run);
+            other = fit(tally, true, run);
             second = judge(*other);
         }
         report.add("mass_error", plain.mass_error).add("statistic_error", plain.doubt);
@@ -323,11 +386,13 @@ class Counter final : public SharedAccumulator {
     }
 
     DomainPtr domain_;
+    Gaps gaps_;
     Values options_;
     std::size_t axes_;
     std::uint64_t first_ = 0;  ///< index of the first point that comes
     std::size_t width_ = 0;    ///< coordinates of the cube that are kept; 0: all
     std::uint64_t n_ = 0;
+    std::uint64_t in_gaps_ = 0;
     std::vector<Tally> tallies_;
     std::vector<double> held_;
     Outside outside_;
@@ -423,7 +488,8 @@ std::vector<ResultKey> results() {
          "bound on the errors of the cells' probabilities, summed; 0: they are exact"},
         {"statistic_error",
          "most by which the statistic may be off for these errors; no verdict that it could turn"},
-        {"impossible_points", "points in cells of probability 0: one is enough to be non-uniform"},
+        {"impossible_points",
+         "points in cells or gaps of probability 0: one is enough to be non-uniform"},
         {"combined_p_value", "of both grids: 1 - (1 - p)^2 of the smaller p", false},
         {"shifted.statistic", "the same on the shifted grid", false},
         {"shifted.degrees_of_freedom", "groups of its cells less 1", false},

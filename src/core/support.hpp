@@ -17,6 +17,9 @@ struct Support {
     bool whole = true;   ///< all of the domain, but for a set of measure 0
     bool finite = true;  ///< its measure is, though perhaps not known
 
+    /// No point that follows the density, unrounded, is where density() says 0.
+    bool by_density = false;
+
     /// Its measure, where that is known.
     std::optional<Estimate> measure = {};
 
@@ -33,6 +36,10 @@ class Gapped {
     virtual ~Gapped() = default;
 
     [[nodiscard]] virtual Support support() const = 0;
+
+    /// Whether support() costs next to nothing and tells where the gaps are, by boxes or
+    /// by_density.
+    [[nodiscard]] virtual bool shows_gaps() const { return false; }
 };
 
 /// Of any domain; one that is not Gapped is its own support.

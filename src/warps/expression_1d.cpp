@@ -149,6 +149,8 @@ class FormulaDomain final : public Domain, public Gapped, public Weighable {
         return all;
     }
 
+    bool shows_gaps() const override { return true; }
+
     const LineTable& table() const { return table_; }
 
   private:

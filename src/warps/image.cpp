@@ -105,8 +105,11 @@ class ImageDomain final : public Domain, public Gapped, public Weighable {
         const auto bright = std::ranges::count_if(map_.values(), [](double v) { return v > 0; });
         const auto all = static_cast<std::ptrdiff_t>(map_.values().size());
         const double share = static_cast<double>(bright) / static_cast<double>(all);
-        return {.whole = bright == all, .measure = Estimate{share, 0}, .boxes = {}};
+        return {
+            .whole = bright == all, .by_density = true, .measure = Estimate{share, 0}, .boxes = {}};
     }
+
+    bool shows_gaps() const override { return true; }
 
     const DensityMap& map() const { return map_; }
 

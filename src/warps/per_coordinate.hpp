@@ -123,6 +123,8 @@ class LineDomain final : public Domain, public Gapped, public Weighable {
         return all;
     }
 
+    bool shows_gaps() const override { return true; }
+
     const std::vector<Law>& laws() const { return laws_; }
 
   private:

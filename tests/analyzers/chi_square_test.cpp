@@ -390,7 +390,7 @@ TEST(ChiSquare, RefusesTooFewPointsAndSaysHowMany) {
     EXPECT_EQ(error(9, 2, {{"cells", "1x2"}}),
               "input: chi-square needs at least 10 points for 2 cells; these are 9");
     EXPECT_EQ(error(100, 2, {{"cells", "1"}}),
-              "usage: --cells: 1 cells are outside [2, 100000000]");
+              "usage: --cells: their number, 1, is outside [2, 100000000]");
     EXPECT_EQ(error(100, 2, {{"cells", "2x3x5"}}),
               "usage: --cells: 3 numbers for 2 axes; one for all, or one for each");
     EXPECT_NE(error(100, 20, {{"cells", "10"}}), "");
@@ -472,6 +472,29 @@ TEST(ChiSquare, OnePointWhereNoneCanBeIsEnough) {
     mean.add("impossible_points", 0.01);
     unit.combine(mean, std::vector<Report>(100, fine), unit.options.defaults());
     EXPECT_EQ(mean.text("verdict"), "non-uniform");
+}
+
+// Wherever the cells' edges are: a gap is told by the domain. Points on its edges are none.
+TEST(ChiSquare, OnePointInAGapIsEnough) {
+    for (const std::string spec :
+         {"table-1d:rows=[0,1 1,1 1.0000001,0 2,0 2.0000001,1 3,1]",
+          "table-1d:rows=[0,1 1,0 2,1 3,1],interpolation=constant",
+          "expression-1d:density=[max(0,abs(x-1.5)-0.5)],range=[0,3],breaks=[1,2]"}) {
+        const Spec warp = parse_spec(spec);
+        const WarpChain chain({&warp, 1}, 1);
+        const PointSet cube = uniform(2000, 3, 1);
+        PointSet points = on(chain.domain(),
+                             PointSet(chain.forward({cube.flat().begin(), cube.flat().end()}), 1));
+        points[0][0] = 1;
+        points[1][0] = 2;
+        points[2][0] = std::nextafter(1.0, 2);
+        points[3][0] = static_cast<double>(std::nextafter(2.0f, 0.0f));
+        EXPECT_EQ(analyze("chi-square", points).number("impossible_points"), 0) << spec;
+        EXPECT_EQ(verdict(points), "uniform") << spec;
+        points[4][0] = 1.5;
+        EXPECT_EQ(analyze("chi-square", points).number("impossible_points"), 1) << spec;
+        EXPECT_EQ(verdict(points), "non-uniform") << spec;
+    }
 }
 
 // False alarm: 20 seeds at level 1e-6. The shifted grid wraps around, where the density jumps.
