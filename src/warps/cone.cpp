@@ -139,7 +139,14 @@ struct ByHeight {
 std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
                               const RunContext& /*run*/) {
     const double degrees = options[half_angle];
-    const Cap cap{frame_of(options), cos_sin_turns(degrees / 360), cos_sin_turns(degrees / 720)};
+    const Frame frame = frame_of(options);
+    const bool along = std::ranges::count_if(frame.z, [](double x) { return x != 0; }) == 1;
+    // Directions about a slanted axis are rounded by some 1e-14 degrees, along all coordinates.
+    if (!along && degrees < 1e-10)
+        fail(ErrorKind::usage,
+             "--half-angle: {} is below 1e-10, the least about an axis that is no coordinate axis",
+             degrees);
+    const Cap cap{frame, cos_sin_turns(degrees / 360), cos_sin_turns(degrees / 720)};
     const auto cone = std::make_shared<ConeDomain>(
         cap, domain_spec("cone", options, schema(), {half_angle.name, axis.name}));
     return row_mapping(cone, ByHeight{cap});

@@ -201,7 +201,8 @@ std::vector<double> values_of(const Values& options, std::size_t m) {
         std::iota(values.begin(), values.end(), 0.0);
     }
     if (values.size() != m)
-        fail(ErrorKind::usage, "--values: {} numbers for {} probabilities", values.size(), m);
+        fail(ErrorKind::usage, "--values: {} number{} for {} probabilit{}", values.size(),
+             values.size() == 1 ? "" : "s", m, m == 1 ? "y" : "ies");
     for (double& x : values) x += 0.0;  // -0 would show in points
     return values;
 }

@@ -176,7 +176,8 @@ Table table_of(const Values& options, const std::string& name, const RunContext&
     if (table[0].size() != 2)
         fail(kind, "{}: rows of {} numbers; 2 are needed, x,density", name, table[0].size());
     if (table.size() < 2 || table.size() > (std::size_t{1} << 28))
-        fail(kind, "{}: {} rows; 2 to 2^28 are needed", name, table.size());
+        fail(kind, "{}: the table has {} row{}; 2 to 2^28 are needed", name, table.size(),
+             table.size() == 1 ? "" : "s");
     return table;
 }
 

@@ -44,9 +44,17 @@ TEST(Cone, ThinConesKeepTheirDigits) {
     }
 }
 
+TEST(Cone, RefusesConesThinnerThanTheRounding) {
+    EXPECT_EQ(error_of([] { mapping("cone:half-angle=1e-11,axis=[1,2,3]"); }),
+              "usage: --half-angle: 1e-11 is below 1e-10, the least about an axis that is no "
+              "coordinate axis");
+    EXPECT_GT(p_of_random(*mapping("cone:half-angle=1e-10,axis=[1,2,3]"), 100'000), 1e-5);
+    EXPECT_GT(p_of_random(*mapping("cone:half-angle=1e-100,axis=[0,0,-2]"), 100'000), 1e-5);
+}
+
 TEST(Cone, RoundTripOverTheWholeSquare) {
     for (const std::string alpha :
-         {"30", "1e-12", "1e-6", "89.999999", "90", "150", "179.9999999", "180"})
+         {"30", "1e-10", "1e-6", "89.999999", "90", "150", "179.9999999", "180"})
         for (const std::string axis : {"0,0,1", "0,0,-1", "1,2,-3", "1e-9,0,-1"}) {
             SCOPED_TRACE(alpha + " about " + axis);
             expect_round_trip(*mapping("cone:half-angle=" + alpha + ",axis=[" + axis + "]"), 2e-15);

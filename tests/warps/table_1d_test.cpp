@@ -103,7 +103,7 @@ TEST(Table1d, RefusesWhatIsNoDensity) {
     EXPECT_EQ(error_of([] { mapping("table-1d:rows=[0,0 2,0]"); }),
               "usage: --rows: the density's integral is 0; it must be in [1e-290, 1e290]");
     EXPECT_EQ(error_of([] { mapping("table-1d:rows=[0,1]"); }),
-              "usage: --rows: 1 rows; 2 to 2^28 are needed");
+              "usage: --rows: the table has 1 row; 2 to 2^28 are needed");
     EXPECT_EQ(error_of([] { mapping("table-1d:rows=[0,1,2 1,1,1]"); }),
               "usage: --rows: rows of 3 numbers; 2 are needed, x,density");
     EXPECT_NE(error_of([] { mapping("table-1d:interpolation=constant,rows=[0,1 0,1 1,1]"); }), "");
