@@ -145,9 +145,7 @@ def of_spectrum(report, count):
         scientific(low_power, low_error),
         number(power[top], error[top]),
         f"{frequency[top] / np.sqrt(count):.2f}",
-        number(
-            results["effective_nyquist"] / regular, (errors["effective_nyquist"] or 0) / regular
-        ),
+        f"{results['effective_nyquist'] / regular:.2f}",  # of the mean power: no error is known
         number(results["oscillation"], errors["oscillation"]),
         f"{decibels(uneven[BAND:].sum() / cells[BAND:].sum()):.1f}",
         f"{decibels(bands.max()):.1f}",
