@@ -47,7 +47,30 @@ struct Heights {
     double high;
 };
 
-[[gnu::always_inline]] inline Heights most_of(const Floats& low, const Floats& high) {
+[[gnu::always_inline]] inline void take_eight(const float* numbers, Floats& eight) {
+    eight = *reinterpret_cast<const LooseFloats*>(numbers);
+}
+[[gnu::always_inline]] inline void take_eight(const Short* numbers, Floats& eight) {
+    const Shorts whole = *reinterpret_cast<const LooseShorts*>(numbers);
+    eight = __builtin_convertvector(whole, Floats);
+}
+
+/// The highest of the lines w z - c at two z; behind the wide functions, which templates cannot be.
+template <class Number>
+[[gnu::always_inline]] inline Heights highest_line(const Number* w, const Number* c,
+                                                   std::size_t size, float z_low, float z_high) {
+    Floats low = Floats{} - no_line;
+    Floats high = low;
+    for (std::size_t i = 0; i < size; i += lanes) {
+        Floats weight;
+        Floats points;
+        take_eight(w + i, weight);
+        take_eight(c + i, points);
+        const Floats at_low = weight * z_low - points;
+        const Floats at_high = weight * z_high - points;
+        low = at_low > low ? at_low : low;
+        high = at_high > high ? at_high : high;
+    }
     float tops[2] = {low[0], high[0]};
     for (std::size_t k = 1; k < lanes; ++k) {
         tops[0] = std::max(tops[0], low[k]);
@@ -56,38 +79,14 @@ struct Heights {
     return {tops[0], tops[1]};
 }
 
-/// The highest of the lines w z - c at two z.
 STIPPLE_WIDE Heights highest(const float* w, const float* c, std::size_t size, float z_low,
                              float z_high) {
-    Floats low = Floats{} - no_line;
-    Floats high = low;
-    for (std::size_t i = 0; i < size; i += lanes) {
-        const Floats weight = *reinterpret_cast<const LooseFloats*>(w + i);
-        const Floats points = *reinterpret_cast<const LooseFloats*>(c + i);
-        const Floats at_low = weight * z_low - points;
-        const Floats at_high = weight * z_high - points;
-        low = at_low > low ? at_low : low;
-        high = at_high > high ? at_high : high;
-    }
-    return most_of(low, high);
+    return highest_line(w, c, size, z_low, z_high);
 }
-
-/// The same of w step z - c.
+/// Here z is in steps of the weights.
 STIPPLE_WIDE Heights highest(const Short* w, const Short* c, std::size_t size, float z_low,
                              float z_high) {
-    Floats low = Floats{} - no_line;
-    Floats high = low;
-    for (std::size_t i = 0; i < size; i += lanes) {
-        const Shorts weights = *reinterpret_cast<const LooseShorts*>(w + i);
-        const Shorts counts = *reinterpret_cast<const LooseShorts*>(c + i);
-        const Floats weight = __builtin_convertvector(weights, Floats);
-        const Floats points = __builtin_convertvector(counts, Floats);
-        const Floats at_low = weight * z_low - points;
-        const Floats at_high = weight * z_high - points;
-        low = at_low > low ? at_low : low;
-        high = at_high > high ? at_high : high;
-    }
-    return most_of(low, high);
+    return highest_line(w, c, size, z_low, z_high);
 }
 
 /// The highest of p y + x slope + height, whose heights then change by `add`.
