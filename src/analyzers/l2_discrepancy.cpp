@@ -150,7 +150,7 @@ Report in_space(const PointSet& points, l2::Kind which, const std::vector<double
     }
     const bool carried = l2::carries(d, which, weights);
     warn_of_pairs(n, d, which, carried, run);
-    const double columns = carried ? 14 : 3;
+    const double columns = carried ? 16 : 3;
     run.need_memory((columns * static_cast<double>(d) + 1) * static_cast<double>(n) * 8,
                     "the tables of l2-discrepancy");
     return off_by(carried ? l2::carried_square(points, which, weights, run)

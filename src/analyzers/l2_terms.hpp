@@ -45,6 +45,9 @@ class AxisTerms {
         return mean;
     }
 
+    /// The mean as a sum of these times 1, x, x^2 and |x - 1/2|.
+    [[nodiscard]] const std::array<Quad, 4>& mean_terms() const { return mean_; }
+
     [[nodiscard]] Quad total() const { return one_ + coefficient(kernel_.total); }
 
     /// More than all terms of a factor together.

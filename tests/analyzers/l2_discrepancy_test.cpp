@@ -434,7 +434,8 @@ TEST(L2Discrepancy, OfCarriedProductsIsThatOfTwins) {
     for (double& x : tiny.flat()) x *= 1e-18;
     for (const PointSet& set :
          {random_set(300, 3, 1), on_lattice(277, 4, 40, 2), make("sobol", points(1024, 5)),
-          make("halton", points(500, 9)), make("rank1-lattice", points(512, 5)), close, tiny})
+          make("halton", points(500, 9)), make("rank1-lattice", points(512, 5)), close, tiny,
+          random_set(1000, 6, 2)})
         for (const Kind kind : analyzers::l2::all_kinds) {
             const auto twins = analyzers::l2::twin_square(set, kind, {}, {});
             const auto carried = analyzers::l2::carried_square(set, kind, {}, {.threads = 2});
