@@ -318,30 +318,29 @@ void combine(Report&, std::span<const Report> sets, const Values&) {
 }  // namespace
 
 Analyzer hyperuniformity() {
-    return {
-        .name = "hyperuniformity",
-        .summary = "Number variance in growing windows, with its exponent",
-        .source = "Torquato, Stillinger 2003, doi:10.1103/PhysRevE.68.041113",
-        .traits = {.max_dimension = 3, .unit_cube = false, .boxed = true},
-        .options = Schema(max_radius, min_radius, radius_count, window_count, metric),
-        .results = {{"exponent",
-                     "slope of log variance against log radius: d for independent points, "
-                     "d - 1 for the most even ones"},
-                    {"exponent_standard_error", "of the fit; too small, as radii share pairs"},
-                    {"fit_from", "the smallest radius of the fit, in mean distances"},
-                    {"fit_to", "the largest one"},
-                    {"radius", "of the windows, in mean distances"},
-                    {"mean", "number of points in a window"},
-                    {"variance",
-                     "of that number over all places of the window; exact on the torus"},
-                    {"dispersion", "variance over that of n independent points, mean (1 - v / V)"},
-                    {"mean_distance", "(V / n)^(1/d), in units of the points"},
-                    {"method", "pairs: exact, through them; windows: of those drawn", true,
-                     "pairs|windows"},
-                    {"metric", "torus or euclidean", true, "torus|euclidean"}},
-        .analyze = analyze,
-        .refine = refine,
-        .combine = combine};
+    return {.name = "hyperuniformity",
+            .summary = "Number variance in growing windows, with its exponent",
+            .source = "Torquato, Stillinger 2003, doi:10.1103/PhysRevE.68.041113",
+            .traits = {.max_dimension = 3, .unit_cube = false, .boxed = true},
+            .options = Schema(max_radius, min_radius, radius_count, window_count, metric),
+            .results =
+                {{"exponent",
+                  "slope of log variance, on the torus over 1 - its share of the volume, against "
+                  "log radius: d for independent points, d - 1 for the most even ones"},
+                 {"exponent_standard_error", "of the fit; too small, as radii share pairs"},
+                 {"fit_from", "the smallest radius of the fit, in mean distances"},
+                 {"fit_to", "the largest one"},
+                 {"radius", "of the windows, in mean distances"},
+                 {"mean", "number of points in a window"},
+                 {"variance", "of that number over all places of the window; exact on the torus"},
+                 {"dispersion", "variance over that of n independent points, mean (1 - v / V)"},
+                 {"mean_distance", "(V / n)^(1/d), in units of the points"},
+                 {"method", "pairs: exact, through them; windows: of those drawn", true,
+                  "pairs|windows"},
+                 {"metric", "torus or euclidean", true, "torus|euclidean"}},
+            .analyze = analyze,
+            .refine = refine,
+            .combine = combine};
 }
 
 }  // namespace stipple::analyzers

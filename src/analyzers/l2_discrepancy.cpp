@@ -42,6 +42,7 @@
 //         than n^2).
 
 #include <cmath>
+#include <limits>
 
 #include "analyzers/analyzer.hpp"
 #include "analyzers/l2_carried.hpp"
@@ -59,13 +60,15 @@ namespace {
 constexpr Param<Text> kind{{.name = "kind",
                             .fallback = "all",
                             .help = "Which, separated by commas: all, or some of star, extreme, "
-                                    "periodic, centered, wraparound, mixture, modified, diaphony"}};
+                                    "periodic, centered, wraparound, mixture, modified, "
+                                    "diaphony; stipple help definitions says what they are"}};
 
 constexpr Param<Numbers> axis_weights{
     {.name = "weights",
      .help =
          "Product weights, one for each coordinate, from 0 to 10^6: K = prod (1 + weight k) for "
-         "every kind, so that projections count by the product of their weights"}};
+         "every kind, so that projections count by the product of their weights; without it star, "
+         "extreme and periodic have K = prod k, which is not that of weights 1"}};
 
 /// More points than any machine's memory holds; places of points fit 32 bits.
 constexpr std::size_t max_count = std::size_t{1} << 29;
@@ -85,7 +88,7 @@ std::vector<double> checked_weights(const Values& options, std::size_t dimension
 
 Report result_of(double squared, const char* method) {
     Report result;
-    const double square = std::max(squared, 0.0);
+    const double square = squared > 0 ? squared : 0;
     return result.add("value", std::sqrt(square)).add("squared", square).add("method", method);
 }
 
@@ -120,10 +123,16 @@ void warn_of_pairs(std::size_t n, std::size_t d, l2::Kind which, bool carried,
                     l2::record_of(which).name, n, d, seconds / 60));
 }
 
-/// Of squares off by `error`.
-Report off_by(const l2::Square& square, const char* method) {
-    return result_of(square.squared, method)
-        .add("error", error_of_root(square.squared, square.error));
+/// Of squares off by `error`, or by what is too small for a double.
+Report off_by(const l2::Square& square, l2::Kind which, const char* method, const RunContext& run) {
+    constexpr double few_digits = 1e-9;
+    const double off = square.error + std::numeric_limits<double>::min();
+    const double error = error_of_root(square.squared, off);
+    if (error > few_digits * std::sqrt(std::max(square.squared, 0.0)))
+        run.tell(
+            fmt::format("l2-discrepancy: nearly all digits of {} cancel; it is off by up to {:.2g}",
+                        l2::record_of(which).name, error));
+    return result_of(square.squared, method).add("error", error);
 }
 
 /// Of products that leave the range of doubles with their corrections: from plain doubles where
@@ -146,7 +155,8 @@ Report in_space(const PointSet& points, l2::Kind which, const std::vector<double
     const std::size_t d = points.dimension();
     if (l2::divides(d, which, weights) && l2::divide_wins(n, d, which)) {
         run.need_memory(l2::divide_memory(n, d, which), "the tables of l2-discrepancy");
-        return off_by(l2::divide_square(points, which, weights, run), "divide-and-conquer");
+        return off_by(l2::divide_square(points, which, weights, run), which, "divide-and-conquer",
+                      run);
     }
     const bool carried = l2::carries(d, which, weights);
     warn_of_pairs(n, d, which, carried, run);
@@ -155,7 +165,7 @@ Report in_space(const PointSet& points, l2::Kind which, const std::vector<double
                     "the tables of l2-discrepancy");
     return off_by(carried ? l2::carried_square(points, which, weights, run)
                           : near_enough(points, which, weights, run),
-                  "all-pairs");
+                  which, "all-pairs", run);
 }
 
 Report in_spaces(const PointSet& points, const std::vector<l2::Kind>& kinds,

@@ -20,8 +20,7 @@
 //                        without power beyond the tolerance. White noise has 0 dB, a mean of R
 //                        sets -10 log10 R
 //     effective Nyquist  R / 2, where R is the largest radius, at most F, of a disk |f| < R that
-//                        has a mean power of at most 1/10; between the rims of rings the mean is
-//                        interpolated. 0 if no disk has
+//                        has a mean power of at most 1/10; 0 if no disk has
 //     oscillation        10 times the root of the mean of (P_k - 1)^2 over the frequency vectors of
 //                        rings a..b: a is the first with P_k >= 0.98 (else that of most power),
 //                        b = a + 5 n^(1/d), at most F: complete, and as published, only where
@@ -104,7 +103,8 @@ constexpr Param<Choice> window{
     .choices = "none|hann",
     .help =
         "none: the domain is a torus; hann: it is not, and points are faded out towards its "
-        "sides"};
+        "sides by w = product of sin^2(pi x_k), with the transform W: power is |sum w e - n W|^2 "
+        "/ ((3/8)^d - W^2) / n"};
 
 constexpr Param<Text> weights{
     {.name = "weights",
@@ -186,7 +186,7 @@ void summarize(Report& report, const Grid& power, std::size_t sets, const Values
     report.add("radial", std::move(radial));
     const double expected = sets > 1 ? -10 * std::log10(static_cast<double>(sets)) : 0;
     report.add("expected_anisotropy_db", expected, "dB");
-    const double nyquist = effective_nyquist(rings);
+    const double nyquist = effective_nyquist(power, run);
     report.add("effective_nyquist", nyquist / unit, unit_name);
     report.add("relative_nyquist", nyquist / regular);
     const Oscillation swings = oscillation(rings, regular);
@@ -609,40 +609,44 @@ void follow(const Report& first, Values& options) {
 }
 
 std::vector<ResultKey> results() {
-    return {{"max_frequency", "F: frequencies go from -F to F"},
-            {"regular_nyquist", "n^(1/d) / 2, the Nyquist frequency of a regular grid"},
-            {"tolerance",
-             "Bound of the error of the complex sums, relative to sqrt(n); no less than what "
-             "rounding leaves where all points are in phase"},
-            {"radial.frequency", "Frequency k of each ring, k - 1/2 <= |f| < k + 1/2"},
-            {"radial.power", "Mean power over the ring; white noise has 1"},
-            {"radial.anisotropy_db",
-             "Variance over the ring / squared mean, in dB, at least -100, as rings of equal "
-             "powers and "
-             "such below tolerance^2 have; of averaged sets that of their mean power, without a "
-             "standard error"},
-            {"radial.cells", "Frequency vectors in the ring"},
-            {"expected_anisotropy_db",
-             "Anisotropy of white noise: 0, less 10 log10 of the number of sets averaged"},
-            {"effective_nyquist",
-             "Half the largest radius, at most F, within which the mean power is at most 0.1; of "
-             "averaged sets that of their mean power, without a standard error"},
-            {"relative_nyquist", "The same over regular_nyquist, as published tables give it"},
-            {"oscillation",
-             "10 x root mean square of radial power - 1, from where it first reaches 0.98 over "
-             "n^(1/d) x 5 frequencies, or up to F"},
-            {"oscillation_complete",
-             "Whether F is large enough for all of these: only then it compares with published "
-             "ones",
-             true, true_or_false},
-            {"total_variation",
-             "Half the mean of |radial power - 1| over the rings, weighted by their cells: 0 for "
-             "white noise; depends on F"},
-            {"low_frequency_exponent",
-             "a in power ~ frequency^a near 0, where the lowest rings have power"},
-            {"method", "nufft or direct", true, "nufft|direct"},
-            {"window", "none or hann", true, "none|hann"},
-            {"boundary", "torus, or faded out by the window", true, "torus|faded out"}};
+    return {
+        {"max_frequency", "F: frequencies go from -F to F"},
+        {"regular_nyquist", "n^(1/d) / 2, the Nyquist frequency of a regular grid"},
+        {"tolerance",
+         "Bound of the error of the complex sums, relative to sqrt(n); no less than what "
+         "rounding leaves where all points are in phase"},
+        {"radial.frequency", "Frequency k of each ring, k - 1/2 <= |f| < k + 1/2"},
+        {"radial.power", "Mean power over the ring; white noise has 1"},
+        {"radial.anisotropy_db",
+         "Variance over the ring / squared mean, in dB, at least -100, as rings of equal "
+         "powers and "
+         "such below tolerance^2 have; of averaged sets that of their mean power, without a "
+         "standard error"},
+        {"radial.cells", "Frequency vectors in the ring"},
+        {"expected_anisotropy_db",
+         "Anisotropy of white noise: 0, less 10 log10 of the number of sets averaged"},
+        {"effective_nyquist",
+         "Half the largest radius R, at most F, with a mean power of at most 0.1 over |f| < R; of "
+         "averaged sets that of their mean power, without a standard error"},
+        {"relative_nyquist", "The same over regular_nyquist, as published tables give it"},
+        {"oscillation",
+         "10 x root mean square of radial power - 1, weighted by cells, from where it first "
+         "reaches 0.98 over n^(1/d) x 5 frequencies, or up to F; of averaged sets that of "
+         "their mean power, without a standard error, as the next two are"},
+        {"oscillation_complete",
+         "Whether F is large enough for all of these: only then it compares with published "
+         "ones",
+         true, true_or_false},
+        {"total_variation",
+         "Half the mean of |radial power - 1| over the rings, weighted by their cells: 0 for "
+         "white noise; depends on F"},
+        {"low_frequency_exponent",
+         "a in power ~ frequency^a near 0: slope of log radial power against log frequency, "
+         "weighted by cells, over the lowest n^(1/d) / 4 rings, at least 4, as far as they "
+         "have power"},
+        {"method", "nufft or direct", true, "nufft|direct"},
+        {"window", "none or hann", true, "none|hann"},
+        {"boundary", "torus, or faded out by the window", true, "torus|faded out"}};
 }
 
 }  // namespace

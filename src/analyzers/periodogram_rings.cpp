@@ -9,8 +9,8 @@ namespace {
 
 constexpr double lowest_db = -100;
 
-/// Calls visit(ring, power) for half of the frequency vectors in rings 1..F, of which the others
-/// are the opposites. In integers, k - 1/2 <= |f| < k + 1/2 is k^2 - k < |f|^2 <= k^2 + k.
+/// Calls visit(ring, |f|^2, power) for half of the frequency vectors in rings 1..F, of which the
+/// others are the opposites. In integers, k - 1/2 <= |f| < k + 1/2 is k^2 - k < |f|^2 <= k^2 + k.
 template <class Visit>
 void for_half_of_rings(const Grid& power, const RunContext& run, Visit&& visit) {
     const auto width = static_cast<std::int64_t>(power.columns);
@@ -29,8 +29,9 @@ void for_half_of_rings(const Grid& power, const RunContext& run, Visit&& visit) 
             while (ring * ring + ring < square) ++ring;
             if (ring > last) break;
             if (ring == 0) continue;
-            visit(static_cast<std::size_t>(ring), values[last + f0]);
-            if (f0 > 0 && !centre) visit(static_cast<std::size_t>(ring), values[last - f0]);
+            const auto of = static_cast<std::size_t>(ring);
+            visit(of, square, values[last + f0]);
+            if (f0 > 0 && !centre) visit(of, square, values[last - f0]);
         }
     }
 }
@@ -41,12 +42,12 @@ Rings rings_of(const Grid& power, const RunContext& run) {
     const std::size_t last = power.columns / 2;
     Rings rings{std::vector<double>(last), std::vector<double>(last),
                 std::vector<std::int64_t>(last)};
-    for_half_of_rings(power, run, [&](std::size_t k, double p) {
+    for_half_of_rings(power, run, [&](std::size_t k, std::int64_t, double p) {
         rings.power[k - 1] += p;
         ++rings.cells[k - 1];
     });
     for (std::size_t i = 0; i < last; ++i) rings.power[i] /= static_cast<double>(rings.cells[i]);
-    for_half_of_rings(power, run, [&](std::size_t k, double p) {
+    for_half_of_rings(power, run, [&](std::size_t k, std::int64_t, double p) {
         const double deviation = p - rings.power[k - 1];
         rings.variance[k - 1] += deviation * deviation;
     });
@@ -63,24 +64,33 @@ double anisotropy_db(double variance, double mean, double least) {
     return ratio > 1e-10 ? 10 * std::log10(ratio) : lowest_db;
 }
 
-double effective_nyquist(const Rings& rings) {
+double effective_nyquist(const Grid& power, const RunContext& run) {
     constexpr double threshold = 0.1;
+    const std::size_t last = power.columns / 2;
+    const bool line = power.rows == 1;  // where squares are few, and far apart
+    struct Shell {
+        double power = 0;
+        double cells = 0;
+    };
+    std::vector<Shell> shells(line ? last + 1 : last * last + 1);  // by |f|, or its square
+    for_half_of_rings(power, run, [&](std::size_t ring, std::int64_t square, double p) {
+        const std::size_t at = line ? ring : static_cast<std::size_t>(square);
+        if (at >= shells.size()) return;
+        shells[at].power += p;
+        shells[at].cells += 1;
+    });
     double radius = 0;
-    double sum = 0;
-    double cells = 0;
-    double before = threshold;  // mean inside the last rim; at the first there is none
-    for (std::size_t i = 0; i < rings.power.size(); ++i) {
-        sum += rings.power[i] * static_cast<double>(rings.cells[i]);
-        cells += static_cast<double>(rings.cells[i]);
-        const double mean = sum / cells;
-        const double rim = static_cast<double>(i) + 1.5;
-        if (mean <= threshold)
-            radius = rim;
-        else if (before < threshold)
-            radius = rim - (mean - threshold) / (mean - before);
-        before = mean;
+    Shell inside;
+    bool low = false;
+    for (std::size_t at = 1; at < shells.size(); ++at) {
+        if (shells[at].cells == 0) continue;
+        const auto number = static_cast<double>(at);
+        if (low) radius = line ? number : std::sqrt(number);
+        inside.power += shells[at].power;
+        inside.cells += shells[at].cells;
+        low = inside.power <= threshold * inside.cells;
     }
-    return std::min(radius, static_cast<double>(rings.power.size())) / 2;
+    return (low ? static_cast<double>(last) : radius) / 2;
 }
 
 Oscillation oscillation(const Rings& rings, double regular_nyquist) {

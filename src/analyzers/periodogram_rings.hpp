@@ -26,7 +26,8 @@ Rings rings_of(const Grid& power, const RunContext& run);
 /// Of a ring in dB, no less than -100; that, too, where its power is no more than `least`.
 double anisotropy_db(double variance, double mean, double least);
 
-double effective_nyquist(const Rings& rings);
+/// @param power as for rings_of.
+double effective_nyquist(const Grid& power, const RunContext& run);
 
 /// Complete, if its rings begin where the power first reaches 0.98 and none are cut off by F.
 struct Oscillation {

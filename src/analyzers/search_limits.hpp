@@ -48,9 +48,8 @@ inline constexpr Param<std::int64_t> max_work{
     .low = 1,
     .unit = "comparisons",
     .help =
-        "Stop when a search (in 3 and more dimensions; in 2 for extreme and periodic boxes) "
-        "has compared this many coordinates, the same on any machine; 10^9 take one to four "
-        "seconds on one core"};
+        "Stop when a search, where no sweep gives the value, has compared this many coordinates, "
+        "the same on any machine; 10^9 take one to four seconds on one core"};
 
 }  // namespace limit
 

@@ -505,8 +505,8 @@ class Analysis {
             else if (several)
                 fail(ErrorKind::usage, "--{}: several sets need a name with {{set}}, or --average",
                      name);
-            write_text(
-                path, std::string(name) == "grid" ? npy_bytes(*grid) : png_bytes(*grid, picture()));
+            write_text(path, std::string(name) == "grid" ? npy_bytes(*grid)
+                                                         : png_bytes(*grid, picture(results)));
         }
         const auto* wisdom = options_.try_find("wisdom");
         if (wisdom && wisdom->given)
@@ -514,8 +514,9 @@ class Analysis {
     }
 
     /// How the options say that a grid is drawn.
-    [[nodiscard]] PowerPicture picture() const {
+    [[nodiscard]] PowerPicture picture(const Report& results) const {
         PowerPicture picture;
+        if (analyzer_.name == "differential") picture.differences = results.number("max_distance");
         if (const auto* scale = options_.try_find("image-scale"))
             picture.scale = std::get<std::string>(scale->value);
         if (const auto* bits = options_.try_find("image-bits"))

@@ -36,7 +36,7 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
         fail(ErrorKind::input,
              "{}: byte {}: the last point is cut off; expected whole points, {} float{} each",
              source, bytes.size(), width, 8 * size);
-    run.need_memory(static_cast<double>(bytes.size() / size) * 8, "the points of " + source);
+    run.need_memory(static_cast<double>(bytes.size() / size) * 8, "reading " + source);
     std::vector<double> table(bytes.size() / size);
     take_raw(bytes, {.size = size}, table);
     check_finite(table, {.source = source, .row = width, .size = size});

@@ -350,7 +350,7 @@ Rows read_rows(const SourceText& text, const char* body, const char* model, cons
     std::vector<Piece> pieces = cut_at_lines(text, body, reader, run);
     const std::uint64_t room = pieces.empty() ? 0 : pieces.back().begin + pieces.back().room;
     run.need_memory(static_cast<double>(room) * static_cast<double>(columns.dimension) * 8,
-                    "the points of " + text.source());
+                    "reading " + text.source());
     std::vector<double> numbers(room * columns.dimension);
     for_each_block(
         run, pieces.size(), 1,

@@ -66,7 +66,7 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
     const std::size_t width = rank == 1 ? 1 : header.shape.back();
     const std::size_t n = size / sets / width;
 
-    run.need_memory(static_cast<double>(size) * 8, "the points of " + source);
+    run.need_memory(static_cast<double>(size) * 8, "reading " + source);
     const Columns columns = choose_columns({}, width, options, source);
     std::vector<double> table(size);
     take_raw(data, header.type, table);

@@ -119,8 +119,9 @@ Report without_words(const Report& report) {
 
 /// What is not a measured value of each set (the value it should have, and what stands for the
 /// spread or the chance of several), and what an analyzer works out anew from the mean and what
-/// scatters otherwise than a mean does: decibels as much for many sets as for one, and the place
-/// where a threshold is met as the curve's slope has it.
+/// scatters otherwise than a mean does: decibels as much for many sets as for one, the place where
+/// a threshold is met as the curve's slope has it, and what deviations from 1 add up to less the
+/// more sets there are.
 bool is_no_mean(std::string_view name) {
     constexpr std::array names = {"exact",
                                   "standard_error",
@@ -132,7 +133,10 @@ bool is_no_mean(std::string_view name) {
                                   "anisotropy_db",
                                   "expected_anisotropy_db",
                                   "effective_nyquist",
-                                  "relative_nyquist"};
+                                  "relative_nyquist",
+                                  "oscillation",
+                                  "total_variation",
+                                  "low_frequency_exponent"};
     return std::ranges::find(names, name) != names.end();
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/text.hpp"
 #include "math/png_picture.hpp"
 
 namespace stipple {
@@ -42,6 +43,23 @@ std::size_t first_row(const Grid& power, const PowerPicture& picture) {
 void append_little_endian(std::string& out, double value) {
     auto bits = std::bit_cast<std::uint64_t>(value);
     for (int i = 0; i < 8; ++i, bits >>= 8) out.push_back(static_cast<char>(bits & 255));
+}
+
+/// What the pixels are, for the file's text.
+std::string description(const Grid& power, const PowerPicture& picture, double white) {
+    const auto last = static_cast<std::int64_t>(power.columns / 2);
+    const bool plane = power.rows > power.columns;
+    std::string text =
+        picture.differences > 0
+            ? fmt::format(", independent points P = 1, from -{0} to {0} mean distances",
+                          format_number(picture.differences))
+            : fmt::format(", white noise P = 1, at the frequencies {} to {}", -last, last);
+    text +=
+        fmt::format(" from left to right and from bottom to top{}; {}, from 0 to {:.0f}.",
+                    picture.differences > 0 ? "" : ", one a pixel", formula(picture.scale), white);
+    if (plane) text += fmt::format(" Plane fz = {}.", picture.slice);
+    if (picture.differences > 0) return text + " Difference 0, in the centre, is left out.";
+    return plane && picture.slice != 0 ? text : text + " Frequency 0, in the centre, is left out.";
 }
 
 }  // namespace
@@ -78,16 +96,9 @@ std::string png_bytes(const Grid& power, const PowerPicture& picture) {
                 at == power.values.size() / 2 ? 0 : grey(power.values[at], picture.scale);
             pixels.push_back(static_cast<std::uint16_t>(std::lround(white * value)));
         }
-    const auto last = static_cast<std::int64_t>(power.columns / 2);
-    std::string text = fmt::format(
-        "Power spectrum, white noise P = 1, at the frequencies {} to {} from left to right and "
-        "from bottom to top, one a pixel; {}, from 0 to {:.0f}. Frequency 0, in the centre, is "
-        "left "
-        "out.",
-        -last, last, formula(picture.scale), white);
-    if (power.rows > power.columns) text += fmt::format(" Plane fz = {}.", picture.slice);
-    const std::vector<PngText> texts = {{"Title", "Power spectrum"},
-                                        {"Description", text},
+    const std::string title = picture.differences > 0 ? "Pair differences" : "Power spectrum";
+    const std::vector<PngText> texts = {{"Title", title},
+                                        {"Description", title + description(power, picture, white)},
                                         {"Scale", picture.scale},
                                         {"Software", "stipple"}};
     return encode_png({power.columns, rows, picture.bits},

@@ -14,11 +14,12 @@ namespace stipple {
 /// (columns), and of columns^2 rows (columns, columns, columns).
 std::string npy_bytes(const Grid& power);
 
-/// How a power spectrum is drawn.
+/// How a power spectrum is drawn, or an image of pair differences.
 struct PowerPicture {
     std::string scale = "ratio";  ///< or "linear", "log"
     int bits = 8;                 ///< or 16
     std::int64_t slice = 0;       ///< of a cube: the frequency f_2 of the plane
+    double differences = 0;       ///< up to so many mean distances; 0: it is a spectrum
 };
 
 /// A picture of a power spectrum as PNG in grey, one pixel a frequency; the last row of the grid is

@@ -480,6 +480,25 @@ TEST(L2Discrepancy, DoesNotDependOnTheWidthOfVectors) {
             }
 }
 
+// A square below the doubles' range, and one that is the difference of numbers near 1.
+TEST(L2Discrepancy, SaysWhatItIsOffByWhereNothingIsLeft) {
+    const PointSet high = random_set(3, 400, 1);
+    const PointSet few = small_sets(3)[2];
+    const Weights tiny{1e-40, 1e-40, 1e-40};
+    for (const auto& [set, weights, kind] :
+         {std::tuple{high, Weights{}, "extreme"}, {few, tiny, "star"}}) {
+        std::vector<std::string> told;
+        RunContext run;
+        run.warn = [&](const std::string& sentence) { told.push_back(sentence); };
+        const Report report = analyze("l2-discrepancy", set, settings_of(kind, weights), run);
+        const double value = report.number(fmt::format("{}.value", kind));
+        EXPECT_FALSE(std::signbit(value));
+        EXPECT_GT(report.number(fmt::format("{}.error", kind)), 1e-160);
+        EXPECT_EQ(told.size(), 1U);
+    }
+    EXPECT_GE(report_of(few, tiny, "star").number("star.error"), 1e-20);
+}
+
 // Of products that doubles hold with their corrections, and of others: star's are near 3^-d, those
 // of small weights near 1.
 TEST(L2Discrepancy, IsWithinATrillionth) {

@@ -145,8 +145,9 @@ def of_spectrum(report, count):
         scientific(low_power, low_error),
         number(power[top], error[top]),
         f"{frequency[top] / np.sqrt(count):.2f}",
-        f"{results['effective_nyquist'] / regular:.2f}",  # of the mean power: no error is known
-        number(results["oscillation"], errors["oscillation"]),
+        # Of the mean power: no errors are known.
+        f"{results['effective_nyquist'] / regular:.2f}",
+        f"{results['oscillation']:.1f}",
         f"{decibels(uneven[BAND:].sum() / cells[BAND:].sum()):.1f}",
         f"{decibels(bands.max()):.1f}",
     ]

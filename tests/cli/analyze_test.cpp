@@ -299,7 +299,9 @@ TEST(Analyze, WhatHasNoMeanHasNoStandardError) {
     for (const auto& [analyzer, gone] :
          {std::pair<std::string, std::vector<std::string>>{"nearest-neighbor", {"pair"}},
           {"coverage", {"center"}},
-          {"poisson-disk", {"center", "first_conflict"}}}) {
+          {"poisson-disk", {"center", "first_conflict"}},
+          {"periodogram",
+           {"effective_nyquist", "oscillation", "total_variation", "low_frequency_exponent"}}}) {
         const auto mean = report_of(box.run({"analyze", analyzer, "p.csv", "--average"}));
         EXPECT_FALSE(mean["standard_error"].empty()) << analyzer;
         for (const auto& [key, error] : mean["standard_error"].items())

@@ -289,5 +289,5 @@ TEST(Csv, StopsAndLimitsAreHonoured) {
     stop.request_stop();
     EXPECT_EQ(refusal("csv", text, {}, {.stop = stop.get_token()}), "cancelled: interrupted");
     const std::string error = refusal("csv", text, {}, {.max_memory = 100'000});
-    EXPECT_TRUE(error.starts_with("limit: the points of p needs")) << error;
+    EXPECT_TRUE(error.starts_with("limit: reading p needs")) << error;
 }

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "report/grid_files.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <png.h>
 
 #include <cstring>
 
 using namespace stipple;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
 
 namespace {
 
@@ -49,6 +53,20 @@ TEST(GridFiles, NpyHoldsShapeAndNumbers) {
 TEST(GridFiles, PngIsGreyByPowerWithTheLastRowOnTop) {
     EXPECT_EQ(decode(png_bytes(sample), sample),
               (std::vector<int>{255, 128, 0, 128, 0, 128, 0, 128, 191}));
+}
+
+// Of a plane off the middle nothing is left out.
+TEST(GridFiles, PngSaysWhatItsPixelsAre) {
+    EXPECT_THAT(png_bytes(sample),
+                AllOf(HasSubstr("Power spectrum, white noise P = 1, at the frequencies -1 to 1 "),
+                      HasSubstr("Frequency 0, in the centre, is left out.")));
+    EXPECT_THAT(png_bytes(sample, {.differences = 2.5}),
+                AllOf(HasSubstr("Pair differences, independent points P = 1, from -2.5 to 2.5 "),
+                      Not(HasSubstr("spectrum")), Not(HasSubstr("requenc"))));
+    Grid cube{.rows = 9, .columns = 3, .values = std::vector<double>(27)};
+    EXPECT_THAT(png_bytes(cube, {.slice = 1}),
+                AllOf(HasSubstr(" Plane fz = 1."), Not(HasSubstr("left out"))));
+    EXPECT_THAT(png_bytes(cube), HasSubstr(" Plane fz = 0. Frequency 0, in the centre, "));
 }
 
 TEST(GridFiles, PngOfALineIsALine) {
