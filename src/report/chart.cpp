@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "report/letters.hpp"
 
 namespace stipple {
@@ -382,7 +383,12 @@ Drawing draw_chart(const Chart& chart, const PictureStyle& style) {
         used += legend_height(legends.back(), whole_width);
         shares += panel.share;
     }
-    const double unit = std::max(60.0, drawing.height - used) / shares;
+    constexpr double least = 60;  // pixels that panels share
+    if (style.height > 0 && drawing.height - used < least)
+        fail(ErrorKind::usage, "--height: {:.0f} leaves no room for the chart; at least {:.0f} do",
+             style.height, std::ceil(used + least));
+    drawing.height = std::max(drawing.height, std::ceil(used + least));
+    const double unit = (drawing.height - used) / shares;
     double left = 0;
     for (const ChartPanel& panel : chart.panels)
         left = std::max(left, Panel::room_left(y_axis(panel, style), unit * panel.share));

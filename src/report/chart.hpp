@@ -83,6 +83,7 @@ struct Chart {
     std::vector<ChartPanel> panels = {};
 };
 
+/// @throws Error(usage) where the height asked for leaves no room.
 Drawing draw_chart(const Chart& chart, const PictureStyle& style);
 
 /// The axes of a panel, as they are drawn.

@@ -211,6 +211,8 @@ TEST(Plot, RefusesWhatIsNoPictureAndLeavesNoFile) {
     expect_refusal(box.run({"plot", "p.csv", "--width", "0"}), 2, "outside [120, 20000]");
     expect_refusal(box.run({"plot", "p.csv", "-f", "text", "--width", "0"}), 2,
                    "outside [20, 1000]");
+    expect_refusal(box.run({"plot", "p.csv", "--chart", "radial", "-f", "svg", "--height", "150"}),
+                   2, "--height: 150 leaves no room for the chart; at least 2");
     expect_refusal(box.run({"plot", "p.csv", "--set", "1"}), 2, "outside [0, 0]");
     expect_refusal(box.run({"plot", "p.csv", "--key", "value"}), 2, "--key");
     expect_refusal(box.run({"plot", "p.csv", "--y-scale", "cubic"}), 2, "linear, log");
