@@ -373,35 +373,32 @@ void weigh(const Table& table, const double* block, const std::vector<std::size_
     }
 }
 
-/// Calls body<Kernel>() for the kernel of a form.
-template <class Body>
-auto with_kernel(Form form, const Body& body) {
-    switch (form) {
-        case Form::least:
-            return body.template operator()<Least>();
-        case Form::least_carried:
-            return body.template operator()<LeastCarried>();
-        case Form::around:
-            return body.template operator()<Around>();
-        case Form::bend:
-            return body.template operator()<Bend<false, true>>();
-        case Form::bend_fine:
-            return body.template operator()<Bend<true, true>>();
-        case Form::bend_shifted:
-            return body.template operator()<Bend<false, false>>();
-        case Form::bend_shifted_fine:
-            return body.template operator()<Bend<true, false>>();
-        case Form::mixture:
-            return body.template operator()<Mixture<false>>();
-        case Form::mixture_fine:
-            return body.template operator()<Mixture<true>>();
-        default:
-            return body.template operator()<Excess>();
-    }
+template <class Kernel>
+Work work_of() {
+    return {meet<Kernel>, weigh<Kernel>, Kernel::columns_of_factor, Kernel::separates};
 }
 
 inline Work work_of(Form form) {
-    return with_kernel(form, []<class Kernel>() -> Work {
-        return {meet<Kernel>, weigh<Kernel>, Kernel::columns_of_factor, Kernel::separates};
-    });
+    switch (form) {
+        case Form::least:
+            return work_of<Least>();
+        case Form::least_carried:
+            return work_of<LeastCarried>();
+        case Form::around:
+            return work_of<Around>();
+        case Form::bend:
+            return work_of<Bend<false, true>>();
+        case Form::bend_fine:
+            return work_of<Bend<true, true>>();
+        case Form::bend_shifted:
+            return work_of<Bend<false, false>>();
+        case Form::bend_shifted_fine:
+            return work_of<Bend<true, false>>();
+        case Form::mixture:
+            return work_of<Mixture<false>>();
+        case Form::mixture_fine:
+            return work_of<Mixture<true>>();
+        default:
+            return work_of<Excess>();
+    }
 }
