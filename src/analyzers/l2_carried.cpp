@@ -8,7 +8,6 @@
 
 #include "analyzers/l2_meetings.hpp"
 #include "core/parallel.hpp"
-#include "math/double_double.hpp"
 
 namespace stipple::analyzers::l2 {
 namespace {
@@ -16,15 +15,11 @@ namespace {
 /// Of a factor: see AxisForm::put.
 constexpr std::size_t numbers_of_factor = 5;
 
-using Parts = DoubleDouble;
-
-Parts parts_of(const Quad& x) {
-    const auto high = static_cast<double>(x);
-    return {high, static_cast<double>(x - Quad(high))};
-}
+/// The nearest multiple of 2^-53.
+double whole(double x) { return std::round(x * 0x1p53) * 0x1p-53; }
 
 /// The high part a multiple of `step`.
-Parts on_grid(const Parts& a, double step) {
+DoubleDouble on_grid(const DoubleDouble& a, double step) {
     const double high = std::round(a.high / step) * step;
     return {high, (a.high - high) + a.low};
 }
@@ -48,10 +43,10 @@ class AxisForm {
             const double twice = 2 * static_cast<double>(base_);
             step_ = std::ldexp(1.0, std::ilogb(twice) - 52);
         }
-        top_ = parts_of(kind == Kind::centered  ? Quad(inverse_ + 0.5)
-                        : kind == Kind::mixture ? Quad(base_ + 0.25)
-                                                : Quad(inverse_ + 1));
-        bottom_ = parts_of(kind == Kind::mixture ? Quad(base_ - 0.25) : inverse_);
+        top_ = to_double_double(kind == Kind::centered  ? Quad(inverse_ + 0.5)
+                                : kind == Kind::mixture ? Quad(base_ + 0.25)
+                                                        : Quad(inverse_ + 1));
+        bottom_ = to_double_double(kind == Kind::mixture ? Quad(base_ - 0.25) : inverse_);
     }
 
     [[nodiscard]] const Quad& scale() const { return scale_; }
@@ -76,7 +71,7 @@ class AxisForm {
     [[nodiscard]] AxisConstants constants() const {
         AxisConstants axis;
         if (!bends() && !is_excess()) return axis;
-        const Parts base = parts_of(base_ + shift());
+        const DoubleDouble base = to_double_double(base_ + shift());
         axis.base = base.high;
         axis.shift = shift();
         axis.lost = base.low;
@@ -94,9 +89,9 @@ class AxisForm {
     /// Numbers of a point: of a factor its place in the order, the place less the parabola's
     /// corner, the place's rest, its value and the correction.
     void put(double x, double* to) const {
-        const auto write = [&](double place, const Parts& number) {
+        const auto write = [&](double place, const DoubleDouble& number) {
             const bool split = bends() || kind_ == Kind::mixture;
-            const double at = split ? std::round(place * 0x1p53) * 0x1p-53 : place;
+            const double at = split ? whole(place) : place;
             *to++ = at;
             *to++ = at - (bends() ? corner_of_bend : corner_of_mixture);
             *to++ = place - at;
@@ -107,17 +102,17 @@ class AxisForm {
         switch (kind_) {
             case Kind::star:
             case Kind::modified:
-                return write(-x, top_ + Parts{-x, 0});
+                return write(-x, top_ + DoubleDouble{-x, 0});
             case Kind::extreme:
                 if (alone_) write(x, {x, 0});
-                return write(alone_ ? -x : x, Parts{1, 0} + Parts{-x, 0});
+                return write(alone_ ? -x : x, DoubleDouble{1, 0} + DoubleDouble{-x, 0});
             case Kind::centered:
-                write(x, bottom_ + Parts{std::max(x - 0.5, 0.0), 0});
-                return write(-x, x < 0.5 ? top_ + Parts{-x, 0} : bottom_);
+                write(x, bottom_ + DoubleDouble{std::max(x - 0.5, 0.0), 0});
+                return write(-x, x < 0.5 ? top_ + DoubleDouble{-x, 0} : bottom_);
             case Kind::mixture:
-                return write(
-                    x,
-                    on_grid(x < 0.5 ? bottom_ + Parts{x / 2, 0} : top_ + Parts{-x / 2, 0}, step_));
+                return write(x, on_grid(x < 0.5 ? bottom_ + DoubleDouble{x / 2, 0}
+                                                : top_ + DoubleDouble{-x / 2, 0},
+                                        step_));
             default:
                 return write(x, {0, 0});
         }
@@ -131,8 +126,8 @@ class AxisForm {
     Quad scale_;
     Quad base_ = 0;
     double step_ = 0;
-    Parts top_ = {};     ///< what coordinates are taken from
-    Parts bottom_ = {};  ///< what they are added to
+    DoubleDouble top_ = {};     ///< what coordinates are taken from
+    DoubleDouble bottom_ = {};  ///< what they are added to
 };
 
 /// The axes that have a weight.
@@ -159,8 +154,7 @@ Axes axes_of(std::size_t dimension, Kind kind, const std::vector<double>& weight
 bool is_around(const PointSet& points, Kind kind, const std::vector<double>& weights) {
     if (kind != Kind::centered || std::ranges::any_of(weights, [](double w) { return w != 1; }))
         return false;
-    return std::ranges::all_of(points.flat(),
-                               [](double x) { return x * 0x1p53 == std::round(x * 0x1p53); });
+    return std::ranges::all_of(points.flat(), [](double x) { return x == whole(x); });
 }
 
 /// What of the numbers is not 0.
@@ -208,7 +202,7 @@ class Means {
     explicit Means(const std::vector<AxisTerms>& axes) {
         for (const AxisTerms& axis : axes) {
             auto& terms = axes_.emplace_back();
-            std::ranges::transform(axis.mean_terms(), terms.begin(), parts_of);
+            std::ranges::transform(axis.mean_terms(), terms.begin(), to_double_double);
         }
     }
 

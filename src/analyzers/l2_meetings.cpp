@@ -5,7 +5,6 @@
 #include <cstring>
 
 #include "core/parallel.hpp"
-#include "math/double_double.hpp"
 
 // Products need their rounding errors: an instruction where there is one, and slow where not.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)

@@ -37,10 +37,10 @@ class Table {
     [[nodiscard]] Form form() const { return form_; }
     [[nodiscard]] std::size_t count() const { return count_; }
     [[nodiscard]] const std::vector<AxisConstants>& factors() const { return factors_; }
-    [[nodiscard]] std::size_t columns() const { return columns_; }  ///< of a factor
     [[nodiscard]] std::size_t height() const { return factors_.size() * columns_ + 1; }
 
-    /// Writes columns() numbers of the next factor of a point.
+    /// Writes the numbers of a factor of a point, as many as the form has columns for it.
+    /// @param place in the order of the factor's axis
     void put(std::size_t i, std::size_t factor, const double* numbers, double place);
 
     [[nodiscard]] const double* block(std::size_t b) const {
@@ -56,7 +56,7 @@ class Table {
     Form form_;
     std::size_t count_;
     std::vector<AxisConstants> factors_;
-    std::size_t columns_;
+    std::size_t columns_;  ///< of a factor
     std::vector<Line> numbers_;
     std::vector<Range> ranges_;  ///< of places
 };

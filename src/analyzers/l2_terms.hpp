@@ -9,10 +9,16 @@
 #include <cstdlib>
 
 #include "analyzers/l2_kind.hpp"
+#include "math/double_double.hpp"
 
 namespace stipple::analyzers::l2 {
 
 using Quad = boost::multiprecision::cpp_bin_float_quad;
+
+inline DoubleDouble to_double_double(const Quad& x) {
+    const auto high = static_cast<double>(x);
+    return {high, static_cast<double>(x - Quad(high))};
+}
 
 /// The factor of an axis, 1 + w k or k alone, in its terms of x, x^2, |x - 1/2|, x y and |x - y|.
 class AxisTerms {

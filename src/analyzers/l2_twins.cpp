@@ -85,19 +85,10 @@ STIPPLE_INLINE Twin magnitude(Twin a) {
     return {(Four)((Bits)a.high ^ sign), (Four)((Bits)a.low ^ sign)};
 }
 
-struct TwinNumber {
-    double high;
-    double low;
-
-    explicit TwinNumber(const Quad& x)
-        : high(static_cast<double>(x)), low(static_cast<double>(x - Quad(high))) {}
-    TwinNumber() : high(0), low(0) {}
-};
-
 /// What is the same for all points on an axis.
 struct AxisConstants {
-    TwinNumber product;   ///< p
-    TwinNumber distance;  ///< s
+    DoubleDouble product;   ///< p
+    DoubleDouble distance;  ///< s
 };
 
 /// Blocks of points, column after column in each; behind them one that is 1, and 0 where there are
@@ -222,7 +213,7 @@ Quad fill(Table& table, const PointSet& points, const std::vector<std::size_t>& 
         Quad mean = 1;
         for (std::size_t j = 0; j < axes.size(); ++j) {
             const double x = points[i][axes[j]] + 0.0;
-            const TwinNumber own(terms[j].own(x));
+            const DoubleDouble own = to_double_double(terms[j].own(x));
             table.at(i, j * columns) = x;
             table.at(i, j * columns + 1) = own.high;
             table.at(i, j * columns + 2) = own.low;
@@ -247,8 +238,8 @@ Prepared prepare(const PointSet& points, Kind kind, const std::vector<double>& w
         axes.push_back(j);
         terms.emplace_back(record, alone, weight);
         AxisConstants axis;
-        axis.product = TwinNumber(terms.back().product());
-        axis.distance = TwinNumber(terms.back().distance());
+        axis.product = to_double_double(terms.back().product());
+        axis.distance = to_double_double(terms.back().distance());
         out.table.axes.push_back(axis);
         out.total *= terms.back().total();
         out.terms += terms.back().terms();
