@@ -32,14 +32,12 @@
 #include "analyzers/l2_kind.hpp"
 #include "core/point_set.hpp"
 #include "core/run_context.hpp"
+#include "core/vectors.hpp"
 
 namespace stipple::analyzers::l2 {
 
 /// Whether carried_square() takes such points.
 bool carries(std::size_t dimension, Kind kind, const std::vector<double>& weights);
-
-/// Instructions to work with; narrower where the machine has no such ones.
-enum class Vectors { anywhere, fours, eights };
 
 /// The squared discrepancy. @param weights of the axes, or none
 Square carried_square(const PointSet& points, Kind kind, const std::vector<double>& weights,

@@ -6,15 +6,8 @@
 
 #include "core/parallel.hpp"
 
-// Products need their rounding errors: an instruction where there is one, and slow where not.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#include <immintrin.h>
-#define STIPPLE_PICKS_VECTORS
-#endif
-
 // The vectors never leave a function that is not inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
-#define STIPPLE_INLINE [[gnu::always_inline]] inline
 
 namespace stipple::analyzers::l2 {
 namespace {
@@ -67,17 +60,8 @@ namespace eights {
 #endif
 #undef STIPPLE_LANES
 
-Vectors widest_here() {
-#ifdef STIPPLE_PICKS_VECTORS
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
-        return Vectors::eights;
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return Vectors::fours;
-#endif
-    return Vectors::anywhere;
-}
-
 Work work_of(Form form, Vectors widest) {
-    static const Vectors here = widest_here();
+    static const Vectors here = widest_vectors();
 #ifdef STIPPLE_PICKS_VECTORS
     if (std::min(widest, here) == Vectors::eights) return eights::work_of(form);
     if (std::min(widest, here) == Vectors::fours) return fours::work_of(form);

@@ -8,11 +8,10 @@
 
 #include "analyzers/l2_terms.hpp"
 #include "core/parallel.hpp"
+#include "core/vectors.hpp"
 
 // The vectors never leave a function that is not inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
-
-#define STIPPLE_INLINE [[gnu::always_inline]] inline
 
 // Products need their rounding errors: an instruction where there is one, and slow where not.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \

@@ -149,7 +149,7 @@ constexpr Param<std::int64_t> slice{
 constexpr double floor_of_floats = 1e-13;
 constexpr std::uint64_t few_points = std::uint64_t{1} << 16;  // quickly copied
 constexpr std::uint64_t kept_points = std::uint64_t{1} << 20;
-constexpr std::uint64_t most_points = std::uint64_t{1} << 30;  // that larger sets are planned for
+constexpr std::uint64_t most_points = std::uint64_t{1} << 26;  // that larger sets are planned for
 
 std::size_t default_frequency(std::uint64_t count, std::size_t dimension) {
     constexpr double most[] = {0, 65536, 1024, 64};

@@ -290,7 +290,7 @@ MPI: one set, measured by many ranks
       srun -n 1024 stipple analyze chi-square --generate random -n 1e12
 
   Points are cut into grains: 2^18 numbers or, for periodogram, as many points as its grid has
-  cells, 2^21 to 2^26. A set of fewer grains than ranks leaves ranks idle. All ranks must see
+  cells, 2^24 to 2^26. A set of fewer grains than ranks leaves ranks idle. All ranks must see
   the files; npy and bin are read once, each point by one rank, text twice, since nobody knows
   where its points stand. periodogram shares --method nufft. star-discrepancy shares its search
   in 3 and more dimensions, 64 cells a round: more than 64 ranks do not help. Each rank has all

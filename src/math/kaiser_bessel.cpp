@@ -120,7 +120,7 @@ WindowTable::WindowTable(const KaiserBessel& window) : width_(window.width()) {
 }
 
 void WindowTable::fill(const KaiserBessel& window) {
-    rows_.assign(pieces_ * (degree() + 1) * padded_width() / 4, {});
+    rows_.assign(pieces_ * (degree() + 1) * row_of(width_) / 8, {});
     std::vector<double> values(degree() + 1);
     for (std::size_t i = 0; i < pieces_ * width_; ++i) {
         const std::size_t piece = i / width_;
@@ -151,9 +151,9 @@ bool WindowTable::agrees(const KaiserBessel& window) const {
 }
 
 double WindowTable::polynomial(std::size_t piece, std::size_t j, double t) const {
-    const double* row = coefficients() + piece * (degree() + 1) * padded_width() + j;
+    const double* row = coefficients() + piece * (degree() + 1) * row_of(width_) + j;
     double value = 0;
-    for (std::size_t k = 0; k <= degree(); ++k, row += padded_width()) value = value * t + *row;
+    for (std::size_t k = 0; k <= degree(); ++k, row += row_of(width_)) value = value * t + *row;
     return value;
 }
 

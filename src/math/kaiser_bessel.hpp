@@ -63,31 +63,31 @@ class WindowTable {
     [[nodiscard]] std::size_t width() const { return width_; }
     [[nodiscard]] std::size_t pieces() const { return pieces_; }
 
-    /// Values that a row of coefficients holds: the width rounded up to 4; the surplus is zero.
-    [[nodiscard]] std::size_t padded_width() const { return (width_ + 3) / 4 * 4; }
+    /// Values that a row of coefficients holds: whole vectors; the surplus is zero.
+    static constexpr std::size_t row_of(std::size_t width) { return (width + 7) / 8 * 8; }
 
     /// Degree that is quickest: of a table that the nearest cache holds beside a tile.
-    static constexpr std::size_t degree_of(std::size_t padded) { return padded / 4 + 2; }
+    static constexpr std::size_t degree_of(std::size_t width) { return (width + 3) / 4 + 2; }
 
-    [[nodiscard]] std::size_t degree() const { return degree_of(padded_width()); }
+    [[nodiscard]] std::size_t degree() const { return degree_of(width_); }
 
-    /// For each piece, degree + 1 rows of padded_width(); row k holds the coefficients of
-    /// t^(degree - k), t in [-1, 1) being the place in the piece. Aligned to 32 bytes.
+    /// For each piece, degree + 1 rows of row_of(width); row k holds the coefficients of
+    /// t^(degree - k), t in [-1, 1) being the place in the piece. Aligned to 64 bytes.
     [[nodiscard]] const double* coefficients() const { return rows_.front().numbers.data(); }
 
     /// The value at the j-th grid point.
     [[nodiscard]] double value(std::size_t j, double u) const;
 
   private:
-    struct alignas(32) Vector {
-        std::array<double, 4> numbers;
+    struct alignas(64) Vector {
+        std::array<double, 8> numbers;
     };
 
     void fill(const KaiserBessel& window);
     [[nodiscard]] bool agrees(const KaiserBessel& window) const;
     [[nodiscard]] double polynomial(std::size_t piece, std::size_t j, double t) const;
     double& coefficient(std::size_t piece, std::size_t k, std::size_t j) {
-        return rows_[((piece * (degree() + 1) + k) * padded_width() + j) / 4].numbers[j % 4];
+        return rows_[((piece * (degree() + 1) + k) * row_of(width_) + j) / 8].numbers[j % 8];
     }
 
     std::size_t width_;

@@ -27,24 +27,39 @@ struct Cost {
 Cost cost_of(std::uint64_t count, std::size_t dimension, std::size_t side,
              const KaiserBessel& window) {
     const auto width = static_cast<double>(window.width());
-    const double vectors = std::ceil(width / 4);
+    // Vectors of four or of eight: the choice does not depend on the machine.
+    const double vectors = std::ceil(width / 4) / 2 + std::ceil(width / 8);
     const double d = static_cast<double>(dimension);
     const double cells = power(side, dimension);
-    const double adding = power(window.width(), dimension - 1) * vectors * 0.45e-9;
-    const double evaluating = d * (2e-9 + vectors * 1.2e-9);
+    const double adding = power(window.width(), dimension - 1) * vectors * 0.4e-9;
+    const double evaluating = d * (2e-9 + vectors * 1.1e-9);
     const double n = static_cast<double>(count);
     const double passes = std::ceil(n / std::clamp(cells, 1048576.0, 4194304.0));
-    return {.spreading = n * (8e-9 + adding + evaluating) + passes * cells * 1.5e-9,
-            .transforming = transform_seconds(dimension, side)};
+    constexpr double touching = 5e-9;  // of fresh memory, a cell
+    return {.spreading = n * (8e-9 + adding + evaluating) + passes * cells * 4e-9,
+            .transforming = transform_seconds(dimension, side) + cells * touching};
 }
 
 /// Whether the division by the window's transform leaves rounding errors as they should be.
-bool keeps_digits(const KaiserBessel& window, std::size_t dimension, double allowed) {
+/// @param together points of a tile whose sums are not folded.
+bool keeps_digits(const KaiserBessel& window, std::size_t dimension, double allowed,
+                  std::size_t together) {
     // Of points in one place, whose sums leave the largest errors, found by trying; and those of
     // the polynomials, which are of one axis each.
     const double times = window.magnification();
-    return 1e-15 * std::pow(times, dimension) <= std::max(allowed / 8, 2e-14) &&
+    const double of_sums = 2e-16 + 4e-18 * static_cast<double>(together);
+    return of_sums * std::pow(times, dimension) <= std::max(allowed / 3.6, 4.4e-14) &&
            6e-15 * times <= std::max(allowed / 4, 4e-14);
+}
+
+/// Points of a tile whose sums need not be folded, from the least number on that costs little: few
+/// points fill few tiles.
+std::size_t most_together(const KaiserBessel& window, std::size_t dimension, double allowed,
+                          std::uint64_t count) {
+    constexpr std::uint64_t few = std::uint64_t{1} << 17;
+    constexpr std::size_t many = 4096;
+    if (count > few && keeps_digits(window, dimension, allowed, many)) return many;
+    return count > few ? 512 : 64;
 }
 
 }  // namespace
@@ -69,6 +84,8 @@ Nufft::Nufft(std::uint64_t count, std::size_t dimension, std::size_t max_frequen
                            (1.5 * static_cast<double>(dimension));
     const auto wanted = static_cast<double>(2 * frequency_ + 1);
     double cheapest = std::numeric_limits<double>::infinity();
+    // More are planned for than come, where nobody knows.
+    const std::uint64_t likely = std::min(count, std::uint64_t{1} << 23);
     // A finer grid takes a narrower window, and magnifies rounding errors less.
     std::size_t side = std::max(static_cast<std::size_t>(1.25 * wanted), CellGrid::smallest_side);
     for (; static_cast<double>(side) < 4.5 * wanted || side_ == 0; side += 2) {
@@ -76,13 +93,16 @@ Nufft::Nufft(std::uint64_t count, std::size_t dimension, std::size_t max_frequen
         if (transform_seconds(dimension, side) >= cheapest) break;
         const double band = static_cast<double>(frequency_) / static_cast<double>(side);
         const KaiserBessel window = window_for(allowed, band);
-        const double cost = cost_of(count, dimension, side, window).total();
-        const bool exact = window.error() <= allowed && keeps_digits(window, dimension, allowed);
+        const double cost = cost_of(likely, dimension, side, window).total();
+        const std::size_t together = most_together(window, dimension, allowed, count);
+        const bool exact =
+            window.error() <= allowed && keeps_digits(window, dimension, allowed, together);
         const bool finest = side_ == 0 && static_cast<double>(side) > 3.9 * wanted;
         if (cost >= cheapest || !(exact || finest)) continue;
         cheapest = cost;
         side_ = side;
         window_ = window;
+        together_ = together;
     }
 }
 
@@ -133,7 +153,7 @@ FourierSummation::FourierSummation(const Nufft& nufft)
             .side = nufft.side(),
             .stride = stride_of(nufft.side()),
             .cells = cells_.get()},
-      spreader_(nufft.window(), grid_, nufft.weighted()),
+      spreader_(nufft.window(), grid_, nufft.together(), nufft.weighted()),
       block_(block_of(nufft)) {}
 
 namespace {
@@ -150,7 +170,7 @@ void zero(std::span<double> cells, const RunContext& run) {
 }  // namespace
 
 std::uint64_t FourierSummation::block_of(const Nufft& nufft) {
-    constexpr std::uint64_t least = std::uint64_t{1} << 21;
+    constexpr std::uint64_t least = std::uint64_t{1} << 24;
     constexpr std::uint64_t most = std::uint64_t{1} << 26;
     const double cells = power(nufft.side(), nufft.dimension());
     return std::clamp(std::bit_ceil(static_cast<std::uint64_t>(cells)), least, most);

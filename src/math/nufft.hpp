@@ -57,6 +57,9 @@ class Nufft {
     [[nodiscard]] std::size_t side() const { return side_; }
     [[nodiscard]] const KaiserBessel& window() const { return window_; }
 
+    /// Points of a tile of the grid that are added up in a row (math/spreading.hpp).
+    [[nodiscard]] std::size_t together() const { return together_; }
+
     /// Bound of the error beside that of rounding, relative to sqrt(count), of so many points.
     [[nodiscard]] double error(double count) const;
 
@@ -75,6 +78,7 @@ class Nufft {
     bool weighted_;
     std::size_t side_ = 0;
     KaiserBessel window_;
+    std::size_t together_ = 1;
 };
 
 /// A transform whose points come in portions. They are spread over a grid for every block of them,
@@ -84,7 +88,7 @@ class FourierSummation {
   public:
     explicit FourierSummation(const Nufft& nufft);
 
-    /// Points of a block: as many as cells, so that adding grids costs little, but at least 2^21
+    /// Points of a block: as many as cells, so that adding grids costs little, but at least 2^24
     /// and at most 2^26.
     static std::uint64_t block_of(const Nufft& nufft);
 

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "core/parallel.hpp"
@@ -47,26 +48,23 @@ Listing list(const std::uint32_t* tile_of, unsigned shift, const Block& block,
 class Tiling {
   public:
     Tiling(const CellGrid& grid, const WindowTable& window, bool weighted) : grid_(grid) {
-        const std::size_t smallest = std::max(
-            static_cast<std::size_t>(smallest_tile(grid.dimension)), window.padded_width());
+        const std::size_t smallest =
+            std::max(static_cast<std::size_t>(smallest_tile(grid.dimension)), window.width());
         pairs_ = std::max<std::size_t>(1, grid.side / (2 * smallest));
         along_ = 2 * pairs_;
         for (std::size_t t = 0; t <= along_; ++t) starts_.push_back(t * grid.side / along_);
         for (std::size_t t = 0; t < along_; ++t)
             widest_ = std::max(widest_, starts_[t + 1] - starts_[t]);
-        std::size_t step = 1;
-        for (std::size_t k = 0; k < grid.dimension; ++k, step *= along_)
-            for (std::size_t t = 0; t < along_; ++t)
-                tile_of_.insert(tile_of_.end(), starts_[t + 1] - starts_[t],
-                                static_cast<std::uint32_t>(t * step));
         common_ = {.side = static_cast<double>(grid.side),
+                   .tiles = static_cast<double>(along_),
                    .shift = window.width() % 2 == 1 ? 0.5 : 0.0,
                    .lead = static_cast<double>((window.width() - 1) / 2),
                    .width = window.width(),
                    .pieces = static_cast<double>(window.pieces()),
                    .coefficients = window.coefficients(),
                    .numbers = grid.dimension + (weighted ? 1 : 0),
-                   .extent = (widest_ + window.padded_width() + 3) / 4 * 4};
+                   .extent = (widest_ + WindowTable::row_of(window.width()) + 7) / 8 * 8};
+        common_.plane = common_.extent * common_.extent;
     }
 
     [[nodiscard]] std::size_t count() const { return power(along_); }
@@ -76,7 +74,7 @@ class Tiling {
     [[nodiscard]] std::size_t buffer_size() const { return power(common_.extent); }
 
     void find(std::span<const double> rows, std::uint32_t* tile_of) const {
-        find_tiles(rows, grid_.dimension, common_, tile_of_.data(), tile_of);
+        find_tiles(rows, grid_.dimension, common_, tile_of);
     }
 
     /// Number of the i-th tile of a colour; bit k of the colour is the parity along axis k.
@@ -96,6 +94,23 @@ class Tiling {
             description.reach[k] = starts_[tile % along_ + 1] - start + common_.width - 1;
         }
         return description;
+    }
+
+    /// The same with the grid for its buffer, if windows that begin there end within the grid.
+    [[nodiscard]] std::optional<SpreadTile> describe_in_place(std::size_t tile) const {
+        SpreadTile description = describe(tile);
+        for (std::size_t k = 0; k < grid_.dimension; ++k)
+            if (static_cast<std::size_t>(description.start[k]) + description.reach[k] > grid_.side)
+                return {};
+        description.extent = grid_.stride;
+        description.plane = grid_.side * grid_.stride;
+        description.in_grid = true;
+        return description;
+    }
+
+    /// Where such a tile begins.
+    [[nodiscard]] double* place(const SpreadTile& tile) const {
+        return grid_.cells + line(tile, 0, 0) * grid_.stride + wrapped(tile.start[0], 0);
     }
 
     /// Adds a tile's buffer to the grid, around its ends; no cell beyond the tile's reach, for
@@ -144,14 +159,14 @@ class Tiling {
     std::size_t along_ = 2;
     std::size_t widest_ = 0;
     std::vector<std::size_t> starts_;
-    std::vector<std::uint32_t> tile_of_;  ///< for each axis and grid point: its tile's share
     SpreadTile common_{};
 };
 
 /// Two buffers of a tile: what some points add to it, and their sums.
 class TileSums {
   public:
-    explicit TileSums(std::size_t cells) : cells_(cells), room_(2 * cells) {}
+    /// @param most points that are added up in a row
+    TileSums(std::size_t cells, std::size_t most) : cells_(cells), most_(most), room_(2 * cells) {}
 
     void begin() {
         std::fill_n(points(), cells_, 0.0);
@@ -162,8 +177,7 @@ class TileSums {
 
     /// To be called before so many points are added: rounding errors of long sums stay small.
     void expect(std::size_t count) {
-        constexpr std::size_t most = 512;
-        if (count_ > 0 && count_ + count > most) fold();
+        if (count_ > 0 && count_ + count > most_) fold();
         count_ += count;
     }
     [[nodiscard]] const double* finish() {
@@ -184,6 +198,7 @@ class TileSums {
     }
 
     std::size_t cells_;
+    std::size_t most_;
     GridCells room_;
     bool several_ = false;
     std::size_t count_ = 0;
@@ -197,12 +212,14 @@ std::size_t spreading_batch(const CellGrid& grid) {
     return std::clamp(cells, std::size_t{1} << 20, std::size_t{1} << 22);
 }
 
-Spreader::Spreader(const KaiserBessel& window, const CellGrid& grid, bool weighted)
+Spreader::Spreader(const KaiserBessel& window, const CellGrid& grid, std::size_t together,
+                   bool weighted)
     : table_(window),
       tiling_(std::make_unique<Tiling>(grid, table_, weighted)),
       dimension_(grid.dimension),
       width_(grid.dimension + (weighted ? 1 : 0)),
       batch_(spreading_batch(grid)),
+      together_(together),
       points_(tiling_->count(), width_, batch_) {
     assert(grid.side % 2 == 0 && grid.side >= CellGrid::smallest_side && grid.side < 1U << 24);
 }
@@ -276,7 +293,7 @@ void Spreader::sort(std::span<const double> rows, const RunContext& run) {
 void Spreader::spread_bands(std::size_t block, const RunContext& run) {
     const std::size_t pairs = tiling_->pairs();
     const auto inside = [&](const Block& b) {
-        TileSums sums(tiling_->buffer_size());
+        TileSums sums(tiling_->buffer_size(), together_);
         for (std::size_t i = b.first; i < b.last; ++i) {
             spread_band(2 * i, sums, run);
             if (i > b.first) spread_band(2 * i - 1, sums, run);
@@ -284,7 +301,7 @@ void Spreader::spread_bands(std::size_t block, const RunContext& run) {
     };
     for_each_block(run, pairs, block, inside, true);
     const auto between = [&](const Block& b) {
-        TileSums sums(tiling_->buffer_size());
+        TileSums sums(tiling_->buffer_size(), together_);
         spread_band(2 * std::min((b.index + 1) * block, pairs) - 1, sums, run);
     };
     for_each_block(run, block_count(pairs, block), 1, between, true);
@@ -304,7 +321,7 @@ void Spreader::spread_colour(std::size_t colour, const RunContext& run) {
     // Enough blocks for all threads, but none with less work than handing it over is.
     const std::size_t block = std::max(1 + tiles / 128, 1024 * tiling_->count() / (waits_ + 1));
     const auto spread = [&](const Block& b) {
-        TileSums sums(tiling_->buffer_size());
+        TileSums sums(tiling_->buffer_size(), together_);
         for (std::size_t i = b.first; i < b.last; ++i)
             spread_tile(tiling_->tile(colour, i), sums, run);
     };
@@ -313,7 +330,13 @@ void Spreader::spread_colour(std::size_t colour, const RunContext& run) {
 
 void Spreader::spread_tile(std::size_t number, TileSums& sums, const RunContext& run) const {
     constexpr std::size_t rows_ahead = 4;  // too many at once would keep the points' own waiting
+    constexpr std::size_t few = 16;        // points that touch fewer cells than the tile has
     if (points_.empty(number)) return;
+    if (points_.has_at_most(number, few))
+        if (const auto tile = tiling_->describe_in_place(number))
+            return points_.visit(number, [&](std::span<const double> rows) {
+                spread_points(rows, dimension_, *tile, tiling_->place(*tile));
+            });
     const SpreadTile tile = tiling_->describe(number);
     std::size_t row = 0;
     sums.begin();

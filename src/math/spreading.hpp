@@ -48,8 +48,11 @@ class TileSums;
 
 class Spreader {
   public:
+    /// @param together points of a tile that are added up in a row, before the sums are folded to
+    /// keep rounding errors small.
     /// @param weighted whether a row holds the point's strength behind its coordinates.
-    Spreader(const KaiserBessel& window, const CellGrid& grid, bool weighted = false);
+    Spreader(const KaiserBessel& window, const CellGrid& grid, std::size_t together,
+             bool weighted = false);
     Spreader(const Spreader&) = delete;
     Spreader& operator=(const Spreader&) = delete;
     ~Spreader();
@@ -75,6 +78,7 @@ class Spreader {
     std::size_t dimension_;
     std::size_t width_;      ///< numbers of a row
     std::size_t batch_;      ///< points of a batch
+    std::size_t together_;   ///< points of a tile that are added up in a row
     std::size_t waits_ = 0;  ///< points that are sorted, and not spread yet
     TilePoints points_;
     std::vector<std::uint32_t> tile_of_;

@@ -34,6 +34,12 @@ class TilePoints {
 
     [[nodiscard]] bool empty(std::size_t tile) const { return lists_[tile].end == 0; }
 
+    /// Whether the tile has so many points or fewer, 1 to `block`.
+    [[nodiscard]] bool has_at_most(std::size_t tile, std::size_t count) const {
+        const List list = lists_[tile];
+        return list.end <= list.first * block + count;
+    }
+
     /// Calls visit(rows) for the tile's points, up to `block` of them at a time.
     template <class Visit>
     void visit(std::size_t tile, Visit&& visit) const {
@@ -43,7 +49,9 @@ class TilePoints {
         for (std::uint32_t at = list.first;; at = next_[at]) {
             const double* rows = room_.numbers().data() + at * block * numbers_;
             if (at == last) return visit(std::span(rows, (list.end - at * block) * numbers_));
-            fetch<3>(next_[at]);
+            const std::uint32_t next = next_[at];
+            fetch<3>(next);
+            __builtin_prefetch(&next_[next]);
             visit(std::span(rows, block * numbers_));
         }
     }

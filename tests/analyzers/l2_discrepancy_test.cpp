@@ -468,7 +468,6 @@ TEST(L2Discrepancy, OfTwinsAndCarriedProductsIsExactWithWeights) {
 // Lanes are summed alike, whatever holds them; so are places without points behind the last.
 TEST(L2Discrepancy, DoesNotDependOnTheWidthOfVectors) {
     using analyzers::l2::carried_square;
-    using analyzers::l2::Vectors;
     for (const PointSet& set : {random_set(150, 3, 1), on_lattice(67, 4, 40, 2),
                                 make("halton", points(129, 3)), random_set(2, 3, 1)})
         for (const Kind kind : analyzers::l2::all_kinds)

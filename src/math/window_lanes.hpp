@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+//
+// The work of window_spreading.hpp for as many numbers at once as a vector V holds. This is no
+// header of its own: window_spreading.cpp includes it in one namespace after the other, for
+// STIPPLE_LANES lanes, with the instructions chosen there for all that follows. (What is inlined
+// into functions that have instructions of their own was taken apart into single numbers before.)
+
+constexpr std::size_t lanes = STIPPLE_LANES;
+using V [[gnu::vector_size(8 * lanes)]] = double;
+using Bits [[gnu::vector_size(8 * lanes)]] = std::uint64_t;
+using Integers [[gnu::vector_size(4 * lanes)]] = std::int32_t;
+
+template <class Vector, class Number>
+STIPPLE_INLINE Vector load(const Number* from) {
+    Vector v;
+    std::memcpy(&v, from, sizeof v);
+    return v;
+}
+
+template <class Vector, class Number>
+STIPPLE_INLINE void store(const Vector& v, Number* to) {
+    std::memcpy(to, &v, sizeof v);
+}
+
+/// a b + c, rounded once: the same bits on any machine, and one step where it is an instruction.
+STIPPLE_INLINE V fused(const V& a, double b, const V& c) {
+#if STIPPLE_LANES == 8
+    return _mm512_fmadd_pd(a, _mm512_set1_pd(b), c);
+#elif defined(STIPPLE_FUSES)
+    return _mm256_fmadd_pd(a, _mm256_set1_pd(b), c);
+#else
+    V sum;
+    for (std::size_t l = 0; l < lanes; ++l) sum[l] = __builtin_fma(a[l], b, c[l]);
+    return sum;
+#endif
+}
+
+/// Finds side * x of several numbers without rounding it: the upper 26 bits of x make an exact
+/// product. Gives the grid points at which their windows begin, and the places behind a grid point,
+/// in [0, 1).
+STIPPLE_INLINE void locate(const V& x, const SpreadTile& tile, V& first, V& between) {
+    constexpr std::uint64_t high_bits = ~((std::uint64_t{1} << 27) - 1);
+    const V high = (V)((Bits)x & high_bits);
+    const V product = high * tile.side;
+    const V zero = {};
+    const V cell = __builtin_convertvector(__builtin_convertvector(product, Integers), V);
+    between = product - cell + tile.shift + (x - high) * tile.side;
+    const V next = between >= 1 ? zero + 1 : zero;
+    between -= next;
+    first = cell + next - tile.lead;
+    first += first < 0 ? zero + tile.side : zero;
+    first -= first >= tile.side ? zero + tile.side : zero;
+}
+
+/// Coordinates of up to so many points, axis after axis; the surplus is 0.
+template <std::size_t Dimension>
+using Coordinates = std::array<std::array<double, chunk>, Dimension>;
+
+template <std::size_t Dimension>
+STIPPLE_INLINE void by_axis(const double* points, std::size_t count, std::size_t numbers,
+                            Coordinates<Dimension>& axes) {
+    std::size_t i = 0;
+    if constexpr (Dimension == 2)
+        for (; numbers == 2 && i + lanes <= count; i += lanes) {
+            using Order [[gnu::vector_size(8 * lanes)]] = std::int64_t;
+            Order even;
+            for (std::size_t l = 0; l < lanes; ++l) even[l] = static_cast<std::int64_t>(2 * l);
+            const V a = load<V>(points + 2 * i);
+            const V b = load<V>(points + 2 * i + lanes);
+            store(__builtin_shuffle(a, b, even), &axes[0][i]);
+            store(__builtin_shuffle(a, b, even + 1), &axes[1][i]);
+        }
+    for (; i < (count + lanes - 1) / lanes * lanes; ++i)
+        for (std::size_t k = 0; k < Dimension; ++k)
+            axes[k][i] = i < count ? points[i * numbers + k] : 0;
+}
+
+/// Zeros before a window's values, where the values are shifted along a row.
+constexpr std::size_t margin = lanes;
+/// The width in whole vectors.
+constexpr std::size_t whole(std::size_t width) { return (width + lanes - 1) / lanes * lanes; }
+
+template <std::size_t Dimension, std::size_t Width>
+struct Chunk {
+    alignas(64) Coordinates<Dimension> axes;
+    alignas(64) Coordinates<Dimension> t;  ///< place in the table's piece
+    alignas(64) std::array<std::array<std::int32_t, chunk>, Dimension> piece;
+    alignas(64) std::array<std::int32_t, chunk> corner;  ///< of the window in the buffer
+    alignas(64) double values[chunk][Dimension][margin + whole(Width)];  ///< of the window, by axis
+
+    Chunk() {
+        for (auto& point : values)
+            for (auto& along : point) std::fill_n(along, margin, 0.0);
+    }
+};
+
+template <std::size_t Dimension, std::size_t Width>
+STIPPLE_INLINE void locate_all(std::size_t count, const SpreadTile& tile,
+                               Chunk<Dimension, Width>& work) {
+    for (std::size_t i = 0; i < count; i += lanes) {
+        V corner = {};
+        const double steps[] = {1, static_cast<double>(tile.extent),
+                                static_cast<double>(tile.plane)};
+        for (std::size_t k = 0; k < Dimension; ++k) {
+            V first;
+            V between;
+            locate(load<V>(&work.axes[k][i]), tile, first, between);
+            corner += (first - static_cast<double>(tile.start[k])) * steps[k];
+            const V scaled = between * tile.pieces;
+            const Integers piece = __builtin_convertvector(scaled, Integers);
+            store(piece, &work.piece[k][i]);
+            store(2 * (scaled - __builtin_convertvector(piece, V)) - 1, &work.t[k][i]);
+        }
+        store(__builtin_convertvector(corner, Integers), &work.corner[i]);
+    }
+}
+
+/// Horner's rule for polynomials of the degree, beside each other; without a loop.
+template <std::size_t Width, std::size_t Degree, std::size_t Count>
+STIPPLE_INLINE void raise(double t, const double* rows, V (&sums)[Count]) {
+    if constexpr (Degree > 1) raise<Width, Degree - 1>(t, rows, sums);
+    for (std::size_t v = 0; v < Count; ++v)
+        sums[v] =
+            fused(sums[v], t, load<V>(rows + Degree * WindowTable::row_of(Width) + v * lanes));
+}
+
+/// The window's values at its grid points along each axis.
+template <std::size_t Dimension, std::size_t Width>
+STIPPLE_INLINE void evaluate_all(const double* table, std::size_t count,
+                                 Chunk<Dimension, Width>& work) {
+    constexpr std::size_t degree = WindowTable::degree_of(Width);
+    constexpr std::size_t size = (degree + 1) * WindowTable::row_of(Width);
+    constexpr std::size_t vectors = whole(Width) / lanes;
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t k = 0; k < Dimension; ++k) {
+            const double* rows = table + static_cast<std::size_t>(work.piece[k][i]) * size;
+            double* values = work.values[i][k] + margin;
+            V sums[vectors];
+            for (std::size_t v = 0; v < vectors; ++v) sums[v] = load<V>(rows + v * lanes);
+            raise<Width, degree>(work.t[k][i], rows, sums);
+            for (std::size_t v = 0; v < vectors; ++v) store(sums[v], values + v * lanes);
+        }
+}
+
+/// Adds weight * values to a row of the buffer.
+template <std::size_t Count>
+STIPPLE_INLINE void add_row(double* row, double weight, const V (&values)[Count]) {
+    for (std::size_t v = 0; v < Count; ++v) {
+        double* cells = row + v * lanes;
+        store(fused(values[v], weight, load<V>(cells)), cells);
+    }
+}
+
+/// The same for so many rows, without a loop.
+template <std::size_t Rows, std::size_t Count>
+STIPPLE_INLINE void add_rows(double* row, std::size_t extent, const double* weights, double factor,
+                             const V (&along)[Count]) {
+    add_row(row, weights[0] * factor, along);
+    if constexpr (Rows > 1) add_rows<Rows - 1>(row + extent, extent, weights + 1, factor, along);
+}
+
+/// Rows begin at a whole vector's place, so that no vector lies in two cache lines, as far as the
+/// window is narrower than its vectors.
+template <std::size_t Dimension, std::size_t Width>
+STIPPLE_INLINE void add_window(const double (&values)[Dimension][margin + whole(Width)],
+                               const SpreadTile& tile, double* begin) {
+    constexpr std::size_t count = whole(Width) / lanes;
+    const std::size_t extent = tile.extent;  // what is stored might change the tile's, else
+    const std::size_t plane = tile.plane;
+    const std::size_t behind = reinterpret_cast<std::uintptr_t>(begin) / sizeof(double) % lanes;
+    const std::size_t back = tile.in_grid ? 0 : std::min(behind, whole(Width) - Width);
+    begin -= back;
+    V along[count];
+    for (std::size_t v = 0; v < count; ++v)
+        along[v] = load<V>(values[0] + margin - back + v * lanes);
+    if constexpr (Dimension == 1) add_row(begin, 1, along);
+    if constexpr (Dimension == 2) add_rows<Width>(begin, extent, values[1] + margin, 1, along);
+    if constexpr (Dimension == 3)
+        for (std::size_t l = 0; l < Width; ++l)
+            add_rows<Width>(begin + l * plane, extent, values[1] + margin, values[2][margin + l],
+                            along);
+}
+
+template <std::size_t Dimension, std::size_t Width>
+void add_all(std::span<const double> rows, const SpreadTile& tile, double* buffer) {
+    thread_local Chunk<Dimension, Width> work;  // its zeros stay
+    const std::size_t numbers = tile.numbers;
+    const std::size_t step = chunk * numbers;
+    for (std::size_t at = 0; at < rows.size(); at += step) {
+        const double* points = rows.data() + at;
+        const std::size_t count = std::min(step, rows.size() - at) / numbers;
+        by_axis<Dimension>(points, count, numbers, work.axes);
+        locate_all(count, tile, work);
+        evaluate_all(tile.coefficients, count, work);
+        if (numbers > Dimension)
+            for (std::size_t i = 0; i < count; ++i)
+                for (std::size_t j = 0; j < Width; ++j)
+                    work.values[i][Dimension - 1][margin + j] *= points[i * numbers + Dimension];
+        for (std::size_t i = 0; i < count; ++i)
+            add_window<Dimension, Width>(work.values[i], tile,
+                                         buffer + static_cast<std::uint32_t>(work.corner[i]));
+    }
+}
+
+template <std::size_t Dimension, std::size_t Width = KaiserBessel::max_width>
+void add_wide(std::span<const double> rows, const SpreadTile& tile, double* buffer) {
+    if constexpr (Width > KaiserBessel::min_width)
+        if (tile.width < Width) return add_wide<Dimension, Width - 1>(rows, tile, buffer);
+    add_all<Dimension, Width>(rows, tile, buffer);
+}
+
+void add_points(std::span<const double> rows, std::size_t dimension, const SpreadTile& tile,
+                double* buffer) {
+    if (dimension == 1) return add_wide<1>(rows, tile, buffer);
+    if (dimension == 2) return add_wide<2>(rows, tile, buffer);
+    add_wide<3>(rows, tile, buffer);
+}
+
+template <std::size_t Dimension>
+void find_all(std::span<const double> rows, const SpreadTile& common, std::uint32_t* tile_of) {
+    alignas(64) Coordinates<Dimension> axes;
+    alignas(64) std::array<std::uint32_t, chunk> found;
+    const std::size_t step = chunk * common.numbers;
+    const double per_cell = 1 / common.side;
+    for (std::size_t at = 0; at < rows.size(); at += step, tile_of += chunk) {
+        const std::size_t count = std::min(step, rows.size() - at) / common.numbers;
+        by_axis<Dimension>(rows.data() + at, count, common.numbers, axes);
+        for (std::size_t i = 0; i < count; i += lanes) {
+            V sum = {};
+            double step_k = 1;
+            for (std::size_t k = 0; k < Dimension; ++k, step_k *= common.tiles) {
+                V first;
+                V between;
+                locate(load<V>(&axes[k][i]), common, first, between);
+                // The last tile t with t side / tiles < first + 1; far from whole numbers.
+                const V tile = ((first + 1) * common.tiles - 0.5) * per_cell;
+                sum += step_k * __builtin_convertvector(__builtin_convertvector(tile, Integers), V);
+            }
+            store(__builtin_convertvector(sum, Integers), &found[i]);
+        }
+        std::copy_n(found.begin(), count, tile_of);
+    }
+}
+
+void find(std::span<const double> rows, std::size_t dimension, const SpreadTile& common,
+          std::uint32_t* tile_of) {
+    if (dimension == 1) return find_all<1>(rows, common, tile_of);
+    if (dimension == 2) return find_all<2>(rows, common, tile_of);
+    find_all<3>(rows, common, tile_of);
+}
