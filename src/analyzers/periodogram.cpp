@@ -186,7 +186,7 @@ void summarize(Report& report, const Grid& power, std::size_t sets, const Values
     report.add("radial", std::move(radial));
     const double expected = sets > 1 ? -10 * std::log10(static_cast<double>(sets)) : 0;
     report.add("expected_anisotropy_db", expected, "dB");
-    const double nyquist = effective_nyquist(power, run);
+    const double nyquist = effective_nyquist(power, rings, run);
     report.add("effective_nyquist", nyquist / unit, unit_name);
     report.add("relative_nyquist", nyquist / regular);
     const Oscillation swings = oscillation(rings, regular);

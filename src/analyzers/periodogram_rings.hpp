@@ -26,8 +26,9 @@ Rings rings_of(const Grid& power, const RunContext& run);
 /// Of a ring in dB, no less than -100; that, too, where its power is no more than `least`.
 double anisotropy_db(double variance, double mean, double least);
 
-/// @param power as for rings_of.
-double effective_nyquist(const Grid& power, const RunContext& run);
+/// Half the radius up to which the mean power of all frequencies is 0.1 at most, the largest one.
+/// @param rings those of the power.
+double effective_nyquist(const Grid& power, const Rings& rings, const RunContext& run);
 
 /// Complete, if its rings begin where the power first reaches 0.98 and none are cut off by F.
 struct Oscillation {

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <map>
 #include <numbers>
 #include <utility>
 
+#include "analyzers/periodogram_rings.hpp"
 #include "core/rng.hpp"
 #include "math/nufft.hpp"
 #include "study/chain.hpp"
@@ -353,6 +355,49 @@ TEST(Periodogram, NormalizedFrequenciesOfOtherSizesHaveNoMean) {
               "normalised frequencies | give them the same number of points, or leave "
               "--normalize-frequency out");
     EXPECT_EQ(refusal("false"), "");
+}
+
+// Frequencies one by one in the order of their lengths, for powers whose mean goes up and down
+// about a tenth.
+TEST(Periodogram, EffectiveNyquistLooksAtEveryLength) {
+    std::size_t between = 0;
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        const std::size_t d = 1 + seed % 3;
+        const std::int64_t last = d == 3 ? 6 : 19;
+        const auto width = static_cast<std::size_t>(2 * last + 1);
+        Grid power{.rows = d == 1 ? 1 : d == 2 ? width : width * width, .columns = width, .values = {}};
+        power.values.resize(power.rows * power.columns);
+        const Rng rng(seed);
+        std::map<std::int64_t, std::pair<double, double>> shells;
+        for (std::size_t i = 0; i < power.values.size(); ++i) {
+            const std::size_t opposite = power.values.size() - 1 - i;
+            const double u = to_unit(rng.bits(std::min(i, opposite)));
+            power.values[i] = 0.2 * u * std::pow(0.1 + u, static_cast<double>(seed % 5) / 4);
+            std::int64_t square = 0;
+            for (std::size_t k = 0, rest = i; k < d; ++k, rest /= width) {
+                const auto f = static_cast<std::int64_t>(rest % width) - last;
+                square += f * f;
+            }
+            if (square == 0 || square > last * last) continue;
+            shells[square].first += power.values[i];
+            shells[square].second += 1;
+        }
+        double sum = 0;
+        double cells = 0;
+        double wanted = 0;
+        bool low = false;
+        for (const auto& [square, shell] : shells) {
+            if (low) wanted = std::sqrt(static_cast<double>(square)) / 2;
+            sum += shell.first;
+            cells += shell.second;
+            low = sum <= 0.1 * cells;
+        }
+        if (low) wanted = static_cast<double>(last) / 2;
+        if (wanted > 0 && !low) ++between;
+        EXPECT_EQ(analyzers::effective_nyquist(power, analyzers::rings_of(power, {}), {}), wanted)
+            << seed;
+    }
+    EXPECT_GE(between, 10);
 }
 
 // What a regular grid can do: its first peaks, at f = k, end the empty disk.
