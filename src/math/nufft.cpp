@@ -40,26 +40,31 @@ Cost cost_of(std::uint64_t count, std::size_t dimension, std::size_t side,
             .transforming = transform_seconds(dimension, side) + cells * touching};
 }
 
+/// How many points of a tile are added up in a row, before the sums are folded.
+struct Folding {
+    std::size_t together;
+    double rounding;  ///< of sums over points in one place, a point, which are largest; by trying
+};
+constexpr Folding rare{2048, 2e-14};
+constexpr Folding usual{512, 1e-15};
+constexpr Folding frequent{64, 5e-16};
+
 /// Whether the division by the window's transform leaves rounding errors as they should be.
-/// @param together points of a tile whose sums are not folded.
 bool keeps_digits(const KaiserBessel& window, std::size_t dimension, double allowed,
-                  std::size_t together) {
-    // Of points in one place, whose sums leave the largest errors, found by trying; and those of
-    // the polynomials, which are of one axis each.
+                  const Folding& folding) {
+    // Those of the polynomials, found by trying, too, are of one axis each.
     const double times = window.magnification();
-    const double of_sums = 2e-16 + 4e-18 * static_cast<double>(together);
-    return of_sums * std::pow(times, dimension) <= std::max(allowed / 3.6, 4.4e-14) &&
+    return folding.rounding * std::pow(times, dimension) <= std::max(allowed / 8, 2e-14) &&
            6e-15 * times <= std::max(allowed / 4, 4e-14);
 }
 
-/// Points of a tile whose sums need not be folded, from the least number on that costs little: few
-/// points fill few tiles.
-std::size_t most_together(const KaiserBessel& window, std::size_t dimension, double allowed,
-                          std::uint64_t count) {
+/// The fewest foldings that keep digits; few points fill few tiles, where many foldings cost
+/// little.
+const Folding& folding_for(const KaiserBessel& window, std::size_t dimension, double allowed,
+                           std::uint64_t count) {
     constexpr std::uint64_t few = std::uint64_t{1} << 17;
-    constexpr std::size_t many = 4096;
-    if (count > few && keeps_digits(window, dimension, allowed, many)) return many;
-    return count > few ? 512 : 64;
+    if (count <= few) return frequent;
+    return keeps_digits(window, dimension, allowed, rare) ? rare : usual;
 }
 
 }  // namespace
@@ -94,15 +99,15 @@ Nufft::Nufft(std::uint64_t count, std::size_t dimension, std::size_t max_frequen
         const double band = static_cast<double>(frequency_) / static_cast<double>(side);
         const KaiserBessel window = window_for(allowed, band);
         const double cost = cost_of(likely, dimension, side, window).total();
-        const std::size_t together = most_together(window, dimension, allowed, count);
+        const Folding& folding = folding_for(window, dimension, allowed, count);
         const bool exact =
-            window.error() <= allowed && keeps_digits(window, dimension, allowed, together);
+            window.error() <= allowed && keeps_digits(window, dimension, allowed, folding);
         const bool finest = side_ == 0 && static_cast<double>(side) > 3.9 * wanted;
         if (cost >= cheapest || !(exact || finest)) continue;
         cheapest = cost;
         side_ = side;
         window_ = window;
-        together_ = together;
+        together_ = folding.together;
     }
 }
 

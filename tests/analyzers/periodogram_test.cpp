@@ -365,7 +365,11 @@ TEST(Periodogram, EffectiveNyquistLooksAtEveryLength) {
         const std::size_t d = 1 + seed % 3;
         const std::int64_t last = d == 3 ? 6 : 19;
         const auto width = static_cast<std::size_t>(2 * last + 1);
-        Grid power{.rows = d == 1 ? 1 : d == 2 ? width : width * width, .columns = width, .values = {}};
+        Grid power{.rows = d == 1   ? 1
+                           : d == 2 ? width
+                                    : width * width,
+                   .columns = width,
+                   .values = {}};
         power.values.resize(power.rows * power.columns);
         const Rng rng(seed);
         std::map<std::int64_t, std::pair<double, double>> shells;
