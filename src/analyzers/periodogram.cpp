@@ -504,7 +504,8 @@ class Summation final : public SharedAccumulator {
             nufft_.emplace(count, d_, frequency_, options_[tolerance], weighted);
             bytes = std::max(2 * bytes, nufft_->bytes());
             // What is summed over blocks: twice the grid.
-            if (count == most_points)
+            const bool one_block = told_ > 0 && told_ <= FourierSummation::block_of(*nufft_);
+            if (count == most_points && !one_block)
                 bytes += 16 * std::pow(static_cast<double>(nufft_->side()), d_);
         }
         run.need_memory(bytes + 8 * static_cast<double>(kept_.size()),
