@@ -149,7 +149,7 @@ constexpr Param<std::int64_t> slice{
 constexpr double floor_of_floats = 1e-13;
 constexpr std::uint64_t few_points = std::uint64_t{1} << 16;  // quickly copied
 constexpr std::uint64_t kept_points = std::uint64_t{1} << 20;
-constexpr std::uint64_t most_points = std::uint64_t{1} << 26;  // that larger sets are planned for
+constexpr std::uint64_t most_points = std::uint64_t{1} << 30;  // that larger sets are planned for
 
 std::size_t default_frequency(std::uint64_t count, std::size_t dimension) {
     constexpr double most[] = {0, 65536, 1024, 64};
@@ -499,23 +499,35 @@ class Summation final : public SharedAccumulator {
         planned_ = count;
         frequency_ = frequency_for(count);
         const bool weighted = numbers_ > d_;
-        double bytes = 16 * fourier_sums_size(d_, frequency_);
-        if (options_[method] != "direct") {
-            nufft_.emplace(count, d_, frequency_, options_[tolerance], weighted);
-            bytes = std::max(2 * bytes, nufft_->bytes());
-            // What is summed over blocks: twice the grid.
-            const bool one_block = told_ > 0 && told_ <= FourierSummation::block_of(*nufft_);
-            if (count == most_points && !one_block)
-                bytes += 16 * std::pow(static_cast<double>(nufft_->side()), d_);
-        }
-        run.need_memory(bytes + 8 * static_cast<double>(kept_.size()),
-                        fmt::format("--max-frequency {}", frequency_));
-        if (nufft_)
-            sum_ = std::make_unique<FourierSummation>(*nufft_);
-        else
+        const double sums = 16 * fourier_sums_size(d_, frequency_);
+        const double kept = 8 * static_cast<double>(kept_.size());
+        const std::string cause = fmt::format("--max-frequency {}", frequency_);
+        if (options_[method] == "direct") {
+            run.need_memory(sums + kept, cause);
             direct_ = std::make_unique<DirectSummation>(d_, frequency_, weighted);
+        } else {
+            nufft_.emplace(count, d_, frequency_, options_[tolerance], weighted);
+            run.need_memory(std::max(2 * sums, nufft_->bytes()) + kept, cause);
+            sum_ = count == most_points ? open_summation(run, cause)
+                                        : std::make_unique<FourierSummation>(*nufft_);
+        }
         take(kept_, run);
         kept_ = {};
+    }
+
+    /// Of a large set, of whose number nothing may depend on whether it was told.
+    [[nodiscard]] std::unique_ptr<FourierSummation> open_summation(const RunContext& run,
+                                                                   const std::string& cause) const {
+        const std::uint64_t block = FourierSummation::block_of(*nufft_);
+        // What is summed over blocks takes twice the grid, and what the first came to is kept.
+        if (told_ == 0 || told_ > block)
+            run.need_memory(nufft_->bytes() +
+                                16 * std::pow(static_cast<double>(nufft_->side()), d_) +
+                                16 * fourier_sums_size(d_, frequency_),
+                            cause);
+        if (at_ > 0) return std::make_unique<FourierSummation>(*nufft_);
+        const Nufft first(block, d_, frequency_, options_[tolerance], nufft_->weighted());
+        return std::make_unique<FourierSummation>(first, *nufft_);
     }
 
     void take(std::span<const double> points, const RunContext& run) {

@@ -148,18 +148,27 @@ FourierSums Nufft::transform(std::span<const double> rows, const RunContext& run
     return summation.finish(planning, run.stage(spreading, 1));
 }
 
-FourierSummation::FourierSummation(const Nufft& nufft)
-    : nufft_(nufft),
-      cells_((nufft.dimension() == 3   ? nufft.side() * nufft.side()
-              : nufft.dimension() == 2 ? nufft.side()
-                                       : 1) *
-             stride_of(nufft.side())),
-      grid_{.dimension = nufft.dimension(),
-            .side = nufft.side(),
-            .stride = stride_of(nufft.side()),
-            .cells = cells_.get()},
-      spreader_(nufft.window(), grid_, nufft.together(), nufft.weighted()),
-      block_(block_of(nufft)) {}
+FourierSummation::FourierSummation(const Nufft& nufft) : block_(block_of(nufft)) { begin(nufft); }
+
+FourierSummation::FourierSummation(const Nufft& first, const Nufft& later)
+    : later_(later), block_(block_of(later)) {
+    begin(first);
+}
+
+void FourierSummation::begin(const Nufft& nufft) {
+    nufft_ = nufft;
+    spreader_.reset();
+    const std::size_t stride = stride_of(nufft.side());
+    std::size_t lines = 1;
+    for (std::size_t k = 1; k < nufft.dimension(); ++k) lines *= nufft.side();
+    cells_ = GridCells(lines * stride);
+    grid_ = {.dimension = nufft.dimension(),
+             .side = nufft.side(),
+             .stride = stride,
+             .cells = cells_.get()};
+    spreader_ =
+        std::make_unique<Spreader>(nufft.window(), grid_, nufft.together(), nufft.weighted());
+}
 
 namespace {
 
@@ -187,16 +196,18 @@ std::span<double> FourierSummation::cells() const {
 }
 
 void FourierSummation::add(std::span<const double> rows, const RunContext& run) {
-    const std::size_t numbers = grid_.dimension + (nufft_.weighted() ? 1 : 0);
+    const std::size_t numbers = grid_.dimension + (nufft_->weighted() ? 1 : 0);
     while (!rows.empty()) {
-        if (points_ == block_) {
+        if (points_ == block_ && later_) {
+            go_on_with_later(run);
+        } else if (points_ == block_) {
             close_block(run);
             zero(cells(), run);
         }
         const std::uint64_t some = std::min<std::uint64_t>(rows.size() / numbers, block_ - points_);
         const auto here = rows.first(static_cast<std::size_t>(some) * numbers);
-        spreader_.add(here, run);
-        if (nufft_.weighted())
+        spreader_->add(here, run);
+        if (nufft_->weighted())
             for (std::size_t at = numbers - 1; at < here.size(); at += numbers)
                 strongest_ = std::max(strongest_, std::abs(here[at]));
         else
@@ -207,7 +218,7 @@ void FourierSummation::add(std::span<const double> rows, const RunContext& run) 
 }
 
 void FourierSummation::close_block(const RunContext& run) {
-    spreader_.finish(run);
+    spreader_->finish(run);
     sum_.add(cells(), strongest_, run);
     points_ = 0;
     strongest_ = 0;
@@ -218,24 +229,40 @@ void FourierSummation::pack(Packer& to, const RunContext& run) {
     sum_.pack(to);
 }
 
+/// Plans are estimated here: the grid is one that takes no time.
+void FourierSummation::go_on_with_later(const RunContext& run) {
+    early_ = transformed(Planning::estimated, run);
+    begin(*later_);
+    later_.reset();
+    points_ = 0;
+    strongest_ = 0;
+}
+
 void FourierSummation::merge(Unpacker& from, const RunContext& run) {
+    if (later_) go_on_with_later(run);
     if (points_ > 0) close_block(run);
     sum_.merge(from);
 }
 
 FourierSums FourierSummation::finish(Planning planning, const RunContext& run) {
+    FourierSums sums = transformed(planning, run);
+    for (std::size_t i = 0; i < early_.values.size(); ++i) sums.values[i] += early_.values[i];
+    return sums;
+}
+
+FourierSums FourierSummation::transformed(Planning planning, const RunContext& run) {
     RunContext quiet = run;
     quiet.progress = {};
-    spreader_.finish(quiet);
+    spreader_->finish(quiet);
     if (!sum_.empty()) {
         if (points_ > 0) sum_.add(cells(), strongest_, quiet);
         sum_.copy_to(cells(), quiet);
         sum_ = {};
     }
     std::vector<double> factors;
-    const auto side = static_cast<double>(nufft_.side());
-    for (std::size_t f = 0; f <= nufft_.max_frequency(); ++f)
-        factors.push_back(1 / nufft_.window().transform(static_cast<double>(f) / side));
+    const auto side = static_cast<double>(nufft_->side());
+    for (std::size_t f = 0; f <= nufft_->max_frequency(); ++f)
+        factors.push_back(1 / nufft_->window().transform(static_cast<double>(f) / side));
     return transform_grid(std::move(cells_), grid_, factors, planning, run);
 }
 

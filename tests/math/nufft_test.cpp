@@ -256,6 +256,42 @@ TEST(Nufft, SameBitsHoweverThePointsArePortioned) {
     }
 }
 
+// A first block of the points i / 2^24, which cancel at every frequency but 0, and some more, which
+// the later plan takes: at once, and by somebody else.
+TEST(Nufft, TheFirstBlockOfManyPointsHasAPlanOfItsOwn) {
+    const Nufft later(std::uint64_t{1} << 30, 1, 4, 1e-6);
+    const std::uint64_t block = FourierSummation::block_of(later);
+    ASSERT_EQ(block, std::uint64_t{1} << 24);
+    const Nufft first(block, 1, 4, 1e-6);
+    ASSERT_LT(first.window().width(), later.window().width());
+    std::vector<double> more(1000);
+    Rng(8).fill(0, more);
+    FourierSummation whole(first, later);
+    FourierSummation part(first, later);
+    std::vector<double> some(std::size_t{1} << 20);
+    for (std::uint64_t at = 0; at < block; at += some.size()) {
+        for (std::size_t i = 0; i < some.size(); ++i)
+            some[i] = static_cast<double>(at + i) / static_cast<double>(block);
+        whole.add(some, {});
+        part.add(some, {});
+    }
+    whole.add(more, {});
+    FourierSummation others(later);
+    others.add(more, {});
+    Packer packed;
+    others.pack(packed, {});
+    const std::string state = packed.take();
+    Unpacker from(state);
+    part.merge(from, {});
+    const FourierSums sums = whole.finish(Planning::estimated, {});
+    EXPECT_EQ(part.finish(Planning::estimated, {}).values, sums.values);
+    const FourierSums truth = fourier_sums_directly(more, 1, 4, {});
+    for (std::size_t f = 0; f <= 4; ++f) {
+        const double all = f == 0 ? static_cast<double>(block) : 0;
+        EXPECT_NEAR(std::abs(sums.values[f] - truth.values[f] - all), 0, 1e-6 * 4096) << f;
+    }
+}
+
 // Strengths multiply the summands: against the direct sum, and the direct sum against points that
 // stand there as often as their strength says.
 TEST(Nufft, StrengthsMultiplyThePoints) {
