@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The points of a disk set as it grows, and the darts that may join them, tile by tile; and what
-// there is of them about a place. Two ways of looking: CellTiles goes from cell to cell, which is
+// there is of them about a place. Two ways of looking: CellTiles goes from cell to cell, as is
 // quick in two and three dimensions; FewTiles goes through whole tiles, of which there are fewer
 // than there would be cells in more dimensions.
 //
@@ -9,13 +9,9 @@
 // that phase leaves as it is.
 #pragma once
 
-#include <bit>
-#include <cstring>
 #include <vector>
 
-#include "core/large_pages.hpp"
 #include "core/parallel.hpp"
-#include "generators/disk_bits.hpp"
 #include "generators/disk_covers.hpp"
 #include "generators/disk_grid.hpp"
 #include "generators/disk_window.hpp"
@@ -27,9 +23,10 @@ namespace stipple {
 template <std::size_t D>
 struct Candidate {
     std::array<double, D> at;
-    std::uint32_t time;   ///< within the shower
-    std::uint16_t place;  ///< of its cell in the tile
-    std::uint16_t next;   ///< the next one of the same cell in order of time, from 1 on
+    std::array<float, D> off;  ///< from the corner of its cell, in radii
+    std::uint32_t time;        ///< within the shower
+    std::uint16_t place;       ///< of its cell in the tile
+    std::uint16_t next;        ///< the next one of the same cell in order of time, from 1 on
 
     [[nodiscard]] bool before(const Candidate& other) const {
         return time < other.time || (time == other.time && at < other.at);
@@ -85,8 +82,8 @@ class TilesBase {
     std::vector<Tile> tiles_;
 };
 
-/// For two and three dimensions: a bit for each cell says whether it has a point, and another
-/// whether it has candidates.
+/// For two and three dimensions, and grids of few cells or such that a radius leads across more
+/// than two.
 template <std::size_t D>
 class CellTiles : public TilesBase<D> {
     using Base = TilesBase<D>;
@@ -102,45 +99,11 @@ class CellTiles : public TilesBase<D> {
 
     static constexpr bool knows_parts = true;
 
-    explicit CellTiles(const Grid& grid) : Base(grid), taken_(grid), pending_(grid), covers_(grid) {
-        for (std::size_t k = 0; k < D; ++k) {
-            to_parts_[k] = static_cast<float>(double{cell_parts<D>} / grid.scales[k]);
-            plain_ = plain_ && grid.reach[k] == 2 && grid.cells[k] > 4;
-        }
-        fill_with_zeros(heads_, grid.spots);
-        fill_with_zeros(places_, grid.spots);
-        for (std::size_t b = 0; b < about_.size(); ++b) look_at(b);
-        for (std::size_t part = 0; part < parts_of_cell; ++part)
-            for (std::size_t b = 0; b < about_.size(); ++b)
-                if (reaches(b, part)) masks_[part][b / layer] |= Word{1} << (b % layer);
-        for (std::size_t set = 0; set < unions_.size(); ++set)
-            for (std::size_t part = 0; part < parts_of_cell; ++part)
-                for (std::size_t z = 0; (set >> half_of(part) & 1) != 0 && z < layers; ++z)
-                    unions_[set][z] |= masks_[part][z];
-    }
-
-    /// Asks for the cells of a row that is soon reached from this one; always inline, since GCC
-    /// takes a call that does nothing but fetch for one that does nothing.
-    [[gnu::always_inline]] void fetch_row(const Tile& tile, const Index& row) const {
-        constexpr std::uint32_t ahead = 5;
-        constexpr std::size_t line = 64;  // bytes
-        Index there = row;
-        there[1] += ahead;
-        if (there[1] >= grid_.cells[1]) return;
-        there[0] = tile.first[0];
-        const std::size_t length = tile.last[0] - tile.first[0];
-        const std::size_t spot = grid_.spot_of(there);
-        for (std::size_t i = 0; i < length; i += line / sizeof(PartBits)) covers_.fetch(spot + i);
-        for (std::size_t i = 0; i < length; i += line / sizeof(Off))
-            __builtin_prefetch(&places_[spot + i]);
-        for (std::size_t i = 0; i < length; i += line / 2) __builtin_prefetch(&heads_[spot + i]);
-    }
-
-    /// The same for candidates, which lie in order of their rows, as the i-th is reached.
-    [[gnu::always_inline]] void fetch_about(const Tile& tile, std::size_t i) const {
-        const auto row = [&](std::size_t j) { return tile.candidates[j].place >> Grid::tile_bits; };
-        if (i == 0 || row(i) == row(i - 1)) return;
-        fetch_row(tile, Grid::cell_at(tile.first, tile.candidates[i].place));
+    explicit CellTiles(const Grid& grid) : Base(grid), covers_(grid) {
+        heads_.resize(grid.spots);
+        places_.resize(grid.spots);
+        taken_.resize(grid.spots);
+        pending_.resize(grid.spots);
     }
 
     /// Parts that a point covers alone, of a cell and those behind it along the first direction.
@@ -156,45 +119,19 @@ class CellTiles : public TilesBase<D> {
     /// Gets a desk ready for a tile.
     void prepare(const Tile&, Desk<D>&) const {}
 
-    [[nodiscard]] bool taken(const Index& cell) const { return taken_.has(cell); }
+    [[nodiscard]] bool taken(const Index& cell) const { return taken_[grid_.spot_of(cell)] != 0; }
 
-    /// Points that reach into these halves of a cell (halves_of), and some more.
-    void gather(const Index& cell, Halves halves, NearDisks<D, float>& near) const {
+    /// Points that reach into a cell, and some more.
+    void gather(const Tile&, const Index& cell, const Desk<D>&, NearDisks<D, float>& near) const {
         near.clear();
-        if (plain_) {
-            const std::size_t at = grid_.spot_of(cell);
-            for_bits(taken_, cell, unions_[halves], [&](const Neighbour& n) {
-                auto p = places_[at + static_cast<std::size_t>(n.cells)];
-                for (std::size_t k = 0; k < D; ++k) p[k] += n.off[k];
-                near.add(p);
-                return true;
-            });
-        } else {
-            grid_.around(cell, [&](const Index& there, const Point& steps) {
-                if (!taken(there)) return;
-                auto p = places_[grid_.spot_of(there)];
-                for (std::size_t k = 0; k < D; ++k)
-                    p[k] += static_cast<float>(steps[k] * grid_.scales[k]);
-                near.add(p);
-            });
-        }
-        near.close();
-    }
-
-    /// Whether a point covers the place at `off` from a cell's corner.
-    [[nodiscard]] Hit hit_at(const Index& cell, const Off& off, Desk<D>& desk) const {
-        if (!plain_) {
-            gather(cell, all_halves<D>, desk.near);
-            return stipple::hits<D, float>(desk.near, off, float_slack);
-        }
-        const std::size_t at = grid_.spot_of(cell);
-        Hit hit = Hit::no;
-        for_bits(taken_, cell, masks_[part_of(off)], [&](const Neighbour& n) {
-            const float squared = squared_from(at, n, off);
-            if (squared < 1 + float_slack) hit = squared < 1 - float_slack ? Hit::yes : Hit::unsure;
-            return hit != Hit::yes;
+        grid_.around(cell, [&](const Index& there, const Point& steps) {
+            if (!taken(there)) return;
+            auto p = places_[grid_.spot_of(there)];
+            for (std::size_t k = 0; k < D; ++k)
+                p[k] += static_cast<float>(steps[k] * grid_.scales[k]);
+            near.add(p);
         });
-        return hit;
+        near.close();
     }
 
     void gather(const Tile&, const Index& cell, const Desk<D>&, NearDisks<D, double>& near) const {
@@ -225,24 +162,20 @@ class CellTiles : public TilesBase<D> {
     void clear_cells() {
         heads_ = {};
         places_ = {};
-        taken_.drop();
-        pending_.drop();
+        taken_ = {};
+        pending_ = {};
         covers_.clear();
     }
 
     /// Forgets the candidates of the shower before, in all tiles; in one.
-    void start_over() { pending_.clear(); }
+    void start_over() { std::ranges::fill(pending_, 0); }
     void start_over(Tile& tile) const { tile.candidates.clear(); }
 
     /// Adds a candidate, for others to find.
-    void add(Tile& tile, const Index& cell, const Off& off, Candidate<D> c, bool shared) {
+    void add(Tile& tile, const Index& cell, Candidate<D> c) {
         const std::size_t number = grid_.spot_of(cell);
-        if (!pending_.has_meanwhile(cell)) {
-            mark(pending_, cell, number, off, shared);
-            heads_[number] = 0;
-        } else {
-            mark(pending_, cell, number, {not_one}, shared);
-        }
+        if (pending_[number] == 0) heads_[number] = 0;
+        pending_[number] = 1;
         auto& all = tile.candidates;
         std::uint16_t* link = &heads_[number];
         while (*link != 0 && all[*link - 1U].before(c)) link = &all[*link - 1U].next;
@@ -255,188 +188,29 @@ class CellTiles : public TilesBase<D> {
     /// that is true; returns whether it ever was.
     template <class Visit>
     [[nodiscard]] bool any_before(const Tile& tile, const Candidate<D>& c, const Visit& visit) {
-        const Index cell = Grid::cell_at(tile.first, c.place);
         bool found = false;
-        if (plain_) {
-            const std::size_t at = grid_.spot_of(cell);
-            const Off off = off_of(cell, at, c);
-            const bool alone = !std::isnan(places_[at][0]);
-            for_bits(pending_, cell, masks_[part_of(off)], [&](const Neighbour& n) {
-                if (squared_from(at, n, off) > 1 + float_slack) return true;
-                if (n.cells == 0 && alone) return true;
-                found = any_in(stepped(cell, n), c, visit);
-                return !found;
-            });
-        } else {
-            grid_.around(cell, [&](const Index& there, const Point&) {
-                found = found || (pending_.has(there) && any_in(there, c, visit));
-            });
-        }
+        grid_.around(Grid::cell_at(tile.first, c.place), [&](const Index& there, const Point&) {
+            found = found || (pending_[grid_.spot_of(there)] != 0 && any_in(there, c, visit));
+        });
         return found;
     }
 
     /// Makes the candidates that stay points.
     void settle(Tile& tile, std::uint8_t stays, bool shared) {
         for (std::size_t i = 0; i < tile.candidates.size(); ++i) {
-            fetch_about(tile, i);
             if (tile.fates[i] != stays) continue;
             const Candidate<D>& c = tile.candidates[i];
             const Index cell = Grid::cell_at(tile.first, c.place);
             const std::size_t number = grid_.spot_of(cell);
             heads_[number] = static_cast<std::uint16_t>(tile.points.size() / D);
             tile.points.insert(tile.points.end(), c.at.begin(), c.at.end());
-            const Off off = off_of(cell, number, c);
-            mark(taken_, cell, number, off, shared);
-            covers_.add(cell, off, shared && !inside(tile, cell));
+            places_[number] = c.off;
+            taken_[number] = 1;
+            covers_.add(cell, c.off, shared);
         }
     }
 
   private:
-    using Word = typename CellBits<D>::Word;
-    static constexpr std::size_t layers = CellBits<D>::layers;
-    static constexpr std::size_t layer = CellBits<D>::layer_bits;
-    using Masks = std::array<Word, layers>;                      ///< bits of cells
-    static constexpr std::array<std::size_t, 5> nearest_first =  ///< layers
-        D == 2 ? std::array<std::size_t, 5>{} : std::array<std::size_t, 5>{2, 1, 3, 0, 4};
-    static constexpr float not_one = std::numeric_limits<float>::quiet_NaN();  ///< place of several
-
-    /// One of the 5^D cells about another.
-    struct Neighbour {
-        std::array<int, D> steps;
-        std::array<float, D> off;  ///< of its corner, in radii
-        std::ptrdiff_t cells = 0;  ///< the same as a difference of spots
-    };
-
-    void look_at(std::size_t b) {
-        Neighbour& n = about_[b];
-        const std::array<std::size_t, 3> along{b % 8, b % layer / 8, b / layer};
-        for (std::size_t k = 0; k < D; ++k) {
-            n.steps[k] = static_cast<int>(along[k]) - 2;
-            n.off[k] = static_cast<float>(n.steps[k] * grid_.scales[k]);
-            n.cells += n.steps[k] * static_cast<std::ptrdiff_t>(grid_.strides[k]);
-        }
-    }
-
-    /// Whether a disk in a neighbour can reach into a part of a cell.
-    [[nodiscard]] bool reaches(std::size_t b, std::size_t part) const {
-        constexpr std::size_t p = cell_parts<D>;
-        double gap = 0;
-        for (std::size_t k = 0; k < D; ++k, part /= p) {
-            const double low = static_cast<double>(part % p) / double{p};
-            const double step = about_[b].steps[k];
-            const double apart = std::max({step - low - 1 / double{p}, low - step - 1, 0.0});
-            gap += apart * apart * grid_.scales[k] * grid_.scales[k];
-        }
-        return gap < 1 + float_slack;
-    }
-
-    /// The half of a cell along every direction that a part is in, as halves_of counts them.
-    [[nodiscard]] static std::size_t half_of(std::size_t part) {
-        constexpr std::size_t p = cell_parts<D>;
-        std::size_t half = 0;
-        for (std::size_t k = 0; k < D; ++k, part /= p) half |= part % p / (p / 2) << k;
-        return half;
-    }
-
-    /// The part of a cell that a place is in.
-    [[nodiscard]] std::size_t part_of(const Off& off) const {
-        std::size_t part = 0;
-        for (std::size_t k = D; k-- > 0;) {
-            const auto along = static_cast<std::size_t>(off[k] * to_parts_[k]);
-            part = part * cell_parts<D> + std::min(along, cell_parts<D> - 1);
-        }
-        return part;
-    }
-
-    /// Where a step leads, around the torus.
-    [[nodiscard]] Index stepped(const Index& cell, const Neighbour& n) const {
-        Index there;
-        for (std::size_t k = 0; k < D; ++k) {
-            there[k] = cell[k] + static_cast<std::uint32_t>(n.steps[k]);
-            if (there[k] >= grid_.cells[k])
-                there[k] += n.steps[k] < 0 ? grid_.cells[k] : -grid_.cells[k];
-        }
-        return there;
-    }
-
-    /// Keeps the place of a cell's point or candidate, and sets its bit.
-    void mark(CellBits<D>& bits, const Index& cell, std::size_t spot, const Off& off, bool shared) {
-        Index counted;
-        for (std::size_t k = 0; k < D; ++k) counted[k] = cell[k] + 2;
-        places_[spot] = off;
-        bits.set(counted, shared);
-        if (!grid_.interior(cell))
-            for_images(counted, [&](const Index& image, std::size_t at) {
-                places_[at] = off;
-                bits.set(image, shared);
-            });
-    }
-
-    /// Calls visit(counted, spot) where a cell appears again beyond the faces of a torus.
-    template <class Visit>
-    [[gnu::noinline]] void for_images(const Index& counted, const Visit& visit) const {
-        if (plain_ && grid_.torus) images<D>(counted, false, visit);
-    }
-    template <std::size_t K, class Visit>
-    void images(const Index& counted, bool moved, const Visit& visit) const {
-        if constexpr (K == 0) {
-            std::size_t spot = 0;
-            for (std::size_t k = 0; k < D; ++k) spot += counted[k] * grid_.strides[k];
-            if (moved) visit(counted, spot);
-        } else {
-            images<K - 1>(counted, moved, visit);
-            const std::uint32_t all = grid_.cells[K - 1];
-            if (counted[K - 1] >= 4 && counted[K - 1] < all) return;
-            Index other = counted;
-            other[K - 1] += other[K - 1] < 4 ? all : -all;
-            images<K - 1>(other, true, visit);
-        }
-    }
-
-    /// Calls visit(neighbour) where the bit is set, as long as that is true.
-    template <class Visit>
-    void for_bits(const CellBits<D>& bits, const Index& cell, const Masks& masks,
-                  const Visit& visit) const {
-        const auto around = bits.about(cell);
-        for (std::size_t i = 0; i < layers; ++i) {
-            const std::size_t z = nearest_first[i];
-            Word found = bits.layer(around, z) & masks[z];
-            for (; found != 0; found &= found - 1) {
-                const auto bit = static_cast<std::size_t>(std::countr_zero(found));
-                if (!visit(about_[layer * z + bit])) return;
-            }
-        }
-    }
-
-    /// Where in its cell a candidate is.
-    [[nodiscard]] Off off_of(const Index& cell, std::size_t number, const Candidate<D>& c) const {
-        Off off = places_[number];
-        if (!std::isnan(off[0])) return off;
-        for (std::size_t k = 0; k < D; ++k)
-            off[k] = static_cast<float>(((c.at[k] - grid_.low[k]) / grid_.widths[k] - cell[k]) *
-                                        grid_.scales[k]);
-        return off;
-    }
-
-    /// Squared distance of a place from what places_ has of the neighbour.
-    [[nodiscard]] float squared_from(std::size_t at, const Neighbour& n, const Off& off) const {
-        const Off& p = places_[at + static_cast<std::size_t>(n.cells)];
-        float squared = 0;
-        for (std::size_t k = 0; k < D; ++k) {
-            const float along = p[k] + n.off[k] - off[k];
-            squared += along * along;
-        }
-        return squared;
-    }
-
-    /// Whether no other tile's points reach the cells that a point of this cell reaches.
-    [[nodiscard]] static bool inside(const Tile& tile, const Index& cell) {
-        bool in = true;
-        for (std::size_t k = 0; k < D; ++k)
-            in &= cell[k] >= tile.first[k] + 4 && cell[k] + 4 < tile.last[k];
-        return in;
-    }
-
     /// The point of a cell, or nullptr.
     [[nodiscard]] const double* point_in(const Index& cell) const {
         if (!taken(cell)) return nullptr;
@@ -455,18 +229,12 @@ class CellTiles : public TilesBase<D> {
         return false;
     }
 
-    bool plain_ = true;  ///< a radius leads across two cells, along all directions
     std::vector<std::uint16_t>
         heads_;                ///< of a cell: its point's number, or that of its first candidate
-    std::vector<Off> places_;  ///< of a cell's point or only candidate, from its corner, in radii
-    CellBits<D> taken_;
-    CellBits<D> pending_;
+    std::vector<Off> places_;  ///< of a cell's point, from its corner, in radii
+    std::vector<std::uint8_t> taken_;    ///< of a cell: whether it has a point
+    std::vector<std::uint8_t> pending_;  ///< of a cell: whether it has candidates
     DiskCovers<D> covers_;
-    std::array<Neighbour, layers * layer> about_{};
-    Off to_parts_{};  ///< from radii
-    /// For each part of a cell from which neighbours a disk reaches into it.
-    std::array<Masks, parts_of_cell> masks_{};
-    std::array<Masks, all_halves<D> + 1> unions_{};  ///< the same for sets of halves
 };
 
 /// For many dimensions.
@@ -540,11 +308,7 @@ class FewTiles : public TilesBase<D> {
     void start_over() const {}
     void start_over(Tile& tile) const { tile.candidates.clear(); }
 
-    void fetch_row(const Tile&, const Index&) const {}
-    void fetch_about(const Tile&, std::size_t) const {}
-
-    void add(Tile& tile, const Index&, const std::array<float, D>&, const Candidate<D>& c,
-             bool) const {
+    void add(Tile& tile, const Index&, const Candidate<D>& c) const {
         tile.candidates.push_back(c);
     }
 

@@ -119,30 +119,4 @@ void narrow(const Window<D>& window, const OpenParts<D>& open, double darts,
     out.push_back(smaller);
 }
 
-/// Sets of halves of a cell, a bit each.
-using Halves = std::uint64_t;
-
-/// Every half along every direction.
-template <std::size_t D>
-inline constexpr Halves all_halves = ~Halves{0} >> (64 - (1U << D));
-
-/// The halves of a cell that a window reaches into: bit i for that beyond the middle along the
-/// directions of i's ones.
-template <std::size_t D>
-Halves halves_of(const Window<D>& window) {
-    static_assert(D <= 6);
-    Halves halves = 1;
-    for (std::size_t k = D; k-- > 0;) {
-        // From sets of the halves along the directions behind k to those along k as well.
-        Halves both = 0;
-        for (unsigned i = 0; i < 1U << (D - 1 - k); ++i) {
-            if ((halves >> i & 1) == 0) continue;
-            if (window.corner[k] < 0.5) both |= Halves{1} << (2 * i);
-            if (window.corner[k] + window.side() > 0.5) both |= Halves{1} << (2 * i + 1);
-        }
-        halves = both;
-    }
-    return halves;
-}
-
 }  // namespace stipple

@@ -9,11 +9,11 @@
 #include "core/parallel.hpp"
 #include "core/rng.hpp"
 #include "core/text.hpp"
-#include "generators/cube_windows.hpp"
 #include "generators/disk_shower.hpp"
 #include "generators/disk_spots.hpp"
 #include "generators/disk_tiles.hpp"
 #include "generators/plane_disks.hpp"
+#include "generators/space_disks.hpp"
 #include "math/mixer.hpp"
 
 namespace stipple {
@@ -162,10 +162,7 @@ class Rain {
             tile.fates.assign(tile.candidates.size(), unknown);
         });
         for_tiles([&](Tile& tile, std::uint32_t) {
-            for (std::size_t i = 0; i < tile.candidates.size(); ++i) {
-                tiles_.fetch_about(tile, i);
-                decide(tile, i);
-            }
+            for (std::size_t i = 0; i < tile.candidates.size(); ++i) decide(tile, i);
         });
         for_tiles([&](Tile& tile, std::uint32_t) { tiles_.settle(tile, stays, shared_); });
         std::size_t points = 0;
@@ -208,7 +205,6 @@ class Rain {
         desk.near.clear();
         desk.near.close();
         for_runs(tile, together, [&](const Index& run, std::uint32_t count) {
-            if (run[0] == tile.first[0]) tiles_.fetch_row(tile, run);
             Mixer mixer = stream(key, Grid::place_of(run), {}, 0);
             for (std::uint64_t left = shower.on(count, mixer); left > 0; --left) {
                 Index cell = run;
@@ -220,11 +216,9 @@ class Rain {
                 cell[0] += step;
                 if constexpr (Tiles::knows_parts) {
                     if (tiles_.covers(cell, place)) continue;
-                    fall_among(tile, cell, place, any_points, mixer, desk);
-                } else {
-                    if (any_points) tiles_.gather(tile, cell, desk, desk.near);
-                    fall<float>(tile, cell, place, desk.near, mixer);
                 }
+                if (any_points) tiles_.gather(tile, cell, desk, desk.near);
+                fall<float>(tile, cell, place, desk.near, mixer);
             }
         });
     }
@@ -238,30 +232,20 @@ class Rain {
         land(tile, cell, place, hits<D, Real>(near, off, slack<Real>()), mixer);
     }
 
-    /// The same, where the points that are near have to be found.
-    void fall_among(Tile& tile, const Index& cell, const Point& place, bool any_points,
-                    Mixer& mixer, Desk<D>& desk) {
-        std::array<float, D> off;
-        for (std::size_t k = 0; k < D; ++k) off[k] = static_cast<float>(place[k] * grid_.scales[k]);
-        const Hit hit = any_points ? tiles_.hit_at(cell, off, desk) : Hit::no;
-        land(tile, cell, place, hit, mixer);
-    }
-
     /// Makes a dart a candidate, unless it hit.
     void land(Tile& tile, const Index& cell, const Point& place, Hit hit, Mixer& mixer) {
         if (hit == Hit::yes) return;
         Candidate<D> c{};
-        std::array<float, D> off;
         for (std::size_t k = 0; k < D; ++k) {
             c.at[k] = grid_.low[k] + (cell[k] + place[k]) * grid_.widths[k];
-            off[k] = static_cast<float>(place[k] * grid_.scales[k]);
+            c.off[k] = static_cast<float>(place[k] * grid_.scales[k]);
             if (!(c.at[k] < grid_.high[k])) return;  // rounded up to a face
         }
         if (hit == Hit::unsure && (tiles_.taken(cell) || tiles_.hits(tile, cell, c.at.data())))
             return;
         c.time = static_cast<std::uint32_t>(mixer.next() >> 32);
         c.place = Grid::place_of(cell);
-        tiles_.add(tile, cell, off, c, shared_);
+        tiles_.add(tile, cell, c);
     }
 
     /// Darts fall on the parts of cells that no point covers alone.
@@ -269,10 +253,13 @@ class Rain {
         for_open_cells(tile, [&](const Index& cell, PartBits open) {
             const std::size_t count = ones_of(open);
             Mixer mixer(Mixer(key ^ Grid::place_of(cell)).next());
+            bool gathered = false;
             for (std::uint64_t left = shower.on(count, mixer); left > 0; --left) {
                 Point place = nth_part<D>(open, mixer.below(count));
                 for (double& x : place) x += to_unit(mixer.next()) / double{cell_parts<D>};
-                fall_among(tile, cell, place, true, mixer, desk);
+                if (!gathered) tiles_.gather(tile, cell, desk, desk.near);
+                gathered = true;
+                fall<float>(tile, cell, place, desk.near, mixer);
             }
         });
     }
@@ -281,7 +268,6 @@ class Rain {
     template <class Visit>
     void for_open_cells(const Tile& tile, const Visit& visit) const {
         for_runs(tile, Grid::tile_side, [&](const Index& row, std::uint32_t length) {
-            tiles_.fetch_row(tile, row);
             const PartBits* covered = tiles_.covered(row);
             for (Index cell = row; cell[0] < row[0] + length; ++cell[0], ++covered)
                 if (const PartBits open = ~*covered; open != 0) visit(cell, open);
@@ -292,7 +278,7 @@ class Rain {
     void fall_on_cells(Tile& tile, const std::vector<Shower>& showers, std::uint64_t key,
                        Desk<D>& desk) {
         const auto fall_in = [&](const Index& cell, const Window<D>& window) {
-            gather(tile, cell, halves_of(window), desk);
+            tiles_.gather(tile, cell, desk, desk.near);
             fall_on<float>(tile, cell, window, showers[window.level], key, desk);
         };
         if constexpr (Tiles::knows_parts)
@@ -314,13 +300,11 @@ class Rain {
             const bool taken = tiles_.taken(cell);
             const std::size_t first = i;
             bool fine = false;
-            Halves halves = 0;
             for (; i < windows.size() && windows[i].place == place; ++i) {
                 fine = fine || windows[i].level >= deep;
-                halves |= halves_of(windows[i]);
             }
             if (taken) continue;
-            gather(tile, cell, halves, desk);
+            tiles_.gather(tile, cell, desk, desk.near);
             if (fine) tiles_.gather(tile, cell, desk, desk.exactly_near);
             for (std::size_t w = first; w < i; ++w) {
                 const Shower& shower = showers[windows[w].level];
@@ -330,14 +314,6 @@ class Rain {
                     fall_on<double>(tile, cell, windows[w], shower, key, desk);
             }
         }
-    }
-
-    /// Puts the points that reach into halves of a cell on the desk, or into all of it.
-    void gather(const Tile& tile, const Index& cell, Halves halves, Desk<D>& desk) const {
-        if constexpr (Tiles::knows_parts)
-            tiles_.gather(cell, halves, desk.near);
-        else
-            tiles_.gather(tile, cell, desk, desk.near);
     }
 
     /// Darts fall on what is open of a window; what is left of it goes to the desk.
@@ -350,8 +326,6 @@ class Rain {
             raster.corner[k] = static_cast<Real>(window.corner[k] * grid_.scales[k]);
             raster.part[k] = static_cast<Real>(window.part() * grid_.scales[k]);
         }
-        if constexpr (D == 3 && std::is_same_v<Real, float>)
-            return fall_on_cube(tile, cell, window, raster, shower, key, desk);
         const auto [near, reaching] = lists<Real>(desk);
         OpenParts<D> open;
         if (!uncovered<D, Real>(near, raster, slack<Real>(), reaching, open)) return;
@@ -364,24 +338,6 @@ class Rain {
             fall<Real>(tile, cell, place, reaching, mixer);
         }
         narrow<D>(window, open, shower.mean(count), desk.windows);
-    }
-
-    /// The same in space, for windows that are not small.
-    void fall_on_cube(Tile& tile, const Index& cell, const Window<D>& window,
-                      const Raster<D, float>& raster, const Shower& shower, std::uint64_t key,
-                      Desk<D>& desk) {
-        const PartBits open = open_cube(desk.near, raster);
-        if (open == 0) return;
-        const std::size_t count = ones_of(open);
-        Mixer mixer = stream(key, window.place, window.corner, window.level);
-        for (std::uint64_t left = shower.on(count, mixer); left > 0; --left) {
-            Point place = nth_part<D>(open, mixer.below(count));
-            for (std::size_t k = 0; k < D; ++k)
-                place[k] =
-                    window.corner[k] + (place[k] + to_unit(mixer.next()) / parts<D>)*window.side();
-            fall<float>(tile, cell, place, desk.near, mixer);
-        }
-        narrow_cube(window, open, shower.mean(count), desk.windows);
     }
 
     /// Whether no arithmetic could tell a gap of this size from none.
@@ -458,25 +414,30 @@ Rows plane_or_few(const BoxSpace& space, double radius, double cell_radius, std:
                        seed, worth_threads(run, expected * seconds_a_point));
 }
 
+Rows space_or_few(const BoxSpace& space, double radius, double cell_radius, std::uint64_t seed,
+                  const RunContext& run) {
+    const DiskGrid<3> grid(space, radius, cell_radius);
+    if (!fits_space_tiles(grid)) return Rain<3>(space, radius, cell_radius, seed, run).fill();
+    constexpr double seconds_a_point = 2.5e-6;
+    const double expected = expected_disks(space, radius);
+    return space_disks(grid, double_slack(space, radius), static_cast<std::uint64_t>(expected),
+                       seed, worth_threads(run, expected * seconds_a_point));
+}
+
 /// Bytes that so many points take, in so many cells along each direction.
 double memory_for(const std::vector<double>& along, double points) {
     const double d = static_cast<double>(along.size());
     double cells = 1;
-    double spots = 1;  // cells, and two more at each end
-    for (const double count : along) {
-        cells *= count;
-        spots *= count + 4;
-    }
+    for (const double count : along) cells *= count;
     if (along.size() == 2) {  // what each tile knows; a point, its copy, undecided darts; windows
         const auto known = static_cast<double>(DiskSpots::stride);
         const double rows = along[1] + 4 * std::ceil(along[1] / 64);
         return 14 * known * std::ceil(along[0] / 64) * rows + 45 * points + 4 * cells;
     }
-    // A cell's head, place and bits; a point, its copy and the candidates of a shower; windows.
-    const double to_a_cell = d == 3 ? 10.5 + 4 * d : 0;
-    const double to_a_point = 2 * 8 * d + 0.6 * (8 * d + 9);
-    const double windows = cells * (d == 3 ? 1 : 1.5) * (8 * d + 8);
-    return spots * to_a_cell + points * to_a_point + windows;
+    if (along.size() == 3)  // what tiles know; a point, its copy, what others know of it; windows;
+        return 15 * cells + 175 * points + std::min(26e6, 20 * cells);  // and stamps
+    // A point, its copy and the candidates of a shower; windows.
+    return points * (2 * 8 * d + 0.6 * (8 * d + 9)) + 1.5 * cells * (8 * d + 8);
 }
 
 /// @throws Error(limit) when the points for this radius do not fit the memory, or the indices.
@@ -509,7 +470,7 @@ Rows maximal_disks(const BoxSpace& space, double radius, double cell_radius, std
         case 2:
             return plane_or_few(space, radius, cell_radius, seed, run);
         case 3:
-            return Rain<3>(space, radius, cell_radius, seed, run).fill();
+            return space_or_few(space, radius, cell_radius, seed, run);
         case 4:
             return Rain<4>(space, radius, cell_radius, seed, run).fill();
         case 5:

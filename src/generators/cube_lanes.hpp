@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: MIT
+//
+// Kernels on balls for as many floats as a vector V holds. This is no header of its own:
+// cube_windows.cpp includes it in one namespace after the other, for STIPPLE_LANES lanes, with the
+// instructions chosen there for all that follows.
+
+constexpr std::size_t lanes = STIPPLE_LANES;
+using V [[gnu::vector_size(4 * lanes)]] = float;
+using Bits [[gnu::vector_size(4 * lanes)]] = std::int32_t;
+
+STIPPLE_INLINE V load(const float* from) {
+    V v;
+    std::memcpy(&v, from, sizeof v);
+    return v;
+}
+
+/// A number in all lanes.
+STIPPLE_INLINE V same(float x) { return x - V{}; }
+
+STIPPLE_INLINE V absolute(V x) { return (V)((Bits)x & 0x7fffffff); }
+STIPPLE_INLINE V larger(V x, V y) { return x > y ? x : y; }
+STIPPLE_INLINE V smaller(V x, V y) { return x < y ? x : y; }
+
+/// A bit for each lane that is set.
+STIPPLE_INLINE unsigned set_in(Bits set) {
+#if STIPPLE_LANES == 8
+    return static_cast<unsigned>(_mm256_movemask_ps((__m256)set));
+#elif STIPPLE_LANES == 4 && defined(__SSE2__)
+    return static_cast<unsigned>(_mm_movemask_ps((__m128)set));
+#else
+    unsigned bits = 0;
+    for (std::size_t l = 0; l < lanes; ++l) bits |= static_cast<unsigned>(set[l] & (1 << l));
+    return bits;
+#endif
+}
+
+/// A bit for each lane in which a is less than b.
+STIPPLE_INLINE unsigned below(V a, V b) {
+#if STIPPLE_LANES == 16
+    return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ);
+#else
+    return set_in(a < b);
+#endif
+}
+
+STIPPLE_INLINE void store(V v, float* to) { std::memcpy(to, &v, sizeof v); }
+
+/// Four numbers again and again; each of the next ones four times.
+STIPPLE_INLINE V four_times(const float* from) {
+#if STIPPLE_LANES == 16
+    return _mm512_maskz_broadcast_f32x4(0xffff, _mm_loadu_ps(from));
+#elif STIPPLE_LANES == 8
+    return _mm256_broadcast_ps(reinterpret_cast<const __m128*>(from));
+#else
+    return load(from);
+#endif
+}
+STIPPLE_INLINE V each_four_times(const float* from) {
+#if STIPPLE_LANES == 16
+    const __m512i lane = _mm512_set_epi32(3, 3, 3, 3, 2, 2, 2, 2, 1, 1, 1, 1, 0, 0, 0, 0);
+    return _mm512_maskz_permutexvar_ps(0xffff, lane, _mm512_castps128_ps512(_mm_loadu_ps(from)));
+#elif STIPPLE_LANES == 8
+    return _mm256_set_m128(_mm_set1_ps(from[1]), _mm_set1_ps(from[0]));
+#else
+    return same(from[0]);
+#endif
+}
+
+/// What is open of 64 parts.
+struct Rows {
+#if STIPPLE_LANES == 16
+    std::array<__mmask16, 4> open{0xffff, 0xffff, 0xffff, 0xffff};
+    STIPPLE_INLINE void keep_not_below(std::size_t layer, std::size_t, V a, V b) {
+        open[layer] = _mm512_mask_cmp_ps_mask(open[layer], a, b, _CMP_NLT_UQ);
+    }
+    [[nodiscard]] STIPPLE_INLINE PartBits bits() const {
+        return PartBits{open[0]} | PartBits{open[1]} << 16 | PartBits{open[2]} << 32 |
+               PartBits{open[3]} << 48;
+    }
+#else
+    static constexpr std::size_t rows = 16 / lanes;
+    std::array<std::array<Bits, rows>, 4> covered{};
+    STIPPLE_INLINE void keep_not_below(std::size_t layer, std::size_t row, V a, V b) {
+        covered[layer][row] |= a < b;
+    }
+    [[nodiscard]] STIPPLE_INLINE PartBits bits() const {
+        PartBits set = 0;
+        for (std::size_t layer = 0; layer < 4; ++layer)
+            for (std::size_t row = 0; row < rows; ++row)
+                set |= PartBits{set_in(covered[layer][row])} << (16 * layer + lanes * row);
+        return ~set;
+    }
+#endif
+};
+
+Hit hit(const NearBalls& near, const std::array<float, 3>& place) {
+    V least = same(2);
+    for (std::size_t i = 0; i < near.size; i += lanes) {
+        const V x = load(&near.at[0][i]) - place[0];
+        const V y = load(&near.at[1][i]) - place[1];
+        const V z = load(&near.at[2][i]) - place[2];
+        least = smaller(least, x * x + y * y + z * z);
+    }
+    if (below(least, same(1 - float_slack)) != 0) return Hit::yes;
+    return below(least, same(1 + float_slack)) != 0 ? Hit::unsure : Hit::no;
+}
+
+void find_hits(const NearBalls& near, std::span<const std::array<float, 3>> places, Hit* out) {
+    for (const auto& place : places) *out++ = hit(near, place);
+}
+
+/// Where the parts of windows of a size lie, from their middle: lane x + 4 y of a row of vectors.
+struct Pattern {
+    static constexpr std::size_t rows = 16 / lanes;
+    std::array<float, 3> part;
+    V along_x;
+    V along_z;
+    std::array<V, rows> along_y;
+
+    STIPPLE_INLINE Pattern(const std::array<float, 3>& scales, unsigned level) {
+        for (std::size_t k = 0; k < 3; ++k)
+            part[k] = scales[k] / static_cast<float>(std::size_t{4} << level);
+        for (std::size_t l = 0; l < lanes; ++l) {
+            const float step = static_cast<float>(l % 4) - 1.5F;
+            along_x[l] = part[0] * step;
+            along_z[l] = part[2] * step;
+            for (std::size_t row = 0; row < rows; ++row)
+                along_y[row][l] = part[1] * (static_cast<float>((row * lanes + l) / 4) - 1.5F);
+        }
+    }
+};
+
+/// Squared distance to the far side of a part along one direction.
+STIPPLE_INLINE V far_square(V along, V from, float part) {
+    const V far = absolute(along - from) + part / 2;
+    return far * far;
+}
+
+/// Disks that may cover a part: the square of the distance to the farthest corner of the nearest
+/// part is at least this, which is exact beyond its middle.
+STIPPLE_INLINE unsigned may_cover(const Pattern& p, V x, V y, V z) {
+    const V far_x = larger(absolute(x) - p.part[0], same(p.part[0] / 2));
+    const V far_y = larger(absolute(y) - p.part[1], same(p.part[1] / 2));
+    const V far_z = larger(absolute(z) - p.part[2], same(p.part[2] / 2));
+    return below(far_x * far_x + far_y * far_y + far_z * far_z, same(1));
+}
+
+STIPPLE_INLINE PartBits open_cube(const NearBalls& near, const Pattern& p,
+                                  const std::array<float, 3>& middle) {
+    Rows open;
+    for (std::size_t i = 0; i < near.size; i += lanes) {
+        const V x = load(&near.at[0][i]) - middle[0];
+        const V y = load(&near.at[1][i]) - middle[1];
+        const V z = load(&near.at[2][i]) - middle[2];
+        for (unsigned found = may_cover(p, x, y, z); found != 0; found &= found - 1) {
+            const std::size_t j = i + static_cast<std::size_t>(std::countr_zero(found));
+            const V far_x = far_square(p.along_x, same(near.at[0][j] - middle[0]), p.part[0]);
+            const V from_y = same(near.at[1][j] - middle[1]);
+            const V left = (1 - float_slack) -
+                           far_square(p.along_z, same(near.at[2][j] - middle[2]), p.part[2]);
+            for (std::size_t row = 0; row < Pattern::rows; ++row) {
+                const V sum = far_x + far_square(p.along_y[row], from_y, p.part[1]);
+                for (std::size_t layer = 0; layer < 4; ++layer)
+                    open.keep_not_below(layer, row, sum, same(left[layer]));
+            }
+        }
+    }
+    return open.bits();
+}
+
+void cover_row(const std::array<float, 3>& scales, const std::array<float, 3>& play,
+               const std::array<float, 3>& center, int steps, PartBits* out) {
+    const Pattern p(scales, 0);
+    const auto far = [&](V along, std::size_t k, float from) STIPPLE_LAMBDA {
+        return far_square(along, same(from - 2 * p.part[k]), p.part[k] + 2 * play[k]);
+    };
+    const V left = (1 - float_slack) - far(p.along_z, 2, center[2]);
+    for (int step = -steps; step <= steps; ++step) {
+        const V far_x = far(p.along_x, 0, center[0] - static_cast<float>(step) * scales[0]);
+        Rows open;
+        for (std::size_t row = 0; row < Pattern::rows; ++row) {
+            const V sum = far_x + far(p.along_y[row], 1, center[1]);
+            for (std::size_t layer = 0; layer < 4; ++layer)
+                open.keep_not_below(layer, row, sum, same(left[layer]));
+        }
+        *out++ = ~open.bits();
+    }
+}
+
+void open_cubes(const NearBalls& near, const std::array<float, 3>& scales,
+                std::span<const CubeWindow> windows, PartBits* out) {
+    for (std::size_t i = 0; i < windows.size();) {
+        const unsigned level = windows[i].level;
+        const Pattern pattern(scales, level);
+        for (; i < windows.size() && windows[i].level == level; ++i) {
+            std::array<float, 3> middle;
+            for (std::size_t k = 0; k < 3; ++k)
+                middle[k] = static_cast<float>(windows[i].corner[k]) * 0x1p-16F * scales[k] +
+                            2 * pattern.part[k];
+            *out++ = open_cube(near, pattern, middle);
+        }
+    }
+}
+
+/// Squared distances of balls to the far sides of the sixteenths of a cell, along each direction;
+/// what is left of them for the other two, along the last.
+struct FarSquares {
+    alignas(64) std::array<std::array<float, 16>, NearBalls::room> x;
+    alignas(64) std::array<std::array<float, 16>, NearBalls::room> y;
+    alignas(64) std::array<std::array<float, 16>, NearBalls::room> left;
+
+    STIPPLE_INLINE FarSquares(const NearBalls& near, const std::array<float, 3>& scales) {
+        V ramp;
+        for (std::size_t l = 0; l < lanes; ++l) ramp[l] = static_cast<float>(l) + 0.5F;
+        for (std::size_t j = 0; j < near.size; ++j)
+            for (std::size_t l = 0; l < 16; l += lanes) {
+                const V along = ramp + static_cast<float>(l);
+                const auto square = [&](std::size_t k) STIPPLE_LAMBDA {
+                    return far_square(along * (scales[k] / 16), same(near.at[k][j]),
+                                      scales[k] / 16);
+                };
+                store(square(0), &x[j][l]);
+                store(square(1), &y[j][l]);
+                store((1 - float_slack) - square(2), &left[j][l]);
+            }
+    }
+
+    /// Parts of a part of a cell that the ball does not cover, of those.
+    STIPPLE_INLINE void uncover(std::size_t j, std::size_t part, Rows& open) const {
+        const V far_x = four_times(&x[j][part % 4 * 4]);
+        const float* const far_y = &y[j][part / 4 % 4 * 4];
+        const float* const rest = &left[j][part / 16 * 4];
+        for (std::size_t row = 0; row < 16 / lanes; ++row) {
+            const V sum = far_x + each_four_times(far_y + row * lanes / 4);
+            for (std::size_t layer = 0; layer < 4; ++layer)
+                open.keep_not_below(layer, row, sum, same(rest[layer]));
+        }
+    }
+};
+
+/// For parts of a cell, which of up to `lanes` balls may cover a part of theirs.
+struct Choice {
+    std::array<std::array<V, 4>, 3> least;
+
+    STIPPLE_INLINE Choice(const NearBalls& near, std::size_t i,
+                          const std::array<float, 3>& scales) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const float step = scales[k] / 16;
+            for (std::size_t p = 0; p < 4; ++p) {
+                const float middle = static_cast<float>(4 * p + 2) * step;
+                const V far =
+                    larger(absolute(load(&near.at[k][i]) - middle) - step, same(step / 2));
+                least[k][p] = far * far;
+            }
+        }
+    }
+
+    [[nodiscard]] STIPPLE_INLINE unsigned of(std::size_t part) const {
+        return below(least[0][part % 4] + least[1][part / 4 % 4] + least[2][part / 16], same(1));
+    }
+};
+
+std::size_t open_parts(const NearBalls& near, const std::array<float, 3>& scales, PartBits some,
+                       OpenPart* out) {
+    const FarSquares squares(near, scales);
+    constexpr std::size_t most = NearBalls::room / lanes;
+    std::array<std::array<std::uint16_t, 64>, most> found;
+    std::array<std::uint8_t, 64> parts;
+    std::size_t count = 0;
+    for (PartBits left = some; left != 0; left &= left - 1)
+        parts[count++] = static_cast<std::uint8_t>(std::countr_zero(left));
+    std::size_t vectors = 0;
+    for (std::size_t i = 0; i < near.size; i += lanes, ++vectors) {
+        const Choice choice(near, i, scales);
+        for (std::size_t p = 0; p < count; ++p)
+            found[vectors][p] = static_cast<std::uint16_t>(choice.of(parts[p]));
+    }
+    std::size_t open_count = 0;
+    for (std::size_t p = 0; p < count; ++p) {
+        Rows open;
+        for (std::size_t v = 0; v < vectors; ++v)
+            for (unsigned left = found[v][p]; left != 0; left &= left - 1)
+                squares.uncover(v * lanes + static_cast<std::size_t>(std::countr_zero(left)),
+                                parts[p], open);
+        const PartBits bits = open.bits();
+        out[open_count] = {bits, parts[p]};
+        open_count += bits != 0 ? 1 : 0;
+    }
+    return open_count;
+}
+
+std::size_t find_near(const std::array<const float*, 3>& along, std::size_t first, std::size_t last,
+                      const std::array<float, 3>& place, float squared, std::uint16_t* out) {
+    std::size_t count = 0;
+    for (std::size_t i = first; i < last; i += lanes) {
+        const V x = load(along[0] + i) - place[0];
+        const V y = load(along[1] + i) - place[1];
+        const V z = load(along[2] + i) - place[2];
+        unsigned found = below(x * x + y * y + z * z, same(squared));
+        if (last - i < lanes) found &= (1U << (last - i)) - 1;
+        for (; found != 0; found &= found - 1)
+            out[count++] =
+                static_cast<std::uint16_t>(i + static_cast<std::size_t>(std::countr_zero(found)));
+    }
+    return count;
+}

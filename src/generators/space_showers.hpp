@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+//
+// Darts that fall on a tile of cells in space (generators/space_tiles.hpp), and what becomes
+// covered between showers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "generators/disk_shower.hpp"
+#include "generators/space_tiles.hpp"
+
+namespace stipple {
+
+/// A dart as it is drawn.
+struct Throw {
+    std::array<double, 3> place;  ///< in the cell: the lowest corner of a cube
+    double grain;                 ///< side of that, in which the dart may be anywhere
+    std::uint64_t detail;         ///< what else is drawn for it
+};
+
+/// Makes a dart one that may stay, unless it hit a ball.
+void land(const SpaceRules& rules, const SpaceTile& tile, const Cell& cell, const Throw& dart,
+          Hit hit, std::vector<SpaceDart>& darts);
+
+inline constexpr int cells_together = 8;  ///< that share a Poisson number
+
+/// Darts everywhere.
+/// @param any whether there is a point to hit
+void fall_at_large(const SpaceRules& rules, const SpaceTile& tile, const Shower& shower,
+                   std::uint64_t key, bool any, std::vector<SpaceDart>& darts);
+
+/// Darts on the parts of cells that no ball covers alone, drawn for each row of cells.
+void fall_on_parts(const SpaceRules& rules, const SpaceTile& tile, const Shower& shower,
+                   std::uint64_t key, std::vector<SpaceDart>& darts);
+
+/// Marks what new points cover.
+void cover_all(const SpaceRules& rules, SpaceTile& tile, std::vector<SpaceTile::Addition>& all);
+
+}  // namespace stipple
