@@ -12,7 +12,7 @@
 
 namespace stipple {
 
-using Cell = std::array<int, 3>;  ///< of a tile, from its first one on
+using SpaceCell = std::array<int, 3>;  ///< of a tile, from its first one on
 
 enum Fate : std::uint8_t { unknown, stays, goes };
 
@@ -23,7 +23,7 @@ struct SpaceDart {
     std::uint32_t time;        ///< within its shower
     std::uint16_t place;       ///< of its cell
 
-    [[nodiscard]] Cell cell() const { return {place & 15, place >> 4 & 15, place >> 8}; }
+    [[nodiscard]] SpaceCell cell() const { return {place & 15, place >> 4 & 15, place >> 8}; }
     [[nodiscard]] bool before(const SpaceDart& other) const {
         return time < other.time || (time == other.time && at < other.at);
     }
@@ -62,7 +62,7 @@ class SpaceDarts {
     /// Calls visit(first, last) for the runs of darts in the cubes with cells from low to high
     /// along each direction.
     template <class Visit>
-    [[gnu::always_inline]] void for_runs(Cell low, Cell high, const Visit& visit) const {
+    [[gnu::always_inline]] void for_runs(SpaceCell low, SpaceCell high, const Visit& visit) const {
         for (std::size_t k = 0; k < 3; ++k) {
             low[k] = std::max(low[k], 0);
             high[k] = std::min(high[k], 15);

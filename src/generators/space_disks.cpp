@@ -85,7 +85,7 @@ class SpaceRain {
             std::array<std::int64_t, 3> there{own[0] + static_cast<int>(n % 3) - 1,
                                               own[1] + static_cast<int>(n / 3 % 3) - 1,
                                               own[2] + static_cast<int>(n / 9) - 1};
-            Cell steps{};
+            SpaceCell steps{};
             bool outside = false;
             for (std::size_t k = 0; k < 3; ++k) {
                 const std::int64_t all = grid_.tiles[k];
@@ -181,12 +181,12 @@ class SpaceRain {
         cover_all(rules_, tile, desk.additions);
     }
 
-    void take_from(SpaceTile& tile, SpaceTile& other, const Cell& steps, SpaceDesk& desk) {
+    void take_from(SpaceTile& tile, SpaceTile& other, const SpaceCell& steps, SpaceDesk& desk) {
         const std::uint64_t last = showers_ - 1;
         SpaceDarts& darts = of_shower(other, last);
         if (!darts.of(last)) return;
-        Cell low;
-        Cell high;
+        SpaceCell low;
+        SpaceCell high;
         for (std::size_t k = 0; k < 3; ++k) {
             low[k] = -SpaceTile::halo - steps[k];
             high[k] = tile.size(k) + SpaceTile::halo - 1 - steps[k];
@@ -195,8 +195,8 @@ class SpaceRain {
             for (std::size_t i = first; i < end; ++i) {
                 if (darts.fate(i) != stays) continue;
                 const SpaceDart& d = darts.all()[i];
-                Cell cell = d.cell();
-                Cell own;
+                SpaceCell cell = d.cell();
+                SpaceCell own;
                 bool in = true;
                 for (std::size_t k = 0; k < 3; ++k) {
                     own[k] = cell[k] + static_cast<int>(other.first()[k]);
@@ -205,7 +205,7 @@ class SpaceRain {
                 }
                 if (in)
                     desk.additions.push_back(
-                        tile.add(cell, own, d, &tile == &other && steps == Cell{}));
+                        tile.add(cell, own, d, &tile == &other && steps == SpaceCell{}));
             }
         });
     }
@@ -218,12 +218,12 @@ class SpaceRain {
         if (known != unknown) return known;
         bool beaten = false;
         const SpaceDart& d = own_darts.all()[number];
-        const Cell own = d.cell();
-        const auto look = [&](SpaceTile& there, const Cell& steps) {
+        const SpaceCell own = d.cell();
+        const auto look = [&](SpaceTile& there, const SpaceCell& steps) {
             SpaceDarts& darts = of_shower(there, showers_);
             if (!darts.of(showers_)) return;
-            Cell low;
-            Cell high;
+            SpaceCell low;
+            SpaceCell high;
             std::array<float, 3> off;
             for (std::size_t k = 0; k < 3; ++k) {
                 low[k] = own[k] - steps[k] - 2;
@@ -257,8 +257,8 @@ class SpaceRain {
 
     /// Calls visit(neighbour) for the other tiles that a radius leads to from a cell.
     template <class Visit>
-    static void for_tiles_about(const SpaceTile& tile, const Cell& cell, const Visit& visit) {
-        Cell to{};
+    static void for_tiles_about(const SpaceTile& tile, const SpaceCell& cell, const Visit& visit) {
+        SpaceCell to{};
         for (std::size_t k = 0; k < 3; ++k)
             to[k] = cell[k] < 2 ? -1 : cell[k] >= tile.size(k) - 2 ? 1 : 0;
         for (int z = std::min(to[2], 0); z <= std::max(to[2], 0); ++z)
@@ -294,7 +294,7 @@ class SpaceRain {
     }
 
     /// Makes darts that hit no ball ones that may stay.
-    void land_all(const SpaceTile& tile, const Cell& cell, SpaceDesk& desk) const {
+    void land_all(const SpaceTile& tile, const SpaceCell& cell, SpaceDesk& desk) const {
         desk.hits.resize(desk.places.size());
         find_hits(desk.near, desk.places, desk.hits.data());
         for (std::size_t i = 0; i < desk.hits.size(); ++i)
@@ -307,7 +307,7 @@ class SpaceRain {
         for (std::uint16_t place = 0; place < 4096; ++place) {
             const PartBits open = ~*tile.covered(SpaceTile::cell_at(place));
             if (open == 0) continue;
-            const Cell cell = SpaceTile::cell_at(place);
+            const SpaceCell cell = SpaceTile::cell_at(place);
             tile.gather(cell, open, desk.near);
             std::array<OpenPart, 65> parts;
             const std::size_t count = open_parts(desk.near, rules_.scales, open, parts.data());
@@ -331,7 +331,7 @@ class SpaceRain {
         const auto& all = tile.cubes;
         for (std::size_t i = 0; i < all.size();) {
             const std::uint16_t place = all[i].place;
-            const Cell cell = SpaceTile::cell_at(place);
+            const SpaceCell cell = SpaceTile::cell_at(place);
             const PartBits covered = *tile.covered(cell);
             PartBits some = 0;
             desk.some.clear();
@@ -352,7 +352,7 @@ class SpaceRain {
     void fall_on_cell(SpaceTile& tile, std::span<const CubeWindow> windows, PartBits some,
                       const std::vector<Shower>& showers, std::uint64_t key,
                       SpaceDesk& desk) const {
-        const Cell cell = SpaceTile::cell_at(windows[0].place);
+        const SpaceCell cell = SpaceTile::cell_at(windows[0].place);
         tile.gather(cell, some, desk.near);
         desk.open.resize(windows.size());
         open_cubes(desk.near, rules_.scales, windows, desk.open.data());
@@ -392,7 +392,7 @@ class SpaceRain {
         const auto& all = tile.windows;
         for (std::size_t i = 0; i < all.size();) {
             const std::uint16_t place = all[i].place;
-            const Cell cell = SpaceTile::cell_at(place);
+            const SpaceCell cell = SpaceTile::cell_at(place);
             const bool taken = tile.taken().has(cell);
             if (!taken) gather_exactly(tile, cell, desk.exactly_near);
             for (; i < all.size() && all[i].place == place; ++i)
@@ -400,7 +400,7 @@ class SpaceRain {
         }
     }
 
-    void fall_on_window(SpaceTile& tile, const Cell& cell, const Window<3>& window,
+    void fall_on_window(SpaceTile& tile, const SpaceCell& cell, const Window<3>& window,
                         const Shower& shower, std::uint64_t key, SpaceDesk& desk) const {
         if (too_small(window)) return;
         Raster<3, double> raster;
@@ -442,9 +442,10 @@ class SpaceRain {
     }
 
     /// Points about a cell, from its corner.
-    void gather_exactly(const SpaceTile& tile, const Cell& cell, NearDisks<3, double>& near) const {
+    void gather_exactly(const SpaceTile& tile, const SpaceCell& cell,
+                        NearDisks<3, double>& near) const {
         near.clear();
-        tile.for_about(cell, [&](const double* p, const Cell& steps) {
+        tile.for_about(cell, [&](const double* p, const SpaceCell& steps) {
             Point off;
             for (std::size_t k = 0; k < 3; ++k) {
                 const double own = static_cast<double>(tile.first()[k]) + cell[k];

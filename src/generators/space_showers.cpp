@@ -9,7 +9,7 @@
 
 namespace stipple {
 
-void land(const SpaceRules& rules, const SpaceTile& tile, const Cell& cell, const Throw& dart,
+void land(const SpaceRules& rules, const SpaceTile& tile, const SpaceCell& cell, const Throw& dart,
           Hit hit, std::vector<SpaceDart>& darts) {
     if (hit == Hit::yes) return;
     SpaceDart d{};
@@ -40,7 +40,7 @@ void fall_at_large(const SpaceRules& rules, const SpaceTile& tile, const Shower&
                 place[0] *= count;
                 const int step = static_cast<int>(place[0]);
                 place[0] -= step;
-                const Cell cell{x + step, row % SpaceTile::side, row / SpaceTile::side};
+                const SpaceCell cell{x + step, row % SpaceTile::side, row / SpaceTile::side};
                 std::size_t part = 0;
                 for (std::size_t k = 3; k-- > 0;)
                     part = part * 4 + static_cast<std::size_t>(place[k] * 4);
@@ -65,7 +65,7 @@ STIPPLE_WIDE void fall_on_parts(const SpaceRules& rules, const SpaceTile& tile,
     const Quad to_radii =
         Quad{rules.scales[0], rules.scales[1], rules.scales[2], 0} * static_cast<float>(grain);
     for (int row = 0; row < side * side; ++row) {
-        const Cell first{0, row % side, row / side};
+        const SpaceCell first{0, row % side, row / side};
         if (first[1] >= tile.size(1) || first[2] >= tile.size(2)) continue;
         const PartBits* covered = tile.covered(first);
         std::array<std::uint16_t, side> before;  // parts in the cells before
@@ -88,7 +88,7 @@ STIPPLE_WIDE void fall_on_parts(const SpaceRules& rules, const SpaceTile& tile,
                                                  (where >> (21 * k) & 0x1fffff));
             };
             const Digits all{digits(0), digits(1), digits(2), 0};
-            const Cell cell{static_cast<int>(x), first[1], first[2]};
+            const SpaceCell cell{static_cast<int>(x), first[1], first[2]};
             const Hit hit = tile.hit(cell, part, __builtin_convertvector(all, Quad) * to_radii);
             if (hit == Hit::yes) continue;
             const Throw dart{

@@ -21,7 +21,7 @@ struct Throw {
 };
 
 /// Makes a dart one that may stay, unless it hit a ball.
-void land(const SpaceRules& rules, const SpaceTile& tile, const Cell& cell, const Throw& dart,
+void land(const SpaceRules& rules, const SpaceTile& tile, const SpaceCell& cell, const Throw& dart,
           Hit hit, std::vector<SpaceDart>& darts);
 
 inline constexpr int cells_together = 8;  ///< that share a Poisson number

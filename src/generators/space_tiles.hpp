@@ -37,7 +37,7 @@ class SpaceBits {
     static constexpr std::size_t layer_bits = 40;  ///< from which on a layer has none
     using Layers = std::array<std::uint64_t, layers>;
 
-    void set(const Cell& halo_cell) {
+    void set(const SpaceCell& halo_cell) {
         const auto x = static_cast<std::size_t>(halo_cell[0]);
         const auto byte = static_cast<std::size_t>(halo_cell[2] * 20 + halo_cell[1]);
         const auto bit = static_cast<std::uint8_t>(1U << (x % 4));
@@ -46,7 +46,7 @@ class SpaceBits {
     }
 
     /// Those of the layer about a cell, from two before it on: bit x + 8 y.
-    [[nodiscard]] std::uint64_t layer(const Cell& cell, std::size_t z) const {
+    [[nodiscard]] std::uint64_t layer(const SpaceCell& cell, std::size_t z) const {
         std::uint64_t word;
         const auto x = static_cast<std::size_t>(cell[0]);
         const auto byte = static_cast<std::size_t>(cell[2] * 20 + cell[1]);
@@ -54,7 +54,7 @@ class SpaceBits {
         return word >> (x % 4) & 0x1f1f1f1f1fU;
     }
 
-    [[nodiscard]] bool has(const Cell& cell) const { return (layer(cell, 2) >> 18 & 1) != 0; }
+    [[nodiscard]] bool has(const SpaceCell& cell) const { return (layer(cell, 2) >> 18 & 1) != 0; }
 
   private:
     static constexpr std::size_t strip = 400;
@@ -125,7 +125,7 @@ class SpaceTile {
     /// A tile about another, and the cells from the first one of that to its own first.
     struct Neighbour {
         SpaceTile* tile = nullptr;
-        Cell steps{};
+        SpaceCell steps{};
     };
 
     SpaceTile() = default;
@@ -154,20 +154,22 @@ class SpaceTile {
     [[nodiscard]] const Index& first() const { return first_; }
     [[nodiscard]] int size(std::size_t k) const { return size_[k]; }
     /// Parts that a point covers alone, of a cell and those behind it in its row.
-    [[nodiscard]] const PartBits* covered(const Cell& cell) const {
+    [[nodiscard]] const PartBits* covered(const SpaceCell& cell) const {
         return covered_ + covered_number(cell);
     }
     [[nodiscard]] std::vector<double>& points() { return points_; }
     [[nodiscard]] const SpaceBits& taken() const { return taken_; }
 
-    static std::uint16_t place_of(const Cell& cell) {
+    static std::uint16_t place_of(const SpaceCell& cell) {
         return static_cast<std::uint16_t>(cell[0] | cell[1] << 4 | cell[2] << 8);
     }
 
-    static Cell cell_at(std::uint16_t place) { return {place & 15, place >> 4 & 15, place >> 8}; }
+    static SpaceCell cell_at(std::uint16_t place) {
+        return {place & 15, place >> 4 & 15, place >> 8};
+    }
 
     /// Points that reach into some parts of a cell, and some more.
-    void gather(const Cell& cell, PartBits some, NearBalls& near) const {
+    void gather(const SpaceCell& cell, PartBits some, NearBalls& near) const {
         using Quad = SpaceRules::Quad;
         std::array<Quad, 128> found_at;
         std::size_t n = 0;
@@ -185,7 +187,7 @@ class SpaceTile {
 
     /// Whether a point covers a place in a part of a cell.
     /// @param place from the cell's corner, in radii
-    [[nodiscard, gnu::always_inline]] Hit hit(const Cell& cell, std::size_t part,
+    [[nodiscard, gnu::always_inline]] Hit hit(const SpaceCell& cell, std::size_t part,
                                               SpaceRules::Quad place) const {
         constexpr std::array<std::size_t, 5> nearest_first{2, 1, 3, 0, 4};  // layers
         const std::uint16_t* numbers = &numbers_[number_of(cell)];
@@ -208,7 +210,7 @@ class SpaceTile {
 
     /// Calls visit(point, steps) for the points of the cells about one, as long as that is true.
     template <class Visit>
-    void for_about(const Cell& cell, const Visit& visit) const {
+    void for_about(const SpaceCell& cell, const Visit& visit) const {
         for (std::size_t z = 0; z < SpaceBits::layers; ++z) {
             std::uint64_t found = taken_.layer(cell, z);
             for (; found != 0; found &= found - 1) {
@@ -221,9 +223,9 @@ class SpaceTile {
     }
 
     /// Whether a point is too near to one in the cell, to the last digit.
-    [[nodiscard]] bool hits(const Cell& cell, const double* p) const {
+    [[nodiscard]] bool hits(const SpaceCell& cell, const double* p) const {
         bool hit = false;
-        for_about(cell, [&](const double* q, const Cell&) {
+        for_about(cell, [&](const double* q, const SpaceCell&) {
             hit = too_near(p, q);
             return !hit;
         });
@@ -237,14 +239,14 @@ class SpaceTile {
 
     /// A point to be added, and what it covers.
     struct Addition {
-        Cell cell;  ///< of this tile, or beyond its faces
+        SpaceCell cell;  ///< of this tile, or beyond its faces
         std::array<float, 3> off;
         const PartBits* stamp;
     };
 
     /// Adds a point of this tile or of its halo; what it covers is left to be added.
     /// @param own_cell in the box @param own those of the tile itself come as in points()
-    Addition add(const Cell& cell, const Cell& own_cell, const SpaceDart& d, bool own) {
+    Addition add(const SpaceCell& cell, const SpaceCell& own_cell, const SpaceDart& d, bool own) {
         Addition added{cell, {}, nullptr};
         for (std::size_t k = 0; k < 3; ++k) {
             const double along = (d.at[k] - rules_->grid.low[k]) * rules_->per_width[k];
@@ -260,7 +262,7 @@ class SpaceTile {
     }
 
     [[gnu::always_inline]] void cover(const Addition& added) {
-        const Cell& cell = added.cell;
+        const SpaceCell& cell = added.cell;
         for (std::size_t r = 0; r < BallStamps::rows.size(); ++r) {
             const BallStamps::Row& row = BallStamps::rows[r];
             const int y = cell[1] + row.y;
@@ -292,7 +294,7 @@ class SpaceTile {
                          : &points_[3 * static_cast<std::size_t>(known)];
     }
 
-    static std::size_t covered_number(const Cell& cell) {
+    static std::size_t covered_number(const SpaceCell& cell) {
         return static_cast<std::size_t>((cell[2] * side + cell[1]) * covered_row + 2 * halo +
                                         cell[0]);
     }
@@ -305,7 +307,7 @@ class SpaceTile {
         return volume + std::sqrt(volume) / 2 + 1;
     }
 
-    static std::size_t number_of(const Cell& cell) {
+    static std::size_t number_of(const SpaceCell& cell) {
         return static_cast<std::size_t>(cell[0] + halo + 20 * (cell[1] + halo) +
                                         400 * (cell[2] + halo));
     }
@@ -340,7 +342,7 @@ class SpaceTile {
 
     const SpaceRules* rules_ = nullptr;
     Index first_{};
-    Cell size_{};
+    SpaceCell size_{};
     PartBits* covered_ = nullptr;
     SpaceBits taken_;
     std::uint16_t* numbers_ = nullptr;  ///< of the points in cells, where taken

@@ -23,10 +23,10 @@ struct Scene {
 
     explicit Scene(std::uint64_t seed) {
         const Rng rng(seed);
-        std::set<Cell> taken;
+        std::set<SpaceCell> taken;
         for (std::uint64_t i = 0; i < 1500; ++i) {
-            Cell cell;
-            Cell own;
+            SpaceCell cell;
+            SpaceCell own;
             SpaceDart d{};
             std::array<double, 3> place;
             for (std::size_t k = 0; k < 3; ++k) {
@@ -74,7 +74,7 @@ TEST(SpaceTiles, TellWhatPointsCoverInTheTileAndBeyondItsFaces) {
     std::array<int, 2> counts{};
     for (std::uint64_t i = 0; i < 20'000; ++i) {
         std::array<double, 3> place;
-        Cell cell;
+        SpaceCell cell;
         std::size_t part = 0;
         for (std::size_t k = 3; k-- > 0;) {
             place[k] = rng.uniform(3 * i + k) * scene.tile.size(k);
@@ -105,9 +105,9 @@ TEST(SpaceTiles, TellWhatPointsCoverInTheTileAndBeyondItsFaces) {
 
 TEST(SpaceTiles, KnowTheirPointsToTheLastDigit) {
     const Scene scene(3);
-    const Cell cell{5, 0, scene.tile.size(2) - 1};
+    const SpaceCell cell{5, 0, scene.tile.size(2) - 1};
     std::size_t found = 0;
-    scene.tile.for_about(cell, [&](const double* p, const Cell& steps) {
+    scene.tile.for_about(cell, [&](const double* p, const SpaceCell& steps) {
         ++found;
         bool known = false;
         for (const auto& place : scene.places) {
@@ -145,7 +145,8 @@ TEST(SpaceDarts, AreFoundInRunsOfCubes) {
     EXPECT_FALSE(sorted.of(1));
     sorted.renew(1, darts);
     EXPECT_TRUE(sorted.of(1));
-    for (const Cell& middle : {Cell{0, 0, 0}, {15, 3, 8}, {-1, 17, 4}, {6, 9, 13}, {18, 0, 0}}) {
+    for (const SpaceCell& middle :
+         {SpaceCell{0, 0, 0}, {15, 3, 8}, {-1, 17, 4}, {6, 9, 13}, {18, 0, 0}}) {
         const auto about = [&](const SpaceDart& d) {
             bool near = true;
             for (std::size_t k = 0; k < 3; ++k)
