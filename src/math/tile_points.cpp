@@ -31,8 +31,11 @@ std::uint32_t TilePoints::next_block(List& list) {
 template <std::size_t Numbers, class RowAt>
 void TilePoints::append(const double* rows, const std::uint32_t* tile_of, std::size_t count,
                         RowAt row_at) {
+    constexpr std::size_t ahead = 8;  // the nearest cache has no room for a line of every tile
     double* room = room_.numbers().data();
     for (std::size_t k = 0; k < count; ++k) {
+        const List& later = lists_[tile_of[row_at(std::min(k + ahead, count - 1))]];
+        __builtin_prefetch(room + std::size_t{later.end} * Numbers, 1);
         const std::size_t i = row_at(k);
         List& list = lists_[tile_of[i]];
         if (list.end % block == 0) list.end = next_block(list);
