@@ -51,6 +51,11 @@ struct DiskGrid {
         }
     }
 
+    /// Whether the radius leads across two cells along every direction, and there are five or more.
+    [[nodiscard]] bool fine() const {
+        return std::ranges::all_of(inner, [](auto count) { return count > 0; });
+    }
+
     /// A cell's number, where two more are counted before the first and behind the last.
     [[nodiscard]] std::size_t spot_of(const Index& cell) const {
         std::size_t spot = 0;

@@ -14,6 +14,7 @@
 #include "generators/disk_tiles.hpp"
 #include "generators/plane_disks.hpp"
 #include "generators/space_disks.hpp"
+#include "generators/tile_rows.hpp"
 #include "math/mixer.hpp"
 
 namespace stipple {
@@ -381,15 +382,8 @@ class Rain {
 
     Rows collect() {
         tiles_.clear_cells();
-        std::size_t numbers = 0;
-        for (const Tile& tile : tiles_.all()) numbers += tile.points.size();
-        Rows rows = Rows::unwritten(numbers);
-        auto out = rows.numbers().begin();
-        for (Tile& tile : tiles_.all()) {
-            out = std::ranges::copy(tile.points, out).out;
-            tile.points = {};
-        }
-        return rows;
+        return rows_of_tiles(
+            tiles_.all(), [](Tile & tile) -> auto& { return tile.points; }, run_);
     }
 
     Grid grid_;
@@ -407,7 +401,7 @@ class Rain {
 Rows plane_or_few(const BoxSpace& space, double radius, double cell_radius, std::uint64_t seed,
                   const RunContext& run) {
     const DiskGrid<2> grid(space, radius, cell_radius);
-    if (!fits_plane_tiles(grid)) return Rain<2>(space, radius, cell_radius, seed, run).fill();
+    if (!grid.fine()) return Rain<2>(space, radius, cell_radius, seed, run).fill();
     constexpr double seconds_a_point = 6e-7;
     const double expected = expected_disks(space, radius);
     return plane_disks(grid, double_slack(space, radius), static_cast<std::uint64_t>(expected),
@@ -417,7 +411,7 @@ Rows plane_or_few(const BoxSpace& space, double radius, double cell_radius, std:
 Rows space_or_few(const BoxSpace& space, double radius, double cell_radius, std::uint64_t seed,
                   const RunContext& run) {
     const DiskGrid<3> grid(space, radius, cell_radius);
-    if (!fits_space_tiles(grid)) return Rain<3>(space, radius, cell_radius, seed, run).fill();
+    if (!grid.fine()) return Rain<3>(space, radius, cell_radius, seed, run).fill();
     constexpr double seconds_a_point = 2.5e-6;
     const double expected = expected_disks(space, radius);
     return space_disks(grid, double_slack(space, radius), static_cast<std::uint64_t>(expected),

@@ -12,6 +12,7 @@
 #include "generators/disk_lanes.hpp"
 #include "generators/disk_shower.hpp"
 #include "generators/plane_tiles.hpp"
+#include "generators/tile_rows.hpp"
 #include "math/mixer.hpp"
 
 namespace stipple {
@@ -539,19 +540,9 @@ class PlaneRain {
         spots_.reset();
         covered_.reset();
         indices_.reset();
-        std::size_t numbers = 0;
-        for (PlaneTile& tile : tiles_) {
-            tile.drop();
-            numbers += tile.points().size();
-        }
-        Rows rows = Rows::unwritten(numbers);
-        auto out = rows.numbers().begin();
-        for (PlaneTile& tile : tiles_) {
-            run_.check_stop();
-            out = std::ranges::copy(tile.points(), out).out;
-            tile.points() = {};
-        }
-        return rows;
+        for (PlaneTile& tile : tiles_) tile.drop();
+        return rows_of_tiles(
+            tiles_, [](PlaneTile & tile) -> auto& { return tile.points(); }, run_);
     }
 
     const Grid& grid_;
@@ -569,12 +560,6 @@ class PlaneRain {
 };
 
 }  // namespace
-
-bool fits_plane_tiles(const DiskGrid<2>& grid) {
-    bool fits = true;
-    for (std::size_t k = 0; k < 2; ++k) fits = fits && grid.reach[k] == 2 && grid.cells[k] > 4;
-    return fits;
-}
 
 Rows plane_disks(const DiskGrid<2>& grid, double slack, std::uint64_t expected, std::uint64_t seed,
                  const RunContext& run) {

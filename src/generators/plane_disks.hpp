@@ -21,10 +21,8 @@
 
 namespace stipple {
 
-/// Whether the grid is fine enough: a radius leads across two cells, and there are five or more.
-bool fits_plane_tiles(const DiskGrid<2>& grid);
-
 /// The points.
+/// @param grid which is fine().
 /// @param slack of distances that doubles hold, in radii @param expected number of points
 /// @throws Error(cancelled)
 Rows plane_disks(const DiskGrid<2>& grid, double slack, std::uint64_t expected, std::uint64_t seed,

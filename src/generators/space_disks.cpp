@@ -11,6 +11,7 @@
 #include "generators/disk_shower.hpp"
 #include "generators/space_showers.hpp"
 #include "generators/space_tiles.hpp"
+#include "generators/tile_rows.hpp"
 #include "math/mixer.hpp"
 
 namespace stipple {
@@ -464,19 +465,9 @@ class SpaceRain {
     Rows collect() {
         covered_.reset();
         numbers_.reset();
-        std::size_t numbers = 0;
-        for (SpaceTile& tile : tiles_) {
-            tile.drop();
-            numbers += tile.points().size();
-        }
-        Rows rows = Rows::unwritten(numbers);
-        auto out = rows.numbers().begin();
-        for (SpaceTile& tile : tiles_) {
-            run_.check_stop();
-            out = std::ranges::copy(tile.points(), out).out;
-            tile.points() = {};
-        }
-        return rows;
+        for (SpaceTile& tile : tiles_) tile.drop();
+        return rows_of_tiles(
+            tiles_, [](SpaceTile & tile) -> auto& { return tile.points(); }, run_);
     }
 
     const Grid& grid_;
@@ -493,12 +484,6 @@ class SpaceRain {
 };
 
 }  // namespace
-
-bool fits_space_tiles(const DiskGrid<3>& grid) {
-    bool fits = true;
-    for (std::size_t k = 0; k < 3; ++k) fits = fits && grid.reach[k] == 2 && grid.cells[k] > 4;
-    return fits;
-}
 
 Rows space_disks(const DiskGrid<3>& grid, double slack, std::uint64_t expected, std::uint64_t seed,
                  const RunContext& run) {

@@ -23,10 +23,8 @@
 
 namespace stipple {
 
-/// Whether the grid is fine enough: a radius leads across two cells, and there are five or more.
-bool fits_space_tiles(const DiskGrid<3>& grid);
-
 /// The points.
+/// @param grid which is fine().
 /// @param slack of distances that doubles hold, in radii @param expected number of points
 /// @throws Error(cancelled)
 Rows space_disks(const DiskGrid<3>& grid, double slack, std::uint64_t expected, std::uint64_t seed,
