@@ -4,12 +4,8 @@
 #include <bit>
 #include <cstring>
 
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#include <immintrin.h>
-#define STIPPLE_PICKS_VECTORS
-#endif
+#include "core/vectors.hpp"
 
-#define STIPPLE_INLINE [[gnu::always_inline]] inline
 #define STIPPLE_LAMBDA __attribute__((always_inline))
 
 namespace stipple {
