@@ -220,10 +220,6 @@ class DiskCovers {
         }
     }
 
-    [[gnu::always_inline]] void fetch(std::size_t cell) const {
-        __builtin_prefetch(&covered_[cell]);
-    }
-
     /// Gives back the memory.
     void clear() { covered_ = {}; }
 

@@ -398,24 +398,21 @@ class Rain {
 };
 
 /// Tile by tile, unless there are few cells.
-Rows plane_or_few(const BoxSpace& space, double radius, double cell_radius, std::uint64_t seed,
+template <std::size_t D>
+Rows tiles_or_few(const BoxSpace& space, double radius, double cell_radius, std::uint64_t seed,
                   const RunContext& run) {
-    const DiskGrid<2> grid(space, radius, cell_radius);
-    if (!grid.fine()) return Rain<2>(space, radius, cell_radius, seed, run).fill();
-    constexpr double seconds_a_point = 6e-7;
+    const DiskGrid<D> grid(space, radius, cell_radius);
+    if (!grid.fine()) return Rain<D>(space, radius, cell_radius, seed, run).fill();
+    constexpr double seconds_a_point = D == 2 ? 6e-7 : 2.5e-6;
+    constexpr auto by_tiles = [] {
+        if constexpr (D == 2)
+            return plane_disks;
+        else
+            return space_disks;
+    }();
     const double expected = expected_disks(space, radius);
-    return plane_disks(grid, double_slack(space, radius), static_cast<std::uint64_t>(expected),
-                       seed, worth_threads(run, expected * seconds_a_point));
-}
-
-Rows space_or_few(const BoxSpace& space, double radius, double cell_radius, std::uint64_t seed,
-                  const RunContext& run) {
-    const DiskGrid<3> grid(space, radius, cell_radius);
-    if (!grid.fine()) return Rain<3>(space, radius, cell_radius, seed, run).fill();
-    constexpr double seconds_a_point = 2.5e-6;
-    const double expected = expected_disks(space, radius);
-    return space_disks(grid, double_slack(space, radius), static_cast<std::uint64_t>(expected),
-                       seed, worth_threads(run, expected * seconds_a_point));
+    return by_tiles(grid, double_slack(space, radius), static_cast<std::uint64_t>(expected), seed,
+                    worth_threads(run, expected * seconds_a_point));
 }
 
 /// Bytes that so many points take, in so many cells along each direction.
@@ -462,9 +459,9 @@ Rows maximal_disks(const BoxSpace& space, double radius, double cell_radius, std
     check_size(space, radius, run);
     switch (space.box.dimension()) {
         case 2:
-            return plane_or_few(space, radius, cell_radius, seed, run);
+            return tiles_or_few<2>(space, radius, cell_radius, seed, run);
         case 3:
-            return space_or_few(space, radius, cell_radius, seed, run);
+            return tiles_or_few<3>(space, radius, cell_radius, seed, run);
         case 4:
             return Rain<4>(space, radius, cell_radius, seed, run).fill();
         case 5:

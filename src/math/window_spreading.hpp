@@ -38,7 +38,6 @@ struct SpreadTile {
 };
 
 /// Adds points whose windows begin in the tile to its buffer, extent^dimension cells.
-
 /// @param widest vectors that may be used; the same bits with any.
 void spread_points(std::span<const double> rows, std::size_t dimension, const SpreadTile& tile,
                    double* buffer, Vectors widest = Vectors::eights);
