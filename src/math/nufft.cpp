@@ -25,7 +25,7 @@ struct Cost {
 };
 
 Cost cost_of(std::uint64_t count, std::size_t dimension, std::size_t side,
-             const KaiserBessel& window) {
+             const Interpolator& window) {
     const auto width = static_cast<double>(window.width());
     // Vectors of four or of eight: the choice does not depend on the machine.
     const double vectors = std::ceil(width / 4) / 2 + std::ceil(width / 8);
@@ -49,18 +49,22 @@ constexpr Folding rare{2048, 2e-14};
 constexpr Folding usual{512, 1e-15};
 constexpr Folding frequent{64, 5e-16};
 
-/// Whether the division by the window's transform leaves rounding errors as they should be.
-bool keeps_digits(const KaiserBessel& window, std::size_t dimension, double allowed,
+/// What the tolerance is times the errors of all axes: the rest is left to rounding errors, and to
+/// places where the interpolator was not looked at.
+constexpr double reserve = 1.2;
+
+/// Whether the division by the scaling factors leaves rounding errors as they should be.
+bool keeps_digits(const Interpolator& window, std::size_t dimension, double allowed,
                   const Folding& folding) {
     // Those of the polynomials, found by trying, too, are of one axis each.
     const double times = window.magnification();
     return folding.rounding * std::pow(times, dimension) <= std::max(allowed / 8, 2e-14) &&
-           6e-15 * times <= std::max(allowed / 4, 4e-14);
+           6e-15 * times <= std::max(allowed / 16, 4e-14);
 }
 
 /// The fewest foldings that keep digits; few points fill few tiles, where many foldings cost
 /// little.
-const Folding& folding_for(const KaiserBessel& window, std::size_t dimension, double allowed,
+const Folding& folding_for(const Interpolator& window, std::size_t dimension, double allowed,
                            std::uint64_t count) {
     constexpr std::uint64_t few = std::uint64_t{1} << 17;
     if (count <= few) return frequent;
@@ -81,12 +85,11 @@ Nufft::Nufft(std::uint64_t count, std::size_t dimension, std::size_t max_frequen
       dimension_(dimension),
       frequency_(max_frequency),
       weighted_(weighted),
-      window_(KaiserBessel::min_width, 0.25) {
+      window_(Interpolator::min_width, 0.25) {
     assert(dimension >= 1 && dimension <= 3 && max_frequency >= 1);
-    // Of each point, in each dimension, a third being left to rounding errors; less than these
-    // would be of no use.
+    // Of each point, in each dimension; less than rounding errors leave would be of no use.
     const double allowed = std::max(tolerance / std::sqrt(static_cast<double>(count)), 3e-14) /
-                           (1.5 * static_cast<double>(dimension));
+                           (reserve * static_cast<double>(dimension));
     const auto wanted = static_cast<double>(2 * frequency_ + 1);
     double cheapest = std::numeric_limits<double>::infinity();
     // More are planned for than come, where nobody knows.
@@ -97,7 +100,7 @@ Nufft::Nufft(std::uint64_t count, std::size_t dimension, std::size_t max_frequen
         side = quick_length(side);
         if (transform_seconds(dimension, side) >= cheapest) break;
         const double band = static_cast<double>(frequency_) / static_cast<double>(side);
-        const KaiserBessel window = window_for(allowed, band);
+        const Interpolator window = interpolator_for(allowed, band);
         const double cost = cost_of(likely, dimension, side, window).total();
         const Folding& folding = folding_for(window, dimension, allowed, count);
         const bool exact =
@@ -123,7 +126,7 @@ double Nufft::bytes() const {
 }
 
 double Nufft::error(double count) const {
-    return 1.5 * static_cast<double>(dimension_) * window_.error() * std::sqrt(count);
+    return reserve * static_cast<double>(dimension_) * window_.error() * std::sqrt(count);
 }
 
 double Nufft::spreading_share() const {
@@ -262,7 +265,7 @@ FourierSums FourierSummation::transformed(Planning planning, const RunContext& r
     std::vector<double> factors;
     const auto side = static_cast<double>(nufft_->side());
     for (std::size_t f = 0; f <= nufft_->max_frequency(); ++f)
-        factors.push_back(1 / nufft_->window().transform(static_cast<double>(f) / side));
+        factors.push_back(1 / nufft_->window().scaling(static_cast<double>(f) / side));
     return transform_grid(std::move(cells_), grid_, factors, planning, run);
 }
 

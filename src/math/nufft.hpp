@@ -5,15 +5,15 @@
 //     S(f) = sum_j exp(-2 pi i f.x_j),    |f_k| <= F,    x_j in [0, 1]^d,  d = 1, 2, 3,
 //
 // by a non-uniform fast Fourier transform: the points are spread over a grid of M > 2F + 1 cells a
-// side with a window phi, the real grid is transformed, and the result divided by the window's own
-// transform. Grid and window are the cheapest that meet the tolerance.
+// side with the weights of an interpolator, the real grid is transformed, and the result divided by
+// its scaling factors. Grid and interpolator are the cheapest that meet the tolerance.
 //
 // Shape   f_0 = 0..F, the fastest index; f_1, f_2 = -F..F. The other half is S(-f) = conj S(f).
 // or, with strengths s_j, sum_j s_j exp(-2 pi i f.x_j).
 //
 // Cost    O(n w^d + M^d log M) time for windows w <= 16 cells wide; memory: bytes(), however many
 //         points come.
-// Promise |error| <= max(tolerance, floor) sqrt(n) at every f, for every set: the window's error is
+// Promise |error| <= max(tolerance, floor) sqrt(n) at every f, for every set: the weights' error is
 //         held below tolerance / sqrt(n) for each point, so that not even points in phase exceed
 //         it. floor = rounding_floor(n), about 1.5e-13 sqrt(n), is what float64 may leave when all
 //         n points are in phase; where they are not, smaller tolerances hold as well. With
@@ -34,7 +34,7 @@
 
 #include "core/run_context.hpp"
 #include "math/grid_sum.hpp"
-#include "math/kaiser_bessel.hpp"
+#include "math/interpolator.hpp"
 #include "math/spreading.hpp"
 #include "math/transform.hpp"
 
@@ -57,7 +57,7 @@ class Nufft {
     [[nodiscard]] std::size_t max_frequency() const { return frequency_; }
     [[nodiscard]] bool weighted() const { return weighted_; }
     [[nodiscard]] std::size_t side() const { return side_; }
-    [[nodiscard]] const KaiserBessel& window() const { return window_; }
+    [[nodiscard]] const Interpolator& window() const { return window_; }
 
     /// Points of a tile of the grid that are added up in a row (math/spreading.hpp).
     [[nodiscard]] std::size_t together() const { return together_; }
@@ -79,7 +79,7 @@ class Nufft {
     std::size_t frequency_;
     bool weighted_;
     std::size_t side_ = 0;
-    KaiserBessel window_;
+    Interpolator window_;
     std::size_t together_ = 1;
 };
 

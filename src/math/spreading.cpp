@@ -47,7 +47,7 @@ Listing list(const std::uint32_t* tile_of, unsigned shift, const Block& block,
 /// The grid cut into an even number of tiles along each axis.
 class Tiling {
   public:
-    Tiling(const CellGrid& grid, const WindowTable& window, bool weighted) : grid_(grid) {
+    Tiling(const CellGrid& grid, const WeightTable& window, bool weighted) : grid_(grid) {
         const std::size_t smallest =
             std::max(static_cast<std::size_t>(smallest_tile(grid.dimension)), window.width());
         pairs_ = std::max<std::size_t>(1, grid.side / (2 * smallest));
@@ -60,10 +60,10 @@ class Tiling {
                    .shift = window.width() % 2 == 1 ? 0.5 : 0.0,
                    .lead = static_cast<double>((window.width() - 1) / 2),
                    .width = window.width(),
-                   .pieces = static_cast<double>(window.pieces()),
+                   .piece_bits = static_cast<unsigned>(std::countr_zero(window.pieces())),
                    .coefficients = window.coefficients(),
                    .numbers = grid.dimension + (weighted ? 1 : 0),
-                   .extent = (widest_ + WindowTable::row_of(window.width()) + 7) / 8 * 8};
+                   .extent = (widest_ + WeightTable::row_of(window.width()) + 7) / 8 * 8};
         common_.plane = common_.extent * common_.extent;
     }
 
@@ -73,8 +73,8 @@ class Tiling {
     [[nodiscard]] std::size_t count_of_colour() const { return power(pairs_); }
     [[nodiscard]] std::size_t buffer_size() const { return power(common_.extent); }
 
-    void find(std::span<const double> rows, std::uint32_t* tile_of) const {
-        find_tiles(rows, grid_.dimension, common_, tile_of);
+    void find(std::span<const double> rows, std::uint32_t* tile_of, double* places) const {
+        find_places(rows, grid_.dimension, common_, tile_of, places);
     }
 
     /// Number of the i-th tile of a colour; bit k of the colour is the parity along axis k.
@@ -212,7 +212,7 @@ std::size_t spreading_batch(const CellGrid& grid) {
     return std::clamp(cells, std::size_t{1} << 20, std::size_t{1} << 22);
 }
 
-Spreader::Spreader(const KaiserBessel& window, const CellGrid& grid, std::size_t together,
+Spreader::Spreader(const Interpolator& window, const CellGrid& grid, std::size_t together,
                    bool weighted)
     : table_(window),
       tiling_(std::make_unique<Tiling>(grid, table_, weighted)),
@@ -230,7 +230,9 @@ double Spreader::bytes(double count, const CellGrid& grid, bool weighted) {
     const double points = std::min(count, static_cast<double>(spreading_batch(grid)));
     const double tiles = std::pow(static_cast<double>(grid.side) / smallest_tile(grid.dimension),
                                   static_cast<double>(grid.dimension));
-    return TilePoints::bytes(points, tiles, grid.dimension + (weighted ? 1 : 0)) + 8 * stretch;
+    const std::size_t numbers = grid.dimension + (weighted ? 1 : 0);
+    return TilePoints::bytes(points, tiles, numbers) +
+           static_cast<double>(8 * (1 + numbers) * stretch);
 }
 
 void Spreader::add(std::span<const double> rows, const RunContext& run) {
@@ -262,17 +264,20 @@ void Spreader::finish(const RunContext& run) {
 void Spreader::sort(std::span<const double> rows, const RunContext& run) {
     const std::size_t count = rows.size() / width_;
     const bool alone = run.threads == 1 || count <= sorting_block;
-    tile_of_.resize(std::max(tile_of_.size(), count));
+    const std::size_t room = alone ? std::min(count, sorting_block) : count;
+    tile_of_.resize(std::max(tile_of_.size(), room));
+    places_.resize(std::max(places_.size(), room * width_));
     if (!alone) listed_.resize(std::max(listed_.size(), count));
     const std::size_t blocks = block_count(count, sorting_block);
     std::vector<Listing> listings(alone ? 0 : blocks);
     const auto bits = static_cast<unsigned>(std::bit_width(tiling_->count() - 1));
     const unsigned shift = bits - std::min(bits, static_cast<unsigned>(std::countr_zero(sections)));
     const auto find = [&](const Block& b) {
+        const std::size_t at = alone ? 0 : b.first;  // one thread uses the same room again
         tiling_->find(rows.subspan(b.first * width_, (b.last - b.first) * width_),
-                      tile_of_.data() + b.first);
+                      tile_of_.data() + at, places_.data() + at * width_);
         if (alone)
-            points_.add(rows.data(), tile_of_.data(), b.first, b.last);
+            points_.add(places_.data(), tile_of_.data(), 0, b.last - b.first);
         else
             listings[b.index] = list(tile_of_.data(), shift, b, listed_.data() + b.first);
     };
@@ -281,7 +286,7 @@ void Spreader::sort(std::span<const double> rows, const RunContext& run) {
     const auto add = [&](const Block& s) {
         for (std::size_t b = 0; b < blocks; ++b) {
             const std::uint32_t* listed = listed_.data() + b * sorting_block;
-            points_.add_listed(rows.data(), tile_of_.data(),
+            points_.add_listed(places_.data(), tile_of_.data(),
                                {listed + listings[b][s.index], listed + listings[b][s.index + 1]});
         }
     };

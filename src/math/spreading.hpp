@@ -25,7 +25,7 @@
 #include <vector>
 
 #include "core/run_context.hpp"
-#include "math/kaiser_bessel.hpp"
+#include "math/interpolator.hpp"
 #include "math/tile_points.hpp"
 
 namespace stipple {
@@ -37,7 +37,7 @@ struct CellGrid {
     std::size_t stride = 0;     ///< numbers from one row to the next, at least `side`
     double* cells = nullptr;    ///< stride * side^(dimension - 1) numbers
 
-    static constexpr std::size_t smallest_side = 2 * KaiserBessel::max_width;
+    static constexpr std::size_t smallest_side = 2 * Interpolator::max_width;
 };
 
 /// Points that are sorted at a time: as many as cells, but at least 2^20 and at most 2^22.
@@ -51,7 +51,7 @@ class Spreader {
     /// @param together points of a tile that are added up in a row, before the sums are folded to
     /// keep rounding errors small.
     /// @param weighted whether a row holds the point's strength behind its coordinates.
-    Spreader(const KaiserBessel& window, const CellGrid& grid, std::size_t together,
+    Spreader(const Interpolator& window, const CellGrid& grid, std::size_t together,
              bool weighted = false);
     Spreader(const Spreader&) = delete;
     Spreader& operator=(const Spreader&) = delete;
@@ -73,7 +73,7 @@ class Spreader {
     void spread_colour(std::size_t colour, const RunContext& run);
     void spread_tile(std::size_t number, TileSums& sums, const RunContext& run) const;
 
-    WindowTable table_;
+    WeightTable table_;
     std::unique_ptr<Tiling> tiling_;
     std::size_t dimension_;
     std::size_t width_;      ///< numbers of a row
@@ -83,6 +83,7 @@ class Spreader {
     TilePoints points_;
     std::vector<std::uint32_t> tile_of_;
     std::vector<std::uint32_t> listed_;
+    std::vector<double> places_;  ///< in their tiles
 };
 
 }  // namespace stipple

@@ -7,7 +7,7 @@
 
 constexpr std::size_t lanes = STIPPLE_LANES;
 using V [[gnu::vector_size(8 * lanes)]] = double;
-using Bits [[gnu::vector_size(8 * lanes)]] = std::uint64_t;
+using Words [[gnu::vector_size(8 * lanes)]] = std::uint64_t;
 using Integers [[gnu::vector_size(4 * lanes)]] = std::int32_t;
 
 template <class Vector, class Number>
@@ -35,21 +35,33 @@ STIPPLE_INLINE V fused(const V& a, double b, const V& c) {
 #endif
 }
 
+/// Towards zero.
+STIPPLE_INLINE V truncated(const V& v) {
+#if STIPPLE_LANES == 8
+    constexpr int towards_zero = _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC;
+    return _mm512_mask_roundscale_pd(v, 0xff, v, towards_zero);
+#elif defined(STIPPLE_FUSES)
+    return _mm256_round_pd(v, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
+#else
+    return __builtin_convertvector(__builtin_convertvector(v, Integers), V);
+#endif
+}
+
 /// Finds side * x of several numbers without rounding it: the upper 26 bits of x make an exact
 /// product. Gives the grid points at which their windows begin, and the places behind a grid point,
 /// in [0, 1).
 STIPPLE_INLINE void locate(const V& x, const SpreadTile& tile, V& first, V& between) {
     constexpr std::uint64_t high_bits = ~((std::uint64_t{1} << 27) - 1);
-    const V high = (V)((Bits)x & high_bits);
+    const V high = (V)((Words)x & high_bits);
     const V product = high * tile.side;
     const V zero = {};
-    const V cell = __builtin_convertvector(__builtin_convertvector(product, Integers), V);
+    const V cell = truncated(product);
     between = product - cell + tile.shift + (x - high) * tile.side;
     const V next = between >= 1 ? zero + 1 : zero;
     between -= next;
     first = cell + next - tile.lead;
     first += first < 0 ? zero + tile.side : zero;
-    first -= first >= tile.side ? zero + tile.side : zero;
+    if (tile.lead == 0) first -= first >= tile.side ? zero + tile.side : zero;
 }
 
 /// Coordinates of up to so many points, axis after axis; the surplus is 0.
@@ -94,22 +106,34 @@ struct Chunk {
     }
 };
 
+/// The word of a place in a tile, and a number's bits below its exponent.
+constexpr std::uint64_t fraction = (std::uint64_t{1} << 52) - 1;
+STIPPLE_INLINE Words word_of(const V& cell, const V& between) {
+    const V zero = {};
+    const V below = between < 1 - 0x1p-52 ? between : zero + (1 - 0x1p-52);  // 1 + this is below 2
+    return (Words)(cell + 0x1p52) << 52 | ((Words)(below + 1) & fraction);
+}
+STIPPLE_INLINE V cell_of(const Words& word) {
+    const V zero = {};
+    return (V)(word >> 52 | (Words)(zero + 0x1p52)) - 0x1p52;
+}
+
 template <std::size_t Dimension, std::size_t Width>
 STIPPLE_INLINE void locate_all(std::size_t count, const SpreadTile& tile,
                                Chunk<Dimension, Width>& work) {
+    const V zero = {};
+    const unsigned bits = tile.piece_bits;
     for (std::size_t i = 0; i < count; i += lanes) {
         V corner = {};
         const double steps[] = {1, static_cast<double>(tile.extent),
                                 static_cast<double>(tile.plane)};
         for (std::size_t k = 0; k < Dimension; ++k) {
-            V first;
-            V between;
-            locate(load<V>(&work.axes[k][i]), tile, first, between);
-            corner += (first - static_cast<double>(tile.start[k])) * steps[k];
-            const V scaled = between * tile.pieces;
-            const Integers piece = __builtin_convertvector(scaled, Integers);
-            store(piece, &work.piece[k][i]);
-            store(2 * (scaled - __builtin_convertvector(piece, V)) - 1, &work.t[k][i]);
+            const Words word = load<Words>(&work.axes[k][i]);
+            corner += cell_of(word) * steps[k];
+            const Words piece = (word & fraction) >> (52 - bits);
+            store(__builtin_convertvector(piece, Integers), &work.piece[k][i]);
+            const Words rest = (word << bits & fraction) | (Words)(zero + 2);
+            store((V)rest - 3, &work.t[k][i]);
         }
         store(__builtin_convertvector(corner, Integers), &work.corner[i]);
     }
@@ -121,15 +145,15 @@ STIPPLE_INLINE void raise(double t, const double* rows, V (&sums)[Count]) {
     if constexpr (Degree > 1) raise<Width, Degree - 1>(t, rows, sums);
     for (std::size_t v = 0; v < Count; ++v)
         sums[v] =
-            fused(sums[v], t, load<V>(rows + Degree * WindowTable::row_of(Width) + v * lanes));
+            fused(sums[v], t, load<V>(rows + Degree * WeightTable::row_of(Width) + v * lanes));
 }
 
 /// The window's values at its grid points along each axis.
 template <std::size_t Dimension, std::size_t Width>
 STIPPLE_INLINE void evaluate_all(const double* table, std::size_t count,
                                  Chunk<Dimension, Width>& work) {
-    constexpr std::size_t degree = WindowTable::degree_of(Width);
-    constexpr std::size_t size = (degree + 1) * WindowTable::row_of(Width);
+    constexpr std::size_t degree = WeightTable::degree_of(Width);
+    constexpr std::size_t size = (degree + 1) * WeightTable::row_of(Width);
     constexpr std::size_t vectors = whole(Width) / lanes;
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t k = 0; k < Dimension; ++k) {
@@ -185,10 +209,10 @@ template <std::size_t Dimension, std::size_t Width>
 void add_all(std::span<const double> rows, const SpreadTile& tile, double* buffer) {
     thread_local Chunk<Dimension, Width> work;  // its zeros stay
     const std::size_t numbers = tile.numbers;
-    const std::size_t step = chunk * numbers;
-    for (std::size_t at = 0; at < rows.size(); at += step) {
-        const double* points = rows.data() + at;
-        const std::size_t count = std::min(step, rows.size() - at) / numbers;
+    const std::size_t all = rows.size() / numbers;
+    for (std::size_t first = 0; first < all; first += chunk) {
+        const double* points = rows.data() + first * numbers;
+        const std::size_t count = std::min(chunk, all - first);
         by_axis<Dimension>(points, count, numbers, work.axes);
         locate_all(count, tile, work);
         evaluate_all(tile.coefficients, count, work);
@@ -202,9 +226,9 @@ void add_all(std::span<const double> rows, const SpreadTile& tile, double* buffe
     }
 }
 
-template <std::size_t Dimension, std::size_t Width = KaiserBessel::max_width>
+template <std::size_t Dimension, std::size_t Width = Interpolator::max_width>
 void add_wide(std::span<const double> rows, const SpreadTile& tile, double* buffer) {
-    if constexpr (Width > KaiserBessel::min_width)
+    if constexpr (Width > Interpolator::min_width)
         if (tile.width < Width) return add_wide<Dimension, Width - 1>(rows, tile, buffer);
     add_all<Dimension, Width>(rows, tile, buffer);
 }
@@ -216,15 +240,42 @@ void add_points(std::span<const double> rows, std::size_t dimension, const Sprea
     add_wide<3>(rows, tile, buffer);
 }
 
+/// Writes the axes' numbers point after point, and strengths behind them.
 template <std::size_t Dimension>
-void find_all(std::span<const double> rows, const SpreadTile& common, std::uint32_t* tile_of) {
+STIPPLE_INLINE void by_point(const Coordinates<Dimension>& axes, const double* points,
+                             std::size_t count, std::size_t numbers, double* out) {
+    std::size_t i = 0;
+    if constexpr (Dimension == 2)
+        for (; numbers == 2 && i + lanes <= count; i += lanes) {
+            using Order [[gnu::vector_size(8 * lanes)]] = std::int64_t;
+            Order paired;
+            for (std::size_t l = 0; l < lanes; ++l)
+                paired[l] = static_cast<std::int64_t>(l / 2 + l % 2 * lanes);
+            const V a = load<V>(&axes[0][i]);
+            const V b = load<V>(&axes[1][i]);
+            store(__builtin_shuffle(a, b, paired), out + 2 * i);
+            store(__builtin_shuffle(a, b, paired + lanes / 2), out + 2 * i + lanes);
+        }
+    for (; i < count; ++i) {
+        for (std::size_t k = 0; k < Dimension; ++k) out[i * numbers + k] = axes[k][i];
+        if (numbers > Dimension) out[i * numbers + Dimension] = points[i * numbers + Dimension];
+    }
+}
+
+template <std::size_t Dimension>
+void find_all(std::span<const double> rows, const SpreadTile& common, std::uint32_t* tile_of,
+              double* places) {
     alignas(64) Coordinates<Dimension> axes;
-    alignas(64) std::array<std::uint32_t, chunk> found;
-    const std::size_t step = chunk * common.numbers;
-    const double per_cell = 1 / common.side;
-    for (std::size_t at = 0; at < rows.size(); at += step, tile_of += chunk) {
-        const std::size_t count = std::min(step, rows.size() - at) / common.numbers;
-        by_axis<Dimension>(rows.data() + at, count, common.numbers, axes);
+    const std::size_t numbers = common.numbers;
+    const std::size_t all = rows.size() / numbers;
+    const double tiles_a_cell = common.tiles / common.side;
+    const double past_tile = (common.tiles - 0.5) / common.side;
+    const double cells_a_tile = common.side / common.tiles;
+    const double past_cell = 0.5 / common.tiles;
+    for (std::size_t at = 0; at < all; at += chunk) {
+        const double* points = rows.data() + at * numbers;
+        const std::size_t count = std::min(chunk, all - at);
+        by_axis<Dimension>(points, count, numbers, axes);
         for (std::size_t i = 0; i < count; i += lanes) {
             V sum = {};
             double step_k = 1;
@@ -232,19 +283,27 @@ void find_all(std::span<const double> rows, const SpreadTile& common, std::uint3
                 V first;
                 V between;
                 locate(load<V>(&axes[k][i]), common, first, between);
-                // The last tile t with t side / tiles < first + 1; far from whole numbers.
-                const V tile = ((first + 1) * common.tiles - 0.5) * per_cell;
-                sum += step_k * __builtin_convertvector(__builtin_convertvector(tile, Integers), V);
+                // The last tile t with t side / tiles < first + 1, and its first grid point: the
+                // parts of numbers that are far from whole ones.
+                const V tile = truncated(first * tiles_a_cell + past_tile);
+                const V start = truncated(tile * cells_a_tile + past_cell);
+                sum += step_k * tile;
+                store(word_of(first - start, between), &axes[k][i]);
             }
-            store(__builtin_convertvector(sum, Integers), &found[i]);
+            const Integers found = __builtin_convertvector(sum, Integers);
+            if (i + lanes <= count)
+                store(found, tile_of + at + i);
+            else
+                for (std::size_t l = 0; i + l < count; ++l)
+                    tile_of[at + i + l] = static_cast<std::uint32_t>(found[l]);
         }
-        std::copy_n(found.begin(), count, tile_of);
+        by_point<Dimension>(axes, points, count, numbers, places + at * numbers);
     }
 }
 
 void find(std::span<const double> rows, std::size_t dimension, const SpreadTile& common,
-          std::uint32_t* tile_of) {
-    if (dimension == 1) return find_all<1>(rows, common, tile_of);
-    if (dimension == 2) return find_all<2>(rows, common, tile_of);
-    find_all<3>(rows, common, tile_of);
+          std::uint32_t* tile_of, double* places) {
+    if (dimension == 1) return find_all<1>(rows, common, tile_of, places);
+    if (dimension == 2) return find_all<2>(rows, common, tile_of, places);
+    find_all<3>(rows, common, tile_of, places);
 }

@@ -42,7 +42,7 @@ namespace eights {
 /// result has the same bits.
 struct Work {
     void (*add_points)(std::span<const double>, std::size_t, const SpreadTile&, double*);
-    void (*find)(std::span<const double>, std::size_t, const SpreadTile&, std::uint32_t*);
+    void (*find)(std::span<const double>, std::size_t, const SpreadTile&, std::uint32_t*, double*);
 };
 
 Work work_of(Vectors widest) {
@@ -56,14 +56,14 @@ Work work_of(Vectors widest) {
 
 }  // namespace
 
-void spread_points(std::span<const double> rows, std::size_t dimension, const SpreadTile& tile,
-                   double* buffer, Vectors widest) {
-    work_of(widest).add_points(rows, dimension, tile, buffer);
+void find_places(std::span<const double> rows, std::size_t dimension, const SpreadTile& common,
+                 std::uint32_t* tile_of, double* places, Vectors widest) {
+    work_of(widest).find(rows, dimension, common, tile_of, places);
 }
 
-void find_tiles(std::span<const double> rows, std::size_t dimension, const SpreadTile& common,
-                std::uint32_t* tile_of, Vectors widest) {
-    work_of(widest).find(rows, dimension, common, tile_of);
+void spread_points(std::span<const double> places, std::size_t dimension, const SpreadTile& tile,
+                   double* buffer, Vectors widest) {
+    work_of(widest).add_points(places, dimension, tile, buffer);
 }
 
 }  // namespace stipple

@@ -13,7 +13,7 @@
 
 #include "core/error.hpp"
 #include "core/rng.hpp"
-#include "math/kaiser_bessel.hpp"
+#include "math/interpolator.hpp"
 #include "support/temporary_file.hpp"
 
 using namespace stipple;
@@ -129,28 +129,100 @@ TEST(Nufft, MeetsEveryToleranceForEverySet) {
             }
 }
 
-// The window's error is looked at in a few places of the band and of the cell; nowhere is it more
-// than a third above that, which is what is left for it. It has a lobe just below the band's end.
-TEST(KaiserBessel, ErrorIsTheLargestInTheBand) {
-    for (std::size_t width = 3; width <= 12; ++width)
+namespace {
+
+/// Largest error of a wave of the band, for a point at u, of spreading by the weights.
+template <class Weights>
+double error_in_band(const Interpolator& interpolator, double u, const Weights& weights) {
+    double worst = 0;
+    const double middle = static_cast<double>(interpolator.width() - 1) / 2;
+    for (std::size_t part = 0; part <= 160; ++part) {
+        const double omega =
+            2 * std::numbers::pi * interpolator.band() * static_cast<double>(part) / 160;
+        std::complex<double> sum;
+        for (std::size_t j = 0; j < interpolator.width(); ++j)
+            sum += weights(j) * std::polar(1.0, -omega * (static_cast<double>(j) - middle));
+        sum /= interpolator.scaling(omega / (2 * std::numbers::pi));
+        worst = std::max(worst, std::abs(sum - std::polar(1.0, -omega * (u - 0.5))));
+    }
+    return worst;
+}
+
+double error_in_band(const Interpolator& interpolator, double u) {
+    const auto weights = interpolator.weights(u);
+    return error_in_band(interpolator, u, [&](std::size_t j) { return weights[j]; });
+}
+
+/// I0(beta sqrt(1 - (2a/w)^2)) / I0(beta), of which the scaling factors are the transform.
+double kaiser_bessel(const Interpolator& interpolator, double a) {
+    const auto w = static_cast<double>(interpolator.width());
+    const double beta = 0.965 * std::numbers::pi * w * (1 - interpolator.band());
+    const double square = 1 - 4 * a * a / (w * w);
+    return square < 0 ? 0
+                      : std::cyl_bessel_i(0, beta * std::sqrt(square)) / std::cyl_bessel_i(0, beta);
+}
+
+}  // namespace
+
+// The error is looked for at a few places of the band and of the cell; nowhere is it more than a
+// tenth above that.
+TEST(Interpolator, ErrorIsTheLargestInTheBand) {
+    for (std::size_t width = 2; width <= 12; ++width)
         for (const double band : {0.12, 0.18, 0.22, 0.25, 0.3, 0.35, 0.38}) {
-            const KaiserBessel window(width, band);
+            const Interpolator interpolator(width, band);
             double worst = 0;
-            for (std::size_t place = 0; place <= 16; ++place)
-                for (std::size_t part = 0; part <= 80; ++part) {
-                    const double frequency = static_cast<double>(part) / 80 * band;
-                    const double first =
-                        static_cast<double>(place) / 32 + static_cast<double>(width) / 2 - 1;
-                    std::complex<double> sum;
-                    for (std::size_t j = 0; j < width; ++j) {
-                        const double at = first - static_cast<double>(j);
-                        sum += window(at) * std::polar(1.0, 2 * M_PI * frequency * at);
-                    }
-                    worst = std::max(worst, std::abs(sum / window.transform(frequency) - 1.0));
-                }
-            EXPECT_LE(worst, 1.34 * window.error() + 1e-14) << width << ", " << band;
-            EXPECT_GE(worst, 0.9 * window.error() - 1e-14) << width << ", " << band;
+            for (int i = 0; i <= 64; ++i)
+                worst = std::max(worst, error_in_band(interpolator, i / 64.0));
+            EXPECT_LE(worst, 1.1 * interpolator.error() + 1e-14) << width << ", " << band;
+            EXPECT_GE(worst, 0.9 * interpolator.error() - 1e-14) << width << ", " << band;
         }
+}
+
+// With the same scaling factors the window itself has several times the error.
+TEST(Interpolator, IsBetterThanTheWindow) {
+    for (std::size_t width = 3; width <= 12; ++width) {
+        const Interpolator interpolator(width, 0.25);
+        double worst = 0;
+        for (int i = 0; i <= 16; ++i) {
+            const double first = i / 16.0 + static_cast<double>(width) / 2 - 1;
+            const auto weight = [&](std::size_t j) {
+                return kaiser_bessel(interpolator, first - static_cast<double>(j));
+            };
+            worst = std::max(worst, error_in_band(interpolator, i / 16.0, weight));
+        }
+        EXPECT_LT(interpolator.error(), 0.8 * worst) << width;
+    }
+}
+
+// What least squares mean: the error's squares, at the Chebyshev nodes of the band, grow whichever
+// weight is changed, and by as much up as down.
+TEST(Interpolator, NoOtherWeightsHaveSmallerSquares) {
+    const Interpolator interpolator(5, 0.25);
+    for (const double u : {0.0, 0.3, 0.5}) {
+        const auto squares = [&](std::size_t changed, double by) {
+            auto weights = interpolator.weights(u);
+            weights[changed] += by;
+            double sum = 0;
+            for (int i = 0; i < 10; ++i) {
+                const double xi = 0.25 * std::sin(std::numbers::pi / 2 * (i + 0.5) / 10);
+                std::complex<double> value;
+                for (std::size_t j = 0; j < 5; ++j)
+                    value += weights[j] * std::polar(1.0, -2 * std::numbers::pi * xi *
+                                                              (static_cast<double>(j) - 2));
+                sum += std::norm(value / interpolator.scaling(xi) -
+                                 std::polar(1.0, -2 * std::numbers::pi * xi * (u - 0.5)));
+            }
+            return sum;
+        };
+        for (std::size_t j = 0; j < 5; ++j) {
+            const double here = squares(j, 0);
+            const double up = squares(j, 1e-4) - here;
+            const double down = squares(j, -1e-4) - here;
+            EXPECT_GT(up, 0);
+            EXPECT_GT(down, 0);
+            EXPECT_NEAR(up, down, 0.01 * up);
+        }
+    }
 }
 
 // All points where the error is largest, in phase.
@@ -358,44 +430,44 @@ TEST(QuickLength, IsEvenAndAPowerOfTwoButForASmallFactor) {
 
 // The closed form against the integral over the window, by the trapezoidal rule, which is exact to
 // the last digits but for the window's step at its ends.
-TEST(KaiserBessel, TransformIsTheIntegral) {
-    const KaiserBessel window(12, 0.25);
+TEST(Interpolator, ScalingIsTheTransformOfAKaiserBesselWindow) {
+    const Interpolator interpolator(12, 0.25);
     for (const double xi : {0.0, 0.1, 0.25}) {
         const int steps = 20'000;
         double sum = 0;
         for (int i = 0; i <= steps; ++i) {
             const double a = -6 + 12.0 * i / steps;
-            sum += window(a) * std::cos(2 * std::numbers::pi * xi * a) * (i % steps ? 1.0 : 0.5);
+            sum += kaiser_bessel(interpolator, a) * std::cos(2 * std::numbers::pi * xi * a) *
+                   (i % steps ? 1.0 : 0.5);
         }
-        EXPECT_NEAR(sum * 12 / steps, window.transform(xi), 1e-12) << xi;
+        EXPECT_NEAR(sum * 12 / steps, interpolator.scaling(xi), 1e-12) << xi;
     }
 }
 
-// The polynomials are as good as the window's own errors, and better: near the rounding errors of
-// numbers up to 1 for wide windows.
-TEST(WindowTable, AgreesWithTheWindow) {
-    for (std::size_t width = KaiserBessel::min_width; width <= KaiserBessel::max_width; ++width) {
-        const KaiserBessel window(width, 0.25);
-        const WindowTable table(window);
-        double worst = 0;
-        for (int i = 0; i < 1000; ++i) {
-            const double u = (i + 0.3) / 1000;
-            for (std::size_t j = 0; j < width; ++j) {
-                const double a = u + static_cast<double>(width) / 2 - 1 - static_cast<double>(j);
-                worst = std::max(worst, std::abs(table.value(j, u) - window(a)));
+// The polynomials add little to the error: roundings of numbers up to 1 for wide windows.
+TEST(WeightTable, IsAsGoodAsTheWeights) {
+    for (const double band : {0.12, 0.25, 0.35})
+        for (std::size_t width = Interpolator::min_width; width <= Interpolator::max_width;
+             ++width) {
+            const Interpolator interpolator(width, band);
+            const WeightTable table(interpolator);
+            double worst = 0;
+            for (int i = 0; i < 300; ++i) {
+                const double u = (i + 0.3) / 300;
+                const auto weight = [&](std::size_t j) { return table.value(j, u); };
+                worst = std::max(worst, error_in_band(interpolator, u, weight));
             }
+            EXPECT_LE(worst, 1.1 * interpolator.error() + 1.5e-14) << width << ", " << band;
         }
-        EXPECT_LE(worst, std::max(0.01 * window.error(), 2e-14)) << width;
-    }
 }
 
-TEST(KaiserBessel, NarrowestWindowWithinTolerance) {
+TEST(Interpolator, NarrowestWithinTolerance) {
     for (const double band : {1. / 3, 1. / 4, 1. / 8})
         for (const double tolerance : {1e-2, 1e-5, 1e-8}) {
-            const KaiserBessel window = window_for(tolerance, band);
+            const Interpolator window = interpolator_for(tolerance, band);
             EXPECT_LE(window.error(), tolerance);
-            if (window.width() > KaiserBessel::min_width) {
-                EXPECT_GT(KaiserBessel(window.width() - 1, band).error(), tolerance);
+            if (window.width() > Interpolator::min_width) {
+                EXPECT_GT(Interpolator(window.width() - 1, band).error(), tolerance);
             }
         }
 }
