@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
 
 #include "core/parallel.hpp"
 #include "math/point_grid.hpp"
@@ -18,19 +21,134 @@ constexpr double unit = 0x1p40;  ///< weights count multiples of its inverse
 /// Terms of the weights.
 class Kernel {
   public:
-    Kernel(double r_max, double kept_share)
-        : inverse_(1 / (2 * r_max)), nearest_(beta * (1 - kept_share * std::sqrt(kept_share))) {}
+    explicit Kernel(double kept_share)
+        : nearest_(beta * (1 - kept_share * std::sqrt(kept_share))) {}
 
-    [[nodiscard]] std::uint64_t operator()(double squared_distance) const {
-        const double t = 1 - std::max(std::sqrt(squared_distance) * inverse_, nearest_);
+    /// @param inverse of the distance that the pair's term ends at.
+    [[nodiscard]] std::uint64_t operator()(double squared_distance, double inverse) const {
+        const double t = 1 - std::max(std::sqrt(squared_distance) * inverse, nearest_);
         const double t2 = t * t;
         const double t4 = t2 * t2;
         return t > 0 ? static_cast<std::uint64_t>(static_cast<std::int64_t>(t4 * t4 * unit)) : 0;
     }
 
   private:
-    double inverse_;
     double nearest_;  ///< r_min / r_max: a distance below 2 r_min counts as that
+};
+
+/// Points, numbered anew, of which the near ones can be found. This is where all have one radius.
+template <std::size_t D>
+class Crowd {
+  public:
+    Crowd(std::span<const double> rows, const BoxSpace& space, double r_max, const RunContext& run)
+        : reach_(2 * r_max),
+          inverse_(1 / reach_),
+          points_(GridFrame<D>(space.box, space.torus, reach_ / 2,
+                               1024 + 0.5 * static_cast<double>(rows.size() / D)),
+                  rows, run) {}
+
+    [[nodiscard]] std::size_t count() const { return points_.count(); }
+    [[nodiscard]] std::uint32_t original(std::size_t s) const { return points_.original(s); }
+
+    /// Calls visit(t, squared distance, inverse of the distance at which the pair's term ends) for
+    /// all points with a term, s itself among them.
+    template <class Visit>
+    void visit(std::size_t s, Visit&& visit) const {
+        this->visit(points_[s], visit);
+    }
+
+    /// The same for the others, when point s has been taken out.
+    template <class Visit>
+    void visit_without(std::size_t s, Visit&& visit) {
+        std::array<double, D> p;
+        std::copy_n(points_[s], D, p.begin());
+        points_.remove(s);
+        this->visit(p.data(), visit);
+    }
+
+  private:
+    template <class Visit>
+    void visit(const double* p, Visit& visit) const {
+        points_.visit(p, reach_,
+                      [&](std::size_t t, double squared) { visit(t, squared, inverse_); });
+    }
+
+    double reach_;
+    double inverse_;
+    SortedPoints<D> points_;
+};
+
+/// The same for points with radii of their own. In a layer none is more than twice another, so that
+/// its grid fits all of its points.
+template <std::size_t D>
+class LayeredCrowd {
+  public:
+    LayeredCrowd(std::span<const double> rows, const BoxSpace& space, double r_max,
+                 std::span<const double> shares, const RunContext& run) {
+        const double most = space.largest_distance() / r_max;  // no pair is farther apart
+        std::map<int, std::vector<std::uint32_t>> by_size;
+        for (std::size_t i = 0; i < shares.size(); ++i)
+            by_size[std::ilogb(std::min(shares[i], most))].push_back(static_cast<std::uint32_t>(i));
+        std::vector<double> some;
+        for (const auto& [size, members] : by_size) {
+            some.clear();
+            Layer layer{.first = originals_.size(), .largest = 0, .points = {}};
+            for (const std::uint32_t i : members) {
+                const auto row = rows.begin() + static_cast<std::ptrdiff_t>(i * D);
+                some.insert(some.end(), row, row + D);
+                layer.largest = std::max(layer.largest, r_max * std::min(shares[i], most));
+            }
+            // Points of small radii may all be in a small part of the box.
+            const GridFrame<D> frame(space.box, space.torus, layer.largest,
+                                     1024 + 8 * static_cast<double>(members.size()));
+            layer.points.emplace(frame, some, run);
+            for (std::size_t t = 0; t < members.size(); ++t) {
+                const std::uint32_t i = members[layer.points->original(t)];
+                originals_.push_back(i);
+                radii_.push_back(r_max * std::min(shares[i], most));
+                layer_of_.push_back(static_cast<std::uint8_t>(layers_.size()));
+            }
+            layers_.push_back(std::move(layer));
+        }
+    }
+
+    [[nodiscard]] std::size_t count() const { return originals_.size(); }
+    [[nodiscard]] std::uint32_t original(std::size_t s) const { return originals_[s]; }
+
+    template <class Visit>
+    void visit(std::size_t s, Visit&& visit) const {
+        const Layer& layer = layers_[layer_of_[s]];
+        this->visit((*layer.points)[s - layer.first], radii_[s], visit);
+    }
+
+    template <class Visit>
+    void visit_without(std::size_t s, Visit&& visit) {
+        Layer& layer = layers_[layer_of_[s]];
+        std::array<double, D> p;
+        std::copy_n((*layer.points)[s - layer.first], D, p.begin());
+        layer.points->remove(s - layer.first);
+        this->visit(p.data(), radii_[s], visit);
+    }
+
+  private:
+    struct Layer {
+        std::size_t first;  ///< number of its first point
+        double largest;     ///< radius
+        std::optional<SortedPoints<D>> points;
+    };
+
+    template <class Visit>
+    void visit(const double* p, double radius, Visit& visit) const {
+        for (const Layer& layer : layers_)
+            layer.points->visit(p, radius + layer.largest, [&](std::size_t t, double squared) {
+                visit(layer.first + t, squared, 1 / (radius + radii_[layer.first + t]));
+            });
+    }
+
+    std::vector<Layer> layers_;
+    std::vector<std::uint32_t> originals_;
+    std::vector<double> radii_;
+    std::vector<std::uint8_t> layer_of_;
 };
 
 /// A weight that a point once had.
@@ -61,18 +179,14 @@ void sift_down(std::vector<Candidate>& heap, std::size_t size, std::size_t at) {
     heap[at] = moving;
 }
 
-template <std::size_t D>
+template <class Crowd>
 class Elimination {
   public:
-    Elimination(std::span<const double> rows, const BoxSpace& space, double r_max,
-                std::uint64_t kept, const RunContext& run)
-        : reach_(2 * r_max),
-          run_(run),
+    Elimination(Crowd crowd, std::uint64_t kept, const RunContext& run)
+        : run_(run),
           kept_(kept),
-          points_(GridFrame<D>(space.box, space.torus, reach_ / 2,
-                               1024 + 0.5 * static_cast<double>(rows.size() / D)),
-                  rows, run),
-          kernel_(r_max, static_cast<double>(kept) / static_cast<double>(points_.count())),
+          points_(std::move(crowd)),
+          kernel_(static_cast<double>(kept) / static_cast<double>(points_.count())),
           weights_(points_.count()) {}
 
     std::vector<std::uint32_t> go() {
@@ -104,8 +218,8 @@ class Elimination {
         for_each_block(run_.stage(0, 0.3), points_.count(), 2048, [&](const Block& b) {
             for (std::size_t s = b.first; s < b.last; ++s) {
                 std::uint64_t sum = 0;
-                points_.visit(points_[s], reach_, [&](std::size_t t, double squared) {
-                    if (t != s) sum += kernel_(squared);
+                points_.visit(s, [&](std::size_t t, double squared, double inverse) {
+                    if (t != s) sum += kernel_(squared, inverse);
                 });
                 weights_[s] = sum;
             }
@@ -124,19 +238,16 @@ class Elimination {
 
     /// Takes a point out, and its part of the others' weights.
     void remove(std::uint32_t s) {
-        std::array<double, D> p;
-        std::copy_n(points_[s], D, p.begin());
-        points_.remove(s);
-        points_.visit(p.data(), reach_,
-                      [&](std::size_t t, double squared) { weights_[t] -= kernel_(squared); });
+        points_.visit_without(s, [&](std::size_t t, double squared, double inverse) {
+            weights_[t] -= kernel_(squared, inverse);
+        });
     }
 
-    double reach_;
     const RunContext& run_;
     std::uint64_t kept_;
-    SortedPoints<D> points_;
+    Crowd points_;
     Kernel kernel_;
-    std::vector<std::uint64_t> weights_;  ///< by place in the grid
+    std::vector<std::uint64_t> weights_;  ///< by the crowd's numbers
     std::vector<Candidate> heap_;
 };
 
@@ -157,14 +268,16 @@ double packing_radius(double count, std::size_t dimension, double measure) {
     return nth_root(share / unit_ball_volume(dimension), dimension);
 }
 
-double elimination_memory(double points, std::size_t dimension) {
-    return points * (8 * static_cast<double>(dimension) + 40);
+double elimination_memory(double points, std::size_t dimension, bool with_shares) {
+    return points * (8 * static_cast<double>(dimension) + (with_shares ? 80 : 40));
 }
 
 std::vector<std::uint32_t> eliminate(std::span<const double> rows, const BoxSpace& space,
-                                     double r_max, std::uint64_t kept, const RunContext& run) {
+                                     double r_max, std::uint64_t kept, const RunContext& run,
+                                     std::span<const double> shares) {
     return with_dimension(space.box.dimension(), [&]<std::size_t D>() {
-        return Elimination<D>(rows, space, r_max, kept, run).go();
+        if (shares.empty()) return Elimination(Crowd<D>(rows, space, r_max, run), kept, run).go();
+        return Elimination(LayeredCrowd<D>(rows, space, r_max, shares, run), kept, run).go();
     });
 }
 

@@ -6,6 +6,9 @@
 //     w_i = sum over j != i of  (1 - max(d_ij, 2 r_min) / (2 r_max))^8    where d_ij < 2 r_max,
 //     r_min = 0.65 r_max (1 - (N / M)^1.5).
 //
+// Where points are to be nearer to each other here than there, each has an r_max of its own: of a
+// pair, r_i + r_j stand for 2 r_max, and r_min is the same share of both.
+//
 // Each term is rounded down to a multiple of 2^-40, so that sums are exact, in whatever order they
 // are taken, and stay so when terms are taken off them. Of equal weights the point of lowest index
 // goes.
@@ -14,7 +17,8 @@
 // has fallen since is put back, and one whose weight has not is the heaviest of all.
 //
 // Shape   D directions; M < 2^32; r_max > 0.
-// Cost    O(M k) time, k points within 2 r_max; 8 D + 40 bytes a point.
+// Cost    O(M k) time, k points within 2 r_max; 8 D + 40 bytes a point, with radii of their own 40
+//         more. Points lie in layers of like radii, each in a grid of its own.
 // Source  C. Yuksel, Comput. Graph. Forum 34 (2015) 25-32, doi:10.1111/cgf.12538.
 #pragma once
 
@@ -36,10 +40,12 @@ double packing_radius(double count, std::size_t dimension, double measure);
 
 /// The numbers of the points in the order in which they go: the first `count` - `kept` that do.
 /// @param rows points of the space, one after the other.
+/// @param shares of r_max that are each point's own; none: 1 for all. Above 0.
 std::vector<std::uint32_t> eliminate(std::span<const double> rows, const BoxSpace& space,
-                                     double r_max, std::uint64_t kept, const RunContext& run);
+                                     double r_max, std::uint64_t kept, const RunContext& run,
+                                     std::span<const double> shares = {});
 
 /// Bytes that it takes.
-double elimination_memory(double points, std::size_t dimension);
+double elimination_memory(double points, std::size_t dimension, bool with_shares = false);
 
 }  // namespace stipple

@@ -101,11 +101,9 @@ Planar planar_of(const Plan& plan, bool torus) {
 }
 
 std::optional<DensityMap> planar_density(const Values& options, const RunContext& run) {
-    if (options.given(density_option))
-        return read_density(options[density_option], options[invert_option], run);
-    if (options[invert_option])
-        fail(ErrorKind::usage, "--invert is about --density, which is not given");
-    return {};
+    check_invert(options);
+    if (!options.given(density_option)) return {};
+    return read_density(options[density_option], options[invert_option], run);
 }
 
 std::optional<DensityMoments> planar_moments(const std::optional<DensityMap>& density,

@@ -279,5 +279,5 @@ TEST(Lloyd, EvenDensitiesAreNone) {
     EXPECT_EQ(error_of([] {
                   make("lloyd", {}, {{"invert", "true"}});
               }),
-              "usage: --invert is about --density, which is not given");
+              "usage: --invert: there is no --density to invert");
 }

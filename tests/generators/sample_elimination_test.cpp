@@ -6,6 +6,7 @@
 #include "core/rng.hpp"
 #include "generators/crowd_extent.hpp"
 #include "generators/eliminator.hpp"
+#include "support/pictures.hpp"
 #include "support/spacing.hpp"
 #include "support/temporary_file.hpp"
 
@@ -28,7 +29,8 @@ std::string csv_of(const PointSet& set) {
 /// Oracle: the formula of eliminator.hpp, all weights from scratch for every point that goes. Sums
 /// of multiples of 2^-40 below 2^13 are exact in doubles.
 std::vector<std::uint32_t> eliminate_plainly(const PointSet& set, const Space& space, double r_max,
-                                             std::size_t kept) {
+                                             std::size_t kept,
+                                             const std::vector<double>& shares = {}) {
     const double share = static_cast<double>(kept) / static_cast<double>(set.count());
     const double least = 0.65 * (1 - share * std::sqrt(share));
     std::vector<bool> alive(set.count(), true);
@@ -36,8 +38,8 @@ std::vector<std::uint32_t> eliminate_plainly(const PointSet& set, const Space& s
         double sum = 0;
         for (std::size_t j = 0; j < set.count(); ++j) {
             if (j == i || !alive[j]) continue;
-            const double t =
-                1 - std::max(distance(set[i], set[j], space) * (1 / (2 * r_max)), least);
+            const double reach = shares.empty() ? 2 * r_max : r_max * shares[i] + r_max * shares[j];
+            const double t = 1 - std::max(distance(set[i], set[j], space) * (1 / reach), least);
             const double t4 = t * t * (t * t);
             if (t > 0) sum += std::floor(t4 * t4 * 0x1p40) * 0x1p-40;
         }
@@ -86,6 +88,31 @@ TEST(SampleElimination, GoesAsTheFormulaSaysPointByPoint) {
                       eliminate_plainly(set, space, r, kept))
                 << space.name() << ", " << kept;
         }
+}
+
+// With radii of their own, from a hundredth to a hundred times the others, and across the faces.
+TEST(SampleElimination, GoesAsTheFormulaSaysWithRadiiOfTheirOwn) {
+    for (const Space& space : some_spaces()) {
+        const std::size_t d = space.box.dimension();
+        const PointSet set = random_in(space, 100, 7);
+        std::vector<double> shares;
+        for (std::size_t i = 0; i < 100; ++i)
+            shares.push_back(i == 50  ? 100
+                             : i < 50 ? 0.3 + Rng(3).uniform(i)
+                                      : std::pow(10.0, -2 * Rng(4).uniform(i)));
+        const BoxSpace box{space.box, space.torus};
+        const double r = packing_radius(20, d, box.measure());
+        // A radius beyond the box counts as its largest distance.
+        std::vector<double> cut = shares;
+        for (double& share : cut) share = std::min(share, box.largest_distance() / r);
+        EXPECT_EQ(eliminate(set.flat(), box, r, 20, {}, shares),
+                  eliminate_plainly(set, space, r, 20, cut))
+            << space.name();
+        const std::vector<double> even(100, 1.0);
+        EXPECT_EQ(eliminate(set.flat(), box, r, 20, {}, even),
+                  eliminate(set.flat(), box, r, 20, {}))
+            << space.name();
+    }
 }
 
 // On a lattice all weights are equal, and the first of them goes; with two points, too.
@@ -301,6 +328,36 @@ TEST(SampleElimination, SpreadsPointsOfADisk) {
     EXPECT_LT(spread({{"measure", "4"}}), 0.2 * most) << "that of the box is too large";
 }
 
+// Densities 1 and 4 side by side, and nothing on the right: a fifth and four fifths of the points,
+// half as far from each other where there are four times as many. (Of random points 0.04 would be
+// five standard deviations; at the border the denser side keeps a little more.)
+TEST(SampleElimination, FollowsADensity) {
+    const TemporaryFile density(npy_of<double>("<f8", "(1, 3)", {1, 4, 0}));
+    for (const char* order : {"random", "progressive"}) {
+        Request request = points(1500, 2);
+        request.bounds = Box{{-3, 10}, {6, 12}};
+        const PointSet set = make(unit, request, {{"density", density.path()}, {"order", order}});
+        ASSERT_EQ(set.count(), 1500U);
+        std::array<double, 2> counts{};
+        std::array<double, 2> nearest{};
+        const Space space{*request.bounds, true};
+        for (std::size_t i = 0; i < set.count(); ++i) {
+            ASSERT_LT(set[i][0], 3);
+            const std::size_t side = set[i][0] < 0 ? 0 : 1;
+            ++counts[side];
+            double least = 100;
+            for (std::size_t j = 0; j < set.count(); ++j)
+                if (j != i) least = std::min(least, distance(set[i], set[j], space));
+            nearest[side] += least;
+        }
+        EXPECT_NEAR(counts[1] / 1500, 0.8, 0.04) << order;
+        EXPECT_NEAR(nearest[0] / counts[0] / (nearest[1] / counts[1]), 2, 0.2) << order;
+        // Nearly as spread as without a density: random points are half as far from each other.
+        const double r = packing_radius(1500 * 0.8, 2, 6);
+        EXPECT_GT(nearest[1] / counts[1], 1.5 * r) << order;
+    }
+}
+
 TEST(SampleElimination, RefusesWhatCannotBe) {
     const TemporaryFile file(csv_of(points_of({{0.1, 0.2}, {0.3, 0.4}, {1.5, 0.5}})));
     const auto refusal = [&](const Request& request, Settings settings) {
@@ -329,6 +386,14 @@ TEST(SampleElimination, RefusesWhatCannotBe) {
               "--measure says it");
     EXPECT_NE(refusal({}, {{"from", "FILE"}, {"manifold-dimension", "3"}}), "");
     EXPECT_NE(refusal({}, {{"ratio", "0.5"}}), "");
+    EXPECT_EQ(refusal({}, {{"invert", "true"}}),
+              "usage: --invert: there is no --density to invert");
+    EXPECT_EQ(refusal(points(9, 3), {{"density", "FILE"}}),
+              "usage: --dimension: 3 is not 2, the dimension of a --density");
+    EXPECT_EQ(refusal({}, {{"density", "FILE"}, {"from", "FILE"}}),
+              "usage: --density is followed by random points; those of --from are as dense as they "
+              "are");
+    EXPECT_NE(refusal({}, {{"density", "FILE"}}), "");
     EXPECT_NE(refusal({}, {{"torus", "true"}, {"bounded", "true"}}), "");
     EXPECT_EQ(refusal({}, {{"from", "/no/such"}}), "io: /no/such: no such file");
     EXPECT_EQ(refusal(points(10'000'000, 2), {}).substr(0, 6), "limit:");
