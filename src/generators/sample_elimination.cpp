@@ -24,9 +24,8 @@
 // Shape   d = 1, ..., 6; distances are those in the box of --bounds, across its faces too (torus)
 //         or not. With --from they are bounded unless --torus is given; the box is --bounds, or on
 //         the torus the unit cube, or else the smallest one around the points.
-// Cost    2-D: 15 us a point of the result at the ratio 5, with a density 22; 450 bytes, with a
-// density
-//         650. A file is read three times.
+// Cost    2-D: 15 us a point of the result at the ratio 5, with a density 22; 450 and 650 bytes. A
+//         file is read three times.
 // Promise exactly N points; always the point of greatest weight goes, of equal ones the first.
 // Source  C. Yuksel, Comput. Graph. Forum 34 (2015) 25-32, doi:10.1111/cgf.12538.
 
