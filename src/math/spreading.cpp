@@ -55,6 +55,7 @@ class Tiling {
         for (std::size_t t = 0; t <= along_; ++t) starts_.push_back(t * grid.side / along_);
         for (std::size_t t = 0; t < along_; ++t)
             widest_ = std::max(widest_, starts_[t + 1] - starts_[t]);
+        assert(widest_ <= 4096);  // places in a tile have 12 bits for their grid points
         common_ = {.side = static_cast<double>(grid.side),
                    .tiles = static_cast<double>(along_),
                    .shift = window.width() % 2 == 1 ? 0.5 : 0.0,
