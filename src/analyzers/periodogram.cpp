@@ -55,10 +55,10 @@
 
 #include "analyzers/distances.hpp"
 #include "analyzers/outside.hpp"
+#include "analyzers/periodogram_power.hpp"
 #include "analyzers/periodogram_rings.hpp"
 #include "analyzers/shared.hpp"
 #include "core/error.hpp"
-#include "core/large_pages.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "core/wide.hpp"
@@ -197,105 +197,6 @@ void summarize(Report& report, const Grid& power, std::size_t sets, const Values
                   [](const auto& e) { return e.name == "low_frequency_exponent"; });
     if (const auto slope = low_frequency_exponent(rings, regular, least))
         report.add("low_frequency_exponent", *slope);
-}
-
-/// sum_j s_j and sum_j s_j^2.
-struct Strengths {
-    double sum = 0;
-    double squares = 0;
-};
-
-/// The same of points that come in blocks, which may be shared out; these are summed as grids are.
-class StrengthSums {
-  public:
-    void add(double strength) {
-        if (points_ == block) close();
-        block_.sum += strength;
-        block_.squares += strength * strength;
-        ++points_;
-    }
-
-    [[nodiscard]] Strengths total() {
-        if (sum_.empty()) return block_;
-        if (points_ > 0) close();
-        Strengths all;
-        sum_.copy_to({&all.sum, 1}, {});
-        squares_.copy_to({&all.squares, 1}, {});
-        return all;
-    }
-
-    void pack(Packer& to) {
-        close();
-        sum_.pack(to);
-        squares_.pack(to);
-    }
-    /// This one's points are whole blocks.
-    void merge(Unpacker& from) {
-        if (points_ > 0) close();
-        sum_.merge(from);
-        squares_.merge(from);
-    }
-
-  private:
-    static constexpr std::uint64_t block = std::uint64_t{1} << 21;  ///< divides those of grids
-
-    void close() {
-        const double size = std::abs(block_.sum);
-        sum_.add({&block_.sum, 1}, size, {});
-        const double square = block_.squares;
-        squares_.add({&block_.squares, 1}, square, {});
-        block_ = {};
-        points_ = 0;
-    }
-
-    Strengths block_;
-    std::uint64_t points_ = 0;
-    ScaledGridSum sum_;
-    ScaledGridSum squares_;
-};
-
-/// Transform of the window at the frequencies f of an axis: 1 at 0 without one, else
-/// 1/2, -1/4 at 1 and -1.
-double window_transform(std::int64_t f, bool hann) {
-    if (!hann) return f == 0 ? 1 : 0;
-    return f == 0 ? 0.5 : std::abs(f) == 1 ? -0.25 : 0;
-}
-
-/// Power at all frequencies from the sums at half of them; P(-f) = P(f) holds to the last bit.
-Grid power_of(const FourierSums& sums, const Strengths& strengths, bool hann,
-              const RunContext& run) {
-    const std::size_t last = sums.max_frequency;
-    const std::size_t width = 2 * last + 1;
-    Grid power{.rows = sums.values.size() / (last + 1), .columns = width, .values = {}};
-    fill_with_zeros(power.values, power.rows * width);
-    const double squared = hann ? std::pow(0.375, static_cast<double>(sums.dimension)) : 1;
-    const double scale = 1 / (squared * strengths.squares);
-    for (std::size_t row = 0; row < power.rows; ++row) {
-        run.check_stop();
-        const auto* half = sums.values.data() + row * (last + 1);
-        double* values = power.values.data() + row * width;
-        double* mirrored = power.values.data() + (power.rows - 1 - row) * width;
-        for (std::size_t f = 0; f <= last; ++f)
-            values[last + f] = mirrored[last - f] = std::norm(half[f]) * scale;
-    }
-    const auto line = static_cast<std::int64_t>(width);
-    const auto reach = [&](std::size_t axis) { return hann && axis < sums.dimension ? 1 : 0; };
-    for (std::int64_t f2 = -reach(2); f2 <= reach(2); ++f2)
-        for (std::int64_t f1 = -reach(1); f1 <= reach(1); ++f1)
-            for (std::int64_t f0 = -reach(0); f0 <= reach(0); ++f0) {
-                if (f0 == 0 && f1 == 0 && f2 == 0) continue;
-                double shape = 1;
-                const std::int64_t f[] = {f0, f1, f2};
-                for (std::size_t k = 0; k < sums.dimension; ++k)
-                    shape *= window_transform(f[k], hann);
-                const double of = std::norm(sums.at({f0, f1, f2}) - shape * strengths.sum);
-                const std::int64_t middle = static_cast<std::int64_t>(power.values.size() / 2);
-                const std::int64_t at = middle + (f2 * line + f1) * line + f0;
-                power.values[static_cast<std::size_t>(at)] =
-                    of / ((squared - shape * shape) * strengths.squares);
-            }
-    power.values[power.values.size() / 2] = strengths.sum * strengths.sum / strengths.squares;
-    return power;
 }
 
 STIPPLE_WIDE bool all_inside(std::span<const double> coordinates) {
