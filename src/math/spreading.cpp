@@ -22,7 +22,7 @@ double smallest_tile(std::size_t dimension) {
     return dimension == 1 ? 1024 : dimension == 2 ? 32 : 16;
 }
 
-constexpr std::size_t stretch = std::size_t{1} << 17;  // points that are sorted by all threads
+constexpr std::size_t stretch = std::size_t{1} << 16;  // points that are sorted by all threads
 constexpr std::size_t sorting_block = std::size_t{1} << 12;  // by one
 constexpr std::size_t sections = 16;                         // a power of two
 
