@@ -22,25 +22,12 @@ double smallest_tile(std::size_t dimension) {
     return dimension == 1 ? 1024 : dimension == 2 ? 32 : 16;
 }
 
-constexpr std::size_t stretch = std::size_t{1} << 16;  // points that are sorted by all threads
-constexpr std::size_t sorting_block = std::size_t{1} << 12;  // by one
-constexpr std::size_t sections = 16;                         // a power of two
-
-/// Where each section's points begin in a list of those of a block, and the end.
-using Listing = std::array<std::uint32_t, sections + 1>;
-
-/// Lists the points of a block section by section, of 2^shift tiles; in each they keep their order.
-Listing list(const std::uint32_t* tile_of, unsigned shift, const Block& block,
-             std::uint32_t* listed) {
-    const auto of = [&](std::size_t i) { return tile_of[i] >> shift; };
-    Listing begins{};
-    for (std::size_t i = block.first; i < block.last; ++i) ++begins[of(i) + 1];
-    for (std::size_t s = 0; s < sections; ++s) begins[s + 1] += begins[s];
-    Listing next = begins;
-    for (std::size_t i = block.first; i < block.last; ++i)
-        listed[next[of(i)]++] = static_cast<std::uint32_t>(i);
-    return begins;
-}
+/// Points are sorted in streams, which threads may share out: chunk after chunk of them goes to the
+/// next stream.
+constexpr std::size_t streams = 2;
+constexpr std::size_t stream_chunk = std::size_t{1} << 15;
+constexpr std::size_t round_of_streams = streams * stream_chunk;
+constexpr std::size_t sorting_block = std::size_t{1} << 12;  // points that the caches hold
 
 }  // namespace
 
@@ -210,7 +197,8 @@ std::size_t spreading_batch(const CellGrid& grid) {
     std::size_t cells = 1;
     for (std::size_t k = 0; k < grid.dimension; ++k) cells = std::min(most, cells * grid.side);
     // Fewer points than cells would pass over the grid too often.
-    return std::clamp(cells, std::size_t{1} << 20, std::size_t{1} << 22);
+    cells = std::clamp(cells, std::size_t{1} << 20, std::size_t{1} << 22);
+    return cells / round_of_streams * round_of_streams;
 }
 
 Spreader::Spreader(const Interpolator& window, const CellGrid& grid, std::size_t together,
@@ -220,9 +208,10 @@ Spreader::Spreader(const Interpolator& window, const CellGrid& grid, std::size_t
       dimension_(grid.dimension),
       width_(grid.dimension + (weighted ? 1 : 0)),
       batch_(spreading_batch(grid)),
-      together_(together),
-      points_(tiling_->count(), width_, batch_) {
+      together_(together) {
     assert(grid.side % 2 == 0 && grid.side >= CellGrid::smallest_side && grid.side < 1U << 24);
+    for (std::size_t s = 0; s < streams; ++s)
+        points_.emplace_back(tiling_->count(), width_, batch_ / streams);
 }
 
 Spreader::~Spreader() = default;
@@ -231,14 +220,12 @@ double Spreader::bytes(double count, const CellGrid& grid, bool weighted) {
     const double points = std::min(count, static_cast<double>(spreading_batch(grid)));
     const double tiles = std::pow(static_cast<double>(grid.side) / smallest_tile(grid.dimension),
                                   static_cast<double>(grid.dimension));
-    const std::size_t numbers = grid.dimension + (weighted ? 1 : 0);
-    return TilePoints::bytes(points, tiles, numbers) +
-           static_cast<double>(8 * (1 + numbers) * stretch);
+    return TilePoints::bytes(points, streams * tiles, grid.dimension + (weighted ? 1 : 0));
 }
 
 void Spreader::add(std::span<const double> rows, const RunContext& run) {
     while (!rows.empty()) {
-        const std::size_t count = std::min({rows.size() / width_, batch_ - waits_, stretch});
+        const std::size_t count = std::min(rows.size() / width_, batch_ - waits_);
         sort(rows.first(count * width_), run);
         waits_ += count;
         if (waits_ == batch_) finish(run);
@@ -256,42 +243,31 @@ void Spreader::finish(const RunContext& run) {
     else
         for (std::size_t colour = 0; colour < tiling_->colours(); ++colour)
             spread_colour(colour, run);
-    points_.clear();
+    for (TilePoints& points : points_) points.clear();
     waits_ = 0;
 }
 
-/// Brings the points to their tiles; within a tile they keep their order. Several threads first
-/// list the points of each section of the tiles, and then take a section each.
+/// Brings the points to their tiles, stream by stream; within a tile a stream's keep their order.
 void Spreader::sort(std::span<const double> rows, const RunContext& run) {
-    const std::size_t count = rows.size() / width_;
-    const bool alone = run.threads == 1 || count <= sorting_block;
-    const std::size_t room = alone ? std::min(count, sorting_block) : count;
-    tile_of_.resize(std::max(tile_of_.size(), room));
-    places_.resize(std::max(places_.size(), room * width_));
-    if (!alone) listed_.resize(std::max(listed_.size(), count));
-    const std::size_t blocks = block_count(count, sorting_block);
-    std::vector<Listing> listings(alone ? 0 : blocks);
-    const auto bits = static_cast<unsigned>(std::bit_width(tiling_->count() - 1));
-    const unsigned shift = bits - std::min(bits, static_cast<unsigned>(std::countr_zero(sections)));
-    const auto find = [&](const Block& b) {
-        const std::size_t at = alone ? 0 : b.first;  // one thread uses the same room again
-        tiling_->find(rows.subspan(b.first * width_, (b.last - b.first) * width_),
-                      tile_of_.data() + at, places_.data() + at * width_);
-        if (alone)
-            points_.add(places_.data(), tile_of_.data(), 0, b.last - b.first);
-        else
-            listings[b.index] = list(tile_of_.data(), shift, b, listed_.data() + b.first);
-    };
-    for_each_block(run, count, sorting_block, find, true);
-    if (alone) return;
-    const auto add = [&](const Block& s) {
-        for (std::size_t b = 0; b < blocks; ++b) {
-            const std::uint32_t* listed = listed_.data() + b * sorting_block;
-            points_.add_listed(places_.data(), tile_of_.data(),
-                               {listed + listings[b][s.index], listed + listings[b][s.index + 1]});
+    const std::size_t end = waits_ + rows.size() / width_;
+    const auto sort_stream = [&](const Block& stream) {
+        std::vector<std::uint32_t> tile_of(sorting_block);
+        std::vector<double> places(sorting_block * width_);
+        for (std::size_t at = waits_; at < end;) {
+            const std::size_t chunk = at / stream_chunk;
+            const std::size_t last = std::min(end, (chunk + 1) * stream_chunk);
+            for (; chunk % streams == stream.index && at < last; at += sorting_block) {
+                const std::size_t some = std::min(sorting_block, last - at);
+                const auto here = rows.subspan((at - waits_) * width_, some * width_);
+                tiling_->find(here, tile_of.data(), places.data());
+                points_[stream.index].add(places.data(), tile_of.data(), some);
+            }
+            at = last;
         }
     };
-    for_each_block(run, sections, 1, add, true);
+    RunContext context = run;
+    if (end - waits_ <= stream_chunk) context.threads = 1;
+    for_each_block(context, streams, 1, sort_stream, true);
 }
 
 /// Spreads block by block of bands across the last axis, which stay in the caches meanwhile: a
@@ -334,19 +310,29 @@ void Spreader::spread_colour(std::size_t colour, const RunContext& run) {
     for_each_block(run, tiles, block, spread, true);
 }
 
+template <class Visit>
+void Spreader::visit(std::size_t tile, Visit&& visit) const {
+    for (std::size_t s = 0; s < streams; ++s) {
+        if (s + 1 < streams) points_[s + 1].expect(tile);
+        points_[s].visit(tile, visit);
+    }
+}
+
 void Spreader::spread_tile(std::size_t number, TileSums& sums, const RunContext& run) const {
     constexpr std::size_t rows_ahead = 4;  // too many at once would keep the points' own waiting
     constexpr std::size_t few = 16;        // points that touch fewer cells than the tile has
-    if (points_.empty(number)) return;
-    if (points_.has_at_most(number, few))
+    std::size_t count = 0;
+    for (const TilePoints& points : points_) count += points.count_in_block(number);
+    if (count == 0) return;
+    if (count <= few)
         if (const auto tile = tiling_->describe_in_place(number))
-            return points_.visit(number, [&](std::span<const double> rows) {
+            return visit(number, [&](std::span<const double> rows) {
                 spread_points(rows, dimension_, *tile, tiling_->place(*tile));
             });
     const SpreadTile tile = tiling_->describe(number);
     std::size_t row = 0;
     sums.begin();
-    points_.visit(number, [&](std::span<const double> rows) {
+    visit(number, [&](std::span<const double> rows) {
         run.check_stop();
         tiling_->fetch(tile, row, row + rows_ahead);
         row += rows_ahead;

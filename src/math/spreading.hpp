@@ -15,7 +15,7 @@
 //         each other, and where tiles do they are added in the order of their colours; so every
 //         cell has its summands in a fixed order.
 // Beware  M x is never rounded to a double: the product's high part is exact, and the place between
-//         two grid points keeps all its bits.
+//         two grid points keeps 52 bits.
 #pragma once
 
 #include <cstddef>
@@ -40,7 +40,7 @@ struct CellGrid {
     static constexpr std::size_t smallest_side = 2 * Interpolator::max_width;
 };
 
-/// Points that are sorted at a time: as many as cells, but at least 2^20 and at most 2^22.
+/// Points that are sorted at a time: about as many as cells, but at least 2^20 and at most 2^22.
 std::size_t spreading_batch(const CellGrid& grid);
 
 class Tiling;
@@ -72,18 +72,17 @@ class Spreader {
     void spread_band(std::size_t band, TileSums& sums, const RunContext& run) const;
     void spread_colour(std::size_t colour, const RunContext& run);
     void spread_tile(std::size_t number, TileSums& sums, const RunContext& run) const;
+    template <class Visit>
+    void visit(std::size_t tile, Visit&& visit) const;
 
     WeightTable table_;
     std::unique_ptr<Tiling> tiling_;
     std::size_t dimension_;
-    std::size_t width_;      ///< numbers of a row
-    std::size_t batch_;      ///< points of a batch
-    std::size_t together_;   ///< points of a tile that are added up in a row
-    std::size_t waits_ = 0;  ///< points that are sorted, and not spread yet
-    TilePoints points_;
-    std::vector<std::uint32_t> tile_of_;
-    std::vector<std::uint32_t> listed_;
-    std::vector<double> places_;  ///< in their tiles
+    std::size_t width_;               ///< numbers of a row
+    std::size_t batch_;               ///< points of a batch
+    std::size_t together_;            ///< points of a tile that are added up in a row
+    std::size_t waits_ = 0;           ///< points that are sorted, and not spread yet
+    std::vector<TilePoints> points_;  ///< of each stream
 };
 
 }  // namespace stipple

@@ -22,43 +22,30 @@ TilePoints::TilePoints(std::size_t tiles, std::size_t numbers, std::size_t capac
 }
 
 std::uint32_t TilePoints::next_block(List& list) {
-    const std::uint32_t fresh = used_.fetch_add(1, std::memory_order_relaxed);
+    const std::uint32_t fresh = used_++;
     fetch<1>(fresh);  // the nearest caches have no room for a block of every tile
     (list.end == 0 ? list.first : next_[list.end / block - 1]) = fresh;
     return fresh * static_cast<std::uint32_t>(block);
 }
 
-template <std::size_t Numbers, class RowAt>
-void TilePoints::append(const double* rows, const std::uint32_t* tile_of, std::size_t count,
-                        RowAt row_at) {
+template <std::size_t Numbers>
+void TilePoints::append(const double* rows, const std::uint32_t* tile_of, std::size_t count) {
     constexpr std::size_t ahead = 8;  // the nearest cache has no room for a line of every tile
     double* room = room_.numbers().data();
-    for (std::size_t k = 0; k < count; ++k) {
-        const List& later = lists_[tile_of[row_at(std::min(k + ahead, count - 1))]];
+    for (std::size_t i = 0; i < count; ++i) {
+        const List& later = lists_[tile_of[std::min(i + ahead, count - 1)]];
         __builtin_prefetch(room + std::size_t{later.end} * Numbers, 1);
-        const std::size_t i = row_at(k);
         List& list = lists_[tile_of[i]];
         if (list.end % block == 0) list.end = next_block(list);
         std::copy_n(rows + i * Numbers, Numbers, room + std::size_t{list.end++} * Numbers);
     }
 }
 
-void TilePoints::add(const double* rows, const std::uint32_t* tile_of, std::size_t first,
-                     std::size_t last) {
-    const auto row_at = [&](std::size_t k) { return first + k; };
-    if (numbers_ == 1) return append<1>(rows, tile_of, last - first, row_at);
-    if (numbers_ == 2) return append<2>(rows, tile_of, last - first, row_at);
-    if (numbers_ == 3) return append<3>(rows, tile_of, last - first, row_at);
-    append<4>(rows, tile_of, last - first, row_at);
-}
-
-void TilePoints::add_listed(const double* rows, const std::uint32_t* tile_of,
-                            std::span<const std::uint32_t> listed) {
-    const auto row_at = [&](std::size_t k) { return listed[k]; };
-    if (numbers_ == 1) return append<1>(rows, tile_of, listed.size(), row_at);
-    if (numbers_ == 2) return append<2>(rows, tile_of, listed.size(), row_at);
-    if (numbers_ == 3) return append<3>(rows, tile_of, listed.size(), row_at);
-    append<4>(rows, tile_of, listed.size(), row_at);
+void TilePoints::add(const double* rows, const std::uint32_t* tile_of, std::size_t count) {
+    if (numbers_ == 1) return append<1>(rows, tile_of, count);
+    if (numbers_ == 2) return append<2>(rows, tile_of, count);
+    if (numbers_ == 3) return append<3>(rows, tile_of, count);
+    append<4>(rows, tile_of, count);
 }
 
 void TilePoints::clear() {

@@ -6,7 +6,6 @@
 // Cost    O(1) a point. Memory of n points: at most that of n + 31 min(n, tiles).
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -25,20 +24,17 @@ class TilePoints {
     /// @param capacity points that there is room for, at most 2^26.
     TilePoints(std::size_t tiles, std::size_t numbers, std::size_t capacity);
 
-    /// Adds rows [first, last) to their tiles. Threads may add to different tiles at once.
-    void add(const double* rows, const std::uint32_t* tile_of, std::size_t first, std::size_t last);
+    /// Adds rows to their tiles.
+    void add(const double* rows, const std::uint32_t* tile_of, std::size_t count);
 
-    /// Adds those of the rows that are listed.
-    void add_listed(const double* rows, const std::uint32_t* tile_of,
-                    std::span<const std::uint32_t> listed);
-
-    [[nodiscard]] bool empty(std::size_t tile) const { return lists_[tile].end == 0; }
-
-    /// Whether the tile has so many points or fewer, 1 to `block`.
-    [[nodiscard]] bool has_at_most(std::size_t tile, std::size_t count) const {
+    /// The tile's points, if they fill no more than a block; else some more than that.
+    [[nodiscard]] std::size_t count_in_block(std::size_t tile) const {
         const List list = lists_[tile];
-        return list.end <= list.first * block + count;
+        return list.end == 0 ? 0 : list.end - list.first * block;
     }
+
+    /// Tells the processor that the tile is visited soon.
+    void expect(std::size_t tile) const { fetch<3>(lists_[tile].first); }
 
     /// Calls visit(rows) for the tile's points, up to `block` of them at a time.
     template <class Visit>
@@ -67,8 +63,8 @@ class TilePoints {
         std::uint32_t end = 0;    ///< place for the next point; 0: there is no block yet
     };
 
-    template <std::size_t Numbers, class RowAt>
-    void append(const double* rows, const std::uint32_t* tile_of, std::size_t count, RowAt row_at);
+    template <std::size_t Numbers>
+    void append(const double* rows, const std::uint32_t* tile_of, std::size_t count);
     std::uint32_t next_block(List& list);
 
     /// Tells the processor that a block is wanted soon, and how near.
@@ -82,8 +78,8 @@ class TilePoints {
     std::size_t numbers_;
     Rows room_;
     std::vector<List> lists_;
-    std::vector<std::uint32_t> next_;     ///< block after each
-    std::atomic<std::uint32_t> used_{1};  ///< blocks; the first stays empty, so that 0 means none
+    std::vector<std::uint32_t> next_;  ///< block after each
+    std::uint32_t used_ = 1;           ///< blocks; the first stays empty, so that 0 means none
 };
 
 }  // namespace stipple

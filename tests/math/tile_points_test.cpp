@@ -47,28 +47,30 @@ TEST(TilePoints, KeepEachTilesPointsInTheirOrder) {
             const Given given(count, numbers);
             TilePoints points(5, numbers, count);
             const std::size_t half = count / 2;
-            points.add(given.rows.data(), given.tile_of.data(), 0, half);
-            points.add(given.rows.data(), given.tile_of.data(), half, count);
+            points.add(given.rows.data(), given.tile_of.data(), half);
+            points.add(given.rows.data() + half * numbers, given.tile_of.data() + half,
+                       count - half);
             for (std::size_t t = 0; t < 5; ++t) {
                 EXPECT_EQ(points_of(points, t), given.wanted[t]) << count << " points, tile " << t;
-                EXPECT_EQ(points.empty(t), given.wanted[t].empty());
+                EXPECT_EQ(points.count_in_block(t) == 0, given.wanted[t].empty());
             }
         }
 }
 
-TEST(TilePoints, TakeThoseThatAreListed) {
-    const Given given(300, 2);
-    TilePoints points(5, 2, 300);
-    std::vector<std::uint32_t> listed;
-    Numbers wanted;
-    for (std::uint32_t i = 0; i < 300; i += 5) {  // all of tile 0
-        listed.push_back(i);
-        wanted.insert(wanted.end(), {given.rows[2 * i], given.rows[2 * i + 1]});
+// Some more than a block holds, when a second one follows.
+TEST(TilePoints, CountThoseOfABlock) {
+    TilePoints points(2, 1, 100);
+    const Numbers rows(40, 0.5);
+    std::vector<std::uint32_t> tile_of(40, 1);
+    for (std::size_t i = 0; i < 40; ++i) {
+        if (i <= TilePoints::block) {
+            EXPECT_EQ(points.count_in_block(1), i);
+        } else {
+            EXPECT_GT(points.count_in_block(1), TilePoints::block);
+        }
+        EXPECT_EQ(points.count_in_block(0), 0U);
+        points.add(rows.data(), tile_of.data(), 1);
     }
-    points.add_listed(given.rows.data(), given.tile_of.data(), listed);
-    EXPECT_EQ(points_of(points, 0), wanted);
-    EXPECT_TRUE(points.empty(1));
-    EXPECT_TRUE(points.empty(4));
 }
 
 // As many points as there is room for, all in one tile, then one in each, again and again.
@@ -81,13 +83,13 @@ TEST(TilePoints, HaveRoomForTheirCapacityWhereverThePointsAre) {
     std::vector<std::uint32_t> each(count);
     std::iota(each.begin(), each.end(), 0U);
     for (int round = 0; round < 3; ++round) {
-        points.add(rows.data(), one.data(), 0, count);
+        points.add(rows.data(), one.data(), count);
         EXPECT_EQ(points_of(points, 7), rows);
-        EXPECT_TRUE(points.empty(8));
+        EXPECT_EQ(points.count_in_block(8), 0U);
         points.clear();
-        points.add(rows.data(), each.data(), 0, count);
+        points.add(rows.data(), each.data(), count);
         for (std::size_t t = 0; t < count; ++t) EXPECT_EQ(points_of(points, t), Numbers{rows[t]});
         points.clear();
-        EXPECT_TRUE(points.empty(7));
+        EXPECT_EQ(points.count_in_block(7), 0U);
     }
 }
