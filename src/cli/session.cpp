@@ -21,8 +21,8 @@ namespace stipple::cli {
 namespace {
 
 std::stop_source& interrupts() {
-    static std::stop_source source;
-    return source;
+    static auto* const source = new std::stop_source;  // signals may come when statics are gone
+    return *source;
 }
 
 pthread_t main_thread;  // NOLINT: read by the signal handler
