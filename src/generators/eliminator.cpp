@@ -85,10 +85,14 @@ class LayeredCrowd {
   public:
     LayeredCrowd(std::span<const double> rows, const BoxSpace& space, double r_max,
                  std::span<const double> shares, const RunContext& run) {
-        const double most = space.largest_distance() / r_max;  // no pair is farther apart
+        std::vector<double> radii;
         std::map<int, std::vector<std::uint32_t>> by_size;
-        for (std::size_t i = 0; i < shares.size(); ++i)
-            by_size[std::ilogb(std::min(shares[i], most))].push_back(static_cast<std::uint32_t>(i));
+        const double most = space.largest_distance() / r_max;  // no pair is farther apart
+        for (const double given : shares) {
+            const double share = std::min(given, most);
+            by_size[std::ilogb(share)].push_back(static_cast<std::uint32_t>(radii.size()));
+            radii.push_back(r_max * share);
+        }
         std::vector<double> some;
         for (const auto& [size, members] : by_size) {
             some.clear();
@@ -96,7 +100,7 @@ class LayeredCrowd {
             for (const std::uint32_t i : members) {
                 const auto row = rows.begin() + static_cast<std::ptrdiff_t>(i * D);
                 some.insert(some.end(), row, row + D);
-                layer.largest = std::max(layer.largest, r_max * std::min(shares[i], most));
+                layer.largest = std::max(layer.largest, radii[i]);
             }
             // Points of small radii may all be in a small part of the box.
             const GridFrame<D> frame(space.box, space.torus, layer.largest,
@@ -105,7 +109,7 @@ class LayeredCrowd {
             for (std::size_t t = 0; t < members.size(); ++t) {
                 const std::uint32_t i = members[layer.points->original(t)];
                 originals_.push_back(i);
-                radii_.push_back(r_max * std::min(shares[i], most));
+                radii_.push_back(radii[i]);
                 layer_of_.push_back(static_cast<std::uint8_t>(layers_.size()));
             }
             layers_.push_back(std::move(layer));

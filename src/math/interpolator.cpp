@@ -69,6 +69,7 @@ Interpolator::Interpolator(std::size_t width, double band, double shape)
                                         static_cast<double>(samples()));
     even_ = part(false);
     odd_ = part(true);
+    error_ = largest_error();
 }
 
 double Interpolator::scaling(double xi) const {
@@ -159,7 +160,7 @@ std::array<double, Interpolator::max_width> Interpolator::weights(double u) cons
     return weights;
 }
 
-double Interpolator::error() const {
+double Interpolator::largest_error() const {
     constexpr std::size_t places = 6;       // between two grid points; the error is smooth there
     const auto place = [](std::size_t p) {  // symmetric about 1/2
         return static_cast<double>(p) / (2 * (places - 1));
@@ -195,9 +196,8 @@ Interpolator interpolator_for(double tolerance, double band) {
     constexpr double hopeless = 1.6;  // times the best shape's error, of any other one
     for (;; ++width) {
         Interpolator first(width, band, shapes[0]);
-        const double error = first.error();
-        if (error <= tolerance || width == Interpolator::max_width) return first;
-        if (error > hopeless * tolerance) continue;
+        if (first.error() <= tolerance || width == Interpolator::max_width) return first;
+        if (first.error() > hopeless * tolerance) continue;
         for (std::size_t i = 1; i < shapes.size(); ++i) {
             Interpolator other(width, band, shapes[i]);
             if (other.error() <= tolerance) return other;

@@ -19,13 +19,11 @@
 //
 // Source  J. A. Fessler, B. P. Sutton, IEEE Trans. Signal Process. 51 (2003) 560-574,
 //         doi:10.1109/TSP.2002.807005 (interpolators and scaling factors; there the largest error
-//         is made least); A. Nguyen, Q. H. Liu, SIAM J. Sci. Comput. 21 (1999) 283-293,
-//         doi:10.1137/S1064827597324613 (least squares).
+//         is made least).
 #pragma once
 
 #include <array>
 #include <cstddef>
-#include <span>
 #include <vector>
 
 namespace stipple {
@@ -55,7 +53,7 @@ class Interpolator {
     /// Largest error of exp(-2 pi i xi x), |xi| <= band, of one point in one dimension, after
     /// spreading it, transforming and dividing by the scaling factors; it is looked for at so many
     /// places that not a tenth more is anywhere.
-    [[nodiscard]] double error() const;
+    [[nodiscard]] double error() const { return error_; }
 
     /// How much the division by the scaling factors magnifies rounding errors at the end of the
     /// band, beside those at 0.
@@ -85,6 +83,7 @@ class Interpolator {
 
     [[nodiscard]] std::size_t samples() const { return 2 * width_; }
     [[nodiscard]] Part part(bool odd) const;
+    [[nodiscard]] double largest_error() const;
 
     std::size_t width_;
     double band_;
@@ -93,6 +92,7 @@ class Interpolator {
     std::array<double, max_samples> frequency_{};  ///< at which there are equations
     Part even_;
     Part odd_;
+    double error_;
 };
 
 /// The narrowest interpolator of some shapes whose error() is at most `tolerance`, or else the
