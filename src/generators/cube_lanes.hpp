@@ -168,23 +168,106 @@ STIPPLE_INLINE PartBits open_cube(const NearBalls& near, const Pattern& p,
     return open.bits();
 }
 
-void cover_row(const std::array<float, 3>& scales, const std::array<float, 3>& play,
-               const std::array<float, 3>& center, int steps, PartBits* out) {
-    const Pattern p(scales, 0);
-    const auto far = [&](V along, std::size_t k, float from) STIPPLE_LAMBDA {
-        return far_square(along, same(from - 2 * p.part[k]), p.part[k] + 2 * play[k]);
-    };
-    const V left = (1 - float_slack) - far(p.along_z, 2, center[2]);
-    for (int step = -steps; step <= steps; ++step) {
-        const V far_x = far(p.along_x, 0, center[0] - static_cast<float>(step) * scales[0]);
-        Rows open;
-        for (std::size_t row = 0; row < Pattern::rows; ++row) {
-            const V sum = far_x + far(p.along_y[row], 1, center[1]);
-            for (std::size_t layer = 0; layer < 4; ++layer)
-                open.keep_not_below(layer, row, sum, same(left[layer]));
+STIPPLE_INLINE V square_root(V x) {
+#if STIPPLE_LANES == 16
+    return _mm512_maskz_sqrt_ps(0xffff, x);
+#elif STIPPLE_LANES == 8
+    return _mm256_sqrt_ps(x);
+#elif defined(__SSE2__)
+    return _mm_sqrt_ps(x);
+#else
+    V roots;
+    for (std::size_t l = 0; l < lanes; ++l) roots[l] = std::sqrt(x[l]);
+    return roots;
+#endif
+}
+
+/// Sixteen lines of parts beside each other that a ball reaches, for each layer of them.
+struct LineCover {
+    static constexpr std::size_t rows = 16 / lanes;
+    /// A ball reaches seven parts to each side, and into an eighth.
+    static constexpr int reach = 8;
+    static constexpr int words = static_cast<int>(BallLines::words);
+    static constexpr int along = static_cast<int>(BallLines::along);
+
+    int first;                  ///< line, from the cell's corner
+    std::array<V, rows> far_y;  ///< squared distances to the far sides of the lines
+    float x;                    ///< of the centre, from `reach` parts before the cell, in parts
+    float per_part;
+    int word;        ///< with the first bit
+    unsigned shift;  ///< of that
+
+    STIPPLE_INLINE LineCover(const std::array<float, 3>& scales, const PlacedBall& ball) {
+        const float part = scales[1] / 4;
+        first = std::min(static_cast<int>(ball.off[1] / part), 3) - (reach - 1);
+        V ramp;
+        for (std::size_t l = 0; l < lanes; ++l) ramp[l] = static_cast<float>(l) + 0.5F;
+        for (std::size_t row = 0; row < rows; ++row) {
+            const V middle = ramp + static_cast<float>(first + static_cast<int>(row * lanes));
+            // Lines beyond the tile are far away.
+            const V from_tile = absolute(middle + static_cast<float>(4 * ball.cell[1] - along / 2));
+            const V beyond = larger(from_tile - static_cast<float>(along / 2), V{});
+            const V far = absolute(middle * part - ball.off[1]) + part / 2 + beyond * 16;
+            far_y[row] = far * far;
         }
-        *out++ = ~open.bits();
+        per_part = 4 / scales[0];
+        x = ball.off[0] * per_part + reach;
+        const int bit = 4 * ball.cell[0] - reach;
+        word = bit >> 5;
+        shift = static_cast<unsigned>(bit & 31);
     }
+
+    /// Bits, from the first one on, of the parts that are not farther than that.
+    /// @param left what is left of the squared radius
+    [[nodiscard]] STIPPLE_INLINE Bits of(std::size_t row, float left) const {
+        const V half = square_root(larger(left - far_y[row], V{})) * per_part;
+        const Bits from = __builtin_convertvector(x - half, Bits) + 1;
+        const Bits to = __builtin_convertvector(x + half, Bits);
+        const Bits one = Bits{} + 1;
+        const Bits bits = (one << to) - (one << from);
+        return bits > 0 ? bits : Bits{};  // to may be before from
+    }
+};
+
+STIPPLE_INLINE void add_bits(Bits bits, std::uint32_t* to) {
+    Bits all;
+    std::memcpy(&all, to, sizeof all);
+    all |= bits;
+    std::memcpy(to, &all, sizeof all);
+}
+
+STIPPLE_INLINE void cover_ball(const std::array<float, 3>& scales, const PlacedBall& ball,
+                               std::uint32_t* lines) {
+    using Words [[gnu::vector_size(4 * lanes)]] = std::uint32_t;
+    constexpr int reach = LineCover::reach;
+    constexpr int along = LineCover::along;
+    const LineCover cover(scales, ball);
+    const bool in_first = cover.word >= 0 && cover.word < LineCover::words;
+    const bool in_next =
+        cover.shift > 12 && cover.word + 1 >= 0 && cover.word + 1 < LineCover::words;
+    const float part = scales[2] / 4;
+    const int middle = static_cast<int>(ball.off[2] / part);
+    const int above = 4 * ball.cell[2];
+    const int low = std::max(middle - (reach - 1), -above);
+    const int high = std::min(middle + reach, along - above);
+    lines += static_cast<int>(BallLines::pad) + cover.word * along + 4 * ball.cell[1] + cover.first;
+    for (int z = low; z < high; ++z) {
+        const float far = std::abs((static_cast<float>(z) + 0.5F) * part - ball.off[2]) + part / 2;
+        const float left = (1 - float_slack) - far * far;
+        if (left <= 0) continue;
+        std::uint32_t* const to = lines + (above + z) * static_cast<int>(BallLines::layer);
+        for (std::size_t row = 0; row < LineCover::rows; ++row) {
+            const Bits bits = cover.of(row, left);
+            if (in_first) add_bits(bits << cover.shift, to + row * lanes);
+            if (in_next)
+                add_bits((Bits)((Words)bits >> (32 - cover.shift)), to + along + row * lanes);
+        }
+    }
+}
+
+void cover_lines(const std::array<float, 3>& scales, std::span<const PlacedBall> balls,
+                 std::uint32_t* lines) {
+    for (const PlacedBall& ball : balls) cover_ball(scales, ball, lines);
 }
 
 void open_cubes(const NearBalls& near, const std::array<float, 3>& scales,

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "generators/cube_windows.hpp"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 #include "core/vectors.hpp"
+#include "generators/ball_lines.hpp"
 
 #define STIPPLE_LAMBDA __attribute__((always_inline))
 
@@ -40,7 +43,7 @@ struct Kernels {
     decltype(&anywhere::open_parts) open_parts = &anywhere::open_parts;
     decltype(&anywhere::find_hits) find_hits = &anywhere::find_hits;
     decltype(&anywhere::find_near) find_near = &anywhere::find_near;
-    decltype(&anywhere::cover_row) cover_row = &anywhere::cover_row;
+    decltype(&anywhere::cover_lines) cover_lines = &anywhere::cover_lines;
 };
 
 Kernels fastest_here() {
@@ -48,10 +51,10 @@ Kernels fastest_here() {
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
         __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
         return {&sixteens::open_cubes, &sixteens::open_parts, &sixteens::find_hits,
-                &sixteens::find_near, &sixteens::cover_row};
+                &sixteens::find_near, &sixteens::cover_lines};
     if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi"))
         return {&eights::open_cubes, &eights::open_parts, &eights::find_hits, &eights::find_near,
-                &eights::cover_row};
+                &eights::cover_lines};
 #endif
     return {};
 }
@@ -75,9 +78,9 @@ std::size_t find_near(const std::array<const float*, 3>& along, std::size_t firs
     return kernels.find_near(along, first, last, place, squared, out);
 }
 
-void cover_row(const std::array<float, 3>& scales, const std::array<float, 3>& play,
-               const std::array<float, 3>& center, int steps, PartBits* out) {
-    kernels.cover_row(scales, play, center, steps, out);
+void cover_lines(const std::array<float, 3>& scales, std::span<const PlacedBall> balls,
+                 std::uint32_t* lines) {
+    kernels.cover_lines(scales, balls, lines);
 }
 
 void find_hits(const NearBalls& near, std::span<const std::array<float, 3>> places, Hit* out) {

@@ -58,13 +58,6 @@ struct OpenPart {
 std::size_t open_parts(const NearBalls& near, const std::array<float, 3>& scales, PartBits some,
                        OpenPart* out);
 
-/// Parts of cells of a row that one ball covers wherever its centre is within `play` of `center`
-/// along each direction.
-/// @param scales sides of a cell @param center from the corner of the cell in the middle
-/// @param steps from there to the row's ends
-void cover_row(const std::array<float, 3>& scales, const std::array<float, 3>& play,
-               const std::array<float, 3>& center, int steps, PartBits* out);
-
 /// Whether a disk covers the place, for each.
 void find_hits(const NearBalls& near, std::span<const std::array<float, 3>> places, Hit* out);
 

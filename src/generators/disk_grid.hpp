@@ -26,7 +26,7 @@ struct DiskGrid {
     using Point = std::array<double, D>;
     using Index = std::array<std::uint32_t, D>;
 
-    static constexpr unsigned tile_bits = D == 2 ? 6 : D == 3 ? 4 : D == 4 ? 3 : 2;
+    static constexpr unsigned tile_bits = D == 2 ? 6 : D == 3 ? 5 : D == 4 ? 3 : 2;
     static constexpr std::uint32_t tile_side = 1U << tile_bits;
 
     /// Cells for `cell_radius`, which is at most `radius`: a grid may serve several radii.

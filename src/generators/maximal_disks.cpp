@@ -14,6 +14,7 @@
 #include "generators/disk_tiles.hpp"
 #include "generators/plane_disks.hpp"
 #include "generators/space_disks.hpp"
+#include "generators/space_tiles.hpp"
 #include "generators/tile_rows.hpp"
 #include "math/mixer.hpp"
 
@@ -425,8 +426,11 @@ double memory_for(const std::vector<double>& along, double points) {
         const double rows = along[1] + 4 * std::ceil(along[1] / 64);
         return 14 * known * std::ceil(along[0] / 64) * rows + 45 * points + 4 * cells;
     }
-    if (along.size() == 3)  // what tiles know; a point, its copy, what others know of it; windows;
-        return 15 * cells + 175 * points + std::min(26e6, 20 * cells);  // and stamps
+    if (along.size() == 3) {  // what tiles know; a point, its copy, what others know of it; windows
+        double tiles = 1;
+        for (const double count : along) tiles *= std::ceil(count / space_side);
+        return static_cast<double>(SpaceTile::bytes) * tiles + 140 * points;
+    }
     // A point, its copy and the candidates of a shower; windows.
     return points * (2 * 8 * d + 0.6 * (8 * d + 9)) + 1.5 * cells * (8 * d + 8);
 }

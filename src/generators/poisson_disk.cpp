@@ -285,7 +285,7 @@ Generator poisson_disk() {
             .options = Schema(radius, about, density, invert_option, radius_map, mask, torus_option,
                               bounded_option, order),
             .aliases = {"poisson", "poisson-disc"},
-            .stream_version = 3,
+            .stream_version = 4,
             .plan = plan,
             .set = make};
 }

@@ -10,9 +10,24 @@
 #include <cstdint>
 #include <vector>
 
+#include "generators/disk_grid.hpp"
+
 namespace stipple {
 
 using SpaceCell = std::array<int, 3>;  ///< of a tile, from its first one on
+
+/// Cells along each side of a tile.
+inline constexpr int space_bits = static_cast<int>(DiskGrid<3>::tile_bits);
+inline constexpr int space_side = 1 << space_bits;
+
+/// A cell's number in its tile.
+inline std::uint16_t space_place(const SpaceCell& cell) {
+    return static_cast<std::uint16_t>(cell[0] | cell[1] << space_bits | cell[2] << 2 * space_bits);
+}
+inline SpaceCell space_cell(std::uint16_t place) {
+    constexpr int low = space_side - 1;
+    return {place & low, place >> space_bits & low, place >> 2 * space_bits};
+}
 
 enum Fate : std::uint8_t { unknown, stays, goes };
 
@@ -23,7 +38,7 @@ struct SpaceDart {
     std::uint32_t time;        ///< within its shower
     std::uint16_t place;       ///< of its cell
 
-    [[nodiscard]] SpaceCell cell() const { return {place & 15, place >> 4 & 15, place >> 8}; }
+    [[nodiscard]] SpaceCell cell() const { return space_cell(place); }
     [[nodiscard]] bool before(const SpaceDart& other) const {
         return time < other.time || (time == other.time && at < other.at);
     }
@@ -65,12 +80,12 @@ class SpaceDarts {
     [[gnu::always_inline]] void for_runs(SpaceCell low, SpaceCell high, const Visit& visit) const {
         for (std::size_t k = 0; k < 3; ++k) {
             low[k] = std::max(low[k], 0);
-            high[k] = std::min(high[k], 15);
+            high[k] = std::min(high[k], space_side - 1);
             if (low[k] > high[k]) return;
         }
         for (int z = low[2] / 4; z <= high[2] / 4; ++z)
             for (int y = low[1] / 4; y <= high[1] / 4; ++y) {
-                const auto row = static_cast<std::size_t>(16 * z + 4 * y);
+                const auto row = static_cast<std::size_t>((z * along_side + y) * along_side);
                 const std::size_t first = first_[row + static_cast<std::size_t>(low[0] / 4)];
                 const std::size_t last = first_[row + static_cast<std::size_t>(high[0] / 4) + 1];
                 if (first < last) visit(first, last);
@@ -83,9 +98,12 @@ class SpaceDarts {
     [[nodiscard]] const float* along(std::size_t k) const { return along_[k].data(); }
 
   private:
-    static constexpr std::size_t cubes = 64;
+    static constexpr int along_side = space_side / 4;
+    static constexpr std::size_t cubes = power(std::size_t{along_side}, 3);
     static std::size_t cube_of(std::uint16_t place) {
-        return (place >> 2 & 3U) | (place >> 4 & 12U) | (place >> 6 & 48U);
+        const SpaceCell cell = space_cell(place);
+        return static_cast<std::size_t>((cell[2] / 4 * along_side + cell[1] / 4) * along_side +
+                                        cell[0] / 4);
     }
 
     std::uint64_t shower_ = 0;

@@ -27,7 +27,7 @@ struct SpaceDesk {
     std::vector<std::array<float, 3>> places;  ///< the same, in radii
     std::vector<Hit> hits;
     std::vector<SpaceDart> darts;
-    std::vector<SpaceTile::Addition> additions;
+    std::vector<PlacedBall> additions;
     std::vector<CubeWindow> some;  ///< of a cell
     std::vector<PartBits> open;
     std::vector<CubeWindow> cubes;
@@ -46,13 +46,13 @@ class SpaceRain {
     SpaceRain(const Grid& grid, double slack, std::uint64_t expected, std::uint64_t seed,
               const RunContext& run)
         : grid_(grid), rules_(grid), slack_(slack), keys_(seed), expected_(expected), run_(run) {
-        covered_ = unwritten_room<PartBits>(SpaceTile::covered_cells * grid.tile_count);
+        lines_ = unwritten_room<std::uint32_t>(BallLines::room * grid.tile_count);
         numbers_ = unwritten_room<std::uint16_t>(SpaceTile::halo_cells * grid.tile_count);
         tiles_.resize(grid.tile_count);
         for (std::size_t t = 0; t < grid.tile_count; ++t)
             live_.push_back(static_cast<std::uint32_t>(t));
         for_tiles([&](SpaceTile& tile, std::uint32_t t) {
-            tile = SpaceTile(rules_, t, covered_.get() + SpaceTile::covered_cells * t,
+            tile = SpaceTile(rules_, t, lines_.get() + BallLines::room * t,
                              numbers_.get() + SpaceTile::halo_cells * t);
         });
         for_tiles([&](SpaceTile& tile, std::uint32_t t) { find_neighbours(tile, t); });
@@ -61,7 +61,7 @@ class SpaceRain {
     Rows fill() {
         for (int time = 0; time < 2; ++time) rain_at_large(1.25);
         double density = 8;
-        for (int time = 0; time < 4; ++time, density *= 3) rain_on_parts(density);
+        for (int time = 0; time < 5; ++time, density *= 3) rain_on_parts(density);
         for (bool first = true; !live_.empty(); first = false, density *= growth)
             rain_on_windows(density, first);
         return collect();
@@ -113,7 +113,7 @@ class SpaceRain {
     }
 
     void rain_on_parts(double density) {
-        const Shower shower(density * one_to_a_ball / parts_of_cell, 16 * parts_of_cell);
+        const Shower shower(density * one_to_a_ball / parts_of_cell, words_together * 64);
         rain([&](SpaceTile& tile, std::uint64_t key, SpaceDesk& desk) {
             fall_on_parts(rules_, tile, shower, key, desk.darts);
         });
@@ -179,7 +179,7 @@ class SpaceRain {
         take_from(tile, tile, {}, desk);
         for (const auto& n : tile.neighbours)
             if (n.tile != nullptr) take_from(tile, *n.tile, n.steps, desk);
-        cover_all(rules_, tile, desk.additions);
+        cover_lines(rules_.scales, desk.additions, tile.lines());
     }
 
     void take_from(SpaceTile& tile, SpaceTile& other, const SpaceCell& steps, SpaceDesk& desk) {
@@ -305,10 +305,12 @@ class SpaceRain {
     /// The first windows are the parts of cells that no ball covers alone.
     void fall_on_open_parts(SpaceTile& tile, const std::vector<Shower>& showers, std::uint64_t key,
                             SpaceDesk& desk) const {
-        for (std::uint16_t place = 0; place < 4096; ++place) {
-            const PartBits open = ~*tile.covered(SpaceTile::cell_at(place));
-            if (open == 0) continue;
+        std::array<PartBits, 8> eight;
+        for (std::uint16_t place = 0; place < power(std::size_t{SpaceTile::side}, 3); ++place) {
             const SpaceCell cell = SpaceTile::cell_at(place);
+            if (place % 8 == 0) eight = parts_of_eight(tile.lines(), cell);
+            const PartBits open = ~eight[place % 8U];
+            if (open == 0) continue;
             tile.gather(cell, open, desk.near);
             std::array<OpenPart, 65> parts;
             const std::size_t count = open_parts(desk.near, rules_.scales, open, parts.data());
@@ -333,7 +335,7 @@ class SpaceRain {
         for (std::size_t i = 0; i < all.size();) {
             const std::uint16_t place = all[i].place;
             const SpaceCell cell = SpaceTile::cell_at(place);
-            const PartBits covered = *tile.covered(cell);
+            const PartBits covered = parts_of(tile.lines(), cell);
             PartBits some = 0;
             desk.some.clear();
             for (; i < all.size() && all[i].place == place; ++i) {
@@ -463,7 +465,7 @@ class SpaceRain {
     }
 
     Rows collect() {
-        covered_.reset();
+        lines_.reset();
         numbers_.reset();
         for (SpaceTile& tile : tiles_) tile.drop();
         return rows_of_tiles(
@@ -476,7 +478,7 @@ class SpaceRain {
     Rng keys_;
     std::uint64_t expected_;
     const RunContext& run_;
-    std::unique_ptr<PartBits[]> covered_;  ///< of all tiles' cells, as the next
+    std::unique_ptr<std::uint32_t[]> lines_;  ///< of all tiles, as the next
     std::unique_ptr<std::uint16_t[]> numbers_;
     std::vector<SpaceTile> tiles_;
     std::vector<std::uint32_t> live_;  ///< tiles with something open

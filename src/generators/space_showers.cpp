@@ -2,6 +2,7 @@
 #include "generators/space_showers.hpp"
 
 #include <bit>
+#include <cstring>
 
 #include "core/rng.hpp"
 #include "core/wide.hpp"
@@ -44,7 +45,7 @@ void fall_at_large(const SpaceRules& rules, const SpaceTile& tile, const Shower&
                 std::size_t part = 0;
                 for (std::size_t k = 3; k-- > 0;)
                     part = part * 4 + static_cast<std::size_t>(place[k] * 4);
-                if ((*tile.covered(cell) >> part & 1) != 0) continue;
+                if (has_part(tile.lines(), cell, part)) continue;
                 SpaceRules::Quad off{};
                 for (std::size_t k = 0; k < 3; ++k)
                     off[k] = static_cast<float>(place[k] * rules.grid.scales[k]);
@@ -55,60 +56,79 @@ void fall_at_large(const SpaceRules& rules, const SpaceTile& tile, const Shower&
     }
 }
 
+namespace {
+
+/// Open parts of 8 x 4 cells beside each other: of sixteen lines in four layers.
+class OpenUnit {
+  public:
+    static constexpr std::size_t units =
+        BallLines::along * BallLines::along * BallLines::words / (2 * words_together);
+
+    [[gnu::always_inline]] OpenUnit(const SpaceTile& tile, std::size_t unit) {
+        const std::size_t column = unit * 2 * pairs / BallLines::along;
+        const std::size_t word = column % BallLines::words;
+        first_ = {32 * word, unit * 2 * pairs % BallLines::along, column / BallLines::words * 4};
+        const std::uint32_t* lines = tile.lines() + BallLines::at(word, first_[1], first_[2]);
+        for (std::size_t z = 0; z < 4; ++z, lines += BallLines::layer)
+            std::memcpy(&covered_[z * pairs], lines, pairs * sizeof(PartBits));
+        for (std::size_t i = 0; i < words_together; ++i) {
+            before_[i] = count_;
+            count_ = static_cast<std::uint16_t>(count_ + std::popcount(~covered_[i]));
+        }
+    }
+
+    [[nodiscard]] std::size_t count() const { return count_; }
+
+    /// The place of one of them in the tile, in parts.
+    [[nodiscard, gnu::always_inline]] std::array<std::size_t, 3> place(std::uint16_t n) const {
+        std::size_t word = 0;  // the last one with so many parts before it
+        for (std::size_t i = 1; i < words_together; ++i) word += before_[i] <= n ? 1 : 0;
+        const std::size_t bit = nth_bit(~covered_[word], n - std::size_t{before_[word]});
+        return {first_[0] + bit % 32, first_[1] + 2 * (word % pairs) + bit / 32,
+                first_[2] + word / pairs};
+    }
+
+  private:
+    static constexpr std::size_t pairs = words_together / 4;  // of lines, in a layer
+
+    std::array<std::size_t, 3> first_;
+    std::array<PartBits, words_together> covered_;      ///< two lines in a word
+    std::array<std::uint16_t, words_together> before_;  ///< open ones in the words before
+    std::uint16_t count_ = 0;
+};
+
+}  // namespace
+
 STIPPLE_WIDE void fall_on_parts(const SpaceRules& rules, const SpaceTile& tile,
                                 const Shower& shower, std::uint64_t key,
                                 std::vector<SpaceDart>& darts) {
     using Quad = SpaceRules::Quad;
     using Digits [[gnu::vector_size(16)]] = std::int32_t;
-    constexpr int side = SpaceTile::side;
     constexpr double grain = 0x1p-23;
     const Quad to_radii =
         Quad{rules.scales[0], rules.scales[1], rules.scales[2], 0} * static_cast<float>(grain);
-    for (int row = 0; row < side * side; ++row) {
-        const SpaceCell first{0, row % side, row / side};
-        if (first[1] >= tile.size(1) || first[2] >= tile.size(2)) continue;
-        const PartBits* covered = tile.covered(first);
-        std::array<std::uint16_t, side> before;  // parts in the cells before
-        std::uint16_t count = 0;
-        for (std::size_t x = 0; x < side; ++x) {
-            before[x] = count;
-            count = static_cast<std::uint16_t>(count + std::popcount(~covered[x]));
-        }
-        if (count == 0) continue;
-        Mixer mixer(key + static_cast<std::uint64_t>(row));
-        for (std::uint64_t left = shower.on(count, mixer); left > 0; --left) {
+    for (std::size_t u = 0; u < OpenUnit::units; ++u) {
+        const OpenUnit unit(tile, u);
+        if (unit.count() == 0) continue;
+        Mixer mixer(key + u);
+        for (std::uint64_t left = shower.on(unit.count(), mixer); left > 0; --left) {
             const std::uint64_t which = mixer.next();
             const std::uint64_t where = mixer.next();
-            const auto n = static_cast<std::uint16_t>((which >> 32) * count >> 32);
-            std::size_t x = 0;  // the last cell with so many parts before it
-            for (std::size_t i = 1; i < side; ++i) x += before[i] <= n ? 1 : 0;
-            const std::size_t part = nth_bit(~covered[x], n - std::size_t{before[x]});
+            const auto at =
+                unit.place(static_cast<std::uint16_t>((which >> 32) * unit.count() >> 32));
+            const std::size_t part = at[0] % 4 + at[1] % 4 * 4 + at[2] % 4 * 16;
             const auto digits = [&](std::size_t k) {
-                return static_cast<std::int32_t>((part >> (2 * k) & 3) << 21 |
-                                                 (where >> (21 * k) & 0x1fffff));
+                return static_cast<std::int32_t>(at[k] % 4 << 21 | (where >> (21 * k) & 0x1fffff));
             };
             const Digits all{digits(0), digits(1), digits(2), 0};
-            const SpaceCell cell{static_cast<int>(x), first[1], first[2]};
+            const SpaceCell cell{static_cast<int>(at[0] / 4), static_cast<int>(at[1] / 4),
+                                 static_cast<int>(at[2] / 4)};
             const Hit hit = tile.hit(cell, part, __builtin_convertvector(all, Quad) * to_radii);
             if (hit == Hit::yes) continue;
             const Throw dart{
                 {all[0] * grain, all[1] * grain, all[2] * grain}, grain, which << 32 ^ where};
             land(rules, tile, cell, dart, hit, darts);
         }
-    }
-}
-
-STIPPLE_WIDE void cover_all(const SpaceRules& rules, SpaceTile& tile,
-                            std::vector<SpaceTile::Addition>& all) {
-    constexpr std::size_t ahead = 3;
-    for (std::size_t i = 0; i < all.size() + ahead; ++i) {
-        if (i < all.size()) {
-            all[i].stamp = rules.stamps.about(all[i].off);
-            const char* bytes = reinterpret_cast<const char*>(all[i].stamp);
-            for (std::size_t b = 0; b < BallStamps::words * sizeof(PartBits); b += 64)
-                __builtin_prefetch(bytes + b);
-        }
-        if (i >= ahead) tile.cover(all[i - ahead]);
     }
 }
 

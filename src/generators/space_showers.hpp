@@ -31,11 +31,11 @@ inline constexpr int cells_together = 8;  ///< that share a Poisson number
 void fall_at_large(const SpaceRules& rules, const SpaceTile& tile, const Shower& shower,
                    std::uint64_t key, bool any, std::vector<SpaceDart>& darts);
 
-/// Darts on the parts of cells that no ball covers alone, drawn for each row of cells.
+/// Of parts of cells, 64 each, that share a Poisson number.
+inline constexpr std::size_t words_together = 32;
+
+/// Darts on the parts of cells that no ball covers alone.
 void fall_on_parts(const SpaceRules& rules, const SpaceTile& tile, const Shower& shower,
                    std::uint64_t key, std::vector<SpaceDart>& darts);
-
-/// Marks what new points cover.
-void cover_all(const SpaceRules& rules, SpaceTile& tile, std::vector<SpaceTile::Addition>& all);
 
 }  // namespace stipple

@@ -7,7 +7,7 @@
 // tile is worked on.
 //
 // Shape   cells that hold one point at most, a radius leading across two of them; five along each
-//         direction, or more. Up to 16 cells along each side of a tile; a tile may be its own
+//         direction, or more. Up to 32 cells along each side of a tile; a tile may be its own
 //         neighbour on a torus.
 #pragma once
 
@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "generators/ball_stamps.hpp"
+#include "generators/ball_lines.hpp"
 #include "generators/cube_windows.hpp"
 #include "generators/disk_covers.hpp"
 #include "generators/disk_grid.hpp"
@@ -39,9 +39,9 @@ class SpaceBits {
 
     void set(const SpaceCell& halo_cell) {
         const auto x = static_cast<std::size_t>(halo_cell[0]);
-        const auto byte = static_cast<std::size_t>(halo_cell[2] * 20 + halo_cell[1]);
+        const auto byte = static_cast<std::size_t>(halo_cell[2] * across + halo_cell[1]);
         const auto bit = static_cast<std::uint8_t>(1U << (x % 4));
-        if (x < 16) bytes_[x / 4 * strip + byte] |= bit;
+        if (x < space_side) bytes_[x / 4 * strip + byte] |= bit;
         if (x >= 4) bytes_[(x / 4 - 1) * strip + byte] |= static_cast<std::uint8_t>(bit << 4);
     }
 
@@ -49,24 +49,28 @@ class SpaceBits {
     [[nodiscard]] std::uint64_t layer(const SpaceCell& cell, std::size_t z) const {
         std::uint64_t word;
         const auto x = static_cast<std::size_t>(cell[0]);
-        const auto byte = static_cast<std::size_t>(cell[2] * 20 + cell[1]);
-        std::memcpy(&word, &bytes_[x / 4 * strip + byte + 20 * z], sizeof word);
+        const auto byte = static_cast<std::size_t>(cell[2] * across + cell[1]);
+        std::memcpy(&word, &bytes_[x / 4 * strip + byte + across * z], sizeof word);
         return word >> (x % 4) & 0x1f1f1f1f1fU;
     }
 
     [[nodiscard]] bool has(const SpaceCell& cell) const { return (layer(cell, 2) >> 18 & 1) != 0; }
 
   private:
-    static constexpr std::size_t strip = 400;
-    std::array<std::uint8_t, 4 * strip + 8> bytes_{};
+    static constexpr std::size_t across = space_side + 4;
+    static constexpr std::size_t strip = across * across;
+    std::array<std::uint8_t, space_side / 4 * strip + 8> bytes_{};
 };
+
+/// Cells along a tile with those about it.
+inline constexpr int space_across = space_side + 4;
 
 /// What all tiles share.
 struct SpaceRules {
     using Grid = DiskGrid<3>;
     using Quad [[gnu::vector_size(16)]] = float;
 
-    explicit SpaceRules(const Grid& box_grid) : grid(box_grid), stamps(box_grid) {
+    explicit SpaceRules(const Grid& box_grid) : grid(box_grid) {
         for (std::size_t b = 0; b < about.size(); ++b) {
             const std::array<std::size_t, 3> along{b % 8, b % 40 / 8, b / 40};
             for (std::size_t k = 0; k < 3; ++k) {
@@ -74,7 +78,7 @@ struct SpaceRules {
                 about[b][k] = static_cast<float>(steps[b][k] * grid.scales[k]);
             }
             about[b][3] = 0;
-            cells[b] = steps[b][0] + 20 * steps[b][1] + 400 * steps[b][2];
+            cells[b] = steps[b][0] + (steps[b][1] + steps[b][2] * space_across) * space_across;
         }
         for (std::size_t part = 0; part < parts_of_cell; ++part)
             for (std::size_t b = 0; b < about.size(); ++b)
@@ -98,7 +102,6 @@ struct SpaceRules {
     }
 
     const Grid& grid;
-    BallStamps stamps;
     std::array<float, 3> scales{};
     std::array<double, 3> per_width{};
     std::array<Quad, 200> about;  ///< corners of the 5 x 5 x 5 cells about one, in radii
@@ -114,13 +117,12 @@ class SpaceTile {
     using Index = Grid::Index;
     using Point = Grid::Point;
 
-    static constexpr int side = 16;
+    static constexpr int side = space_side;
     static constexpr int halo = 2;
-    /// From one row of cells to the next, where what is covered is told for four cells more between
-    /// rows, before the first, and behind the last.
-    static constexpr int covered_row = side + 2 * halo;
-    static constexpr std::size_t halo_cells = std::size_t{20} * 20 * 20;
-    static constexpr std::size_t covered_cells = std::size_t{covered_row} * side * side + 2 * halo;
+    static constexpr std::size_t halo_cells = power(std::size_t{space_across}, 3);
+    /// What a tile takes, however few cells it has, and without points.
+    static constexpr std::size_t bytes =
+        BallLines::room * sizeof(std::uint32_t) + halo_cells * sizeof(std::uint16_t);
 
     /// A tile about another, and the cells from the first one of that to its own first.
     struct Neighbour {
@@ -129,10 +131,10 @@ class SpaceTile {
     };
 
     SpaceTile() = default;
-    /// @param covered room for covered_cells @param numbers room for halo_cells
-    SpaceTile(const SpaceRules& rules, std::size_t number, PartBits* covered,
+    /// @param lines room for BallLines::room words @param numbers room for halo_cells
+    SpaceTile(const SpaceRules& rules, std::size_t number, std::uint32_t* lines,
               std::uint16_t* numbers)
-        : rules_(&rules), covered_(covered), numbers_(numbers) {
+        : rules_(&rules), lines_(lines), numbers_(numbers) {
         const Grid& grid = rules.grid;
         for (std::size_t k = 0; k < 3; ++k, number /= grid.tiles[k - 1]) {
             const std::uint64_t t = number % grid.tiles[k];
@@ -140,11 +142,7 @@ class SpaceTile {
             const auto last = static_cast<std::uint32_t>((t + 1) * grid.cells[k] / grid.tiles[k]);
             size_[k] = static_cast<int>(last - first_[k]);
         }
-        std::fill_n(covered_, covered_cells,
-                    ~PartBits{0});  // nothing is open beyond the last cells
-        for (int z = 0; z < size_[2]; ++z)
-            for (int y = 0; y < size_[1]; ++y)
-                std::fill_n(covered_ + covered_number({0, y, z}), size_[0], PartBits{0});
+        open_cells();
         const double volume = places(0);
         places_.reserve(static_cast<std::size_t>(places(2 * halo)));
         exact_.reserve(3 * (places_.capacity() - static_cast<std::size_t>(volume)));
@@ -153,20 +151,15 @@ class SpaceTile {
 
     [[nodiscard]] const Index& first() const { return first_; }
     [[nodiscard]] int size(std::size_t k) const { return size_[k]; }
-    /// Parts that a point covers alone, of a cell and those behind it in its row.
-    [[nodiscard]] const PartBits* covered(const SpaceCell& cell) const {
-        return covered_ + covered_number(cell);
-    }
+    /// Parts that a point covers alone.
+    [[nodiscard]] std::uint32_t* lines() { return lines_; }
+    [[nodiscard]] const std::uint32_t* lines() const { return lines_; }
     [[nodiscard]] std::vector<double>& points() { return points_; }
     [[nodiscard]] const SpaceBits& taken() const { return taken_; }
 
-    static std::uint16_t place_of(const SpaceCell& cell) {
-        return static_cast<std::uint16_t>(cell[0] | cell[1] << 4 | cell[2] << 8);
-    }
+    static std::uint16_t place_of(const SpaceCell& cell) { return space_place(cell); }
 
-    static SpaceCell cell_at(std::uint16_t place) {
-        return {place & 15, place >> 4 & 15, place >> 8};
-    }
+    static SpaceCell cell_at(std::uint16_t place) { return space_cell(place); }
 
     /// Points that reach into some parts of a cell, and some more.
     void gather(const SpaceCell& cell, PartBits some, NearBalls& near) const {
@@ -237,17 +230,10 @@ class SpaceTile {
                rules_->grid.radius * rules_->grid.radius;
     }
 
-    /// A point to be added, and what it covers.
-    struct Addition {
-        SpaceCell cell;  ///< of this tile, or beyond its faces
-        std::array<float, 3> off;
-        const PartBits* stamp;
-    };
-
     /// Adds a point of this tile or of its halo; what it covers is left to be added.
     /// @param own_cell in the box @param own those of the tile itself come as in points()
-    Addition add(const SpaceCell& cell, const SpaceCell& own_cell, const SpaceDart& d, bool own) {
-        Addition added{cell, {}, nullptr};
+    PlacedBall add(const SpaceCell& cell, const SpaceCell& own_cell, const SpaceDart& d, bool own) {
+        PlacedBall added{cell, {}};
         for (std::size_t k = 0; k < 3; ++k) {
             const double along = (d.at[k] - rules_->grid.low[k]) * rules_->per_width[k];
             added.off[k] =
@@ -259,21 +245,6 @@ class SpaceTile {
         places_.push_back(SpaceRules::Quad{added.off[0], added.off[1], added.off[2], known});
         if (!own) exact_.insert(exact_.end(), d.at.begin(), d.at.end());
         return added;
-    }
-
-    [[gnu::always_inline]] void cover(const Addition& added) {
-        const SpaceCell& cell = added.cell;
-        for (std::size_t r = 0; r < BallStamps::rows.size(); ++r) {
-            const BallStamps::Row& row = BallStamps::rows[r];
-            const int y = cell[1] + row.y;
-            const int z = cell[2] + row.z;
-            if (y < 0 || y >= size_[1] || z < 0 || z >= size_[2]) continue;
-            const PartBits* from = added.stamp + row.first;
-            const int first_x = cell[0] - (r < BallStamps::long_rows ? 2 : 1);
-            PartBits* to = covered_ + covered_number({first_x, y, z});
-            for (std::size_t x = 0; x < 4; ++x) to[x] |= from[x];
-            if (r < BallStamps::long_rows) to[4] |= from[4];
-        }
     }
 
     std::vector<CubeWindow> cubes;
@@ -294,9 +265,16 @@ class SpaceTile {
                          : &points_[3 * static_cast<std::size_t>(known)];
     }
 
-    static std::size_t covered_number(const SpaceCell& cell) {
-        return static_cast<std::size_t>((cell[2] * side + cell[1]) * covered_row + 2 * halo +
-                                        cell[0]);
+    /// Nothing is covered of the tile's cells, everything beyond the last of them.
+    void open_cells() {
+        std::fill_n(lines_, BallLines::room, ~std::uint32_t{0});
+        for (int z = 0; z < 4 * size_[2]; ++z)
+            for (std::size_t word = 0; word < BallLines::words; ++word) {
+                const int cells = std::clamp(size_[0] - 8 * static_cast<int>(word), 0, 8);
+                const auto open = static_cast<std::uint32_t>((std::uint64_t{1} << (4 * cells)) - 1);
+                std::fill_n(lines_ + BallLines::at(word, 0, static_cast<std::size_t>(z)),
+                            4 * size_[1], ~open);
+            }
     }
 
     /// A little more points than there mostly are in the tile and so many more cells along each
@@ -308,8 +286,8 @@ class SpaceTile {
     }
 
     static std::size_t number_of(const SpaceCell& cell) {
-        return static_cast<std::size_t>(cell[0] + halo + 20 * (cell[1] + halo) +
-                                        400 * (cell[2] + halo));
+        return static_cast<std::size_t>(
+            cell[0] + halo + (cell[1] + halo + (cell[2] + halo) * space_across) * space_across);
     }
 
     [[nodiscard]] SpaceBits::Layers reaching(PartBits some) const {
@@ -343,7 +321,7 @@ class SpaceTile {
     const SpaceRules* rules_ = nullptr;
     Index first_{};
     SpaceCell size_{};
-    PartBits* covered_ = nullptr;
+    std::uint32_t* lines_ = nullptr;
     SpaceBits taken_;
     std::uint16_t* numbers_ = nullptr;  ///< of the points in cells, where taken
     /// Of points, from the corners of their cells; and which it is of its own tile's points, or
