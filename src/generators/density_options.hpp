@@ -21,4 +21,11 @@ inline void check_invert(const Values& options) {
         fail(ErrorKind::usage, "--invert: there is no --density to invert");
 }
 
+/// @throws Error(usage) also where points have other than two coordinates.
+inline void check_density(const Values& options, std::size_t dimension) {
+    check_invert(options);
+    if (options.given(density_option) && dimension != 2)
+        fail(ErrorKind::usage, "--dimension: {} is not 2, the dimension of a --density", dimension);
+}
+
 }  // namespace stipple

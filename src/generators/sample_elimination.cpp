@@ -36,9 +36,9 @@
 #include "generators/box_space.hpp"
 #include "generators/crowd_extent.hpp"
 #include "generators/density_options.hpp"
+#include "generators/density_points.hpp"
 #include "generators/eliminator.hpp"
 #include "generators/generator.hpp"
-#include "math/density_map.hpp"
 #include "math/draws.hpp"
 #include "math/points_file.hpp"
 
@@ -126,9 +126,7 @@ Plan plan(const Request& request, const Values& options) {
              "--manifold-dimension and --measure are of points from a file; give "
              "--from too");
     const Plan plan = plan_in_box(request, options);
-    if (options.given(density_option) && plan.dimension != 2)
-        fail(ErrorKind::usage, "--dimension: {} is not 2, the dimension of a --density",
-             plan.dimension);
+    check_density(options, plan.dimension);
     return plan;
 }
 
@@ -154,18 +152,9 @@ Crowd crowd_of_file(const Plan& plan, const Values& options, const RunContext& r
 }
 
 /// Moves uniform points to where the density has them.
-void follow(const DensityMap& map, Crowd& crowd) {
-    const Box& box = crowd.space.box;
-    for (std::size_t i = 0; i < crowd.rows.size(); i += 2) {
-        std::array<double, 2> at{};
-        for (std::size_t k = 0; k < 2; ++k)
-            at[k] = std::min((crowd.rows[i + k] - box.low[k]) / box.extent(k), one_minus_ulp);
-        at = map.place(at[0], at[1]);
-        crowd.shares.push_back(1 / std::sqrt(map.at(at[0], at[1])));
-        for (std::size_t k = 0; k < 2; ++k)
-            crowd.rows[i + k] = std::min(box.low[k] + at[k] * box.extent(k),
-                                         std::nextafter(box.high[k], box.low[k]));
-    }
+void follow_all(const DensityMap& map, Crowd& crowd) {
+    for (std::size_t i = 0; i < crowd.rows.size(); i += 2)
+        crowd.shares.push_back(follow(map, crowd.space.box, &crowd.rows[i]));
 }
 
 Crowd random_crowd(const Plan& plan, const Values& options, const RunContext& run) {
@@ -183,7 +172,8 @@ Crowd random_crowd(const Plan& plan, const Values& options, const RunContext& ru
         if (i % 65536 == 0) run.check_stop();
         draws.point(crowd.space.box, crowd.rows.data() + i * plan.dimension);
     }
-    if (dense) follow(read_density(options[density_option], options[invert_option], run), crowd);
+    if (dense)
+        follow_all(read_density(options[density_option], options[invert_option], run), crowd);
     return crowd;
 }
 

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "core/rng.hpp"
+#include "support/pictures.hpp"
 #include "support/spacing.hpp"
+#include "support/temporary_file.hpp"
 
 using namespace stipple;
 using namespace stipple::testing;
@@ -105,6 +107,71 @@ TEST(DartThrowing, RadiusShrinksByTheFactorAsked) {
     EXPECT_EQ(r, std::sqrt(0.5));
 }
 
+// Densities 1 and 4 side by side, and nothing on the right.
+struct ThreeColumns {
+    TemporaryFile file{npy_of<double>("<f8", "(1, 3)", {1, 4, 0})};
+    Space space;
+
+    [[nodiscard]] double middle(double part) const {  ///< of the first axis
+        return space.box.low[0] + part * (space.box.high[0] - space.box.low[0]);
+    }
+    /// The radius at a point, that of the densest place being 1.
+    [[nodiscard]] double times(std::span<const double> p) const {
+        return p[0] < middle(1.0 / 3) ? 2 : 1;
+    }
+    /// Whether two points are not nearer than the smaller of their radii.
+    [[nodiscard]] bool fits(std::span<const double> p, std::span<const double> q, double r) const {
+        return distance(p, q, space) >= r * std::min(times(p), times(q));
+    }
+};
+
+// Where the radius stays, darts are those of the density, by hand, and the first that fit stay.
+TEST(DartThrowing, WithADensityIsThePlainProcessOfDartsThatFollowIt) {
+    for (const bool torus : {true, false}) {
+        const ThreeColumns columns{.space = {{{-3, 10}, {6, 13}}, torus}};
+        const PointSet set = make_in("dart-throwing", columns.space, {},
+                                     {{"radius", "0.15"}, {"density", columns.file.path()}}, 5);
+        const Rng rng(5);
+        std::vector<std::vector<double>> kept;
+        for (std::uint64_t dart = 0, misses = 0; misses < 200; ++dart) {
+            const double u = rng.uniform(2 * dart);
+            const double x = u < 0.2 ? u / 0.2 / 3 : (1 + (u - 0.2) / 0.8) / 3;
+            const std::vector<double> p{columns.middle(x), 10 + 3 * rng.uniform(2 * dart + 1)};
+            const bool fits =
+                std::ranges::all_of(kept, [&](const auto& q) { return columns.fits(p, q, 0.15); });
+            if (fits) kept.push_back(p);
+            misses = fits ? 0 : misses + 1;
+        }
+        ASSERT_EQ(set.count(), kept.size());
+        EXPECT_GT(set.count(), 250U);
+        for (std::size_t i = 0; i < kept.size(); ++i)
+            for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(set[i][k], kept[i][k], 1e-12) << i;
+    }
+}
+
+// Every pair keeps the rule for the radius that is told, though it relaxed by a factor of a hundred
+// meanwhile; a fifth of the points are on the left, and prefixes are those of smaller numbers.
+TEST(DartThrowing, RelaxedRadiusFollowsADensity) {
+    for (const bool torus : {true, false}) {
+        const ThreeColumns columns{.space = {{{-3, 10}, {6, 13}}, torus}};
+        const Settings settings{{"density", columns.file.path()}};
+        const PointSet set = make_in("dart-throwing", columns.space, 1200, settings);
+        ASSERT_EQ(set.count(), 1200U);
+        const double r = noted(set, "radius");
+        EXPECT_GT(r * r * 1200, 0.5 * (3 * 3 + 3 * 3 / 4.0));
+        double left = 0;
+        for (std::size_t i = 0; i < set.count(); ++i) {
+            EXPECT_LT(set[i][0], columns.middle(2.0 / 3));
+            left += columns.times(set[i]) - 1;
+            for (std::size_t j = 0; j < i; ++j)
+                EXPECT_TRUE(columns.fits(set[i], set[j], r * (1 - 1e-12))) << i << " " << j;
+        }
+        EXPECT_NEAR(left / 1200, 0.2, 0.04);  // of random points, 3.5 standard deviations
+        const PointSet part = make_in("dart-throwing", columns.space, 400, settings);
+        EXPECT_TRUE(std::ranges::equal(part.flat(), set.flat().first(800)));
+    }
+}
+
 TEST(DartThrowing, RefusesWhatContradictsItselfOrFindsNoPlace) {
     const auto refusal = [](const Request& request, const Settings& settings) {
         return error_of([&] { make("dart-throwing", request, settings, {.max_memory = 1 << 26}); });
@@ -113,6 +180,10 @@ TEST(DartThrowing, RefusesWhatContradictsItselfOrFindsNoPlace) {
               "usage: --torus contradicts --bounded; give one of them");
     EXPECT_EQ(refusal({}, {{"radius", "0.1"}, {"shrink", "0.9"}}),
               "usage: --shrink: a radius given by --radius stays; give one of them");
+    EXPECT_EQ(refusal({}, {{"invert", "true"}}),
+              "usage: --invert: there is no --density to invert");
+    EXPECT_EQ(refusal(points(9, 3), {{"density", "x.png"}}),
+              "usage: --dimension: 3 is not 2, the dimension of a --density");
     EXPECT_EQ(refusal({}, {{"radius", "0.8"}}),
               "usage: --radius: 0.8 is outside (0, 0.7071067811865476]; no two points of the box "
               "are farther apart");
