@@ -58,7 +58,7 @@ void fall_at_large(const SpaceRules& rules, const SpaceTile& tile, const Shower&
 
 namespace {
 
-/// Open parts of 8 x 4 cells beside each other: of sixteen lines in four layers.
+/// Open parts of some lines beside each other, in the four layers of a row of cells.
 class OpenUnit {
   public:
     static constexpr std::size_t units =

@@ -31,8 +31,9 @@ inline constexpr int cells_together = 8;  ///< that share a Poisson number
 void fall_at_large(const SpaceRules& rules, const SpaceTile& tile, const Shower& shower,
                    std::uint64_t key, bool any, std::vector<SpaceDart>& darts);
 
-/// Of parts of cells, 64 each, that share a Poisson number.
-inline constexpr std::size_t words_together = 32;
+/// Of parts of cells, 64 each, that share a Poisson number. One part more or less changes all their
+/// darts, so that they are few: sets for radii that hardly differ are to be nearly the same.
+inline constexpr std::size_t words_together = 4;
 
 /// Darts on the parts of cells that no ball covers alone.
 void fall_on_parts(const SpaceRules& rules, const SpaceTile& tile, const Shower& shower,
