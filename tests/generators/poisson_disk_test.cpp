@@ -3,9 +3,11 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 #include <tuple>
 
 #include "core/rng.hpp"
+#include "generators/maximal_disks.hpp"
 #include "support/spacing.hpp"
 
 #include "core/text.hpp"
@@ -169,6 +171,29 @@ TEST(PoissonDisk, MakesExactlyAsManyAsAskedWithARadiusThatHolds) {
 }
 
 // Exactly N points are maximal as well: the set leaves no place for the radius that it notes.
+// The search for exactly so many points needs it: one disk more or less changes what is near it.
+TEST(PoissonDisk, SetsForRadiiThatHardlyDifferHardlyDiffer) {
+    for (const std::size_t d : {2, 3}) {
+        const double side = d == 2 ? 150 : 30;
+        const BoxSpace space{{std::vector<double>(d, 0), std::vector<double>(d, side)}, true};
+        const auto points = [&](double r) {
+            const Rows rows = maximal_disks(space, r, 0.9, 1, RunContext{});
+            std::set<std::vector<double>> all;
+            for (auto at = rows.numbers().begin(); at != rows.numbers().end();
+                 at += static_cast<std::ptrdiff_t>(d))
+                all.emplace(at, at + static_cast<std::ptrdiff_t>(d));
+            return all;
+        };
+        const auto first = points(1);
+        const auto other = points(1 + 1e-7);
+        const auto shared =
+            std::ranges::count_if(first, [&](const auto& p) { return other.contains(p); });
+        EXPECT_GT(first.size(), 15'000U);
+        EXPECT_GT(static_cast<double>(shared) / static_cast<double>(first.size()),
+                  d == 2 ? 0.999 : 0.9995);
+    }
+}
+
 TEST(PoissonDisk, ExactCountsAreMaximal) {
     for (const bool torus : {true, false})
         for (const std::uint64_t n : {50, 333, 1024, 5000}) {
