@@ -170,7 +170,6 @@ TEST(PoissonDisk, MakesExactlyAsManyAsAskedWithARadiusThatHolds) {
     EXPECT_EQ(make("poisson-disk", {}).count(), 1024);
 }
 
-// Exactly N points are maximal as well: the set leaves no place for the radius that it notes.
 // The search for exactly so many points needs it: one disk more or less changes what is near it.
 TEST(PoissonDisk, SetsForRadiiThatHardlyDifferHardlyDiffer) {
     for (const std::size_t d : {2, 3}) {
@@ -194,6 +193,7 @@ TEST(PoissonDisk, SetsForRadiiThatHardlyDifferHardlyDiffer) {
     }
 }
 
+// Exactly N points are maximal as well: the set leaves no place for the radius that it notes.
 TEST(PoissonDisk, ExactCountsAreMaximal) {
     for (const bool torus : {true, false})
         for (const std::uint64_t n : {50, 333, 1024, 5000}) {
