@@ -7,7 +7,7 @@
 // A ball covers a part if it covers the corner that is farthest from its centre; of a line, what is
 // between two places, which a square root tells for many lines side by side.
 //
-// Cost    some 400 cycles for a ball.
+// Cost    0.25 us for a ball.
 // Promise what has its bit set is covered by one ball alone, and not within float_slack of its rim;
 //         all of that has its bit set.
 #pragma once

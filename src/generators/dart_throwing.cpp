@@ -13,7 +13,8 @@
 //             of their radii.
 //
 // Shape   d = 1, ..., 6; distances hold in the box of --bounds, across its faces too (torus) or
-// not. Cost    about --misses darts a point while the radius relaxes, fewer in tight places;
+//         not.
+// Cost    about --misses darts a point while the radius relaxes, fewer in tight places;
 //         5 us a point in 2-D by default, with a density 12 us. 60 and 120 bytes a point in 2-D.
 // Promise sum_k d_k^2 >= radius^2 for every pair, in float64, from the coordinates as stored;
 //         d_k = |x_k - y_k|, on the torus min(d_k, side_k - d_k). The provenance has the radius,
