@@ -28,6 +28,9 @@
 
 namespace stipple {
 
+/// Cells along a tile with those about it.
+inline constexpr int space_across = space_side + 4;
+
 /// A bit for each cell of a tile and its halo, such that those of the 5 x 5 x 5 cells about one are
 /// five words: for every fourth cell along the first direction a strip along the others has, byte
 /// after byte, the eight cells from there on.
@@ -57,13 +60,10 @@ class SpaceBits {
     [[nodiscard]] bool has(const SpaceCell& cell) const { return (layer(cell, 2) >> 18 & 1) != 0; }
 
   private:
-    static constexpr std::size_t across = space_side + 4;
+    static constexpr std::size_t across = space_across;
     static constexpr std::size_t strip = across * across;
     std::array<std::uint8_t, space_side / 4 * strip + 8> bytes_{};
 };
-
-/// Cells along a tile with those about it.
-inline constexpr int space_across = space_side + 4;
 
 /// What all tiles share.
 struct SpaceRules {
