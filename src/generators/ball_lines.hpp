@@ -68,7 +68,7 @@ inline PartBits parts_of(const std::uint32_t* lines, const SpaceCell& cell) {
 inline bool has_part(const std::uint32_t* lines, const SpaceCell& cell, std::size_t part) {
     const std::uint32_t* from = lines_of(lines, cell);
     const std::size_t bit = 4 * (static_cast<std::size_t>(cell[0]) % 8) + part % 4;
-    return (from[part / 16 * (BallLines::layer) + part / 4 % 4] >> bit & 1) != 0;
+    return (from[part / 16 * BallLines::layer + part / 4 % 4] >> bit & 1) != 0;
 }
 
 /// The parts of eight cells, the first of which has a number that eight divides.
@@ -78,7 +78,7 @@ inline std::array<PartBits, 8> parts_of_eight(const std::uint32_t* lines, const 
     const std::uint32_t* from = lines_of(lines, first);
     std::array<PartBits, 8> rows;
     for (std::size_t i = 0; i < 8; ++i) {
-        const std::uint32_t* pair = from + i / 2 * (BallLines::layer) + i % 2 * 2;
+        const std::uint32_t* pair = from + i / 2 * BallLines::layer + i % 2 * 2;
         const std::uint32_t even = (pair[0] & low) | (pair[1] & low) << 4;
         const std::uint32_t odd = (pair[0] >> 4 & low) | (pair[1] & ~low);
         rows[i] = PartBits{even} | PartBits{odd} << 32;

@@ -5,7 +5,7 @@
 //
 // Lengths are in radii, from the corner of a cell on, and so small numbers that floats hold well.
 //
-// Shape   D directions, m_k cells along each, fewer than 2^32 in all; tiles of up to 4096 cells.
+// Shape   D directions, m_k cells along each, fewer than 2^32 in all; tiles of up to 2^15 cells.
 #pragma once
 
 #include <algorithm>
@@ -20,6 +20,12 @@
 #include "math/spaced_points.hpp"
 
 namespace stipple {
+
+/// Whether a radius leads across two of the cells along a direction, and there are five or more.
+inline bool fine_cells(double cells, double extent, double radius) {
+    const double across = radius / (extent / cells) * (1 + 1e-6);
+    return cells > 4 && across >= 1 && across < 2;
+}
 
 template <std::size_t D>
 struct DiskGrid {
@@ -42,7 +48,7 @@ struct DiskGrid {
             scales[k] = widths[k] / radius;
             const double across = radius / widths[k] * (1 + 1e-6);
             reach[k] = across < cells[k] ? static_cast<std::uint32_t>(across) + 1 : cells[k];
-            inner[k] = reach[k] == 2 && cells[k] > 4 ? cells[k] - 4 : 0;
+            inner[k] = fine_cells(along[k], sides[k], radius) ? cells[k] - 4 : 0;
             tiles[k] = (cells[k] + tile_side - 1) >> tile_bits;
             strides[k] = spots;
             spots *= cells[k] + 4;
@@ -51,7 +57,7 @@ struct DiskGrid {
         }
     }
 
-    /// Whether the radius leads across two cells along every direction, and there are five or more.
+    /// Whether there are fine_cells along every direction.
     [[nodiscard]] bool fine() const {
         return std::ranges::all_of(inner, [](auto count) { return count > 0; });
     }

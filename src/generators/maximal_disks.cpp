@@ -416,11 +416,16 @@ Rows tiles_or_few(const BoxSpace& space, double radius, double cell_radius, std:
                     worth_threads(run, expected * seconds_a_point));
 }
 
-/// Bytes that so many points take, in so many cells along each direction.
-double memory_for(const std::vector<double>& along, double points) {
+/// Bytes that so many points take, in so many cells along each direction, which may all be fine.
+double memory_for(const std::vector<double>& along, bool fine, double points) {
     const double d = static_cast<double>(along.size());
     double cells = 1;
     for (const double count : along) cells *= count;
+    if (along.size() <= 3 && !fine) {  // a point, its copies, darts; what tiles know of cells
+        double spots = 1;
+        for (const double count : along) spots *= count + 4;
+        return d * (50 * points + 8 * spots);
+    }
     if (along.size() == 2) {  // what each tile knows; a point, its copy, undecided darts; windows
         const auto known = static_cast<double>(DiskSpots::stride);
         const double rows = along[1] + 4 * std::ceil(along[1] / 64);
@@ -441,8 +446,11 @@ void check_size(const BoxSpace& space, double radius, const RunContext& run) {
     double cells = 1;
     for (const double count : along) cells *= count;
     const double points = expected_disks(space, radius);
+    bool fine = true;
+    for (std::size_t k = 0; k < along.size(); ++k)
+        fine = fine && fine_cells(along[k], space.box.extent(k), radius);
     run.need_memory(
-        memory_for(along, points),
+        memory_for(along, fine, points),
         fmt::format("a radius of {}, with about {:.3g} points,", format_number(radius), points));
     if (cells >= 0xffff'fffe)
         fail(ErrorKind::limit,

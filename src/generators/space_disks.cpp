@@ -306,8 +306,8 @@ class SpaceRain {
     void fall_on_open_parts(SpaceTile& tile, const std::vector<Shower>& showers, std::uint64_t key,
                             SpaceDesk& desk) const {
         std::array<PartBits, 8> eight;
-        for (std::uint16_t place = 0; place < power(std::size_t{SpaceTile::side}, 3); ++place) {
-            const SpaceCell cell = SpaceTile::cell_at(place);
+        for (std::uint16_t place = 0; place < power(std::size_t{space_side}, 3); ++place) {
+            const SpaceCell cell = space_cell(place);
             if (place % 8 == 0) eight = parts_of_eight(tile.lines(), cell);
             const PartBits open = ~eight[place % 8U];
             if (open == 0) continue;
@@ -334,7 +334,7 @@ class SpaceRain {
         const auto& all = tile.cubes;
         for (std::size_t i = 0; i < all.size();) {
             const std::uint16_t place = all[i].place;
-            const SpaceCell cell = SpaceTile::cell_at(place);
+            const SpaceCell cell = space_cell(place);
             const PartBits covered = parts_of(tile.lines(), cell);
             PartBits some = 0;
             desk.some.clear();
@@ -355,7 +355,7 @@ class SpaceRain {
     void fall_on_cell(SpaceTile& tile, std::span<const CubeWindow> windows, PartBits some,
                       const std::vector<Shower>& showers, std::uint64_t key,
                       SpaceDesk& desk) const {
-        const SpaceCell cell = SpaceTile::cell_at(windows[0].place);
+        const SpaceCell cell = space_cell(windows[0].place);
         tile.gather(cell, some, desk.near);
         desk.open.resize(windows.size());
         open_cubes(desk.near, rules_.scales, windows, desk.open.data());
@@ -395,7 +395,7 @@ class SpaceRain {
         const auto& all = tile.windows;
         for (std::size_t i = 0; i < all.size();) {
             const std::uint16_t place = all[i].place;
-            const SpaceCell cell = SpaceTile::cell_at(place);
+            const SpaceCell cell = space_cell(place);
             const bool taken = tile.taken().has(cell);
             if (!taken) gather_exactly(tile, cell, desk.exactly_near);
             for (; i < all.size() && all[i].place == place; ++i)

@@ -23,17 +23,17 @@ void land(const SpaceRules& rules, const SpaceTile& tile, const SpaceCell& cell,
     }
     if (hit == Hit::unsure && tile.hits(cell, d.at.data())) return;
     d.time = static_cast<std::uint32_t>(mixer.next());
-    d.place = SpaceTile::place_of(cell);
+    d.place = space_place(cell);
     darts.push_back(d);
 }
 
 void fall_at_large(const SpaceRules& rules, const SpaceTile& tile, const Shower& shower,
                    std::uint64_t key, bool any, std::vector<SpaceDart>& darts) {
-    for (int row = 0; row < SpaceTile::side * tile.size(2); ++row) {
-        if (row % SpaceTile::side >= tile.size(1)) continue;
+    for (int row = 0; row < space_side * tile.size(2); ++row) {
+        if (row % space_side >= tile.size(1)) continue;
         for (int x = 0; x < tile.size(0); x += cells_together) {
             const int count = std::min(cells_together, tile.size(0) - x);
-            Mixer mixer(Mixer(key ^ static_cast<std::uint64_t>(row * SpaceTile::side + x)).next());
+            Mixer mixer(Mixer(key ^ static_cast<std::uint64_t>(row * space_side + x)).next());
             for (std::uint64_t left = shower.on(static_cast<std::size_t>(count), mixer); left > 0;
                  --left) {
                 std::array<double, 3> place;
@@ -41,7 +41,7 @@ void fall_at_large(const SpaceRules& rules, const SpaceTile& tile, const Shower&
                 place[0] *= count;
                 const int step = static_cast<int>(place[0]);
                 place[0] -= step;
-                const SpaceCell cell{x + step, row % SpaceTile::side, row / SpaceTile::side};
+                const SpaceCell cell{x + step, row % space_side, row / space_side};
                 std::size_t part = 0;
                 for (std::size_t k = 3; k-- > 0;)
                     part = part * 4 + static_cast<std::size_t>(place[k] * 4);

@@ -117,7 +117,6 @@ class SpaceTile {
     using Index = Grid::Index;
     using Point = Grid::Point;
 
-    static constexpr int side = space_side;
     static constexpr int halo = 2;
     static constexpr std::size_t halo_cells = power(std::size_t{space_across}, 3);
     /// What a tile takes, however few cells it has, and without points.
@@ -156,10 +155,6 @@ class SpaceTile {
     [[nodiscard]] const std::uint32_t* lines() const { return lines_; }
     [[nodiscard]] std::vector<double>& points() { return points_; }
     [[nodiscard]] const SpaceBits& taken() const { return taken_; }
-
-    static std::uint16_t place_of(const SpaceCell& cell) { return space_place(cell); }
-
-    static SpaceCell cell_at(std::uint16_t place) { return space_cell(place); }
 
     /// Points that reach into some parts of a cell, and some more.
     void gather(const SpaceCell& cell, PartBits some, NearBalls& near) const {

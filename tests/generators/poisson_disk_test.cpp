@@ -314,6 +314,23 @@ TEST(PoissonDisk, RefusesContradictionsAndImpossibleRadii) {
     EXPECT_NE(refusal({.bounds = Box{{0, 0}, {1e200, 1}}}, {}), "");
 }
 
+// Grids with few cells along a direction are not worked on in tiles that all have the same size.
+TEST(PoissonDisk, LongThinBoxesNeedOnlyWhatTheyTake) {
+    for (const std::size_t d : {2U, 3U}) {
+        Box box{std::vector<double>(d, 0), std::vector<double>(d, 1)};
+        box.high.back() = 3000;
+        const Settings settings{{"radius", "0.9"}};
+        const Request request{.dimension = d, .bounds = box};
+        EXPECT_EQ(
+            error_of([&] { make("poisson-disk", request, settings, {.max_memory = 8 << 20}); }),
+            "");
+        EXPECT_EQ(error_of([&] {
+                      make("poisson-disk", request, settings, {.max_memory = 500'000});
+                  }).substr(0, 6),
+                  "limit:");
+    }
+}
+
 // Coordinates near 1e12 are 2^-13 apart.
 TEST(PoissonDisk, RefusesRadiiFinerThanTheCoordinates) {
     const Space far{{{1e12, 0}, {1e12 + 1, 1}}, true};
