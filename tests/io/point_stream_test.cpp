@@ -120,7 +120,7 @@ TEST_F(PointStreams, SayWhatIsWrongAsForTheWhole) {
     expect_same_error(wrong("a.txt", 120'000, "#\n"));
     expect_same_error(wrong("a.bin", 300'000, "123"));
     expect_same_error(
-        wrong("a.bin", 300'000, std::string("\0\0\0\0\0\0\xf0\x7f", 8) + std::string(8, '\0')));
+        wrong("a.bin", 300'000, std::string("\0\0\0\0\0\0\xf0\x7f\0\0\0\0\0\0\0\0", 16)));
     expect_same_error(wrong("a.npy", 300'000, "123"));
     const auto cut = file("b.npy", 300'000);
     std::filesystem::resize_file(cut, 4'700'000);
