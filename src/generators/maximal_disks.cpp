@@ -12,10 +12,10 @@
 #include "generators/disk_shower.hpp"
 #include "generators/disk_spots.hpp"
 #include "generators/disk_tiles.hpp"
+#include "generators/open_tiles.hpp"
 #include "generators/plane_disks.hpp"
 #include "generators/space_disks.hpp"
 #include "generators/space_tiles.hpp"
-#include "generators/tile_rows.hpp"
 #include "math/mixer.hpp"
 
 namespace stipple {
@@ -54,11 +54,9 @@ class Rain {
         : grid_(space, radius, cell_radius),
           tiles_(grid_),
           keys_(seed),
-          expected_(static_cast<std::uint64_t>(expected_disks(space, radius))),
-          run_(worth_threads(run, static_cast<double>(expected_) * seconds_a_point)),
+          open_(grid_.tile_count, static_cast<std::uint64_t>(expected_disks(space, radius)),
+                worth_threads(run, expected_disks(space, radius) * seconds_a_point)),
           slack_(double_slack(space, radius)) {
-        for (std::size_t t = 0; t < grid_.tile_count; ++t)
-            live_.push_back(static_cast<std::uint32_t>(t));
         if (D > 3) return;  // of the few points there, tiles have no typical number
         for (Tile& tile : tiles_.all()) tile.points.reserve(typical_points(tile) * D);
     }
@@ -115,7 +113,7 @@ class Rain {
         if constexpr (Tiles::knows_parts)
             for (int time = 0; time < 4; ++time, density *= 3) rain_on_parts(density);
         constexpr double growth = D == 3 ? 6 : 4;
-        for (bool first = true; !live_.empty(); first = false, density *= growth)
+        for (bool first = true; !open_.empty(); first = false, density *= growth)
             rain_on_windows(density, first);
     }
 
@@ -142,8 +140,7 @@ class Rain {
                 fall_on_windows(tile, showers, own, desk);
             tile.windows = std::vector(desk.windows.begin(), desk.windows.end());
         });
-        std::erase_if(live_, [&](std::uint32_t t) {
-            Tile& tile = tiles_.all()[t];
+        open_.close(tiles_.all(), [](Tile& tile) {
             if (tile.windows.empty()) tile.candidates = {};
             return tile.windows.empty();
         });
@@ -153,7 +150,7 @@ class Rain {
     template <class Fall>
     void rain(std::uint64_t key, const Fall& fall) {
         tiles_.start_over();
-        for_tiles([&](Tile& tile, std::uint32_t number) {
+        open_.for_each(tiles_.all(), [&](Tile& tile, std::uint32_t number) {
             thread_local Desk<D> desk;
             tiles_.prepare(tile, desk);
             tile.candidates.swap(desk.candidates);  // has room
@@ -163,20 +160,12 @@ class Rain {
             tile.candidates = std::vector(desk.candidates.begin(), desk.candidates.end());
             tile.fates.assign(tile.candidates.size(), unknown);
         });
-        for_tiles([&](Tile& tile, std::uint32_t) {
+        open_.for_each(tiles_.all(), [&](Tile& tile, std::uint32_t) {
             for (std::size_t i = 0; i < tile.candidates.size(); ++i) decide(tile, i);
         });
-        for_tiles([&](Tile& tile, std::uint32_t) { tiles_.settle(tile, stays, shared_); });
-        std::size_t points = 0;
-        for (const Tile& tile : tiles_.all()) points += tile.points.size() / D;
-        run_.tick(std::min<std::uint64_t>(points, expected_), expected_);
-    }
-
-    template <class Work>
-    void for_tiles(const Work& work) {
-        for_each_block(
-            run_, live_.size(), 1,
-            [&](const Block& b) { work(tiles_.all()[live_[b.first]], live_[b.first]); }, true);
+        open_.for_each(tiles_.all(),
+                       [&](Tile& tile, std::uint32_t) { tiles_.settle(tile, stays, shared_); });
+        open_.tick(tiles_.all(), &Tile::points, D);
     }
 
     /// Numbers that belong to a piece of a cell, whoever asks for them.
@@ -383,18 +372,15 @@ class Rain {
 
     Rows collect() {
         tiles_.clear_cells();
-        return rows_of_tiles(
-            tiles_.all(), [](Tile & tile) -> auto& { return tile.points; }, run_);
+        return rows_of_tiles(tiles_.all(), &Tile::points, open_.run());
     }
 
     Grid grid_;
     Tiles tiles_;
     Rng keys_;
-    std::uint64_t expected_;
-    RunContext run_;
-    bool shared_ = run_.thread_count() > 1;  ///< several threads work on the tiles
-    double slack_;                           ///< of distances that doubles hold, in radii
-    std::vector<std::uint32_t> live_;        ///< tiles with something open
+    OpenTiles open_;
+    bool shared_ = open_.run().thread_count() > 1;  ///< several threads work on the tiles
+    double slack_;                                  ///< of distances that doubles hold, in radii
     std::uint64_t showers_ = 0;
 };
 

@@ -6,13 +6,12 @@
 #include <cmath>
 
 #include "core/large_pages.hpp"
-#include "core/parallel.hpp"
 #include "core/rng.hpp"
 #include "core/wide.hpp"
 #include "generators/disk_lanes.hpp"
 #include "generators/disk_shower.hpp"
+#include "generators/open_tiles.hpp"
 #include "generators/plane_tiles.hpp"
-#include "generators/tile_rows.hpp"
 #include "math/mixer.hpp"
 
 namespace stipple {
@@ -234,8 +233,7 @@ class PlaneRain {
           rules_(rules_of(grid, slack)),
           slack_(slack),
           keys_(seed),
-          expected_(expected),
-          run_(run) {
+          open_(grid.tile_count, expected, run) {
         make_tiles();
     }
 
@@ -243,7 +241,7 @@ class PlaneRain {
         for (int time = 0; time < 2; ++time) rain_at_large(1.5);
         for (const double density : {6, 20, 60, 200}) rain_on_parts(density);
         double density = 600;
-        for (bool first = true; !live_.empty(); first = false, density *= 4)
+        for (bool first = true; !open_.empty(); first = false, density *= 4)
             rain_on_windows(density, first);
         return collect();
     }
@@ -270,15 +268,13 @@ class PlaneRain {
             return DiskSpots::needed(last[1] - first[1]);
         };
         std::vector<std::size_t> before{0};
-        for (std::size_t t = 0; t < grid_.tile_count; ++t) {
+        for (std::size_t t = 0; t < grid_.tile_count; ++t)
             before.push_back(before.back() + needed(t));
-            live_.push_back(static_cast<std::uint32_t>(t));
-        }
         spots_ = unwritten_room<Spot>(before.back());
         covered_ = unwritten_room<PartBits>(before.back());
         indices_ = unwritten_room<std::uint16_t>(before.back());
         tiles_.resize(grid_.tile_count);
-        for_tiles([&](PlaneTile& tile, std::uint32_t t) {
+        open_.for_each(tiles_, [&](PlaneTile& tile, std::uint32_t t) {
             const CellRoom room{spots_.get() + before[t], covered_.get() + before[t],
                                 indices_.get() + before[t]};
             tile = PlaneTile(grid_, t, room);
@@ -314,14 +310,14 @@ class PlaneRain {
                     fall_on(tile, window, showers[window.level], key, desk);
             tile.windows.assign(desk.windows.begin(), desk.windows.end());
         });
-        std::erase_if(live_, [&](std::uint32_t t) { return tiles_[t].windows.empty(); });
+        open_.close(tiles_, [](const PlaneTile& tile) { return tile.windows.empty(); });
     }
 
     /// One shower: draw(tile, key, desk) makes a tile's darts.
     template <class Draw>
     void rain(bool exact, const Draw& draw) {
         const std::uint64_t key = keys_.bits(showers_++);
-        for_tiles([&](PlaneTile& tile, std::uint32_t number) {
+        open_.for_each(tiles_, [&](PlaneTile& tile, std::uint32_t number) {
             thread_local PlaneDesk desk;
             take_over(tile, number);
             desk.darts.clear();
@@ -332,23 +328,14 @@ class PlaneRain {
             fall_in_order(rules_, tile, desk, exact);
             of_shower(tile, showers_).renew(showers_, desk.undecided);
         });
-        for_tiles([&](PlaneTile& tile, std::uint32_t number) {
+        open_.for_each(tiles_, [&](PlaneTile& tile, std::uint32_t number) {
             for (Undecided& u : of_shower(tile, showers_).all())
                 if (decide(tile, number, u) == stays)
                     tile.add(u.column(), u.row(),
                              tile.spots().spot_of(u.x / cell_unit, u.y / cell_unit), u.at,
                              rules_.stamps.about_digits(u.digits()));
         });
-        std::size_t points = 0;
-        for (PlaneTile& tile : tiles_) points += tile.points().size() / 2;
-        run_.tick(std::min<std::uint64_t>(points, expected_), expected_);
-    }
-
-    template <class Work>
-    void for_tiles(const Work& work) {
-        for_each_block(
-            run_, live_.size(), 1,
-            [&](const Block& b) { work(tiles_[live_[b.first]], live_[b.first]); }, true);
+        open_.tick(tiles_, &PlaneTile::points, 2);
     }
 
     static UndecidedDarts& of_shower(PlaneTile& tile, std::uint64_t shower) {
@@ -541,21 +528,18 @@ class PlaneRain {
         covered_.reset();
         indices_.reset();
         for (PlaneTile& tile : tiles_) tile.drop();
-        return rows_of_tiles(
-            tiles_, [](PlaneTile & tile) -> auto& { return tile.points(); }, run_);
+        return rows_of_tiles(tiles_, &PlaneTile::points, open_.run());
     }
 
     const Grid& grid_;
     Rules rules_;
     double slack_;
     Rng keys_;
-    std::uint64_t expected_;
-    const RunContext& run_;
+    OpenTiles open_;
     std::unique_ptr<Spot[]> spots_;  ///< of all tiles' cells, as the next two
     std::unique_ptr<PartBits[]> covered_;
     std::unique_ptr<std::uint16_t[]> indices_;
     std::vector<PlaneTile> tiles_;
-    std::vector<std::uint32_t> live_;  ///< tiles with something open
     std::uint64_t showers_ = 0;
 };
 

@@ -6,12 +6,11 @@
 #include <cmath>
 
 #include "core/large_pages.hpp"
-#include "core/parallel.hpp"
 #include "core/rng.hpp"
 #include "generators/disk_shower.hpp"
+#include "generators/open_tiles.hpp"
 #include "generators/space_showers.hpp"
 #include "generators/space_tiles.hpp"
-#include "generators/tile_rows.hpp"
 #include "math/mixer.hpp"
 
 namespace stipple {
@@ -45,24 +44,26 @@ class SpaceRain {
   public:
     SpaceRain(const Grid& grid, double slack, std::uint64_t expected, std::uint64_t seed,
               const RunContext& run)
-        : grid_(grid), rules_(grid), slack_(slack), keys_(seed), expected_(expected), run_(run) {
+        : grid_(grid),
+          rules_(grid),
+          slack_(slack),
+          keys_(seed),
+          open_(grid.tile_count, expected, run) {
         lines_ = unwritten_room<std::uint32_t>(BallLines::room * grid.tile_count);
         numbers_ = unwritten_room<std::uint16_t>(SpaceTile::halo_cells * grid.tile_count);
         tiles_.resize(grid.tile_count);
-        for (std::size_t t = 0; t < grid.tile_count; ++t)
-            live_.push_back(static_cast<std::uint32_t>(t));
-        for_tiles([&](SpaceTile& tile, std::uint32_t t) {
+        open_.for_each(tiles_, [&](SpaceTile& tile, std::uint32_t t) {
             tile = SpaceTile(rules_, t, lines_.get() + BallLines::room * t,
                              numbers_.get() + SpaceTile::halo_cells * t);
         });
-        for_tiles([&](SpaceTile& tile, std::uint32_t t) { find_neighbours(tile, t); });
+        open_.for_each(tiles_, [&](SpaceTile& tile, std::uint32_t t) { find_neighbours(tile, t); });
     }
 
     Rows fill() {
         for (int time = 0; time < 2; ++time) rain_at_large(1.25);
         double density = 8;
         for (int time = 0; time < 5; ++time, density *= 3) rain_on_parts(density);
-        for (bool first = true; !live_.empty(); first = false, density *= growth)
+        for (bool first = true; !open_.empty(); first = false, density *= growth)
             rain_on_windows(density, first);
         return collect();
     }
@@ -135,8 +136,8 @@ class SpaceRain {
             tile.cubes = std::vector(desk.cubes.begin(), desk.cubes.end());
             tile.windows = std::vector(desk.windows.begin(), desk.windows.end());
         });
-        std::erase_if(live_, [&](std::uint32_t t) {
-            return tiles_[t].cubes.empty() && tiles_[t].windows.empty();
+        open_.close(tiles_, [](const SpaceTile& tile) {
+            return tile.cubes.empty() && tile.windows.empty();
         });
     }
 
@@ -144,29 +145,20 @@ class SpaceRain {
     template <class Fall>
     void rain(const Fall& fall) {
         const std::uint64_t key = keys_.bits(showers_++);
-        for_tiles([&](SpaceTile& tile, std::uint32_t number) {
+        open_.for_each(tiles_, [&](SpaceTile& tile, std::uint32_t number) {
             SpaceDesk& desk = desk_of_thread();
             take_over(tile, desk);
             desk.darts.clear();
             fall(tile, Mixer(key + number).next(), desk);
             of_shower(tile, showers_).renew(showers_, desk.darts);
         });
-        for_tiles([&](SpaceTile& tile, std::uint32_t) {
+        open_.for_each(tiles_, [&](SpaceTile& tile, std::uint32_t) {
             SpaceDarts& darts = of_shower(tile, showers_);
             for (std::size_t i = 0; i < darts.all().size(); ++i)
                 if (const SpaceDart& d = darts.all()[i]; decide(tile, darts, i) == stays)
                     tile.points().insert(tile.points().end(), d.at.begin(), d.at.end());
         });
-        std::size_t points = 0;
-        for (SpaceTile& tile : tiles_) points += tile.points().size() / 3;
-        run_.tick(std::min<std::uint64_t>(points, expected_), expected_);
-    }
-
-    template <class Work>
-    void for_tiles(const Work& work) {
-        for_each_block(
-            run_, live_.size(), 1,
-            [&](const Block& b) { work(tiles_[live_[b.first]], live_[b.first]); }, true);
+        open_.tick(tiles_, &SpaceTile::points, 3);
     }
 
     static SpaceDarts& of_shower(SpaceTile& tile, std::uint64_t shower) {
@@ -468,20 +460,17 @@ class SpaceRain {
         lines_.reset();
         numbers_.reset();
         for (SpaceTile& tile : tiles_) tile.drop();
-        return rows_of_tiles(
-            tiles_, [](SpaceTile & tile) -> auto& { return tile.points(); }, run_);
+        return rows_of_tiles(tiles_, &SpaceTile::points, open_.run());
     }
 
     const Grid& grid_;
     SpaceRules rules_;
     double slack_;
     Rng keys_;
-    std::uint64_t expected_;
-    const RunContext& run_;
+    OpenTiles open_;
     std::unique_ptr<std::uint32_t[]> lines_;  ///< of all tiles, as the next
     std::unique_ptr<std::uint16_t[]> numbers_;
     std::vector<SpaceTile> tiles_;
-    std::vector<std::uint32_t> live_;  ///< tiles with something open
     std::uint64_t showers_ = 0;
 };
 
