@@ -33,7 +33,7 @@ namespace {
 
 /// omega(f / modulus) for a polynomial f of degree below m: x is in [2^-t, 2^(1-t)), t = m - deg f.
 double omega(std::uint64_t f, int m) {
-    return f == 0 ? 1. / 6 : 1. / 6 - std::ldexp(0.5, gf2::degree(f) - m);
+    return digital_shift_kernel(f == 0 ? 0 : std::ldexp(1, gf2::degree(f) - m));
 }
 
 class Search {

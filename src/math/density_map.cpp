@@ -138,20 +138,6 @@ double coordinate(std::size_t cell, double fraction, std::size_t cells) {
     return x;
 }
 
-DensityLevel level_above(const DensityLevel& fine) {
-    DensityLevel level{(fine.width + 1) / 2, (fine.height + 1) / 2, {}, {}};
-    level.largest.resize(level.width * level.height);
-    level.mass.resize(level.width * level.height);
-    for (std::size_t j = 0; j < fine.height; ++j)
-        for (std::size_t i = 0; i < fine.width; ++i) {
-            const std::size_t from = j * fine.width + i;
-            const std::size_t to = j / 2 * level.width + i / 2;
-            level.largest[to] = std::max(level.largest[to], fine.largest[from]);
-            level.mass[to] += fine.mass[from];
-        }
-    return level;
-}
-
 }  // namespace
 
 DensityMap::DensityMap(std::size_t width, std::size_t height, std::vector<double> values)
@@ -256,14 +242,6 @@ std::array<double, 2> DensityMap::find(double x, double y) const {
     const auto sums = std::span(row_sums_).subspan(j * width_, width_);
     return {share_before(sums, i, x * static_cast<double>(width_) - static_cast<double>(i)),
             share_before(column_, j, y * static_cast<double>(height_) - static_cast<double>(j))};
-}
-
-std::vector<DensityLevel> DensityMap::pyramid() const {
-    std::vector<DensityLevel> levels{{width_, height_, values_, values_}};
-    const auto cells = static_cast<double>(values_.size());
-    for (double& mass : levels[0].mass) mass /= cells;
-    while (levels.back().largest.size() > 1) levels.push_back(level_above(levels.back()));
-    return levels;
 }
 
 DensityMap read_density(const std::string& path, bool invert, const RunContext& run) {

@@ -41,15 +41,6 @@ struct PlaneValues {
     std::vector<double> values = {};
 };
 
-/// One level of a pyramid: cell (i, j) covers cells 2i, 2i + 1 and 2j, 2j + 1 of the level before,
-/// as far as these are there.
-struct DensityLevel {
-    std::size_t width;
-    std::size_t height;
-    std::vector<double> largest;  ///< row after row
-    std::vector<double> mass;     ///< of the cell; all of a level sum to 1
-};
-
 class DensityMap {
   public:
     /// Values row after row from y = 0, not all 0; scales them to a mean of 1.
@@ -81,9 +72,6 @@ class DensityMap {
     /// The way back, from the closed unit square into the closed unit square. What lies in an empty
     /// cell goes where its neighbours meet.
     [[nodiscard]] std::array<double, 2> find(double x, double y) const;
-
-    /// From the cells themselves up to one cell that covers the square.
-    [[nodiscard]] std::vector<DensityLevel> pyramid() const;
 
   private:
     /// A point on its way to its place: what is known once its row is.

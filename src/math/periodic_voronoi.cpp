@@ -16,13 +16,6 @@ double gap(double x, double low, double size) { return std::max({low - x, x - (l
 
 }  // namespace
 
-Vec2 circumcenter(const Vec2& p, const Vec2& q) {
-    const double scale = 0.5 / cross(p, q);
-    const double pp = dot(p, p);
-    const double qq = dot(q, q);
-    return {scale * (q.y * pp - p.y * qq), scale * (p.x * qq - q.x * pp)};
-}
-
 Vec2 VoronoiCell::farthest_corner() const {
     const auto far = std::ranges::max_element(
         corners_, {}, [](const CellCorner& corner) { return dot(corner.at, corner.at); });

@@ -159,7 +159,4 @@ class PeriodicVoronoi {
     double largest_weight_ = 0;
 };
 
-/// Centre of the circle through the origin, p and q, which are not on one line with it.
-Vec2 circumcenter(const Vec2& p, const Vec2& q);
-
 }  // namespace stipple

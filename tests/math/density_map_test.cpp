@@ -53,17 +53,6 @@ TEST(DensityMap, TakesNumbersOfAnySize) {
     EXPECT_EQ(values_of(DensityMap(2, 1, {3e-320, 0})), (std::vector<double>{2, 0}));
 }
 
-TEST(DensityMap, PyramidKeepsLargestValuesAndMass) {
-    const auto levels = DensityMap(3, 2, {1, 2, 3, 0, 4, 2}).pyramid();
-    ASSERT_EQ(levels.size(), 3U);
-    EXPECT_EQ(levels[1].width, 2U);
-    EXPECT_EQ(levels[1].height, 1U);
-    EXPECT_EQ(levels[1].largest, (std::vector<double>{2, 1.5}));
-    EXPECT_NEAR(levels[1].mass[0], 7 / 12.0, 1e-15);
-    EXPECT_EQ(levels[2].largest, std::vector<double>{2});
-    EXPECT_NEAR(levels[2].mass[0], 1, 1e-15);
-}
-
 // Piecewise linear, so known by hand: half of the mass is below y = 1/3 ...
 TEST(DensityMap, PlacesTheUniformSquare) {
     const DensityMap map(2, 2, {3, 1, 0, 4});

@@ -244,6 +244,18 @@ TEST(PeriodicVoronoi, ClustersAreCutAsWell) {
     }
 }
 
+namespace {
+
+/// Centre of the circle through the origin, p and q, which are not on one line with it.
+Vec2 circumcenter(const Vec2& p, const Vec2& q) {
+    const double scale = 0.5 / (p.x * q.y - p.y * q.x);
+    const double pp = p.x * p.x + p.y * p.y;
+    const double qq = q.x * q.x + q.y * q.y;
+    return {scale * (q.y * pp - p.y * qq), scale * (p.x * qq - q.x * pp)};
+}
+
+}  // namespace
+
 TEST(PeriodicVoronoi, CornersAreCentersOfCirclesThroughThreeSites) {
     const Vec2 center = circumcenter({3, 0}, {0, 4});
     EXPECT_EQ(center.x, 1.5);
