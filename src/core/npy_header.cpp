@@ -67,6 +67,7 @@ class HeaderReader {
         const auto end = word.empty() ? word.npos : word.find(word.front(), 1);
         const std::string_view name = word.substr(0, end == word.npos ? 8 : end + 1);
         if (name.size() == 5 && (name[0] == '\'' || name[0] == '"')) {
+            if (name.substr(1, 3) == "|b1") return {RawType::natural, 1, false};
             constexpr std::string_view kinds = "fiu";
             const auto kind = kinds.find(name[2]);
             const auto size = static_cast<std::size_t>(name[3] - '0');
@@ -74,8 +75,9 @@ class HeaderReader {
             if (kind != kinds.npos && (size == 4 || size == 8 || (kind > 0 && whole)))
                 return {static_cast<RawType::Kind>(kind), size, name[1] == '>'};
         }
-        refuse(start_,
-               fmt::format("numbers of type {}; expected float64, float32 or integers", name));
+        refuse(
+            start_,
+            fmt::format("numbers of type {}; expected float64, float32, integers or bool", name));
     }
 
     void read_shape(NpyHeader& header) const {

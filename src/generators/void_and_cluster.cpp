@@ -6,7 +6,7 @@
 //
 // --bounds     distances hold in the box: cells need not be squares there.
 // --density    the picture as the ranks dither it: the n cells with the smallest
-//              (rank + 1/2) / density(centre of the cell), in that order.
+//              (rank + 1/2) / (mean density of the cell), in that order.
 // --mask-image the ranks as a dither mask, 16 bits of grey: floor((rank + 1/2) 65536 / (W H)). A
 //              pixel of a picture, its grey in [0, 65536), is white where it is above the mask.
 //
@@ -119,6 +119,28 @@ std::string mask_png(const Torus& torus, const std::vector<std::uint32_t>& order
     return png_of_grey(torus.width, torus.height, samples);
 }
 
+/// How much of each of `parts` equal stretches is in stretch `number` of `all`: calls
+/// visit(part, share) where it is some of it, in units of 1 / (parts all).
+template <class Visit>
+void for_overlaps(std::uint64_t number, std::uint64_t all, std::uint64_t parts,
+                  const Visit& visit) {
+    const std::uint64_t low = number * parts;
+    const std::uint64_t high = low + parts;
+    for (std::uint64_t part = low / all; part * all < high; ++part)
+        visit(part, std::min(high, (part + 1) * all) - std::max(low, part * all));
+}
+
+/// Mean density of a cell of the torus.
+double mean_density(const DensityMap& map, const Torus& torus, std::uint32_t number) {
+    double sum = 0;
+    for_overlaps(number / torus.width, torus.height, map.height(), [&](auto j, auto tall) {
+        for_overlaps(number % torus.width, torus.width, map.width(), [&](auto i, auto wide) {
+            sum += map.values()[j * map.width() + i] * static_cast<double>(wide * tall);
+        });
+    });
+    return sum / static_cast<double>(map.width() * map.height());
+}
+
 /// The `count` cells that dithering fills first.
 std::vector<std::uint32_t> dithered(const Torus& torus, const std::vector<std::uint32_t>& order,
                                     const DensityMap& map, std::size_t count,
@@ -130,10 +152,7 @@ std::vector<std::uint32_t> dithered(const Torus& torus, const std::vector<std::u
     };
     std::vector<Scored> scored;
     for (std::uint32_t rank = 0; rank < order.size(); ++rank) {
-        const auto x = static_cast<double>(order[rank] % torus.width) + 0.5;
-        const auto y = static_cast<double>(order[rank] / torus.width) + 0.5;
-        const double value =
-            map.at(x / static_cast<double>(torus.width), y / static_cast<double>(torus.height));
+        const double value = mean_density(map, torus, order[rank]);
         if (value > 0) scored.push_back({(rank + 0.5) / value, rank});
     }
     if (scored.size() < count)

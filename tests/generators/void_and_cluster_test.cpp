@@ -119,6 +119,20 @@ TEST(VoidAndCluster, FollowsADensity) {
     for (std::size_t i = 0; i < few.count(); ++i) EXPECT_TRUE(few[i][0] >= 0.5 && few[i][1] < 0.5);
 }
 
+// Cells of the torus are wider than the picture's: what counts is how much they hold, not what
+// stands at their middle. Of the left half each second column is bright, of the right the others.
+TEST(VoidAndCluster, SeesPicturesThatAreFinerThanItsCells) {
+    std::vector<double> stripes(128);
+    for (std::size_t i = 0; i < 128; ++i) stripes[i] = i % 2 == (i < 64 ? 0 : 1) ? 1 : 0;
+    const TemporaryFile file(npy_of<double>("<f8", "(1, 128)", stripes));
+    for (const char* size : {"64x64", "48x48"}) {
+        const PointSet set = make(name, points(400, 2), {{"density", file.path()}, {"size", size}});
+        std::size_t left = 0;
+        for (std::size_t i = 0; i < set.count(); ++i) left += set[i][0] < 0.5;
+        EXPECT_NEAR(static_cast<double>(left), 200, 6) << size;
+    }
+}
+
 TEST(VoidAndCluster, AConstantDensityIsNone) {
     const TemporaryFile file(npy_of<double>("<f8", "(2, 1)", {3, 3}));
     EXPECT_EQ(make(name, points(500, 2), {{"density", file.path()}, {"size", "64x64"}}),

@@ -90,6 +90,11 @@ TEST(Npy, ReadsOtherOrdersAndTypes) {
             .at(0),
         points_of({{1, 255}}));
     EXPECT_EQ(
+        read_as("npy", numpy_header("{'descr': '|b1', 'fortran_order': False, 'shape': (1, 2), }") +
+                           "\x01\0"s)
+            .at(0),
+        points_of({{1, 0}}));
+    EXPECT_EQ(
         read_as("npy", numpy_header("{'descr': '<f8', 'fortran_order': False, 'shape': (2,), }") +
                            "\0\0\0\0\0\0\xd0?\0\0\0\0\0\0\xe0?"s)
             .at(0),
@@ -138,10 +143,12 @@ TEST(Npy, RefusesWhatHoldsNoPoints) {
         return numpy_header("{'descr': " + type + ", 'fortran_order': False, 'shape': " + shape +
                             ", }");
     };
-    EXPECT_EQ(refused(header("'<c16'", "(1, 1)")),
-              "input: p: byte 10: numbers of type '<c16'; expected float64, float32 or integers");
-    EXPECT_EQ(refused(header("'<f2'", "(1, 1)")),
-              "input: p: byte 10: numbers of type '<f2'; expected float64, float32 or integers");
+    EXPECT_EQ(
+        refused(header("'<c16'", "(1, 1)")),
+        "input: p: byte 10: numbers of type '<c16'; expected float64, float32, integers or bool");
+    EXPECT_EQ(
+        refused(header("'<f2'", "(1, 1)")),
+        "input: p: byte 10: numbers of type '<f2'; expected float64, float32, integers or bool");
     EXPECT_EQ(refused(header("'<f8'", "(0, 2)")),
               "input: p: byte 10: an array of shape (0, 2) holds no points");
     EXPECT_EQ(refused(header("'<f8'", "()")),
