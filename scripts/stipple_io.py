@@ -306,11 +306,11 @@ def split_sets(table, header, keys):
 
 
 def coordinates(names, width):
-    """Which columns are coordinates: those so named, else all but a set's number and a density."""
+    """Which columns are coordinates: those so named, else all but a set's number and densities."""
     named = [k for k, word in enumerate(names) if re.fullmatch(r"[xyz]|x\d+", word)]
     if named and max(named) < width:
         return named
-    return [k for k in range(width) if names[k : k + 1] not in (["set"], ["pdf"])]
+    return [k for k in range(width) if names[k : k + 1] not in (["set"], ["pdf"], ["weight"])]
 
 
 # ---------------------------------------------------------------- reports

@@ -113,8 +113,7 @@ class Collector final : public SharedAccumulator {
         constexpr std::uint64_t fewest = 4096;
         cells_ = std::bit_floor(std::clamp(most_, fewest, std::max(fewest, most_numbers / axes_)));
         if (!arrival.count) return;
-        const auto kept = static_cast<double>(std::min(*arrival.count, most_));
-        run.need_memory((32.0 + 8.0 * static_cast<double>(axes_)) * kept, "the sorted coordinates");
+        need_memory_for(std::min(*arrival.count, most_), run);
         if (*arrival.count > most_) count_from_now(run);
     }
 
@@ -125,10 +124,9 @@ class Collector final : public SharedAccumulator {
         n_ += rows.size() / domain_->dimension();
         if (outside_.count > 0) return;
         if (counts_.empty() && n_ > most_) count_from_now(run);
-        if (counts_.empty())
-            kept_.insert(kept_.end(), cubes.begin(), cubes.end());
-        else
-            count(cubes, run);
+        if (!counts_.empty()) return count(cubes, run);
+        need_memory_for(n_, run);
+        kept_.insert(kept_.end(), cubes.begin(), cubes.end());
     }
 
     Report report(const RunContext& run) override {
@@ -173,6 +171,11 @@ class Collector final : public SharedAccumulator {
     }
 
   private:
+    void need_memory_for(std::uint64_t kept, const RunContext& run) const {
+        run.need_memory((32.0 + 8.0 * static_cast<double>(axes_)) * static_cast<double>(kept),
+                        "the sorted coordinates");
+    }
+
     /// Points will be too many to keep.
     void count_from_now(const RunContext& run) {
         run.need_memory(8.0 * static_cast<double>(axes_ * cells_), "the cells of all axes");

@@ -19,6 +19,8 @@ struct Sums {
     std::vector<std::uint64_t> squares;
 };
 
+constexpr std::uint64_t together = 256;  ///< windows, of a thread
+
 template <std::size_t D>
 class WindowCounter {
   public:
@@ -33,9 +35,8 @@ class WindowCounter {
     }
 
     [[nodiscard]] WindowCounts count(std::size_t windows) const {
-        constexpr std::uint64_t size = 256;
-        std::vector<Sums> parts(block_count(windows, size));
-        for_each_block(run_, windows, size, [&](const Block& b) {
+        std::vector<Sums> parts(block_count(windows, together));
+        for_each_block(run_, windows, together, [&](const Block& b) {
             Sums sums{std::vector<std::uint64_t>(radii_.size()),
                       std::vector<std::uint64_t>(radii_.size())};
             for (std::uint64_t w = b.first; w < b.last; ++w) {
@@ -93,9 +94,10 @@ class WindowCounter {
 
 WindowCounts count_in_windows(const PointSet& points, const Box& box, std::span<const double> radii,
                               std::size_t windows, const RunContext& run) {
-    run.need_memory(
-        static_cast<double>(points.count()) * (16 * static_cast<double>(points.dimension()) + 12),
-        "the counts in windows");
+    const auto n = static_cast<double>(points.count());
+    const auto sums = static_cast<double>(block_count(windows, together) * radii.size());
+    run.need_memory(n * (16 * static_cast<double>(points.dimension()) + 12) + 16 * sums,
+                    "the counts in windows");
     if (points.dimension() == 1) return WindowCounter<1>(points, box, radii, run).count(windows);
     if (points.dimension() == 2) return WindowCounter<2>(points, box, radii, run).count(windows);
     return WindowCounter<3>(points, box, radii, run).count(windows);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <list>
 #include <optional>
 
 #include "cli/bounds.hpp"
@@ -115,7 +116,7 @@ class Analysis {
           options_(settings_of(analyzer_.options, arguments)),
           joined_(arguments.has("concat")),
           inputs_(inputs_of(arguments)),
-          path_(arguments.get("output").value_or("-")),
+          path_(output_of(arguments)),
           style_(style_of(arguments, path_)),
           averaged_(arguments.has("average")),
           batch_(
@@ -147,8 +148,10 @@ class Analysis {
         if (ranks_.rank() > 0) return 0;  // rank 0 speaks
         if (interrupted()) return print_what_is_known();
         if (averaged_) finish_average();
+        save_wisdom();
         const bool fine = verdict();
         print();
+        for (io::Output& file : beside_) file.commit();
         return fine ? 0 : 1;
     }
 
@@ -490,7 +493,7 @@ class Analysis {
         save_grid(m.results, 0, false);
     }
 
-    void save_grid(const Report& results, std::size_t number, bool several) const {
+    void save_grid(const Report& results, std::size_t number, bool several) {
         const auto* item = results.find("grid");
         const Grid* grid = item ? std::get_if<Grid>(item) : nullptr;
         for (const char* name : {"grid", "image"}) {
@@ -505,12 +508,22 @@ class Analysis {
             else if (several)
                 fail(ErrorKind::usage, "--{}: several sets need a name with {{set}}, or --average",
                      name);
-            write_text(path, std::string(name) == "grid" ? npy_bytes(*grid)
-                                                         : png_bytes(*grid, picture(results)));
+            save_beside(path, std::string(name) == "grid" ? npy_bytes(*grid)
+                                                          : png_bytes(*grid, picture(results)));
         }
+    }
+
+    void save_wisdom() {
         const auto* wisdom = options_.try_find("wisdom");
         if (wisdom && wisdom->given)
-            write_text(std::get<std::string>(wisdom->value), wisdom_text());
+            save_beside(std::get<std::string>(wisdom->value), wisdom_text());
+    }
+
+    /// Files that come with the report are put in their places when it is out.
+    void save_beside(const std::string& path, const std::string& bytes) {
+        io::Output& file = beside_.emplace_back(path, session_.run().stop);
+        file.write(bytes);
+        file.close();
     }
 
     /// How the options say that a grid is drawn.
@@ -589,6 +602,7 @@ class Analysis {
     ReportAverage average_;
     std::vector<std::string> followed_;  ///< options that the first of averaged sets decided
     std::vector<Report> singles_;        ///< what was averaged, where it is needed
+    std::list<io::Output> beside_;       ///< files that come with the report
     SetBatch batch_;
 };
 

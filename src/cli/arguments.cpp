@@ -66,16 +66,31 @@ const VerbInfo* find_verb(std::string_view name) {
 /// Takes the word that names the unit with coordinates or options apart: `warp disk@4,5` means
 /// `warp disk --coordinates 4,5`, `generate sobol:scramble=owen` the same as with --scramble owen.
 /// What it sets is given back. @throws Error(usage) for what is no spec
-Spec split_spec(std::vector<std::string>& words, const Kind& kind) {
-    for (std::string& word : words) {
-        if (find_unit(kind, word) != nullptr) return {};
-        const auto end = word.find_first_of("@:");
-        if (end == std::string::npos || find_unit(kind, word.substr(0, end)) == nullptr) continue;
-        Spec spec = parse_spec(word);
-        word = spec.name;
-        return spec;
+Spec split_spec(std::string& word, const Kind& kind) {
+    if (find_unit(kind, word) != nullptr) return {};
+    Spec spec = parse_spec(word);
+    word = spec.name;
+    return spec;
+}
+
+/// Whether a word is an option whose value is the next word.
+bool takes_next(const std::string& word, Verb verb) {
+    return std::ranges::any_of(common_options(), [&](const CommonOption& option) {
+        const auto names = split(option.names, ',');
+        return *option.value != '\0' && takes(option, verb) &&
+               std::ranges::find(names, word) != names.end();
+    });
+}
+
+/// The word that names the unit, alone or in a spec; nullptr: none does.
+std::string* word_of_unit(std::vector<std::string>& words, const Kind& kind, Verb verb) {
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (takes_next(words[i], verb))
+            ++i;
+        else if (find_unit(kind, words[i].substr(0, words[i].find_first_of("@:"))) != nullptr)
+            return &words[i];
     }
-    return {};
+    return nullptr;
 }
 
 /// `--check` before what is no condition, such as a file, gets none.
@@ -94,8 +109,9 @@ void complete_checks(std::vector<std::string>& words) {
 /// the unit that the words name is a subcommand, so that a file may be called like another.
 class Parser {
   public:
-    Parser(const VerbInfo& verb, const Kind* kind, const std::vector<std::string>& words)
-        : verb_(verb), kind_(kind) {
+    /// @param unit that the words name; nullptr: none
+    Parser(const VerbInfo& verb, const Kind* kind, const UnitInfo* unit)
+        : verb_(verb), kind_(kind), unit_(unit) {
         arguments_.verb = verb.verb;
         app_.set_help_flag();
         app_.allow_extras();
@@ -106,12 +122,7 @@ class Parser {
             add_inputs(app_);
             return;
         }
-        for (const std::string& word : words) {
-            unit_ = find_unit(*kind, word);
-            if (unit_ == nullptr) continue;
-            add_unit(*unit_);
-            break;
-        }
+        if (unit_ != nullptr) add_unit(*unit_);
     }
 
     Arguments parse(std::vector<std::string> words, const Spec& spec) {
@@ -220,7 +231,7 @@ class Parser {
 
     const VerbInfo& verb_;
     const Kind* kind_;
-    const UnitInfo* unit_ = nullptr;
+    const UnitInfo* unit_;
     CLI::App app_{"stipple"};
     Arguments arguments_;
 };
@@ -252,8 +263,8 @@ const std::vector<CommonOption>& common_options() {
          study},
         {"-d,--dimension", "DIMENSIONS", "2", "one or several, as for -n", study},
         {"-s,--seed", "S", "1", "the first 64-bit seed; 'random' draws one and says so", study},
-        {"-m,--seeds", "R", "1", "sets of each generator, dimension and count: seeds S, S + 1, ...",
-         study},
+        {"-m,--sets,--seeds", "R", "1",
+         "sets of each generator, dimension and count: seeds S, S + 1, ...", study},
         {"-n,--count", "N", "1024", "points in a set; 1e6, 2^20 and 64k (= 65536) are accepted",
          generate},
         {"-d,--dimension", "D", "2", "dimension", generate},
@@ -436,9 +447,11 @@ Arguments parse_arguments(int argc, const char* const* argv, const std::vector<K
     if (verb == nullptr) return parse_without_verb(words);
     words.erase(words.begin());
     const auto kind = units_for(kinds, verb->name);
-    const Spec spec = kind ? split_spec(words, *kind) : Spec();
     if (verb->verb == Verb::analyze) complete_checks(words);
-    return Parser(*verb, kind ? &*kind : nullptr, words).parse(words, spec);
+    std::string* const word = kind ? word_of_unit(words, *kind, verb->verb) : nullptr;
+    const Spec spec = word != nullptr ? split_spec(*word, *kind) : Spec();
+    const UnitInfo* const unit = word != nullptr ? find_unit(*kind, *word) : nullptr;
+    return Parser(*verb, kind ? &*kind : nullptr, unit).parse(words, spec);
 }
 
 }  // namespace stipple::cli

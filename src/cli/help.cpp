@@ -28,10 +28,8 @@ std::string common_lines(Verb verb) {
     for (const CommonOption& option : common_options()) {
         if ((option.verbs & static_cast<unsigned>(verb)) == 0) continue;
         std::string names = option.names;
-        if (const auto comma = names.find(','); comma != std::string::npos)
-            names.replace(comma, 1, ", ");
-        else
-            names = "    " + names;
+        if (names.starts_with("--")) names.insert(0, "    ");
+        replace_all(names, ",", ", ");
         if (*option.value != '\0') names += std::string(" ") + option.value;
         std::string help = option.help;
         if (option.repeatable) help += "; repeatable";
@@ -54,8 +52,8 @@ std::string help_program() {
         "\n'stipple VERB --help' says everything about a verb, 'stipple VERB UNIT --help' about a "
         "unit.\n"
         "'stipple --version' names the libraries that are linked.\n\n"
-        "Exit codes: 0 done; 1 a --check or --expect did not hold; 2 wrong usage; 3 bad input;\n"
-        "4 cannot read or write; 5 over a limit; 130 interrupted.\n";
+        "Exit codes: 0 done; 1 a check did not hold; 2 wrong usage; 3 bad input; 4 cannot read or\n"
+        "write; 5 over a limit; 130 interrupted ('stipple help exit-codes').\n";
     return text;
 }
 

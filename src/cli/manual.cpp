@@ -100,8 +100,7 @@ std::string common_paragraphs(Verb verb) {
     for (const CommonOption& option : common_options()) {
         if ((option.verbs & static_cast<unsigned>(verb)) == 0) continue;
         std::string names = option.names;
-        if (const auto comma = names.find(','); comma != std::string::npos)
-            names.replace(comma, 1, ", ");
+        replace_all(names, ",", ", ");
         std::string help = option.help;
         if (option.repeatable) help += "; repeatable";
         if (*option.fallback != '\0') help += fmt::format(" (default {})", option.fallback);
@@ -177,7 +176,9 @@ const VerbInfo* find_verb(const std::string& name) {
 std::string help_of_unit(const std::string& name, const std::vector<Kind>& kinds) {
     for (const Kind& kind : kinds) {
         const VerbInfo* info = find_verb(kind.verb);
-        if (info == nullptr || find_unit(kind, name) == nullptr) continue;
+        if (find_unit(kind, name) == nullptr) continue;
+        if (const Topic* topic = find_topic(kind.name)) return topic->text;  // csv: formats
+        if (info == nullptr) continue;
         Arguments asked;
         asked.verb = info->verb;
         asked.unit = name;

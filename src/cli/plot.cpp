@@ -100,7 +100,7 @@ class Plot {
     Plot(const Arguments& arguments, Session& session)
         : arguments_(arguments),
           session_(session),
-          path_(arguments.get("output").value_or("-")),
+          path_(output_of(arguments)),
           medium_(medium_of(arguments, path_)),
           chart_(arguments.get("chart").value_or("")) {
         if (!chart_.empty() && std::ranges::find(chart_kinds(), chart_) == chart_kinds().end())
@@ -439,12 +439,7 @@ class Plot {
     [[nodiscard]] std::string command() const {
         const std::vector<std::string> silent = {"output", "threads", "quiet", "progress",
                                                  "max-memory"};
-        std::string text = "stipple plot";
-        for (const std::string& input : arguments_.inputs) text += " " + input;
-        for (const auto& [name, value] : arguments_.common)
-            if (std::ranges::find(silent, name) == silent.end())
-                text += fmt::format(" --{} {}", name, value);
-        return text;
+        return "stipple plot" + command_text(arguments_, silent);
     }
 
     [[nodiscard]] PictureNotes notes_of() const {

@@ -11,7 +11,9 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/files.hpp"
+#include "io/source_text.hpp"
 #include "study/chain.hpp"
+#include "study/delivery.hpp"
 #include "study/pipeline.hpp"
 
 namespace stipple::cli {
@@ -77,6 +79,31 @@ std::string command_of(const Arguments& arguments, const Generator& generator,
 }
 
 }  // namespace
+
+std::string output_of(const Arguments& arguments) {
+    std::string path = arguments.get("output").value_or("-");
+    if (file_per_set(path))
+        fail(ErrorKind::usage, "--output: one file is written for all sets; '{}' names several",
+             path);
+    return path;
+}
+
+std::string command_text(const Arguments& arguments, std::span<const std::string> left_out) {
+    const auto is_flag = [&](const std::string& name) {
+        return std::ranges::any_of(common_options(), [&](const CommonOption& option) {
+            return std::string_view(option.names).ends_with("--" + name) && *option.value == '\0' &&
+                   (option.verbs & static_cast<unsigned>(*arguments.verb)) != 0;
+        });
+    };
+    std::string text;
+    for (const std::string& input : arguments.inputs) text += fmt::format(" {}", shell_word(input));
+    for (const auto& [name, value] : arguments.common) {
+        if (std::ranges::find(left_out, name) != left_out.end()) continue;
+        text += fmt::format(" --{}", name);
+        if (!is_flag(name)) text += fmt::format(" {}", shell_word(value));
+    }
+    return text;
+}
 
 std::string shell_word(const std::string& word) {
     constexpr std::string_view plain =
@@ -175,7 +202,13 @@ DomainPtr input_domain(const Provenance& provenance, std::size_t dimension,
     // Columns picked by hand are not what the file's domain speaks of.
     if (arguments.has("column") || domain == "unit-cube" || domain.empty())
         return unit_cube(dimension);
-    return parse_domain(domain, dimension, run);
+    try {
+        return parse_domain(domain, dimension, run);
+    } catch (const Error& e) {  // it is the file that is wrong, not the call
+        if (e.kind() != ErrorKind::usage) throw;
+        throw Error(ErrorKind::input, fmt::format("its domain {}: {}", io::shown(domain), e.what()),
+                    e.hint());
+    }
 }
 
 std::vector<PointSet> read_input(const std::string& path, const Arguments& arguments,

@@ -86,7 +86,7 @@ class Reporter {
     Reporter(const Arguments& arguments, Session& session)
         : arguments_(arguments),
           session_(session),
-          path_(arguments.get("output").value_or("-")),
+          path_(output_of(arguments)),
           json_(arguments.has("json") || path_.ends_with(".json")) {
         if (!json_ && path_ == "-" && isatty(STDOUT_FILENO) == 1)
             fail_with_hint(ErrorKind::usage, "name a file with -o, or pipe it on",
@@ -348,11 +348,7 @@ class Reporter {
     [[nodiscard]] std::string command() const {
         const std::vector<std::string> silent = {"output",     "threads", "quiet",   "progress",
                                                  "max-memory", "json",    "fail-on", "seed"};
-        std::string text = "stipple report";
-        for (const std::string& input : arguments_.inputs) text += " " + shell_word(input);
-        for (const auto& [name, value] : arguments_.common)
-            if (std::ranges::find(silent, name) == silent.end())
-                text += fmt::format(" --{} {}", name, shell_word(value));
+        std::string text = "stipple report" + command_text(arguments_, silent);
         if (arguments_.has("seed")) text += fmt::format(" --seed {}", seed_);
         return text + (json_ ? " --json" : " -o report.html");
     }

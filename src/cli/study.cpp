@@ -186,7 +186,7 @@ class Study {
           session_(session),
           ranks_(ranks),
           sweep_(request_of(arguments, ranks, session)),
-          path_(arguments.get("output").value_or("-")),
+          path_(output_of(arguments)),
           table_(style_of(arguments, path_), sweep_.request().seconds),
           summary_options_(summary_options(arguments, sweep_.request().first_seed)),
           summarized_(arguments.has("summary")) {}
@@ -272,13 +272,17 @@ class Study {
         const unsigned hands =
             threads_of(ranks_, session_.run()) * static_cast<unsigned>(ranks_.size());
         const SweepRequest& r = sweep_.request();
+        std::string takes = "about " + format_bytes(units * bytes);
+        constexpr std::uint64_t most_cells = 1'000'000;  // that are looked at in a moment
+        if (sweep_.cells() <= most_cells)
+            takes += fmt::format(" and {} on {} {}", long_time(WorkLeft(sweep_).seconds() / hands),
+                                 hands, hands == 1 ? "core" : "cores");
         fail_with_hint(
             ErrorKind::limit, "--yes starts it all the same",
             "the study has {} rows or more ({} generators x {} dimensions x {} counts x {} seeds x "
-            "{} measures), about {} and {} on {} {}",
+            "{} measures), {}",
             sweep_.units(), r.generators.size(), r.dimensions.size(), r.counts.size(), r.seeds,
-            r.measures.size(), format_bytes(units * bytes),
-            long_time(WorkLeft(sweep_).seconds() / hands), hands, hands == 1 ? "core" : "cores");
+            r.measures.size(), takes);
     }
 
     const Arguments& arguments_;

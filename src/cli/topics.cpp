@@ -213,7 +213,7 @@ differ in their last digits from one machine to another.
 
 constexpr const char* exit_codes = 1 + R"(
 0    done
-1    a --check or --expect did not hold; reproduce: not identical
+1    a --check, --expect or --fail-on did not hold; reproduce: not identical
 2    wrong usage
 3    bad input: the message names the file, the line or byte, and what was expected
 4    cannot read or write
@@ -221,8 +221,8 @@ constexpr const char* exit_codes = 1 + R"(
 130  interrupted
 
 An error is one line on standard error, with a hint where one helps. A command that fails
-writes nothing to its target: a file that was there before is as it was. A reader that
-closes the pipe is no error.
+writes nothing to its target: a file that was there before is as it was; only a study keeps
+the rows that it has. A reader that closes the pipe is no error.
 
 --check makes any result a condition, for scripts and continuous integration:
 

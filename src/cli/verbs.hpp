@@ -3,6 +3,8 @@
 // What the verbs do; each returns the exit code.
 #pragma once
 
+#include <span>
+
 #include "cli/arguments.hpp"
 #include "cli/session.hpp"
 #include "io/point_stream.hpp"
@@ -31,6 +33,9 @@ std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session
 /// Where points go, as -o, -f, --dtype, --precision, --meta and --no-header say.
 Target target_of(const Arguments& arguments);
 
+/// Where a verb writes its one file. @throws Error(usage) for a name with {set} or {seed}
+std::string output_of(const Arguments& arguments);
+
 /// The sets of an input file, with their domain; --from, -d, --column, --dtype are heeded.
 std::vector<PointSet> read_input(const std::string& path, const Arguments& arguments,
                                  const RunContext& run);
@@ -56,6 +61,10 @@ DomainPtr input_domain(const Provenance& provenance, std::size_t dimension,
 
 /// A word as a shell takes it, in quotes where it must be.
 std::string shell_word(const std::string& word);
+
+/// What was typed of a verb's inputs and common options, as a shell takes it; less what is left
+/// out.
+std::string command_text(const Arguments& arguments, std::span<const std::string> left_out);
 
 /// The unit's options as typed. @throws Error(usage)
 Values settings_of(const Schema& schema, const Arguments& arguments);

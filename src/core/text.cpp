@@ -122,11 +122,17 @@ std::string format_number(double value) { return fmt::format("{}", value); }
 std::string format_bytes(double bytes) {
     constexpr std::array units = {"bytes", "KiB", "MiB", "GiB", "TiB", "PiB", "EiB"};
     std::size_t unit = 0;
-    while (bytes >= 1024 && unit + 1 < units.size()) {
+    // What rounds to 1000 would be written as 1e+03.
+    while (bytes >= (unit == 0 ? 1024 : 999.5) && unit + 1 < units.size()) {
         bytes /= 1024;
         ++unit;
     }
     return fmt::format("{:.{}g} {}", bytes, unit == 0 ? 4 : 3, units[unit]);
+}
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+        text.replace(at, from.size(), to);
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator) {

@@ -31,6 +31,9 @@ std::string format_number(double value);
 /// 1536 -> "1.5 KiB".
 std::string format_bytes(double bytes);
 
+/// Puts `to` wherever `from` stands.
+void replace_all(std::string& text, std::string_view from, std::string_view to);
+
 /// Parts between separators; "a,b" -> {"a", "b"}, "" -> {}.
 std::vector<std::string_view> split(std::string_view text, char separator);
 

@@ -28,4 +28,11 @@ inline void check_density(const Values& options, std::size_t dimension) {
         fail(ErrorKind::usage, "--dimension: {} is not 2, the dimension of a --density", dimension);
 }
 
+/// The option, if one is given, by which points are not spread evenly; else nullptr.
+inline const char* shaping_option(const Values& options) {
+    for (const char* name : {"density", "mask", "radius-map"})
+        if (const auto* item = options.try_find(name); item != nullptr && item->given) return name;
+    return nullptr;
+}
+
 }  // namespace stipple

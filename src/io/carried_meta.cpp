@@ -20,11 +20,6 @@ constexpr std::string_view open_tag = "<metadata>\n";
 constexpr std::string_view close_tag = "</metadata>\n";
 constexpr std::string_view ply_comment = "comment ";
 
-void replace_all(std::string& text, std::string_view from, std::string_view to) {
-    for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-        text.replace(at, from.size(), to);
-}
-
 /// Calls `take` with each line and whether it is a comment, up to the end of a ply's header; the
 /// place behind it.
 template <class Take>

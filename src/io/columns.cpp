@@ -90,6 +90,16 @@ std::vector<double> keep_coordinates(std::vector<double> table, const Columns& c
     return table;
 }
 
+void tell_origin(std::vector<PointSet>& sets, const Provenance& provenance) {
+    const bool scrambled = std::ranges::any_of(provenance.warps, [](const std::string& spec) {
+        return spec.find("seed=") != std::string::npos;
+    });
+    for (std::size_t r = 0; r < sets.size(); ++r) {
+        sets[r].provenance = provenance;
+        if (!provenance.generator.empty() && !scrambled) sets[r].provenance.seed += r;
+    }
+}
+
 std::vector<PointSet> cut_sets(std::vector<double> rows, std::size_t dimension,
                                const std::vector<std::uint64_t>& starts,
                                const Provenance& provenance) {
@@ -105,7 +115,7 @@ std::vector<PointSet> cut_sets(std::vector<double> rows, std::size_t dimension,
             sets.emplace_back(std::vector<double>(at(starts[s]), last), dimension);
         }
     }
-    for (PointSet& set : sets) set.provenance = provenance;
+    tell_origin(sets, provenance);
     return sets;
 }
 

@@ -40,6 +40,10 @@ Columns choose_columns(std::vector<std::string> names, std::size_t width,
 /// Keeps the coordinates of a table that holds all columns.
 std::vector<double> keep_coordinates(std::vector<double> table, const Columns& columns);
 
+/// Tells each of the sets of a file where it is from: those of a generator have one seed after the
+/// other, unless it is the scrambles that differ.
+void tell_origin(std::vector<PointSet>& sets, const Provenance& provenance);
+
 /// Cuts rows into sets that begin at the rows `starts` (rising, the first is 0).
 std::vector<PointSet> cut_sets(std::vector<double> rows, std::size_t dimension,
                                const std::vector<std::uint64_t>& starts,

@@ -26,14 +26,13 @@ namespace {
 void head(const Layout& layout, std::string& out) {
     if (layout.meta) out += to_comment_lines(layout.provenance);
     if (!layout.header) return;
-    if (layout.many_sets) out += "set,";
+    if (layout.many_sets()) out += "set,";
     out += join(layout.columns(), ",") + "\n";
 }
 
 void rows(const Layout& layout, std::size_t set, std::uint64_t, std::span<const double> numbers,
           std::string& out) {
-    const std::string open =
-        layout.many_sets ? std::to_string(layout.first_set + set) + "," : std::string();
+    const std::string open = layout.many_sets() ? std::to_string(set) + "," : std::string();
     append_rows(out, numbers, layout.width(), {open, ",", "\n"}, layout.precision);
 }
 

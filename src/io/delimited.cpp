@@ -434,10 +434,8 @@ std::vector<PointSet> gather_sets(Rows rows, std::size_t dimension, const Proven
         set.insert(set.end(), first, last);
     }
     std::vector<PointSet> result;
-    for (auto& set : sets) {
-        result.emplace_back(std::move(set), dimension);
-        result.back().provenance = provenance;
-    }
+    for (auto& set : sets) result.emplace_back(std::move(set), dimension);
+    tell_origin(result, provenance);
     return result;
 }
 

@@ -299,11 +299,15 @@ bool Output::write(std::string_view bytes) {
     return !broken_;
 }
 
-void Output::commit() {
+void Output::close() {
     if (!owned_ || descriptor_ < 0) return;
     const int closed = ::close(descriptor_);
     descriptor_ = -1;
     if (closed != 0) refuse(path_, errno);
+}
+
+void Output::commit() {
+    close();
     if (temporary_.empty()) return;
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) refuse(path_, errno);
     temporary_.clear();

@@ -60,6 +60,9 @@ class Output {
     /// @throws Error(io), naming the target and the reason; Error(cancelled).
     bool write(std::string_view bytes);
 
+    /// Ends the writing, for a file that waits for commit(). @throws Error(io)
+    void close();
+
     /// Puts the file in its place. @throws Error(io)
     void commit();
 

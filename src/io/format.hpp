@@ -24,8 +24,6 @@ struct Layout {
     std::size_t dimension = 0;               ///< coordinates of a point
     std::vector<std::string> extras = {};    ///< names of further numbers in a row ("pdf")
     std::vector<std::uint64_t> counts = {};  ///< points of each set
-    std::size_t first_set = 0;               ///< number of the first set in this file
-    bool many_sets = false;                  ///< more than one set was asked for
     bool header = true;                      ///< CSV
     bool meta = false;                       ///< provenance in `# ` lines
     bool single = false;                     ///< float32 in binary formats
@@ -34,6 +32,7 @@ struct Layout {
     std::optional<Box> extent = {};  ///< what a picture shows; else the bounds, else the unit cube
 
     [[nodiscard]] std::size_t width() const { return dimension + extras.size(); }
+    [[nodiscard]] bool many_sets() const { return counts.size() > 1; }
     /// x / x,y / x,y,z / x1..xd, then the extras.
     [[nodiscard]] std::vector<std::string> columns() const;
 };

@@ -33,11 +33,12 @@ namespace stipple::io {
 namespace {
 
 void head(const Layout& layout, std::string& out) {
-    out += json_head(layout, layout.counts) + (layout.many_sets ? ",\"sets\":[" : ",\"points\":[");
+    out +=
+        json_head(layout, layout.counts) + (layout.many_sets() ? ",\"sets\":[" : ",\"points\":[");
 }
 
 void begin_set(const Layout& layout, std::size_t set, std::string& out) {
-    if (layout.many_sets) out += set > 0 ? "\n],[" : "[";
+    if (layout.many_sets()) out += set > 0 ? "\n],[" : "[";
 }
 
 void rows(const Layout& layout, std::size_t, std::uint64_t first, std::span<const double> numbers,
@@ -51,7 +52,7 @@ void rows(const Layout& layout, std::size_t, std::uint64_t first, std::span<cons
 }
 
 void tail(const Layout& layout, std::string& out) {
-    out += layout.many_sets ? "\n]]}\n" : "\n]}\n";
+    out += layout.many_sets() ? "\n]]}\n" : "\n]}\n";
 }
 
 class Reader {
@@ -207,7 +208,9 @@ class Reader {
             width_ = found;
             // A first row as long as the others makes this the only allocation.
             const auto rows = (last_ - begin) / std::max<std::ptrdiff_t>(p_ - begin, 1) + 1;
-            numbers_.reserve(static_cast<std::size_t>(rows) * width_);
+            const std::size_t numbers = static_cast<std::size_t>(rows) * width_;
+            run_.need_memory(8 * static_cast<double>(numbers), "reading " + text_.source());
+            numbers_.reserve(numbers);
         }
         if (found != width_)
             text_.refuse(begin, fmt::format("the point has {} coordinate{}; expected {}, as the "

@@ -25,7 +25,7 @@ namespace {
 
 void begin_set(const Layout& layout, std::size_t set, std::string& out) {
     out += json_head(layout, {layout.counts.at(set)});
-    if (layout.many_sets) out += fmt::format(",\"set\":{}", layout.first_set + set);
+    if (layout.many_sets()) out += fmt::format(",\"set\":{}", set);
     out += "}\n";
 }
 

@@ -22,7 +22,7 @@ namespace {
 void head(const Layout& layout, std::string& out) {
     std::string header = fmt::format(
         "{{'descr': '<f{}', 'fortran_order': False, 'shape': ({}{}, {}), }}", layout.single ? 4 : 8,
-        layout.many_sets ? fmt::format("{}, ", layout.counts.size()) : std::string(),
+        layout.many_sets() ? fmt::format("{}, ", layout.counts.size()) : std::string(),
         layout.counts.at(0), layout.width());
     constexpr std::size_t before = 10;
     const std::size_t used = before + header.size() + 1;
@@ -82,11 +82,12 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
 
 /// Point after point; what is stored with the first index running fastest needs all of it.
 std::unique_ptr<PointStream> stream(std::unique_ptr<Feed>& feed, const ReadOptions& options,
-                                    const RunContext& /*run*/) {
+                                    const RunContext& run) {
     const std::string source = source_name(options.source);
     const NpyHeader header = read_npy_header(feed->front(), source);
     const std::size_t rank = header.shape.size();
     if (rank == 0 || rank > 3 || header.empty() || header.columns_first) return nullptr;
+    run.need_memory(64 * static_cast<double>(header.shape.back()), "a row of " + source);
     const bool many = rank == 3;
     const RawShape shape{.sets = many ? header.shape[0] : 1,
                          .count = header.shape[many ? 1 : 0],

@@ -35,16 +35,16 @@ void head(const Layout& layout, std::string& out) {
     const std::string property = layout.single ? "property float " : "property double ";
     for (const char* axis : {"x", "y", "z"}) out += property + axis + "\n";
     for (const std::string& extra : layout.extras) out += property + extra + "\n";
-    if (layout.many_sets) out += "property int set\n";
+    if (layout.many_sets()) out += "property int set\n";
     out += "end_header\n";
 }
 
 void rows(const Layout& layout, std::size_t set, std::uint64_t, std::span<const double> numbers,
           std::string& out) {
     const std::size_t d = layout.dimension;
-    const auto number = static_cast<std::int32_t>(layout.first_set + set);
+    const auto number = static_cast<std::int32_t>(set);
     std::vector<double> vertex(3 + layout.extras.size());
-    const std::string close = layout.many_sets ? fmt::format(" {}\n", number) : "\n";
+    const std::string close = layout.many_sets() ? fmt::format(" {}\n", number) : "\n";
     for (std::size_t i = 0; i < numbers.size(); i += layout.width()) {
         const auto row = numbers.subspan(i, layout.width());
         std::copy_n(row.begin(), d, vertex.begin());
@@ -54,7 +54,7 @@ void rows(const Layout& layout, std::size_t set, std::uint64_t, std::span<const 
             continue;
         }
         append_raw(out, vertex, layout.single);
-        if (layout.many_sets) out.append(reinterpret_cast<const char*>(&number), 4);
+        if (layout.many_sets()) out.append(reinterpret_cast<const char*>(&number), 4);
     }
 }
 

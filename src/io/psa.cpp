@@ -15,6 +15,8 @@ namespace stipple::io {
 namespace {
 
 void head(const Layout& layout, std::string& out) {
+    if (!layout.extras.empty())
+        fail(ErrorKind::usage, "--format: psa has no place for {}", join(layout.extras, ", "));
     out += std::to_string(layout.counts.at(0)) + "\n";
 }
 

@@ -10,12 +10,38 @@
 #include "core/error.hpp"
 #include "core/file_bytes.hpp"
 #include "core/fingerprint.hpp"
+#include "core/parallel.hpp"
 #include "core/rng.hpp"
 #include "core/text.hpp"
 #include "study/pipeline.hpp"
 
 namespace stipple {
 namespace {
+
+/// What work(rows, first) makes of blocks of points, one after the other, with their provenance.
+template <class Work>
+PointSet by_blocks(const PointSet& points, std::size_t width, const RunContext& run,
+                   const Work& work) {
+    const std::size_t d = points.dimension();
+    run.need_memory(8.0 * static_cast<double>(points.count() * width), "the image of the points");
+    constexpr std::size_t block = 1 << 14;
+    std::vector<std::vector<double>> parts(block_count(points.count(), block));
+    for_each_block(run, points.count(), block, [&](const Block& b) {
+        const auto rows = points.flat().subspan(b.first * d, (b.last - b.first) * d);
+        parts[b.index] = work(std::vector<double>(rows.begin(), rows.end()), b.first);
+    });
+    std::size_t numbers = 0;
+    for (const auto& part : parts) numbers += part.size();
+    std::vector<double> all;
+    all.reserve(numbers);
+    for (auto& part : parts) {
+        all.insert(all.end(), part.begin(), part.end());
+        part = {};  // so that the points are not held twice
+    }
+    PointSet made(std::move(all), width);
+    made.provenance = points.provenance;
+    return made;
+}
 
 /// Columns of rows as rows of their own.
 std::vector<double> gather(std::span<const double> rows, std::size_t width,
@@ -102,6 +128,17 @@ std::vector<std::size_t> all_of(std::size_t dimension) {
     std::vector<std::size_t> all(dimension);
     std::iota(all.begin(), all.end(), std::size_t{0});
     return all;
+}
+
+/// The product of factors and of the unit cube in all other coordinates.
+DomainPtr filled_up(std::vector<Factor> factors, std::size_t dimension) {
+    std::vector<std::size_t> taken;
+    for (const Factor& factor : factors)
+        taken.insert(taken.end(), factor.coordinates.begin(), factor.coordinates.end());
+    const auto rest = others(dimension, taken);
+    if (!rest.empty()) factors.push_back({unit_cube(rest.size()), rest});
+    const bool whole = factors.size() == 1 && factors[0].coordinates == all_of(dimension);
+    return whole ? factors[0].domain : product_domain(std::move(factors));
 }
 
 }  // namespace
@@ -210,16 +247,26 @@ void WarpChain::add_warp(const Warp& warp, const Spec& spec, const RunContext& r
 
 void WarpChain::find_domain() {
     std::vector<Factor> factors;
-    std::vector<std::size_t> warped;
-    for (const Step& step : steps_) {
-        if (!step.domain) continue;
-        factors.push_back({step.domain, step.image});
-        warped.insert(warped.end(), step.image.begin(), step.image.end());
+    for (const Step& step : steps_)
+        if (step.domain) factors.push_back({step.domain, step.image});
+    domain_ = filled_up(std::move(factors), dimension_out_);
+}
+
+DomainPtr WarpChain::domain_before(const DomainPtr& after, const RunContext& run) const {
+    std::vector<Factor> factors = warped_factors(after, {}, run);
+    for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
+        if (!step->mapping) continue;
+        const auto at = places(step->coordinates, step->image.size());
+        const auto rest = others(step->width_in, step->coordinates);
+        const auto moved = others(step->width_out, at);
+        std::erase_if(factors, [&](const Factor& factor) {
+            return std::ranges::find_first_of(factor.coordinates, at) != factor.coordinates.end();
+        });
+        for (Factor& factor : factors)
+            for (std::size_t& k : factor.coordinates)
+                k = rest[static_cast<std::size_t>(std::ranges::find(moved, k) - moved.begin())];
     }
-    const auto rest = others(dimension_out_, warped);
-    if (!rest.empty()) factors.push_back({unit_cube(rest.size()), rest});
-    const bool whole = factors.size() == 1 && factors[0].coordinates == all_of(dimension_out_);
-    domain_ = whole ? factors[0].domain : product_domain(std::move(factors));
+    return filled_up(std::move(factors), dimension_in_);
 }
 
 bool WarpChain::drops() const {
@@ -265,6 +312,22 @@ std::vector<double> WarpChain::inverse(std::vector<double> rows) const {
             interleave(rows, step->width_out, others(step->width_out, at), cube, step->coordinates);
     }
     return rows;
+}
+
+PointSet WarpChain::image(const PointSet& points, const RunContext& run,
+                          std::uint64_t start) const {
+    PointSet image = by_blocks(points, dimension_out_, run, [&](auto rows, std::uint64_t first) {
+        return forward(std::move(rows), start + first);
+    });
+    image.domain = domain_;
+    return image;
+}
+
+PointSet WarpChain::preimage(const PointSet& points, const RunContext& run) const {
+    PointSet before = by_blocks(points, dimension_in_, run,
+                                [&](auto rows, std::uint64_t) { return inverse(std::move(rows)); });
+    before.domain = domain_before(points.domain, run);
+    return before;
 }
 
 std::vector<double> WarpChain::density(std::span<const double> rows) const {

@@ -67,6 +67,18 @@ class WarpChain {
     /// Error(input) for points off the domain.
     [[nodiscard]] std::vector<double> inverse(std::vector<double> rows) const;
 
+    /// Images of all points, on all threads; the first one has the index `start`. They are on
+    /// domain(), and keep the provenance. @throws Error(cancelled), Error(limit)
+    [[nodiscard]] PointSet image(const PointSet& points, const RunContext& run,
+                                 std::uint64_t start = 0) const;
+
+    /// What all points are the images of, in the same way; what else is not of the unit cube, stays
+    /// on the domain that it has. @throws as inverse() does
+    [[nodiscard]] PointSet preimage(const PointSet& points, const RunContext& run) const;
+
+    /// What preimages of points on `after` are on.
+    [[nodiscard]] DomainPtr domain_before(const DomainPtr& after, const RunContext& run) const;
+
     /// Density of each row that forward() gave, with respect to the measure of domain().
     [[nodiscard]] std::vector<double> density(std::span<const double> rows) const;
 

@@ -8,6 +8,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <unordered_map>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -156,11 +157,6 @@ class Conveyor {
     std::vector<Parcel*> free_;
 };
 
-void replace_all(std::string& text, std::string_view from, const std::string& to) {
-    for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-        text.replace(at, from.size(), to);
-}
-
 std::string span_text(std::size_t low, std::size_t high) {
     return low == high ? std::to_string(low) : fmt::format("{} to {}", low, high);
 }
@@ -185,8 +181,6 @@ void check_format(const Format& format, const Layout& layout) {
 Layout layout_of(const Shipment& shipment, std::size_t first, std::size_t last,
                  const Target& target) {
     Layout layout{.dimension = shipment.dimension,
-                  .first_set = shipment.first_set + first,
-                  .many_sets = shipment.all_sets > 1,
                   .header = target.header,
                   .meta = target.meta,
                   .single = target.single,
@@ -258,6 +252,23 @@ void put_meta_beside(const Shipment& shipment, std::size_t first, std::size_t la
                "\n");
 }
 
+/// @throws Error(usage) where two sets would be one file
+std::vector<std::string> paths_of_sets(const Shipment& shipment, const Target& target) {
+    std::vector<std::string> paths;
+    std::unordered_map<std::string, std::size_t> taken;
+    for (std::size_t set = 0; set < shipment.sets; ++set) {
+        const std::uint64_t seed =
+            shipment.first_seed ? *shipment.first_seed + set : shipment.provenance(set).seed;
+        paths.push_back(path_of_set(target.path, shipment.first_set + set, seed));
+        const auto [there, is_new] = taken.try_emplace(paths.back(), set);
+        if (!is_new)
+            fail_with_hint(ErrorKind::usage, "use {set}",
+                           "--output: sets {} and {} both have the seed {}, and would be one file",
+                           shipment.first_set + there->second, shipment.first_set + set, seed);
+    }
+    return paths;
+}
+
 /// The points and what comes with them: all of it or, when it fails, nothing. Who closes the pipe
 /// has seen enough of the points, but did not say so of the other files.
 bool ship_file(const Shipment& shipment, std::size_t first, std::size_t last,
@@ -284,11 +295,9 @@ std::string path_of_set(std::string path, std::size_t set, std::uint64_t seed) {
 bool ship(const Shipment& shipment, const Target& target, const RunContext& run) {
     if (!file_per_set(target.path))
         return ship_file(shipment, 0, shipment.sets, target.path, target, run);
-    for (std::size_t set = 0; set < shipment.sets; ++set) {
-        const std::string path =
-            path_of_set(target.path, shipment.first_set + set, shipment.provenance(set).seed);
-        if (!ship_file(shipment, set, set + 1, path, target, run)) return false;
-    }
+    const auto paths = paths_of_sets(shipment, target);
+    for (std::size_t set = 0; set < shipment.sets; ++set)
+        if (!ship_file(shipment, set, set + 1, paths[set], target, run)) return false;
     return true;
 }
 

@@ -43,10 +43,10 @@ struct Route {
 struct Shipment {
     std::size_t sets = 1;
     std::size_t first_set = 0;  ///< number of the first one among all
-    std::size_t all_sets = 1;   ///< that the user asked for, in this shipment or others
     std::function<Source(std::size_t set, const RunContext&)> source;
     std::function<Provenance(std::size_t set)> provenance;
-    std::function<Box(std::size_t set)> extent;  ///< what a picture of the set shows
+    std::optional<std::uint64_t> first_seed = {};  ///< of {seed} in names; else the provenance says
+    std::function<Box(std::size_t set)> extent;    ///< what a picture of the set shows
     /// Files that come with the set, under their final names; empty: none.
     std::function<const std::vector<SideFile>&(std::size_t set)> side_files = {};
     std::vector<std::uint64_t> counts;

@@ -8,28 +8,6 @@
 #include "core/parallel.hpp"
 
 namespace stipple {
-namespace {
-
-/// The images of all points, in their order.
-PointSet image_of(const PointSet& points, const WarpChain& chain, std::uint64_t start,
-                  const RunContext& run) {
-    const std::size_t d = points.dimension();
-    constexpr std::size_t block = 1 << 14;
-    std::vector<std::vector<double>> parts(block_count(points.count(), block));
-    for_each_block(
-        run, points.count(), block,
-        [&](const Block& b) {
-            const auto rows = points.flat().subspan(b.first * d, (b.last - b.first) * d);
-            parts[b.index] = chain.forward({rows.begin(), rows.end()}, start + b.first);
-        },
-        true);
-    std::vector<double> rows;
-    for (const auto& part : parts) rows.insert(rows.end(), part.begin(), part.end());
-    return {std::move(rows), chain.dimension_out()};
-}
-
-}  // namespace
-
 GeneratedSets::GeneratedSets(const Generator& generator, Values options, Request request,
                              std::uint64_t sets, std::vector<Spec> warps, const RunContext& run)
     : generator_(generator),
@@ -94,7 +72,12 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
     Request request = request_;
     request.seed += set;
     PointSet points = make_points(generator_, request, options_, run);
-    if (!chain_->empty()) points = image_of(points, *chain_for(set, run), request_.start, run);
+    if (!chain_->empty()) {
+        RunContext silent = run;
+        silent.progress = {};
+        points = chain_for(set, run)->image(points, silent, request_.start);
+        points.provenance = {};  // that of points of the cube
+    }
     points.domain = chain_->domain();
     points.provenance.generator = generator_.name;
     return points;

@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "core/error.hpp"
-#include "core/parallel.hpp"
 #include "core/text.hpp"
+#include "generators/density_options.hpp"
 #include "io/carried_meta.hpp"
 #include "math/png_picture.hpp"
 #include "study/chain.hpp"
@@ -30,29 +30,22 @@ Source source_of(const PointSet& points) {
             .chain = std::make_shared<WarpChain>(std::span<const Spec>(), d)};
 }
 
-/// The image of a set whose first point has the index `start`, block by block on all threads; tells
-/// the user how many points have none.
+/// The image of a set whose first point has the index `start`; tells the user how many points have
+/// none.
 PointSet image_of(const PointSet& points, const WarpChain& chain, bool inverse, std::uint64_t start,
                   const RunContext& run) {
-    const std::size_t d = points.dimension();
-    constexpr std::size_t block = 1 << 14;
-    std::vector<std::vector<double>> parts(block_count(points.count(), block));
-    for_each_block(run, points.count(), block, [&](const Block& b) {
-        const auto rows = points.flat().subspan(b.first * d, (b.last - b.first) * d);
-        std::vector<double> copy(rows.begin(), rows.end());
-        parts[b.index] = inverse ? chain.inverse(std::move(copy))
-                                 : chain.forward(std::move(copy), start + b.first);
-    });
-    std::vector<double> rows;
-    for (const auto& part : parts) rows.insert(rows.end(), part.begin(), part.end());
-    PointSet image(std::move(rows), inverse ? chain.dimension_in() : chain.dimension_out());
-    image.provenance = points.provenance;
-    if (!inverse) image.domain = chain.domain();
+    PointSet image = inverse ? chain.preimage(points, run) : chain.image(points, run, start);
     tell_kept(points.count(), image.count(), chain, run);
-    image.provenance.efficiency = points.provenance.efficiency *
-                                  static_cast<double>(image.count()) /
-                                  static_cast<double>(points.count());
+    image.provenance.efficiency *=
+        static_cast<double>(image.count()) / static_cast<double>(points.count());
     return image;
+}
+
+/// @throws Error(limit) when sets that are held together, of so many numbers, do not fit.
+void need_memory_for(std::uint64_t sets, std::uint64_t numbers, const RunContext& run) {
+    if (sets > 1)
+        run.need_memory(8 * static_cast<double>(sets) * static_cast<double>(numbers),
+                        fmt::format("what {} sets hold together", sets));
 }
 
 /// What a file of several sets tells of them: the first one's provenance, less the options that
@@ -70,37 +63,40 @@ Provenance common_provenance(const std::vector<PointSet>& sets) {
 
 /// Writes sets as they are; `chain` is what gave them, for their density.
 void ship_images(const std::vector<PointSet>& images, const WarpChain& chain, std::size_t first_set,
-                 std::size_t all_sets, const Target& target, const RunContext& run) {
+                 const Target& target, const RunContext& run,
+                 std::optional<std::uint64_t> first_seed = {}) {
     const std::size_t d = images.front().dimension();
     const bool together = !file_per_set(target.path);
     const Provenance common = common_provenance(images);
     Shipment shipment{
         .sets = images.size(),
         .first_set = first_set,
-        .all_sets = all_sets,
         .source = [&](std::size_t set, const RunContext&) { return source_of(images[set]); },
         .provenance = [&](std::size_t set) { return together ? common : images[set].provenance; },
+        .first_seed = first_seed,
         .extent =
             [&](std::size_t set) {
                 return bounding_box(images[set].flat(), images[set].domain->bounding_box());
             },
-        .side_files = [&](std::size_t set) -> const auto& {return images[set].side_files;
+        .side_files = [&](std::size_t set) -> const std::vector<SideFile>& {
+            return images[set].side_files;
+        },
+        .counts = {},
+        .dimension = d,
+        .route = {}};
+    for (const PointSet& set : images) shipment.counts.push_back(set.count());
+    PointSet wide;
+    if (target.columns.any())
+        shipment.source = [&](std::size_t set, const RunContext&) {
+            // Without warps, what the points are on is the unit cube, or what it was scaled to.
+            const double volume = chain.empty() ? images[set].domain->measure() : 1;
+            const Route route{.columns = target.columns, .volume = volume};
+            wide = PointSet(with_columns(images[set].flat(), chain, route),
+                            d + target.columns.names().size());
+            return source_of(wide);
+        };
+    ship(shipment, target, run);
 }
-, .counts = {}, .dimension = d, .route = {}
-};  // namespace
-for (const PointSet& set : images) shipment.counts.push_back(set.count());
-PointSet wide;
-if (target.columns.any())
-    shipment.source = [&](std::size_t set, const RunContext&) {
-        // Without warps, what the points are on is the unit cube, or what it was scaled to.
-        const double volume = chain.empty() ? images[set].domain->measure() : 1;
-        const Route route{.columns = target.columns, .volume = volume};
-        wide = PointSet(with_columns(images[set].flat(), chain, route),
-                        d + target.columns.names().size());
-        return source_of(wide);
-    };
-ship(shipment, target, run);
-}  // namespace stipple
 
 /// Writes down that the set went through a warp. What was cut in writing was so before it.
 void record_warp(PointSet& set, const WarpChain& chain, bool inverse,
@@ -234,10 +230,16 @@ class Producer {
     void go() {
         if (generator_.traits.sequence && !chain_->drops()) return stream();
         const std::size_t batch = file_per_set(target_.path) ? 1 : job_.sets;
+        if (!chain_->drops())
+            need_memory_for(batch, plan_.count / job_.shard.of * chain_->dimension_out(), run_);
         for (std::size_t first = 0; first < job_.sets; first += batch) {
             std::vector<PointSet> images;
-            for (std::size_t set = first; set < first + batch; ++set) images.push_back(made(set));
-            ship_images(images, *chain_, first, job_.sets, target_, lane(run_, first, job_.sets));
+            for (std::size_t set = first; set < first + batch; ++set) {
+                images.push_back(made(set));
+                // Only now is it known how many points fit, or have images.
+                if (set == first) need_memory_for(batch, images[0].flat().size(), run_);
+            }
+            ship_images(images, *chain_, first, target_, lane(run_, first, job_.sets));
         }
     }
 
@@ -254,8 +256,19 @@ class Producer {
         if (job_.sets > 1 && !uses_seed(generator_, job_.options) && !chain_->seeded())
             run_.tell(fmt::format("{} does not use the seed: all {} sets are the same",
                                   generator_.name, job_.sets));
+        check_columns();
         check_side_files();
         if (job_.shard.index == 0) tell_notes(generator_, job_.request, job_.options, run_);
+    }
+
+    /// Columns of densities must be right.
+    void check_columns() const {
+        const char* shaped = shaping_option(job_.options);
+        if (!target_.columns.any() || shaped == nullptr) return;
+        fail_with_hint(ErrorKind::usage,
+                       "'generate random -w image:file=...' tells densities for certain",
+                       "--with-{}: the density of points made with --{} is not known",
+                       target_.columns.names().front(), shaped);
     }
 
     /// Side files must not replace each other, nor the points.
@@ -323,7 +336,6 @@ class Producer {
         };
         const auto meta = [&](std::size_t set) { return provenance(set, count); };
         ship({.sets = job_.sets,
-              .all_sets = job_.sets,
               .source = source,
               .provenance = meta,
               .extent = [this](std::size_t) { return domain()->bounding_box(); },
@@ -349,7 +361,8 @@ class Producer {
             file.path = path_of_set(std::move(file.path), set, plan_.seed + set);
         if (bounds_) scale_into(*bounds_, points.flat());
         if (!chain_->empty()) {
-            points = image_of(points, *chain_for(set), false, job_.request.start, run_);
+            points = image_of(points, *chain_for(set), false, job_.request.start,
+                              part_of_run.stage(1, 1));
             efficiency = points.provenance.efficiency;
         }
         const auto [first, last] = part(points.count());
@@ -422,7 +435,7 @@ void produce(const Production& production, const Target& target, const RunContex
 }
 
 void write_sets(std::vector<PointSet> sets, const Target& target, const RunContext& run) {
-    ship_images(sets, WarpChain({}, sets.front().dimension()), 0, sets.size(), target, run);
+    ship_images(sets, WarpChain({}, sets.front().dimension()), 0, target, run);
 }
 
 void write_warped(std::vector<PointSet> sets, const Spec& warp, bool inverse, const Target& target,
@@ -442,7 +455,7 @@ void write_warped(std::vector<PointSet> sets, const Spec& warp, bool inverse, co
         record_warp(set, chain, inverse, inputs);
         if (!said) set.provenance.domain.clear();
     }
-    ship_images(sets, chain, 0, sets.size(), target, run);
+    ship_images(sets, chain, 0, target, run);
 }
 
 bool can_stream(const io::PointStream& stream, const Target& target) {
@@ -477,9 +490,8 @@ void write_warped(io::PointStream& stream, const DomainPtr& on, const Spec& warp
                       .chain = chain};
     };
     const std::size_t wide = inverse ? chain->dimension_in() : chain->dimension_out();
-    const DomainPtr domain = inverse ? unit_cube(wide) : chain->domain();
+    const DomainPtr domain = inverse ? chain->domain_before(on, run) : chain->domain();
     ship({.sets = sets,
-          .all_sets = sets,
           .source = source,
           .provenance = [&](std::size_t) { return stream.provenance(); },
           .extent = [&](std::size_t) { return domain->bounding_box(); },
@@ -494,6 +506,9 @@ void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, st
     if (replications * sets.size() - 1 > ~seed)
         fail(ErrorKind::usage, "--seed: {} and {} sets go beyond the 64 bits of a seed", seed,
              replications * sets.size());
+    std::uint64_t numbers = 0;
+    for (const PointSet& set : sets) numbers += set.flat().size();
+    need_memory_for(sets.size() * replications, numbers / sets.size(), run);
     std::vector<PointSet> images;
     const Taken taken(scramble, sets.front().dimension());
     const auto before = warped_factors(sets.front().domain, taken.coordinates(), run);
@@ -510,7 +525,7 @@ void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, st
         }
     }
     const WarpChain nothing({}, images.front().dimension());
-    ship_images(images, nothing, 0, images.size(), target, run);
+    ship_images(images, nothing, 0, target, run, seed);
 }
 
 }  // namespace stipple

@@ -55,7 +55,8 @@ SampleSummary summarize(std::span<const double> sample) {
                     .median = unknown,
                     .deviation = unknown,
                     .standard_error = unknown};
-    if (sample.empty()) return s;
+    const bool known = std::ranges::none_of(sample, [](double x) { return std::isnan(x); });
+    if (sample.empty() || !known) return s;
     const double n = static_cast<double>(sample.size());
     std::vector<double> sorted(sample.begin(), sample.end());
     std::ranges::sort(sorted);

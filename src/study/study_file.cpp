@@ -2,6 +2,7 @@
 #include "study/study_file.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -48,7 +49,12 @@ bool write_all(int descriptor, std::string_view bytes, const std::string& path) 
     while (!bytes.empty()) {
         const auto written = ::write(descriptor, bytes.data(), bytes.size());
         if (written < 0 && errno == EPIPE) return false;
-        if (written < 0 && errno != EINTR) refuse(path);
+        if (written < 0 && errno == EAGAIN) {
+            pollfd waiting{.fd = descriptor, .events = POLLOUT, .revents = 0};
+            ::poll(&waiting, 1, -1);
+        } else if (written < 0 && errno != EINTR) {
+            refuse(path);
+        }
         if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
     }
     return true;
@@ -310,7 +316,9 @@ bool StudyFile::write_units(std::uint64_t first, const Waiting& waiting) {
         text.resize(std::accumulate(waiting.bytes.begin(), waiting.bytes.end(), std::size_t{0}));
         const auto got =
             ::pread(journal_, text.data(), text.size(), static_cast<off_t>(waiting.offset));
-        if (got != static_cast<ssize_t>(text.size())) refuse(journal_of(path_));
+        if (got < 0) refuse(journal_of(path_));
+        if (got != static_cast<ssize_t>(text.size()))
+            fail(ErrorKind::io, "{}: was cut off by another program", journal_of(path_));
     }
     const auto known = static_cast<std::ptrdiff_t>(next_ - first);
     text.erase(

@@ -160,10 +160,7 @@ class Office {
         --running_;
         left_.finish(ranges, result.seconds);
         hungry_.insert(hungry_.end(), result.hungry.begin(), result.hungry.end());
-        for (const Segment& segment : result.segments) {
-            if (!alive_) return;
-            alive_ = file_.put(segment);
-        }
+        for (const Segment& segment : result.segments) alive_ = alive_ && file_.put(segment);
         if (!alive_) stop_all();
     }
 

@@ -126,22 +126,10 @@ bool takes(const Chosen<Analyzer>& measure, const WarpChain& chain, const RunCon
            !measures(measure, cube_of(chain.dimension_in()), run);
 }
 
-/// Images of all points, block by block so that a stop is heard.
+/// Images of all points, of which some are there.
 PointSet image_of(const PointSet& points, const WarpChain& chain, const RunContext& run) {
     if (chain.empty()) return points;
-    constexpr std::size_t block = 1 << 14;
-    const std::size_t d = points.dimension();
-    std::vector<double> rows;
-    for (std::size_t first = 0; first < points.count(); first += block) {
-        run.check_stop();
-        const std::size_t count = std::min(block, points.count() - first);
-        const auto part = points.flat().subspan(first * d, count * d);
-        const auto image = chain.forward({part.begin(), part.end()}, first);
-        rows.insert(rows.end(), image.begin(), image.end());
-    }
-    PointSet image(std::move(rows), chain.dimension_out());
-    image.domain = chain.domain();
-    image.provenance = points.provenance;
+    PointSet image = chain.image(points, run);
     tell_kept(points.count(), image.count(), chain, run);
     return image;
 }

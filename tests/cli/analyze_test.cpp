@@ -267,6 +267,17 @@ TEST(Analyze, TakesWeightsOfEitherKind) {
     EXPECT_EQ(box.run({"analyze", "periodogram", "p.csv", "--weights", "z"}).code, 2);
 }
 
+// poisson-disk is a generator and an analyzer.
+TEST(Analyze, TakesNoValueOfAnOptionForItsUnit) {
+    const Sandbox box;
+    for (const std::string spec : {"poisson-disk", "poisson-disk:radius=0.1"}) {
+        const json before = report_of(box.run({"analyze", "--generate", spec, "star-discrepancy"}));
+        const json behind = report_of(box.run({"analyze", "star-discrepancy", "--generate", spec}));
+        EXPECT_EQ(before["analyzer"], "star-discrepancy");
+        EXPECT_EQ(before["results"], behind["results"]);
+    }
+}
+
 TEST(Analyze, KnowsOfGeneratedPointsThatTheyAreIndependent) {
     const Sandbox box;
     const auto made = report_of(

@@ -7,22 +7,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
-
 #include "support/program.hpp"
 
 using namespace stipple::testing;
+using namespace std::string_literals;
 using ::testing::HasSubstr;
 
 namespace {
-
-void expect_refusal(const Outcome& outcome, int code, const std::string& words) {
-    EXPECT_EQ(outcome.code, code) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_TRUE(outcome.err.starts_with("stipple: ")) << outcome.err;
-    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr(words));
-}
 
 /// analyze star-discrepancy of a file with these bytes.
 Outcome judge(const std::string& name, const std::string& bytes) {
@@ -265,6 +256,17 @@ TEST(BadInput, TooMuchMemoryIsRefusedBeforeStarting) {
     const Outcome outcome =
         box.run({"generate", "poisson-disk", "--radius", "1e-6", "--max-memory", "100M"});
     expect_refusal(outcome, 5, "of memory; the limit is 100 MiB");
+    // Sets that are held together, and points that come without a number of them.
+    const auto refused = [&](const std::string& line, const std::string& words) {
+        expect_refusal(box.shell(line + " --max-memory 1M"), 5, words);
+    };
+    refused("stipple generate lloyd -n 9 -m 10000", "what 10000 sets hold together needs 1.37");
+    refused("stipple generate poisson-disk --radius 0.03 -m 1000", "what 1000 sets hold together");
+    refused("stipple generate halton -n 99 | stipple warp owen -m 1000", "1000 sets hold together");
+    refused(
+        "stipple generate halton -n 60000 -f csv | grep -v '#' | stipple analyze "
+        "kolmogorov-smirnov",
+        "the sorted coordinates");
 }
 
 TEST(BadInput, TablesOfGeneratorsAreReadBeforeAnythingIsWritten) {
@@ -285,6 +287,48 @@ TEST(BadInput, TablesOfGeneratorsAreReadBeforeAnythingIsWritten) {
 }
 
 // A box from -1e308 to 1e308 is wider than any number.
+TEST(BadInput, DomainsInAFileAreTheFilesFault) {
+    const Sandbox box;
+    box.write("f.json", R"({"points":[[0.1,0.2]],"meta":{"domain":"disk:radius=-1"}})");
+    expect_refusal(box.run({"convert", "f.json"}), 3, "its domain 'disk:radius=-1': --radius");
+    box.write("g.csv", "# tool: \"stipple\"\n# domain: \"nope\"\nx,y\n0.1,0.2\n0.3,0.4\n");
+    expect_refusal(box.run({"analyze", "moments", "g.csv"}), 3, "unknown domain 'nope'");
+}
+
+TEST(BadInput, FilesBesideAReportStayWhenItFails) {
+    const Sandbox box;
+    box.write("p.csv", "x,y\n0.1,0.2\n0.4,0.3\n");
+    box.write("g.npy", "mine");
+    const auto refused = [&](std::vector<std::string> more) {
+        std::vector<std::string> words = {"analyze", "periodogram", "p.csv", "--grid", "g.npy"};
+        words.insert(words.end(), more.begin(), more.end());
+        EXPECT_GT(box.run(words).code, 1);
+        EXPECT_EQ(box.read("g.npy"), "mine");
+        EXPECT_EQ(box.files(), (std::vector<std::string>{"g.npy", "p.csv"}));
+    };
+    refused({"--check", "powr<1"});
+    refused({"-o", "/dev/full"});
+    refused({"-o", "none/x.json"});
+    refused({"--image", "none/x.png"});
+    EXPECT_EQ(box.run({"analyze", "periodogram", "p.csv", "--grid", "g.npy"}).code, 0);
+    EXPECT_NE(box.read("g.npy"), "mine");
+}
+
+TEST(BadInput, OneFileIsNotSeveral) {
+    const Sandbox box;
+    box.write("p.csv", "x,y\n0.1,0.2\n");
+    for (const std::string line :
+         {"analyze moments p.csv -o 'r{set}.json'", "plot p.csv -o 'p{seed}.svg'",
+          "study --generators random -n 4 --analyze moments -o 's{seed}.csv'",
+          "report p.csv -o 'r{set}.html'"})
+        expect_refusal(box.shell("stipple " + line), 2, "one file is written for all sets");
+    box.write("d.pfm", "Pf\n1 1\n-1\n\0\0\x80\x3f"s);
+    expect_refusal(box.run({"generate", "lloyd", "-n", "9", "--density", "d.pfm", "--with-weight"}),
+                   2, "--with-weight: the density of points made with --density is not known");
+    expect_refusal(box.run({"warp", "disk", "p.csv", "--with-pdf", "-f", "psa"}), 2,
+                   "psa has no place for pdf");
+}
+
 TEST(BadInput, BoxesWiderThanFloat64) {
     const Sandbox box;
     box.write("big.csv", "1e308,0\n-1e308,1\n");

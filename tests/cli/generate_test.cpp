@@ -96,7 +96,15 @@ TEST(Generate, AFilePerSetIsNamedBySetAndSeed) {
     EXPECT_EQ(box.files(), (std::vector<std::string>{"a0_8.csv", "a1_9.csv"}));
     good(box.run({"generate", "random", "-n", "4", "-s", "9", "-o", "b.csv"}));
     const std::string alone = box.read("b.csv");
-    EXPECT_THAT(box.read("a1_9.csv"), HasSubstr(alone.substr(alone.find('\n') + 1, 10)));
+    EXPECT_EQ(box.read("a1_9.csv"), alone);
+    good(box.run({"generate", "random", "-n", "4", "-m", "2", "-s", "8", "-o", "c{seed}.npy"}));
+    EXPECT_THAT(box.read("c9.npy"), HasSubstr("(4, 2)"));
+    good(box.run({"warp", "owen", "b.csv", "-m", "2", "-s", "7", "-o", "o{seed}.csv"}));
+    EXPECT_TRUE(box.exists("o7.csv") && box.exists("o8.csv"));
+    EXPECT_EQ(box.run({"convert", "-o", "d{seed}.csv"}, "set,x,y\n0,.1,.2\n1,.3,.4\n").err,
+              "stipple: --output: sets 0 and 1 both have the seed 1, and would be one file; use "
+              "{set}\n");
+    EXPECT_FALSE(box.exists("d1.csv"));
 }
 
 TEST(Generate, UnseededGeneratorsSayThatAllSetsAreTheSame) {
@@ -198,6 +206,10 @@ TEST(Generate, AWarpAsksNothingOfCoordinatesItLeaves) {
               "stipple: warp sphere: coordinate 4 is already on another domain; it takes "
               "coordinates of the unit cube\n");
     // A warp that gives more numbers moves the domain of those behind it.
+    const auto back = with({"json", "-w", "disk@4,5", "-w", pixel});
+    EXPECT_EQ(json::parse(good(
+                  box.run({"warp", pixel, "--inverse", "-f", "json"}, back)))["meta"]["domain"],
+              "disk@4,5 x unit-cube@1,2,3");
     const auto moved = json::parse(good(box.run({"warp", "sphere@1,2", "-f", "json"}, disk)));
     EXPECT_EQ(moved["meta"]["domain"], "disk@5,6 x sphere@1,2,3 x unit-cube@4");
     box.write("two.json", good(box.run({"warp", pixel, "-f", "json"}, disk)));

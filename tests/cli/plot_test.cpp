@@ -4,8 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "support/program.hpp"
 
 using namespace stipple::testing;
@@ -46,14 +44,6 @@ std::string png(const Sandbox& box, const std::string& file) {
     return good(box.shell("/usr/bin/python3 png.py " + file));
 }
 
-void expect_refusal(const Outcome& outcome, int code, const std::string& words) {
-    EXPECT_EQ(outcome.code, code) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_TRUE(outcome.err.starts_with("stipple: ")) << outcome.err;
-    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr(words));
-}
-
 }  // namespace
 
 TEST(Plot, WritesSvgToAPipeWithAMarkForEachPoint) {
@@ -63,6 +53,13 @@ TEST(Plot, WritesSvgToAPipeWithAMarkForEachPoint) {
     EXPECT_EQ(xml(box, "p.svg", "circle"), "200\n");
     EXPECT_THAT(xml(box, "p.svg", "text"), HasSubstr("random|200 points, seed 5|"));
     EXPECT_THAT(box.read("p.svg"), HasSubstr("\"command\":\"stipple generate random --count 200"));
+}
+
+TEST(Plot, NotesTheCommandAsAShellTakesIt) {
+    const Sandbox box;
+    box.write("my points.csv", "0.5,0.25\n");
+    const std::string svg = good(box.run({"plot", "my points.csv", "--title", "A b"}));
+    EXPECT_THAT(svg, HasSubstr("stipple plot 'my points.csv' --title 'A b'"));
 }
 
 TEST(Plot, TakesEveryFormatThatIsRead) {

@@ -16,14 +16,6 @@ using ::testing::Not;
 
 namespace {
 
-void expect_refusal(const Outcome& outcome, int code, const std::string& words) {
-    EXPECT_EQ(outcome.code, code) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_TRUE(outcome.err.starts_with("stipple: ")) << outcome.err;
-    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr(words));
-}
-
 /// Runs Chromium on a page of the box, with its console on stderr.
 Outcome browse(const Sandbox& box, const std::string& options, const std::string& page) {
     return box.shell(

@@ -100,6 +100,17 @@ TEST(Reproduce, KnowsTheSetsOfFilesOfTheirOwn) {
         expect_identical(box, file);
 }
 
+TEST(Reproduce, KnowsTheSetsThatConvertPutIntoFilesOfTheirOwn) {
+    const Sandbox box;
+    good(box.shell(
+        "stipple generate random -n 20 -m 3 --seed 40 -o a.json && stipple convert a.json -o "
+        "'c{seed}.json' && stipple warp disk a.json -o 'w{set}.json' && stipple generate random "
+        "-n 20 -d 3 -m 2 --meta -o 'p{set}.ply'"));
+    for (const char* file :
+         {"c40.json", "c41.json", "c42.json", "w0.json", "w2.json", "p0.ply", "p1.ply"})
+        expect_identical(box, file);
+}
+
 // Warps of later commands, their scrambles and what was cut in between.
 TEST(Reproduce, FollowsLaterCommands) {
     const Sandbox box;
@@ -299,9 +310,10 @@ TEST(Reproduce, MakesThePointsOfAPictureAgain) {
                   "generate random -n 20 -o bare.csv && for f in svg png; do stipple plot p.json "
                   "--title '<&>' -o p.$f && stipple plot bare.csv -o bare.$f; done"));
     for (const std::string format : {"svg", "png"}) {
-        EXPECT_THAT(refusal(box, "p." + format),
-                    HasSubstr("it was drawn by 'stipple plot p.json --title <&>' of the points of "
-                              "'stipple generate random"));
+        EXPECT_THAT(
+            refusal(box, "p." + format),
+            HasSubstr("it was drawn by 'stipple plot p.json --title '<&>'' of the points of "
+                      "'stipple generate random"));
         EXPECT_EQ(box.run({"reproduce", "p." + format, "-o", format + ".csv"}).code, 0);
         EXPECT_EQ(box.read(format + ".csv"), good(box.run({"convert", "p.json", "-f", "csv"})));
         EXPECT_THAT(refusal(box, "bare." + format),

@@ -480,6 +480,11 @@ TEST(Study, HugeStudiesAreRefusedBeforeTheyStart) {
         "stipple study --generators random,halton -n 1024 --seeds 5e8 --analyze "
         "star-discrepancy -o study.csv --threads 2");
     EXPECT_EQ(outcome.code, 5);
+    // Nobody waits for a guess at the time of a billion cells.
+    EXPECT_EQ(box.run({"study", "--generators", "random", "--analyze", "moments", "-n",
+                       "1..1000000+1", "-d", "1..1000+1"})
+                  .code,
+              5);
     EXPECT_THAT(outcome.err, HasSubstr("the study has 1000000000 rows or more (2 generators x 1 "
                                        "dimensions x 1 counts x 500000000 seeds x 1 measures), "
                                        "about "));

@@ -22,7 +22,7 @@ class EveryFormat : public ::testing::TestWithParam<std::string> {
 
     /// The bytes of a file with these sets, rows formatted in blocks of `block`.
     std::string written(const std::vector<PointSet>& sets, std::size_t block = 7) const {
-        Layout layout{.dimension = sets.front().dimension(), .many_sets = sets.size() > 1};
+        Layout layout{.dimension = sets.front().dimension()};
         for (const PointSet& set : sets) layout.counts.push_back(set.count());
         layout.provenance.domain = "unit-cube";
         std::string bytes;

@@ -48,6 +48,9 @@ TEST(Text, SizesInBytes) {
     EXPECT_FALSE(parse_bytes("-1k"));
     EXPECT_EQ(format_bytes(1536), "1.5 KiB");
     EXPECT_EQ(format_bytes(100), "100 bytes");
+    EXPECT_EQ(format_bytes(1023), "1023 bytes");
+    EXPECT_EQ(format_bytes(999 * 0x1p20), "999 MiB");
+    EXPECT_EQ(format_bytes(1000 * 0x1p20), "0.977 GiB");
 }
 
 TEST(Text, NearestWordIsOneThatCouldBeMeant) {

@@ -43,8 +43,6 @@ TEST(Csv, HeaderNamesTheCoordinates) {
 TEST(Csv, SeveralSetsHaveTheirNumbersInFront) {
     EXPECT_EQ(written("csv", {two, points_of({{1, 1}})}),
               "set,x,y\n0,0,0.5\n0,0.25,1e-07\n1,1,1\n");
-    EXPECT_EQ(written("csv", {points_of({{1}})}, {.first_set = 7, .many_sets = true}),
-              "set,x\n7,1\n");
 }
 
 TEST(Csv, MetaStandsOnTopAndReadsBack) {

@@ -19,7 +19,6 @@ inline std::string written(std::string_view format_name, const std::vector<Point
     const Format& format = io::format_named(format_name);
     layout.dimension = sets.at(0).dimension() - layout.extras.size();
     for (const PointSet& set : sets) layout.counts.push_back(set.count());
-    layout.many_sets = layout.many_sets || sets.size() > 1;
     std::string out;
     if (format.head) format.head(layout, out);
     for (std::size_t s = 0; s < sets.size(); ++s) {

@@ -51,8 +51,6 @@ TEST(Json, SeveralSetsStandInPlaceOfThePoints) {
     object = nlohmann::json::parse(written("json", sets));
     EXPECT_EQ(object["count"], nlohmann::json::parse("[2,1,30]"));
     EXPECT_EQ(read_as("json", written("json", sets)), sets);
-    EXPECT_EQ(nlohmann::json::parse(written("json", {two}, {.many_sets = true}))["sets"].size(),
-              1U);
 }
 
 TEST(Json, ReadsBackPointsAndProvenance) {

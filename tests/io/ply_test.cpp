@@ -26,8 +26,8 @@ TEST(Ply, TextWhereDigitsAreAskedFor) {
 
 TEST(Ply, VerticesKnowTheirSet) {
     const std::vector<PointSet> sets{points_of({{1, 2, 3}}), points_of({{4, 5, 6}})};
-    const std::string text = written("ply", sets, {.first_set = 3, .precision = 0});
-    EXPECT_TRUE(text.ends_with("property int set\nend_header\n1 2 3 3\n4 5 6 4\n")) << text;
+    const std::string text = written("ply", sets, {.precision = 0});
+    EXPECT_TRUE(text.ends_with("property int set\nend_header\n1 2 3 0\n4 5 6 1\n")) << text;
     const std::string binary = written("ply", sets);
     EXPECT_TRUE(binary.ends_with(written("bin", {sets[1]}) + "\1\0\0\0"s));
 }

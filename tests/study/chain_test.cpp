@@ -63,6 +63,18 @@ TEST(WarpChain, RimsComeBackBelowOne) {
     EXPECT_EQ(corner, (std::vector<double>{one_minus_ulp, 0.5}));
 }
 
+// A sphere takes two numbers and gives three; what stands behind it moves to the left.
+TEST(WarpChain, TheWayBackLeavesTheDomainsOfOtherCoordinates) {
+    const auto sphere = chain({"sphere@1,2"}, 5);
+    const auto before = [&](const std::string& after) {
+        return sphere.domain_before(parse_domain(after, 6), {})->spec();
+    };
+    EXPECT_EQ(before("sphere@1,2,3 x disk@5,6 x unit-cube@4"), "disk@4,5 x unit-cube@1,2,3");
+    EXPECT_EQ(before("sphere@1,2,3 x unit-cube@4,5,6"), "unit-cube");
+    EXPECT_EQ(before("sphere@1,2,3 x box@4:bounds=[0..2] x unit-cube@5,6"),
+              "box@3:bounds=[0..2] x unit-cube@1,2,4,5");
+}
+
 TEST(WarpChain, DroppedPointsTakeTheirWholeRow) {
     const auto rejection = chain({"disk@1,2:method=rejection"}, 3);
     EXPECT_TRUE(rejection.drops());

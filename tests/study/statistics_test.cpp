@@ -64,6 +64,9 @@ TEST(Statistics, SaysNothingWhereNothingCanBeSaid) {
     EXPECT_TRUE(std::isnan(welch_test(one, a).p_value));
     EXPECT_TRUE(std::isnan(paired_test(one, one).p_value));
     EXPECT_TRUE(std::isnan(summarize({}).mean));
+    const SampleSummary unknown = summarize(std::vector<double>{5, NAN, 5});
+    EXPECT_TRUE(std::isnan(unknown.mean));
+    EXPECT_TRUE(std::isnan(unknown.median));
     const std::vector<double> infinite = {1, HUGE_VAL, 2};
     EXPECT_TRUE(std::isnan(welch_test(infinite, a).p_value));
     EXPECT_TRUE(std::isnan(t_interval(summarize(infinite), 0.9).high));

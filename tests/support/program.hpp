@@ -46,4 +46,9 @@ class Sandbox {
 /// The standard output of a run that must go well, and say nothing besides.
 std::string good(const Outcome& outcome);
 
+/// Expects of a run that it refuses: with this exit code and one line of error with these words,
+/// that starts with the program's name; and no output.
+void expect_refusal(const Outcome& outcome, int code, const std::string& words,
+                    const std::string& program = "stipple");
+
 }  // namespace stipple::testing
