@@ -101,8 +101,8 @@ Style style_of(const Arguments& arguments, const std::string& path) {
 
 /// What sets are from; joined ones are from all at once.
 std::vector<std::string> inputs_of(const Arguments& arguments) {
-    if (arguments.inputs.empty()) return {"-"};
-    return arguments.has("concat") ? std::vector{join(arguments.inputs, ", ")} : arguments.inputs;
+    const auto names = input_names(arguments);
+    return arguments.has("concat") ? std::vector{join(names, ", ")} : names;
 }
 
 /// The measurements of one call, and what is to be done with them.

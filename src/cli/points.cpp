@@ -80,6 +80,13 @@ std::string command_of(const Arguments& arguments, const Generator& generator,
 
 }  // namespace
 
+std::vector<std::string> input_names(const Arguments& arguments) {
+    std::vector<std::string> names = arguments.inputs;
+    if (names.empty()) names.emplace_back("-");
+    if (std::ranges::count(names, "-") > 1) fail(ErrorKind::usage, "standard input is named twice");
+    return names;
+}
+
 std::string output_of(const Arguments& arguments) {
     std::string path = arguments.get("output").value_or("-");
     if (file_per_set(path))
@@ -225,11 +232,7 @@ std::vector<PointSet> read_input(std::string_view bytes, const std::string& path
 
 std::unique_ptr<io::PointStream> open_joined(const Arguments& arguments, const RunContext& run,
                                              const std::string& strengths) {
-    auto paths = arguments.inputs;
-    if (paths.empty()) paths.emplace_back("-");
-    if (std::ranges::count(paths, "-") > 1)
-        fail(ErrorKind::usage, "--concat: standard input is named twice");
-    return io::join_points(std::move(paths),
+    return io::join_points(input_names(arguments),
                            [&arguments, &run, strengths](const std::string& path) {
                                return open_input(path, arguments, run, strengths);
                            });

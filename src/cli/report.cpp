@@ -127,11 +127,8 @@ class Reporter {
     }
 
     void load() {
-        auto inputs = arguments_.inputs;
-        if (inputs.empty() && !arguments_.has("generate")) inputs.emplace_back("-");
-        if (std::ranges::count(inputs, "-") > 1)
-            fail(ErrorKind::usage, "report: standard input is named twice");
-        for (const std::string& input : inputs) add_file(input);
+        if (!arguments_.inputs.empty() || !arguments_.has("generate"))
+            for (const std::string& input : input_names(arguments_)) add_file(input);
         const auto specs = arguments_.all("generate");
         if (!specs.empty()) seed_ = seed_of(arguments_, largest_seed(specs), session_);
         for (const std::string& spec : specs) add_generated(spec);

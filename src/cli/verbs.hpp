@@ -33,6 +33,9 @@ std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session
 /// Where points go, as -o, -f, --dtype, --precision, --meta and --no-header say.
 Target target_of(const Arguments& arguments);
 
+/// The inputs that are named, or standard input. @throws Error(usage) when that is named twice
+std::vector<std::string> input_names(const Arguments& arguments);
+
 /// Where a verb writes its one file. @throws Error(usage) for a name with {set} or {seed}
 std::string output_of(const Arguments& arguments);
 

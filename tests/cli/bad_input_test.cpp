@@ -314,6 +314,13 @@ TEST(BadInput, FilesBesideAReportStayWhenItFails) {
     EXPECT_NE(box.read("g.npy"), "mine");
 }
 
+TEST(BadInput, StandardInputIsNotReadTwice) {
+    const Sandbox box;
+    for (const std::string verb : {"analyze moments", "report", "convert --concat"})
+        expect_refusal(box.shell("stipple " + verb + " - -", "0.1,0.2\n"), 2,
+                       "standard input is named twice");
+}
+
 TEST(BadInput, OneFileIsNotSeveral) {
     const Sandbox box;
     box.write("p.csv", "x,y\n0.1,0.2\n");
