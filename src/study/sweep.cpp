@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/fingerprint.hpp"
 #include "core/text.hpp"
 #include "study/chain.hpp"
 #include "study/pipeline.hpp"
@@ -80,13 +81,6 @@ void check_keys(const std::vector<std::string>& wanted,
             std::ranges::none_of(wanted, [&](const auto& key) { return has(measure, key); }))
             fail(ErrorKind::usage, "--keys: none of these is a result of {}: {}",
                  measure.unit->name, join(wanted, ", "));
-}
-
-/// FNV-1a, 64 bits.
-std::string hash_of(std::string_view text) {
-    std::uint64_t hash = 0xcbf29ce484222325U;
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-    return fmt::format("{:016x}", hash);
 }
 
 template <class Unit>
@@ -170,7 +164,7 @@ void Sweep::write_settings() {
                  {"no-seconds", r.seconds ? "false" : "true"}};
     std::string text;
     for (const auto& [name, value] : settings_) text += fmt::format("{}={}\n", name, value);
-    fingerprint_ = hash_of(text);
+    fingerprint_ = format_fingerprint(stipple::fingerprint(text));
 }
 
 std::uint64_t Sweep::cells() const {
