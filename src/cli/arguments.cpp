@@ -34,10 +34,6 @@ std::string long_name(std::string_view names) {
     return std::string(names.substr(names.rfind("--") + 2));
 }
 
-bool takes(const CommonOption& option, Verb verb) {
-    return (option.verbs & static_cast<unsigned>(verb)) != 0;
-}
-
 /// Options that may stand here, for suggestions.
 std::vector<std::string> known_options(Verb verb, const UnitInfo* unit) {
     std::vector<std::string> names = {"--help"};
@@ -73,20 +69,12 @@ Spec split_spec(std::string& word, const Kind& kind) {
     return spec;
 }
 
-/// Whether a word is an option whose value is the next word.
-bool takes_next(const std::string& word, Verb verb) {
-    return std::ranges::any_of(common_options(), [&](const CommonOption& option) {
-        const auto names = split(option.names, ',');
-        return *option.value != '\0' && takes(option, verb) &&
-               std::ranges::find(names, word) != names.end();
-    });
-}
-
 /// The word that names the unit, alone or in a spec; nullptr: none does.
 std::string* word_of_unit(std::vector<std::string>& words, const Kind& kind, Verb verb) {
     for (std::size_t i = 0; i < words.size(); ++i) {
-        if (takes_next(words[i], verb))
-            ++i;
+        const CommonOption* option = find_common(words[i], verb);
+        if (option != nullptr && *option->value != '\0')
+            ++i;  // to its value
         else if (find_unit(kind, words[i].substr(0, words[i].find_first_of("@:"))) != nullptr)
             return &words[i];
     }
@@ -251,6 +239,17 @@ Arguments parse_without_verb(const std::vector<std::string>& words) {
 }
 
 }  // namespace
+
+bool takes(const CommonOption& option, Verb verb) {
+    return (option.verbs & static_cast<unsigned>(verb)) != 0;
+}
+
+const CommonOption* find_common(std::string_view name, Verb verb) {
+    for (const CommonOption& option : common_options())
+        for (const auto known : split(option.names, ','))
+            if (known == name && takes(option, verb)) return &option;
+    return nullptr;
+}
 
 const std::vector<CommonOption>& common_options() {
     static const std::vector<CommonOption> table = {

@@ -50,6 +50,11 @@ struct CommonOption {
 
 const std::vector<CommonOption>& common_options();
 
+bool takes(const CommonOption& option, Verb verb);
+
+/// The option of that name ("-n" or "--count") that the verb takes; nullptr: there is none.
+const CommonOption* find_common(std::string_view name, Verb verb);
+
 /// A unit's options less those that the verb takes for all units.
 std::vector<Option> own_options(Verb verb, const UnitInfo& unit);
 

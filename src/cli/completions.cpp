@@ -69,7 +69,7 @@ Values values_of(const CommonOption& option, const std::vector<Kind>& kinds) {
 std::vector<Word> common_words(Verb verb, const std::vector<Kind>& kinds) {
     std::vector<Word> words;
     for (const CommonOption& option : common_options()) {
-        if ((option.verbs & static_cast<unsigned>(verb)) == 0) continue;
+        if (!takes(option, verb)) continue;
         const std::string names = option.names;
         const auto dashes = names.rfind("--");
         words.push_back({.name = names.substr(dashes + 2),

@@ -26,7 +26,7 @@ std::string line(const std::string& left, const std::string& right) {
 std::string common_lines(Verb verb) {
     std::string text;
     for (const CommonOption& option : common_options()) {
-        if ((option.verbs & static_cast<unsigned>(verb)) == 0) continue;
+        if (!takes(option, verb)) continue;
         std::string names = option.names;
         if (names.starts_with("--")) names.insert(0, "    ");
         replace_all(names, ",", ", ");

@@ -98,7 +98,7 @@ std::string page_of_program() {
 std::string common_paragraphs(Verb verb) {
     std::string text;
     for (const CommonOption& option : common_options()) {
-        if ((option.verbs & static_cast<unsigned>(verb)) == 0) continue;
+        if (!takes(option, verb)) continue;
         std::string names = option.names;
         replace_all(names, ",", ", ");
         std::string help = option.help;
@@ -177,8 +177,10 @@ std::string help_of_unit(const std::string& name, const std::vector<Kind>& kinds
     for (const Kind& kind : kinds) {
         const VerbInfo* info = find_verb(kind.verb);
         if (find_unit(kind, name) == nullptr) continue;
-        if (const Topic* topic = find_topic(kind.name)) return topic->text;  // csv: formats
-        if (info == nullptr) continue;
+        if (info == nullptr) {
+            if (const Topic* topic = find_topic(kind.name)) return topic->text;  // csv: formats
+            continue;
+        }
         Arguments asked;
         asked.verb = info->verb;
         asked.unit = name;

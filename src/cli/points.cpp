@@ -96,18 +96,14 @@ std::string output_of(const Arguments& arguments) {
 }
 
 std::string command_text(const Arguments& arguments, std::span<const std::string> left_out) {
-    const auto is_flag = [&](const std::string& name) {
-        return std::ranges::any_of(common_options(), [&](const CommonOption& option) {
-            return std::string_view(option.names).ends_with("--" + name) && *option.value == '\0' &&
-                   (option.verbs & static_cast<unsigned>(*arguments.verb)) != 0;
-        });
-    };
     std::string text;
     for (const std::string& input : arguments.inputs) text += fmt::format(" {}", shell_word(input));
     for (const auto& [name, value] : arguments.common) {
         if (std::ranges::find(left_out, name) != left_out.end()) continue;
-        text += fmt::format(" --{}", name);
-        if (!is_flag(name)) text += fmt::format(" {}", shell_word(value));
+        const std::string typed = "--" + name;
+        text += fmt::format(" {}", typed);
+        if (*find_common(typed, *arguments.verb)->value != '\0')  // else a flag
+            text += fmt::format(" {}", shell_word(value));
     }
     return text;
 }
