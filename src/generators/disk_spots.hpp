@@ -113,6 +113,9 @@ class DiskSpots {
         return {wrapped(origin_[0] + cell_[0] * x), wrapped(origin_[1] + cell_[1] * y)};
     }
 
+    /// A cell's spot and those behind it.
+    [[nodiscard]] const Spot* from(std::size_t number) const { return spots_ + number; }
+
     void put(std::size_t number, Spot spot) { spots_[number] = spot; }
 
     /// Number of a cell, counted from the first one of the halo.

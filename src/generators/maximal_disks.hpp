@@ -20,8 +20,8 @@
 // (generators/space_tiles.hpp).
 //
 // Shape   d = 2 ... 6; any box; r up to its diagonal.
-// Cost    O(n) time for fixed d: on one core 0.5 us a point (d = 2), 4 us (3), 0.5 ms (4), 2.5 ms
-//         (5), 30 ms (6). Memory: 75 bytes a point (d = 2), 300 (3).
+// Cost    O(n) time for fixed d: on one core 0.4 us a point (d = 2), 2 us (3), 0.5 ms (4), 2.5 ms
+//         (5), 30 ms (6). Memory: 75 bytes a point (d = 2), 230 (3).
 // Promise squared_distance (math/spaced_points.hpp) of the numbers that come out is at least r^2
 //         for every pair. Every place of the box is nearer than r to a point, but for gaps so
 //         narrow that float64 hardly tells them from none: below 2^-48 of the largest coordinate.

@@ -319,6 +319,7 @@ class PlaneRain {
         const std::uint64_t key = keys_.bits(showers_++);
         open_.for_each(tiles_, [&](PlaneTile& tile, std::uint32_t number) {
             thread_local PlaneDesk desk;
+            tile.fetch();
             take_over(tile, number);
             desk.darts.clear();
             desk.undecided.clear();

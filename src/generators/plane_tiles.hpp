@@ -16,9 +16,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "core/fetch.hpp"
 #include "generators/disk_covers.hpp"
 #include "generators/disk_grid.hpp"
 #include "generators/disk_spots.hpp"
@@ -214,6 +216,14 @@ class PlaneTile {
             for (int x = std::max(column - far, 0); x <= std::min(column + far, size_[0] - 1); ++x)
                 covered_[spot_number(x, y)] |=
                     stamp[y - row + far][static_cast<std::size_t>(x - column + far)];
+    }
+
+    /// Fetches what is looked at in no order when darts fall.
+    void fetch() const {
+        const std::size_t cells = DiskSpots::needed(static_cast<std::size_t>(size_[1]));
+        stipple::fetch(std::span<const PartBits>(covered_, cells));
+        stipple::fetch(std::span<const Spot>(spots_.from(0), cells));
+        stipple::fetch(std::span<const std::uint16_t>(index_, cells));
     }
 
     /// Gives back its own memory, but that of the points.

@@ -22,6 +22,7 @@ using Point = Grid::Point;
 /// What one thread needs to work on a tile.
 struct SpaceDesk {
     NearBalls near;
+    std::vector<PartThrow> part_throws;
     std::vector<Throw> throws;                 ///< of darts on a cell
     std::vector<std::array<float, 3>> places;  ///< the same, in radii
     std::vector<Hit> hits;
@@ -116,7 +117,7 @@ class SpaceRain {
     void rain_on_parts(double density) {
         const Shower shower(density * one_to_a_ball / parts_of_cell, words_together * 64);
         rain([&](SpaceTile& tile, std::uint64_t key, SpaceDesk& desk) {
-            fall_on_parts(rules_, tile, shower, key, desk.darts);
+            fall_on_parts(rules_, tile, shower, key, desk.part_throws, desk.darts);
         });
     }
 
@@ -154,9 +155,11 @@ class SpaceRain {
         });
         open_.for_each(tiles_, [&](SpaceTile& tile, std::uint32_t) {
             SpaceDarts& darts = of_shower(tile, showers_);
+            decide_all(tile, darts);
             for (std::size_t i = 0; i < darts.all().size(); ++i)
-                if (const SpaceDart& d = darts.all()[i]; decide(tile, darts, i) == stays)
-                    tile.points().insert(tile.points().end(), d.at.begin(), d.at.end());
+                if (const NearDart own{&darts, i}; own.fate() == stays)
+                    tile.points().insert(tile.points().end(), own.get().at.begin(),
+                                         own.get().at.end());
         });
         open_.tick(tiles_, &SpaceTile::points, 3);
     }
@@ -168,6 +171,8 @@ class SpaceRain {
     /// Adds what stayed of the last shower, in this tile and near the faces of others.
     void take_over(SpaceTile& tile, SpaceDesk& desk) {
         desk.additions.clear();
+        constexpr std::size_t many = 50;  // less takes the time that they save
+        if (of_shower(tile, showers_ - 1).all().size() > many) tile.fetch();
         take_from(tile, tile, {}, desk);
         for (const auto& n : tile.neighbours)
             if (n.tile != nullptr) take_from(tile, *n.tile, n.steps, desk);
@@ -178,6 +183,7 @@ class SpaceRain {
         const std::uint64_t last = showers_ - 1;
         SpaceDarts& darts = of_shower(other, last);
         if (!darts.of(last)) return;
+        const bool itself = &tile == &other && steps == SpaceCell{};
         SpaceCell low;
         SpaceCell high;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -196,21 +202,62 @@ class SpaceRain {
                     in = in && cell[k] >= low[k] && cell[k] <= high[k];
                     cell[k] += steps[k];
                 }
-                if (in)
-                    desk.additions.push_back(
-                        tile.add(cell, own, d, &tile == &other && steps == SpaceCell{}));
+                if (in) desk.additions.push_back(tile.add(cell, own, d, itself));
             }
         });
     }
 
+    /// Early ones first: those that stay tell the later ones near them to go, which need not look
+    /// about themselves then.
+    void decide_all(SpaceTile& tile, SpaceDarts& darts) {
+        for (std::uint32_t quarter = 0; quarter < 4; ++quarter)
+            for (std::size_t i = 0; i < darts.all().size(); ++i)
+                if (darts.all()[i].time >> 30 == quarter) decide(tile, darts, i);
+    }
+
+    /// A dart of some tile.
+    struct NearDart {
+        SpaceDarts* darts;
+        std::size_t number;
+
+        [[nodiscard]] const SpaceDart& get() const { return darts->all()[number]; }
+        /// Others may ask and tell at the same time.
+        [[nodiscard]] Fate fate() const {
+            const std::atomic_ref<std::uint8_t> fate(darts->fate(number));
+            return static_cast<Fate>(fate.load(std::memory_order_relaxed));
+        }
+        void set_fate(Fate fate) const {
+            std::atomic_ref<std::uint8_t>(darts->fate(number))
+                .store(fate, std::memory_order_relaxed);
+        }
+    };
+
     /// Stays, unless an earlier one that is too near to it stays. Several threads may ask; they all
     /// find the same.
     Fate decide(SpaceTile& tile, SpaceDarts& own_darts, std::size_t number) {
-        const std::atomic_ref<std::uint8_t> fate(own_darts.fate(number));
-        const auto known = static_cast<Fate>(fate.load(std::memory_order_relaxed));
-        if (known != unknown) return known;
-        bool beaten = false;
-        const SpaceDart& d = own_darts.all()[number];
+        const NearDart own{&own_darts, number};
+        if (const Fate known = own.fate(); known != unknown) return known;
+        const SpaceDart& d = own.get();
+        std::array<NearDart, 32> later;  // there are hardly ever more
+        std::size_t later_count = 0;
+        const bool beaten = any_near(tile, d, [&](SpaceTile& there, const NearDart& near) {
+            const SpaceDart& other = near.get();
+            if (other.before(d))
+                return tile.too_near(other.at.data(), d.at.data()) &&
+                       decide(there, *near.darts, near.number) == stays;
+            if (later_count < later.size() && d.before(other)) later[later_count++] = near;
+            return false;
+        });
+        own.set_fate(beaten ? goes : stays);
+        for (std::size_t i = 0; i < later_count && !beaten; ++i)
+            if (tile.too_near(later[i].get().at.data(), d.at.data())) later[i].set_fate(goes);
+        return beaten ? goes : stays;
+    }
+
+    /// Whether something is true of a dart that may be too near to one: is(tile, dart).
+    template <class Is>
+    bool any_near(SpaceTile& tile, const SpaceDart& d, const Is& is) {
+        bool found_it = false;
         const SpaceCell own = d.cell();
         const auto look = [&](SpaceTile& there, const SpaceCell& steps) {
             SpaceDarts& darts = of_shower(there, showers_);
@@ -227,25 +274,21 @@ class SpaceRain {
             darts.for_runs(low, high, [&](std::size_t first, std::size_t last) {
                 constexpr float near = 1.001F;
                 std::array<std::uint16_t, 1024> found;
-                while (first < last && !beaten) {
+                while (first < last && !found_it) {
                     const std::size_t part = std::min(last, first + found.size());
                     const std::size_t count =
                         find_near(along, first, part, off, near, found.data());
-                    for (std::size_t i = 0; i < count && !beaten; ++i) {
-                        const SpaceDart& other = darts.all()[found[i]];
-                        beaten = other.before(d) && tile.too_near(other.at.data(), d.at.data()) &&
-                                 decide(there, darts, found[i]) == stays;
-                    }
+                    for (std::size_t i = 0; i < count && !found_it; ++i)
+                        found_it = is(there, NearDart{&darts, found[i]});
                     first = part;
                 }
             });
         };
         look(tile, {});
         for_tiles_about(tile, own, [&](const SpaceTile::Neighbour& n) {
-            if (!beaten) look(*n.tile, n.steps);
+            if (!found_it) look(*n.tile, n.steps);
         });
-        fate.store(beaten ? goes : stays, std::memory_order_relaxed);
-        return beaten ? goes : stays;
+        return found_it;
     }
 
     /// Calls visit(neighbour) for the other tiles that a radius leads to from a cell.

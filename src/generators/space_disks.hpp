@@ -12,7 +12,7 @@
 // one, of its own darts and of those near its faces; then darts fall, of which those stay in doubt
 // that are far enough from all points; and when all tiles have got so far, these are decided.
 //
-// Cost    O(n) time; on one core 3.5 us a point. Memory: 240 bytes a point.
+// Cost    O(n) time; on one core 2 us a point. Memory: 230 bytes a point.
 #pragma once
 
 #include <cstdint>

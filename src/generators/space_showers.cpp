@@ -61,14 +61,16 @@ namespace {
 /// Open parts of some lines beside each other, in the four layers of a row of cells.
 class OpenUnit {
   public:
-    static constexpr std::size_t units =
-        BallLines::along * BallLines::along * BallLines::words / (2 * words_together);
+    static constexpr std::size_t pairs = words_together / 4;  ///< of lines, in a layer
+    static constexpr std::size_t in_column = BallLines::along / (2 * pairs);
+    static constexpr std::size_t columns = space_side * BallLines::words;
 
-    [[gnu::always_inline]] OpenUnit(const SpaceTile& tile, std::size_t unit) {
-        const std::size_t column = unit * 2 * pairs / BallLines::along;
-        const std::size_t word = column % BallLines::words;
-        first_ = {32 * word, unit * 2 * pairs % BallLines::along, column / BallLines::words * 4};
-        const std::uint32_t* lines = tile.lines() + BallLines::at(word, first_[1], first_[2]);
+    /// @param number in the column
+    [[gnu::always_inline]] OpenUnit(const SpaceTile& tile, std::size_t column, std::size_t number)
+        : first_{32 * (column % BallLines::words), number * 2 * pairs,
+                 column / BallLines::words * 4} {
+        const std::uint32_t* lines =
+            tile.lines() + BallLines::at(column % BallLines::words, first_[1], first_[2]);
         for (std::size_t z = 0; z < 4; ++z, lines += BallLines::layer)
             std::memcpy(&covered_[z * pairs], lines, pairs * sizeof(PartBits));
         for (std::size_t i = 0; i < words_together; ++i) {
@@ -89,45 +91,56 @@ class OpenUnit {
     }
 
   private:
-    static constexpr std::size_t pairs = words_together / 4;  // of lines, in a layer
-
     std::array<std::size_t, 3> first_;
     std::array<PartBits, words_together> covered_;      ///< two lines in a word
     std::array<std::uint16_t, words_together> before_;  ///< open ones in the words before
     std::uint16_t count_ = 0;
 };
 
+/// Adds the darts on a unit.
+[[gnu::always_inline]] inline void throw_on_unit(const OpenUnit& unit, const Shower& shower,
+                                                 std::uint64_t key,
+                                                 std::vector<PartThrow>& throws) {
+    Mixer mixer(key);
+    for (std::uint64_t left = shower.on(unit.count(), mixer); left > 0; --left) {
+        const std::uint64_t which = mixer.next();
+        const std::uint64_t where = mixer.next();
+        const auto at = unit.place(static_cast<std::uint16_t>((which >> 32) * unit.count() >> 32));
+        const auto digits = [&](std::size_t k) {
+            return static_cast<std::int32_t>(at[k] % 4 << 21 | (where >> (21 * k) & 0x1fffff));
+        };
+        const PartThrow::Digits all{digits(0), digits(1), digits(2), 0};
+        const SpaceCell cell{static_cast<int>(at[0] / 4), static_cast<int>(at[1] / 4),
+                             static_cast<int>(at[2] / 4)};
+        throws.push_back(
+            PartThrow{all, which << 32 ^ where, space_place(cell),
+                      static_cast<std::uint8_t>(at[0] % 4 + at[1] % 4 * 4 + at[2] % 4 * 16)});
+    }
+}
+
 }  // namespace
 
 STIPPLE_WIDE void fall_on_parts(const SpaceRules& rules, const SpaceTile& tile,
                                 const Shower& shower, std::uint64_t key,
-                                std::vector<SpaceDart>& darts) {
+                                std::vector<PartThrow>& throws, std::vector<SpaceDart>& darts) {
     using Quad = SpaceRules::Quad;
-    using Digits [[gnu::vector_size(16)]] = std::int32_t;
     constexpr double grain = 0x1p-23;
     const Quad to_radii =
         Quad{rules.scales[0], rules.scales[1], rules.scales[2], 0} * static_cast<float>(grain);
-    for (std::size_t u = 0; u < OpenUnit::units; ++u) {
-        const OpenUnit unit(tile, u);
-        if (unit.count() == 0) continue;
-        Mixer mixer(key + u);
-        for (std::uint64_t left = shower.on(unit.count(), mixer); left > 0; --left) {
-            const std::uint64_t which = mixer.next();
-            const std::uint64_t where = mixer.next();
-            const auto at =
-                unit.place(static_cast<std::uint16_t>((which >> 32) * unit.count() >> 32));
-            const std::size_t part = at[0] % 4 + at[1] % 4 * 4 + at[2] % 4 * 16;
-            const auto digits = [&](std::size_t k) {
-                return static_cast<std::int32_t>(at[k] % 4 << 21 | (where >> (21 * k) & 0x1fffff));
-            };
-            const Digits all{digits(0), digits(1), digits(2), 0};
-            const SpaceCell cell{static_cast<int>(at[0] / 4), static_cast<int>(at[1] / 4),
-                                 static_cast<int>(at[2] / 4)};
-            const Hit hit = tile.hit(cell, part, __builtin_convertvector(all, Quad) * to_radii);
+    for (std::size_t column = 0; column < OpenUnit::columns; ++column) {
+        // What a dart hits is hard to foresee; where the next ones fall does not wait for that.
+        throws.clear();
+        for (std::size_t i = 0; i < OpenUnit::in_column; ++i)
+            if (const OpenUnit unit(tile, column, i); unit.count() > 0)
+                throw_on_unit(unit, shower, key + column * OpenUnit::in_column + i, throws);
+        for (const PartThrow& t : throws) {
+            const SpaceCell cell = space_cell(t.place);
+            const Hit hit =
+                tile.hit(cell, t.part, __builtin_convertvector(t.digits, Quad) * to_radii);
             if (hit == Hit::yes) continue;
-            const Throw dart{
-                {all[0] * grain, all[1] * grain, all[2] * grain}, grain, which << 32 ^ where};
-            land(rules, tile, cell, dart, hit, darts);
+            land(rules, tile, cell,
+                 {{t.digits[0] * grain, t.digits[1] * grain, t.digits[2] * grain}, grain, t.detail},
+                 hit, darts);
         }
     }
 }

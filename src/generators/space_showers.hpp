@@ -35,8 +35,19 @@ void fall_at_large(const SpaceRules& rules, const SpaceTile& tile, const Shower&
 /// darts, so that they are few: sets for radii that hardly differ are to be nearly the same.
 inline constexpr std::size_t words_together = 4;
 
+/// A dart on a part of a cell, as it is drawn.
+struct PartThrow {
+    using Digits [[gnu::vector_size(16)]] = std::int32_t;
+    Digits digits;         ///< in the cell, 2^-23 of its sides
+    std::uint64_t detail;  ///< what else is drawn for it
+    std::uint16_t place;   ///< of the cell
+    std::uint8_t part;
+};
+
 /// Darts on the parts of cells that no ball covers alone.
+/// @param throws room for some
 void fall_on_parts(const SpaceRules& rules, const SpaceTile& tile, const Shower& shower,
-                   std::uint64_t key, std::vector<SpaceDart>& darts);
+                   std::uint64_t key, std::vector<PartThrow>& throws,
+                   std::vector<SpaceDart>& darts);
 
 }  // namespace stipple

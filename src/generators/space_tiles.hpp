@@ -16,9 +16,11 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "core/fetch.hpp"
 #include "generators/ball_lines.hpp"
 #include "generators/cube_windows.hpp"
 #include "generators/disk_covers.hpp"
@@ -177,23 +179,24 @@ class SpaceTile {
     /// @param place from the cell's corner, in radii
     [[nodiscard, gnu::always_inline]] Hit hit(const SpaceCell& cell, std::size_t part,
                                               SpaceRules::Quad place) const {
-        constexpr std::array<std::size_t, 5> nearest_first{2, 1, 3, 0, 4};  // layers
-        const std::uint16_t* numbers = &numbers_[number_of(cell)];
+        const std::uint16_t* const numbers = &numbers_[number_of(cell)];
         const SpaceBits::Layers& masks = rules_->masks[part];
-        Hit hit = Hit::no;
-        for (const std::size_t z : nearest_first) {
-            std::uint64_t found = taken_.layer(cell, z) & masks[z];
-            for (; found != 0; found &= found - 1) {
-                const std::size_t b = 40 * z + static_cast<std::size_t>(std::countr_zero(found));
-                const SpaceRules::Quad off =
-                    places_[numbers[rules_->cells[b]]] + (rules_->about[b] - place);
+        float least = 2;
+        const auto layer = [&](std::size_t z) __attribute__((always_inline)) {
+            const SpaceRules::Quad* const about = &rules_->about[40 * z];
+            const int* const cells = &rules_->cells[40 * z];
+            for (std::uint64_t found = taken_.layer(cell, z) & masks[z]; found != 0;
+                 found &= found - 1) {
+                const int b = std::countr_zero(found);
+                const SpaceRules::Quad off = places_[numbers[cells[b]]] + (about[b] - place);
                 const SpaceRules::Quad squares = off * off;
-                const float squared = squares[0] + squares[1] + squares[2];
-                if (squared < 1 - float_slack) return Hit::yes;
-                if (squared < 1 + float_slack) hit = Hit::unsure;
+                least = std::min(least, squares[0] + squares[1] + squares[2]);
+                if (least < 1 - float_slack) return true;
             }
-        }
-        return hit;
+            return false;
+        };
+        if (layer(2) || layer(1) || layer(3) || layer(0) || layer(4)) return Hit::yes;
+        return least < 1 + float_slack ? Hit::unsure : Hit::no;
     }
 
     /// Calls visit(point, steps) for the points of the cells about one, as long as that is true.
@@ -240,6 +243,13 @@ class SpaceTile {
         places_.push_back(SpaceRules::Quad{added.off[0], added.off[1], added.off[2], known});
         if (!own) exact_.insert(exact_.end(), d.at.begin(), d.at.end());
         return added;
+    }
+
+    /// Fetches what is looked at in no order when balls are added and darts are thrown.
+    void fetch() const {
+        stipple::fetch(std::span<const std::uint32_t>(lines_, BallLines::room));
+        stipple::fetch(std::span<const std::uint16_t>(numbers_, halo_cells));
+        stipple::fetch(std::span<const SpaceRules::Quad>(places_));
     }
 
     std::vector<CubeWindow> cubes;
