@@ -5,18 +5,21 @@
 //
 //     m = max(1, c i),    c = --candidates.
 //
-// No more than a few of the m are ever made. The box is cut into cells, each with a bound: nowhere
-// in it the nearest point is farther away. Some cells of the highest bounds are open: first it is
-// drawn how many of the m fall into them, a binomial number, and those are made. While the best of
-// them does not reach the highest bound of the other cells, that cell is opened, too, and gets its
-// binomial number of the candidates that are left. The rest cannot win, and is never made. Cells
-// are halved, and their bounds worked out anew, when their turn comes.
+// In up to 3 dimensions no more than a few of the m are ever made. The box is cut into cells, each
+// with a bound: nowhere in it the nearest point is farther away. Some cells of the highest bounds
+// are open: first it is drawn how many of the m fall into them, a binomial number, and those are
+// made. While the best of them does not reach the highest bound of the other cells, that cell is
+// opened, too, and gets its binomial number of the candidates that are left. The rest cannot win,
+// and is never made. Cells are halved, and their bounds worked out anew, when their turn comes.
 //
-// Shape   d = 1, ..., 6; distances are those in the box of --bounds, across its faces too (torus)
+// In more dimensions cells leave out too little, and all candidates are made
+// (generators/all_candidates.hpp).
+//
+// Shape   d = 1, ..., 32; distances are those in the box of --bounds, across its faces too (torus)
 //         or not.
 // Cost    10^5 points in 2-D take 1.5e10 instructions and 0.2 GB, most of the time waiting for
 //         memory; slowly more a point with their number and with c, and some ten times as much in
-//         3-D. To make all candidates would be n^2 / 2 searches.
+//         3-D. c n^3 steps in more dimensions.
 // Promise the law of the points is exactly that of Mitchell's method with all m candidates made.
 //         Point i does not depend on the number of points.
 // Source  D. P. Mitchell, Comput. Graph. (SIGGRAPH) 25 (1991) 157-164, doi:10.1145/122718.122736.
@@ -29,6 +32,7 @@
 
 #include "core/rng.hpp"
 #include "core/text.hpp"
+#include "generators/all_candidates.hpp"
 #include "generators/box_space.hpp"
 #include "generators/generator.hpp"
 #include "generators/near_lists.hpp"
@@ -205,13 +209,12 @@ class Sieve {
         tidy();
     }
 
-    [[nodiscard]] const GrowingPoints<D>& points() const { return points_; }
+    [[nodiscard]] const std::vector<double>& rows() const { return points_.rows(); }
 
   private:
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     static constexpr std::uint32_t most_halvings = 50;
     static constexpr std::uint32_t closed = 0xffff'ffff;
-    static constexpr bool listed = D <= 3;
     static constexpr double reach_in_best = 1.5;
     static constexpr double eager = 64;  ///< candidates that are to fall into open cells, at least
 
@@ -235,7 +238,6 @@ class Sieve {
 
     void add_winner() {
         points_.add(winner_.data());
-        if (!listed) return;
         if (2 * points_.count() >= 3 * near_.renewed_at() && best_ > 0)
             near_.renew(reach_in_best * best_, points_.rows());
         else if (near_.reach() > 0)
@@ -550,31 +552,55 @@ class Sieve {
 /// What cells and the lists take for a point: 2000 in 2-D, more in 3-D.
 constexpr double cell_bytes = 5000;
 
+/// In more dimensions cells take longer than all candidates, for fewer than 10^4.5 points.
+constexpr std::size_t most_sieved = 3;
+
+/// The rows of so many points. @param maker a Sieve or AllCandidates
+template <class Maker>
+std::vector<double> rows_of(Maker&& maker, std::uint64_t wanted, const RunContext& run) {
+    for (std::uint64_t i = 0; i < wanted; ++i) {
+        if (i % 16 == 0) run.tick(i, wanted);
+        maker.add();
+    }
+    run.tick(1, 1);
+    return maker.rows();
+}
+
 template <std::size_t D>
-PointSet make_in(const Plan& plan, const Values& options, const RunContext& run) {
-    const BoxSpace space = space_of(plan, !options[bounded_option]);
-    const std::uint64_t wanted = plan.start + plan.count;
+std::vector<double> sieved(const BoxSpace& space, const Plan& plan, double factor,
+                           std::uint64_t wanted, const RunContext& run) {
     const auto number = static_cast<double>(wanted);
     run.need_memory(GrowingPoints<D>::memory(number) + number * cell_bytes,
                     fmt::format("{} points", wanted));
     if (number >= 2e7)
         fail(ErrorKind::limit, "--count: {} points; at most 2e7 have cells with 32-bit numbers",
              wanted);
-    Sieve<D> sieve(space, plan.seed, options[candidates]);
-    for (std::uint64_t i = 0; i < wanted; ++i) {
-        if (i % 256 == 0) run.tick(i, wanted);
-        sieve.add();
+    return rows_of(Sieve<D>(space, plan.seed, factor), wanted, run);
+}
+
+std::vector<double> rows_in(const BoxSpace& space, const Plan& plan, double factor,
+                            const RunContext& run) {
+    const std::uint64_t wanted = plan.start + plan.count;
+    switch (plan.dimension) {
+        case 1:
+            return sieved<1>(space, plan, factor, wanted, run);
+        case 2:
+            return sieved<2>(space, plan, factor, wanted, run);
+        case most_sieved:
+            return sieved<most_sieved>(space, plan, factor, wanted, run);
+        default:
+            run.need_memory(AllCandidates::memory(static_cast<double>(wanted), plan.dimension),
+                            fmt::format("{} points", wanted));
+            return rows_of(AllCandidates(space, plan.seed, factor), wanted, run);
     }
-    run.tick(1, 1);
-    PointSet points = set_in_box(sieve.points().rows(), plan);
-    points.provenance.options = {{"candidates", format_number(options[candidates])},
-                                 {space.torus ? "torus" : "bounded", "true"}};
-    return points;
 }
 
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
-    return with_dimension(plan.dimension,
-                          [&]<std::size_t D>() { return make_in<D>(plan, options, run); });
+    const BoxSpace space = space_of(plan, !options[bounded_option]);
+    PointSet points = set_in_box(rows_in(space, plan, options[candidates], run), plan);
+    points.provenance.options = {{"candidates", format_number(options[candidates])},
+                                 {space.torus ? "torus" : "bounded", "true"}};
+    return points;
 }
 
 }  // namespace
@@ -583,7 +609,7 @@ Generator best_candidate() {
     return {.name = "best-candidate",
             .summary = "Each point the farthest from all before among ever more candidates",
             .source = "Mitchell 1991, doi:10.1145/122718.122736",
-            .traits = {.max_dimension = most_directions, .sequence = false, .boxed = true},
+            .traits = {.max_dimension = 32, .sequence = false, .boxed = true},
             .options = Schema(candidates, torus_option, bounded_option),
             .aliases = {"mitchell"},
             .plan = plan_in_box,
