@@ -24,6 +24,8 @@ std::vector<std::string> words(std::string_view text, char separator) {
 }
 
 [[noreturn]] void refuse(const Option& option, std::string_view text, std::string_view wanted) {
+    if (text == "true" && option.type != "flag")  // disk:radius, without a value
+        fail(ErrorKind::usage, "--{} needs a value", option.name);
     fail(ErrorKind::usage, "--{}: '{}' is not {}", option.name, text, wanted);
 }
 

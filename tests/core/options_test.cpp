@@ -64,6 +64,7 @@ TEST(Options, RefusalsSayTheValueAndWhatIsAllowed) {
     EXPECT_EQ(refusal("base", "2.5"), "usage: --base: '2.5' is not a whole number");
     EXPECT_EQ(refusal("radius", "0"), "usage: --radius: 0 is outside (0, inf)");
     EXPECT_EQ(refusal("radius", "nan"), "usage: --radius: 'nan' is not a finite number");
+    EXPECT_EQ(refusal("radius", "true"), "usage: --radius needs a value");
     EXPECT_EQ(refusal("method", "polr"),
               "usage: --method: 'polr' is not one of polar, concentric | did you mean 'polar'?");
     EXPECT_EQ(refusal("vertices", "0,0 1"),
