@@ -46,8 +46,9 @@ STIPPLE_WIDE double least_squared(std::span<const std::vector<double>> along,
 
 }  // namespace
 
-AllCandidates::AllCandidates(const BoxSpace& space, std::uint64_t seed, double factor)
-    : space_(space), factor_(factor), rng_(seed), along_(space.box.dimension()) {
+AllCandidates::AllCandidates(const BoxSpace& space, std::uint64_t seed, double factor,
+                             const RunContext& run)
+    : space_(space), factor_(factor), run_(run), rng_(seed), along_(space.box.dimension()) {
     for (std::size_t k = 0; k < along_.size(); ++k)
         turns_.push_back(space.torus ? space.box.extent(k) : infinity);
 }
@@ -55,12 +56,14 @@ AllCandidates::AllCandidates(const BoxSpace& space, std::uint64_t seed, double f
 void AllCandidates::add() {
     const std::size_t d = along_.size();
     const std::size_t number = rows_.size() / d;
-    const double all = std::max(1.0, std::floor(factor_ * static_cast<double>(number)));
+    const auto all = static_cast<std::uint64_t>(
+        std::max(1.0, std::floor(factor_ * static_cast<double>(number))));
     Mixer mixer(rng_.bits(number));
     std::vector<double> winner(d);
     std::vector<double> p(d);
     double best = -1;
-    for (double candidate = 0; candidate < all; ++candidate) {
+    for (std::uint64_t candidate = 0; candidate < all; ++candidate) {
+        if (candidate % 0x10000 == 0xffff) run_.check_stop();
         for (std::size_t k = 0; k < d; ++k) do
                 p[k] = space_.box.low[k] + to_unit(mixer.next()) * space_.box.extent(k);
             while (p[k] >= space_.box.high[k]);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/rng.hpp"
+#include "core/run_context.hpp"
 #include "generators/box_space.hpp"
 
 namespace stipple {
@@ -21,9 +22,9 @@ namespace stipple {
 class AllCandidates {
   public:
     /// @param factor c; positive
-    AllCandidates(const BoxSpace& space, std::uint64_t seed, double factor);
+    AllCandidates(const BoxSpace& space, std::uint64_t seed, double factor, const RunContext& run);
 
-    /// Adds a point.
+    /// Adds a point. @throws Error(cancelled)
     void add();
 
     /// Point after point.
@@ -37,6 +38,7 @@ class AllCandidates {
   private:
     const BoxSpace& space_;
     double factor_;
+    const RunContext& run_;
     Rng rng_;
     std::vector<double> rows_;
     std::vector<std::vector<double>> along_;  ///< coordinates of the points; far ones behind them

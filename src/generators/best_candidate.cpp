@@ -591,7 +591,7 @@ std::vector<double> rows_in(const BoxSpace& space, const Plan& plan, double fact
         default:
             run.need_memory(AllCandidates::memory(static_cast<double>(wanted), plan.dimension),
                             fmt::format("{} points", wanted));
-            return rows_of(AllCandidates(space, plan.seed, factor), wanted, run);
+            return rows_of(AllCandidates(space, plan.seed, factor, run), wanted, run);
     }
 }
 
