@@ -88,6 +88,34 @@ STIPPLE_WIDE double pull(const double* places, double x, const double* weights, 
     return sum_of(parts);
 }
 
+/// Adds, for the distances along one axis to all images of places, the kernels and the kernels
+/// times the way.
+STIPPLE_WIDE void add_images(const double* places, double x, double side, int images,
+                             std::size_t count, double* kernels, double* pulls) {
+    for (int image = -images; image <= images; ++image)
+        for (std::size_t j = 0; j < count; ++j) {
+            const double t = x - (places[j] + image * side);
+            const double kernel = exponential(-0.5 * (t * t));
+            kernels[j] += kernel;
+            pulls[j] += t * kernel;
+        }
+}
+
+using Factors = std::array<const double*, relaxation_dimensions>;
+
+/// sum over j of the products of the j-th numbers
+STIPPLE_WIDE double sum_of_products(const Factors& factors, std::size_t dimension,
+                                    std::size_t count) {
+    double parts[lanes] = {};
+    for (std::size_t j = 0; j < count; j += lanes)
+        for (std::size_t l = 0; l < lanes; ++l) {
+            double product = factors[0][j + l];
+            for (std::size_t k = 1; k < dimension; ++k) product *= factors[k][j + l];
+            parts[l] += product;
+        }
+    return sum_of(parts);
+}
+
 /// `x` moved by whole sides into [0, side), mostly one or none.
 double wrapped(double x, double side) {
     if (x < 0) x += side;
@@ -97,6 +125,25 @@ double wrapped(double x, double side) {
     return x >= 0 && x < side ? x : 0;
 }
 
+/// Sums over images along each axis, for the pairs of one point; zeros behind the last.
+struct AxisSums {
+    std::array<std::vector<double>, relaxation_dimensions> kernels = {};
+    std::array<std::vector<double>, relaxation_dimensions> pulls = {};
+
+    void clear(std::size_t dimension, std::size_t count) {
+        for (std::size_t k = 0; k < dimension; ++k) {
+            kernels[k].assign(count, 0);
+            pulls[k].assign(count, 0);
+        }
+    }
+};
+
+/// What one thread needs to work on a cell.
+struct KernelDesk {
+    Candidates near;
+    AxisSums sums;
+};
+
 /// Points of a torus, sorted into cells.
 class Kernels {
   public:
@@ -105,6 +152,7 @@ class Kernels {
           n_(rows.size() / dimension),
           sides_(sides_of(n_, dimension, extents)),
           places_(rows.begin(), rows.end()),
+          by_axes_(dimension > 2),
           cell_of_(n_),
           sorted_(n_) {
         std::size_t cells = 1;
@@ -112,6 +160,7 @@ class Kernels {
             along_[k] = std::max<std::size_t>(1, static_cast<std::size_t>(sides_[k] / cell_side));
             widths_[k] = sides_[k] / static_cast<double>(along_[k]);
             cells *= along_[k];
+            by_axes_ = by_axes_ && sides_[k] <= reach;
         }
         for (std::size_t i = 0; i < places_.size(); ++i) places_[i] *= sides_[i % d_];
         starts_.resize(cells + 1);
@@ -146,8 +195,10 @@ class Kernels {
 
     /// Forces on the points of a cell; returns the sum of kernels over their pairs, each counted
     /// from both sides.
-    double forces_in(std::size_t cell, Candidates& near, std::span<double> forces) const {
+    double forces_in(std::size_t cell, KernelDesk& desk, std::span<double> forces) const {
         if (starts_[cell] == starts_[cell + 1]) return 0;
+        if (by_axes_) return forces_by_axes(cell, desk.sums, forces);
+        Candidates& near = desk.near;
         gather(cell, near);
         const std::size_t count = near.size();
         double sum = 0;
@@ -165,6 +216,30 @@ class Kernels {
 
   private:
     using Offsets = std::array<std::int64_t, relaxation_dimensions>;
+
+    /// On a small torus of many images: the kernel of two points, over all of these, is the product
+    /// of the sums along each axis.
+    double forces_by_axes(std::size_t cell, AxisSums& sums, std::span<double> forces) const {
+        const std::size_t count = (n_ + lanes - 1) / lanes * lanes;
+        double sum = 0;
+        for (std::uint32_t s = starts_[cell]; s < starts_[cell + 1]; ++s) {
+            sums.clear(d_, count);
+            Factors factors{};
+            for (std::size_t k = 0; k < d_; ++k) {
+                const int images = static_cast<int>(std::ceil(reach / sides_[k]));
+                add_images(by_cell_[k].data(), by_cell_[k][s], sides_[k], images, n_,
+                           sums.kernels[k].data(), sums.pulls[k].data());
+                factors[k] = sums.kernels[k].data();
+            }
+            sum += sum_of_products(factors, d_, count) - 1;  // its own is 1
+            for (std::size_t k = 0; k < d_; ++k) {
+                Factors pulled = factors;
+                pulled[k] = sums.pulls[k].data();
+                forces[sorted_[s] * d_ + k] = sum_of_products(pulled, d_, count);
+            }
+        }
+        return sum;
+    }
 
     /// Collects the points of all cells that come within reach of this one, on all images.
     void gather(std::size_t cell, Candidates& near) const {
@@ -239,6 +314,7 @@ class Kernels {
     std::array<std::size_t, relaxation_dimensions> along_{};  ///< cells along each side
     Sides widths_{};                                          ///< of a cell
     std::vector<double> places_;
+    bool by_axes_;  ///< images are summed along each
     std::array<std::vector<double>, relaxation_dimensions> by_cell_;  ///< coordinates, sorted
     std::vector<std::uint32_t> cell_of_;
     std::vector<std::uint32_t> sorted_;
@@ -254,9 +330,9 @@ double all_forces(Kernels& kernels, std::span<double> forces, const RunContext& 
     for_each_block(
         run, cells, size,
         [&](const Block& block) {
-            Candidates near;
+            KernelDesk desk;
             for (std::uint64_t c = block.first; c < block.last; ++c)
-                sums[block.index] += kernels.forces_in(c, near, forces);
+                sums[block.index] += kernels.forces_in(c, desk, forces);
         },
         true);
     double total = 0;

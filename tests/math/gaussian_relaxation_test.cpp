@@ -61,17 +61,18 @@ double energy(const std::vector<double>& rows, std::size_t d, std::vector<double
 TEST(GaussianRelaxation, EnergyIsWhatItsDefinitionSays) {
     for (const std::size_t d : {1U, 2U, 3U, 4U})
         for (const std::size_t n : {1U, 2U, 3U, 10U, 200U}) {
-            if (d == 4 && n > 10) continue;
             const auto rows = random_rows(n, d, n + d);
             const double expected = energy(rows, d);
-            // What lies beyond 6 units: less than 4-D space beyond 6 sigma at one point a unit.
-            EXPECT_NEAR(gaussian_energy(rows, d, {}), expected, 1e-5 * (1 + expected))
+            // What lies beyond 6 units: less than 4-D space beyond 6 sigma at one point a unit; by
+            // axes, less than a line.
+            const double part = d > 2 ? 1e-7 : 1e-5;
+            EXPECT_NEAR(gaussian_energy(rows, d, {}), expected, part * (1 + expected))
                 << n << " points in " << d << "-D";
         }
 }
 
 TEST(GaussianRelaxation, TheFirstStepGoesDownTheGradient) {
-    for (const std::size_t d : {1U, 2U, 3U}) {
+    for (const std::size_t d : {1U, 2U, 3U, 4U}) {
         const std::size_t n = 60;
         const double side = std::pow(60.0, 1 / static_cast<double>(d));
         const auto start = random_rows(n, d, 7);
