@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/parallel.hpp"
+#include "generators/dart_fate.hpp"
 #include "generators/disk_covers.hpp"
 #include "generators/disk_grid.hpp"
 #include "generators/disk_window.hpp"
@@ -39,7 +40,7 @@ struct DiskTile {
     typename DiskGrid<D>::Index last;   ///< the cell behind the last
     std::vector<Window<D>> windows = {};
     std::vector<Candidate<D>> candidates = {};
-    std::vector<std::uint8_t> fates = {};  ///< of the candidates
+    std::vector<SharedFate> fates = {};  ///< of the candidates
     std::vector<double> points = {};
 };
 
@@ -196,9 +197,9 @@ class CellTiles : public TilesBase<D> {
     }
 
     /// Makes the candidates that stay points.
-    void settle(Tile& tile, std::uint8_t stays, bool shared) {
+    void settle(Tile& tile, bool shared) {
         for (std::size_t i = 0; i < tile.candidates.size(); ++i) {
-            if (tile.fates[i] != stays) continue;
+            if (tile.fates[i].get() != stays) continue;
             const Candidate<D>& c = tile.candidates[i];
             const Index cell = Grid::cell_at(tile.first, c.place);
             const std::size_t number = grid_.spot_of(cell);
@@ -325,9 +326,9 @@ class FewTiles : public TilesBase<D> {
         return found;
     }
 
-    void settle(Tile& tile, std::uint8_t stays, bool) {
+    void settle(Tile& tile, bool) {
         for (std::size_t i = 0; i < tile.candidates.size(); ++i)
-            if (tile.fates[i] == stays)
+            if (tile.fates[i].get() == stays)
                 tile.points.insert(tile.points.end(), tile.candidates[i].at.begin(),
                                    tile.candidates[i].at.end());
     }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "generators/maximal_disks.hpp"
 
-#include <atomic>
 #include <cmath>
 #include <type_traits>
 
@@ -68,8 +67,6 @@ class Rain {
     }
 
   private:
-    enum Fate : std::uint8_t { unknown, stays, goes };
-
     /// About, on one core; far more for D > 3.
     static constexpr double seconds_a_point = D == 2 ? 1e-6 : 1e-5;
 
@@ -158,13 +155,13 @@ class Rain {
             fall(tile, Mixer(key + number).next(), desk);
             tile.candidates.swap(desk.candidates);
             tile.candidates = std::vector(desk.candidates.begin(), desk.candidates.end());
-            tile.fates.assign(tile.candidates.size(), unknown);
+            tile.fates.assign(tile.candidates.size(), {});
         });
         open_.for_each(tiles_.all(), [&](Tile& tile, std::uint32_t) {
             for (std::size_t i = 0; i < tile.candidates.size(); ++i) decide(tile, i);
         });
         open_.for_each(tiles_.all(),
-                       [&](Tile& tile, std::uint32_t) { tiles_.settle(tile, stays, shared_); });
+                       [&](Tile& tile, std::uint32_t) { tiles_.settle(tile, shared_); });
         open_.tick(tiles_.all(), &Tile::points, D);
     }
 
@@ -360,13 +357,11 @@ class Rain {
     /// Stays, unless an earlier one that is too near stays. Several threads may ask; they all find
     /// the same.
     Fate decide(Tile& tile, std::size_t i) {
-        const std::atomic_ref<std::uint8_t> fate(tile.fates[i]);
-        const auto known = static_cast<Fate>(fate.load(std::memory_order_relaxed));
-        if (known != unknown) return known;
+        if (const Fate known = tile.fates[i].get(); known != unknown) return known;
         const bool beaten = tiles_.any_before(
             tile, tile.candidates[i],
             [&](Tile& there, std::size_t earlier) { return decide(there, earlier) == stays; });
-        fate.store(beaten ? goes : stays, std::memory_order_relaxed);
+        tile.fates[i].set(beaten ? goes : stays);
         return beaten ? goes : stays;
     }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "generators/plane_disks.hpp"
 
-#include <atomic>
 #include <bit>
 #include <cmath>
 
@@ -101,7 +100,7 @@ class Thrower {
         if (hit == Hit::unsure && tile_.hits(column, row, at.data())) return;
         if (!waits(column, row, at)) return tile_.add(column, row, spot, at, stamp);
         desk_.waiting[static_cast<std::size_t>(row + 2)] |= std::uint64_t{1} << column;
-        desk_.undecided.push_back({at, d.x, d.y, d.time, unknown});
+        desk_.undecided.push_back({at, d.x, d.y, d.time});
     }
 
     /// In cells from the tile's first. Digits that a dart has no room for are made of the others.
@@ -379,7 +378,7 @@ class PlaneRain {
             darts.for_some({-2 - steps[0], -2 - steps[1]},
                            {tile.size(0) + 1 - steps[0], tile.size(1) + 1 - steps[1]},
                            [&](const Undecided& u) {
-                               if (u.fate != stays) return true;
+                               if (u.fate.get() != stays) return true;
                                tile.add_beyond(u.column() + steps[0], u.row() + steps[1],
                                                tile.spots().spot_of(u.x / cell_unit + steps[0],
                                                                     u.y / cell_unit + steps[1]),
@@ -392,9 +391,7 @@ class PlaneRain {
     /// Stays, unless an earlier one that is too near to it stays. Several threads may ask; they all
     /// find the same.
     Fate decide(PlaneTile& tile, std::uint32_t number, Undecided& u) {
-        const std::atomic_ref<std::uint8_t> fate(u.fate);
-        const auto known = static_cast<Fate>(fate.load(std::memory_order_relaxed));
-        if (known != unknown) return known;
+        if (const Fate known = u.fate.get(); known != unknown) return known;
         bool beaten = false;
         const auto look = [&](PlaneTile& there, const std::array<int, 2>& steps) {
             const std::array<int, 2> cell{u.column() - steps[0], u.row() - steps[1]};
@@ -411,7 +408,7 @@ class PlaneRain {
         };
         look(tile, {0, 0});
         if (!beaten && at_edge(tile, u)) for_neighbours(tile, number, look);
-        fate.store(beaten ? goes : stays, std::memory_order_relaxed);
+        u.fate.set(beaten ? goes : stays);
         return beaten ? goes : stays;
     }
 

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "core/fetch.hpp"
+#include "generators/dart_fate.hpp"
 #include "generators/disk_covers.hpp"
 #include "generators/disk_grid.hpp"
 #include "generators/disk_spots.hpp"
@@ -36,15 +37,13 @@ struct Dart {
     std::uint32_t detail;  ///< index of the exact place, for those that have one
 };
 
-enum Fate : std::uint8_t { unknown, stays, goes };
-
 /// A dart that other tiles have a say in.
 struct Undecided {
     std::array<double, 2> at;
     std::uint32_t x;  ///< as in Dart
     std::uint32_t y;
     std::uint32_t time;
-    std::uint8_t fate;
+    SharedFate fate = {};
 
     /// Within the cell.
     [[nodiscard]] std::array<std::uint32_t, 2> digits() const { return {x << 6, y << 6}; }

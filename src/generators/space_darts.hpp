@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "generators/dart_fate.hpp"
 #include "generators/disk_grid.hpp"
 
 namespace stipple {
@@ -28,8 +29,6 @@ inline SpaceCell space_cell(std::uint16_t place) {
     constexpr int low = space_side - 1;
     return {place & low, place >> space_bits & low, place >> 2 * space_bits};
 }
-
-enum Fate : std::uint8_t { unknown, stays, goes };
 
 /// A dart that is far enough from all older points.
 struct SpaceDart {
@@ -56,7 +55,7 @@ class SpaceDarts {
             first_[i + 1] = static_cast<std::uint16_t>(first_[i + 1] + first_[i]);
         auto next = first_;
         all_ = std::vector<SpaceDart>(darts.size());  // no more room than that
-        fates_ = std::vector<std::uint8_t>(darts.size(), unknown);
+        fates_ = std::vector<SharedFate>(darts.size());
         for (auto& along : along_) along = std::vector<float>(darts.size() + 16, 1e9F);
         for (const SpaceDart& d : darts) {
             const std::size_t i = next[cube_of(d.place)]++;
@@ -92,8 +91,7 @@ class SpaceDarts {
             }
     }
 
-    /// A Fate, which several threads may look at.
-    [[nodiscard]] std::uint8_t& fate(std::size_t i) { return fates_[i]; }
+    [[nodiscard]] SharedFate& fate(std::size_t i) { return fates_[i]; }
 
     [[nodiscard]] const float* along(std::size_t k) const { return along_[k].data(); }
 
@@ -108,7 +106,7 @@ class SpaceDarts {
 
     std::uint64_t shower_ = 0;
     std::vector<SpaceDart> all_;
-    std::vector<std::uint8_t> fates_;
+    std::vector<SharedFate> fates_;
     std::array<std::vector<float>, 3> along_;  ///< from the tile's corner, in radii
     std::array<std::uint16_t, cubes + 1> first_{};
 };

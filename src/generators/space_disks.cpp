@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "generators/space_disks.hpp"
 
-#include <atomic>
 #include <bit>
 #include <cmath>
 
@@ -157,7 +156,7 @@ class SpaceRain {
             SpaceDarts& darts = of_shower(tile, showers_);
             decide_all(tile, darts);
             for (std::size_t i = 0; i < darts.all().size(); ++i)
-                if (const NearDart own{&darts, i}; own.fate() == stays)
+                if (const NearDart own{&darts, i}; own.fate().get() == stays)
                     tile.points().insert(tile.points().end(), own.get().at.begin(),
                                          own.get().at.end());
         });
@@ -192,7 +191,7 @@ class SpaceRain {
         }
         darts.for_runs(low, high, [&](std::size_t first, std::size_t end) {
             for (std::size_t i = first; i < end; ++i) {
-                if (darts.fate(i) != stays) continue;
+                if (darts.fate(i).get() != stays) continue;
                 const SpaceDart& d = darts.all()[i];
                 SpaceCell cell = d.cell();
                 SpaceCell own;
@@ -221,22 +220,14 @@ class SpaceRain {
         std::size_t number;
 
         [[nodiscard]] const SpaceDart& get() const { return darts->all()[number]; }
-        /// Others may ask and tell at the same time.
-        [[nodiscard]] Fate fate() const {
-            const std::atomic_ref<std::uint8_t> fate(darts->fate(number));
-            return static_cast<Fate>(fate.load(std::memory_order_relaxed));
-        }
-        void set_fate(Fate fate) const {
-            std::atomic_ref<std::uint8_t>(darts->fate(number))
-                .store(fate, std::memory_order_relaxed);
-        }
+        [[nodiscard]] SharedFate& fate() const { return darts->fate(number); }
     };
 
     /// Stays, unless an earlier one that is too near to it stays. Several threads may ask; they all
     /// find the same.
     Fate decide(SpaceTile& tile, SpaceDarts& own_darts, std::size_t number) {
         const NearDart own{&own_darts, number};
-        if (const Fate known = own.fate(); known != unknown) return known;
+        if (const Fate known = own.fate().get(); known != unknown) return known;
         const SpaceDart& d = own.get();
         std::array<NearDart, 32> later;  // there are hardly ever more
         std::size_t later_count = 0;
@@ -248,9 +239,9 @@ class SpaceRain {
             if (later_count < later.size() && d.before(other)) later[later_count++] = near;
             return false;
         });
-        own.set_fate(beaten ? goes : stays);
+        own.fate().set(beaten ? goes : stays);
         for (std::size_t i = 0; i < later_count && !beaten; ++i)
-            if (tile.too_near(later[i].get().at.data(), d.at.data())) later[i].set_fate(goes);
+            if (tile.too_near(later[i].get().at.data(), d.at.data())) later[i].fate().set(goes);
         return beaten ? goes : stays;
     }
 

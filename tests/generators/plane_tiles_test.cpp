@@ -122,8 +122,7 @@ TEST(PlaneTiles, UndecidedDartsAreFoundByTheirCells) {
         darts.push_back({{0, 0},
                          static_cast<std::uint32_t>(rng.bits(2 * i)),
                          static_cast<std::uint32_t>(rng.bits(2 * i + 1)),
-                         static_cast<std::uint32_t>(i),
-                         unknown});
+                         static_cast<std::uint32_t>(i)});
     UndecidedDarts sorted;
     EXPECT_FALSE(sorted.of(3));
     sorted.renew(3, darts);
