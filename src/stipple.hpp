@@ -8,10 +8,10 @@
 //     const double d = stipple::analyze("star-discrepancy", points).number("value");
 #pragma once
 
-#include "core/error.hpp"       // IWYU pragma: export
-#include "core/report.hpp"      // IWYU pragma: export
-#include "io/files.hpp"         // IWYU pragma: export
-#include "report/document.hpp"  // IWYU pragma: export
-#include "study/chain.hpp"      // IWYU pragma: export
-#include "study/pipeline.hpp"   // IWYU pragma: export
-#include "study/produce.hpp"    // IWYU pragma: export
+#include "core/error.hpp"         // IWYU pragma: export
+#include "core/report.hpp"        // IWYU pragma: export
+#include "io/files.hpp"           // IWYU pragma: export
+#include "pipeline/chain.hpp"     // IWYU pragma: export
+#include "pipeline/pipeline.hpp"  // IWYU pragma: export
+#include "pipeline/produce.hpp"   // IWYU pragma: export
+#include "report/document.hpp"    // IWYU pragma: export

@@ -30,4 +30,8 @@ void check_dimension(const Analyzer& analyzer, std::size_t dimension) {
          traits.min_dimension, traits.max_dimension, dimension);
 }
 
+std::uint64_t batch_grain(const Arrival& arrival, const Values& /*options*/) {
+    return arrival_batch(arrival.dimension());
+}
+
 }  // namespace stipple

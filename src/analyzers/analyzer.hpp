@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/options.hpp"
+#include "core/peers.hpp"
 #include "core/point_set.hpp"
 #include "core/report.hpp"
 #include "core/run_context.hpp"
@@ -64,6 +65,35 @@ class Accumulator {
     virtual Report report(const RunContext& run) = 0;
 };
 
+/// Measures a part of a set whose count was told, and takes in what others found of other parts.
+class SharedAccumulator : public Accumulator {
+  public:
+    /// Called before any points come, where others take those before: the first here is point
+    /// `first`, and `head` the first batch of the whole set.
+    virtual void begin_at(std::uint64_t first, std::span<const double> head) = 0;
+
+    /// What it has found, for the one that merges it. No points may come any more.
+    virtual std::string state(const RunContext& run) = 0;
+
+    /// Takes in what the accumulator of the points right behind its own has found. The report is
+    /// then, to the last bit, that of one accumulator that was given all of them.
+    virtual void merge(std::string_view state, const RunContext& run) = 0;
+};
+
+/// How several processes share the work on one set: each sees a part of the points (grain), or each
+/// sees all and does a part of a search (together). At most one of both is there.
+struct Sharing {
+    /// Points that stay together: each part begins at a multiple of it. `accumulate` then makes a
+    /// SharedAccumulator. @throws Error(usage) where these options stand against it
+    std::function<std::uint64_t(const Arrival&, const Values&)> grain = {};
+
+    /// As `analyze`, with others that were given the same points and options; all of them get the
+    /// report.
+    std::function<Report(const PointSet&, const Values&, Peers&, const RunContext&)> together = {};
+
+    explicit operator bool() const { return grain || together; }
+};
+
 /// Points that an accumulator is given at a time: depends on nothing but the dimension, so that
 /// sums do not, either.
 constexpr std::size_t arrival_batch(std::size_t dimension) {
@@ -89,6 +119,9 @@ struct Analyzer {
     std::function<std::unique_ptr<Accumulator>(const Arrival&, const Values&, const RunContext&)>
         accumulate = {};
 
+    /// How several processes share the work on one set; empty: they do not.
+    Sharing sharing = {};
+
     /// Called with the mean of `sets` reports (numbers, curves and grids averaged): works out anew
     /// what a mean of results is not, such as an anisotropy. May be empty.
     std::function<void(Report& mean, std::size_t sets, const Values&)> refine = {};
@@ -102,6 +135,9 @@ struct Analyzer {
     /// what is worked out from each of them, such as a combined p-value. May be empty.
     std::function<void(Report& mean, std::span<const Report> sets, const Values&)> combine = {};
 };
+
+/// A grain of one batch of points.
+std::uint64_t batch_grain(const Arrival& arrival, const Values&);
 
 /// The record of the result under a dotted key; nullptr if there is none.
 const ResultKey* find_result(const Analyzer& analyzer, std::string_view key);

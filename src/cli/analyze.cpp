@@ -18,15 +18,15 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/files.hpp"
-#include "math/transform.hpp"
+#include "math/fourier/transform.hpp"
+#include "pipeline/chain.hpp"
+#include "pipeline/generated.hpp"
+#include "pipeline/pipeline.hpp"
+#include "pipeline/shared_analysis.hpp"
 #include "report/average.hpp"
 #include "report/check.hpp"
 #include "report/document.hpp"
 #include "report/grid_files.hpp"
-#include "study/chain.hpp"
-#include "study/generated.hpp"
-#include "study/pipeline.hpp"
-#include "study/shared_analysis.hpp"
 
 namespace stipple::cli {
 namespace {
@@ -84,19 +84,19 @@ void check_side_files(const Values& options, const std::string& output) {
     }
 }
 
-enum class Style { text, json, csv };
+enum class ReportStyle { text, json, csv };
 
-Style style_of(const Arguments& arguments, const std::string& path) {
+ReportStyle report_style(const Arguments& arguments, const std::string& path) {
     const auto format = arguments.get("format");
-    if (format == "text") return Style::text;
-    if (format == "json") return Style::json;
-    if (format == "csv") return Style::csv;
+    if (format == "text") return ReportStyle::text;
+    if (format == "json") return ReportStyle::json;
+    if (format == "csv") return ReportStyle::csv;
     if (format) fail(ErrorKind::usage, "--format: '{}' is not one of text, json, csv", *format);
-    if (path.ends_with(".csv")) return Style::csv;
-    if (path.ends_with(".txt")) return Style::text;
+    if (path.ends_with(".csv")) return ReportStyle::csv;
+    if (path.ends_with(".txt")) return ReportStyle::text;
     // A launcher gives the process that speaks for all a terminal of its own.
     const bool read_by_people = isatty(STDOUT_FILENO) == 1 && launched_ranks() == 1;
-    return path == "-" && read_by_people ? Style::text : Style::json;
+    return path == "-" && read_by_people ? ReportStyle::text : ReportStyle::json;
 }
 
 /// What sets are from; joined ones are from all at once.
@@ -117,7 +117,7 @@ class Analysis {
           joined_(arguments.has("concat")),
           inputs_(inputs_of(arguments)),
           path_(output_of(arguments)),
-          style_(style_of(arguments, path_)),
+          style_(report_style(arguments, path_)),
           averaged_(arguments.has("average")),
           batch_(
               session.run(),
@@ -160,8 +160,7 @@ class Analysis {
 
     /// One set, by all ranks.
     void share() {
-        const Sharing* sharing = sharing_of(analyzer_);
-        if (sharing == nullptr)
+        if (!analyzer_.sharing)
             fail_with_hint(ErrorKind::usage,
                            "start one process; 'stipple study' shares many sets out",
                            "analyze: ranks do not share {}", analyzer_.name);
@@ -186,7 +185,7 @@ class Analysis {
                 : shared_files(arguments_, analyzer_, strengths(), ranks_, own_run());
         Measurement m = measurement(source, 0, set.count, *set.domain);
         m.set.reset();
-        if (sharing_of(analyzer_)->together) {
+        if (analyzer_.sharing.together) {
             m.results = searched_together(set);
         } else {
             auto found = analyze_shared(analyzer_, set, options_, ranks_, own_run());
@@ -202,7 +201,7 @@ class Analysis {
         auto generated = std::make_shared<GeneratedSets>(generated_sets());
         const RunContext run = own_run();
         const auto count = generated->streamed();
-        if (!count && !sharing_of(analyzer_)->together)
+        if (!count && !analyzer_.sharing.together)
             fail(ErrorKind::usage,
                  "--generate: ranks share sequences; {} makes its points all together",
                  *arguments_.get("generate"));
@@ -236,7 +235,7 @@ class Analysis {
             check_dimension(analyzer_, set.dimension);
             require_unit_cube(*points);
         });
-        return sharing_of(analyzer_)->together(*points, options_, ranks_, run);
+        return analyzer_.sharing.together(*points, options_, ranks_, run);
     }
 
     void refuse_generated_options() const {
@@ -580,9 +579,9 @@ class Analysis {
     }
 
     void print() const {
-        write_text(path_, style_ == Style::json  ? to_json(measurements_)
-                          : style_ == Style::csv ? to_csv(measurements_)
-                                                 : to_text(measurements_));
+        write_text(path_, style_ == ReportStyle::json  ? to_json(measurements_)
+                          : style_ == ReportStyle::csv ? to_csv(measurements_)
+                                                       : to_text(measurements_));
     }
 
     const Arguments& arguments_;
@@ -593,7 +592,7 @@ class Analysis {
     bool joined_;  ///< all inputs are one set
     std::vector<std::string> inputs_;
     std::string path_;
-    Style style_;
+    ReportStyle style_;
     bool averaged_;
     std::vector<Check> checks_;
     std::vector<std::pair<std::string, std::string>> shown_options_;

@@ -6,7 +6,7 @@
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "study/chain.hpp"
+#include "pipeline/chain.hpp"
 
 namespace stipple::cli {
 namespace {

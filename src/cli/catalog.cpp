@@ -7,6 +7,7 @@
 
 #include "analyzers/analyzer.hpp"
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "core/text.hpp"
 #include "generators/generator.hpp"
 #include "io/format.hpp"
@@ -15,8 +16,6 @@
 
 namespace stipple::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::size_t any_dimension = 1'000'000;
 

@@ -15,7 +15,7 @@ namespace stipple::cli {
 namespace {
 
 /// What may stand behind an option.
-struct Values {
+struct CompletionValues {
     bool flag = false;
     bool file = false;
     std::vector<std::string> words = {};
@@ -26,7 +26,7 @@ struct Word {
     std::string name;         ///< long, without dashes
     std::string letter = {};  ///< short, without its dash, or empty
     std::string help;
-    Values values = {};
+    CompletionValues values = {};
 };
 
 std::vector<std::string> names_of(const std::vector<Kind>& kinds, std::string_view name) {
@@ -49,7 +49,7 @@ std::vector<std::string> words_of(std::string_view text) {
 }
 
 /// What the placeholder of a common option stands for.
-Values values_of(const CommonOption& option, const std::vector<Kind>& kinds) {
+CompletionValues values_of(const CommonOption& option, const std::vector<Kind>& kinds) {
     const std::string_view value = option.value;
     if (value.empty()) return {.flag = true};
     if (value.find('|') != std::string_view::npos) return {.words = words_of(value)};
@@ -94,7 +94,7 @@ std::vector<Word> own_words(Verb verb, const UnitInfo& unit) {
 }
 
 /// What a verb takes that is not a unit: words, or files.
-Values operands_of(Verb verb, const std::vector<Kind>& kinds) {
+CompletionValues operands_of(Verb verb, const std::vector<Kind>& kinds) {
     std::vector<std::string> words;
     switch (verb) {
         case Verb::generate:
@@ -133,7 +133,7 @@ std::string dashed(const std::vector<Word>& words) {
 
 /// How bash's script says what may stand behind an option: words, @file, @any, or nothing for a
 /// flag.
-std::string bash_values(const Values& values) {
+std::string bash_values(const CompletionValues& values) {
     if (values.file) return "@file";
     return values.words.empty() ? "@any" : join(values.words, " ");
 }
@@ -386,7 +386,7 @@ std::string fish_script(const std::vector<Kind>& kinds) {
         text += fmt::format("complete -c stipple -n __fish_use_subcommand -a {} -d {}\n", info.name,
                             in_quotes(info.summary));
         for (const Word& word : common_words(info.verb, kinds)) text += fish_word(verb, word);
-        const Values operands = operands_of(info.verb, kinds);
+        const CompletionValues operands = operands_of(info.verb, kinds);
         if (operands.file) text += fmt::format("complete -c stipple -n {} -F\n", in_quotes(verb));
         if (!operands.words.empty())
             text += fmt::format("complete -c stipple -n {} -a {}\n", in_quotes(verb),

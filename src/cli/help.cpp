@@ -12,8 +12,8 @@
 
 #include "cli/topics.hpp"
 #include "core/text.hpp"
-#include "math/expression.hpp"
-#include "study/ranks.hpp"
+#include "math/densities/expression.hpp"
+#include "pipeline/ranks.hpp"
 
 namespace stipple::cli {
 namespace {
@@ -63,7 +63,7 @@ std::string capitalised(std::string text) {
     return text;
 }
 
-std::string help_verb(const VerbInfo& info, const std::vector<Kind>& kinds) {
+std::string verb_help(const VerbInfo& info, const std::vector<Kind>& kinds) {
     std::string text = fmt::format("stipple {}: {}\n\nUsage: {}\n\n{}\n", info.name, info.summary,
                                    info.usage, info.text);
     for (const Kind& kind : kinds) {
@@ -107,7 +107,7 @@ std::string help_unit(const VerbInfo& info, const UnitInfo& unit) {
 std::string help_text(const Arguments& arguments, const std::vector<Kind>& kinds) {
     if (!arguments.verb) return help_program();
     const VerbInfo& info = *std::ranges::find(verbs(), *arguments.verb, &VerbInfo::verb);
-    if (arguments.unit.empty()) return help_verb(info, kinds);
+    if (arguments.unit.empty()) return verb_help(info, kinds);
     return help_unit(info, unit_of(kinds, info.name, arguments.unit));
 }
 

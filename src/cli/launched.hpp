@@ -7,7 +7,7 @@
 #include <memory>
 #include <string_view>
 
-#include "study/ranks.hpp"
+#include "pipeline/ranks.hpp"
 
 namespace stipple::cli {
 

@@ -12,9 +12,9 @@
 #include "core/text.hpp"
 #include "io/files.hpp"
 #include "io/source_text.hpp"
-#include "study/chain.hpp"
-#include "study/delivery.hpp"
-#include "study/pipeline.hpp"
+#include "pipeline/chain.hpp"
+#include "pipeline/delivery.hpp"
+#include "pipeline/pipeline.hpp"
 
 namespace stipple::cli {
 namespace {

@@ -16,12 +16,12 @@
 #include "core/text.hpp"
 #include "io/files.hpp"
 #include "io/source_text.hpp"
+#include "page/page_figures.hpp"
+#include "page/page_html.hpp"
+#include "page/page_measures.hpp"
+#include "pipeline/chain.hpp"
+#include "pipeline/generated.hpp"
 #include "report/check.hpp"
-#include "report/page_figures.hpp"
-#include "report/page_html.hpp"
-#include "report/page_measures.hpp"
-#include "study/chain.hpp"
-#include "study/generated.hpp"
 
 namespace stipple::cli {
 namespace {

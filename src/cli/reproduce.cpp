@@ -16,20 +16,19 @@
 #include "core/error.hpp"
 #include "core/file_bytes.hpp"
 #include "core/fingerprint.hpp"
+#include "core/json.hpp"
 #include "core/text.hpp"
 #include "io/carried_meta.hpp"
 #include "io/files.hpp"
 #include "io/provenance.hpp"
 #include "io/source_text.hpp"
-#include "math/png_picture.hpp"
-#include "study/chain.hpp"
-#include "study/pipeline.hpp"
-#include "study/reproduction.hpp"
+#include "media/png_picture.hpp"
+#include "pipeline/chain.hpp"
+#include "pipeline/pipeline.hpp"
+#include "pipeline/reproduction.hpp"
 
 namespace stipple::cli {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// The words of a command as a shell would take them: blanks part them, 'quotes' hold them
 /// together,

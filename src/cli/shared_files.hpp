@@ -7,7 +7,7 @@
 
 #include "analyzers/analyzer.hpp"
 #include "cli/arguments.hpp"
-#include "study/shared_analysis.hpp"
+#include "pipeline/shared_analysis.hpp"
 
 namespace stipple::cli {
 

@@ -15,7 +15,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/files.hpp"
-#include "study/ranks.hpp"
+#include "pipeline/ranks.hpp"
 #include "study/spec_list.hpp"
 #include "study/study_config.hpp"
 #include "study/study_file.hpp"
@@ -123,7 +123,7 @@ std::string extension_of(const std::string& path) {
     return dot == std::string::npos || dot == 0 ? "" : name.substr(dot);
 }
 
-StudyTable::Style style_of(const Arguments& arguments, const std::string& path) {
+StudyTable::Style table_style(const Arguments& arguments, const std::string& path) {
     const auto format = arguments.get("format");
     if (format && *format != "csv" && *format != "jsonl")
         fail(ErrorKind::usage, "--format: '{}' is not one of csv, jsonl", *format);
@@ -187,7 +187,7 @@ class Study {
           ranks_(ranks),
           sweep_(request_of(arguments, ranks, session)),
           path_(output_of(arguments)),
-          table_(style_of(arguments, path_), sweep_.request().seconds),
+          table_(table_style(arguments, path_), sweep_.request().seconds),
           summary_options_(summary_options(arguments, sweep_.request().first_seed)),
           summarized_(arguments.has("summary")) {}
 

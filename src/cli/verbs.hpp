@@ -8,7 +8,7 @@
 #include "cli/arguments.hpp"
 #include "cli/session.hpp"
 #include "io/point_stream.hpp"
-#include "study/produce.hpp"
+#include "pipeline/produce.hpp"
 
 namespace stipple::cli {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/text.hpp"
-#include "math/gaussian_relaxation.hpp"
+#include "math/neighbors/gaussian_relaxation.hpp"
 
 namespace stipple {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The options of generators whose points follow a density (math/density_map.hpp).
+// The options of generators whose points follow a density (media/density_map.hpp).
 #pragma once
 
 #include "core/error.hpp"

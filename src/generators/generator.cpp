@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/error.hpp"
-#include "math/powers.hpp"
+#include "math/functions/powers.hpp"
 
 namespace stipple {
 namespace {

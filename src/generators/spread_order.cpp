@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "math/point_grid.hpp"
+#include "math/neighbors/point_grid.hpp"
 
 namespace stipple {
 namespace {

@@ -21,8 +21,8 @@
 #include <vector>
 
 #include "generators/box_space.hpp"
-#include "math/mixer.hpp"
-#include "math/spaced_points.hpp"
+#include "math/functions/mixer.hpp"
+#include "math/neighbors/spaced_points.hpp"
 
 namespace stipple {
 
@@ -62,7 +62,7 @@ class VariedIndex {
         link(static_cast<std::uint32_t>(disks_.size() - 1));
     }
 
-    /// Squared distance as in math/spaced_points.hpp.
+    /// Squared distance as in math/neighbors/spaced_points.hpp.
     [[nodiscard]] double squared(const std::array<double, 2>& p,
                                  const std::array<double, 2>& q) const {
         return squared_distance<2>(p.data(), q.data(), sides_, torus_);

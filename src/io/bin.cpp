@@ -11,7 +11,7 @@
 #include "io/point_stream.hpp"
 #include "io/source_text.hpp"
 
-namespace stipple::io {
+namespace stipple::io::bin {
 namespace {
 
 void rows(const Layout& layout, std::size_t, std::uint64_t, std::span<const double> numbers,
@@ -56,7 +56,7 @@ std::unique_ptr<PointStream> stream(std::unique_ptr<Feed>& feed, const ReadOptio
 
 }  // namespace
 
-Format bin() {
+Format unit() {
     return {.name = "bin",
             .summary = "Raw little-endian numbers, point after point; needs -d to read",
             .source = "none",
@@ -67,4 +67,4 @@ Format bin() {
             .stream = stream};
 }
 
-}  // namespace stipple::io
+}  // namespace stipple::io::bin

@@ -6,14 +6,13 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "core/text.hpp"
 #include "io/provenance.hpp"
-#include "math/png_picture.hpp"
+#include "media/png_picture.hpp"
 
 namespace stipple::io {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::string_view keyword = "stipple";
 constexpr std::string_view open_tag = "<metadata>\n";

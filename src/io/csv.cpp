@@ -20,7 +20,7 @@
 
 #include "core/text.hpp"
 
-namespace stipple::io {
+namespace stipple::io::csv {
 namespace {
 
 void head(const Layout& layout, std::string& out) {
@@ -38,7 +38,7 @@ void rows(const Layout& layout, std::size_t set, std::uint64_t, std::span<const 
 
 }  // namespace
 
-Format csv() {
+Format unit() {
     return {.name = "csv",
             .summary = "Comma-separated values with a header; reads all kinds of columns",
             .source = "RFC 4180",
@@ -50,4 +50,4 @@ Format csv() {
             .stream = stream_delimited};
 }
 
-}  // namespace stipple::io
+}  // namespace stipple::io::csv

@@ -301,7 +301,7 @@ std::vector<Piece> cut_at_lines(const SourceText& text, const char* body, const 
 }
 
 /// Closes the gaps behind pieces that held fewer rows than lines.
-Rows join(std::vector<Piece>& pieces, std::vector<double> numbers, std::size_t dimension) {
+Rows close_gaps(std::vector<Piece>& pieces, std::vector<double> numbers, std::size_t dimension) {
     Rows rows;
     std::uint64_t count = 0;
     for (Piece& piece : pieces) {
@@ -367,7 +367,7 @@ Rows read_rows(const SourceText& text, const char* body, const char* model, cons
         true);
     for (const Piece& piece : pieces)
         if (piece.error) throw Error(*piece.error);
-    return join(pieces, std::move(numbers), columns.dimension);
+    return close_gaps(pieces, std::move(numbers), columns.dimension);
 }
 
 std::vector<std::uint64_t> set_starts(const SourceText& text, const Rows& rows,

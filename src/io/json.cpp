@@ -29,7 +29,7 @@
 #include "io/json_head.hpp"
 #include "io/source_text.hpp"
 
-namespace stipple::io {
+namespace stipple::io::json {
 namespace {
 
 void head(const Layout& layout, std::string& out) {
@@ -259,7 +259,7 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
 
 }  // namespace
 
-Format json() {
+Format unit() {
     return {.name = "json",
             .summary = "One JSON object with provenance and all points",
             .source = "RFC 8259",
@@ -272,4 +272,4 @@ Format json() {
             .read = read};
 }
 
-}  // namespace stipple::io
+}  // namespace stipple::io::json

@@ -5,12 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "io/provenance.hpp"
 
 namespace stipple::io {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::vector<std::uint64_t> whole_numbers(const SourceText& text, const char* at,
                                          const Json& value) {

@@ -20,7 +20,7 @@
 #include "io/format.hpp"
 #include "io/json_head.hpp"
 
-namespace stipple::io {
+namespace stipple::io::jsonl {
 namespace {
 
 void begin_set(const Layout& layout, std::size_t set, std::string& out) {
@@ -78,7 +78,7 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
 
 }  // namespace
 
-Format jsonl() {
+Format unit() {
     return {.name = "jsonl",
             .summary = "A line of provenance, then a point [x,y] a line",
             .source = "https://jsonlines.org",
@@ -89,4 +89,4 @@ Format jsonl() {
             .read = read};
 }
 
-}  // namespace stipple::io
+}  // namespace stipple::io::jsonl

@@ -16,7 +16,7 @@
 #include "io/point_stream.hpp"
 #include "io/source_text.hpp"
 
-namespace stipple::io {
+namespace stipple::io::npy {
 namespace {
 
 void head(const Layout& layout, std::string& out) {
@@ -99,7 +99,7 @@ std::unique_ptr<PointStream> stream(std::unique_ptr<Feed>& feed, const ReadOptio
 
 }  // namespace
 
-Format npy() {
+Format unit() {
     return {
         .name = "npy",
         .summary = "NumPy array of shape (n, d), or (sets, n, d)",
@@ -112,4 +112,4 @@ Format npy() {
         .stream = stream};
 }
 
-}  // namespace stipple::io
+}  // namespace stipple::io::npy

@@ -15,7 +15,7 @@
 #include "io/format.hpp"
 #include "io/provenance.hpp"
 
-namespace stipple::io {
+namespace stipple::io::ply {
 namespace {
 
 void head(const Layout& layout, std::string& out) {
@@ -60,7 +60,7 @@ void rows(const Layout& layout, std::size_t set, std::uint64_t, std::span<const 
 
 }  // namespace
 
-Format ply() {
+Format unit() {
     return {.name = "ply",
             .summary = "Polygon file with the points as vertices; write only",
             .source = "Turk 1994, The PLY polygon file format",
@@ -70,4 +70,4 @@ Format ply() {
             .rows = rows};
 }
 
-}  // namespace stipple::io
+}  // namespace stipple::io::ply

@@ -8,12 +8,11 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 
+#include "core/json.hpp"
 #include "core/text.hpp"
 
 namespace stipple::io {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// A text as the JSON value that it looks like, if that gives the same text back.
 Json typed(const std::string& text) {

@@ -11,7 +11,7 @@
 #include "io/delimited.hpp"
 #include "io/format.hpp"
 
-namespace stipple::io {
+namespace stipple::io::psa {
 namespace {
 
 void head(const Layout& layout, std::string& out) {
@@ -46,7 +46,7 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
 
 }  // namespace
 
-Format psa() {
+Format unit() {
     return {.name = "psa",
             .summary = "The number of points, then 'x y' a line",
             .source = "PSA, the program by T. Schloemer",
@@ -61,4 +61,4 @@ Format psa() {
             .read = read};
 }
 
-}  // namespace stipple::io
+}  // namespace stipple::io::psa

@@ -25,7 +25,7 @@
 #include "io/disk_size.hpp"
 #include "io/format.hpp"
 
-namespace stipple::io {
+namespace stipple::io::svg {
 namespace {
 
 constexpr double margin = 20;
@@ -192,7 +192,7 @@ void tail(const Layout&, std::string& out) { out += "</g>\n</svg>\n"; }
 
 }  // namespace
 
-Format svg() {
+Format unit() {
     return {.name = "svg",
             .summary = "A picture of the points, of every pair of their coordinates",
             .source = "W3C, Scalable Vector Graphics 1.1",
@@ -206,4 +206,4 @@ Format svg() {
             .tail = tail};
 }
 
-}  // namespace stipple::io
+}  // namespace stipple::io::svg

@@ -10,7 +10,7 @@
 #include "io/format.hpp"
 #include "io/provenance.hpp"
 
-namespace stipple::io {
+namespace stipple::io::txt {
 namespace {
 
 void head(const Layout& layout, std::string& out) {
@@ -28,7 +28,7 @@ void rows(const Layout& layout, std::size_t, std::uint64_t, std::span<const doub
 
 }  // namespace
 
-Format txt() {
+Format unit() {
     return {.name = "txt",
             .summary = "A point a line, coordinates separated by blanks, sets by a line '#'",
             .source = "UTK, gnuplot, numpy.loadtxt",
@@ -41,4 +41,4 @@ Format txt() {
             .stream = stream_delimited};
 }
 
-}  // namespace stipple::io
+}  // namespace stipple::io::txt

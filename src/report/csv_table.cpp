@@ -59,7 +59,7 @@ class Columns {
 };
 
 /// The rows of one measurement.
-struct Rows {
+struct ValueRows {
     std::vector<std::pair<std::string, std::string>> single;  ///< the same on each row
     std::vector<std::vector<std::pair<std::string, std::vector<std::string>>>> tables;
 
@@ -69,8 +69,8 @@ struct Rows {
 };
 
 /// Sorts the entries of a report into single cells and tables.
-void Rows::add(const Report& report, const Report& like, const std::string& prefix,
-               std::size_t dimension) {
+void ValueRows::add(const Report& report, const Report& like, const std::string& prefix,
+                    std::size_t dimension) {
     const auto keys = report.keys();
     struct Alike {
         std::size_t lists = 0;
@@ -113,7 +113,7 @@ void Rows::add(const Report& report, const Report& like, const std::string& pref
 }
 
 /// Standard errors of curves belong to the rows of these curves.
-void join_errors(Rows& rows, Rows errors, const std::string& prefix) {
+void join_errors(ValueRows& rows, ValueRows errors, const std::string& prefix) {
     rows.single.insert(rows.single.end(), errors.single.begin(), errors.single.end());
     for (auto& table : errors.tables) {
         const std::string key = table.front().first.substr(prefix.size());
@@ -125,8 +125,8 @@ void join_errors(Rows& rows, Rows errors, const std::string& prefix) {
     }
 }
 
-Rows rows_of(const Measurement& m) {
-    Rows rows;
+ValueRows rows_of(const Measurement& m) {
+    ValueRows rows;
     rows.single = {{"analyzer", m.analyzer},
                    {"source", m.source},
                    {"set", m.set ? std::to_string(*m.set) : ""},
@@ -135,7 +135,7 @@ Rows rows_of(const Measurement& m) {
                    {"domain", m.domain}};
     rows.add(m.results, m.results, "", m.dimension);
     const std::string prefix = "standard_error.";
-    Rows errors;
+    ValueRows errors;
     if (m.standard_error) errors.add(*m.standard_error, m.results, prefix, m.dimension);
     join_errors(rows, std::move(errors), prefix);
     return rows;
@@ -162,16 +162,16 @@ void write_row(const std::map<std::string, std::string>& cells,
 
 std::string csv_table(std::span<const Measurement> measurements) {
     if (measurements.empty()) return {};
-    std::vector<Rows> all;
+    std::vector<ValueRows> all;
     Columns columns;
     for (const Measurement& m : measurements) all.push_back(rows_of(m));
-    for (const Rows& rows : all) {
+    for (const ValueRows& rows : all) {
         for (const auto& [name, cell] : rows.single) columns.add(name);
         for (const auto& table : rows.tables)
             for (const auto& [name, cells] : table) columns.add(name);
     }
     std::string text = join(columns.names(), ",") + "\n";
-    for (const Rows& rows : all) {
+    for (const ValueRows& rows : all) {
         const std::map<std::string, std::string> single(rows.single.begin(), rows.single.end());
         if (rows.tables.empty()) write_row(single, columns.names(), text);
         for (const auto& table : rows.tables)

@@ -8,14 +8,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/json.hpp"
 #include "core/options.hpp"
 #include "core/text.hpp"
 #include "report/csv_table.hpp"
 
 namespace stipple {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json number_json(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 

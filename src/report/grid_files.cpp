@@ -11,7 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "math/png_picture.hpp"
+#include "media/png_picture.hpp"
 
 namespace stipple {
 namespace {

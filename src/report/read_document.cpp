@@ -8,12 +8,11 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "core/options.hpp"
 
 namespace stipple {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* wanted = "expected the JSON of 'stipple analyze'";
 

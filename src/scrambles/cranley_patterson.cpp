@@ -11,10 +11,10 @@
 // Source   R. Cranley, T. N. L. Patterson, SIAM J. Numer. Anal. 13 (1976) 904-914,
 //          doi:10.1137/0713071.
 
-#include "math/scramble_stream.hpp"
+#include "math/digital/scramble_stream.hpp"
 #include "scrambles/scramble.hpp"
 
-namespace stipple::scrambles {
+namespace stipple::scrambles::cranley_patterson {
 namespace {
 
 class Rotation final : public CoordinateWise {
@@ -38,7 +38,7 @@ class Rotation final : public CoordinateWise {
 
 }  // namespace
 
-Scramble cranley_patterson() {
+Scramble unit() {
     return {.name = "cranley-patterson",
             .summary = "Rotation of all points by one random vector, modulo 1; for lattices",
             .source = "Cranley, Patterson 1976, doi:10.1137/0713071",
@@ -48,4 +48,4 @@ Scramble cranley_patterson() {
                 -> std::unique_ptr<Randomization> { return std::make_unique<Rotation>(request); }};
 }
 
-}  // namespace stipple::scrambles
+}  // namespace stipple::scrambles::cranley_patterson

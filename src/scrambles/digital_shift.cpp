@@ -7,15 +7,15 @@
 // Promise  keeps the (t,m,s)-net property in its base, whatever the net.
 // Beware   in a base other than 2 a point is taken for the nearest multiple of b^-K, where b^K is
 //          the largest power up to 2^50; so that Halton's points are taken for what they stand for.
-// Source   see math/base_scramble.hpp.
+// Source   see math/digital/base_scramble.hpp.
 
 #include <variant>
 
-#include "math/base_scramble.hpp"
-#include "math/binary_scramble.hpp"
+#include "math/digital/base_scramble.hpp"
+#include "math/digital/binary_scramble.hpp"
 #include "scrambles/scramble.hpp"
 
-namespace stipple::scrambles {
+namespace stipple::scrambles::digital_shift {
 namespace {
 
 constexpr Param<Numbers> base{{.name = "base",
@@ -52,7 +52,7 @@ class DigitalShift final : public CoordinateWise {
 
 }  // namespace
 
-Scramble digital_shift() {
+Scramble unit() {
     return {.name = "digital-shift",
             .summary = "The same random digits added to those of all points, without carries",
             .source = "Owen 1995, doi:10.1007/978-1-4612-2552-2_19",
@@ -64,4 +64,4 @@ Scramble digital_shift() {
             }};
 }
 
-}  // namespace stipple::scrambles
+}  // namespace stipple::scrambles::digital_shift

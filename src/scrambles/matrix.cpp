@@ -13,11 +13,11 @@
 #include <bit>
 #include <variant>
 
-#include "math/base_scramble.hpp"
-#include "math/binary_scramble.hpp"
+#include "math/digital/base_scramble.hpp"
+#include "math/digital/binary_scramble.hpp"
 #include "scrambles/scramble.hpp"
 
-namespace stipple::scrambles {
+namespace stipple::scrambles::matrix {
 namespace {
 
 constexpr Param<Numbers> base{{.name = "base",
@@ -81,7 +81,7 @@ class Matrix final : public CoordinateWise {
 
 }  // namespace
 
-Scramble matrix() {
+Scramble unit() {
     return {.name = "matrix",
             .summary =
                 "Linear matrix scrambling: digits times a random lower triangular matrix, "
@@ -96,4 +96,4 @@ Scramble matrix() {
             }};
 }
 
-}  // namespace stipple::scrambles
+}  // namespace stipple::scrambles::matrix

@@ -13,11 +13,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "math/scramble_stream.hpp"
-#include "math/stratum.hpp"
+#include "math/digital/scramble_stream.hpp"
+#include "math/digital/stratum.hpp"
 #include "scrambles/scramble.hpp"
 
-namespace stipple::scrambles {
+namespace stipple::scrambles::micro_jitter {
 namespace {
 
 constexpr Param<std::int64_t> cells{.name = "cells",
@@ -61,7 +61,7 @@ class MicroJitter final : public Randomization {
 
 }  // namespace
 
-Scramble micro_jitter() {
+Scramble unit() {
     return {.name = "micro-jitter",
             .summary = "Every coordinate to a random place in its interval of length 1 / N",
             .source = "Standard construction",
@@ -74,4 +74,4 @@ Scramble micro_jitter() {
             }};
 }
 
-}  // namespace stipple::scrambles
+}  // namespace stipple::scrambles::micro_jitter

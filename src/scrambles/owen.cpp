@@ -13,11 +13,11 @@
 #include <array>
 #include <variant>
 
-#include "math/base_scramble.hpp"
-#include "math/binary_scramble.hpp"
+#include "math/digital/base_scramble.hpp"
+#include "math/digital/binary_scramble.hpp"
 #include "scrambles/scramble.hpp"
 
-namespace stipple::scrambles {
+namespace stipple::scrambles::owen {
 namespace {
 
 constexpr Param<Numbers> base{{.name = "base",
@@ -57,7 +57,7 @@ class Owen final : public CoordinateWise {
 
 }  // namespace
 
-Scramble owen() {
+Scramble unit() {
     return {.name = "owen",
             .summary = "Nested uniform scrambling: a random permutation of digits for each prefix",
             .source = "Owen 1995, doi:10.1007/978-1-4612-2552-2_19",
@@ -70,4 +70,4 @@ Scramble owen() {
             }};
 }
 
-}  // namespace stipple::scrambles
+}  // namespace stipple::scrambles::owen

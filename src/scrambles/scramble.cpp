@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "math/primes.hpp"
+#include "math/functions/primes.hpp"
 
 namespace stipple {
 namespace {

@@ -7,15 +7,14 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "core/text.hpp"
-#include "study/chain.hpp"
-#include "study/pipeline.hpp"
+#include "pipeline/chain.hpp"
+#include "pipeline/pipeline.hpp"
 #include "study/spec_list.hpp"
 
 namespace stipple {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// What the value of a key is.
 enum class Holds { generators, analyzers, warps, counts, words, number, flag, no_flag, text };
@@ -53,11 +52,12 @@ struct Range {
     const char* name;
 };
 
-constexpr std::array ranges = {Range{"seed", 0, 0x1p64, true, "a whole number in [0, 2^64)"},
-                               Range{"seeds", 1, 0x1p53, true, "a whole number in [1, 2^53]"},
-                               Range{"time-limit", 0, 1e9, false, "a number of seconds above 0"},
-                               Range{"confidence", 0, 1, false, "a number between 0 and 1"},
-                               Range{"bootstrap", 1, 1e7, true, "a whole number in [1, 10000000]"}};
+constexpr std::array number_ranges = {
+    Range{"seed", 0, 0x1p64, true, "a whole number in [0, 2^64)"},
+    Range{"seeds", 1, 0x1p53, true, "a whole number in [1, 2^53]"},
+    Range{"time-limit", 0, 1e9, false, "a number of seconds above 0"},
+    Range{"confidence", 0, 1, false, "a number between 0 and 1"},
+    Range{"bootstrap", 1, 1e7, true, "a whole number in [1, 10000000]"}};
 
 constexpr std::array<std::pair<const char*, const char*>, 2> choices = {
     {{"pairs", "welch|paired"}, {"format", "csv|jsonl"}}};
@@ -168,7 +168,7 @@ class ConfigReader {
 
     void read_number(const Key& key, const Json& value, const std::string& where) {
         const Range& range = *std::ranges::find_if(
-            ranges, [&](const Range& r) { return std::string_view(r.key) == key.name; });
+            number_ranges, [&](const Range& r) { return std::string_view(r.key) == key.name; });
         const double x = value.is_number() ? value.get<double>() : -1;
         const bool inside = range.whole
                                 ? value.is_number_unsigned() && x >= range.low && x <= range.high

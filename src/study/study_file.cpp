@@ -14,11 +14,10 @@
 
 #include "core/error.hpp"
 #include "core/file_bytes.hpp"
+#include "core/json.hpp"
 
 namespace stipple {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr const char* journal_format = "stipple.study-journal";
 

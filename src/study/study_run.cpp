@@ -11,22 +11,22 @@
 #include <thread>
 
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "study/work_cost.hpp"
 #include "study/work_queue.hpp"
 
 namespace stipple {
 namespace {
 
-using Json = nlohmann::json;
 using Work = std::vector<UnitRange>;
 
 // The first byte of a message says what it is.
-constexpr char ask = 'A';      // give me work
-constexpr char work = 'W';     // here it is
-constexpr char nothing = 'N';  // there is none
-constexpr char done = 'D';     // what became of it
-constexpr char bye = 'B';      // I have finished
-constexpr char halt = 'H';     // stop at once
+constexpr char ask_message = 'A';      // give me work
+constexpr char work_message = 'W';     // here it is
+constexpr char nothing_message = 'N';  // there is none
+constexpr char done_message = 'D';     // what became of it
+constexpr char bye_message = 'B';      // I have finished
+constexpr char halt_message = 'H';     // stop at once
 
 constexpr auto short_pause = std::chrono::milliseconds(1);
 
@@ -177,20 +177,20 @@ class Office {
 
     void tell_others_to_halt() {
         told_ = true;
-        for (int other = 1; other < ranks_.size(); ++other) ranks_.send(other, {halt});
+        for (int other = 1; other < ranks_.size(); ++other) ranks_.send(other, {halt_message});
     }
 
     /// Answers the others. False: nobody said anything.
     bool serve(int& others) {
         const auto message = ranks_.poll();
         if (!message) return false;
-        if (message->bytes[0] == bye) --others;
-        if (message->bytes[0] == ask) {
+        if (message->bytes[0] == bye_message) --others;
+        if (message->bytes[0] == ask_message) {
             const auto ranges = next();
-            ranks_.send(message->from,
-                        ranges ? packed(work, json_of(*ranges)) : std::string(1, nothing));
+            ranks_.send(message->from, ranges ? packed(work_message, json_of(*ranges))
+                                              : std::string(1, nothing_message));
         }
-        if (message->bytes[0] != done) return true;
+        if (message->bytes[0] != done_message) return true;
         try {
             const Json json = unpacked(*message);
             if (const auto error = json["error"].get<std::string>(); !error.empty())
@@ -269,14 +269,14 @@ class Workshop {
     void go() {
         std::vector<std::jthread> crew;
         for (unsigned i = 0; i < threads_; ++i) crew.emplace_back([this] { work_on(); });
-        for (unsigned i = 0; i < threads_; ++i) ranks_.send(0, {ask});
+        for (unsigned i = 0; i < threads_; ++i) ranks_.send(0, {ask_message});
         while (open_ > 0 || !outbox_empty()) {
             if (run_.stop.stop_requested()) stop_.request_stop();
             const bool heard = listen();
             if (!post() && !heard) std::this_thread::sleep_for(short_pause);
         }
         crew.clear();
-        ranks_.send(0, {bye});
+        ranks_.send(0, {bye_message});
         run_.check_stop();
     }
 
@@ -289,9 +289,9 @@ class Workshop {
     bool listen() {
         const auto message = ranks_.poll();
         if (!message) return false;
-        if (message->bytes[0] == halt) stop_.request_stop();
-        if (message->bytes[0] == work) put(ranges_from(unpacked(*message)));
-        if (message->bytes[0] == nothing) put({});
+        if (message->bytes[0] == halt_message) stop_.request_stop();
+        if (message->bytes[0] == work_message) put(ranges_from(unpacked(*message)));
+        if (message->bytes[0] == nothing_message) put({});
         return true;
     }
 
@@ -312,7 +312,7 @@ class Workshop {
         }
         for (auto& letter : letters) {
             ranks_.send(0, std::move(letter));
-            ranks_.send(0, {ask});
+            ranks_.send(0, {ask_message});
         }
         return !letters.empty();
     }
@@ -339,7 +339,7 @@ class Workshop {
                 error = e.what();
             }
             const std::lock_guard lock(mutex_);
-            outbox_.push_back(packed(done, json_of(ranges, result, error)));
+            outbox_.push_back(packed(done_message, json_of(ranges, result, error)));
         }
         --open_;
     }
@@ -369,15 +369,15 @@ void work_for_study(const Sweep& sweep, const StudyTable& table, Ranks& ranks,
 }
 
 void dismiss(Ranks& ranks) {
-    for (int other = 1; other < ranks.size(); ++other) ranks.send(other, {halt});
+    for (int other = 1; other < ranks.size(); ++other) ranks.send(other, {halt_message});
     for (int others = ranks.size() - 1; others > 0;) {
         const auto message = ranks.poll();
         if (!message) {
             std::this_thread::sleep_for(short_pause);
             continue;
         }
-        if (message->bytes[0] == ask) ranks.send(message->from, {nothing});
-        if (message->bytes[0] == bye) --others;
+        if (message->bytes[0] == ask_message) ranks.send(message->from, {nothing_message});
+        if (message->bytes[0] == bye_message) --others;
     }
 }
 

@@ -10,7 +10,7 @@
 #pragma once
 
 #include "core/run_context.hpp"
-#include "study/ranks.hpp"
+#include "pipeline/ranks.hpp"
 #include "study/study_file.hpp"
 #include "study/study_table.hpp"
 #include "study/sweep.hpp"

@@ -8,28 +8,29 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/json.hpp"
 #include "core/text.hpp"
 #include "study/statistics.hpp"
 
 namespace stipple {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 /// A cell of a table: a word, or the text of a number.
-struct Cell {
+struct TableCell {
     const char* name;
     std::string text;
     bool number = false;
 };
 
-Cell word(const char* name, std::string text) { return {name, std::move(text)}; }
-Cell whole(const char* name, std::uint64_t value) { return {name, std::to_string(value), true}; }
-Cell real(const char* name, double value) {
+TableCell word(const char* name, std::string text) { return {name, std::move(text)}; }
+TableCell whole(const char* name, std::uint64_t value) {
+    return {name, std::to_string(value), true};
+}
+TableCell real(const char* name, double value) {
     return {name, std::isnan(value) ? "" : format_number(value), true};
 }
 
-std::string json_cell(const Cell& cell) {
+std::string json_cell(const TableCell& cell) {
     const bool finite = cell.text.empty() || cell.text.find("inf") == std::string::npos;
     if (cell.number && cell.text.empty()) return "null";
     if (cell.number && finite) return cell.text;
@@ -37,10 +38,10 @@ std::string json_cell(const Cell& cell) {
 }
 
 /// A line of the table; in CSV, with the names before the first one.
-std::string line_of(StudyTable::Style style, const std::vector<Cell>& cells, bool first) {
+std::string line_of(StudyTable::Style style, const std::vector<TableCell>& cells, bool first) {
     std::string names;
     std::string line;
-    for (const Cell& cell : cells) {
+    for (const TableCell& cell : cells) {
         if (&cell != &cells.front()) {
             names += ',';
             line += ',';

@@ -8,12 +8,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/json.hpp"
 #include "core/text.hpp"
 
 namespace stipple {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr std::array names = {
     "generator", "generator_options", "dimension", "warps", "count", "points", "seed",

@@ -8,8 +8,8 @@
 #include "core/error.hpp"
 #include "core/fingerprint.hpp"
 #include "core/text.hpp"
-#include "study/chain.hpp"
-#include "study/pipeline.hpp"
+#include "pipeline/chain.hpp"
+#include "pipeline/pipeline.hpp"
 
 namespace stipple {
 namespace {

@@ -11,9 +11,9 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "study/chain.hpp"
-#include "study/delivery.hpp"
-#include "study/pipeline.hpp"
+#include "pipeline/chain.hpp"
+#include "pipeline/delivery.hpp"
+#include "pipeline/pipeline.hpp"
 #include "study/time_limit.hpp"
 
 namespace stipple {
@@ -78,7 +78,7 @@ RunContext silent(RunContext run) {
 }
 
 /// Whether a measure takes such points.
-bool measures(const Chosen<Analyzer>& measure, PointSet points, const RunContext& run) {
+bool takes_points(const Chosen<Analyzer>& measure, PointSet points, const RunContext& run) {
     try {
         (void)analyze(*measure.unit, points, measure.values, silent(run));
     } catch (const Error& e) {
@@ -122,8 +122,8 @@ bool takes(const Chosen<Analyzer>& measure, const WarpChain& chain, const RunCon
     if (spec == "unit-cube") return true;
     if (measure.unit->traits.unit_cube) return false;
     if (measure.unit->traits.boxed && !spec.starts_with("box")) return false;
-    return measures(measure, image_of(chain), run) ||
-           !measures(measure, cube_of(chain.dimension_in()), run);
+    return takes_points(measure, image_of(chain), run) ||
+           !takes_points(measure, cube_of(chain.dimension_in()), run);
 }
 
 /// Images of all points, of which some are there.

@@ -26,20 +26,20 @@ constexpr std::array slow_generators = {
     Growth{"poisson-disk", 1e-5, 1.0},          Growth{"sample-elimination", 1e-5, 1.0},
     Growth{"void-and-cluster", 4e-4, 1.0}};
 
-constexpr std::array measures = {Growth{"chi-square", 5e-8, 1.0},
-                                 Growth{"coverage", 4e-6, 1.0},
-                                 Growth{"dispersion", 2e-6, 1.05},
-                                 Growth{"integration", 2e-7, 1.0},
-                                 Growth{"kolmogorov-smirnov", 1e-7, 1.0},
-                                 Growth{"l2-discrepancy", 5e-7, 1.0},
-                                 Growth{"moments", 3e-8, 1.0},
-                                 Growth{"nearest-neighbor", 4e-7, 1.0},
-                                 Growth{"pair-correlation", 4e-6, 1.0},
-                                 Growth{"periodogram", 3e-6, 1.0},
-                                 Growth{"poisson-disk", 4e-6, 1.0},
-                                 Growth{"serial", 1e-7, 1.0},
-                                 Growth{"star-discrepancy", 3e-8, 1.33},
-                                 Growth{"t-value", 1e-6, 1.0}};
+constexpr std::array growths = {Growth{"chi-square", 5e-8, 1.0},
+                                Growth{"coverage", 4e-6, 1.0},
+                                Growth{"dispersion", 2e-6, 1.05},
+                                Growth{"integration", 2e-7, 1.0},
+                                Growth{"kolmogorov-smirnov", 1e-7, 1.0},
+                                Growth{"l2-discrepancy", 5e-7, 1.0},
+                                Growth{"moments", 3e-8, 1.0},
+                                Growth{"nearest-neighbor", 4e-7, 1.0},
+                                Growth{"pair-correlation", 4e-6, 1.0},
+                                Growth{"periodogram", 3e-6, 1.0},
+                                Growth{"poisson-disk", 4e-6, 1.0},
+                                Growth{"serial", 1e-7, 1.0},
+                                Growth{"star-discrepancy", 3e-8, 1.33},
+                                Growth{"t-value", 1e-6, 1.0}};
 
 template <std::size_t size>
 double seconds_of(const std::array<Growth, size>& table, std::string_view name, double n,
@@ -69,7 +69,7 @@ double measure_cost(const Sweep& sweep, const Cell& cell, std::size_t measure) {
     const std::string& name = sweep.measures()[measure].unit->name;
     const auto n = static_cast<double>(cell.count);
     const auto d = static_cast<double>(cell.dimension);
-    double seconds = seconds_of(measures, name, n, 1e-7 * n * d);
+    double seconds = seconds_of(growths, name, n, 1e-7 * n * d);
     if (d <= 2) return once + seconds;
     // What grows with the dimension: pairs of points, and searches that give up in the end.
     if (name == "l2-discrepancy") seconds = std::min(1e-10 * n * n * d, seconds * 20 * d);

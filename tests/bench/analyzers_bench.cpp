@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "study/pipeline.hpp"
+#include "pipeline/pipeline.hpp"
 
 namespace {
 

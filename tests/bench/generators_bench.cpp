@@ -5,7 +5,7 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "study/pipeline.hpp"
+#include "pipeline/pipeline.hpp"
 
 namespace stipple {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "core/rng.hpp"
 #include "core/spec.hpp"
-#include "study/pipeline.hpp"
+#include "pipeline/pipeline.hpp"
 #include "support/temporary_file.hpp"
 
 namespace stipple {

@@ -31,8 +31,8 @@
 #include "core/rng.hpp"
 #include "core/spec.hpp"
 #include "core/text.hpp"
+#include "pipeline/pipeline.hpp"
 #include "places.hpp"
-#include "study/pipeline.hpp"
 #include "warps/warp.hpp"
 
 using namespace stipple;

@@ -344,7 +344,7 @@ TEST(Generate, AClosedPipeIsNoError) {
 
 // Address spaces are no measure under a sanitizer.
 TEST(Generate, StreamsInLittleMemory) {
-    if (std::string(STIPPLE_SANITIZE) != "") GTEST_SKIP() << "sanitizers need memory of their own";
+    if (sanitized()) GTEST_SKIP() << "sanitizers need memory of their own";
     const Sandbox box;
     const Outcome outcome = box.shell(
         "python3 -c 'import resource, subprocess, sys\n"

@@ -9,7 +9,7 @@
 using namespace stipple::testing;
 
 TEST(Install, AnOutsideProgramBuildsAgainstThePackage) {
-    if (std::string(STIPPLE_SANITIZE) != "") GTEST_SKIP() << "the package is that of plain builds";
+    if (sanitized()) GTEST_SKIP() << "the package is that of plain builds";
     const Sandbox box;
     const std::string prefix = (box.path() / "prefix").string();
     ASSERT_EQ(box.shell("cmake --install " STIPPLE_BINARY_DIR " --prefix " + prefix).code, 0);

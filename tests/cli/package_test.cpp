@@ -48,7 +48,7 @@ void expect_that_dpkg_takes_it(const Sandbox& box) {
 }  // namespace
 
 TEST(Package, OfDebianAndAsArchiveIsWholeAndRuns) {
-    if (std::string(STIPPLE_SANITIZE) != "") GTEST_SKIP() << "the package is that of plain builds";
+    if (sanitized()) GTEST_SKIP() << "the package is that of plain builds";
     const Sandbox box;
     if (box.shell("command -v dpkg-shlibdeps && command -v dpkg-deb").code != 0)
         GTEST_SKIP() << "Debian's tools are not installed";

@@ -27,7 +27,7 @@ bool can_launch(const Sandbox& box) { return box.shell("command -v mpirun").code
 
 // Three files, of which two are shared in the middle, and one of them is text.
 TEST(Ranks, AnalyzeOneSetAsOneProcessDoes) {
-    if (std::string(STIPPLE_SANITIZE) != "") GTEST_SKIP() << "MPI's own leaks are not ours";
+    if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
     const Sandbox box;
     if (!can_launch(box)) GTEST_SKIP() << "no launcher";
     for (const char* part : {"0/3 -o a.npy", "1/3 -o b.csv", "2/3 -o c.npy"})
@@ -46,7 +46,7 @@ TEST(Ranks, AnalyzeOneSetAsOneProcessDoes) {
 }
 
 TEST(Ranks, SpeakOnceOfWhatIsWrong) {
-    if (std::string(STIPPLE_SANITIZE) != "") GTEST_SKIP() << "MPI's own leaks are not ours";
+    if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
     const Sandbox box;
     if (!can_launch(box)) GTEST_SKIP() << "no launcher";
     box.write("torn.csv", "x,y\n0.1,0.2\n0.3,oh\n");
@@ -62,7 +62,7 @@ TEST(Ranks, SpeakOnceOfWhatIsWrong) {
 
 // The ranks agree on what is wrong with points, and rank 0 names their file as one process does.
 TEST(Ranks, NameTheFileThatIsAtFault) {
-    if (std::string(STIPPLE_SANITIZE) != "") GTEST_SKIP() << "MPI's own leaks are not ours";
+    if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
     const Sandbox box;
     if (!can_launch(box)) GTEST_SKIP() << "no launcher";
     box.write("outside.csv", "x,y\n0.1,0.2\n0.3,1.5\n");

@@ -244,7 +244,7 @@ TEST(Report, LeavesOutWhatADiskDoesNotHave) {
 // Ten sets of 10^5 points stay small.
 TEST(Report, StaysSmallForLargeSets) {
     const Sandbox box;
-    if (std::string(STIPPLE_SANITIZE) != "") GTEST_SKIP() << "takes long with sanitizers";
+    if (sanitized()) GTEST_SKIP() << "takes long with sanitizers";
     good(box.shell(
         "stipple report --generate random --generate jittered -n 99856 --max-work 1e6 -o r.html"));
     EXPECT_LT(box.read("r.html").size(), 1'000'000U);  // 10 of them: 5 MB

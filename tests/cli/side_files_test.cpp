@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "math/png_picture.hpp"
+#include "media/png_picture.hpp"
 #include "support/program.hpp"
 
 using namespace stipple;

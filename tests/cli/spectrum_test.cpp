@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "math/png_picture.hpp"
+#include "media/png_picture.hpp"
 #include "support/program.hpp"
 
 using namespace stipple;

@@ -575,7 +575,7 @@ TEST(Study, AClosedPipeIsNoError) {
 
 // Ranks share the work; where the build has no MPI, it says so.
 TEST(Study, RanksGiveTheBytesOfOneProcess) {
-    if (std::string(STIPPLE_SANITIZE) != "") GTEST_SKIP() << "MPI's own leaks are not ours";
+    if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
     const Sandbox box;
     if (box.shell("command -v mpirun").code != 0) GTEST_SKIP() << "no launcher";
 #ifdef STIPPLE_MPI

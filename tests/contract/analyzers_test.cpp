@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "core/text.hpp"
-#include "study/chain.hpp"
-#include "study/pipeline.hpp"
+#include "pipeline/chain.hpp"
+#include "pipeline/pipeline.hpp"
 #include "support/contract.hpp"
 
 using namespace stipple;

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <set>
 
+#include "pipeline/pipeline.hpp"
 #include "places.hpp"
-#include "study/pipeline.hpp"
 #include "support/contract.hpp"
 
 using namespace stipple;

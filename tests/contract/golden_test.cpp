@@ -19,8 +19,8 @@
 
 #include "core/fingerprint.hpp"
 #include "core/text.hpp"
+#include "pipeline/chain.hpp"
 #include "places.hpp"
-#include "study/chain.hpp"
 #include "support/contract.hpp"
 #include "support/warp_examples.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/rng.hpp"
-#include "study/pipeline.hpp"
+#include "pipeline/pipeline.hpp"
 #include "support/contract.hpp"
 #include "support/scrambling.hpp"
 

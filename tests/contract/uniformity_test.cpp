@@ -15,8 +15,8 @@
 
 #include "core/rng.hpp"
 #include "core/text.hpp"
+#include "pipeline/chain.hpp"
 #include "places.hpp"
-#include "study/chain.hpp"
 #include "support/contract.hpp"
 #include "support/warp_examples.hpp"
 #include "support/warping.hpp"
@@ -26,8 +26,7 @@ using namespace stipple::testing;
 
 namespace {
 
-constexpr bool sanitized = sizeof(STIPPLE_SANITIZE) > 1;
-constexpr std::size_t many = std::size_t{1} << (sanitized ? 17 : 20);
+const std::size_t many = std::size_t{1} << (sanitized() ? 17 : 20);
 
 const Settings strict = {{"level", "1e-6"}};
 
@@ -131,7 +130,7 @@ TEST_P(Uniformity, StrataAreNoFault) {
 // Sanitizers make points slow: there, 3 % and fewer of them.
 TEST_P(Uniformity, ATiltOfOnePercentIsFound) {
     if (!is_right(map())) GTEST_SKIP();
-    constexpr double tilt = sanitized ? 0.03 : 0.01;
+    const double tilt = sanitized() ? 0.03 : 0.01;
     PointSet cube = cube_points("random", in() == 1 || map().drops() ? 2 * many : many, in());
     for (double& u : cube.flat()) u *= 1 - tilt + tilt * u;
     EXPECT_TRUE(rejected(warped(map(), cube), {{"level", "1e-5"}, {"cells", "3"}}));

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "core/rng.hpp"
-#include "study/chain.hpp"
-#include "study/pipeline.hpp"
+#include "pipeline/chain.hpp"
+#include "pipeline/pipeline.hpp"
 #include "support/contract.hpp"
 #include "support/warp_examples.hpp"
 

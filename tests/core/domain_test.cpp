@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/rng.hpp"
-#include "study/chain.hpp"
+#include "pipeline/chain.hpp"
 #include "support/units.hpp"
 
 using namespace stipple;

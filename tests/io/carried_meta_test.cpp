@@ -6,7 +6,7 @@
 #include <array>
 
 #include "io/io_support.hpp"
-#include "math/png_picture.hpp"
+#include "media/png_picture.hpp"
 #include "support/units.hpp"
 
 using namespace stipple;

@@ -8,7 +8,7 @@
 
 #include "io/files.hpp"
 #include "io/point_stream.hpp"
-#include "study/produce.hpp"
+#include "pipeline/produce.hpp"
 #include "support/units.hpp"
 
 using namespace stipple;

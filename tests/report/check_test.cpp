@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "study/chain.hpp"
+#include "pipeline/chain.hpp"
 #include "support/units.hpp"
 
 using namespace stipple;

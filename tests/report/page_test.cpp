@@ -10,12 +10,12 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
-#include "report/html_text.hpp"
-#include "report/page_charts.hpp"
-#include "report/page_figures.hpp"
-#include "report/page_html.hpp"
-#include "report/page_measures.hpp"
-#include "study/chain.hpp"
+#include "page/page_charts.hpp"
+#include "page/page_figures.hpp"
+#include "page/page_html.hpp"
+#include "page/page_measures.hpp"
+#include "pipeline/chain.hpp"
+#include "plot/html_text.hpp"
 #include "support/units.hpp"
 
 using namespace stipple;

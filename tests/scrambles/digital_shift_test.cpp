@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "math/binary_scramble.hpp"
+#include "math/digital/binary_scramble.hpp"
 #include "support/nets.hpp"
 #include "support/scrambling.hpp"
 

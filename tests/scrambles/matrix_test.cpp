@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "math/binary_scramble.hpp"
+#include "math/digital/binary_scramble.hpp"
 #include "support/nets.hpp"
 #include "support/scrambling.hpp"
 

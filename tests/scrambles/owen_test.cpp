@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "math/base_scramble.hpp"
-#include "math/binary_scramble.hpp"
+#include "math/digital/base_scramble.hpp"
+#include "math/digital/binary_scramble.hpp"
 #include "support/nets.hpp"
 #include "support/scrambling.hpp"
 

@@ -87,12 +87,12 @@ Sandbox::~Sandbox() {
 }
 
 Outcome Sandbox::run(std::vector<std::string> arguments, const std::string& input) const {
-    arguments.insert(arguments.begin(), STIPPLE_PROGRAM);
+    arguments.insert(arguments.begin(), program_path());
     return execute(arguments, path_, input);
 }
 
 Outcome Sandbox::shell(const std::string& line, const std::string& input) const {
-    const auto directory = std::filesystem::path(STIPPLE_PROGRAM).parent_path().string();
+    const auto directory = std::filesystem::path(program_path()).parent_path().string();
     return execute({"/bin/bash", "-c", "set -o pipefail; PATH=" + directory + ":$PATH; " + line},
                    path_, input);
 }

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "study/ranks.hpp"
+#include "pipeline/ranks.hpp"
 
 namespace stipple::testing {
 

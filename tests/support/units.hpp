@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "study/pipeline.hpp"
+#include "pipeline/pipeline.hpp"
 
 namespace stipple::testing {
 

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+//
+// Dispersion of n points in the unit cube: the volume of the largest axis-parallel box that has no
+// point inside,
+//
+//     value = max { vol (a,b) : no x_i in (a,b) },      (a,b) open, in [0,1]^d.
+//
+// On the torus (--torus), where 1 is 0, each side of a box may wrap from 1 to 0; its lower end is
+// then above its upper one, or the same if the side goes all the way round.
+//
+// Shape   points n x d in [0, 1];  result in [1/(n+1), 1].
+// Cost    d = 1: O(n log n). d = 2: O((n + s) log n), where s rectangles cannot grow; s is about
+//         n log n for random points and n^2 at worst; 10^5 random points take 0.4 s on one core,
+//         on the torus 0.5 s; --time-limit cuts it short.
+//         d > 2: branch and bound over the boxes' sides, which stops at --max-work or --time-limit
+//         with bounds that hold; it grows as fast as n^(2(d - 1)) at worst. 4000 random points in
+//         3-D take 0.4 s, 200 in 5-D 0.6 s.
+// Promise exact where it says so: boxes are compared without rounding, and the value is the double
+//         nearest to the box's volume. Never depends on the number of threads.
+// Beware  points on a box's rim are not inside. Not the covering radius, which is also called
+//         dispersion: that is the analyzer coverage.
+// Source  A. Naamad, D. T. Lee, W.-L. Hsu, Discrete Appl. Math. 8 (1984) 267-277,
+//         doi:10.1016/0166-218X(84)90124-0 (2-D); G. Rote, R. F. Tichy, "Quasi-Monte-Carlo methods
+//         and the dispersion of point sequences", Math. Comput. Modelling 23 (1996) 9-23,
+//         doi:10.1016/0895-7177(96)00155-3 (the measure).
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "analyzers/analyzer.hpp"
+#include "analyzers/discrepancy/empty_box.hpp"
+#include "analyzers/discrepancy/extreme/extreme_discrepancy.hpp"
+#include "analyzers/discrepancy/extreme/extreme_search.hpp"
+#include "core/error.hpp"
+
+namespace stipple::analyzers::dispersion {
+namespace {
+
+constexpr Param<bool> torus{.name = "torus",
+                            .help = "Join opposite faces of the cube, so that boxes may wrap"};
+
+/// More points than any machine's memory holds; keys of points stay below 2^31.
+constexpr std::size_t max_count = std::size_t{1} << 29;
+
+/// Where it is cut short: an empty box has a discrepancy of its volume.
+extreme::SearchResult largest_empty_box(const extreme::BoxGrid& grid, const PointSet& points,
+                                        const SearchLimits& limits, const RunContext& run) {
+    if (grid.dimension() != 2) return extreme::find_worst(grid, limits, run);
+    const auto [worst, complete] = extreme::largest_empty_rectangle(grid, limits, run);
+    if (complete) return {worst, worst.value(), Ending::complete};
+    const double upper = extreme::quick_bound(points, grid.space, run);
+    return {worst, std::max(worst.value(), upper),
+            limits.late(run) ? Ending::time : Ending::stopped};
+}
+
+const char* how(std::size_t dimension) {
+    constexpr const char* names[] = {"sweep-1d", "maximal-rectangles"};
+    return dimension <= 2 ? names[dimension - 1] : "branch-and-bound";
+}
+
+Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
+    const std::size_t d = points.dimension();
+    if (points.count() == 0) fail(ErrorKind::input, "dispersion needs at least one point");
+    if (points.count() > max_count)
+        fail(ErrorKind::limit, "dispersion takes up to {} points; these are {}", max_count,
+             points.count());
+    const Limits limits(options, run);
+    const double lines = extreme::search_memory(points, d > 2 ? run.thread_count() : 0);
+    run.need_memory(lines + static_cast<double>(points.count() * extreme::rectangle_bytes),
+                    "the search for the largest empty box");
+    const extreme::BoxGrid grid =
+        extreme::box_grid(points, options[torus] ? extreme::Space::torus : extreme::Space::cube,
+                          extreme::Measure::emptiness, run);
+    const auto [worst, upper, ending] = largest_empty_box(grid, points, limits.search, run);
+    limits.judge({worst.value(), upper, ending}, "the largest empty box",
+                 fmt::format("{} points in {} dimensions", points.count(), d), run);
+    Report box;
+    box.add("lower_corner", worst.lower_corner());
+    box.add("upper_corner", worst.upper_corner());
+    Report results;
+    results.add("value", worst.value());
+    results.add("lower", worst.value());
+    results.add("upper", upper);
+    results.add("exact", upper == worst.value());
+    results.add("method", how(d));
+    results.add("box", std::move(box));
+    return results;
+}
+
+/// A mean of boxes is none.
+void refine(Report& mean, std::size_t sets, const Values&) {
+    if (sets > 1) std::erase_if(mean.entries(), [](const auto& e) { return e.name == "box"; });
+}
+
+}  // namespace
+
+Analyzer unit() {
+    return {.name = "dispersion",
+            .summary = "Volume of the largest empty axis-parallel box, and where it is",
+            .source = "Naamad, Lee, Hsu 1984, doi:10.1016/0166-218X(84)90124-0",
+            .traits = {.max_dimension = 1000},
+            .options =
+                Schema(torus, limit::method, limit::time_limit, limit::tolerance, limit::max_work),
+            .results = {{"value", "volume of the largest empty box that was found"},
+                        {"lower", "some box is at least so large"},
+                        {"upper", "none is larger"},
+                        {"exact", "whether the two bounds are the same", true, true_or_false},
+                        {"method", "sweep-1d, maximal-rectangles or branch-and-bound", true,
+                         "sweep-1d|maximal-rectangles|branch-and-bound"},
+                        {"box.lower_corner", "lower corner of that box"},
+                        {"box.upper_corner",
+                         "its upper corner; where that is not above the lower one, the box wraps"}},
+            .analyze = analyze,
+            .refine = refine};
+}
+
+}  // namespace stipple::analyzers::dispersion

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "analyzers/discrepancy/search_limits.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace stipple::analyzers {
+
+SearchLimits SearchLimits::after(std::uint64_t spent) const {
+    SearchLimits left = *this;
+    left.work = work > spent ? work - spent : 1;
+    return left;
+}
+
+void report_gap(double lower, double upper, const RunContext& run) {
+    if (!run.progress) return run.check_stop();
+    constexpr std::uint64_t parts = 1'000'000;
+    const double open = lower < 1 ? std::clamp((upper - lower) / (1 - lower), 0.0, 1.0) : 0;
+    run.tick(parts - static_cast<std::uint64_t>(open * static_cast<double>(parts)), parts,
+             fmt::format("between {:.4g} and {:.4g}", lower, upper));
+}
+
+Limits::Limits(const Values& options, const RunContext& run)
+    : exact(options[limit::method] == "exact"),
+      bounded(options[limit::method] == "bounds"),
+      work_(options[limit::max_work]) {
+    if (exact && options.given(limit::tolerance))
+        fail(ErrorKind::usage, "--tolerance: has no meaning with --method exact");
+    search.tolerance = options.given(limit::tolerance) ? options[limit::tolerance]
+                       : bounded                       ? 0.1
+                                                       : 0;
+    if (!options.given(limit::time_limit) || options.given(limit::max_work))
+        search.work = static_cast<std::uint64_t>(work_);
+    if (run.seconds) start = run.seconds();
+    if (options.given(limit::time_limit) && run.seconds) {
+        seconds_ = options[limit::time_limit];
+        search.deadline = start + seconds_;
+    }
+}
+
+Limits Limits::part(double of_work, double of_time, const RunContext& run) const {
+    Limits mine = *this;
+    if (search.work < std::numeric_limits<std::uint64_t>::max()) {
+        const double share = of_work * static_cast<double>(search.work);
+        mine.search.work = static_cast<std::uint64_t>(std::max(1.0, share));
+    }
+    if (run.seconds) mine.start = run.seconds();
+    if (search.timed())
+        mine.search.deadline = mine.start + of_time * std::max(0.0, search.deadline - mine.start);
+    return mine;
+}
+
+void Limits::give_up(const Bounds& found, const std::string& what, const std::string& whose) const {
+    const bool time = found.ending == Ending::time;
+    fail_with_hint(ErrorKind::limit,
+                   fmt::format("a larger {}, or fewer points, may give the exact value; --method "
+                               "bounds is content with bounds",
+                               time ? "--time-limit" : "--max-work"),
+                   "{} of {} takes more than {}; certain so far: it is between {} and {}", what,
+                   whose,
+                   time ? fmt::format("{} seconds (--time-limit)", seconds_)
+                        : fmt::format("{} comparisons (--max-work)", work_),
+                   format_number(found.lower), format_number(found.upper));
+}
+
+void Limits::judge(const Bounds& found, const std::string& what, const std::string& whose,
+                   const RunContext& run) const {
+    const bool cut = found.ending == Ending::work || found.ending == Ending::time;
+    if (exact && (cut || found.ending == Ending::tolerance)) give_up(found, what, whose);
+    if (!cut) return;
+    const std::string missed =
+        search.tolerance > 0
+            ? fmt::format(" (--tolerance {} was not reached)", format_number(search.tolerance))
+            : "";
+    run.tell(fmt::format(
+        "{} is not exact, but between {} and {}{}; the value given is the lower of these", what,
+        format_number(found.lower), format_number(found.upper), missed));
+}
+
+}  // namespace stipple::analyzers

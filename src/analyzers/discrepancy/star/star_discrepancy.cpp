@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: MIT
+//
+// Star discrepancy of n points in the unit cube, exact, or where that takes too long, between
+// bounds that are certain:
+//
+//     D* = sup over c in [0,1]^d of  | #{points in [0,c)} / n  -  vol [0,c) |.
+//
+// It is reached or approached at corners c made of point coordinates and 1, once with the box open
+// (too few points inside) and once with it closed (too many), so both are counted:
+//
+//     D* = max over c of  max( vol(c) - #{x < c} / n,  #{x <= c} / n - vol(c) ).
+//
+// --boxes half-open takes the first line at its word: points with a coordinate 1 are in no box.
+//
+// Shape   points n x d in [0, 1];  result in [1/(2n), 1], a pure number, smaller is more even.
+// Cost    d = 1: O(n log n). d = 2: O(n^(4/3)) time in practice and O(n) memory, 61 bytes a point
+//         with the points; 2^16 points take 0.04 s, 10^6 1 s and 10^7 20 s on one core.
+//         d > 2: exponential in d at worst (the problem is NP-hard); branch and bound, which ends
+//         after --max-work or --time-limit. Both are for all rows of a table together; prefixes
+//         start from their neighbours' boxes and bounds.
+// Promise `exact` says whether it is: counts are integers, boxes are compared without rounding, and
+//         the value is the double nearest to that of the worst box. Where it is not, the worst box
+//         found gives `lower`, and no box is worse than `upper`. Never depends on the number of
+//         threads; depends on the machine if --time-limit ends it.
+// Beware  where `exact` is false, `value` is `lower`; a --check of it must hold for both bounds.
+//         Coordinates are taken as the doubles that they are: 0.1 is a little more than 1/10.
+// Source  C. Doerr, M. Gnewuch, M. Wahlstroem, "Calculation of discrepancy measures and
+//         applications", arXiv:1405.1653 (survey); M. Gnewuch, A. Srivastav, C. Winzen, J.
+//         Complexity 25 (2009) 115-127 (NP-hard).
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <string>
+
+#include "analyzers/analyzer.hpp"
+#include "analyzers/discrepancy/extreme/extreme_discrepancy.hpp"
+#include "analyzers/discrepancy/search_limits.hpp"
+#include "analyzers/discrepancy/star/star_families.hpp"
+#include "analyzers/discrepancy/star/star_search.hpp"
+#include "analyzers/discrepancy/star/star_sweep.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace stipple::analyzers::star_discrepancy {
+namespace {
+
+constexpr Param<Choice> boxes{
+    .name = "boxes",
+    .fallback = "closed",
+    .choices = "closed|half-open",
+    .help =
+        "Whether boxes that end at 1 are closed there, or half-open as all others; they differ "
+        "for points with a coordinate 1"};
+
+/// More points than any machine's memory holds; counts of points stay far from 2^31.
+constexpr std::size_t max_count = std::size_t{1} << 29;
+
+Report report(const star::WorstBox& worst, double upper, const char* how) {
+    Report box;
+    box.add("corner", worst.corner());
+    box.add("closed", worst.side() == star::Side::closed);
+    box.add("points", worst.points());
+    box.add("volume", worst.volume());
+    Report results;
+    results.add("value", worst.value());
+    results.add("lower", worst.value());
+    results.add("upper", upper);
+    results.add("exact", upper == worst.value());
+    results.add("method", how);
+    results.add("worst_box", std::move(box));
+    return results;
+}
+
+/// "100 points in 7 dimensions"
+std::string size_of(const PointSet& points) {
+    return fmt::format("{} points in {} dimensions", points.count(), points.dimension());
+}
+
+/// @throws Error(limit) saying how many points would do.
+void need_room(const PointSet& points, const RunContext& run) {
+    const std::size_t d = points.dimension();
+    const double search = d < 3 ? 0 : star::search_bytes(1, d, run.thread_count());
+    const double each = static_cast<double>(d * star::axis_bytes) + 32 + search;
+    const double all = static_cast<double>(points.count()) * each;
+    const double room = static_cast<double>(run.max_memory);
+    if (all <= room) return;
+    fail_with_hint(ErrorKind::limit,
+                   fmt::format("{} points would do; or raise the limit with --max-memory",
+                               static_cast<std::uint64_t>(room / each)),
+                   "the star discrepancy of {} points in {} dimensions needs {} of memory; the "
+                   "limit is {}",
+                   points.count(), d, format_bytes(all), format_bytes(room));
+}
+
+/// The square's worst box; bounds alone where the sweep takes longer than a part of the time.
+star::SearchResult sweep_or_search(const star::CornerGrid& grid, const Limits& limits,
+                                   const RunContext& run, std::string& how) {
+    constexpr double part = 0.7;  // what is left is for bounds
+    SearchLimits first = limits.search;
+    first.deadline = limits.start + part * (first.deadline - limits.start);
+    const star::Sweep sweep = star::sweep_2d(grid, first, run);
+    how = "sweep-2d";
+    if (sweep.complete) return {sweep.worst, sweep.worst.value(), Ending::complete};
+    if (run.stop.stop_requested())
+        return star::certain_at_once(grid, sweep.worst, Ending::stopped, run);
+    how = "branch-and-bound";
+    return star::search(grid, sweep.worst, limits.search, run);
+}
+
+/// A box that another set's report calls the worst.
+std::optional<star::Hint> hint_from(const Report* like) {
+    if (like == nullptr || like->find("worst_box") == nullptr) return {};
+    const bool closed = std::get<bool>(*like->find("worst_box.closed"));
+    return star::Hint{closed ? star::Side::closed : star::Side::open,
+                      like->curve("worst_box.corner")};
+}
+
+Report star_kind(const star::Member& set, const Values& options, const RunContext& run) {
+    need_room(set.points, run);
+    RunContext steady = run;
+    if (set.peers != nullptr) steady.stop = {};  // peers stop together, in the search
+    const star::CornerGrid grid = star::corner_grid(
+        set.points, steady,
+        options[boxes] == "closed" ? star::Boxes::closed : star::Boxes::half_open);
+    if (grid.dimension() == 1) {
+        const star::WorstBox worst = star::sweep_1d(grid, run);
+        return report(worst, worst.value(), "sweep-1d");
+    }
+    std::string how = "branch-and-bound";
+    const auto hint = hint_from(set.like);
+    const star::SearchResult found =
+        grid.dimension() == 2 && !set.limits.bounded
+            ? sweep_or_search(grid, set.limits, run, how)
+            : star::find_worst(grid, set.limits.search, run, hint ? &*hint : nullptr, set.peers);
+    set.limits.judge({found.worst.value(), found.upper, found.ending}, "the star discrepancy",
+                     size_of(set.points), run);
+    return report(found.worst, found.upper, how.c_str());
+}
+
+/// The kinds extreme and periodic.
+Report other_kind(const star::Member& set, const Values& options, const RunContext& run) {
+    const std::string& kind = options[extreme::kind];
+    if (options.given(boxes))
+        fail(ErrorKind::usage, "--{} applies to --kind star only", boxes.name);
+    const auto space = kind == "extreme" ? extreme::Space::cube : extreme::Space::torus;
+    extreme::Findings found = extreme::discrepancy(set.points, space, set.limits.search, run);
+    set.limits.judge(found.bounds, fmt::format("the {} discrepancy", kind), size_of(set.points),
+                     run);
+    return std::move(found.report);
+}
+
+Report measure(const star::Member& set, const Values& options, const RunContext& run) {
+    if (set.points.count() == 0)
+        fail(ErrorKind::input, "star-discrepancy needs at least one point");
+    if (set.points.count() > max_count)
+        fail(ErrorKind::limit, "star-discrepancy takes up to {} points; these are {}", max_count,
+             set.points.count());
+    return options[extreme::kind] == "star" ? star_kind(set, options, run)
+                                            : other_kind(set, options, run);
+}
+
+Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
+    const Limits limits(options, run);
+    if (!star::wants_families(options)) return measure({points, limits}, options, run);
+    const auto one = [&options](const star::Member& part, const RunContext& part_run) {
+        return measure(part, options, part_run);
+    };
+    return star::families(points, options, limits, one, run);
+}
+
+/// The peers share the search for the worst box. The sweeps of one and two dimensions are sooner
+/// done than shared.
+Report analyze_together(const PointSet& points, const Values& options, Peers& peers,
+                        const RunContext& run) {
+    if (star::wants_families(options) || options[extreme::kind] != "star")
+        fail(ErrorKind::usage,
+             "star-discrepancy: ranks share the search of one set for the kind star; start one "
+             "process for tables and other kinds");
+    const Limits limits(options, run);
+    const bool sweeps = points.dimension() < 2 || (points.dimension() == 2 && !limits.bounded);
+    return measure({.points = points, .limits = limits, .peers = sweeps ? nullptr : &peers},
+                   options, run);
+}
+
+/// A mean of boxes is none, nor is one of axes; the worst projection is that of the means.
+void refine(Report& mean, std::size_t sets, const Values&) {
+    if (sets < 2) return;
+    const auto drop = [](Report& from, std::string_view name) {
+        std::erase_if(from.entries(), [&](const auto& entry) { return entry.name == name; });
+    };
+    drop(mean, "worst_box");
+    auto* const item = mean.find("projections");
+    if (item == nullptr) return;
+    auto& table = std::get<Report>(*item);
+    for (const char* name : {"is_worst", "worst", "worst_is_certain"}) drop(table, name);
+    star::mark_worst(table);
+}
+
+}  // namespace
+
+Analyzer unit() {
+    return {
+        .name = "star-discrepancy",
+        .summary = "Star discrepancy, exact or between bounds, with the worst box",
+        .source = "Doerr, Gnewuch, Wahlstroem 2014, arXiv:1405.1653",
+        .traits = {.max_dimension = 10'000},
+        .options = Schema(extreme::kind, boxes, limit::method, limit::time_limit, limit::tolerance,
+                          limit::max_work, star::prefixes, star::every, star::projections),
+        .results = {{"value", "the star discrepancy; where exact is false, lower"},
+                    {"lower", "it is at least this"},
+                    {"upper", "it is at most this"},
+                    {"exact", "whether the two bounds are the same", true, true_or_false},
+                    {"method", "sweep-1d, sweep-2d or branch-and-bound", true,
+                     "sweep-1d|sweep-2d|branch-and-bound"},
+                    {"worst_box.corner",
+                     "upper corner of the box where the value is reached (of all boxes from "
+                     "the origin, or of all that the kind has)"},
+                    {"worst_box.lower_corner",
+                     "its lower corner, for the kinds extreme and periodic; on an axis where "
+                     "it is above the upper one, the box goes from there across 1 to 0 and on "
+                     "(and all round where an open box has both the same)",
+                     false},
+                    {"worst_box.closed",
+                     "whether points on the box's faces count (upper faces for the kind star)",
+                     true, true_or_false},
+                    {"worst_box.points", "points in that box"},
+                    {"worst_box.volume", "its volume"},
+                    {"prefixes.count", "points of each prefix", false},
+                    {"prefixes.value", "its star discrepancy", false},
+                    {"prefixes.lower", "which is at least this", false},
+                    {"prefixes.upper", "and at most this", false},
+                    {"prefixes.exact", "1 where the two are the same, else 0", false},
+                    {"projections.axis_1", "first axis of each projection, from 1", false},
+                    {"projections.axis_2", "the second, and so on", false},
+                    {"projections.value", "its star discrepancy", false},
+                    {"projections.lower", "which is at least this", false},
+                    {"projections.upper", "and at most this", false},
+                    {"projections.exact", "1 where the two are the same, else 0", false},
+                    {"projections.is_worst",
+                     "1 for the first with the largest value; among bounds, with the largest "
+                     "lower one",
+                     false},
+                    {"projections.worst", "the axes of that one", false},
+                    {"projections.worst_is_certain",
+                     "whether the bounds of no other projection reach above its value", false,
+                     true_or_false},
+                    {"projections.largest.value", "the largest value", false},
+                    {"projections.largest.lower", "the largest of all is at least this", false},
+                    {"projections.largest.upper", "and at most this", false}},
+        .analyze = analyze,
+        .sharing = {.together = analyze_together},
+        .refine = refine};
+}
+
+}  // namespace stipple::analyzers::star_discrepancy

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+//
+// Covering radius, or fill distance: the largest ball in which no point is, with its centre in the
+// unit cube or box that the points live on:
+//
+//     radius = max over x of  min_i |x - x_i|.
+//
+// On the torus (the default) in 2-D that is the largest circumradius of a Delaunay triangle. With
+// straight distances the walls end the domain, so that its corners count, and the places where the
+// bounds of the points' cells meet the walls. (analyzers/distances/empty_ball.hpp)
+//
+//     mesh_ratio = radius / (minimum / 2),
+//
+// the covering radius over the packing radius, is the smaller the more even the points are; it is
+// at least 1, and at most 2 for a maximal Poisson-disk set. It is left out where two points are at
+// the same place, and for a single point with straight distances.
+//
+// Shape   points n x d, d <= 32.
+// Cost    d <= 2: O(n log n) for sets that are not too uneven; 10^6 points in 2-D take 3.6 s on one
+//         core. d >= 3: branch and bound; grows with the number of places that are nearly as empty
+//         as the emptiest, and exponentially with d.
+// Promise d <= 2: exact up to rounding. d >= 3: the radius is that of an empty ball, and no other
+// is
+//         larger than `upper`, at most radius (1 + tolerance). Never depends on the number of
+//         threads.
+// Source  H. Niederreiter, "Random Number Generation and Quasi-Monte Carlo Methods", SIAM 1992,
+//         chapter 6 (there, with the maximum norm too: dispersion).
+
+#include <cmath>
+
+#include "analyzers/analyzer.hpp"
+#include "analyzers/distances/distances.hpp"
+#include "analyzers/distances/empty_ball.hpp"
+
+namespace stipple::analyzers::coverage {
+namespace {
+
+constexpr Param<double> tolerance{
+    .name = "tolerance",
+    .fallback = 1e-6,
+    .low = 1e-12,
+    .high = 10,
+    .help = "In 3 and more dimensions the upper bound is at most so much larger, relatively"};
+
+constexpr Param<std::int64_t> max_boxes{
+    .name = "max-boxes",
+    .fallback = 100'000'000,
+    .low = 1,
+    .unit = "boxes",
+    .help =
+        "Give up when branch and bound (3 and more dimensions) has looked at so many; 10^6 "
+        "take some 10 seconds on one core"};
+
+Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
+    const Distances distances = distances_in_box(points, options[metric], "coverage");
+    run.need_memory(
+        static_cast<double>(points.count()) * (48 + 10 * static_cast<double>(points.dimension())),
+        "the search for empty balls");
+    const EmptyBall ball =
+        largest_empty_ball(points, distances,
+                           {.tolerance = options[tolerance],
+                            .max_boxes = static_cast<std::uint64_t>(options[max_boxes])},
+                           run.stage(0, 0.8));
+    const auto neighbors = nearest_neighbors(points, distances, run.stage(0.8, 1));
+    const double minimum = std::sqrt(closest_pair(neighbors).second.squared);
+    Report results;
+    results.add("radius", ball.radius);
+    results.add("center", ball.center);
+    results.add("lower", ball.radius);
+    results.add("upper", ball.upper);
+    results.add("exact", points.dimension() <= 2);
+    if (minimum > 0 && std::isfinite(minimum)) results.add("mesh_ratio", 2 * ball.radius / minimum);
+    results.add("metric", distances.name());
+    return results;
+}
+
+/// A mean of places is none.
+void refine(Report& mean, std::size_t sets, const Values&) {
+    if (sets > 1) std::erase_if(mean.entries(), [](const auto& e) { return e.name == "center"; });
+}
+
+}  // namespace
+
+Analyzer unit() {
+    return {.name = "coverage",
+            .summary = "Covering radius: the largest empty ball, and where it is",
+            .source = "Niederreiter 1992, chapter 6",
+            .traits = {.max_dimension = 32, .unit_cube = false, .boxed = true},
+            .options = Schema(metric, tolerance, max_boxes),
+            .results = {{"radius", "of the largest ball in which no point is"},
+                        {"center", "of that ball"},
+                        {"lower", "some ball is at least so large"},
+                        {"upper", "none is larger"},
+                        {"exact", "whether the two bounds are the same (up to 2 dimensions)", true,
+                         true_or_false},
+                        {"mesh_ratio", "radius over half the smallest distance of two points"},
+                        {"metric", "torus or euclidean", true, "torus|euclidean"}},
+            .analyze = analyze,
+            .refine = refine};
+}
+
+}  // namespace stipple::analyzers::coverage

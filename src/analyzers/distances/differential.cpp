@@ -1,0 +1,321 @@
+// SPDX-License-Identifier: MIT
+//
+// Differential domain analysis: the differences of all ordered pairs of n points of the plane,
+// counted in square pixels D about 0, over what independent uniform points have there on average,
+//
+//     density(D) = #{ (i, j) : i != j, x_j - x_i in D }  /  ( n (n - 1) * P(D) ),
+//
+// where P(D) is how likely the difference of two uniform points is in D: its area over V on the
+// torus, and less for straight differences, by the box's set covariance (L_1 - |x|) (L_2 - |y|). So
+// independent points have 1 everywhere. The difference is to the power spectrum what a correlation
+// is: what one shows at high frequencies the other does near 0. Beside the image stand
+//
+//     radial density     mean over the pixels with centres in the ring k - 1/2 <= |x| / w < k + 1/2
+//     anisotropy         variance of the pixels over the ring / squared mean, in dB; independent
+//                        points have -10 log10(differences a pixel), less for a mean of sets
+//
+// with w the side of a pixel, k = 0 the one in the middle.
+//
+// Shape   n >= 2 points of the unit square or a rectangle. Image of B x B pixels, B odd, reaching
+//         from -r to r, x to the right and y upward: row = y.
+// Units   distances in sqrt(V / n), the mean distance.
+// Cost    O(n + pairs within the square's corners): 10^6 points to 5 mean distances, 5e7 pairs,
+// take
+//         2 s on one core.
+// Promise every pair counts twice, once on either side of 0: the image is its own mirror image
+//         exactly. Never depends on the number of threads.
+// Beware  what is on a rim of pixels counts with one of them: a lattice has its peaks in pixels.
+// Source  L.-Y. Wei, R. Wang, ACM Trans. Graph. 30:4 (2011) 50, doi:10.1145/2010324.1964945.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "analyzers/analyzer.hpp"
+#include "analyzers/distances/distances.hpp"
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/text.hpp"
+#include "math/neighbors/point_grid.hpp"
+
+namespace stipple::analyzers::differential {
+namespace {
+
+constexpr Param<double> max_distance{
+    .name = "max-distance",
+    .low = 0,
+    .low_open = true,
+    .optional = true,
+    .unit = "sqrt(V / n)",
+    .help =
+        "The image goes from -r to r along each axis; without it r is 5, but at most half the "
+        "shortest side"};
+
+constexpr Param<std::int64_t> pixel_count{.name = "pixels",
+                                          .fallback = 255,
+                                          .low = 3,
+                                          .high = 4095,
+                                          .help = "Pixels along each side of the image, odd"};
+
+constexpr Param<Path> grid_file{
+    {.name = "grid",
+     .help = "Saves the image to this .npy file: row = y, column = x, from -r to r"}};
+
+constexpr Param<Path> image_file{
+    {.name = "image",
+     .help = "Draws it to this .png file, grey = density / (1 + density), 1 middle grey"}};
+
+constexpr double lowest_db = -100;
+
+struct Plan {
+    Distances distances;
+    std::size_t pixels;
+    double reach;
+    double unit;
+
+    [[nodiscard]] double side() const { return 2 * reach / static_cast<double>(pixels); }
+};
+
+Plan plan_for(const PointSet& points, const Values& options) {
+    Plan plan{.distances = distances_in_box(points, options[metric], "differential"),
+              .pixels = static_cast<std::size_t>(options[pixel_count]),
+              .reach = 0,
+              .unit = 0};
+    if (plan.pixels % 2 == 0)
+        fail(ErrorKind::usage, "--pixels: {} is even; one pixel is to be in the middle",
+             plan.pixels);
+    const Box& box = *plan.distances.box;
+    plan.unit = std::sqrt(box.extent(0) * box.extent(1) / static_cast<double>(points.count()));
+    const double half = std::min(box.extent(0), box.extent(1)) / 2;
+    if (!options.given(max_distance)) {
+        plan.reach = std::min(5 * plan.unit, half);
+        return plan;
+    }
+    plan.reach = options[max_distance] * plan.unit;
+    if (!(plan.reach <= half * (1 + 1e-9)))
+        fail(ErrorKind::usage, "--max-distance: {} is more than half the shortest side, {}",
+             format_number(options[max_distance]), format_number(half / plan.unit));
+    return plan;
+}
+
+/// Counts of differences, row after row.
+using Counts = std::vector<std::uint64_t>;
+
+/// Blocks have counts of their own, which are not to take more than 1 GiB, or few times one image.
+std::uint64_t most_blocks(std::size_t pixels) {
+    constexpr std::uint64_t most_counts = std::uint64_t{1} << 27;
+    return std::clamp<std::uint64_t>(most_counts / (pixels * pixels), 4, 64);
+}
+
+class DifferenceCounter {
+  public:
+    DifferenceCounter(const PointSet& points, const Plan& plan, const RunContext& run)
+        : plan_(plan),
+          run_(run),
+          sides_{plan.distances.box->extent(0), plan.distances.box->extent(1)},
+          points_(GridFrame<2>(*plan.distances.box, plan.distances.torus,
+                               std::max(plan.reach / 4, plan.unit),
+                               static_cast<double>(points.count()) + 64),
+                  points.flat(), run) {}
+
+    /// In few blocks, as each needs counts of its own; they are whole numbers, in any order.
+    [[nodiscard]] Counts count() const {
+        const std::uint64_t n = points_.count();
+        const std::uint64_t size = std::max<std::uint64_t>(1024, n / most_blocks(plan_.pixels) + 1);
+        std::vector<Counts> parts(block_count(n, size));
+        for_each_block(run_, n, size, [&](const Block& b) {
+            Counts counts(plan_.pixels * plan_.pixels);
+            std::size_t looked = 0;
+            for (auto s = static_cast<std::size_t>(b.first); s < b.last; ++s) {
+                looked += add_later(s, counts);
+                if (looked < between_looks) continue;
+                run_.check_stop();
+                looked = 0;
+            }
+            parts[b.index] = std::move(counts);
+        });
+        Counts all(plan_.pixels * plan_.pixels);
+        for (const Counts& part : parts)
+            for (std::size_t i = 0; i < all.size(); ++i) all[i] += part[i];
+        return all;
+    }
+
+  private:
+    static constexpr std::size_t between_looks = std::size_t{1} << 20;
+
+    /// The differences to the points behind s, both ways; returns how many it looked at.
+    std::size_t add_later(std::size_t s, Counts& counts) const {
+        const double* p = points_[s];
+        const double scale = 1 / plan_.side();
+        const double half = static_cast<double>(plan_.pixels) / 2;
+        std::size_t looked = 0;
+        points_.frame().visit(
+            p, plan_.reach * std::numbers::sqrt2, [&](std::size_t first, std::size_t last) {
+                const std::size_t from = std::max<std::size_t>(points_.start(first), s + 1);
+                for (std::size_t t = from; t < points_.start(last); ++t) {
+                    const double* q = points_[t];
+                    const double column = across(q[0] - p[0], 0) * scale + half;
+                    const double row = across(q[1] - p[1], 1) * scale + half;
+                    add(column, row, counts);
+                }
+                looked += points_.start(last) > from ? points_.start(last) - from : 0;
+                return true;
+            });
+        return looked + 1;
+    }
+
+    void add(double column, double row, Counts& counts) const {
+        const auto size = static_cast<double>(plan_.pixels);
+        if (!(column >= 0 && column < size && row >= 0 && row < size)) return;
+        const std::size_t at =
+            static_cast<std::size_t>(row) * plan_.pixels + static_cast<std::size_t>(column);
+        ++counts[at];
+        ++counts[counts.size() - 1 - at];
+    }
+
+    [[nodiscard]] double across(double d, std::size_t k) const {
+        if (!plan_.distances.torus) return d;
+        if (d > sides_[k] / 2) return d - sides_[k];
+        return d < -sides_[k] / 2 ? d + sides_[k] : d;
+    }
+
+    const Plan& plan_;
+    const RunContext& run_;
+    std::array<double, 2> sides_;
+    SortedPoints<2> points_;
+};
+
+/// How likely the difference along an axis is in each pixel.
+std::vector<double> chances(const Plan& plan, std::size_t axis) {
+    const double side = plan.distances.box->extent(axis);
+    const double width = plan.side();
+    std::vector<double> chance(plan.pixels);
+    const auto below = [&](double x) {  // of a straight difference in [0, x]
+        return x / side * (1 - x / side / 2);
+    };
+    const auto middle = static_cast<double>(plan.pixels / 2);
+    for (std::size_t i = 0; i < plan.pixels; ++i) {
+        const double off = std::abs(static_cast<double>(i) - middle);
+        if (plan.distances.torus)
+            chance[i] = width / side;
+        else if (off == 0)
+            chance[i] = 2 * below(width / 2);
+        else
+            chance[i] = below((off + 0.5) * width) - below((off - 0.5) * width);
+    }
+    return chance;
+}
+
+Grid densities(const Plan& plan, const Counts& counts, double pairs) {
+    const std::vector<double> across = chances(plan, 0);
+    const std::vector<double> up = chances(plan, 1);
+    Grid grid{.rows = plan.pixels, .columns = plan.pixels, .values = {}};
+    grid.values.reserve(counts.size());
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        const double expected = pairs * across[i % plan.pixels] * up[i / plan.pixels];
+        grid.values.push_back(static_cast<double>(counts[i]) / expected);
+    }
+    return grid;
+}
+
+/// Puts the radial mean and the anisotropy of the image into the report.
+void summarize(Report& report, const Grid& grid, double pixel) {
+    const auto half = static_cast<std::int64_t>(grid.columns / 2);
+    const auto rings = static_cast<std::size_t>(half) + 1;
+    Report::Curve distance(rings), density(rings), anisotropy(rings);
+    Report::Integers cells(rings);
+    // In integers, k - 1/2 <= |x| < k + 1/2 is k^2 - k < |x|^2 <= k^2 + k.
+    const auto for_each = [&](const auto& visit) {
+        for (std::size_t i = 0; i < grid.values.size(); ++i) {
+            const std::int64_t x = static_cast<std::int64_t>(i % grid.columns) - half;
+            const std::int64_t y = static_cast<std::int64_t>(i / grid.columns) - half;
+            const auto square = static_cast<double>(x * x + y * y);
+            const auto ring = static_cast<std::size_t>(std::round(std::sqrt(square)));
+            if (ring < rings) visit(ring, grid.values[i]);
+        }
+    };
+    for_each([&](std::size_t k, double value) {
+        density[k] += value;
+        ++cells[k];
+    });
+    for (std::size_t k = 0; k < rings; ++k) {
+        distance[k] = static_cast<double>(k) * pixel;
+        density[k] /= static_cast<double>(cells[k]);
+    }
+    for_each([&](std::size_t k, double value) {
+        anisotropy[k] += (value - density[k]) * (value - density[k]);
+    });
+    for (std::size_t k = 0; k < rings; ++k) {
+        const double ratio =
+            anisotropy[k] / static_cast<double>(cells[k]) / (density[k] * density[k]);
+        anisotropy[k] = ratio > 1e-10 ? 10 * std::log10(ratio) : lowest_db;  // also 0 / 0
+    }
+    Report radial;
+    radial.add("distance", std::move(distance), "sqrt(V / n)");
+    radial.add("density", std::move(density));
+    radial.add("anisotropy_db", std::move(anisotropy), "dB");
+    radial.add("cells", std::move(cells));
+    report.add("radial", std::move(radial));
+}
+
+Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
+    const Plan plan = plan_for(points, options);
+    require_places(points, "differential");
+    const auto n = static_cast<double>(points.count());
+    const auto pixels = static_cast<double>(plan.pixels * plan.pixels);
+    const auto images = static_cast<double>(most_blocks(plan.pixels) + 3);
+    run.need_memory(24 * n + 8 * pixels * images, "the counts of differences");
+    const Counts counts = DifferenceCounter(points, plan, run).count();
+    Grid grid = densities(plan, counts, n * (n - 1));
+    const double pixel = plan.side() / plan.unit;
+    Report report;
+    report.add("max_distance", plan.reach / plan.unit, "sqrt(V / n)");
+    report.add("pixel", pixel, "sqrt(V / n)");
+    report.add("expected_differences", (n - 1) * pixel * pixel);
+    summarize(report, grid, pixel);
+    report.add("mean_distance", plan.unit);
+    report.add("metric", plan.distances.name());
+    report.add("grid", std::move(grid));
+    return report;
+}
+
+void refine(Report& mean, std::size_t, const Values&) {
+    if (const auto* grid = mean.find("grid"))
+        summarize(mean, std::get<Grid>(*grid), mean.number("pixel"));
+}
+
+/// A mean over pixels of different sizes is none.
+void combine(Report&, std::span<const Report> sets, const Values&) {
+    if (!alike(sets, "pixel"))
+        fail_with_hint(ErrorKind::usage, "give them one --max-distance",
+                       "--average: the sets' images reach to different distances, as small "
+                       "sets do not have large ones");
+}
+
+}  // namespace
+
+Analyzer unit() {
+    return {.name = "differential",
+            .summary = "Image of the differences of all pairs, its radial mean and anisotropy",
+            .source = "Wei, Wang 2011, doi:10.1145/2010324.1964945",
+            .traits = {.min_dimension = 2, .max_dimension = 2, .unit_cube = false, .boxed = true},
+            .options = Schema(max_distance, pixel_count, metric, grid_file, image_file),
+            .results = {{"max_distance", "r: the image goes from -r to r, in mean distances"},
+                        {"pixel", "side of a pixel, in mean distances"},
+                        {"expected_differences", "in a pixel, of independent points on the torus"},
+                        {"radial.distance", "of each ring of pixels, in mean distances"},
+                        {"radial.density", "mean over the ring; independent points have 1"},
+                        {"radial.anisotropy_db",
+                         "variance over the ring / squared mean, in dB, at least -100; independent "
+                         "points have -10 log10(expected_differences x sets averaged); of averaged "
+                         "sets that of their mean image, without a standard error"},
+                        {"radial.cells", "pixels in the ring"},
+                        {"mean_distance", "sqrt(V / n), in units of the points"},
+                        {"metric", "torus or euclidean", true, "torus|euclidean"}},
+            .analyze = analyze,
+            .refine = refine,
+            .combine = combine};
+}
+
+}  // namespace stipple::analyzers::differential

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "analyzers/distances/distances.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "analyzers/uniformity/outside.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "math/neighbors/grid_nearest.hpp"
+
+namespace stipple::analyzers {
+namespace {
+
+Outside outside_of(const PointSet& points) {
+    Outside outside;
+    for (std::size_t i = points.count(); i-- > 0;) {
+        if (points.domain->contains(points[i])) continue;
+        ++outside.count;
+        outside.first = i;
+    }
+    return outside;
+}
+
+/// The domain as the box that it is.
+std::optional<Box> box_of(const Domain& domain) {
+    const std::string spec = domain.spec();
+    if (spec != "unit-cube" && !spec.starts_with("box:")) return std::nullopt;
+    return domain.bounding_box();
+}
+
+/// @throws Error(input) where the square of the box's diagonal is more than float64 holds.
+void require_squares(const Box& box, const char* too_wide) {
+    double sum = 0;
+    std::size_t widest = 0;
+    for (std::size_t k = 0; k < box.dimension(); ++k) {
+        sum += box.extent(k) * box.extent(k);
+        if (box.extent(k) > box.extent(widest)) widest = k;
+    }
+    if (!std::isfinite(sum))
+        fail(ErrorKind::input, "{} for squared distances in float64: x{} from {} to {}", too_wide,
+             widest + 1, format_number(box.low[widest]), format_number(box.high[widest]));
+}
+
+void require_squares(const PointSet& points) {
+    const std::vector<double> first(points[0].begin(), points[0].end());
+    require_squares(bounding_box(points.flat(), {first, first}), "the points lie too far apart");
+}
+
+}  // namespace
+
+std::vector<double> Distances::sides() const {
+    std::vector<double> sides;
+    for (std::size_t k = 0; torus && k < box->dimension(); ++k) sides.push_back(box->extent(k));
+    return sides;
+}
+
+Distances distances_of(const PointSet& points, const std::string& asked) {
+    Distances distances{.torus = asked != "euclidean", .box = box_of(*points.domain)};
+    if (!distances.box) {
+        if (asked == "torus")
+            fail(ErrorKind::usage,
+                 "--metric: a torus joins the faces of a unit cube or a box; the points live on {}",
+                 points.domain->spec());
+        distances.torus = false;
+        require_squares(points);
+        return distances;
+    }
+    const Outside outside = outside_of(points);
+    if (outside.count == 0) {
+        require_squares(*distances.box, "the box that the points live on is too wide");
+        return distances;
+    }
+    if (distances.torus)
+        refuse(outside, points,
+               "--domain names what the points live on; --metric euclidean takes points anywhere");
+    distances.box.reset();
+    require_squares(points);
+    return distances;
+}
+
+Distances distances_in_box(const PointSet& points, const std::string& asked, const char* analyzer) {
+    const std::optional<Box> box = box_of(*points.domain);
+    if (!box) {
+        static_cast<void>(distances_of(points, asked));  // a torus is refused in its own words
+        fail(ErrorKind::input, "{} takes points of the unit cube or a box; these live on {}",
+             analyzer, points.domain->spec());
+    }
+    const Outside outside = outside_of(points);
+    if (outside.count > 0)
+        refuse(outside, points, "--domain 'box:bounds=[lo..hi,...]' names another box");
+    require_squares(*box, "the box that the points live on is too wide");
+    return {.torus = asked != "euclidean", .box = box};
+}
+
+void require_places(const PointSet& points, const char* analyzer) {
+    if (points.count() < 2)
+        fail(ErrorKind::input, "{} needs at least two points; this is one", analyzer);
+    for (std::size_t i = 1; i < points.count(); ++i)
+        if (!std::ranges::equal(points[i], points[0])) return;
+    fail(ErrorKind::input, "{} needs points at two places at least; all {} are at one", analyzer,
+         points.count());
+}
+
+bool alike(std::span<const Report> sets, std::string_view key) {
+    const double first = sets[0].number(key);
+    return std::ranges::all_of(
+        sets, [&](const Report& set) { return std::abs(set.number(key) - first) <= 1e-9 * first; });
+}
+
+std::vector<Neighbor> nearest_neighbors(const PointSet& points, const Distances& distances,
+                                        const RunContext& run) {
+    if (points.count() == 1) {
+        run.tick(1, 1);
+        if (!distances.torus) return {{std::numeric_limits<double>::infinity(), KdTree::none}};
+        const double side = std::ranges::min(distances.sides());
+        return {{side * side, 0}};
+    }
+    run.need_memory(
+        static_cast<double>(points.count()) * (48 + 10 * static_cast<double>(points.dimension())),
+        "the search for nearest neighbours");
+    if (points.dimension() <= 3) {
+        const Box box =
+            distances.torus ? *distances.box : box_around(points.flat(), points.dimension());
+        auto found = all_nearest_by_grid(points.flat(), box, distances.torus, run);
+        if (found) return std::move(*found);
+    }
+    const KdTree tree(points.flat(), points.dimension(), distances.sides(), run.stage(0, 0.5));
+    return tree.all_nearest(run.stage(0.5, 1));
+}
+
+ClosestPair closest_pair(const std::vector<Neighbor>& neighbors) {
+    const auto first = std::ranges::min_element(neighbors, {}, &Neighbor::squared);
+    return {static_cast<std::size_t>(first - neighbors.begin()), *first};
+}
+
+}  // namespace stipple::analyzers

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+//
+// How the distances between a set's points are measured: in the box that they live on with its
+// opposite faces joined (torus), or straight (Euclidean).
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/domain.hpp"
+#include "core/options.hpp"
+#include "core/point_set.hpp"
+#include "core/report.hpp"
+#include "core/run_context.hpp"
+#include "math/neighbors/kd_tree.hpp"
+
+namespace stipple::analyzers {
+
+inline constexpr Param<Choice> metric{
+    .name = "metric",
+    .choices = "torus|euclidean",
+    .help =
+        "Across opposite faces of the unit cube or box that the points live on, or straight; "
+        "default: torus, and euclidean on domains without faces"};
+
+struct Distances {
+    bool torus;
+    std::optional<Box> box;  ///< where all points are; none if they are in no box that is known
+
+    [[nodiscard]] const char* name() const { return torus ? "torus" : "euclidean"; }
+
+    /// As a search tree takes them: none for Euclidean distances.
+    [[nodiscard]] std::vector<double> sides() const;
+};
+
+/// What `asked` (torus, euclidean, or nothing) means for the points.
+/// @throws Error(usage) for a torus of what is no box
+/// @throws Error(input) for points outside the domain, unless they were said to be Euclidean,
+///         and for points (or their box) that float64 cannot hold the squared distances of
+Distances distances_of(const PointSet& points, const std::string& asked);
+
+/// The same for measures that need to know the box. @throws Error(input) as well without one
+Distances distances_in_box(const PointSet& points, const std::string& asked, const char* analyzer);
+
+/// @throws Error(input) unless there are points at two places at least
+void require_places(const PointSet& points, const char* analyzer);
+
+/// Whether all sets that are to be averaged have the same number under a key, but for rounding.
+bool alike(std::span<const Report> sets, std::string_view key);
+
+/// Every point's nearest other one. A single point is its own neighbour on the torus, across the
+/// shortest side; elsewhere it has none, at an infinite distance. @throws Error(limit, cancelled)
+std::vector<Neighbor> nearest_neighbors(const PointSet& points, const Distances& distances,
+                                        const RunContext& run);
+
+/// Two points that have the smallest distance, those of lowest indices.
+struct ClosestPair {
+    std::size_t first;
+    Neighbor second;
+};
+
+ClosestPair closest_pair(const std::vector<Neighbor>& neighbors);
+
+}  // namespace stipple::analyzers

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: MIT
+#include "analyzers/distances/empty_ball.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "analyzers/distances/simplex_bound.hpp"
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/text.hpp"
+#include "math/functions/radix_sort.hpp"
+#include "math/neighbors/kd_tree.hpp"
+
+namespace stipple::analyzers {
+namespace {
+
+/// Coordinates in order, which never takes long to stop.
+std::vector<double> sorted(const PointSet& points, double low, const RunContext& run) {
+    std::vector<Placed> items(points.count());
+    for (std::size_t i = 0; i < items.size(); ++i)
+        items[i] = {points[i][0] - low, static_cast<std::uint32_t>(i)};
+    radix_sort(items, run);
+    std::vector<double> x(items.size());
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = points[items[i].place][0];
+    return x;
+}
+
+/// d = 1: between neighbours, and from the walls.
+EmptyBall widest_gap(const PointSet& points, const Distances& distances, const RunContext& run) {
+    const double low = distances.box->low[0];
+    const double high = distances.box->high[0];
+    run.need_memory(40 * static_cast<double>(points.count()), "sorting the points");
+    const std::vector<double> x = sorted(points, low, run);
+    EmptyBall best{x.front() - low, 0, {low}};
+    if (high - x.back() > best.radius) best = {high - x.back(), 0, {high}};
+    if (distances.torus) {
+        const double across = best.radius = (x.front() - low + (high - x.back())) / 2;
+        const double center = x.back() + across;
+        best.center = {center < high ? center : low + (center - high)};
+    }
+    for (std::size_t i = 1; i < x.size(); ++i) {
+        const double half = (x[i] - x[i - 1]) / 2;
+        if (half > best.radius) best = {half, 0, {x[i - 1] + half}};
+    }
+    best.upper = best.radius;
+    run.tick(1, 1);
+    return best;
+}
+
+/// A box of the search, and what is known of its largest ball.
+struct Part {
+    std::vector<double> center;
+    std::vector<double> half;
+    double upper = std::numeric_limits<double>::infinity();
+    double lower = 0;  ///< the best of what was found in it
+    std::vector<double> place = {};
+};
+
+class Search {
+  public:
+    Search(const PointSet& points, const Distances& distances, const BallSearch& search,
+           const RunContext& run)
+        : points_(points),
+          box_(*distances.box),
+          sides_(distances.sides()),
+          search_(search),
+          run_(run),
+          tree_(points.flat(), points.dimension(), sides_, run.stage(0, 0.05)),
+          neighbors_(std::min(points.count(), 4 * (points.dimension() + 1))) {
+        const auto d = static_cast<double>(points.dimension());
+        double volume = 1;
+        for (std::size_t k = 0; k < box_.dimension(); ++k) volume *= box_.extent(k);
+        const double ball = std::pow(std::numbers::pi, d / 2) / std::tgamma(d / 2 + 1);
+        // Balls of this radius just have the volume; no box that is larger can be done.
+        least_ = std::pow(volume / ball / static_cast<double>(points.count()), 1 / d);
+    }
+
+    EmptyBall find() {
+        open_.push_back(whole());
+        const RunContext run = run_.stage(0.05, 1);
+        std::vector<Part> round;
+        while (!open_.empty()) {
+            const auto size = std::min<std::size_t>(open_.size(), round_size);
+            round.assign(std::make_move_iterator(open_.end() - static_cast<std::ptrdiff_t>(size)),
+                         std::make_move_iterator(open_.end()));
+            open_.resize(open_.size() - size);
+            for_each_block(
+                run, size, 32,
+                [&](const Block& b) {
+                    Neighborhood near;
+                    for (std::uint64_t i = b.first; i < b.last; ++i) judge(round[i], near);
+                },
+                true);
+            finish(round);
+            run.tick(static_cast<std::uint64_t>(done_ * 1e9), 1'000'000'000);
+        }
+        run.tick(1, 1);
+        best_.upper = std::max(best_.upper, best_.radius);
+        return std::move(best_);
+    }
+
+  private:
+    static constexpr std::size_t round_size = 2048;
+
+    [[nodiscard]] Part whole() const {
+        Part part;
+        for (std::size_t k = 0; k < box_.dimension(); ++k) {
+            part.half.push_back(box_.extent(k) / 2);
+            part.center.push_back(box_.low[k] + box_.extent(k) / 2);
+        }
+        return part;
+    }
+
+    /// A box without a larger ball is done.
+    [[nodiscard]] double good_enough() const {
+        const bool more = best_.radius > search_.enough;
+        return more ? best_.radius * (1 + search_.tolerance) : search_.enough;
+    }
+
+    /// Offsets from the box's centre to the points near it, in the copies that are nearest.
+    void look_around(const Part& part, Neighborhood& near) const {
+        near.clear(box_.dimension());
+        for (const Neighbor& neighbor : tree_.nearest_several(part.center, neighbors_)) {
+            const auto p = points_[neighbor.index];
+            for (std::size_t k = 0; k < box_.dimension(); ++k) {
+                double offset = p[k] - part.center[k];
+                if (!sides_.empty() && offset > sides_[k] / 2) offset -= sides_[k];
+                if (!sides_.empty() && offset < -sides_[k] / 2) offset += sides_[k];
+                near.offsets.push_back(offset);
+            }
+        }
+    }
+
+    void offer(Part& part, std::vector<double> place) const {
+        const double radius = std::sqrt(tree_.nearest(place).squared);
+        if (radius <= std::max(part.lower, best_.radius)) return;
+        part.lower = radius;
+        part.place = std::move(place);
+    }
+
+    void judge(Part& part, Neighborhood& near) const {
+        double squared = 0;
+        for (const double h : part.half) squared += h * h;
+        if (std::sqrt(squared) > std::max(good_enough(), least_)) return;
+        look_around(part, near);
+        const SimplexBound found = bound_in_box(near, part.half);
+        constexpr double rounding = 1 + 1e-14;
+        part.upper = std::sqrt(std::max(0.0, found.squared)) * rounding;
+        offer(part, part.center);
+        if (!(part.upper > std::max(part.lower, best_.radius))) return;
+        std::vector<double> place = part.center;
+        for (std::size_t k = 0; k < place.size(); ++k)
+            place[k] = std::clamp(place[k] + found.place[k], box_.low[k], box_.high[k]);
+        offer(part, std::move(place));
+    }
+
+    /// Takes over what a round found, and halves the boxes that are not done.
+    void finish(std::vector<Part>& round) {
+        judged_ += round.size();
+        for (Part& part : round) {
+            if (part.lower <= best_.radius) continue;
+            best_.radius = part.lower;
+            best_.center = std::move(part.place);
+        }
+        for (Part& part : round) {
+            if (part.upper <= good_enough()) {
+                best_.upper = std::max(best_.upper, part.upper);
+                done_ += share(part);
+            } else {
+                halve(part);
+            }
+        }
+        if (judged_ > search_.max_boxes && !open_.empty()) give_up();
+    }
+
+    /// Of the whole box's volume.
+    [[nodiscard]] double share(const Part& part) const {
+        double share = 1;
+        for (std::size_t k = 0; k < part.half.size(); ++k)
+            share *= 2 * part.half[k] / box_.extent(k);
+        return share;
+    }
+
+    void halve(Part& part) {
+        const auto axis = static_cast<std::size_t>(
+            std::distance(part.half.begin(), std::ranges::max_element(part.half)));
+        part.half[axis] /= 2;
+        for (const double sign : {-1.0, 1.0}) {
+            open_.push_back({part.center, part.half});
+            open_.back().center[axis] += sign * part.half[axis];
+        }
+    }
+
+    [[noreturn]] void give_up() const {
+        fail_with_hint(ErrorKind::limit, "a larger --max-boxes or --tolerance may do",
+                       "the largest empty ball of {} points in {} dimensions takes more than {} "
+                       "boxes (--max-boxes); certain so far: its radius is at least {}",
+                       points_.count(), points_.dimension(), search_.max_boxes,
+                       format_number(best_.radius));
+    }
+
+    const PointSet& points_;
+    const Box& box_;
+    std::vector<double> sides_;
+    const BallSearch& search_;
+    const RunContext& run_;
+    KdTree tree_;
+    std::size_t neighbors_;  ///< to bound with
+    double least_;
+    std::vector<Part> open_;
+    EmptyBall best_{0, 0, {}};
+    double done_ = 0;
+    std::uint64_t judged_ = 0;
+};
+
+}  // namespace
+
+EmptyBall bounded_empty_ball(const PointSet& points, const Distances& distances,
+                             const BallSearch& search, const RunContext& run) {
+    return Search(points, distances, search, run).find();
+}
+
+EmptyBall largest_empty_ball(const PointSet& points, const Distances& distances,
+                             const BallSearch& search, const RunContext& run) {
+    if (points.dimension() == 1) return widest_gap(points, distances, run);
+    if (points.dimension() == 2) return planar_empty_ball(points, distances, run);
+    return bounded_empty_ball(points, distances, search, run);
+}
+
+}  // namespace stipple::analyzers

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include "analyzers/distances/pair_counts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/parallel.hpp"
+#include "core/wide.hpp"
+#include "math/neighbors/point_grid.hpp"
+
+namespace stipple::analyzers {
+namespace {
+
+/// Candidates whose distances are worked out together.
+constexpr std::size_t together = 256;
+
+/// A stop is looked for after so many candidates.
+constexpr std::size_t between_looks = std::size_t{1} << 22;
+
+/// The points cell by cell, a coordinate behind the other.
+template <std::size_t D>
+using Columns = std::array<std::vector<double>, D>;
+
+/// places[i] = distance of p and point first + i, times the scale, at most `last`.
+template <std::size_t D>
+[[gnu::always_inline]] inline void places_of(const std::array<const double*, D>& columns,
+                                             std::size_t count, const std::array<double, D>& p,
+                                             const std::array<double, D>& sides, double scale,
+                                             double last, double* places, std::int32_t* bins) {
+    for (std::size_t i = 0; i < count; ++i) {
+        double sum = 0;
+        for (std::size_t k = 0; k < D; ++k) {
+            double gap = std::abs(columns[k][i] - p[k]);
+            gap = gap < sides[k] - gap ? gap : sides[k] - gap;
+            sum += gap * gap;
+        }
+        double place = std::sqrt(sum) * scale;
+        place = place < last ? place : last;
+        places[i] = place;
+        bins[i] = static_cast<std::int32_t>(place);
+    }
+}
+
+STIPPLE_WIDE void places_1(const std::array<const double*, 1>& columns, std::size_t count,
+                           const std::array<double, 1>& p, const std::array<double, 1>& sides,
+                           double scale, double last, double* places, std::int32_t* bins) {
+    places_of<1>(columns, count, p, sides, scale, last, places, bins);
+}
+STIPPLE_WIDE void places_2(const std::array<const double*, 2>& columns, std::size_t count,
+                           const std::array<double, 2>& p, const std::array<double, 2>& sides,
+                           double scale, double last, double* places, std::int32_t* bins) {
+    places_of<2>(columns, count, p, sides, scale, last, places, bins);
+}
+STIPPLE_WIDE void places_3(const std::array<const double*, 3>& columns, std::size_t count,
+                           const std::array<double, 3>& p, const std::array<double, 3>& sides,
+                           double scale, double last, double* places, std::int32_t* bins) {
+    places_of<3>(columns, count, p, sides, scale, last, places, bins);
+}
+
+/// What one block of points found.
+struct Tally {
+    static constexpr std::size_t copies = 4;  // so that equal bins in a row don't wait
+    std::vector<std::uint64_t> pairs;         ///< copies x (bins + 1), the last for what is farther
+    std::vector<double> offsets;
+    std::vector<double> squared_offsets;
+
+    Tally() = default;
+    Tally(std::size_t bins, bool with_offsets)
+        : pairs(copies * (bins + 1)),
+          offsets(with_offsets ? bins + 1 : 0),
+          squared_offsets(offsets.size()) {}
+
+    void add(const double* places, const std::int32_t* bins, std::size_t count) {
+        const std::size_t stride = pairs.size() / copies;
+        for (std::size_t i = 0; i < count; ++i)
+            ++pairs[i % copies * stride + static_cast<std::size_t>(bins[i])];
+        if (offsets.empty()) return;
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto bin = static_cast<std::size_t>(bins[i]);
+            const double offset = places[i] - (static_cast<double>(bin) + 0.5);
+            offsets[bin] += offset;
+            squared_offsets[bin] += offset * offset;
+        }
+    }
+};
+
+template <std::size_t D>
+class PairCounter {
+  public:
+    using Point = std::array<double, D>;
+
+    PairCounter(const PointSet& points, const Distances& distances, double width, std::size_t bins,
+                bool with_offsets, const RunContext& run)
+        : frame_(*distances.box, distances.torus,
+                 cell_side(*distances.box, points.count(), width * static_cast<double>(bins)),
+                 static_cast<double>(points.count()) + 64),
+          scale_(1 / width),
+          bins_(bins),
+          with_offsets_(with_offsets),
+          run_(run) {
+        for (std::size_t k = 0; k < D; ++k)
+            sides_[k] = distances.torus ? frame_.side(k) : std::numeric_limits<double>::infinity();
+        sort(points.flat());
+    }
+
+    PairCounts count() const {
+        constexpr std::uint64_t size = 8192;
+        std::vector<Tally> parts(block_count(columns_[0].size(), size));
+        for_each_block(run_, columns_[0].size(), size, [&](const Block& b) {
+            Tally tally(bins_, with_offsets_);
+            std::size_t looked = 0;
+            for (std::uint64_t s = b.first; s < b.last; ++s) {
+                looked += visit_later(static_cast<std::size_t>(s), tally);
+                if (looked < between_looks) continue;
+                run_.check_stop();
+                looked = 0;
+            }
+            parts[b.index] = std::move(tally);
+        });
+        return sum(parts);
+    }
+
+  private:
+    /// A fifth of the reach, but not below 4 points a cell.
+    static double cell_side(const Box& box, std::size_t count, double reach) {
+        double share = 4 / static_cast<double>(count);
+        for (std::size_t k = 0; k < D; ++k) share *= box.extent(k);
+        const double some = D == 1 ? share : D == 2 ? std::sqrt(share) : std::cbrt(share);
+        return std::max(some, reach / 5);
+    }
+
+    void sort(std::span<const double> rows) {
+        const SortedPoints<D> sorted(frame_, rows, run_);
+        starts_.resize(frame_.size() + 1);
+        for (auto& column : columns_) column.resize(sorted.count());
+        for (std::size_t s = 0; s < sorted.count(); ++s)
+            for (std::size_t k = 0; k < D; ++k) columns_[k][s] = sorted[s][k];
+        for (std::size_t c = 0; c <= frame_.size(); ++c) starts_[c] = sorted.start(c);
+    }
+
+    /// Counts the pairs of point s and those behind it; returns how many it looked at.
+    std::size_t visit_later(std::size_t s, Tally& tally) const {
+        Point p;
+        for (std::size_t k = 0; k < D; ++k) p[k] = columns_[k][s];
+        std::size_t looked = 0;
+        const double reach = static_cast<double>(bins_) / scale_;
+        frame_.visit(p.data(), reach, [&](std::size_t first, std::size_t last) {
+            std::size_t from = std::max<std::size_t>(starts_[first], s + 1);
+            const std::size_t end = starts_[last];
+            while (from < end) {
+                const std::size_t size = std::min(end - from, together);
+                measure(p, from, size, tally);
+                from += size;
+                looked += size;
+            }
+            return true;
+        });
+        return looked;
+    }
+
+    void measure(const Point& p, std::size_t from, std::size_t size, Tally& tally) const {
+        std::array<double, together> places;
+        std::array<std::int32_t, together> bins;
+        std::array<const double*, D> columns;
+        for (std::size_t k = 0; k < D; ++k) columns[k] = columns_[k].data() + from;
+        const auto last = static_cast<double>(bins_);
+        if constexpr (D == 1)
+            places_1(columns, size, p, sides_, scale_, last, places.data(), bins.data());
+        else if constexpr (D == 2)
+            places_2(columns, size, p, sides_, scale_, last, places.data(), bins.data());
+        else
+            places_3(columns, size, p, sides_, scale_, last, places.data(), bins.data());
+        tally.add(places.data(), bins.data(), size);
+    }
+
+    PairCounts sum(const std::vector<Tally>& parts) const {
+        PairCounts all;
+        all.pairs.resize(bins_);
+        if (with_offsets_) {
+            all.offsets.resize(bins_);
+            all.squared_offsets.resize(bins_);
+        }
+        for (const Tally& part : parts) {
+            for (std::size_t copy = 0; copy < Tally::copies; ++copy)
+                for (std::size_t i = 0; i < bins_; ++i)
+                    all.pairs[i] += part.pairs[copy * (bins_ + 1) + i];
+            for (std::size_t i = 0; i < all.offsets.size(); ++i) {
+                all.offsets[i] += part.offsets[i];
+                all.squared_offsets[i] += part.squared_offsets[i];
+            }
+        }
+        return all;
+    }
+
+    GridFrame<D> frame_;
+    Point sides_{};  ///< to wrap around; infinite where distances are straight
+    double scale_;
+    std::size_t bins_;
+    bool with_offsets_;
+    const RunContext& run_;
+    Columns<D> columns_;
+    std::vector<std::uint32_t> starts_;
+};
+
+}  // namespace
+
+PairCounts count_pairs(const PointSet& points, const Distances& distances, double width,
+                       std::size_t bins, bool with_offsets, const RunContext& run) {
+    const auto n = static_cast<double>(points.count());
+    const double tallies = n / 8192 + 1;
+    run.need_memory(n * (16 * static_cast<double>(points.dimension()) + 12) +
+                        tallies * static_cast<double>(bins + 1) * (with_offsets ? 48 : 32),
+                    "the counts of pairs");
+    const auto counted = [&]<std::size_t D>() {
+        return PairCounter<D>(points, distances, width, bins, with_offsets, run).count();
+    };
+    if (points.dimension() == 1) return counted.template operator()<1>();
+    if (points.dimension() == 2) return counted.template operator()<2>();
+    return counted.template operator()<3>();
+}
+
+}  // namespace stipple::analyzers

@@ -1,0 +1,593 @@
+// SPDX-License-Identifier: MIT
+//
+// Integrals of functions that are known, by the points of a set. With the density p of the law that
+// the domain's points follow (1 / measure where it is uniform),
+//
+//     estimate = (1 / n) sum_i f(x_i) / p(x_i),        error = estimate - exact
+//
+// Integrands of the unit cube take any box, and any density on it: the function is stretched to the
+// box, its integral multiplied by the volume.
+//
+// Standard error: of one set, sqrt(variance of f / p over n) is right for independent points alone,
+// and far too large for low-discrepancy ones; it is given where the set's meta says that the
+// generator is `random`, else left out. Of R sets (--average) it is the spread of their estimates,
+//
+//     standard_error = sqrt(sum_r (estimate_r - mean)^2 / (R (R - 1))),
+//
+// and the interval mean +- t standard_error has the exact value in it with probability 0.95
+// (Student's t, R - 1 degrees of freedom), where sets are independent and unbiased.
+//
+// --compare: beside the estimate by importance sampling with density p, that by uniform sampling
+// with the same points of the cube: x_i goes back to the cube by the domain's coordinates, in which
+// p is uniform, and from there to the box, hemisphere or sphere by its measure. Variances are those
+// of one sample, f / p and measure x f, over the set; their ratio says how many times as many
+// uniform points would be needed, were they independent.
+//
+// Where the density is 0 on a part of the domain, no point tells of f there: the estimate is of the
+// integral over the rest, the support, and so is `exact`, by quadrature to exact_error where the
+// support is known as a few boxes of one or two dimensions; else there is none.
+//
+// Where the density is level, on any domain, both are the same points. Where the domain has no such
+// coordinates (mixtures, formulas, supports with gaps), the uniform estimator's variance is worked
+// out from the same points by their weights,
+//
+//     n / (n - 1) (measure mean(f^2 / p) - mean(f / p)^2),
+//
+// which tends to the same number; its estimate is then that by importance sampling.
+//
+// Shape   points n x d on any domain whose measure is finite; numbers for each integrand.
+// Cost    O(n d) for each integrand; about 10 to 50 ns a point in 2-D on one core.
+// Promise sums carry their rounding along; results are the same for any number of threads.
+// Beware  where p nears 0 and f does not, f / p may have no finite variance (`measure` on the
+//         cosine hemisphere): a standard error of it is then a description of the points, not a
+//         bound.
+// Source  A. B. Owen, "Monte Carlo theory, methods and examples" (2013), chapters 9 (importance
+//         sampling) and 17 (error estimates by replication).
+
+#include <algorithm>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+
+#include "analyzers/analyzer.hpp"
+#include "analyzers/integration/region_view.hpp"
+#include "analyzers/integration/tally.hpp"
+#include "analyzers/uniformity/outside.hpp"
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/spec.hpp"
+#include "core/support.hpp"
+#include "core/text.hpp"
+#include "math/densities/expression.hpp"
+#include "math/densities/quadrature.hpp"
+#include "math/integrands/integrand.hpp"
+
+namespace stipple::analyzers::integration {
+namespace {
+
+constexpr Param<Text> integrand{
+    {.name = "integrand",
+     .help = "What to integrate: NAME[:OPT=V,...], several separated by commas; default: all that "
+             "take the points. On a box: genz-oscillatory, genz-product-peak, genz-corner-peak, "
+             "genz-gaussian, genz-continuous, genz-discontinuous (:seed=S,difficulty=D), "
+             "smooth-gaussian (:width=W), owen (:order=K), sobol-g (:a=[A,A,...]); in 2-D "
+             "disk-indicator, half-plane-indicator, soft-shadow (:seed=S), zone-plate (:phase=K); "
+             "on a hemisphere: sky-radiance; on any domain: measure, its length, area or volume"}};
+
+constexpr Param<Text> expression{
+    {.name = "expression",
+     .help =
+         "Also, or instead, a formula in x, y, z or x1, x2, ..., the points' coordinates as they "
+         "are: 'exp(-x*y)'"}};
+
+constexpr Param<double> exact{.name = "exact",
+                              .optional = true,
+                              .help =
+                                  "The integral of the expression over the domain, or over the "
+                                  "part where the density is not 0, if known"};
+
+constexpr Param<bool> compare{
+    .name = "compare",
+    .help =
+        "Also integrate by uniform points, made from the same points of the cube, and compare "
+        "the variances; where that cannot be done, work out from the points' weights what the "
+        "variance of uniform ones would be"};
+
+struct Task {
+    std::string name;
+    Region region;
+    std::function<double(std::span<const double>)> value;
+    std::optional<Estimate> exact;  ///< over the support of the density, where it is known
+};
+
+const char* words(Region region) {
+    if (region == Region::cube) return "a box";
+    return region == Region::hemisphere ? "a hemisphere" : "a domain of finite measure";
+}
+
+/// @throws Error(input) when the integrand does not take such points.
+void require_fit(const IntegrandKind& kind, const Domain& domain, const RegionView& view) {
+    const std::size_t d = domain.dimension();
+    if (!view.has(kind.region))
+        fail(ErrorKind::input, "--integrand: {} takes points of {}; these live on {}", kind.name,
+             words(kind.region), domain.spec());
+    if (d >= kind.min_dimension && d <= kind.max_dimension) return;
+    const std::string range = kind.min_dimension == kind.max_dimension
+                                  ? std::to_string(kind.min_dimension)
+                                  : fmt::format("{} to {}", kind.min_dimension, kind.max_dimension);
+    fail(ErrorKind::input, "--integrand: {} takes points of dimension {}; these have {}", kind.name,
+         range, d);
+}
+
+bool fits(const IntegrandKind& kind, const Domain& domain, const RegionView& view) {
+    return view.has(kind.region) && domain.dimension() >= kind.min_dimension &&
+           domain.dimension() <= kind.max_dimension;
+}
+
+/// An integrand as it is called, with its options.
+struct Named {
+    const IntegrandKind& kind;
+    Values values;
+};
+
+/// @throws Error(usage) naming the spec
+Named named(const std::string& text) {
+    std::string where = "--integrand";
+    try {
+        const Spec spec = parse_spec(text);
+        if (!spec.coordinates.empty())
+            fail(ErrorKind::usage, "'{}': coordinates behind @ are for warps", text);
+        const IntegrandKind& kind = integrand_kind(spec.name);
+        where += ": " + kind.name;
+        return {kind, spec.values(kind.options)};
+    } catch (const Error& e) {
+        throw Error(e.kind(), fmt::format("{}: {}", where, e.what()), e.hint());
+    }
+}
+
+/// The integral over the boxes of the support, of one or two dimensions.
+std::optional<Estimate> integral_over(const Support& support, const Domain& domain,
+                                      const RegionView& view, const Task& task) {
+    const std::size_t d = domain.dimension();
+    if (support.boxes.empty() || d > 2) return std::nullopt;
+    std::vector<double> seen(d);
+    const auto f = [&](std::span<const double> point) {
+        if (!(domain.density(point) > 0)) return 0.0;
+        view.see(task.region, point, seen);
+        return task.value(seen);
+    };
+    const Effort effort = d == 1 ? Effort{1e-12, 1000} : Effort{1e-7, 40};
+    Estimate sum;
+    for (const Box& box : support.boxes) {
+        const Estimate part = integrate_box(f, box, effort);
+        sum.value += part.value;
+        sum.error += part.error;
+    }
+    return sum;
+}
+
+Task task_of(const IntegrandKind& kind, const Values& values, const Domain& domain,
+             const RegionView& view, const Support& support) {
+    const Integrand function = kind.make(domain.dimension(), values);
+    Task task{kind.name, kind.region, function.value, std::nullopt};
+    if (support.whole)
+        task.exact = Estimate{function.exact * view.scale(kind.region), 0};
+    else if (kind.region == Region::anywhere && support.measure)
+        task.exact = Estimate{function.exact * support.measure->value,
+                              std::abs(function.exact) * support.measure->error};
+    else
+        task.exact = integral_over(support, domain, view, task);
+    return task;
+}
+
+/// A second genz-gaussian is genz-gaussian-2.
+void tell_apart(std::vector<Task>& tasks) {
+    for (std::size_t i = tasks.size(); i-- > 0;) {
+        const auto same =
+            std::count_if(tasks.begin(), tasks.begin() + static_cast<std::ptrdiff_t>(i),
+                          [&](const Task& t) { return t.name == tasks[i].name; });
+        if (same > 0) tasks[i].name += fmt::format("-{}", same + 1);
+    }
+}
+
+/// All integrands that take points of the domain. @throws Error(input) if there is none.
+std::vector<Task> tasks_that_fit(const Domain& domain, const RegionView& view,
+                                 const Support& support) {
+    std::vector<Task> tasks;
+    for (const IntegrandKind& kind : integrand_kinds())
+        if (fits(kind, domain, view))
+            tasks.push_back(task_of(kind, kind.options.defaults(), domain, view, support));
+    if (tasks.empty())
+        fail_with_hint(ErrorKind::input, "--expression gives one",
+                       "no integrand takes points of {}, which is neither a box nor of a finite "
+                       "measure",
+                       domain.spec());
+    return tasks;
+}
+
+/// Those of --integrand. @throws Error(usage), Error(input)
+std::vector<Task> tasks_named(const std::string& list, const Domain& domain, const RegionView& view,
+                              const Support& support) {
+    std::vector<Task> tasks;
+    for (const std::string& text : split_specs(list)) {
+        if (text.empty())
+            fail(ErrorKind::usage, "--integrand: '{}' has an empty name; expected NAME,NAME...",
+                 list);
+        const auto [kind, values] = named(text);
+        require_fit(kind, domain, view);
+        tasks.push_back(task_of(kind, values, domain, view, support));
+    }
+    tell_apart(tasks);
+    return tasks;
+}
+
+Task formula(const Domain& domain, const Values& options) {
+    const Expression f("expression", options[expression], domain.dimension());
+    Task task{"expression", Region::anywhere, [f](auto x) { return f.at(x); }, std::nullopt};
+    if (options.given(exact)) task.exact = Estimate{options[exact], 0};
+    return task;
+}
+
+/// What is to be integrated. @throws Error(usage), Error(input)
+std::vector<Task> tasks_of(const Domain& domain, const RegionView& view, const Support& support,
+                           const Values& options) {
+    const bool typed = options.given(expression);
+    if (options.given(exact) && !typed)
+        fail(ErrorKind::usage, "--exact: is the integral of an --expression; none is given");
+    std::vector<Task> tasks;
+    if (options.given(integrand))
+        tasks = tasks_named(options[integrand], domain, view, support);
+    else if (!typed)
+        tasks = tasks_that_fit(domain, view, support);
+    if (typed) tasks.push_back(formula(domain, options));
+    return tasks;
+}
+
+// ---------------------------------------------------------------- sums
+
+/// A value that cannot be summed.
+struct Fault {
+    std::uint64_t point = std::numeric_limits<std::uint64_t>::max();
+    std::size_t task = 0;
+    double value = 0;
+    double density = 0;
+    bool uniform = false;  ///< at the uniform point that was made from that one
+
+    void add(const Fault& other) {
+        if (other.point < point) *this = other;
+    }
+};
+
+/// Sums over one block, or over all.
+struct Sums {
+    std::vector<Tally> weighted;  ///< f / p, for each task
+    std::vector<Tally> uniform;   ///< measure x f at uniform points, or measure x f^2 / p
+    Outside outside;
+    Fault fault;
+
+    void add(const Sums& other) {
+        weighted.resize(other.weighted.size());
+        uniform.resize(other.uniform.size());
+        for (std::size_t k = 0; k < weighted.size(); ++k) weighted[k].add(other.weighted[k]);
+        for (std::size_t k = 0; k < uniform.size(); ++k) uniform[k].add(other.uniform[k]);
+        outside.add(other.outside);
+        fault.add(other.fault);
+    }
+};
+
+/// Uniform points beside those of a density, for --compare.
+struct Uniform {
+    enum How {
+        none,
+        remade,       ///< from the same points of the cube
+        as_they_are,  ///< the density is level
+        weighed,      ///< none are had; sums of measure x f^2 / p tell of their variance
+    };
+    How how = none;
+    double measure = 0;               ///< of what they are on
+    std::optional<Tally> found = {};  ///< by the weights, where nobody knows the measure
+};
+
+/// Values of all integrands at points of the domain.
+class Evaluation {
+  public:
+    Evaluation(const Domain& domain, const RegionView& view, const std::vector<Task>& tasks,
+               const Uniform& beside)
+        : domain_(domain), view_(view), tasks_(tasks), beside_(beside) {
+        sums_.weighted.resize(tasks.size());
+        if (beside.how != Uniform::none) sums_.uniform.resize(tasks.size());
+    }
+
+    void add(std::uint64_t i, std::span<const double> point) {
+        if (!domain_.contains(point)) {
+            sums_.outside.add(i, point);
+            return;
+        }
+        const double density = domain_.density(point);
+        each(point, [&](std::size_t k, double value) {
+            const double weight = value == 0 ? 0 : value / density;
+            if (!std::isfinite(weight)) {
+                sums_.fault.add({i, k, value, density, false});
+                return;
+            }
+            sums_.weighted[k].add(weight);
+            if (beside_.how == Uniform::weighed)
+                sums_.uniform[k].add(beside_.measure * value * weight);
+        });
+        if (beside_.how == Uniform::remade || beside_.how == Uniform::as_they_are)
+            add_uniform(i, point);
+    }
+
+    [[nodiscard]] const Sums& sums() const { return sums_; }
+
+  private:
+    template <class Take>
+    void each(std::span<const double> point, const Take& take) {
+        seen_.resize(point.size());
+        for (std::size_t k = 0; k < tasks_.size(); ++k) {
+            const Task& task = tasks_[k];
+            if (k == 0 || task.region != tasks_[k - 1].region) view_.see(task.region, point, seen_);
+            take(k, task.value(seen_));
+        }
+    }
+
+    void add_uniform(std::uint64_t i, std::span<const double> point) {
+        cube_.resize(domain_.cube_dimension());
+        even_.assign(point.begin(), point.end());
+        if (beside_.how == Uniform::remade) {
+            domain_.to_cube(point, cube_);
+            view_.uniform(cube_, even_);
+        }
+        const double measure = beside_.measure;
+        each(even_, [&](std::size_t k, double value) {
+            if (std::isfinite(measure * value))
+                sums_.uniform[k].add(measure * value);
+            else
+                sums_.fault.add({i, k, value, 1 / measure, true});
+        });
+    }
+
+    const Domain& domain_;
+    const RegionView& view_;
+    const std::vector<Task>& tasks_;
+    Uniform beside_;
+    Sums sums_;
+    std::vector<double> seen_, cube_, even_;
+};
+
+[[noreturn]] void refuse(const Fault& fault, const std::vector<Task>& tasks, const Domain& domain) {
+    const std::string& name = tasks[fault.task].name;
+    if (fault.uniform)
+        fail(ErrorKind::input, "--compare: at the uniform point made of point {} {} is {}",
+             fault.point, name, fault.value);
+    fail(ErrorKind::input, "at point {} the integrand {} is {} and the density of {} is {}",
+         fault.point, name, fault.value, domain.spec(), fault.density);
+}
+
+/// @throws Error(input) for points outside the domain, and values that are not numbers.
+Sums sums_over(const PointSet& points, const RegionView& view, const std::vector<Task>& tasks,
+               const Uniform& uniform, const RunContext& run) {
+    const Domain& domain = *points.domain;
+    const std::size_t size = std::max<std::size_t>(1, 4096 / points.dimension());
+    std::vector<Sums> parts(block_count(points.count(), size));
+    for_each_block(run, points.count(), size, [&](const Block& block) {
+        Evaluation evaluation(domain, view, tasks, uniform);
+        for (std::uint64_t i = block.first; i < block.last; ++i) evaluation.add(i, points[i]);
+        parts[block.index] = evaluation.sums();
+    });
+    Sums all;
+    for (const Sums& part : parts) all.add(part);
+    if (all.outside.count > 0) refuse(all.outside, points, outside_hint(domain));
+    if (all.fault.point < points.count()) refuse(all.fault, tasks, domain);
+    return all;
+}
+
+// ---------------------------------------------------------------- results
+
+/// Whether the points are known to be independent of one another.
+bool independent(const PointSet& points) { return points.provenance.generator == "random"; }
+
+double ratio_of(double uniform, double importance) {
+    return uniform == importance ? 1 : uniform / importance;  // 0 / 0 where f is level, too
+}
+
+/// Of measure x f at uniform points, from the mean of measure x f^2 / p.
+double variance_by_weights(const Tally& importance, const Tally& squares) {
+    const double n = static_cast<double>(importance.count());
+    const double square = importance.mean() * importance.mean();
+    const double off = squares.mean() - square;
+    return off > 1e-13 * square ? off * n / (n - 1) : 0;  // below is rounding
+}
+
+Report comparison(const std::vector<Task>& tasks, const Sums& sums, bool weighed) {
+    Report all;
+    for (std::size_t k = 0; k < tasks.size(); ++k) {
+        const Tally& importance = sums.weighted[k];
+        const Tally& uniform = sums.uniform[k];
+        const double mean = weighed ? importance.mean() : uniform.mean();
+        const double variance =
+            weighed ? variance_by_weights(importance, uniform) : uniform.variance();
+        Report one;
+        one.add("importance_estimate", importance.mean());
+        one.add("importance_variance", importance.variance());
+        one.add("uniform_estimate", mean).add("uniform_variance", variance);
+        one.add("variance_ratio", ratio_of(variance, importance.variance()));
+        all.add(tasks[k].name, std::move(one));
+    }
+    return all;
+}
+
+/// The measure of what the points are on, as an integral over them.
+Tally measure_of(const PointSet& points) {
+    Tally inverse;
+    for (std::size_t i = 0; i < points.count(); ++i)
+        inverse.add(1 / points.domain->density(points[i]));
+    return inverse;
+}
+
+/// How uniform points are had. @throws Error(input) when there are none to compare with.
+Uniform uniform_for(const PointSet& points, const RegionView& view, const Support& support) {
+    if (points.count() < 2) fail(ErrorKind::input, "--compare: needs at least 2 points, not 1");
+    const Domain& domain = *points.domain;
+    if (!support.finite)
+        fail(ErrorKind::input,
+             "--compare: there are no uniform points on {}: its measure is "
+             "infinite",
+             domain.spec());
+    if (!support.measure) {
+        const Tally found = measure_of(points);
+        return {Uniform::weighed, found.mean(), found};
+    }
+    if (support.whole && view.has_uniform()) return {Uniform::remade, domain.measure()};
+    const double measure = support.measure->value;
+    for (std::size_t i = 0; i < points.count(); ++i)
+        if (std::abs(domain.density(points[i]) * measure - 1) > 1e-12)
+            return {Uniform::weighed, measure};
+    return {Uniform::as_they_are, measure};
+}
+
+/// Says of what part of the domain the estimates are, where it is not all of it.
+void tell_support(const Support& support, Report& report) {
+    if (support.whole) return;
+    Report part;
+    part.add("whole", false);
+    if (support.measure)
+        part.add("measure", support.measure->value).add("measure_error", support.measure->error);
+    part.add("meaning",
+             "the density is 0 on a part of the domain: estimates, and exact values where they are "
+             "given, are integrals over the rest");
+    report.add("support", std::move(part));
+}
+
+/// Says that the measure of uniform points is an estimate, too.
+void tell_measure(const Tally& found, const PointSet& points, Report& report) {
+    Report part;
+    if (const auto* item = report.find("support")) part = std::get<Report>(*item);
+    part.add("measure", found.mean());
+    if (independent(points)) part.add("measure_error", found.standard_error());
+    part.add("measure_is_estimate", true);
+    report.add("support", std::move(part));
+}
+
+Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
+    const Domain& domain = *points.domain;
+    if (domain.dimension() != points.dimension())
+        fail(ErrorKind::input, "points of the domain {} have dimension {}; these have {}",
+             domain.spec(), domain.dimension(), points.dimension());
+    const Support support = support_of(domain);
+    const RegionView view(domain, support);
+    const std::vector<Task> tasks = tasks_of(domain, view, support, options);
+    const bool comparing = options[compare];
+    const Uniform uniform = comparing ? uniform_for(points, view, support) : Uniform();
+    const Sums sums = sums_over(points, view, tasks, uniform, run);
+    Report report;
+    tell_support(support, report);
+    for (std::size_t k = 0; k < tasks.size(); ++k) {
+        const Tally& values = sums.weighted[k];
+        Report one;
+        one.add("estimate", values.mean());
+        if (const auto known = tasks[k].exact) {
+            one.add("exact", known->value).add("error", values.mean() - known->value);
+            if (known->error > 0) one.add("exact_error", known->error);
+        }
+        if (independent(points) && points.count() > 1)
+            one.add("standard_error", values.standard_error());
+        report.add(tasks[k].name, std::move(one));
+    }
+    if (comparing) report.add("compare", comparison(tasks, sums, uniform.how == Uniform::weighed));
+    if (uniform.found) tell_measure(*uniform.found, points, report);
+    return report;
+}
+
+/// What several estimates tell of their mean, and of the error of one.
+void replicate(Report& mean, const std::string& name, std::span<const Report> sets) {
+    Tally estimates, squares;
+    for (const Report& set : sets) {
+        estimates.add(set.number(name + ".estimate"));
+        if (!set.find(name + ".error")) continue;
+        const double error = set.number(name + ".error");
+        squares.add(error * error);
+    }
+    const double spread = estimates.standard_error();
+    const boost::math::students_t student(estimates.count() - 1);
+    const double reach = spread * boost::math::quantile(boost::math::complement(student, 0.025));
+    const double middle = estimates.mean();
+    mean.add("standard_error", spread);
+    mean.add("interval_low", middle - reach).add("interval_high", middle + reach);
+    if (squares.count() > 0) mean.add("rms_error", std::sqrt(squares.mean()));
+}
+
+/// Of one set, the spread is not known.
+void combine_one(Report& mean) {
+    for (auto& entry : mean.entries()) {
+        auto* group = std::get_if<Report>(&entry.value);
+        if (group != nullptr && group->find("error"))
+            group->add("rms_error", std::abs(group->number("error")));
+    }
+}
+
+void combine(Report& mean, std::span<const Report> sets, const Values&) {
+    if (sets.size() < 2) return combine_one(mean);
+    for (auto& [name, value, unit] : mean.entries()) {
+        auto* group = std::get_if<Report>(&value);
+        if (group == nullptr || name == "support") continue;
+        if (name != "compare") {
+            replicate(*group, name, sets);
+            continue;
+        }
+        for (auto& inner : group->entries()) {
+            auto& one = std::get<Report>(inner.value);
+            one.add("variance_ratio",
+                    ratio_of(one.number("uniform_variance"), one.number("importance_variance")));
+        }
+    }
+}
+
+}  // namespace
+
+Analyzer unit() {
+    return {
+        .name = "integration",
+        .summary = "Integrals of functions with known integrals, and their errors",
+        .source = "Genz 1984; Owen 2003",
+        .traits = {.max_dimension = 10'000, .unit_cube = false},
+        .options = Schema(integrand, expression, exact, compare),
+        .results =
+            {{"INTEGRAND.estimate", "mean of f / p, where p is the density of the points"},
+             {"INTEGRAND.exact", "the integral; of an expression, if --exact tells it"},
+             {"INTEGRAND.error", "estimate - exact"},
+             {"INTEGRAND.exact_error", "what exact may be off by, where it is by quadrature",
+              false},
+             {"support.whole",
+              "false where the density is 0 on a part of the domain: all is then of the rest",
+              false, true_or_false},
+             {"support.measure", "of that rest, where it is known", false},
+             {"support.measure_error", "what it may be off by; of an estimate, one standard error",
+              false},
+             {"support.measure_is_estimate",
+              "true: --compare found the measure from the points' weights, as nobody knows it",
+              false, true_or_false},
+             {"support.meaning", "the same in words", false},
+             {"INTEGRAND.standard_error",
+              "of the estimate: of several sets (--average) from the spread between them; of one "
+              "set only if its meta says that its points are independent (generator random)",
+              false},
+             {"INTEGRAND.interval_low",
+              "of several sets (--average): the 95 % confidence interval, by Student's t", false},
+             {"INTEGRAND.interval_high", "its other end", false},
+             {"INTEGRAND.rms_error",
+              "of several sets (--average): root mean square of their errors", false},
+             {"compare.INTEGRAND.importance_estimate", "--compare: the estimate", false},
+             {"compare.INTEGRAND.importance_variance", "variance of f / p over the points", false},
+             {"compare.INTEGRAND.uniform_estimate", "estimate by uniform points", false},
+             {"compare.INTEGRAND.uniform_variance",
+              "variance of the domain's measure times f over uniform points", false},
+             {"compare.INTEGRAND.variance_ratio",
+              "uniform over importance: above 1, importance sampling pays", false}},
+        .analyze = analyze,
+        .combine = combine};
+}
+
+}  // namespace stipple::analyzers::integration

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "analyzers/integration/region_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/spec.hpp"
+#include "core/text.hpp"
+
+namespace stipple::analyzers {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+/// A domain fills its bounding box where the two are of the same size.
+std::optional<Box> filled_box(const Domain& domain) {
+    if (domain.cube_dimension() != domain.dimension()) return std::nullopt;
+    Box box = domain.bounding_box();
+    double volume = 1;
+    for (std::size_t k = 0; k < box.dimension(); ++k) volume *= box.extent(k);
+    const double measure = domain.measure();
+    if (!(volume > 0) || !(std::abs(measure - volume) <= 1e-12 * volume)) return std::nullopt;
+    return box;
+}
+
+/// The axis that a hemisphere's spec names, or z.
+Vector axis_of(const std::string& text) {
+    Vector axis{0, 0, 1};
+    for (const auto& [option, value] : parse_spec(text).settings) {
+        if (option != "axis") continue;
+        const auto parts = split(value, ',');
+        for (std::size_t k = 0; k < 3 && k < parts.size(); ++k)
+            axis[k] = parse_number(parts[k]).value_or(0);
+    }
+    const double length = std::hypot(axis[0], axis[1], axis[2]);
+    for (double& x : axis) x /= length;
+    return axis;
+}
+
+/// Three axes at right angles, the last one given.
+std::array<Vector, 3> axes_about(const Vector& z) {
+    const bool near_x = std::abs(z[0]) > 0.5;
+    const Vector other{near_x ? 0.0 : 1.0, near_x ? 1.0 : 0.0, 0.0};
+    const double along = near_x ? z[1] : z[0];
+    Vector x;
+    for (std::size_t k = 0; k < 3; ++k) x[k] = other[k] - along * z[k];
+    const double length = std::hypot(x[0], x[1], x[2]);
+    for (double& t : x) t /= length;
+    return {
+        x, {z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0]}, z};
+}
+
+/// Laws of unit vectors whose cube is a share from the axis on and a longitude.
+bool on_the_sphere(std::string_view name) {
+    return name == "henyey-greenstein" || name == "von-mises-fisher";
+}
+
+}  // namespace
+
+RegionView::RegionView(const Domain& domain, const Support& support)
+    : domain_(domain), finite_(support.finite), box_(filled_box(domain)) {
+    const std::string spec = domain.spec();
+    const std::string name = spec.substr(0, spec.find(':'));
+    if (domain.dimension() != 3) return;
+    if (name == "hemisphere") axes_ = axes_about(axis_of(spec));
+    if (on_the_sphere(name)) pole_ = axes_about(axis_of(spec));
+}
+
+bool RegionView::has(Region region) const {
+    if (region == Region::cube) return box_.has_value();
+    if (region == Region::hemisphere) return axes_.has_value();
+    return finite_;
+}
+
+double RegionView::scale(Region region) const {
+    return region == Region::hemisphere ? 1 : domain_.measure();
+}
+
+void RegionView::see(Region region, std::span<const double> point, std::span<double> seen) const {
+    for (std::size_t k = 0; k < point.size(); ++k) {
+        if (region == Region::cube)
+            seen[k] = (point[k] - box_->low[k]) / box_->extent(k);
+        else if (region == Region::hemisphere)
+            seen[k] =
+                (*axes_)[k][0] * point[0] + (*axes_)[k][1] * point[1] + (*axes_)[k][2] * point[2];
+        else
+            seen[k] = point[k];
+    }
+}
+
+bool RegionView::has_uniform() const { return domain_.even() && (box_ || axes_ || pole_); }
+
+void RegionView::uniform(std::span<const double> cube, std::span<double> point) const {
+    if (box_) {
+        for (std::size_t k = 0; k < cube.size(); ++k)
+            point[k] = box_->low[k] + cube[k] * box_->extent(k);
+        return;
+    }
+    const auto& axes = axes_ ? *axes_ : *pole_;
+    const double drop = axes_ ? cube[0] : 2 * cube[0];
+    const double z = 1 - drop;
+    const double r = std::sqrt(drop * (2 - drop));
+    const double turn = 2 * std::numbers::pi * cube[1];
+    const Vector v{r * std::cos(turn), r * std::sin(turn), z};
+    for (std::size_t k = 0; k < 3; ++k)
+        point[k] = v[0] * axes[0][k] + v[1] * axes[1][k] + v[2] * axes[2][k];
+}
+
+}  // namespace stipple::analyzers

@@ -1,0 +1,589 @@
+// SPDX-License-Identifier: MIT
+//
+// Periodogram of n points with strengths s_j (1, if not told): their power at integer frequency
+// vectors f,
+//
+//     P(f) = | sum_j s_j exp(-2 pi i f.x_j) |^2 / sum_j s_j^2,        f in {-F..F}^d,
+//
+// so that white noise has mean 1. Points that do not live on a torus may be faded out towards the
+// sides, by --window hann, w(x) = prod_k sin^2(pi x_k) with the transform W(f):
+//
+//     P(f) = | sum_j s_j w(x_j) exp(-2 pi i f.x_j) - W(f) sum_j s_j |^2
+//            / ((3/8)^d - W(f)^2) / sum_j s_j^2;
+//
+// the density's own transform is taken off, and the mean is 1 again, at every f. From the power,
+// with f = 0 left out everywhere:
+//
+//     radial power       P_k = mean of P over the ring k - 1/2 <= |f| < k + 1/2,  k = 1..F
+//     anisotropy         variance of P over the ring (mean squared deviation) / P_k^2, in dB;
+//                        no less than -100 dB, which is what a ring of equal powers gets, and one
+//                        without power beyond the tolerance. White noise has 0 dB, a mean of R
+//                        sets -10 log10 R
+//     effective Nyquist  R / 2, where R is the largest radius, at most F, of a disk |f| < R that
+//                        has a mean power of at most 1/10; 0 if no disk has
+//     oscillation        10 times the root of the mean of (P_k - 1)^2 over the frequency vectors of
+//                        rings a..b: a is the first with P_k >= 0.98 (else that of most power),
+//                        b = a + 5 n^(1/d), at most F: complete, and as published, only where
+//                        there is such a ring a and F is no less than b
+//     total variation    half the mean of |P_k - 1| over the frequency vectors of all rings: 0 for
+//                        white noise, near 1 for a lattice; the larger F, the smaller for others
+//     exponent           slope of log P_k against log k, rings weighted by their vectors, for
+//                        k <= n^(1/d) / 4 (but at least up to 4): a in P ~ f^a near 0. Rings
+//                        without power beyond the tolerance are left out
+//
+// Shape   points in [0, 1]^d or a box, d = 1, 2, 3, also in pieces; strengths 0 or from 1e-100 to
+//         1e100 in size; the 2-D power has row = f_1, column = f_0, -F..F.
+// Units   cycles a unit length (of a box: a side); published tables give the effective Nyquist
+//         frequency over `regular_nyquist`, n^(1/d) / 2, which is that of a regular grid.
+// Cost    O(n w^d + (4F)^d log F), see math/fourier/nufft.hpp; `direct` O(n (2F)^d). Sets of up to 2^20
+//         points are kept until their number is known; of more, no more than a batch.
+// Promise the same for any number of threads, and whether points come at once or in pieces; in any
+//         run, too, but for last bits where FFTW measures its plans: with --wisdom, and for
+//         transforms of more than 10 seconds.
+// Beware  one set's power has a standard deviation of 100 % at every frequency: average sets. A
+//         mean of anisotropies is not the anisotropy of the mean power; so the power itself goes
+//         into the report, and refine() works out all else from its mean.
+// Source  R. A. Ulichney, Proc. IEEE 76 (1988) 56-79, doi:10.1109/5.3288 (radial mean, anisotropy);
+//         D. Heck, T. Schloemer, O. Deussen, ACM Trans. Graph. 32:3 (2013) 25 (effective Nyquist
+//         frequency, oscillation; thresholds as in the authors' program psa).
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <optional>
+
+#include "analyzers/analyzer.hpp"
+#include "analyzers/distances/distances.hpp"
+#include "analyzers/spectrum/periodogram_power.hpp"
+#include "analyzers/spectrum/periodogram_rings.hpp"
+#include "analyzers/uniformity/outside.hpp"
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/text.hpp"
+#include "core/wide.hpp"
+#include "math/fourier/nufft.hpp"
+
+namespace stipple::analyzers::periodogram {
+namespace {
+
+constexpr Param<std::int64_t> max_frequency{
+    .name = "max-frequency",
+    .low = 1,
+    .high = 1'000'000,
+    .optional = true,
+    .unit = "cycles a unit length",
+    .help =
+        "Frequencies go from -F to F along each axis; without it twice n^(1/d), rounded up, "
+        "but at least 16 and at most 65536, 1024 or 64 in 1, 2 or 3 dimensions; the oscillation "
+        "needs 5 n^(1/d) more than where power reaches 1, 6.5 n^(1/d) or so"};
+
+constexpr Param<Choice> method{
+    .name = "method",
+    .fallback = "nufft",
+    .choices = "nufft|direct",
+    .help = "nufft: non-uniform fast Fourier transform; direct: the plain sum, slow"};
+
+constexpr Param<double> tolerance{
+    .name = "tolerance",
+    .fallback = 1e-9,
+    .low = 0,
+    .high = 1e-1,
+    .help =
+        "Largest error of the complex sums, relative to sqrt(n), of the method nufft; no less "
+        "than 1e-13, float64's floor"};
+
+constexpr Param<bool> normalize{
+    .name = "normalize-frequency",
+    .help = "Gives frequencies over n^(1/d): cycles a mean distance between points"};
+
+constexpr Param<Choice> window{
+    .name = "window",
+    .fallback = "none",
+    .choices = "none|hann",
+    .help =
+        "none: the domain is a torus; hann: it is not, and points are faded out towards its "
+        "sides by w = product of sin^2(pi x_k), with the transform W: power is |sum w e - n W|^2 "
+        "/ ((3/8)^d - W^2) / n"};
+
+constexpr Param<Text> weights{
+    {.name = "weights",
+     .unit = "column",
+     .help = "Name or number of the column, none of the coordinates, that holds the strength w of "
+             "each point: power is |sum w e|^2 / sum w^2"}};
+
+constexpr Param<Path> wisdom{
+    {.name = "wisdom",
+     .help = "FFTW's measured plans are read from this file, and what is learnt is written to it; "
+             "to measure takes seconds once"}};
+
+constexpr Param<Path> grid_file{
+    {.name = "grid",
+     .help = "Saves the power to this .npy file: row = fy, column = fx, from -F to F; a line in 1, "
+             "a cube [fz][fy][fx] in 3 dimensions"}};
+
+constexpr Param<Path> image_file{
+    {.name = "image",
+     .help = "Draws the power to this .png file, frequency 0 (black) in the centre; the scale is "
+             "in the file's text. In 3 dimensions the plane of --slice"}};
+
+constexpr Param<Choice> image_scale{
+    .name = "image-scale",
+    .fallback = "ratio",
+    .choices = "ratio|linear|log",
+    .help =
+        "Grey from 0 to 1; white noise is middle grey in each. ratio: P / (1 + P); linear: "
+        "P / 2, white from 2 on; log: -20 dB to 20 dB"};
+
+constexpr Param<Choice> image_bits{
+    .name = "image-bits", .fallback = "8", .choices = "8|16", .help = "Bits of a pixel of --image"};
+
+constexpr Param<std::int64_t> slice{
+    .name = "slice",
+    .fallback = 0,
+    .low = -1'000'000,
+    .high = 1'000'000,
+    .unit = "cycles a unit length",
+    .help = "fz of the plane that --image draws of points in 3 dimensions"};
+
+constexpr double floor_of_floats = 1e-13;
+constexpr std::uint64_t few_points = std::uint64_t{1} << 16;  // quickly copied
+constexpr std::uint64_t kept_points = std::uint64_t{1} << 20;
+constexpr std::uint64_t most_points = std::uint64_t{1} << 30;  // that larger sets are planned for
+
+std::size_t default_frequency(std::uint64_t count, std::size_t dimension) {
+    constexpr double most[] = {0, 65536, 1024, 64};
+    const double twice =
+        2 * std::pow(static_cast<double>(count), 1 / static_cast<double>(dimension));
+    // A root such as 1000^(1/3) may come out a little above the whole number that it is.
+    return static_cast<std::size_t>(std::clamp(std::ceil(twice - 1e-9), 16.0, most[dimension]));
+}
+
+double regular_nyquist(double count, std::size_t dimension) {
+    return std::pow(count, 1 / static_cast<double>(dimension)) / 2;
+}
+
+/// Puts all that follows from the power into the report.
+void summarize(Report& report, const Grid& power, std::size_t sets, const Values& options,
+               const RunContext& run) {
+    const Rings rings = rings_of(power, run);
+    const double regular = report.number("regular_nyquist");
+    const double unit = options[normalize] ? 2 * regular : 1;
+    const double error = report.number("tolerance");
+    const double least = error * error;  // what is lower may be rounding only
+    const char* unit_name = options[normalize] ? "cycles a mean distance" : "cycles a unit length";
+    Report::Curve frequency;
+    Report::Curve anisotropy;
+    for (std::size_t i = 0; i < rings.power.size(); ++i) {
+        frequency.push_back(static_cast<double>(i + 1) / unit);
+        anisotropy.push_back(anisotropy_db(rings.variance[i], rings.power[i], least));
+    }
+    Report radial;
+    radial.add("frequency", std::move(frequency), unit_name);
+    radial.add("power", rings.power);
+    radial.add("anisotropy_db", std::move(anisotropy), "dB");
+    radial.add("cells", rings.cells);
+    report.add("radial", std::move(radial));
+    const double expected = sets > 1 ? -10 * std::log10(static_cast<double>(sets)) : 0;
+    report.add("expected_anisotropy_db", expected, "dB");
+    const double nyquist = effective_nyquist(power, rings, run);
+    report.add("effective_nyquist", nyquist / unit, unit_name);
+    report.add("relative_nyquist", nyquist / regular);
+    const Oscillation swings = oscillation(rings, regular);
+    report.add("oscillation", swings.value);
+    report.add("oscillation_complete", swings.complete);
+    report.add("total_variation", total_variation(rings));
+    std::erase_if(report.entries(),
+                  [](const auto& e) { return e.name == "low_frequency_exponent"; });
+    if (const auto slope = low_frequency_exponent(rings, regular, least))
+        report.add("low_frequency_exponent", *slope);
+}
+
+STIPPLE_WIDE bool all_inside(std::span<const double> coordinates) {
+    std::int64_t outside = 0;
+    for (const double x : coordinates) outside += x >= 0 && x <= 1 ? 0 : 1;
+    return outside == 0;
+}
+
+/// A spectrum whose points come in pieces.
+class Summation final : public SharedAccumulator {
+  public:
+    Summation(const Arrival& arrival, const Values& options, const RunContext& run)
+        : domain_(arrival.domain),
+          options_(options),
+          d_(arrival.domain->dimension()),
+          cube_(domain_->spec() == "unit-cube"),
+          weighted_(options.given(weights)),
+          hann_(options[window] == "hann"),
+          numbers_(d_ + (weighted_ || hann_ ? 1 : 0)) {
+        const std::string spec = domain_->spec();
+        if (!cube_ && !spec.starts_with("box:"))
+            fail(ErrorKind::input,
+                 "periodogram takes points of the unit cube or a box; these live on {}", spec);
+        check_options();
+        if (options.given(wisdom)) read_wisdom(options[wisdom]);
+        told_ = arrival.count.value_or(0);
+        if (told_ <= few_points) kept_.reserve(told_ * numbers_);
+        const std::uint64_t known = std::max<std::uint64_t>(told_, 1);
+        if (told_ > kept_points || fourier_sums_size(d_, frequency_for(known)) > 1e6)
+            need_memory(known, run);
+    }
+
+    void add(std::span<const double> rows, const RunContext& run) override {
+        const std::vector<double> changed = changed_points(rows);
+        const auto points = numbers_ == d_ && cube_ ? rows : std::span<const double>(changed);
+        n_ += points.size() / numbers_;
+        if (outside_.count > 0) return;
+        const bool began = nufft_ || direct_;
+        if (!began && n_ <= kept_points && told_ <= few_points) {
+            kept_.insert(kept_.end(), points.begin(), points.end());
+            return;
+        }
+        if (!began) begin(told_ > few_points && told_ <= kept_points ? told_ : most_points, run);
+        take(points, run);
+    }
+
+    Report report(const RunContext& whole) override {
+        const RunContext run = fitting(whole);
+        if (outside_.count > 0) refuse(outside_, n_, *domain_, outside_hint(*domain_));
+        if (n_ < 2) fail(ErrorKind::input, "periodogram needs at least 2 points; there is {}", n_);
+        if (!(strengths().squares > 0))
+            fail(ErrorKind::input,
+                 "--weights: all {} strengths are 0; white noise has power 1 "
+                 "only where some are not",
+                 n_);
+        if (all_equal_)
+            run.tell(
+                fmt::format("all {} points are equal: they are in phase at every frequency", n_));
+        if (!nufft_ && !direct_) begin(n_, run);
+        return finished(run);
+    }
+
+    void begin_at(std::uint64_t first, std::span<const double>) override { at_ = first; }
+
+    std::string state(const RunContext& run) override {
+        Packer packer;
+        packer.put(n_).put(all_equal_).put_all(first_);
+        outside_.pack(packer);
+        if (weighted_) strengths_.pack(packer);
+        sum_->pack(packer, run);
+        return packer.take();
+    }
+
+    void merge(std::string_view state, const RunContext& run) override {
+        Unpacker from(state);
+        n_ += from.take<std::uint64_t>();
+        const bool equal = from.take<bool>();
+        all_equal_ = from.take_all<double>() == first_ && all_equal_ && equal;
+        outside_.add(Outside::unpacked(from));
+        if (weighted_) strengths_.merge(from);
+        sum_->merge(from, run);
+    }
+
+  private:
+    /// Small sets are done before other threads have woken up.
+    [[nodiscard]] RunContext fitting(const RunContext& run) const {
+        if (nufft_ || direct_ || options_[method] == "direct") return run;
+        const double values = fourier_sums_size(d_, frequency_for(std::max<std::uint64_t>(n_, 1)));
+        return worth_threads(run, 5e-8 * static_cast<double>(n_) + 2e-8 * values);
+    }
+
+    void check_options() const {
+        // Direct sums are as exact as they are, whatever was asked for.
+        if (options_[method] != "direct" && options_[tolerance] < floor_of_floats)
+            fail(ErrorKind::usage,
+                 "--tolerance: {} is below {}, the floor of what float64 gives; --method direct is "
+                 "as exact as float64 is",
+                 options_[tolerance], floor_of_floats);
+        if (options_.given(image_file) && d_ == 1)
+            fail(ErrorKind::usage, "--image: takes points of dimension 2 or 3; these have 1");
+        if (options_.given(slice) && d_ != 3)
+            fail(ErrorKind::usage, "--slice: takes points of dimension 3; these have {}", d_);
+        for (const std::string_view name : {image_scale.name, image_bits.name, slice.name})
+            if (options_.find(name).given && !options_.given(image_file))
+                fail(ErrorKind::usage, "--{} is of --image, which is not given", name);
+    }
+
+    [[nodiscard]] std::size_t frequency_for(std::uint64_t count) const {
+        return options_.given(max_frequency) ? static_cast<std::size_t>(options_[max_frequency])
+                                             : default_frequency(count, d_);
+    }
+
+    /// What is known before the points come.
+    void need_memory(std::uint64_t count, const RunContext& run) const {
+        const std::size_t frequency = frequency_for(count);
+        const double sums = 16 * fourier_sums_size(d_, frequency);
+        const std::uint64_t planned = count > kept_points ? most_points : count;
+        const double transform =
+            options_[method] == "direct"
+                ? sums
+                : Nufft(planned, d_, frequency, options_[tolerance], numbers_ > d_).bytes();
+        const double kept = 8 * static_cast<double>(std::min(count, kept_points) * numbers_);
+        run.need_memory(std::max(transform + kept, 2 * sums),
+                        fmt::format("--max-frequency {}", frequency));
+    }
+
+    /// Points of the unit cube, with their strengths where these are not all 1; nothing where that
+    /// is what they were.
+    std::vector<double> changed_points(std::span<const double> rows) {
+        std::vector<double> points;
+        const std::size_t given = d_ + (weighted_ ? 1 : 0);
+        const bool same = numbers_ == d_ && cube_;
+        if (!same) points.reserve(rows.size() / given * numbers_);
+        const bool noted = given == d_ && note_all(rows);
+        for (std::size_t at = 0; at < rows.size() && !(same && noted); at += given) {
+            const auto point = rows.subspan(at, d_);
+            if (!noted) note(point, at_ + n_ + at / given);
+            if (same) continue;
+            const std::size_t begin = points.size();
+            points.insert(points.end(), point.begin(), point.end());
+            const std::span<double> here(points.data() + begin, d_);
+            if (!cube_) domain_->to_cube(point, here);
+            const double strength = weighted_ ? rows[at + d_] : 1;
+            if (weighted_) {
+                require_fitting(strength, at_ + n_ + at / given);
+                strengths_.add(strength);
+            }
+            if (numbers_ > d_) points.push_back(strength * faded(here));
+        }
+        return points;
+    }
+
+    /// @throws Error(input) for a strength that the sum of squares might lose or overflow with:
+    /// what is in range gives the same power at any scale.
+    static void require_fitting(double strength, std::uint64_t index) {
+        constexpr double least = 1e-100;
+        constexpr double most = 1e100;
+        const double size = std::abs(strength);
+        if (size == 0 || (size >= least && size <= most)) return;
+        fail_with_hint(
+            ErrorKind::input,
+            "power does not depend on their scale: divide all by the largest, and put 0 for "
+            "those that are then too small",
+            "--weights: the strength of point {} is {}; expected 0, or {} to {} in size", index,
+            format_number(strength), format_number(least), format_number(most));
+    }
+
+    /// Whether there is nothing to note: all points are in the unit cube, and not the first ones.
+    [[nodiscard]] bool note_all(std::span<const double> rows) const {
+        return cube_ && !all_equal_ && all_inside(rows);
+    }
+
+    /// Looks whether the point is where it should be, and whether it is elsewhere than the first.
+    void note(std::span<const double> point, std::uint64_t index) {
+        bool inside = true;
+        for (const double x : point) inside = inside && x >= 0 && x <= 1;
+        if (!cube_) inside = domain_->contains(point);
+        if (!inside) outside_.add(index, point);
+        if (!all_equal_) return;
+        if (first_.empty()) first_.assign(point.begin(), point.end());
+        all_equal_ = std::ranges::equal(point, first_);
+    }
+
+    [[nodiscard]] Strengths strengths() {
+        const auto n = static_cast<double>(n_);
+        return weighted_ ? strengths_.total() : Strengths{n, n};
+    }
+
+    /// The window at a point of the cube.
+    [[nodiscard]] double faded(std::span<const double> point) const {
+        double product = 1;
+        if (hann_)
+            for (const double x : point) {
+                const double s = std::sin(std::numbers::pi * x);
+                product *= s * s;
+            }
+        return product;
+    }
+
+    void begin(std::uint64_t count, const RunContext& run) {
+        planned_ = count;
+        frequency_ = frequency_for(count);
+        const bool weighted = numbers_ > d_;
+        const double sums = 16 * fourier_sums_size(d_, frequency_);
+        const double kept = 8 * static_cast<double>(kept_.size());
+        const std::string cause = fmt::format("--max-frequency {}", frequency_);
+        if (options_[method] == "direct") {
+            run.need_memory(sums + kept, cause);
+            direct_ = std::make_unique<DirectSummation>(d_, frequency_, weighted);
+        } else {
+            nufft_.emplace(count, d_, frequency_, options_[tolerance], weighted);
+            run.need_memory(std::max(2 * sums, nufft_->bytes()) + kept, cause);
+            sum_ = count == most_points ? open_summation(run, cause)
+                                        : std::make_unique<FourierSummation>(*nufft_);
+        }
+        take(kept_, run);
+        kept_ = {};
+    }
+
+    /// Of a large set, of whose number nothing may depend on whether it was told.
+    [[nodiscard]] std::unique_ptr<FourierSummation> open_summation(const RunContext& run,
+                                                                   const std::string& cause) const {
+        const std::uint64_t block = FourierSummation::block_of(*nufft_);
+        // What is summed over blocks takes twice the grid, and what the first came to is kept.
+        if (told_ == 0 || told_ > block)
+            run.need_memory(nufft_->bytes() +
+                                16 * std::pow(static_cast<double>(nufft_->side()), d_) +
+                                16 * fourier_sums_size(d_, frequency_),
+                            cause);
+        if (at_ > 0) return std::make_unique<FourierSummation>(*nufft_);
+        const Nufft first(block, d_, frequency_, options_[tolerance], nufft_->weighted());
+        return std::make_unique<FourierSummation>(first, *nufft_);
+    }
+
+    void take(std::span<const double> points, const RunContext& run) {
+        if (direct_)
+            direct_->add(points, run);
+        else
+            sum_->add(points, run);
+    }
+
+    FourierSums sums(const RunContext& run) {
+        if (direct_) return direct_->finish();
+        const Planning planning =
+            options_.given(wisdom) ? Planning::measured : planning_for(d_, nufft_->side());
+        FourierSums found = sum_->finish(planning, run);
+        sum_.reset();
+        return found;
+    }
+
+    Report finished(const RunContext& run) {
+        const auto n = static_cast<double>(n_);
+        Report report;
+        report.add("max_frequency", static_cast<std::int64_t>(frequency_));
+        report.add("regular_nyquist", regular_nyquist(n, d_), "cycles a unit length");
+        const double worst =
+            nufft_ ? std::max(options_[tolerance], n_ > planned_ ? nufft_->error(n) : 0) : 0;
+        report.add("tolerance", std::max(worst, rounding_floor(n_)));
+        Grid power = power_of(sums(run), strengths(), hann_, run);
+        summarize(report, power, 1, options_, run);
+        report.add("method", options_[method]);
+        report.add("window", options_[window]);
+        report.add("boundary", hann_ ? "faded out" : "torus");
+        report.add("grid", std::move(power));
+        return report;
+    }
+
+    DomainPtr domain_;
+    Values options_;
+    std::size_t d_;
+    bool cube_;  ///< the domain is the unit cube
+    bool weighted_;
+    bool hann_;
+    std::size_t numbers_;   ///< of a point as the sums take it: coordinates, and perhaps a strength
+    std::uint64_t at_ = 0;  ///< index of the first point that comes
+    std::size_t frequency_ = 0;
+    std::uint64_t n_ = 0;
+    std::uint64_t told_ = 0;     ///< points that were announced; 0: nobody knows
+    std::uint64_t planned_ = 0;  ///< points for which the transform was chosen
+    std::vector<double> kept_;
+    std::vector<double> first_;  ///< point of the set
+    bool all_equal_ = true;
+    StrengthSums strengths_;
+    Outside outside_;
+    std::optional<Nufft> nufft_;
+    std::unique_ptr<FourierSummation> sum_;
+    std::unique_ptr<DirectSummation> direct_;
+};
+
+/// Blocks of points that have a grid of their own; few points are not shared out.
+std::uint64_t grain(const Arrival& arrival, const Values& options) {
+    if (options[method] == "direct")
+        fail(ErrorKind::usage, "periodogram: ranks share --method nufft; start one process");
+    if (arrival.count.value_or(0) <= kept_points) return kept_points;
+    const std::size_t d = arrival.dimension();
+    const std::size_t frequency = options.given(max_frequency)
+                                      ? static_cast<std::size_t>(options[max_frequency])
+                                      : default_frequency(most_points, d);
+    return FourierSummation::block_of(Nufft(most_points, d, frequency, options[tolerance]));
+}
+
+void refine(Report& mean, std::size_t sets, const Values& options) {
+    const auto* grid = mean.find("grid");
+    if (grid == nullptr)
+        fail_with_hint(ErrorKind::usage, "give them one --max-frequency",
+                       "--average: the spectra have different frequencies");
+    const Grid power = std::get<Grid>(*grid);
+    summarize(mean, power, sets, options, {});
+}
+
+/// A mean over different normalised frequencies is none.
+void combine(Report&, std::span<const Report> sets, const Values& options) {
+    if (options[normalize] && !alike(sets, "regular_nyquist"))
+        fail_with_hint(ErrorKind::usage,
+                       "give them the same number of points, or leave --normalize-frequency out",
+                       "--average: the sets differ in their number of points, and so in their "
+                       "normalised frequencies");
+}
+
+/// Sets of other sizes are measured at the first one's frequencies, so that they have a mean.
+void follow(const Report& first, Values& options) {
+    if (options.given(max_frequency)) return;
+    options.put(max_frequency.name, static_cast<std::int64_t>(first.number("max_frequency")));
+}
+
+std::vector<ResultKey> results() {
+    return {
+        {"max_frequency", "F: frequencies go from -F to F"},
+        {"regular_nyquist", "n^(1/d) / 2, the Nyquist frequency of a regular grid"},
+        {"tolerance",
+         "Bound of the error of the complex sums, relative to sqrt(n); no less than what "
+         "rounding leaves where all points are in phase"},
+        {"radial.frequency", "Frequency k of each ring, k - 1/2 <= |f| < k + 1/2"},
+        {"radial.power", "Mean power over the ring; white noise has 1"},
+        {"radial.anisotropy_db",
+         "Variance over the ring / squared mean, in dB, at least -100, as rings of equal "
+         "powers and "
+         "such below tolerance^2 have; of averaged sets that of their mean power, without a "
+         "standard error"},
+        {"radial.cells", "Frequency vectors in the ring"},
+        {"expected_anisotropy_db",
+         "Anisotropy of white noise: 0, less 10 log10 of the number of sets averaged"},
+        {"effective_nyquist",
+         "Half the largest radius R, at most F, with a mean power of at most 0.1 over |f| < R; of "
+         "averaged sets that of their mean power, without a standard error"},
+        {"relative_nyquist", "The same over regular_nyquist, as published tables give it"},
+        {"oscillation",
+         "10 x root mean square of radial power - 1, weighted by cells, from where it first "
+         "reaches 0.98 over n^(1/d) x 5 frequencies, or up to F; of averaged sets that of "
+         "their mean power, without a standard error, as the next two are"},
+        {"oscillation_complete",
+         "Whether F is large enough for all of these: only then it compares with published "
+         "ones",
+         true, true_or_false},
+        {"total_variation",
+         "Half the mean of |radial power - 1| over the rings, weighted by their cells: 0 for "
+         "white noise; depends on F"},
+        {"low_frequency_exponent",
+         "a in power ~ frequency^a near 0: slope of log radial power against log frequency, "
+         "weighted by cells, over the lowest n^(1/d) / 4 rings, at least 4, as far as they "
+         "have power"},
+        {"method", "nufft or direct", true, "nufft|direct"},
+        {"window", "none or hann", true, "none|hann"},
+        {"boundary", "torus, or faded out by the window", true, "torus|faded out"}};
+}
+
+}  // namespace
+
+Analyzer unit() {
+    return {
+        .name = "periodogram",
+        .summary = "Power spectrum at integer frequencies, its radial mean and anisotropy",
+        .source =
+            "Ulichney 1988, doi:10.1109/5.3288; Heck, Schloemer, Deussen 2013, ACM TOG 32(3):25",
+        .traits = {.min_dimension = 1, .max_dimension = 3, .unit_cube = false, .boxed = true},
+        .options = Schema(max_frequency, method, tolerance, normalize, window, weights, grid_file,
+                          image_file, image_scale, image_bits, slice, wisdom),
+        .results = results(),
+        .strengths = weights.name,
+        .accumulate =
+            [](const Arrival& arrival, const Values& options, const RunContext& run) {
+                return std::make_unique<Summation>(arrival, options, run);
+            },
+        .sharing = {.grain = grain},
+        .refine = refine,
+        .follow = follow,
+        .combine = combine};
+}
+
+}  // namespace stipple::analyzers::periodogram

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+//
+// The power of a spectrum from its Fourier sums and the sums of the strengths; the formulas are at
+// the top of periodogram.cpp.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/report.hpp"
+#include "core/run_context.hpp"
+#include "math/fourier/grid_sum.hpp"
+#include "math/fourier/transform.hpp"
+
+namespace stipple::analyzers {
+
+/// sum_j s_j and sum_j s_j^2.
+struct Strengths {
+    double sum = 0;
+    double squares = 0;
+};
+
+/// The same of points that come in blocks, which may be shared out; these are summed as grids are.
+class StrengthSums {
+  public:
+    void add(double strength) {
+        if (points_ == block) close();
+        block_.sum += strength;
+        block_.squares += strength * strength;
+        ++points_;
+    }
+
+    [[nodiscard]] Strengths total() {
+        if (sum_.empty()) return block_;
+        if (points_ > 0) close();
+        Strengths all;
+        sum_.copy_to({&all.sum, 1}, {});
+        squares_.copy_to({&all.squares, 1}, {});
+        return all;
+    }
+
+    void pack(Packer& to) {
+        close();
+        sum_.pack(to);
+        squares_.pack(to);
+    }
+    /// This one's points are whole blocks.
+    void merge(Unpacker& from) {
+        if (points_ > 0) close();
+        sum_.merge(from);
+        squares_.merge(from);
+    }
+
+  private:
+    static constexpr std::uint64_t block = std::uint64_t{1} << 21;  ///< divides those of grids
+
+    void close() {
+        const double size = std::abs(block_.sum);
+        sum_.add({&block_.sum, 1}, size, {});
+        const double square = block_.squares;
+        squares_.add({&block_.squares, 1}, square, {});
+        block_ = {};
+        points_ = 0;
+    }
+
+    Strengths block_;
+    std::uint64_t points_ = 0;
+    ScaledGridSum sum_;
+    ScaledGridSum squares_;
+};
+
+/// Power at all frequencies from the sums at half of them; P(-f) = P(f) holds to the last bit.
+/// @param hann whether the points were seen through that window.
+Grid power_of(const FourierSums& sums, const Strengths& strengths, bool hann,
+              const RunContext& run);
+
+}  // namespace stipple::analyzers

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "analyzers/spectrum/periodogram_rings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace stipple::analyzers {
+namespace {
+
+constexpr double lowest_db = -100;
+
+/// Rows of frequencies, half of them; the others hold the opposite vectors.
+struct HalfOfRows {
+    explicit HalfOfRows(const Grid& of)
+        : power(of), width(static_cast<std::int64_t>(of.columns)), last(width / 2) {}
+
+    /// Calls visit(centre, f_1^2 + f_2^2, middle): the power at f_0 = 0, and whether the row has
+    /// the opposites of its vectors in itself.
+    template <class Visit>
+    void visit(const RunContext& run, Visit&& visit) const {
+        for (std::size_t row = power.rows / 2; row < power.rows; ++row) {
+            run.check_stop();
+            const auto line = static_cast<std::int64_t>(row);
+            const std::int64_t f1 = power.rows == 1 ? 0 : line % width - last;
+            const std::int64_t f2 = power.rows <= power.columns ? 0 : line / width - last;
+            visit(power.values.data() + row * power.columns + last, f1 * f1 + f2 * f2,
+                  row == power.rows / 2);
+        }
+    }
+
+    const Grid& power;
+    std::int64_t width;
+    std::int64_t last;  ///< F
+};
+
+/// Calls visit(ring, power) for half of the frequency vectors in rings 1..F, of which the others
+/// are the opposites. In integers, k - 1/2 <= |f| < k + 1/2 is k^2 - k < |f|^2 <= k^2 + k.
+template <class Visit>
+void for_half_of_rings(const Grid& power, const RunContext& run, Visit&& visit) {
+    const HalfOfRows rows(power);
+    rows.visit(run, [&](const double* centre, std::int64_t across, bool middle) {
+        std::int64_t ring = 0;
+        for (std::int64_t f0 = 0; f0 <= rows.last; ++f0) {
+            const std::int64_t square = across + f0 * f0;
+            while (ring * ring + ring < square) ++ring;
+            if (ring > rows.last) break;
+            if (ring == 0) continue;
+            const auto of = static_cast<std::size_t>(ring);
+            visit(of, centre[f0]);
+            if (f0 > 0 && !middle) visit(of, centre[-f0]);
+        }
+    });
+}
+
+}  // namespace
+
+Rings rings_of(const Grid& power, const RunContext& run) {
+    const std::size_t last = power.columns / 2;
+    Rings rings{std::vector<double>(last), std::vector<double>(last),
+                std::vector<std::int64_t>(last)};
+    for_half_of_rings(power, run, [&](std::size_t k, double p) {
+        rings.power[k - 1] += p;
+        ++rings.cells[k - 1];
+    });
+    for (std::size_t i = 0; i < last; ++i) rings.power[i] /= static_cast<double>(rings.cells[i]);
+    for_half_of_rings(power, run, [&](std::size_t k, double p) {
+        const double deviation = p - rings.power[k - 1];
+        rings.variance[k - 1] += deviation * deviation;
+    });
+    for (std::size_t i = 0; i < last; ++i) {
+        rings.variance[i] /= static_cast<double>(rings.cells[i]);
+        rings.cells[i] *= 2;
+    }
+    return rings;
+}
+
+double anisotropy_db(double variance, double mean, double least) {
+    if (!(mean > least)) return lowest_db;
+    const double ratio = variance / (mean * mean);
+    return ratio > 1e-10 ? 10 * std::log10(ratio) : lowest_db;
+}
+
+namespace {
+
+/// Frequencies of one length, half of them.
+struct Shell {
+    double power = 0;
+    double cells = 0;
+
+    void add(const Shell& more) {
+        power += more.power;
+        cells += more.cells;
+    }
+    [[nodiscard]] bool is_low() const { return power <= 0.1 * cells; }
+};
+
+/// The largest whole number whose square is at most x >= 0.
+std::int64_t whole_root(std::int64_t x) {
+    auto root = static_cast<std::int64_t>(std::sqrt(static_cast<double>(x)));
+    while (root * root > x) --root;
+    while ((root + 1) * (root + 1) <= x) ++root;
+    return root;
+}
+
+/// The shells of a ring by |f|^2, as far as that is at most F^2.
+std::map<std::int64_t, Shell> shells_of(const Grid& power, std::int64_t ring,
+                                        const RunContext& run) {
+    std::map<std::int64_t, Shell> shells;
+    const HalfOfRows rows(power);
+    const std::int64_t inner = ring * ring - ring;
+    const std::int64_t outer = std::min(ring * ring + ring, rows.last * rows.last);
+    rows.visit(run, [&](const double* centre, std::int64_t across, bool middle) {
+        if (across > outer) return;
+        const std::int64_t begin = across > inner ? 0 : whole_root(inner - across) + 1;
+        for (std::int64_t f0 = begin; f0 <= whole_root(outer - across); ++f0) {
+            Shell& shell = shells[across + f0 * f0];
+            shell.add({centre[f0], 1});
+            if (f0 > 0 && !middle) shell.add({centre[-f0], 1});
+        }
+    });
+    return shells;
+}
+
+}  // namespace
+
+double effective_nyquist(const Grid& power, const Rings& rings, const RunContext& run) {
+    std::vector<Shell> within(1);  // rings 1..k
+    for (std::size_t i = 0; i < rings.power.size(); ++i) {
+        const double cells = static_cast<double>(rings.cells[i]) / 2;
+        within.push_back(within.back());
+        within.back().add({rings.power[i] * cells, cells});
+    }
+    // From outside: the mean up to a place in a ring is at least that of the power before the ring
+    // over all cells with it, so that most rings need no second look.
+    const std::size_t last = rings.power.size();
+    for (std::size_t ring = last; ring > 0; --ring) {
+        if (!Shell{within[ring - 1].power, within[ring].cells}.is_low()) continue;
+        Shell inside = within[ring - 1];
+        bool low = false;
+        bool found = false;
+        double radius = 0;
+        const auto look = [&](std::size_t at) {
+            for (const auto& [square, shell] :
+                 shells_of(power, static_cast<std::int64_t>(at), run)) {
+                if (low) radius = std::sqrt(static_cast<double>(square));
+                if (at > ring) return;
+                inside.add(shell);
+                low = inside.is_low();
+                found = found || low;
+            }
+        };
+        look(ring);
+        if (low && ring == last) return static_cast<double>(last) / 2;
+        if (low) look(ring + 1);
+        if (found) return radius / 2;
+    }
+    return 0;
+}
+
+Oscillation oscillation(const Rings& rings, double regular_nyquist) {
+    const auto& power = rings.power;
+    auto first = std::ranges::find_if(power, [](double p) { return p >= 0.98; });
+    const bool reached = first != power.end();
+    if (!reached) first = std::ranges::max_element(power);
+    const auto a = static_cast<std::size_t>(first - power.begin());
+    const double reach = static_cast<double>(a) + std::round(10 * regular_nyquist);
+    const bool cut = reach >= static_cast<double>(power.size());
+    const std::size_t b = cut ? power.size() - 1 : static_cast<std::size_t>(reach);
+    double sum = 0;
+    double cells = 0;
+    for (std::size_t i = a; i <= b; ++i) {
+        const auto weight = static_cast<double>(rings.cells[i]);
+        sum += weight * (power[i] - 1) * (power[i] - 1);
+        cells += weight;
+    }
+    return {10 * std::sqrt(sum / cells), reached && !cut};
+}
+
+double total_variation(const Rings& rings) {
+    double sum = 0;
+    double cells = 0;
+    for (std::size_t i = 0; i < rings.power.size(); ++i) {
+        const auto weight = static_cast<double>(rings.cells[i]);
+        sum += weight * std::abs(rings.power[i] - 1);
+        cells += weight;
+    }
+    return sum / cells / 2;
+}
+
+std::optional<double> low_frequency_exponent(const Rings& rings, double regular_nyquist,
+                                             double least) {
+    const auto wanted = static_cast<std::size_t>(std::max(4.0, regular_nyquist / 2));
+    const std::size_t last = std::min(wanted, rings.power.size());
+    std::size_t found = 0;
+    double weights = 0, x = 0, y = 0, xx = 0, xy = 0;
+    for (std::size_t i = 0; i < last; ++i) {
+        if (rings.power[i] <= least) continue;
+        const auto weight = static_cast<double>(rings.cells[i]);
+        const double u = std::log(static_cast<double>(i + 1));
+        const double v = std::log(rings.power[i]);
+        weights += weight;
+        x += weight * u;
+        y += weight * v;
+        xx += weight * u * u;
+        xy += weight * u * v;
+        ++found;
+    }
+    if (found < 3) return std::nullopt;
+    return (weights * xy - x * y) / (weights * xx - x * x);
+}
+
+}  // namespace stipple::analyzers

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+#include "analyzers/uniformity/cell_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+
+namespace stipple::analyzers {
+namespace {
+
+bool is_odd_prime(std::size_t m) {
+    if (m < 3 || m % 2 == 0) return false;
+    for (std::size_t q = 3; q * q <= m; q += 2)
+        if (m % q == 0) return false;
+    return true;
+}
+
+/// The odd prime nearest to x by ratio, and not above `cap`, which is at least 3.
+std::size_t odd_prime_near(double x, std::size_t cap) {
+    auto below = std::min(cap, std::max<std::size_t>(3, static_cast<std::size_t>(x)));
+    while (!is_odd_prime(below)) --below;
+    auto above = below + 1;
+    while (!is_odd_prime(above)) ++above;
+    const bool nearer = static_cast<double>(above) / x < x / static_cast<double>(below);
+    return nearer && above <= cap ? above : below;
+}
+
+/// The count that a default grid is made for.
+std::uint64_t rounded_count(std::uint64_t n) {
+    std::uint64_t rounded = n;
+    for (const std::uint64_t count : grid_counts)
+        if (count <= n) rounded = count;
+    return rounded;
+}
+
+/// A stretch of an axis.
+struct Stretch {
+    double low;
+    double high;
+};
+
+/// Where the cell `place` of `m` lies; a shifted first one is in two pieces.
+std::vector<Stretch> stretches(std::size_t place, std::size_t m, bool shifted) {
+    const auto cells = static_cast<double>(m);
+    const auto first = static_cast<double>(place);
+    if (m == 1) return {{0, 1}};
+    if (!shifted) return {{first / cells, (first + 1) / cells}};
+    if (place > 0) return {{(first - 0.5) / cells, (first + 0.5) / cells}};
+    return {{0, 0.5 / cells}, {(cells - 0.5) / cells, 1}};
+}
+
+/// The boxes that make up a cell.
+std::vector<Box> pieces_of(std::size_t cell, const CellGrid& grid, bool shifted) {
+    const std::size_t axes = grid.size();
+    std::vector<Box> pieces{{std::vector<double>(axes), std::vector<double>(axes)}};
+    for (std::size_t k = axes; k-- > 0; cell /= grid[k]) {
+        const auto parts = stretches(cell % grid[k], grid[k], shifted);
+        const std::size_t before = pieces.size();
+        for (std::size_t part = 1; part < parts.size(); ++part)
+            for (std::size_t i = 0; i < before; ++i) pieces.push_back(Box(pieces[i]));
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            pieces[i].low[k] = parts[i / before].low;
+            pieces[i].high[k] = parts[i / before].high;
+        }
+    }
+    return pieces;
+}
+
+Estimate mass_of(const Domain& domain, const std::vector<Box>& pieces) {
+    Estimate mass;
+    for (const Box& piece : pieces) {
+        const Estimate part = domain.probability(piece);
+        if (!(part.value >= -part.error) || !(part.error >= 0) || !(part.value <= 1 + part.error))
+            fail(ErrorKind::limit, "{}: the cell {} has probability {} within {}", domain.spec(),
+                 format_box(piece), part.value, part.error);
+        mass.value += std::max(part.value, 0.0);
+        mass.error += part.error;
+    }
+    return mass;
+}
+
+}  // namespace
+
+CellGrid default_grid(std::uint64_t n, std::size_t axes) {
+    if (n < 3 * fewest_expected)
+        fail(ErrorKind::input,
+             "chi-square needs at least {} points for its smallest grid, {} cells; these are {}",
+             3 * fewest_expected, 3, n);
+    const std::uint64_t count = rounded_count(n);
+    const std::size_t cap = count / fewest_expected;
+    const double target =
+        std::min(2 * std::pow(static_cast<double>(count), 0.4), static_cast<double>(cap));
+    std::size_t cut = 1;     // axes to cut
+    std::size_t others = 1;  // 3^(cut - 1): room to leave for the axes that come later
+    while (cut < std::min(axes, most_cut_axes) && static_cast<double>(9 * others) <= target) {
+        ++cut;
+        others *= 3;
+    }
+    CellGrid grid(axes, 1);
+    std::size_t product = 1;
+    for (std::size_t k = 0; k < cut; ++k, others /= 3) {
+        const double share =
+            std::pow(target / static_cast<double>(product), 1 / static_cast<double>(cut - k));
+        grid[k] = odd_prime_near(share, cap / (product * others));
+        product *= grid[k];
+    }
+    return grid;
+}
+
+CellGrid asked_grid(const std::vector<std::int64_t>& extents, std::size_t axes) {
+    if (extents.size() != 1 && extents.size() != axes)
+        fail(ErrorKind::usage, "--cells: {} numbers for {} axes; one for all, or one for each",
+             extents.size(), axes);
+    CellGrid grid(axes);
+    double product = 1;
+    for (std::size_t k = 0; k < axes; ++k) {
+        grid[k] = static_cast<std::size_t>(extents[extents.size() == 1 ? 0 : k]);
+        product *= static_cast<double>(grid[k]);
+    }
+    if (product < 2 || product > static_cast<double>(most_cells))
+        fail(ErrorKind::usage, "--cells: their number, {:.6g}, is outside [2, {}]", product,
+             most_cells);
+    return grid;
+}
+
+std::uint64_t cell_count(const CellGrid& grid) {
+    std::uint64_t product = 1;
+    for (const std::size_t m : grid) product *= m;
+    return product;
+}
+
+std::size_t cell_of(std::span<const double> cube, const CellGrid& grid) {
+    std::size_t cell = 0;
+    for (std::size_t k = 0; k < grid.size(); ++k) {
+        if (grid[k] == 1) continue;
+        const auto place = static_cast<std::size_t>(cube[k] * static_cast<double>(grid[k]));
+        cell = cell * grid[k] + std::min(place, grid[k] - 1);
+    }
+    return cell;
+}
+
+std::size_t shifted_cell_of(std::span<const double> cube, const CellGrid& grid) {
+    std::size_t cell = 0;
+    for (std::size_t k = 0; k < grid.size(); ++k) {
+        if (grid[k] == 1) continue;
+        const auto place = static_cast<std::size_t>(cube[k] * static_cast<double>(grid[k]) + 0.5);
+        cell = cell * grid[k] + (place < grid[k] ? place : 0);
+    }
+    return cell;
+}
+
+std::vector<Estimate> cell_masses(const Domain& domain, const CellGrid& grid, bool shifted,
+                                  const RunContext& run) {
+    std::vector<Estimate> masses(cell_count(grid));
+    for_each_block(
+        run, masses.size(), 4,
+        [&](const Block& block) {
+            for (std::uint64_t c = block.first; c < block.last; ++c)
+                masses[c] = mass_of(domain, pieces_of(c, grid, shifted));
+        },
+        true);
+    Estimate sum;
+    for (const Estimate& mass : masses) {
+        sum.value += mass.value;
+        sum.error += mass.error;
+    }
+    // Masses that are called exact are so up to rounding, each.
+    const double rounding =
+        std::numeric_limits<double>::epsilon() * (64 + 4 * static_cast<double>(masses.size()));
+    if (std::abs(sum.value - 1) > sum.error + rounding)
+        fail(ErrorKind::limit,
+             "{}: the probabilities of its {} cells sum to {}, not to 1 within their error {}",
+             domain.spec(), masses.size(), sum.value, sum.error);
+    return masses;
+}
+
+}  // namespace stipple::analyzers

@@ -1,0 +1,522 @@
+// SPDX-License-Identifier: MIT
+//
+// Pearson's chi-square test that points follow the density of the domain they live on. The domain's
+// coordinates take it to a unit cube, which is cut into K equal boxes. Where these coordinates
+// preserve probability, as on all domains that have a closed form for it, each cell has probability
+// exactly 1 / K; else the domain works out the probability of each cell and states its error
+// (mass_error). Cells that expect fewer than 5 points are pooled (see pearson.hpp).
+//
+//     p_upper = P(chi2 >= X^2),  p_lower = P(chi2 <= X^2),  p = min(1, 2 min(p_upper, p_lower))
+//
+// (p_lower with what whole counts add to it where groups are few, see pearson.hpp: five points in
+// each of three cells are nothing rare.)
+//
+// p < level with the upper tail the smaller one: non-uniform, the counts differ too much from what
+// is expected. With the lower tail: stratified, they differ less than those of random points do.
+// Else: uniform. A point in a cell of probability 0 is impossible: non-uniform, p = 0. So is one in
+// a gap of the density that the domain knows of, farther from its edges than points in single
+// precision are rounded.
+//
+// The default grid has the largest product of odd primes near 2 n^(2/5) (Mann and Wald's rate), at
+// most n / 5, on as many of the first axes as take 3 cells each: odd primes, since strata are cut
+// by 2 and 10, and cells that line up with strata tell nothing. Axes beyond are cut by --cells
+// only. Above 2^20 points the grid is that of 2^20, 2^24 or 2^28 points, whichever is the largest
+// not above n: so a stream of unknown length is counted in these, and its points need not be kept.
+//
+// --shifted counts in a second grid, half a cell further along every axis that is cut (on the
+// torus). The two tests depend on each other; combined_p_value = 1 - (1 - p)^2 of the smaller p
+// (Sidak) does not fall below the chance for that. The verdict is by it, and non-uniform where
+// either grid alone says so at that level.
+//
+// Several sets: sum, the sum of their statistics has the sum of their degrees of freedom; sidak,
+// 1 - (1 - p)^R of the smallest p; fisher, -2 sum ln p is chi-square with 2 R degrees of freedom;
+// each for the upper and the lower tails by themselves. The sum's lower tail is not below the
+// product of those of the sets.
+//
+// Probabilities that are known within errors only leave the statistic in a range (pearson.hpp).
+// Where both ends of it would not give the same verdict, there is none: the analyzer fails.
+//
+// Smallest detectable effect: with cell probabilities p_i (1 + e_i), X^2 has the noncentral
+// chi-square distribution with noncentrality n sum_i p_i e_i^2 (for large n). The effect is the
+// root-mean-square e, sqrt(sum_i p_i e_i^2), at which the test says non-uniform with probability
+// 0.9.
+//
+// Shape   points n x d on any domain, also in pieces; a report of numbers and the verdict.
+// Cost    O(n d) time, O(K) memory besides the points; of a stream of unknown length, the first
+//         2^20 points are kept. About 25 ns a point in 2-D on one core.
+// Promise counts, and so all results, are the same for any number of threads, and whether points
+//         come at once or in pieces. A coordinate of exactly 1 belongs to the last cell.
+// Beware  one set of low-discrepancy points is stratified, not random: its p is a description, not
+//         a chance. The p of random points is approximate where expectations are small, and with
+//         few groups, whose statistic takes few values. A density's jump to 0 at the edge of a cell
+//         leaves it to rounding which of both cells a point on the jump is in.
+// Source  K. Pearson, Philosophical Magazine 50 (1900) 157-175, doi:10.1080/14786440009463897.
+//         H. B. Mann, A. Wald, Annals of Mathematical Statistics 13 (1942) 306-317,
+//         doi:10.1214/aoms/1177731569 (number of cells). Z. Sidak, Journal of the American
+//         Statistical Association 62 (1967) 626-633, doi:10.1080/01621459.1967.10482935.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+#include <optional>
+
+#include "analyzers/analyzer.hpp"
+#include "analyzers/uniformity/cell_grid.hpp"
+#include "analyzers/uniformity/outside.hpp"
+#include "analyzers/uniformity/pearson.hpp"
+#include "analyzers/uniformity/verdict.hpp"
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/support.hpp"
+
+namespace stipple::analyzers::chi_square {
+namespace {
+
+constexpr Param<Extents> cells{
+    {.name = "cells",
+     .fallback = {},
+     .help = "Cells along each axis of the domain's cube, or one number for all; default: odd "
+             "primes with a product near 2 n^(2/5)"}};
+
+constexpr Param<bool> shifted{.name = "shifted",
+                              .help =
+                                  "Test on a second grid, too, shifted by half a cell along "
+                                  "each axis; the verdict is that of both"};
+
+constexpr Param<Choice> combination{
+    .name = "combine",
+    .fallback = "sum",
+    .choices = "sum|sidak|fisher",
+    .help =
+        "What makes one p of several sets (--average): the sum of their statistics, the "
+        "smallest p (Sidak), or the product of the p (Fisher)"};
+
+constexpr std::uint64_t held_points = grid_counts[0];  ///< of a stream, before the grid is known
+
+/// Where no point can be, whatever the cell it is in: the gaps of a domain's density.
+class Gaps {
+  public:
+    explicit Gaps(DomainPtr domain) : domain_(std::move(domain)) {
+        const auto* gapped = dynamic_cast<const Gapped*>(domain_.get());
+        if (!gapped || !gapped->shows_gaps()) return;
+        support_ = gapped->support();
+        const Box around = domain_->bounding_box();
+        for (std::size_t k = 0; k < around.dimension(); ++k)
+            margins_.push_back(rounding *
+                               std::max(std::abs(around.low[k]), std::abs(around.high[k])));
+    }
+
+    [[nodiscard]] bool hold(std::span<const double> point) const {
+        if (support_.whole) return false;
+        if (support_.boxes.empty())
+            return support_.by_density && point.size() == 2 && dark_around(point);
+        return std::ranges::none_of(support_.boxes,
+                                    [&](const Box& box) { return near(box, point); });
+    }
+
+  private:
+    static constexpr double rounding = 1e-6;
+
+    [[nodiscard]] bool near(const Box& box, std::span<const double> point) const {
+        for (std::size_t k = 0; k < point.size(); ++k)
+            if (!(point[k] >= box.low[k] - margins_[k] && point[k] <= box.high[k] + margins_[k]))
+                return false;
+        return true;
+    }
+
+    [[nodiscard]] bool dark_around(std::span<const double> point) const {
+        if (domain_->density(point) > 0) return false;
+        for (const double i : {-1, 0, 1})
+            for (const double j : {-1, 0, 1}) {
+                const std::array at = {point[0] + i * margins_[0], point[1] + j * margins_[1]};
+                if (domain_->density(at) > 0) return false;
+            }
+        return true;
+    }
+
+    DomainPtr domain_;
+    Support support_ = {.boxes = {}};  ///< all of the domain, where no gaps are shown
+    std::vector<double> margins_;
+};
+
+/// A grid with the points in each of its cells.
+class Tally {
+  public:
+    Tally(CellGrid grid, bool with_shifted, std::uint64_t from, const RunContext& run)
+        : grid_(std::move(grid)), from_(from) {
+        const std::uint64_t total = cell_count(grid_);
+        run.need_memory((with_shifted ? 16.0 : 8.0) * static_cast<double>(total),
+                        "the count of cells");
+        counts_.resize(total);
+        if (with_shifted) shifted_.resize(total);
+    }
+
+    /// Takes points of the cube, `width` numbers each, of which the grid looks at the first.
+    void add(std::span<const double> cubes, std::size_t width) {
+        for (std::size_t i = 0; i < cubes.size(); i += width)
+            ++counts_[cell_of(cubes.subspan(i, width), grid_)];
+        for (std::size_t i = 0; i < cubes.size() && !shifted_.empty(); i += width)
+            ++shifted_[shifted_cell_of(cubes.subspan(i, width), grid_)];
+    }
+
+    void pack(Packer& to) const { to.put_all(counts_).put_all(shifted_); }
+
+    void merge(Unpacker& from) {
+        for (auto* mine : {&counts_, &shifted_}) {
+            const auto more = from.take_all<std::uint64_t>();
+            for (std::size_t i = 0; i < more.size(); ++i) (*mine)[i] += more[i];
+        }
+    }
+
+    /// The fewest points that it is the grid of.
+    [[nodiscard]] std::uint64_t from() const { return from_; }
+    [[nodiscard]] const CellGrid& grid() const { return grid_; }
+
+    [[nodiscard]] Fit fit(const Domain& domain, bool second, std::uint64_t n,
+                          const RunContext& run) const {
+        const auto& counts = second ? shifted_ : counts_;
+        if (domain.even()) return fit_equal(counts, n, run);
+        return fit_masses(counts, cell_masses(domain, grid_, second, run), n, run);
+    }
+
+  private:
+    CellGrid grid_;
+    std::uint64_t from_;
+    std::vector<std::uint64_t> counts_;
+    std::vector<std::uint64_t> shifted_;
+};
+
+/// The tails of a statistic, and of the least and the greatest that it may be for what is known of
+/// the cells' probabilities.
+struct Judged {
+    Tails found;
+    Tails least;
+    Tails greatest;
+};
+
+template <class F>
+Judged judge(double statistic, double doubt, const F& tails) {
+    return {.found = tails(statistic),
+            .least = tails(std::max(statistic - doubt, 0.0)),
+            .greatest = tails(statistic + doubt)};
+}
+
+double together(const Tails& plain, const Tails* second) {
+    const double p = plain.two_sided();
+    return second ? sidak(std::min(p, second->two_sided()), 2) : p;
+}
+
+/// Of one grid or two.
+std::string verdict_on(const Tails& plain, const Tails* second, double level) {
+    const auto clumped = [&](const Tails& tails) {
+        return tails.upper < tails.lower && together(tails, second ? &tails : nullptr) < level;
+    };
+    if (together(plain, second) >= level) return "uniform";
+    return clumped(plain) || (second && clumped(*second)) ? "non-uniform" : "stratified";
+}
+
+/// Both tails on one grid or two, as a verdict; none that the errors of the cells' probabilities
+/// could turn. @throws Error(limit)
+void conclude(Report& report, const Judged& plain, const std::optional<Judged>& second,
+              const Values& options) {
+    const auto of_second = [&](Tails Judged::*which) {
+        return second ? &(*second.*which) : nullptr;
+    };
+    report.add("p_value", plain.found.two_sided())
+        .add("p_upper", plain.found.upper)
+        .add("p_lower", plain.found.lower);
+    const double p = together(plain.found, of_second(&Judged::found));
+    if (second) report.add("combined_p_value", p);
+    const double level = options[level_option];
+    const auto verdict = verdict_on(plain.found, of_second(&Judged::found), level);
+    for (const auto which : {&Judged::least, &Judged::greatest})
+        if (verdict_on(plain.*which, of_second(which), level) != verdict)
+            fail_with_hint(ErrorKind::limit, "coarser --cells, or fewer points",
+                           "chi-square cannot tell: the cells' probabilities are known within "
+                           "{:.2g} in all, and with that the statistic within {:.3g}; it is {:.6g}",
+                           report.number("mass_error"), report.number("statistic_error"),
+                           report.number("statistic"));
+    add_verdict(report, verdict, p, options[expect_uniformity_option]);
+}
+
+/// With points where none can be, nothing is left to chance.
+Judged judge(const Fit& fit) {
+    const Tails never{.upper = 0, .lower = 1};
+    if (fit.impossible > 0) return {never, never, never};
+    return judge(fit.statistic, fit.doubt, [&](double x) { return count_tails(x, fit); });
+}
+
+Report shifted_report(const Fit& fit) {
+    const Tails tails = judge(fit).found;
+    Report report;
+    report.add("statistic", fit.statistic).add("degrees_of_freedom", fit.groups - 1);
+    report.add("p_value", tails.two_sided())
+        .add("p_upper", tails.upper)
+        .add("p_lower", tails.lower);
+    return report.add("pooled_cells", fit.pooled)
+        .add("impossible_points", fit.impossible)
+        .add("statistic_error", fit.doubt);
+}
+
+/// Counts points in cells as they come.
+class Counter final : public SharedAccumulator {
+  public:
+    Counter(const Arrival& arrival, const Values& options, const RunContext& run)
+        : domain_(arrival.domain),
+          gaps_(domain_),
+          options_(options),
+          axes_(domain_->cube_dimension()) {
+        if (options.given(cells)) {
+            tallies_.emplace_back(asked_grid(options[cells], axes_), options[shifted], 0, run);
+        } else if (arrival.count) {
+            tallies_.emplace_back(default_grid(*arrival.count, axes_), options[shifted], 0, run);
+        } else {
+            width_ = std::min(axes_, most_cut_axes);
+            run.need_memory(8.0 * static_cast<double>(held_points * width_),
+                            "the first points of a stream");
+        }
+    }
+
+    void add(std::span<const double> rows, const RunContext& run) override {
+        const std::size_t d = domain_->dimension();
+        const std::uint64_t count = rows.size() / d;
+        const std::size_t block = std::max<std::size_t>(1, 16384 / d);
+        for_each_block(run, count, block, [&](const Block& b) {
+            take(rows.subspan(b.first * d, (b.last - b.first) * d), first_ + n_ + b.first);
+        });
+        n_ += count;
+        if (tallies_.empty() && n_ > held_points) lay_grids(run);
+        while (tallies_.size() > 1 && tallies_[1].from() <= n_) tallies_.erase(tallies_.begin());
+    }
+
+    Report report(const RunContext& run) override {
+        if (outside_.count > 0) refuse(outside_, n_, *domain_, outside_hint(*domain_));
+        if (tallies_.empty()) {
+            tallies_.emplace_back(default_grid(n_, axes_), options_[shifted], 0, run);
+            tallies_[0].add(held_, width_);
+        }
+        return judged(tallies_[0], run);
+    }
+
+    void begin_at(std::uint64_t first, std::span<const double>) override { first_ = first; }
+
+    std::string state(const RunContext&) override {
+        Packer packer;
+        packer.put(n_).put(in_gaps_);
+        outside_.pack(packer);
+        tallies_.front().pack(packer);
+        return packer.take();
+    }
+
+    void merge(std::string_view state, const RunContext&) override {
+        Unpacker from(state);
+        n_ += from.take<std::uint64_t>();
+        in_gaps_ += from.take<std::uint64_t>();
+        outside_.add(Outside::unpacked(from));
+        tallies_.front().merge(from);
+    }
+
+  private:
+    /// Rows of which the first is point `first`.
+    void take(std::span<const double> rows, std::uint64_t first) {
+        const std::size_t d = domain_->dimension();
+        std::vector<double> cube(axes_);
+        std::vector<double> cubes;
+        Outside lost;
+        std::uint64_t in_gaps = 0;
+        for (std::size_t i = 0; i < rows.size(); i += d) {
+            const auto point = rows.subspan(i, d);
+            if (!domain_->contains(point)) {
+                lost.add(first + i / d, point);
+                continue;
+            }
+            in_gaps += gaps_.hold(point);
+            domain_->to_cube(point, cube);
+            cubes.insert(cubes.end(), cube.begin(), cube.begin() + kept_axes());
+        }
+        const std::lock_guard lock(adding_);
+        outside_.add(lost);
+        in_gaps_ += in_gaps;
+        const auto width = static_cast<std::size_t>(kept_axes());
+        for (Tally& tally : tallies_) tally.add(cubes, width);
+        if (tallies_.empty()) held_.insert(held_.end(), cubes.begin(), cubes.end());
+    }
+
+    [[nodiscard]] std::ptrdiff_t kept_axes() const {
+        return static_cast<std::ptrdiff_t>(width_ > 0 ? width_ : axes_);
+    }
+
+    /// All grids that it may be in the end, each with the points that were held.
+    void lay_grids(const RunContext& run) {
+        for (const std::uint64_t from : grid_counts) {
+            tallies_.emplace_back(default_grid(from, axes_), options_[shifted], from, run);
+            tallies_.back().add(held_, width_);
+        }
+        held_ = {};
+    }
+
+    [[nodiscard]] Fit fit(const Tally& tally, bool second, const RunContext& run) const {
+        Fit found = tally.fit(*domain_, second, n_, run);
+        found.impossible = std::max(found.impossible, in_gaps_);  // cells of probability 0 are gaps
+        return found;
+    }
+
+    [[nodiscard]] Report judged(const Tally& tally, const RunContext& run) const {
+        const Fit plain = fit(tally, false, run);
+        Report report;
+        report.add("statistic", plain.statistic).add("degrees_of_freedom", plain.groups - 1);
+        std::optional<Judged> second;
+        std::optional<Fit> other;
+        if (options_[shifted]) {
+            other = fit(tally, true, run);
+            second = judge(*other);
+        }
+        report.add("mass_error", plain.mass_error).add("statistic_error", plain.doubt);
+        conclude(report, judge(plain), second, options_);
+        report.add("cells", cell_count(tally.grid())).add("pooled_cells", plain.pooled);
+        report.add("smallest_detectable_effect",
+                   std::sqrt(detectable_noncentrality(plain.freedom(), options_[level_option]) /
+                             static_cast<double>(n_)));
+        const auto& grid = tally.grid();
+        report.add("grid", Report::Integers(grid.begin(), grid.end()));
+        report.add("impossible_points", plain.impossible);
+        if (other) report.add("shifted", shifted_report(*other));
+        return report;
+    }
+
+    DomainPtr domain_;
+    Gaps gaps_;
+    Values options_;
+    std::size_t axes_;
+    std::uint64_t first_ = 0;  ///< index of the first point that comes
+    std::size_t width_ = 0;    ///< coordinates of the cube that are kept; 0: all
+    std::uint64_t n_ = 0;
+    std::uint64_t in_gaps_ = 0;
+    std::vector<Tally> tallies_;
+    std::vector<double> held_;
+    Outside outside_;
+    std::mutex adding_;
+};
+
+void refine(Report& mean, std::size_t sets, const Values& options) {
+    const auto m = static_cast<double>(sets);
+    const double freedom = mean.number("degrees_of_freedom");
+    const double shrink = detectable_noncentrality(m * freedom, options[level_option]) / m /
+                          detectable_noncentrality(freedom, options[level_option]);
+    mean.add("smallest_detectable_effect",
+             mean.number("smallest_detectable_effect") * std::sqrt(shrink));
+}
+
+/// Of several sets: the sum of their statistics has the sum of their degrees of freedom.
+Judged summed(const Report& mean, std::span<const Report> sets, const std::string& prefix) {
+    const Tails never{.upper = 0, .lower = 1};
+    if (mean.number(prefix + "impossible_points") > 0) return {never, never, never};
+    const auto m = static_cast<double>(sets.size());
+    double evenest = 1;
+    for (const Report& set : sets) evenest *= set.number(prefix + "p_lower");
+    const double freedom = m * mean.number(prefix + "degrees_of_freedom");
+    return judge(m * mean.number(prefix + "statistic"), m * mean.number(prefix + "statistic_error"),
+                 [&](double x) {
+                     Tails tails = chi_square_tails(x, freedom);
+                     tails.lower = std::max(tails.lower, evenest);
+                     return tails;
+                 });
+}
+
+/// What a set's own report says of it.
+Judged judged_set(const Report& set, const std::string& prefix) {
+    const Tails found{set.number(prefix + "p_upper"), set.number(prefix + "p_lower")};
+    const double doubt = set.number(prefix + "statistic_error");
+    if (doubt == 0 || set.number(prefix + "impossible_points") > 0) return {found, found, found};
+    const double freedom = set.number(prefix + "degrees_of_freedom");
+    const double statistic = set.number(prefix + "statistic");
+    const double counts = found.lower - chi_square_tails(statistic, freedom).lower;
+    Judged judged = judge(statistic, doubt, [&](double x) {
+        Tails tails = chi_square_tails(x, freedom);
+        tails.lower += counts;
+        return tails;
+    });
+    judged.found = found;
+    return judged;
+}
+
+/// The tails of each set, made one.
+Judged combined(std::span<const Report> sets, const std::string& prefix, const std::string& how) {
+    Judged one;
+    for (const auto which : {&Judged::found, &Judged::least, &Judged::greatest}) {
+        std::vector<Tails> tails;
+        for (const Report& set : sets) tails.push_back(judged_set(set, prefix).*which);
+        one.*which = how == "sidak" ? sidak(tails) : fisher(tails);
+    }
+    return one;
+}
+
+void combine(Report& mean, std::span<const Report> sets, const Values& options) {
+    const std::string how = options[combination];
+    const auto together = [&](const std::string& prefix) {
+        return how == "sum" ? summed(mean, sets, prefix) : combined(sets, prefix, how);
+    };
+    std::optional<Judged> second;
+    if (auto* item = mean.find("shifted")) {
+        second = together("shifted.");
+        std::get<Report>(*item)
+            .add("p_value", second->found.two_sided())
+            .add("p_upper", second->found.upper)
+            .add("p_lower", second->found.lower);
+    }
+    mean.forget_unmet();
+    conclude(mean, together(""), second, options);
+}
+
+std::vector<ResultKey> results() {
+    return {
+        {"statistic", "sum of (observed - expected)^2 / expected over the groups of cells"},
+        {"degrees_of_freedom", "groups of cells less 1"},
+        {"p_value", "two-sided: twice the smaller of p_upper and p_lower, at most 1"},
+        {"p_upper", "chance that random points have as large a statistic"},
+        {"p_lower", "chance that random points have as small a statistic; their counts are whole"},
+        {"verdict", "uniform; non-uniform: counts differ too much; stratified: too little", true,
+         uniformity_verdicts},
+        {"cells", "cells laid out"},
+        {"pooled_cells", "cells put together with others to expect at least 5 points"},
+        {"smallest_detectable_effect",
+         "root-mean-square relative error of the cells' probabilities that is found non-uniform "
+         "with probability 0.9"},
+        {"grid", "cells along each axis of the domain's cube"},
+        {"mass_error",
+         "bound on the errors of the cells' probabilities, summed; 0: they are exact"},
+        {"statistic_error",
+         "most by which the statistic may be off for these errors; no verdict that it could turn"},
+        {"impossible_points",
+         "points in cells or gaps of probability 0: one is enough to be non-uniform"},
+        {"combined_p_value", "of both grids: 1 - (1 - p)^2 of the smaller p", false},
+        {"shifted.statistic", "the same on the shifted grid", false},
+        {"shifted.degrees_of_freedom", "groups of its cells less 1", false},
+        {"shifted.p_value", "two-sided", false},
+        {"shifted.p_upper", "chance of as large a statistic", false},
+        {"shifted.p_lower", "chance of as small a statistic", false},
+        {"shifted.pooled_cells", "its cells put together with others", false},
+        {"shifted.impossible_points", "points in its cells of probability 0", false},
+        {"shifted.statistic_error", "most by which its statistic may be off", false}};
+}
+
+}  // namespace
+
+Analyzer unit() {
+    return {.name = "chi-square",
+            .summary = "Two-sided test that points follow their domain's density",
+            .source = "Pearson 1900, doi:10.1080/14786440009463897",
+            .traits = {.unit_cube = false},
+            .options = Schema(cells, shifted, combination, level_option, expect_uniformity_option),
+            .results = results(),
+            .accumulate =
+                [](const Arrival& arrival, const Values& options, const RunContext& run) {
+                    return std::make_unique<Counter>(arrival, options, run);
+                },
+            .sharing = {.grain = batch_grain},
+            .refine = refine,
+            .combine = combine};
+}
+
+}  // namespace stipple::analyzers::chi_square

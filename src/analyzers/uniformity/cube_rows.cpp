@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "analyzers/uniformity/cube_rows.hpp"
+
+#include <algorithm>
+#include <mutex>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+#include "core/text.hpp"
+
+namespace stipple::analyzers {
+
+void require_even(const Domain& domain, std::string_view analyzer) {
+    if (domain.even()) return;
+    fail_with_hint(ErrorKind::input, "chi-square takes every domain",
+                   "{} needs coordinates that preserve probability; {} has none", analyzer,
+                   domain.spec());
+}
+
+void tell_axes(const Domain& domain, Report& report) {
+    const auto axes = domain.cube_axes();
+    if (axes != unit_cube(axes.size())->cube_axes()) report.add("axes", join(axes, "; "));
+}
+
+std::vector<double> cube_rows(const Domain& domain, std::span<const double> rows,
+                              std::uint64_t first, Outside& outside, const RunContext& run) {
+    const std::size_t d = domain.dimension();
+    const std::size_t axes = domain.cube_dimension();
+    std::vector<double> cubes(rows.size() / d * axes);
+    std::mutex adding;
+    for_each_block(
+        run, rows.size() / d, std::max<std::size_t>(1, 16384 / d),
+        [&](const Block& block) {
+            Outside lost;
+            for (std::uint64_t i = block.first; i < block.last; ++i) {
+                const auto point = rows.subspan(i * d, d);
+                if (domain.contains(point))
+                    domain.to_cube(point, std::span(cubes).subspan(i * axes, axes));
+                else
+                    lost.add(first + i, point);
+            }
+            if (lost.count == 0) return;
+            const std::lock_guard lock(adding);
+            outside.add(lost);
+        },
+        true);
+    return cubes;
+}
+
+}  // namespace stipple::analyzers

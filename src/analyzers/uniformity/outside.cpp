@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "analyzers/uniformity/outside.hpp"
+
+#include <fmt/ranges.h>
+
+#include "core/error.hpp"
+
+namespace stipple::analyzers {
+
+void refuse(const Outside& outside, std::uint64_t total, const Domain& domain, std::string hint) {
+    fail_with_hint(ErrorKind::input, std::move(hint),
+                   "{} of {} points are outside the domain {}; the first is point {}: ({})",
+                   outside.count, total, domain.spec(), outside.first,
+                   fmt::join(outside.point, ", "));
+}
+
+void refuse(const Outside& outside, const PointSet& points, std::string hint) {
+    Outside named = outside;
+    const auto point = points[outside.first];
+    named.point.assign(point.begin(), point.end());
+    refuse(named, points.count(), *points.domain, std::move(hint));
+}
+
+std::string outside_hint(const Domain& domain) {
+    std::string hint = "--domain names what the points live on";
+    if (domain.spec() == "unit-cube")
+        hint += "; --rescale or --bounds lo..hi moves them into the cube";
+    if (domain.cube_dimension() < domain.dimension())
+        hint += "; float32 and few digits take points off a surface: write them as float64";
+    return hint;
+}
+
+}  // namespace stipple::analyzers

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+#include "analyzers/uniformity/pearson.hpp"
+
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/non_central_chi_squared.hpp>
+#include <boost/math/special_functions/gamma.hpp>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "analyzers/uniformity/cell_grid.hpp"
+#include "core/error.hpp"
+
+namespace stipple::analyzers {
+namespace {
+
+using Quiet = boost::math::policies::policy<
+    boost::math::policies::evaluation_error<boost::math::policies::ignore_error>,
+    boost::math::policies::underflow_error<boost::math::policies::ignore_error>>;
+
+/// Equal cells to a group so that its expectation is at least 5. @throws Error(input) if fewer than
+/// two groups come of it.
+std::uint64_t group_size(std::uint64_t n, std::uint64_t total) {
+    const std::uint64_t size = (fewest_expected * total + n - 1) / n;
+    if (size > total / 2) {
+        const std::uint64_t half = total / 2;
+        fail(ErrorKind::input, "chi-square needs at least {} points for {} cells; these are {}",
+             (fewest_expected * total + half - 1) / half, total, n);
+    }
+    return size;
+}
+
+/// The chance that independent points fall into equal groups as evenly as can be: n mod K groups
+/// hold one point more than the others. Chi-square, being continuous, takes it for 0.
+double most_even_chance(std::uint64_t n, std::uint64_t groups) {
+    const auto k = static_cast<double>(groups);
+    const auto more = static_cast<double>(n % groups);
+    const auto each = static_cast<double>(n / groups);
+    const auto log_factorial = [](double x) { return std::lgamma(x + 1); };
+    const double ways = log_factorial(k) - log_factorial(more) - log_factorial(k - more);
+    const double counts = log_factorial(static_cast<double>(n)) - (k - more) * log_factorial(each) -
+                          more * log_factorial(each + 1);
+    return std::min(1.0, std::exp(ways + counts - static_cast<double>(n) * std::log(k)));
+}
+
+/// ln(n! / (n^n e^-n)) by Stirling's series, to 1e-8 from n = 5 on.
+double log_excess(double n) {
+    constexpr double two_pi = 6.28318530717958647693;
+    const double square = n * n;
+    return 0.5 * std::log(two_pi * n) + (1.0 / 12 - (1.0 / 360 - 1 / (1260 * square)) / square) / n;
+}
+
+/// q_1, q_2, ... of groups that expect this, the least first: all, or those above 1e-30.
+class Likeliest {
+  public:
+    explicit Likeliest(std::uint64_t n) : whole_(static_cast<double>(n)), rest_(whole_) {}
+
+    /// Not for the last group, whose count is what the others leave.
+    void add(double expected) {
+        if (!found_.empty() && found_.back() < 1e-30) return;
+        rest_ -= expected;
+        log_ -= log_excess(expected);
+        found_.push_back(std::exp(log_excess(whole_) + log_ - log_excess(rest_)));
+    }
+
+    std::vector<double> take() { return std::move(found_); }
+
+  private:
+    double whole_;
+    double rest_;  ///< expected in groups to come
+    double log_ = 0;
+    std::vector<double> found_;
+};
+
+/// Cells that points can be in, the least probable first; counts the points that are in others.
+std::vector<std::uint64_t> possible_cells(std::span<const std::uint64_t> counts,
+                                          std::span<const Estimate> masses, Fit& found) {
+    std::vector<std::uint64_t> cells;
+    for (std::uint64_t c = 0; c < masses.size(); ++c) {
+        found.mass_error += masses[c].error;
+        if (masses[c].value + masses[c].error > 0)
+            cells.push_back(c);
+        else
+            found.impossible += counts[c];
+    }
+    std::ranges::stable_sort(cells, {}, [&](std::uint64_t c) { return masses[c].value; });
+    return cells;
+}
+
+/// Cells with what is expected and counted in all of them.
+struct Group {
+    double expected = 0;
+    double error = 0;  ///< of what is expected
+    std::uint64_t observed = 0;
+    std::uint64_t cells = 0;
+
+    void add(const Group& other) {
+        expected += other.expected;
+        error += other.error;
+        observed += other.observed;
+        cells += other.cells;
+    }
+};
+
+/// Groups of single cells in order, each expecting enough. @throws Error(input) for fewer than two
+std::vector<Group> pool(const std::vector<Group>& cells, std::uint64_t n) {
+    std::vector<Group> groups;
+    Group open;
+    for (const Group& cell : cells) {
+        open.add(cell);
+        if (open.expected < static_cast<double>(fewest_expected)) continue;
+        groups.push_back(open);
+        open = {};
+    }
+    if (groups.size() < 2)
+        fail_with_hint(ErrorKind::input, "more points, or other --cells",
+                       "chi-square needs two groups of cells that expect {} points each; {} points "
+                       "on {} cells give {}",
+                       fewest_expected, n, cells.size(), groups.size());
+    groups.back().add(open);
+    return groups;
+}
+
+/// The most by which the statistic may be off, for what is expected is known within errors.
+double doubt_of(double statistic, const std::vector<Group>& groups) {
+    double square = 0;
+    double ratio = 0;
+    for (const Group& group : groups) {
+        square += group.error * group.error / group.expected;
+        ratio = std::max(ratio, group.error / group.expected);
+    }
+    if (square == 0) return 0;
+    if (!(ratio < 1)) return std::numeric_limits<double>::infinity();
+    const double length = std::sqrt(statistic);
+    const double step = std::sqrt(square);
+    const double above = (length + step) * (length + step) / (1 - ratio) - statistic;
+    const double least = std::max(length - step, 0.0);
+    return std::max(above, statistic - least * least / (1 + ratio));
+}
+
+}  // namespace
+
+Fit fit_equal(std::span<const std::uint64_t> counts, std::uint64_t n, const RunContext& run) {
+    using Wide = __int128;
+    const std::uint64_t total = counts.size();
+    const std::uint64_t size = group_size(n, total);
+    Fit found{.groups = total / size, .pooled = size > 1 ? total : 0};
+    Likeliest likeliest(n);
+    for (std::uint64_t g = 0; g < found.groups; ++g) {
+        if (g % 65536 == 0) run.check_stop();
+        const std::uint64_t first = g * size;
+        const std::uint64_t last = g + 1 < found.groups ? first + size : total;
+        std::uint64_t observed = 0;
+        for (std::uint64_t c = first; c < last; ++c) observed += counts[c];
+        // K (O - E) and K n E are whole numbers.
+        const auto scaled = static_cast<double>(static_cast<Wide>(observed) * total -
+                                                static_cast<Wide>(last - first) * n);
+        const double expected = static_cast<double>(n) *
+                                (static_cast<double>(last - first) / static_cast<double>(total));
+        const double off = scaled / static_cast<double>(total);
+        found.statistic += off * off / expected;
+        if (g + 1 < found.groups) likeliest.add(expected);
+    }
+    found.likeliest = likeliest.take();
+    if (total % size == 0) found.most_even = most_even_chance(n, found.groups);
+    return found;
+}
+
+Fit fit_masses(std::span<const std::uint64_t> counts, std::span<const Estimate> masses,
+               std::uint64_t n, const RunContext& run) {
+    Fit found;
+    const auto order = possible_cells(counts, masses, found);
+    double sum = 0;
+    for (const std::uint64_t c : order) sum += masses[c].value;
+    std::vector<Group> cells;
+    for (const std::uint64_t c : order)
+        cells.push_back({.expected = static_cast<double>(n) * (masses[c].value / sum),
+                         .error = static_cast<double>(n) * masses[c].error,
+                         .observed = counts[c],
+                         .cells = 1});
+    run.check_stop();
+    const auto groups = pool(cells, n);
+    found.groups = groups.size();
+    Likeliest likeliest(n);
+    for (const Group& group : groups) {
+        const double off = static_cast<double>(group.observed) - group.expected;
+        found.statistic += off * off / group.expected;
+        if (group.cells > 1) found.pooled += group.cells;
+        if (&group != &groups.back()) likeliest.add(group.expected);
+    }
+    found.likeliest = likeliest.take();
+    found.doubt = doubt_of(found.statistic, groups);
+    return found;
+}
+
+double Tails::two_sided() const { return std::min(1.0, 2 * std::min(upper, lower)); }
+
+Tails chi_square_tails(double statistic, double freedom) {
+    if (std::isinf(statistic)) return {.upper = 0, .lower = 1};
+    return {.upper = boost::math::gamma_q(freedom / 2, statistic / 2, Quiet()),
+            .lower = boost::math::gamma_p(freedom / 2, statistic / 2, Quiet())};
+}
+
+Tails count_tails(double statistic, const Fit& fit) {
+    Tails tails = chi_square_tails(statistic, fit.freedom());
+    const auto all = static_cast<std::size_t>(fit.groups - 1);
+    double mixed = 0;
+    for (std::size_t s = 1; s <= fit.likeliest.size(); ++s) {
+        const auto others = static_cast<double>(all - s);
+        mixed += fit.likeliest[s - 1] * (s < all ? chi_square_tails(statistic, others).lower : 1);
+    }
+    const double whole = fit.likeliest.size() == all ? fit.likeliest.back() : 0;
+    tails.lower =
+        std::min(1.0, std::max({tails.lower + tails.upper * whole, mixed, fit.most_even}));
+    return tails;
+}
+
+double sidak(double p, double tests) { return p < 1 ? -std::expm1(tests * std::log1p(-p)) : 1; }
+
+Tails sidak(std::span<const Tails> tests) {
+    Tails least;
+    for (const Tails& t : tests) {
+        least.upper = std::min(least.upper, t.upper);
+        least.lower = std::min(least.lower, t.lower);
+    }
+    const auto count = static_cast<double>(tests.size());
+    return {.upper = sidak(least.upper, count), .lower = sidak(least.lower, count)};
+}
+
+Tails fisher(std::span<const Tails> tests) {
+    double upper = 0;
+    double lower = 0;
+    for (const Tails& t : tests) {
+        upper -= 2 * std::log(t.upper);
+        lower -= 2 * std::log(t.lower);
+    }
+    const double freedom = 2 * static_cast<double>(tests.size());
+    return {.upper = chi_square_tails(upper, freedom).upper,
+            .lower = chi_square_tails(lower, freedom).upper};
+}
+
+double detectable_noncentrality(double freedom, double level) {
+    using namespace boost::math;
+    const chi_squared_distribution<double, Quiet> null(freedom);
+    const double critical = quantile(complement(null, level / 2));
+    return non_central_chi_squared_distribution<double, Quiet>::find_non_centrality(freedom,
+                                                                                    critical, 0.1);
+}
+
+}  // namespace stipple::analyzers

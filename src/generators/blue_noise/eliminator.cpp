@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+#include "generators/blue_noise/eliminator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "core/parallel.hpp"
+#include "math/functions/roots.hpp"
+#include "math/neighbors/point_grid.hpp"
+
+namespace stipple {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double beta = 0.65;
+constexpr double unit = 0x1p40;  ///< weights count multiples of its inverse
+
+/// Terms of the weights.
+class Kernel {
+  public:
+    explicit Kernel(double kept_share)
+        : nearest_(beta * (1 - kept_share * std::sqrt(kept_share))) {}
+
+    /// @param inverse of the distance that the pair's term ends at.
+    [[nodiscard]] std::uint64_t operator()(double squared_distance, double inverse) const {
+        const double t = 1 - std::max(std::sqrt(squared_distance) * inverse, nearest_);
+        const double t2 = t * t;
+        const double t4 = t2 * t2;
+        return t > 0 ? static_cast<std::uint64_t>(static_cast<std::int64_t>(t4 * t4 * unit)) : 0;
+    }
+
+  private:
+    double nearest_;  ///< r_min / r_max: a distance below 2 r_min counts as that
+};
+
+/// Points, numbered anew, of which the near ones can be found. This is where all have one radius.
+template <std::size_t D>
+class Crowd {
+  public:
+    Crowd(std::span<const double> rows, const BoxSpace& space, double r_max, const RunContext& run)
+        : reach_(2 * r_max),
+          inverse_(1 / reach_),
+          points_(GridFrame<D>(space.box, space.torus, reach_ / 2,
+                               1024 + 0.5 * static_cast<double>(rows.size() / D)),
+                  rows, run) {}
+
+    [[nodiscard]] std::size_t count() const { return points_.count(); }
+    [[nodiscard]] std::uint32_t original(std::size_t s) const { return points_.original(s); }
+
+    /// Calls visit(t, squared distance, inverse of the distance at which the pair's term ends) for
+    /// all points with a term, s itself among them.
+    template <class Visit>
+    void visit(std::size_t s, Visit&& visit) const {
+        this->visit(points_[s], visit);
+    }
+
+    /// The same for the others, when point s has been taken out.
+    template <class Visit>
+    void visit_without(std::size_t s, Visit&& visit) {
+        std::array<double, D> p;
+        std::copy_n(points_[s], D, p.begin());
+        points_.remove(s);
+        this->visit(p.data(), visit);
+    }
+
+  private:
+    template <class Visit>
+    void visit(const double* p, Visit& visit) const {
+        points_.visit(p, reach_,
+                      [&](std::size_t t, double squared) { visit(t, squared, inverse_); });
+    }
+
+    double reach_;
+    double inverse_;
+    SortedPoints<D> points_;
+};
+
+/// The same for points with radii of their own. In a layer none is more than twice another, so that
+/// its grid fits all of its points.
+template <std::size_t D>
+class LayeredCrowd {
+  public:
+    LayeredCrowd(std::span<const double> rows, const BoxSpace& space, double r_max,
+                 std::span<const double> shares, const RunContext& run) {
+        std::vector<double> radii;
+        std::map<int, std::vector<std::uint32_t>> by_size;
+        const double most = space.largest_distance() / r_max;  // no pair is farther apart
+        for (const double given : shares) {
+            const double share = std::min(given, most);
+            by_size[std::ilogb(share)].push_back(static_cast<std::uint32_t>(radii.size()));
+            radii.push_back(r_max * share);
+        }
+        std::vector<double> some;
+        for (const auto& [size, members] : by_size) {
+            some.clear();
+            Layer layer{.first = originals_.size(), .largest = 0, .points = {}};
+            for (const std::uint32_t i : members) {
+                const auto row = rows.begin() + static_cast<std::ptrdiff_t>(i * D);
+                some.insert(some.end(), row, row + D);
+                layer.largest = std::max(layer.largest, radii[i]);
+            }
+            // Points of small radii may all be in a small part of the box.
+            const GridFrame<D> frame(space.box, space.torus, layer.largest,
+                                     1024 + 8 * static_cast<double>(members.size()));
+            layer.points.emplace(frame, some, run);
+            for (std::size_t t = 0; t < members.size(); ++t) {
+                const std::uint32_t i = members[layer.points->original(t)];
+                originals_.push_back(i);
+                radii_.push_back(radii[i]);
+                layer_of_.push_back(static_cast<std::uint8_t>(layers_.size()));
+            }
+            layers_.push_back(std::move(layer));
+        }
+    }
+
+    [[nodiscard]] std::size_t count() const { return originals_.size(); }
+    [[nodiscard]] std::uint32_t original(std::size_t s) const { return originals_[s]; }
+
+    template <class Visit>
+    void visit(std::size_t s, Visit&& visit) const {
+        const Layer& layer = layers_[layer_of_[s]];
+        this->visit((*layer.points)[s - layer.first], radii_[s], visit);
+    }
+
+    template <class Visit>
+    void visit_without(std::size_t s, Visit&& visit) {
+        Layer& layer = layers_[layer_of_[s]];
+        std::array<double, D> p;
+        std::copy_n((*layer.points)[s - layer.first], D, p.begin());
+        layer.points->remove(s - layer.first);
+        this->visit(p.data(), radii_[s], visit);
+    }
+
+  private:
+    struct Layer {
+        std::size_t first;  ///< number of its first point
+        double largest;     ///< radius
+        std::optional<SortedPoints<D>> points;
+    };
+
+    template <class Visit>
+    void visit(const double* p, double radius, Visit& visit) const {
+        for (const Layer& layer : layers_)
+            layer.points->visit(p, radius + layer.largest, [&](std::size_t t, double squared) {
+                visit(layer.first + t, squared, 1 / (radius + radii_[layer.first + t]));
+            });
+    }
+
+    std::vector<Layer> layers_;
+    std::vector<std::uint32_t> originals_;
+    std::vector<double> radii_;
+    std::vector<std::uint8_t> layer_of_;
+};
+
+/// A weight that a point once had.
+struct Candidate {
+    std::uint64_t weight;
+    std::uint32_t original;
+    std::uint32_t sorted;
+
+    bool operator<(const Candidate& other) const {
+        return weight != other.weight ? weight < other.weight : original > other.original;
+    }
+};
+
+/// Moves the top of a heap, whose weight has fallen, down to its place. Four children a node: their
+/// nodes fill a cache line.
+void sift_down(std::vector<Candidate>& heap, std::size_t size, std::size_t at) {
+    const Candidate moving = heap[at];
+    for (;;) {
+        const std::size_t first = 4 * at + 1;
+        if (first >= size) break;
+        std::size_t best = first;
+        for (std::size_t c = first + 1; c < std::min(first + 4, size); ++c)
+            if (heap[best] < heap[c]) best = c;
+        if (!(moving < heap[best])) break;
+        heap[at] = heap[best];
+        at = best;
+    }
+    heap[at] = moving;
+}
+
+template <class Crowd>
+class Elimination {
+  public:
+    Elimination(Crowd crowd, std::uint64_t kept, const RunContext& run)
+        : run_(run),
+          kept_(kept),
+          points_(std::move(crowd)),
+          kernel_(static_cast<double>(kept) / static_cast<double>(points_.count())),
+          weights_(points_.count()) {}
+
+    std::vector<std::uint32_t> go() {
+        weigh();
+        make_heap();
+        std::vector<std::uint32_t> gone;
+        const std::size_t wanted = points_.count() - kept_;
+        gone.reserve(wanted);
+        const RunContext run = run_.stage(0.3, 1);
+        std::size_t size = heap_.size();
+        for (std::uint64_t step = 0; gone.size() < wanted; ++step) {
+            if (step % 1024 == 0) run.tick(gone.size(), wanted);
+            Candidate& top = heap_.front();
+            if (top.weight != weights_[top.sorted]) {
+                top.weight = weights_[top.sorted];
+                sift_down(heap_, size, 0);
+                continue;
+            }
+            gone.push_back(top.original);
+            remove(top.sorted);
+            heap_.front() = heap_[--size];
+            sift_down(heap_, size, 0);
+        }
+        return gone;
+    }
+
+  private:
+    void weigh() {
+        for_each_block(run_.stage(0, 0.3), points_.count(), 2048, [&](const Block& b) {
+            for (std::size_t s = b.first; s < b.last; ++s) {
+                std::uint64_t sum = 0;
+                points_.visit(s, [&](std::size_t t, double squared, double inverse) {
+                    if (t != s) sum += kernel_(squared, inverse);
+                });
+                weights_[s] = sum;
+            }
+        });
+    }
+
+    void make_heap() {
+        heap_.reserve(points_.count());
+        for (std::size_t s = 0; s < points_.count(); ++s)
+            heap_.push_back({weights_[s], points_.original(s), static_cast<std::uint32_t>(s)});
+        for (std::size_t i = heap_.size() / 4 + 1; i-- > 0;) {
+            if (i % 65536 == 0) run_.check_stop();
+            if (i < heap_.size()) sift_down(heap_, heap_.size(), i);
+        }
+    }
+
+    /// Takes a point out, and its part of the others' weights.
+    void remove(std::uint32_t s) {
+        points_.visit_without(s, [&](std::size_t t, double squared, double inverse) {
+            weights_[t] -= kernel_(squared, inverse);
+        });
+    }
+
+    const RunContext& run_;
+    std::uint64_t kept_;
+    Crowd points_;
+    Kernel kernel_;
+    std::vector<std::uint64_t> weights_;  ///< by the crowd's numbers
+    std::vector<Candidate> heap_;
+};
+
+}  // namespace
+
+double unit_ball_volume(std::size_t dimension) {
+    double ball = dimension % 2 == 0 ? pi : 2;  // of 2 or 1 dimensions
+    for (std::size_t d = dimension % 2 == 0 ? 4 : 3; d <= dimension; d += 2)
+        ball *= 2 * pi / static_cast<double>(d);
+    return ball;
+}
+
+double packing_radius(double count, std::size_t dimension, double measure) {
+    const double share = measure / count;
+    if (dimension == 1) return share / 2;
+    if (dimension == 2) return std::sqrt(share / (2 * std::sqrt(3.0)));
+    if (dimension == 3) return nth_root(share / (4 * std::sqrt(2.0)), 3);
+    return nth_root(share / unit_ball_volume(dimension), dimension);
+}
+
+double elimination_memory(double points, std::size_t dimension, bool with_shares) {
+    return points * (8 * static_cast<double>(dimension) + (with_shares ? 80 : 40));
+}
+
+std::vector<std::uint32_t> eliminate(std::span<const double> rows, const BoxSpace& space,
+                                     double r_max, std::uint64_t kept, const RunContext& run,
+                                     std::span<const double> shares) {
+    return with_dimension(space.box.dimension(), [&]<std::size_t D>() {
+        if (shares.empty()) return Elimination(Crowd<D>(rows, space, r_max, run), kept, run).go();
+        return Elimination(LayeredCrowd<D>(rows, space, r_max, shares, run), kept, run).go();
+    });
+}
+
+}  // namespace stipple

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+//
+// Progressive multi-jittered (0,2) points: the first 2^m points, for every m, meet each of the
+// elementary intervals
+//
+//     [a / 2^k, (a + 1) / 2^k) x [b / 2^(m-k), (b + 1) / 2^(m-k)),    k = 0, ..., m,
+//
+// exactly once, and so do points j 2^m, ..., (j + 1) 2^m - 1 for every j.
+//
+// They are Sobol's points in two dimensions with nested uniform scrambling: the second coordinate's
+// matrix holds the binomials C(j, k) mod 2 (Pascal's triangle). Instead of a search for free
+// intervals, which takes memory for all points, this gives point i alone. Every set it gives is a
+// pmj02 sequence. Not all of those come: the intervals of later points follow from earlier ones by
+// Pascal's matrix, which a search need not do.
+//
+// Shape   2 dimensions, indices below 2^53.
+// Cost    O(n), no memory.
+// Promise the above, for every seed. The points are those of sobol with nested uniform scrambling,
+//         to the bit.
+// Source  P. Christensen, A. Kensler, C. Kilpatrick, Comput. Graph. Forum 37 (4) (2018) 21-33,
+//         doi:10.1111/cgf.13472 (what the points are); A. B. Owen 1995,
+//         doi:10.1007/978-1-4612-2552-2_19 (scrambling); A. Helmer, P. Christensen, A. Kensler,
+//         EGSR (2021), doi:10.2312/sr.20211287 (that it makes such sequences).
+
+#include "generators/digital/progressive.hpp"
+
+namespace stipple::generators::pmj02 {
+namespace {
+
+/// Column j holds C(j, k) mod 2 as digit k, which is 1 where the bits of k are among those of j.
+ColumnMatrix pascal() {
+    ColumnMatrix matrix{};
+    for (std::size_t j = 0; j < matrix.size(); ++j)
+        for (std::size_t k = 0; k <= j; ++k)
+            if ((k & ~j) == 0) matrix[j] |= std::uint64_t{1} << (63 - k);
+    return matrix;
+}
+
+std::unique_ptr<Sequence> make(const Plan& plan, const Values&, const RunContext&) {
+    return std::make_unique<Progressive>(plan, pascal());
+}
+
+}  // namespace
+
+Generator unit() {
+    return {.name = "pmj02",
+            .summary =
+                "Progressive multi-jittered (0,2) points: every 2^m meet all elementary "
+                "intervals",
+            .source =
+                "Christensen, Kensler, Kilpatrick 2018, doi:10.1111/cgf.13472; made by "
+                "nested uniform scrambling, Owen 1995, doi:10.1007/978-1-4612-2552-2_19: the "
+                "points of sobol:scramble=owen of the same seed",
+            .traits = {.min_dimension = 2, .max_dimension = 2},
+            .options = Schema(),
+            .sequence = make};
+}
+
+}  // namespace stipple::generators::pmj02

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+//
+// A dimension's polynomial x^s + a_1 x^(s-1) + ... + a_(s-1) x + 1 over GF(2) carries its first s
+// direction numbers m_1, ..., m_s on (m_j odd, below 2^j), v_j = m_j / 2^j being column j:
+//
+//     v_j = a_1 v_(j-1) + ... + a_(s-1) v_(j-s+1) + v_(j-s) + v_(j-s) / 2^s,     j > s.
+//
+// Source   P. Bratley, B. L. Fox, ACM Trans. Math. Softw. 14 (1988) 88-100,
+//          doi:10.1145/42288.214372, for the recurrence; S. Joe, F. Y. Kuo, SIAM J. Sci. Comput. 30
+//          (2008) 2635-2654, doi:10.1137/070709359, for the numbers.
+#include "generators/digital/sobol_directions.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <boost/random/detail/sobol_table.hpp>
+
+#include "core/error.hpp"
+#include "media/token_file.hpp"
+
+namespace stipple {
+namespace {
+
+using JoeKuoTable = boost::random::detail::qrng_tables::sobol;
+
+/// What one dimension's matrix grows from.
+struct Seedling {
+    std::size_t degree = 0;
+    std::uint64_t interior = 0;             ///< a_1 ... a_(s-1), a_1 the highest bit
+    std::vector<std::uint64_t> first = {};  ///< m_1 ... m_s
+};
+
+Seedling from_table(std::size_t row) {
+    const std::uint64_t polynomial = JoeKuoTable::polynomial(row);
+    Seedling seedling{.degree = static_cast<std::size_t>(std::bit_width(polynomial)) - 1};
+    seedling.interior = (polynomial ^ std::bit_floor(polynomial)) >> 1;
+    for (std::size_t j = 0; j < seedling.degree; ++j)
+        seedling.first.push_back(JoeKuoTable::minit(row, j));
+    return seedling;
+}
+
+void grow(const Seedling& seedling, std::size_t k, BinaryMatrices& matrices) {
+    const std::size_t s = seedling.degree;
+    const std::size_t digits = matrices.digits();
+    const auto column = [&](std::size_t j) -> std::uint64_t& {
+        return matrices.columns[j * matrices.dimension + k];
+    };
+    for (std::size_t j = 0; j < digits; ++j) {
+        if (j < s) {
+            column(j) = seedling.first[j] << (63 - j);
+            continue;
+        }
+        std::uint64_t sum = column(j - s) ^ (column(j - s) >> s);
+        for (std::size_t i = 1; i < s; ++i)
+            if (seedling.interior >> (s - 1 - i) & 1) sum ^= column(j - i);
+        column(j) = sum;
+    }
+}
+
+BinaryMatrices van_der_corput_first(std::size_t dimension, std::size_t digits) {
+    BinaryMatrices matrices{dimension, std::vector<std::uint64_t>(dimension * digits)};
+    for (std::size_t j = 0; j < std::min<std::size_t>(digits, 64); ++j)
+        matrices.columns[j * dimension] = std::uint64_t{1} << (63 - j);
+    return matrices;
+}
+
+Seedling read_line(TokenFile& file, std::size_t dimension) {
+    file.number("the dimension that comes next", dimension, dimension);
+    Seedling seedling{.degree = file.number_on_line("the degree s", 1, 63)};
+    const std::size_t s = seedling.degree;
+    seedling.interior =
+        file.number_on_line("the coefficients a", 0, (std::uint64_t{1} << (s - 1)) - 1);
+    for (std::size_t j = 1; j <= s; ++j) {
+        const Token token = file.peek();
+        const std::string what = fmt::format("an odd m_{}", j);
+        seedling.first.push_back(file.number_on_line(what, 1, (std::uint64_t{1} << j) - 1));
+        if (seedling.first.back() % 2 == 0)
+            file.refuse(token,
+                        fmt::format("{} is even; expected {}", TokenFile::shown(token), what));
+    }
+    file.expect_line_end();
+    return seedling;
+}
+
+}  // namespace
+
+const std::size_t sobol_table_dimensions = JoeKuoTable::max_dimension;
+
+BinaryMatrices sobol_matrices(std::size_t dimension, std::size_t digits) {
+    BinaryMatrices matrices = van_der_corput_first(dimension, digits);
+    for (std::size_t k = 1; k < dimension; ++k) grow(from_table(k - 1), k, matrices);
+    return matrices;
+}
+
+BinaryMatrices sobol_matrices(std::size_t dimension, std::size_t digits, const std::string& path) {
+    TokenFile file(path);
+    if (file.peek().text == "d") file.skip_line();
+    BinaryMatrices matrices = van_der_corput_first(dimension, digits);
+    std::size_t next = 2;
+    for (; !file.at_end(); ++next) {
+        const Seedling seedling = read_line(file, next);
+        if (next <= dimension) grow(seedling, next - 1, matrices);
+    }
+    if (next == 2) file.refuse_whole("no direction numbers; expected lines \"d s a m_1 ... m_s\"");
+    if (next <= dimension)
+        fail(ErrorKind::usage,
+             "--dimension: {} is outside [1, {}], what {} has direction numbers for", dimension,
+             next - 1, path);
+    return matrices;
+}
+
+}  // namespace stipple

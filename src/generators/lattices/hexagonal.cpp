@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+//
+// Hexagonal (triangular) lattice in the unit square, of exactly n points: the lattice of n points
+// whose smallest distance on the torus (opposite edges joined) is the largest that a lattice of n
+// points has.
+//
+// The torus's aspect, 1 : 1, lets no lattice be perfectly hexagonal, which would have the smallest
+// distance sqrt(2 / (sqrt(3) n)). By how much less the one here has, depends on n: by 24 % for
+// n = 3, on average 6 % below 100 points and 2 % below 1000, and at most 7.3 % from 100 points on,
+// 3.2 % from 2000, 0.4 % from 10^5; always less than 2.1 / sqrt(n). Rows of the lattice are not
+// along the axes in general.
+//
+// Shape   2 dimensions, n <= 2^40.
+// Cost    O(n), and O(sqrt(n) log n) once, to find the lattice (math/geometry/torus_packing.hpp).
+// Promise points are distinct, and closed under addition modulo 1; the origin is the first, and y
+//         does not fall from point to point. Coordinates are correctly rounded, and below 1.
+// Source  the bound: J. L. Lagrange 1773; A. Thue 1910 (for any points in the plane).
+
+#include "generators/generator.hpp"
+#include "math/functions/ratio.hpp"
+#include "math/geometry/torus_packing.hpp"
+
+namespace stipple::generators::hexagonal {
+namespace {
+
+class Hexagonal final : public Sequence {
+  public:
+    explicit Hexagonal(std::uint64_t count)
+        : packing_(densest_torus_packing(count)),
+          gap_(count / packing_.row_points),
+          count_(static_cast<double>(count)) {}
+
+    void fill(std::uint64_t first, std::span<double> rows) override {
+        std::uint64_t row = first / packing_.row_points;
+        std::uint64_t column = first % packing_.row_points;
+        auto start = static_cast<std::uint64_t>(Wide{row} * packing_.shift % gap_);
+        for (std::size_t k = 0; k < rows.size(); k += 2) {
+            rows[k] = static_cast<double>(start + column * gap_) / count_;
+            rows[k + 1] = static_cast<double>(row * packing_.row_points) / count_;
+            if (++column < packing_.row_points) continue;
+            column = 0;
+            ++row;
+            start += packing_.shift;
+            if (start >= gap_) start -= gap_;
+        }
+    }
+
+  private:
+    TorusPacking packing_;
+    std::uint64_t gap_;  ///< between neighbours of a row, of the unit 1 / count
+    double count_;
+};
+
+std::unique_ptr<Sequence> make(const Plan& plan, const Values&, const RunContext&) {
+    return std::make_unique<Hexagonal>(plan.count);
+}
+
+}  // namespace
+
+Generator unit() {
+    return {.name = "hexagonal",
+            .summary = "Hexagonal lattice: n points farthest apart on the torus",
+            .source = "Standard construction; the densest lattice of n points, by search",
+            .traits = {.min_dimension = 2,
+                       .max_dimension = 2,
+                       .prefix = false,
+                       .seeded = false,
+                       .max_index = std::uint64_t{1} << 40},
+            .options = Schema(),
+            .aliases = {"hex", "triangular"},
+            .sequence = make};
+}
+
+}  // namespace stipple::generators::hexagonal

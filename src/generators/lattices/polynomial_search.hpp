@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+//
+// How good a polynomial lattice in base 2 is, and the search for good ones.
+//
+// Digitally shifted at random, its n = 2^m points integrate functions of the weighted, unanchored
+// Sobolev space of square-integrable mixed first derivatives with a worst-case error whose square
+// has the mean
+//
+//     e^2 = -1 + 1/n sum_i prod_k (1 + weight_k omega(x_ik)),
+//     omega(x) = 1/6 - 2^(floor(log2 x) - 1),    omega(0) = 1/6.
+//
+// Up to the factor 12, omega is also that of the Walsh space of smoothness 2.
+//
+// Units    polynomials are whole numbers, as in math/digital/gf2.hpp.
+// Source   J. Dick, F. Pillichshammer, Digital Nets and Sequences, Cambridge 2010, chapters 10, 12,
+//          doi:10.1017/CBO9780511761188.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/run_context.hpp"
+
+namespace stipple {
+
+/// Degree of the modulus up to which vectors are searched.
+inline constexpr int largest_searched_degree = 22;
+
+/// omega of a coordinate.
+double digital_shift_kernel(double x);
+
+/// e^2 of the polynomial lattice.
+double squared_shift_error(std::uint64_t modulus, std::span<const std::uint64_t> vector,
+                           std::span<const double> weights);
+
+/// The vector that grows from 1 by the component with the least e^2; of those that are equally good
+/// but for rounding, by the smallest number. One component a weight. The modulus is irreducible, of
+/// degree 1 to largest_searched_degree.
+std::vector<std::uint64_t> polynomial_components(std::uint64_t modulus,
+                                                 std::span<const double> weights,
+                                                 const RunContext& run);
+
+}  // namespace stipple

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+//
+// Rank-1 lattice of n points with generating vector z: point i = 0, ..., n - 1 is
+//
+//     x_k = (i z_k mod n) / n.
+//
+// The vector comes by one of four rules:
+//
+//     cbc        component by component, each making the worst-case error in the weighted Korobov
+//                space of smoothness 2 (component_by_component.hpp) least;
+//     korobov    (1, a, a^2, ...) mod n with a given multiplier a, or the best in that space;
+//     fibonacci  (1, F_(k-1)) for n = F_k, the best there are in two dimensions;
+//     vector     given.
+//
+// The weights of the coordinates are given or are j^-decay.
+//
+// Shape   n x d; n <= 2^53, and n <= 2^24 where a rule searches. fibonacci: d <= 2.
+// Cost    O(n d), one division a coordinate. cbc: 3 s at n = 2^20, d = 100; 7 s at the prime below.
+// Promise every coordinate is correctly rounded, and below 1. The points are closed under addition
+//         modulo 1. A rule gives the same vector on every machine.
+// Source  I. H. Sloan, S. Joe, Lattice Methods for Multiple Integration, Oxford 1994; cbc:
+//         D. Nuyens, R. Cools, Math. Comp. 75 (2006) 903-920, doi:10.1090/S0025-5718-06-01785-6;
+//         korobov: N. M. Korobov, Dokl. Akad. Nauk SSSR 124 (1959) 1207-1210.
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "core/wide.hpp"
+#include "generators/generator.hpp"
+#include "generators/lattices/component_by_component.hpp"
+#include "generators/lattices/product_weights.hpp"
+#include "math/functions/ratio.hpp"
+#include "media/token_file.hpp"
+
+namespace stipple::generators::rank1_lattice {
+namespace {
+
+constexpr Param<Choice> rule{.name = "rule",
+                             .fallback = "cbc",
+                             .choices = "cbc|korobov|fibonacci|vector",
+                             .help =
+                                 "Where the generating vector comes from; a given vector or "
+                                 "multiplier says so itself"};
+constexpr Param<std::int64_t> multiplier{.name = "multiplier",
+                                         .low = 1,
+                                         .high = std::int64_t{1} << 53,
+                                         .optional = true,
+                                         .help =
+                                             "Multiplier a of the rule korobov, z_k = a^k; "
+                                             "without it, the best of those there is time for"};
+constexpr Param<Numbers> vector{{.name = "vector",
+                                 .help = "Generating vector, such as 1,182667,469891; gives the "
+                                         "dimension, or more numbers than that"}};
+constexpr Param<Path> vector_file{{.name = "vector-file",
+                                   .help = "File of a generating vector: a line a coordinate, "
+                                           "with its value, or its number from 1 and its value"}};
+
+constexpr std::size_t table_numbers = 2048;  // 16 KiB: half of a first-level cache
+constexpr std::size_t chunk_numbers = 64;
+
+/// out = (base - back mod n) / n, where `base` repeats after `width` numbers; all of these are
+/// whole and at most 2^53, so that only the division rounds.
+STIPPLE_WIDE void step(const double* base, std::size_t width, const double* back, std::size_t count,
+                       double n, double* out) {
+    for (std::size_t offset = 0; offset < count; offset += width) {
+        const std::size_t length = std::min(width, count - offset);
+        for (std::size_t m = 0; m < length; ++m) {
+            const double r = base[m] - back[offset + m];
+            out[offset + m] = (r < 0 ? r + n : r) / n;
+        }
+    }
+}
+
+class Rank1Lattice final : public Sequence {
+  public:
+    Rank1Lattice(std::uint64_t n, std::vector<std::uint64_t> z)
+        : n_(n),
+          z_(std::move(z)),
+          chunk_((chunk_numbers + z_.size() - 1) / z_.size()),
+          rows_(std::max(table_numbers / z_.size() / chunk_, std::size_t{1}) * chunk_) {
+        for (std::size_t t = 0; t < rows_; ++t)
+            for (std::size_t k = 0; k < z_.size(); ++k) back_.push_back(whole(n_ - times(t, k)));
+    }
+
+    void fill(std::uint64_t first, std::span<double> rows) override {
+        std::vector<double> base(chunk_ * z_.size());
+        for (std::size_t k = 0; k < z_.size(); ++k) base[k] = whole(times(first, k));
+        const double n = whole(n_);
+        for (std::size_t offset = 0; offset < rows.size(); offset += back_.size()) {
+            for (std::size_t m = z_.size(); m < base.size(); ++m) base[m] = base[m - z_.size()];
+            const std::size_t count = std::min(back_.size(), rows.size() - offset);
+            step(base.data(), base.size(), back_.data(), count, n, rows.data() + offset);
+            for (std::size_t k = 0; k < z_.size(); ++k) {
+                base[k] -= whole(n_ - times(rows_, k));
+                base[k] += base[k] < 0 ? n : 0;
+            }
+        }
+    }
+
+  private:
+    static double whole(std::uint64_t number) { return static_cast<double>(number); }
+
+    /// i z_k mod n.
+    [[nodiscard]] std::uint64_t times(std::uint64_t i, std::size_t k) const {
+        return static_cast<std::uint64_t>(Wide{i} * z_[k] % n_);
+    }
+
+    std::uint64_t n_;
+    std::vector<std::uint64_t> z_;
+    std::size_t chunk_;         ///< points after which the pattern of the vector loop repeats
+    std::size_t rows_;          ///< points of the table
+    std::vector<double> back_;  ///< n - (t z mod n) for t < rows_
+};
+
+/// The rule that the options mean together.
+std::string rule_of(const Values& options) {
+    if (options.given(rule)) return options[rule];
+    if (options.given(vector) || options.given(vector_file)) return "vector";
+    return options.given(multiplier) ? "korobov" : options[rule];
+}
+
+void refuse_contradictions(const Values& options, const std::string& chosen) {
+    const bool searches = chosen == "cbc" || (chosen == "korobov" && !options.given(multiplier));
+    const auto only_for = [&](std::string_view name, bool given, bool fits, std::string_view what) {
+        if (given && !fits)
+            fail(ErrorKind::usage, "--{}: is of {}; the rule here is {}", name, what, chosen);
+    };
+    only_for("multiplier", options.given(multiplier), chosen == "korobov", "the rule korobov");
+    only_for("vector", options.given(vector), chosen == "vector", "the rule vector");
+    only_for("vector-file", options.given(vector_file), chosen == "vector", "the rule vector");
+    check_weights(options, searches, "the searches cbc and korobov", chosen);
+    if (chosen == "vector" && options.given(vector) == options.given(vector_file))
+        fail(ErrorKind::usage,
+             "--rule: vector needs its vector, by one of --vector and --vector-file");
+}
+
+/// The k with n = F_k, as its neighbour F_(k-1). @throws Error(usage)
+std::uint64_t fibonacci_before(std::uint64_t n) {
+    std::uint64_t below = 1;
+    std::uint64_t above = 1;
+    while (above < n) below = std::exchange(above, above + below);
+    if (above == n) return below;
+    fail(ErrorKind::usage,
+         "--count: {} is not a Fibonacci number, as the rule fibonacci needs; {} and {} are the "
+         "nearest",
+         n, below, above);
+}
+
+Plan plan(const Request& request, const Values& options) {
+    const std::string chosen = rule_of(options);
+    refuse_contradictions(options, chosen);
+    const std::size_t numbers = options[vector].size();
+    const Plan plan = default_plan(request, chosen == "fibonacci" ? 987 : 1024,
+                                   options.given(vector) ? numbers : 2);
+    if (chosen == "fibonacci") {
+        fibonacci_before(plan.count);
+        if (plan.dimension > 2)
+            fail(ErrorKind::usage, "--dimension: {} is outside [1, 2], what fibonacci can make",
+                 plan.dimension);
+    }
+    const bool searches = chosen == "cbc" || (chosen == "korobov" && !options.given(multiplier));
+    if (searches && plan.count > largest_searched_lattice)
+        fail_with_hint(ErrorKind::usage, "give a vector, or korobov's multiplier",
+                       "--count: {} is outside [1, {}], where a vector can be searched", plan.count,
+                       largest_searched_lattice);
+    return plan;
+}
+
+/// Numbers of a file, one a line, or each behind its number from 1.
+std::vector<std::uint64_t> read_vector(const std::string& path, std::size_t dimension) {
+    TokenFile file(path);
+    std::vector<std::uint64_t> numbers;
+    std::optional<bool> numbered;
+    while (!file.at_end() && numbers.size() < dimension) {
+        const Token token = file.peek();
+        std::uint64_t value = file.number("a component of the vector");
+        if (!numbered) numbered = !file.at_line_end();
+        if (*numbered) {
+            if (value != numbers.size() + 1)
+                file.refuse(token, fmt::format("{} is out of order; expected {}, the number of "
+                                               "the next component",
+                                               value, numbers.size() + 1));
+            value = file.number_on_line("a component of the vector");
+        }
+        file.expect_line_end();
+        numbers.push_back(value);
+    }
+    if (numbers.size() < dimension)
+        file.refuse_whole(fmt::format("{} components are too few; dimension {} needs as many",
+                                      numbers.size(), dimension));
+    return numbers;
+}
+
+std::vector<std::uint64_t> given_vector(const Values& options, std::size_t dimension) {
+    if (options.given(vector_file)) return read_vector(options[vector_file], dimension);
+    std::vector<std::uint64_t> numbers;
+    for (const double z : options[vector]) {
+        if (!(z >= 0 && z <= 0x1p53 && z == std::floor(z)))
+            fail(ErrorKind::usage, "--vector: {} is not a whole number in [0, 2^53]", z);
+        numbers.push_back(static_cast<std::uint64_t>(z));
+    }
+    if (numbers.size() < dimension)
+        fail(ErrorKind::usage, "--vector: {} components are too few; dimension {} needs as many",
+             numbers.size(), dimension);
+    numbers.resize(dimension);
+    return numbers;
+}
+
+std::vector<std::uint64_t> vector_of(const Plan& plan, const Values& options,
+                                     const RunContext& run) {
+    const std::string chosen = rule_of(options);
+    const std::size_t d = plan.dimension;
+    if (chosen == "vector") return given_vector(options, d);
+    if (chosen == "fibonacci") {
+        std::vector<std::uint64_t> pair{1, fibonacci_before(plan.count)};
+        pair.resize(d);
+        return pair;
+    }
+    if (chosen == "korobov" && options.given(multiplier))
+        return powers_modulo(static_cast<std::uint64_t>(options[multiplier]), d, plan.count);
+    const std::vector<double> weight = weights_of(options, d);
+    if (chosen == "korobov")
+        return powers_modulo(korobov_multiplier(plan.count, weight, run), d, plan.count);
+    return component_by_component(plan.count, weight, run);
+}
+
+std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext& run) {
+    return std::make_unique<Rank1Lattice>(plan.count, vector_of(plan, options, run));
+}
+
+}  // namespace
+
+Generator unit() {
+    return {.name = "rank1-lattice",
+            .summary =
+                "Rank-1 lattice: multiples of one vector modulo 1; Fibonacci, Korobov, "
+                "component by component, or given",
+            .source = "Nuyens & Cools 2006, doi:10.1090/S0025-5718-06-01785-6; Sloan & Joe 1994",
+            .traits = {.prefix = false, .seeded = false},
+            .options = Schema(rule, multiplier, vector, vector_file, product_weights, weight_decay),
+            .aliases = {"lattice", "rank-1-lattice"},
+            .plan = plan,
+            .sequence = make};
+}
+
+}  // namespace stipple::generators::rank1_lattice

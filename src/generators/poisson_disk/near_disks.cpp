@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "generators/poisson_disk/near_disks.hpp"
+
+#include <cmath>
+
+#include "core/wide.hpp"
+
+namespace stipple {
+namespace {
+
+constexpr std::size_t lanes = 8;
+
+template <std::size_t D, class Real>
+[[gnu::always_inline]] inline Hit hits_by_lanes(const NearDisks<D, Real>& near,
+                                                const std::array<Real, D>& place, Real slack) {
+    Real least[lanes];
+    std::fill_n(least, lanes, Real{2});
+    for (std::size_t i = 0; i < near.size(); i += lanes)
+        for (std::size_t l = 0; l < lanes; ++l) {
+            Real squared = 0;
+            for (std::size_t k = 0; k < D; ++k) {
+                const Real off = near.along(k)[i + l] - place[k];
+                squared += off * off;
+            }
+            least[l] = std::min(least[l], squared);
+        }
+    for (std::size_t some = lanes / 2; some > 0; some /= 2)
+        for (std::size_t l = 0; l < some; ++l) least[l] = std::min(least[l], least[l + some]);
+    return least[0] < 1 - slack ? Hit::yes : least[0] < 1 + slack ? Hit::unsure : Hit::no;
+}
+
+/// Where eight lines lie: their middles along all directions but the first.
+template <std::size_t D, class Real>
+[[gnu::always_inline]] inline void place_lines(const Raster<D, Real>& window, std::size_t first,
+                                               Real (&middle)[D][lanes]) {
+    for (std::size_t l = 0; l < lanes; ++l) {
+        std::size_t rest = first + l;
+        for (std::size_t k = 1; k < D; ++k, rest /= parts<D>)
+            middle[k][l] = window.corner[k] +
+                           (static_cast<Real>(rest % parts<D>) + Real{0.5}) * window.part[k];
+    }
+}
+
+/// Floats are used for windows of some size alone, so that no disk is millions of parts off.
+[[gnu::always_inline]] inline float within_int(float x) { return x; }
+[[gnu::always_inline]] inline double within_int(double x) { return std::clamp(x, -1e9, 1e9); }
+
+/// The first end of a part at x or beyond, in 0 ... parts; the last one at x or before.
+template <std::size_t D, class Real>
+[[gnu::always_inline]] inline std::int32_t next_end(Real x) {
+    const auto whole = static_cast<std::int32_t>(within_int(x));
+    const std::int32_t up = whole + (static_cast<Real>(whole) < x ? 1 : 0);
+    return std::clamp(up, 0, static_cast<std::int32_t>(parts<D>));
+}
+template <std::size_t D, class Real>
+[[gnu::always_inline]] inline std::int32_t last_end(Real x) {
+    const auto whole = static_cast<std::int32_t>(within_int(x));
+    return std::clamp(whole, 0, static_cast<std::int32_t>(parts<D>));
+}
+
+template <std::size_t D, class Real>
+[[gnu::always_inline]] inline void choose(const NearDisks<D, Real>& near,
+                                          const Raster<D, Real>& window, Real slack,
+                                          NearDisks<D, Real>& reaching) {
+    std::array<Real, D> half;
+    std::array<Real, D> middle;
+    for (std::size_t k = 0; k < D; ++k) {
+        half[k] = window.part[k] * (Real{parts<D>} / 2);
+        middle[k] = window.corner[k] + half[k];
+    }
+    reaching.start_over(near);
+    for (std::size_t i = 0; i < near.size(); i += lanes) {
+        std::int32_t chosen[lanes];
+        for (std::size_t l = 0; l < lanes; ++l) {
+            Real squared = 0;
+            for (std::size_t k = 0; k < D; ++k) {
+                const Real out =
+                    std::max(std::abs(near.along(k)[i + l] - middle[k]) - half[k], Real{0});
+                squared += out * out;
+            }
+            chosen[l] = squared < 1 + slack ? 1 : 0;
+        }
+        reaching.take(near, i, chosen);
+    }
+    reaching.close();
+}
+
+template <std::size_t D, class Real>
+[[gnu::always_inline]] inline bool uncovered_by_lanes(const NearDisks<D, Real>& near,
+                                                      const Raster<D, Real>& window, Real slack,
+                                                      NearDisks<D, Real>& reaching,
+                                                      OpenParts<D>& open) {
+    choose<D, Real>(near, window, slack, reaching);
+    const Real scale = 1 / window.part[0];
+    std::uint8_t any = 0;
+    for (std::size_t first = 0; first < lines<D>; first += lanes) {
+        Real middle[D][lanes];
+        place_lines<D, Real>(window, first, middle);
+        std::int32_t covered[lanes] = {};
+        for (std::size_t i = 0; i < reaching.size(); ++i) {
+            const Real at = (reaching.along(0)[i] - window.corner[0]) * scale;
+            for (std::size_t l = 0; l < lanes; ++l) {
+                Real left = 1 - slack;
+                for (std::size_t k = 1; k < D; ++k) {
+                    const Real y =
+                        std::abs(reaching.along(k)[i] - middle[k][l]) + window.part[k] / 2;
+                    left -= y * y;
+                }
+                const Real half = std::sqrt(std::max(left, Real{0})) * scale;
+                const std::int32_t begin = next_end<D>(at - half);
+                const std::int32_t end = last_end<D>(at + half);
+                covered[l] |= (1 << std::max(begin, end)) - (1 << begin);
+            }
+        }
+        for (std::size_t l = 0; l < lanes; ++l) {
+            open[first + l] = static_cast<std::uint8_t>(~covered[l] & ((1 << parts<D>)-1));
+            any |= open[first + l];
+        }
+    }
+    return any != 0;
+}
+
+}  // namespace
+
+// One of each for every dimension and number type, widened: templates cannot be.
+#define STIPPLE_NEAR_DISKS(D, Real)                                                              \
+    STIPPLE_WIDE Hit wide_hits(const NearDisks<D, Real>& near, const std::array<Real, D>& place, \
+                               Real slack) {                                                     \
+        return hits_by_lanes<D, Real>(near, place, slack);                                       \
+    }                                                                                            \
+    STIPPLE_WIDE bool wide_uncovered(const NearDisks<D, Real>& near,                             \
+                                     const Raster<D, Real>& window, Real slack,                  \
+                                     NearDisks<D, Real>& reaching, OpenParts<D>& open) {         \
+        return uncovered_by_lanes<D, Real>(near, window, slack, reaching, open);                 \
+    }                                                                                            \
+    template <>                                                                                  \
+    Hit hits(const NearDisks<D, Real>& near, const std::array<Real, D>& place, Real slack) {     \
+        return wide_hits(near, place, slack);                                                    \
+    }                                                                                            \
+    template <>                                                                                  \
+    bool uncovered(const NearDisks<D, Real>& near, const Raster<D, Real>& window, Real slack,    \
+                   NearDisks<D, Real>& reaching, OpenParts<D>& open) {                           \
+        return wide_uncovered(near, window, slack, reaching, open);                              \
+    }
+
+STIPPLE_NEAR_DISKS(2, float)
+STIPPLE_NEAR_DISKS(3, float)
+STIPPLE_NEAR_DISKS(4, float)
+STIPPLE_NEAR_DISKS(5, float)
+STIPPLE_NEAR_DISKS(6, float)
+STIPPLE_NEAR_DISKS(2, double)
+STIPPLE_NEAR_DISKS(3, double)
+STIPPLE_NEAR_DISKS(4, double)
+STIPPLE_NEAR_DISKS(5, double)
+STIPPLE_NEAR_DISKS(6, double)
+
+}  // namespace stipple

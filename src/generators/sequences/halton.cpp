@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+//
+// Halton sequence. Coordinate k of point i is the radical inverse of i in the k-th prime b:
+//
+//     phi_b(i) = sum_j a_j b^(-j-1)    where    i = sum_j a_j b^j,  0 <= a_j < b.
+//
+// Permutations of the digits break the correlation of the coordinates: Faure's, the same for all
+// positions j of one base; random ones, one for each position; or Owen's nested ones, one for each
+// position and each choice of the digits before it.
+//
+// Shape   n x d for d <= 1000; indices below 2^53.
+// Cost    O(n d): a table of reversed low digits makes it one division a coordinate. Owen's takes
+//         O(b) for every digit behind those. With a leap, O(log_b i) a coordinate.
+// Promise without or with Faure's permutations, every coordinate is correctly rounded; with random
+//         ones, within 2^-52. All are below 1. Any b_1^m1 * ... * b_d^md consecutive points meet
+//         every box of that grid exactly once, also those of a leaped sequence. Under random and
+//         nested permutations each point is uniformly distributed.
+// Beware  dimensions above 10 are strongly correlated at small counts, unless permuted.
+// Source  J. H. Halton, Numer. Math. 2 (1960) 84-90, doi:10.1007/BF01386213; leap: L. Kocis,
+//         W. J. Whiten, ACM Trans. Math. Softw. 23 (1997) 266-294, doi:10.1145/264029.264064;
+//         permutations: math/digital/digit_permutations.hpp, math/digital/base_scramble.hpp.
+
+#include <memory>
+
+#include "core/error.hpp"
+#include "generators/generator.hpp"
+#include "math/digital/base_scramble.hpp"
+#include "math/digital/digit_permutations.hpp"
+#include "math/digital/radical_inverse.hpp"
+#include "math/functions/primes.hpp"
+
+namespace stipple::generators::halton {
+namespace {
+
+constexpr Param<Choice> scramble{
+    .name = "scramble",
+    .fallback = "none",
+    .choices = "none|faure|permutation|owen",
+    .help =
+        "Permutations of the digits: Faure's fixed ones; a random one for each base and "
+        "position; or nested (Owen), a random one for each choice of the digits before, too"};
+constexpr Param<std::int64_t> leap{
+    .name = "leap",
+    .fallback = 1,
+    .low = 1,
+    .high = std::int64_t{1} << 53,
+    .help =
+        "Takes every leap-th point of the sequence, from the first on (Kocis and Whiten's L; "
+        "MATLAB's Leap is one less); shares no factor with a base"};
+
+/// One coordinate of the sequence.
+class Coordinate {
+  public:
+    Coordinate() = default;
+    Coordinate(const Coordinate&) = delete;
+    Coordinate& operator=(const Coordinate&) = delete;
+    virtual ~Coordinate() = default;
+    [[nodiscard]] virtual double of(std::uint64_t index) const = 0;
+    virtual void fill(std::uint64_t first, std::size_t count, double* out,
+                      std::size_t stride) const = 0;
+};
+
+template <class Inverse>
+class Digits final : public Coordinate {
+  public:
+    explicit Digits(Inverse inverse) : inverse_(std::move(inverse)) {}
+    [[nodiscard]] double of(std::uint64_t index) const override { return inverse_.of(index); }
+    void fill(std::uint64_t first, std::size_t count, double* out,
+              std::size_t stride) const override {
+        inverse_.fill(first, count, out, stride);
+    }
+
+  private:
+    Inverse inverse_;
+};
+
+std::unique_ptr<Coordinate> coordinate(std::size_t k, std::string_view how, std::uint64_t seed) {
+    const std::uint32_t b = primes[k];
+    if (how == "faure")
+        return std::make_unique<Digits<RadicalInverse>>(RadicalInverse(b, faure_permutation(b)));
+    if (how == "permutation")
+        return std::make_unique<Digits<PermutedInverse>>(PermutedInverse(b, Rng(seed, k)));
+    if (how == "owen") return std::make_unique<Digits<BaseOwen>>(BaseOwen(seed, k, b));
+    return std::make_unique<Digits<RadicalInverse>>(RadicalInverse(b));
+}
+
+class Halton final : public Sequence {
+  public:
+    Halton(const Plan& plan, const Values& options)
+        : leap_(static_cast<std::uint64_t>(options[leap])) {
+        for (std::size_t k = 0; k < plan.dimension; ++k)
+            coordinates_.push_back(coordinate(k, options[scramble], plan.seed));
+    }
+    void fill(std::uint64_t first, std::span<double> rows) override {
+        const std::size_t dimension = coordinates_.size();
+        const std::size_t count = rows.size() / dimension;
+        for (std::size_t k = 0; k < dimension; ++k)
+            if (leap_ == 1)
+                coordinates_[k]->fill(first, count, rows.data() + k, dimension);
+            else
+                for (std::size_t j = 0; j < count; ++j)
+                    rows[j * dimension + k] = coordinates_[k]->of((first + j) * leap_);
+    }
+
+  private:
+    std::uint64_t leap_;
+    std::vector<std::unique_ptr<Coordinate>> coordinates_;
+};
+
+Plan plan(const Request& request, const Values& options) {
+    const Plan plan = default_plan(request);
+    const auto step = static_cast<std::uint64_t>(options[leap]);
+    for (std::size_t k = 0; k < std::min(plan.dimension, primes.size()); ++k)
+        if (step % primes[k] == 0)
+            fail_with_hint(ErrorKind::usage, "take a prime that is not among the bases",
+                           "--leap: {} is a multiple of {}, the base of coordinate {}, which would "
+                           "not fill [0, 1)",
+                           step, primes[k], k + 1);
+    constexpr std::uint64_t end = std::uint64_t{1} << 53;
+    const bool there = request.start < end && plan.count > 0 && plan.count <= end - request.start;
+    if (there && request.start + plan.count - 1 > (end - 1) / step)
+        fail(ErrorKind::usage,
+             "--leap: {} points from {} on, each {} behind the one before, go beyond index {}",
+             plan.count, request.start, step, end - 1);
+    return plan;
+}
+
+std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
+    return std::make_unique<Halton>(plan, options);
+}
+
+bool random_digits(const Values& options) {
+    return options[scramble] == "permutation" || options[scramble] == "owen";
+}
+
+}  // namespace
+
+Generator unit() {
+    return {.name = "halton",
+            .summary = "Halton sequence: radical inverses in the first primes, also scrambled",
+            .source = "Halton 1960, doi:10.1007/BF01386213",
+            .traits = {.max_dimension = primes.size()},
+            .options = Schema(scramble, leap),
+            .plan = plan,
+            .sequence = make,
+            .uses_seed = random_digits};
+}
+
+}  // namespace stipple::generators::halton

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+//
+// Hammersley set of n points. Point i = 0, ..., n - 1 is
+//
+//     (s, phi_2(i), phi_3(i), phi_5(i), ...)    with the sweep    s = i / n    or    (2 i + 1) /
+//     2n,
+//
+// phi_b being the radical inverse in base b. The sweep is the first coordinate and starts at 0,
+// unless asked otherwise: it may be the last one, and start at 1 / 2n.
+//
+// Shape   n x d for d <= 1001; n <= 2^53.
+// Cost    O(n d).
+// Promise every coordinate is correctly rounded, and below 1.
+// Source  J. M. Hammersley, Ann. N. Y. Acad. Sci. 86 (1960) 844-874,
+//         doi:10.1111/j.1749-6632.1960.tb42846.x.
+
+#include "generators/generator.hpp"
+#include "math/digital/radical_inverse.hpp"
+#include "math/functions/primes.hpp"
+#include "math/functions/ratio.hpp"
+
+namespace stipple::generators::hammersley {
+namespace {
+
+constexpr Param<Choice> sweep{.name = "sweep",
+                              .fallback = "first",
+                              .choices = "first|last",
+                              .help = "Which coordinate goes evenly from 0 to 1"};
+constexpr Param<Choice> offset{.name = "offset",
+                               .fallback = "0",
+                               .choices = "0|half",
+                               .help =
+                                   "Where the sweep starts: i / n, or half a step further, "
+                                   "(i + 1/2) / n"};
+
+class Hammersley final : public Sequence {
+  public:
+    Hammersley(const Plan& plan, const Values& options)
+        : last_(options[sweep] == "last"), half_(options[offset] == "half"), count_(plan.count) {
+        for (std::size_t k = 0; k + 1 < plan.dimension; ++k) inverses_.emplace_back(primes[k]);
+    }
+    void fill(std::uint64_t first, std::span<double> rows) override {
+        const std::size_t dimension = inverses_.size() + 1;
+        const std::size_t count = rows.size() / dimension;
+        fill_sweep(first, count, rows.data() + (last_ ? dimension - 1 : 0));
+        for (std::size_t k = 0; k + 1 < dimension; ++k)
+            inverses_[k].fill(first, count, rows.data() + k + (last_ ? 0 : 1), dimension);
+    }
+
+  private:
+    void fill_sweep(std::uint64_t first, std::size_t count, double* x) const {
+        const std::size_t dimension = inverses_.size() + 1;
+        const std::uint64_t scale = half_ ? 2 : 1;
+        const std::uint64_t parts = scale * count_;
+        const std::uint64_t begin = scale * first + (half_ ? 1 : 0);
+        if (parts > exact_limit) {
+            for (std::size_t j = 0; j < count; ++j)
+                x[j * dimension] = ratio(begin + scale * j, parts);
+            return;
+        }
+        // Every number here is whole and at most 2^53: only the division rounds.
+        const auto from = static_cast<double>(begin);
+        const auto step = static_cast<double>(scale);
+        const auto whole = static_cast<double>(parts);
+        for (std::size_t j = 0; j < count; ++j)
+            x[j * dimension] =
+                (from + step * static_cast<double>(static_cast<std::int64_t>(j))) / whole;
+    }
+
+    bool last_;
+    bool half_;
+    std::uint64_t count_;
+    std::vector<RadicalInverse> inverses_;
+};
+
+std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
+    return std::make_unique<Hammersley>(plan, options);
+}
+
+}  // namespace
+
+Generator unit() {
+    return {.name = "hammersley",
+            .summary = "Hammersley set: i/n, then radical inverses in the first primes",
+            .source = "Hammersley 1960, doi:10.1111/j.1749-6632.1960.tb42846.x",
+            .traits = {.max_dimension = primes.size() + 1, .prefix = false, .seeded = false},
+            .options = Schema(sweep, offset),
+            .sequence = make};
+}
+
+}  // namespace stipple::generators::hammersley

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+//
+// Kronecker sequence. Point i = 0, 1, 2, ... is
+//
+//     x_k = frac(offset + i alpha_k).
+//
+// Unless given, alpha is that of the sequence R_d: alpha_k = g^k for k = 1, ..., d, where 1 / g is
+// the generalised golden ratio, the root x > 1 of x^(d + 1) = x + 1; so g^d (1 + g) = 1.
+//
+// Shape   n x d; indices below 2^53.
+// Cost    O(n d): five additions and shifts a coordinate.
+// Promise all arithmetic is in whole numbers of 127 bits, modulo 1: a coordinate is the first 53
+//         bits of frac(offset + i alpha_k), at any index. A given alpha is the double that it reads
+//         as. Those of R_d are within d 2^-126, so that a point i is within i d 2^-126 + 2^-53.
+// Beware  R_d is a conjecture beyond d = 1; no bound of its discrepancy is known. M. Roberts adds
+//         the offset 0.5 and begins with i = 1.
+// Source  M. Roberts, "The unreasonable effectiveness of quasirandom sequences" (2018),
+//         extremelearning.com.au; for any alpha: L. Kuipers, H. Niederreiter, Uniform Distribution
+//         of Sequences, Wiley 1974.
+
+#include <bit>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/rng.hpp"
+#include "core/wide.hpp"
+#include "generators/generator.hpp"
+#include "math/functions/bits.hpp"
+#include "math/functions/ratio.hpp"
+
+namespace stipple::generators::kronecker {
+namespace {
+
+constexpr Param<Numbers> alpha{{.name = "alpha",
+                                .help =
+                                    "What every next point adds, a number a coordinate; "
+                                    "without it, powers of the generalised golden ratio (R_d)"}};
+constexpr Param<double> offset{.name = "offset",
+                               .fallback = 0,
+                               .low = 0,
+                               .high = one_minus_ulp,
+                               .help = "Every coordinate of point 0; 0.5 is M. Roberts' choice"};
+
+constexpr std::uint64_t low_mask = ~std::uint64_t{0} >> 1;
+constexpr std::size_t table_numbers = 1024;  // 16 KiB: half of a first-level cache
+constexpr std::size_t chunk_numbers = 64;
+
+/// Many numbers of 127 bits behind the point: 64 high ones, 63 low ones.
+struct Fractions {
+    std::vector<std::uint64_t> high;
+    std::vector<std::uint64_t> low;
+
+    void push_back(Wide fraction) {
+        high.push_back(static_cast<std::uint64_t>(fraction >> 63));
+        low.push_back(static_cast<std::uint64_t>(fraction) & low_mask);
+    }
+    [[nodiscard]] std::size_t size() const { return high.size(); }
+};
+
+/// out = frac(base + step), where `base` repeats.
+STIPPLE_WIDE void add(const std::uint64_t* base_high, const std::uint64_t* base_low,
+                      std::size_t width, const std::uint64_t* step_high,
+                      const std::uint64_t* step_low, std::size_t count, double* out) {
+    for (std::size_t first = 0; first < count; first += width) {
+        const std::size_t length = std::min(width, count - first);
+        for (std::size_t m = 0; m < length; ++m) {
+            const std::uint64_t carry = (base_low[m] + step_low[first + m]) >> 63;
+            out[first + m] = fraction_to_unit(base_high[m] + step_high[first + m] + carry);
+        }
+    }
+}
+
+class Kronecker final : public Sequence {
+  public:
+    /// Both in fractions of 127 bits.
+    Kronecker(std::vector<Wide> steps, Wide origin)
+        : alpha_(std::move(steps)),
+          offset_(origin),
+          chunk_((chunk_numbers + alpha_.size() - 1) / alpha_.size()),
+          rows_(std::max(table_numbers / alpha_.size() / chunk_, std::size_t{1}) * chunk_) {
+        for (std::size_t t = 0; t < rows_; ++t)
+            for (const Wide a : alpha_) steps_.push_back(a * t);
+    }
+
+    void fill(std::uint64_t first, std::span<double> rows) override {
+        const std::size_t d = alpha_.size();
+        for (std::size_t at = 0; at < rows.size(); at += steps_.size(), first += rows_) {
+            Fractions base;
+            for (std::size_t row = 0; row < chunk_; ++row)
+                for (std::size_t k = 0; k < d; ++k) base.push_back(offset_ + alpha_[k] * first);
+            add(base.high.data(), base.low.data(), base.size(), steps_.high.data(),
+                steps_.low.data(), std::min(steps_.size(), rows.size() - at), rows.data() + at);
+        }
+    }
+
+  private:
+    std::vector<Wide> alpha_;
+    Wide offset_;
+    std::size_t chunk_;  ///< points after which the pattern of the vector loop repeats
+    std::size_t rows_;   ///< points of the table
+    Fractions steps_;    ///< t alpha for t < rows_
+};
+
+/// The high half of the product of two fractions of 128 bits.
+Wide times(Wide a, Wide b) {
+    const Wide a1 = a >> 64;
+    const Wide b1 = b >> 64;
+    const Wide a0 = static_cast<std::uint64_t>(a);
+    const Wide b0 = static_cast<std::uint64_t>(b);
+    const Wide left = a1 * b0;
+    const Wide right = a0 * b1;
+    const Wide middle =
+        (a0 * b0 >> 64) + static_cast<std::uint64_t>(left) + static_cast<std::uint64_t>(right);
+    return a1 * b1 + (left >> 64) + (right >> 64) + (middle >> 64);
+}
+
+Wide power(Wide base, std::size_t exponent) {  // exponent >= 1
+    Wide result = base;
+    for (int bit = static_cast<int>(std::bit_width(exponent)) - 2; bit >= 0; --bit) {
+        result = times(result, result);
+        if (exponent >> bit & 1) result = times(result, base);
+    }
+    return result;
+}
+
+/// The root g of g^d (1 + g) = 1 in 128 bits, bit by bit.
+Wide golden(std::size_t d) {
+    Wide g = 0;
+    for (int bit = 127; bit >= 0; --bit) {
+        const Wide larger = g | Wide{1} << bit;
+        const Wide first = power(larger, d);
+        const bool above = first + times(first, larger) < first;  // carried: 1 or more
+        if (!above) g = larger;
+    }
+    return g;
+}
+
+/// frac(x) in 127 bits; what is behind them is cut off.
+Wide fraction(double x) {
+    const double part = std::fmod(std::abs(x), 1.0);
+    const double high = std::floor(std::ldexp(part, 64));
+    const double low = std::floor(std::ldexp(std::ldexp(part, 64) - high, 63));
+    const Wide bits = (static_cast<Wide>(static_cast<std::uint64_t>(high)) << 63) +
+                      static_cast<std::uint64_t>(low);
+    return x < 0 ? -bits : bits;
+}
+
+Plan plan(const Request& request, const Values& options) {
+    const std::size_t given = options[alpha].size();
+    const Plan plan = default_plan(request, 1024, options.given(alpha) ? given : 2);
+    if (options.given(alpha) && given < plan.dimension)
+        fail(ErrorKind::usage, "--alpha: {} numbers are too few; dimension {} needs as many", given,
+             plan.dimension);
+    return plan;
+}
+
+std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
+    std::vector<Wide> steps;
+    const std::vector<double> given = options[alpha];
+    const Wide g = options.given(alpha) ? 0 : golden(plan.dimension);
+    for (Wide next = g; steps.size() < plan.dimension; next = times(next, g))
+        steps.push_back(options.given(alpha) ? fraction(given[steps.size()]) : next >> 1);
+    return std::make_unique<Kronecker>(std::move(steps), fraction(options[offset]));
+}
+
+}  // namespace
+
+Generator unit() {
+    return {
+        .name = "kronecker",
+        .summary = "Kronecker sequence: multiples of a vector modulo 1; R_d unless one is given",
+        .source = "Roberts 2018, extremelearning.com.au; Kuipers & Niederreiter 1974",
+        .traits = {.seeded = false},
+        .options = Schema(alpha, offset),
+        .aliases = {"additive-recurrence", "r2", "rd", "weyl"},
+        .plan = plan,
+        .sequence = make};
+}
+
+}  // namespace stipple::generators::kronecker

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+//
+// Independent uniform random points: the engine's numbers dealt to the coordinates in turn, number
+// i d + k (from 0) to coordinate k of point i.
+//
+//     engine       a number is                                  seeds
+//     philox       53 high bits of Philox 4x32-10, block i / 2  64 bits
+//     mt19937-64   53 high bits of std::mt19937_64              64 bits
+//     drand48      x / 2^48 of srand48(seed)                    0 to 2^32 - 1
+//     ranlux48     x / 2^48 of std::ranlux48                    0 to 2147483562; 0 is 19780503
+//     ranmar       x / 2^24, seed = 30082 ij + kl               0 to 31329 * 30082 - 1
+//     random       x / 2^31 of the C library's srandom(seed)    0 to 2^32 - 1; 0 is 1
+//
+// Cost     O(n d). philox and drand48 go to any index at once; the others walk there.
+// Beware   the legacy engines repeat the numbers of old programs; they are not good ones. ranmar
+//          and random have so few bits that equal coordinates come often.
+// Source   see core/rng.hpp and math/digital/legacy_engines.hpp; the C++ standard, [rand.predef].
+
+#include "core/rng.hpp"
+#include "generators/generator.hpp"
+#include "math/digital/legacy_engines.hpp"
+
+namespace stipple::generators::random {
+namespace {
+
+constexpr Param<Choice> engine{
+    .name = "rng",
+    .fallback = "philox",
+    .choices = "philox|mt19937-64|drand48|ranlux48|ranmar|random",
+    .help =
+        "Engine; all but philox are legacy ones, and these are sequential (one thread; --start "
+        "and --shard walk to their place) except for drand48"};
+
+class Philox final : public Sequence {
+  public:
+    explicit Philox(const Plan& plan) : rng_(plan.seed), dimension_(plan.dimension) {}
+    void fill(std::uint64_t first, std::span<double> rows) override {
+        rng_.fill(first * dimension_, rows);
+    }
+
+  private:
+    Rng rng_;
+    std::uint64_t dimension_;
+};
+
+class Congruential final : public Sequence {
+  public:
+    explicit Congruential(const Plan& plan) : seeded_(plan.seed), dimension_(plan.dimension) {}
+    void fill(std::uint64_t first, std::span<double> rows) override {
+        Drand48 numbers = seeded_;
+        numbers.discard(first * dimension_);
+        for (double& x : rows) x = numbers.next();
+    }
+
+  private:
+    Drand48 seeded_;
+    std::uint64_t dimension_;
+};
+
+template <class Engine>
+class Sequential final : public Sequence {
+  public:
+    explicit Sequential(const Plan& plan)
+        : seeded_(plan.seed), numbers_(seeded_), dimension_(plan.dimension) {}
+
+    [[nodiscard]] bool random_access() const override { return false; }
+
+    void fill(std::uint64_t first, std::span<double> rows) override {
+        if (first < next_) {
+            numbers_ = seeded_;
+            next_ = 0;
+        }
+        for (; next_ < first; ++next_)
+            for (std::size_t k = 0; k < dimension_; ++k) numbers_.next();
+        for (double& x : rows) x = numbers_.next();
+        next_ += rows.size() / dimension_;
+    }
+
+  private:
+    Engine seeded_;
+    Engine numbers_;
+    std::uint64_t next_ = 0;  ///< index of the point that numbers_ makes next
+    std::size_t dimension_;
+};
+
+std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
+    const std::string name = options[engine];
+    if (name == "mt19937-64") return std::make_unique<Sequential<MersenneTwister>>(plan);
+    if (name == "drand48") return std::make_unique<Congruential>(plan);
+    if (name == "ranlux48") return std::make_unique<Sequential<Ranlux48>>(plan);
+    if (name == "ranmar") return std::make_unique<Sequential<Ranmar>>(plan);
+    if (name == "random") return std::make_unique<Sequential<AdditiveFeedback>>(plan);
+    return std::make_unique<Philox>(plan);
+}
+
+std::uint64_t max_seed(const Values& options) {
+    const std::string name = options[engine];
+    if (name == "drand48") return Drand48::max_seed;
+    if (name == "ranlux48") return Ranlux48::max_seed;
+    if (name == "ranmar") return Ranmar::max_seed;
+    if (name == "random") return AdditiveFeedback::max_seed;
+    return ~std::uint64_t{0};
+}
+
+}  // namespace
+
+Generator unit() {
+    return {.name = "random",
+            .summary = "Independent uniform random points; legacy engines are sequential",
+            .source = "Salmon et al. 2011, doi:10.1145/2063384.2063405",
+            .traits = {},
+            .options = Schema(engine),
+            .aliases = {"uniform", "independent", "white-noise"},
+            .sequence = make,
+            .max_seed = max_seed};
+}
+
+}  // namespace stipple::generators::random

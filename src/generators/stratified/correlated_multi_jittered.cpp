@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+//
+// Correlated multi-jittered points in the plane (Kensler): multi-jittered points whose columns are
+// ordered all alike, and their rows too, which spreads them more evenly. With m columns,
+// r = ceil(n / m) rows, and random permutations sigma of the columns and tau of the rows, point s
+// is at
+//
+//     x = (sigma(s mod m) + (tau(floor(s / m)) + u) / r) / m,        y = (s + v) / n,
+//
+// u and v uniform in [0, 1).
+//
+// m is the divisor of n that is nearest to sqrt(n) from below, if it is at least sqrt(n / 2);
+// otherwise floor(sqrt(n)), and then the last row is not full; or as --shape says.
+//
+// Cost    O(n); point i is found without the others.
+// Promise exactly n points, one in each of n strips along y. For n = m r also one in each of n
+//         strips along x and in each of the m x r cells; for other n at most one in each of the
+//         m r strips along x, and one in each cell of the full rows.
+// Source  A. Kensler, "Correlated multi-jittered sampling", Pixar Technical Memo 13-01 (2013).
+
+#include <algorithm>
+
+#include "generators/stratified/jitter_grid.hpp"
+#include "generators/stratified/stratified.hpp"
+#include "math/functions/permutation_family.hpp"
+
+namespace stipple::generators::correlated_multi_jittered {
+namespace {
+
+class CorrelatedMultiJittered final : public StratifiedSequence {
+  public:
+    CorrelatedMultiJittered(const Plan& plan, Style style, std::uint64_t columns)
+        : StratifiedSequence(plan, style),
+          columns_(columns),
+          rows_((plan.count + columns - 1) / columns),
+          sigma_(columns, 1, numbers(0)),
+          tau_(rows_, 1, numbers(1)) {}
+
+  private:
+    void strata(std::size_t coordinate, std::span<const double> index,
+                std::span<double> low) const override {
+        if (coordinate == 1) {
+            std::ranges::copy(index, low.begin());
+            return;
+        }
+        for (std::size_t j = 0; j < index.size(); ++j) {
+            const auto s = static_cast<std::uint64_t>(index[j]);
+            low[j] = static_cast<double>(sigma_(0, s % columns_) * rows_ + tau_(0, s / columns_));
+        }
+    }
+
+    [[nodiscard]] std::uint64_t parts(std::size_t coordinate) const override {
+        return coordinate == 0 ? columns_ * rows_ : plan_.count;
+    }
+
+    std::uint64_t columns_;
+    std::uint64_t rows_;
+    PermutationFamily sigma_;
+    PermutationFamily tau_;
+};
+
+std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
+    const StratifiedSequence::Style style{.centered = options[centered_option],
+                                          .shuffled = options[order_option] == "shuffled"};
+    return std::make_unique<CorrelatedMultiJittered>(plan, style,
+                                                     jitter_columns(plan.count, options));
+}
+
+}  // namespace
+
+Generator unit() {
+    return {.name = "correlated-multi-jittered",
+            .summary = "Correlated multi-jittered points: as multi-jittered, more evenly spread",
+            .source = "Kensler 2013, Pixar Technical Memo 13-01",
+            .traits = {.min_dimension = 2,
+                       .max_dimension = 2,
+                       .prefix = false,
+                       .max_index = std::uint64_t{1} << 52},
+            .options = Schema(shape_option, centered_option, order_option),
+            .aliases = {"cmj"},
+            .plan = plan_jitter_grid,
+            .sequence = make};
+}
+
+}  // namespace stipple::generators::correlated_multi_jittered

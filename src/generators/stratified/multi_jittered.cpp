@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+//
+// Multi-jittered points in the plane: n points with one in each of n strips of equal width along
+// either axis, and one in each of n cells.
+//
+//     n = a b   the cells are the a x b grid, a columns and b rows. The strips of a column are
+//               given to its b points by a random permutation, another one in each column, and so
+//               are those of a row to its a points.
+//     else      with a columns, b = floor(n / a) rows of a points and one more, of height q / n,
+//               for the q = n mod a points that are left. Column c takes the strips from
+//               floor(c n / a) to floor((c + 1) n / a), up to a random phase: room for b or b + 1
+//               points, so that q columns, evenly spread, have a point in the last row. All is then
+//               turned by a random whole number of strips along x (modulo n), which makes every
+//               point uniform.
+//
+// a is the divisor of n that is nearest to sqrt(n) from below, if it is at least sqrt(n / 2);
+// otherwise floor(sqrt(n)); or as --shape says.
+//
+// Cost    O(n); point i is found without the others. Tables of n entries up to n = 2^20.
+// Promise one point in each strip, for every n; one in each cell of the grid, or, for other n, one
+//         in each cell of the full rows (of the columns turned back) and at most one in those of
+//         the last.
+// Source  K. Chiu, P. Shirley, C. Wang, "Multi-jittered sampling", Graphics Gems IV (1994),
+//         370-374 (n = a b). Other n: stipple's own.
+
+#include "generators/stratified/jitter_grid.hpp"
+#include "generators/stratified/stratified.hpp"
+#include "math/functions/permutation.hpp"
+#include "math/functions/permutation_family.hpp"
+
+namespace stipple::generators::multi_jittered {
+namespace {
+
+class MultiJittered final : public StratifiedSequence {
+  public:
+    MultiJittered(const Plan& plan, Style style, std::uint64_t columns)
+        : StratifiedSequence(plan, style),
+          columns_(columns),
+          rows_(plan.count / columns),
+          rest_(plan.count % columns),
+          in_short_columns_(rows_, columns, numbers(0)),
+          in_tall_columns_(rows_ + 1, rest_ > 0 ? columns : 0, numbers(1)),
+          in_rows_(columns, rows_, numbers(2)),
+          in_last_row_(rest_ > 0 ? rest_ : 1, numbers(3).bits(0)) {
+        if (rest_ == 0) return;
+        phase_ = numbers(3).below(1, columns);
+        turn_ = numbers(3).below(2, plan.count);
+    }
+
+  private:
+    struct Cell {
+        std::uint64_t column;
+        std::uint64_t row;
+    };
+
+    /// Number of points in the last row left of a column.
+    [[nodiscard]] std::uint64_t extra_before(std::uint64_t column) const {
+        return (column * rest_ + phase_) / columns_;
+    }
+
+    [[nodiscard]] Cell cell(std::uint64_t i) const {
+        if (i < rows_ * columns_) return {i % columns_, i / columns_};
+        // The column c with extra_before(c) = e and extra_before(c + 1) = e + 1.
+        const std::uint64_t e = i - rows_ * columns_;
+        return {((e + 1) * columns_ - phase_ - 1) / rest_, rows_};
+    }
+
+    [[nodiscard]] std::uint64_t x_strip(std::uint64_t i) const {
+        const auto [column, row] = cell(i);
+        const std::uint64_t begin = column * rows_ + extra_before(column);
+        const bool tall = extra_before(column + 1) > extra_before(column);
+        const std::uint64_t strip =
+            begin + (tall ? in_tall_columns_(column, row) : in_short_columns_(column, row)) + turn_;
+        return strip < plan_.count ? strip : strip - plan_.count;
+    }
+
+    [[nodiscard]] std::uint64_t y_strip(std::uint64_t i) const {
+        const auto [column, row] = cell(i);
+        const std::uint64_t begin = row * columns_;
+        return begin + (row < rows_ ? in_rows_(row, column) : in_last_row_(i - begin));
+    }
+
+    void strata(std::size_t coordinate, std::span<const double> index,
+                std::span<double> low) const override {
+        for (std::size_t j = 0; j < index.size(); ++j) {
+            const auto i = static_cast<std::uint64_t>(index[j]);
+            low[j] = static_cast<double>(coordinate == 0 ? x_strip(i) : y_strip(i));
+        }
+    }
+
+    [[nodiscard]] std::uint64_t parts(std::size_t) const override { return plan_.count; }
+
+    std::uint64_t columns_;
+    std::uint64_t rows_;  ///< full ones
+    std::uint64_t rest_;  ///< points in the last row, if it is not full
+    std::uint64_t phase_ = 0;
+    std::uint64_t turn_ = 0;
+    PermutationFamily in_short_columns_;
+    PermutationFamily in_tall_columns_;
+    PermutationFamily in_rows_;
+    Permutation in_last_row_;
+};
+
+std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
+    const StratifiedSequence::Style style{.centered = options[centered_option],
+                                          .shuffled = options[order_option] == "shuffled"};
+    return std::make_unique<MultiJittered>(plan, style, jitter_columns(plan.count, options));
+}
+
+}  // namespace
+
+Generator unit() {
+    return {.name = "multi-jittered",
+            .summary = "Multi-jittered points: one in each cell, and in each strip along both axes",
+            .source =
+                "Chiu, Shirley, Wang 1994, Graphics Gems IV, 370-374; counts that are no "
+                "grid's: stipple's own",
+            .traits = {.min_dimension = 2, .max_dimension = 2, .prefix = false},
+            .options = Schema(shape_option, centered_option, order_option),
+            .aliases = {"mj"},
+            .plan = plan_jitter_grid,
+            .sequence = make};
+}
+
+}  // namespace stipple::generators::multi_jittered

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "generators/stratified/orthogonal_points.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "math/functions/powers.hpp"
+#include "math/functions/primes.hpp"
+
+namespace stipple::generators {
+namespace {
+
+std::uint64_t next_prime(std::uint64_t from) {
+    while (!is_prime(from)) ++from;
+    return from;
+}
+
+}  // namespace
+
+OrthogonalPoints::OrthogonalPoints(const Plan& plan, Style style, const ArrayShape& shape,
+                                   Substrata substrata)
+    : StratifiedSequence(plan, style), shape_(shape), substrata_(substrata) {
+    for (std::size_t l = 0; l <= shape.strength; ++l)
+        powers_.push_back(saturating_power(shape.levels, l));
+    const std::size_t d = plan.dimension;
+    levels_ = PermutationFamily(shape.levels, d, numbers(0));
+    if (substrata != Substrata::none)
+        within_ =
+            PermutationFamily(powers_[shape.strength - 1],
+                              substrata == Substrata::shared ? d : d * shape.levels, numbers(1));
+}
+
+std::uint64_t OrthogonalPoints::parts(std::size_t) const {
+    return substrata_ == Substrata::none ? shape_.levels : powers_.back();
+}
+
+std::uint64_t OrthogonalPoints::value(std::size_t column, std::uint64_t row) const {
+    const std::uint64_t s = shape_.levels;
+    const std::size_t t = shape_.strength;
+    if (shape_.columns == Columns::digits) return row / powers_[column] % s;
+    if (column == 0) return row % s;
+    if (column == 1) return row / powers_[t - 1];
+    const std::uint64_t x = column - 1;
+    std::uint64_t sum = 0;
+    for (std::size_t l = t; l-- > 0; row %= powers_[l]) sum = (sum * x + row / powers_[l]) % s;
+    return sum;
+}
+
+OrthogonalPoints::Entry OrthogonalPoints::entry(std::size_t column, std::uint64_t row) const {
+    const std::uint64_t level = value(column, row);
+    const std::uint64_t s = shape_.levels;
+    if (shape_.columns == Columns::digits) {
+        const std::uint64_t before = powers_[column];
+        return {level, row % before + row / before / s * before};
+    }
+    if (shape_.strength == 2) {
+        // Two columns determine the row; neighbours do it for each other, so that both together
+        // are a multi-jittered set in the plane.
+        const std::size_t partner = (column ^ 1) <= s ? column ^ 1 : 0;
+        return {level, value(partner, row)};
+    }
+    // The other coefficients determine the one that the level depends on.
+    return {level, column == 1 ? row % powers_[shape_.strength - 1] : row / s};
+}
+
+void OrthogonalPoints::strata(std::size_t coordinate, std::span<const double> index,
+                              std::span<double> low) const {
+    const std::uint64_t finer = parts(coordinate) / shape_.levels;
+    for (std::size_t j = 0; j < index.size(); ++j) {
+        const Entry at = entry(coordinate, static_cast<std::uint64_t>(index[j]));
+        std::uint64_t stratum = levels_(coordinate, at.level) * finer;
+        if (substrata_ == Substrata::independent)
+            stratum += within_(coordinate * shape_.levels + at.level, at.rest);
+        else if (substrata_ == Substrata::shared)
+            stratum += within_(coordinate, at.rest);
+        low[j] = static_cast<double>(stratum);
+    }
+}
+
+std::uint64_t prime_root(std::uint64_t count, std::size_t strength, const std::string& who) {
+    std::uint64_t below = floor_root(count, strength);
+    if (is_prime(below) && saturating_power(below, strength) == count) return below;
+    const std::uint64_t above = saturating_power(next_prime(below + 1), strength);
+    while (below >= 2 && !is_prime(below)) --below;
+    const std::uint64_t power = saturating_power(below, strength);
+    if (below < 2)
+        fail(ErrorKind::usage,
+             "--count: {} is not p^{} for a prime p, as {} needs; {} is the least", count, strength,
+             who, above);
+    if (above > std::uint64_t{1} << 53)
+        fail(ErrorKind::usage,
+             "--count: {} is not p^{} for a prime p, as {} needs; {} is the nearest", count,
+             strength, who, power);
+    fail(ErrorKind::usage,
+         "--count: {} is not p^{} for a prime p, as {} needs; {} and {} are the nearest", count,
+         strength, who, power, above);
+}
+
+Plan plan_by_polynomials(const Request& request, std::size_t strength, const std::string& who) {
+    const std::size_t d = request.dimension.value_or(2);
+    const std::uint64_t least = next_prime(d < 3 ? 2 : d - 1);
+    const std::uint64_t least_count = saturating_power(least, strength);
+    if (least_count > std::uint64_t{1} << 53)
+        fail(ErrorKind::usage, "--dimension: {} takes more than 2^53 points at strength {}", d,
+             strength);
+    if (!request.count) {
+        std::uint64_t p = least;
+        for (std::uint64_t q = p; saturating_power(q, strength) < 2048; q = next_prime(q + 1)) {
+            const auto distance = [&](std::uint64_t levels) {
+                const std::uint64_t count = saturating_power(levels, strength);
+                return count > 1024 ? count - 1024 : 1024 - count;
+            };
+            if (distance(q) < distance(p)) p = q;
+        }
+        return default_plan(request, saturating_power(p, strength), d);
+    }
+    const std::uint64_t p = prime_root(*request.count, strength, who);
+    if (d > p + 1)
+        fail(ErrorKind::usage,
+             "--dimension: {} is outside [1, {}], what {} points of strength {} have; {} points "
+             "are the fewest for it",
+             d, p + 1, *request.count, strength, least_count);
+    return default_plan(request, *request.count, d);
+}
+
+}  // namespace stipple::generators

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+//
+// Orthogonal arrays of strength t with s levels, s^t rows and index 1, and points from them: among
+// the rows, each t columns show every t-tuple of levels exactly once.
+//
+//     polynomials  row i holds the base-s digits a_0, a_1, ..., a_(t-1) of i, s prime. Its columns
+//                  are the values mod s of  a_0 + a_1 x + ... + a_(t-1) x^(t-1)  at
+//                  x = 0, infinity (that is a_(t-1)), 1, 2, ..., s - 1: up to s + 1 columns
+//     digits       the digits themselves, any s, t columns: the whole grid
+//
+// The levels of a column are permuted at random. A level of s is a stratum of width 1/s. It is
+// divided further, so that all n points have their own strata of width 1/n along every coordinate:
+//
+//     none         it is not
+//     independent  the points of a level are ordered at random, another way for every level
+//                  (Tang's Latin hypercubes; multi-jittered)
+//     shared       they are ordered by the levels of the other columns, permuted the same way for
+//                  every level (correlated multi-jittered)
+//
+// Cost    O(n d t).
+// Source  R. C. Bose, Sankhya 3 (1938) 323-338; K. A. Bush, Ann. Math. Stat. 23 (1952) 426-434,
+//         doi:10.1214/aoms/1177729387; B. Tang, J. Amer. Stat. Assoc. 88 (1993) 1392-1397,
+//         doi:10.1080/01621459.1993.10476423; W. Jarosz et al., Comput. Graph. Forum 38 (4) (2019)
+//         135-147, doi:10.1111/cgf.13777.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "generators/stratified/stratified.hpp"
+#include "math/functions/permutation_family.hpp"
+
+namespace stipple::generators {
+
+enum class Columns { polynomials, digits };
+enum class Substrata { none, independent, shared };
+
+/// The array: s levels, strength t.
+struct ArrayShape {
+    std::uint64_t levels;
+    std::size_t strength;
+    Columns columns;
+};
+
+class OrthogonalPoints final : public StratifiedSequence {
+  public:
+    OrthogonalPoints(const Plan& plan, Style style, const ArrayShape& shape, Substrata substrata);
+
+  private:
+    /// A row's level in a column, and the row's number among those with that level there.
+    struct Entry {
+        std::uint64_t level;
+        std::uint64_t rest;
+    };
+
+    void strata(std::size_t coordinate, std::span<const double> index,
+                std::span<double> low) const override;
+    [[nodiscard]] std::uint64_t parts(std::size_t coordinate) const override;
+    [[nodiscard]] Entry entry(std::size_t column, std::uint64_t row) const;
+    [[nodiscard]] std::uint64_t value(std::size_t column, std::uint64_t row) const;
+
+    ArrayShape shape_;
+    Substrata substrata_;
+    std::vector<std::uint64_t> powers_;  ///< s^0, ..., s^t
+    PermutationFamily levels_;           ///< of the levels, one for each column
+    PermutationFamily within_;           ///< of the points of a level
+};
+
+/// The prime p with p^strength == count. @throws Error(usage) naming the two nearest counts.
+std::uint64_t prime_root(std::uint64_t count, std::size_t strength, const std::string& who);
+
+/// The plan of points from arrays by polynomials; without a count, one near 1024 that has columns
+/// enough. @throws Error(usage)
+Plan plan_by_polynomials(const Request& request, std::size_t strength, const std::string& who);
+
+}  // namespace stipple::generators

@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: MIT
+#include "math/densities/expression.hpp"
+
+#include <fmt/ranges.h>
+#include <muParserBase.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <numbers>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "math/functions/exponential.hpp"
+#include "math/functions/logarithm.hpp"
+#include "math/functions/real_power.hpp"
+#include "math/functions/roots.hpp"
+#include "math/functions/trigonometry.hpp"
+
+namespace stipple {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double whole_turn = 2 * std::numbers::pi;
+
+// What the functions mean, also where those of src/math are not defined.
+
+CosSin turned(double x) {
+    if (!std::isfinite(x)) return {nan, nan};
+    const double turns = std::abs(x) / whole_turn;
+    const auto [c, s] = cos_sin_turns(turns - std::floor(turns));
+    return {c, x < 0 ? -s : s};
+}
+double sine(double x) { return turned(x).sin; }
+double cosine(double x) { return turned(x).cos; }
+double tangent(double x) {
+    const auto [c, s] = turned(x);
+    return s / c;
+}
+
+/// In (-pi, pi], as precise on both sides of the x axis.
+double angle(double y, double x) {
+    if (std::isnan(x) || std::isnan(y)) return nan;
+    // Infinite coordinates as directions.
+    const double wide = std::isinf(x) ? std::copysign(1.0, x) : (std::isinf(y) ? 0 : x);
+    const double high = std::isinf(y) ? std::copysign(1.0, y) : (std::isinf(x) ? 0 : y);
+    return std::copysign(whole_turn * turns_of(wide, std::abs(high)), high);
+}
+double arc_tangent(double x) { return angle(x, 1); }
+double arc_sine(double x) {
+    return std::abs(x) <= 1 ? angle(x, std::sqrt((1 - x) * (1 + x))) : nan;
+}
+double arc_cosine(double x) {
+    return std::abs(x) <= 1 ? angle(std::sqrt((1 - x) * (1 + x)), x) : nan;
+}
+
+double exp_of(double x) { return x > 709 ? infinity : (std::isnan(x) ? nan : exponential(x)); }
+double log_of(double x) {
+    if (x == infinity) return infinity;
+    return x > 0 ? logarithm(x) : (x == 0 ? -infinity : nan);
+}
+double log_2(double x) { return log_of(x) / std::numbers::ln2; }
+double log_10(double x) { return log_of(x) / std::numbers::ln10; }
+double sinh_of(double x) {
+    if (std::abs(x) > 709) return x > 0 ? infinity : -infinity;
+    const double rise = exp_minus_1(std::abs(x));
+    return std::copysign(0.5 * (rise + rise / (rise + 1)), x);
+}
+double cosh_of(double x) {
+    const double up = exp_of(std::abs(x));
+    return 0.5 * (up + 1 / up);
+}
+double tanh_of(double x) {
+    if (std::abs(x) > 350) return x > 0 ? 1 : -1;
+    const double rise = exp_minus_1(2 * std::abs(x));
+    return std::copysign(rise / (rise + 2), x);
+}
+
+double whole_power(double x, int n) {
+    double power = 1;
+    for (; n > 0; n /= 2, x *= x)
+        if (n % 2 == 1) power *= x;
+    return power;
+}
+double power(double x, double y) {
+    if (std::isnan(x) || std::isnan(y)) return nan;
+    // Small whole exponents by products, as one would write them out.
+    if (y == std::floor(y) && std::abs(y) <= 16) {
+        const double up = whole_power(x, static_cast<int>(std::abs(y)));
+        return y < 0 ? 1 / up : up;
+    }
+    if (y == 0.5) return std::sqrt(x);
+    const bool odd = std::abs(y) < 0x1p53 && std::floor(y / 2) * 2 != y;
+    if (x < 0 && y != std::floor(y)) return nan;
+    if (!std::isfinite(x) || !std::isfinite(y)) {
+        const double size = std::abs(x);
+        const bool grows = (size > 1) == (y > 0);
+        return size == 1 ? 1 : (grows ? infinity : 0);
+    }
+    const double size = real_power(std::abs(x), y);
+    return x < 0 && odd ? -size : size;
+}
+
+double magnitude(double x) { return std::abs(x); }
+double sign(double x) { return x > 0 ? 1 : (x < 0 ? -1 : x); }
+double root(double x) { return std::sqrt(x); }
+double cube_root_of(double x) { return std::isfinite(x) ? cube_root(x) : x; }
+double floor_of(double x) { return std::floor(x); }
+double ceil_of(double x) { return std::ceil(x); }
+double round_of(double x) { return std::round(x); }
+double modulo(double x, double y) { return std::fmod(x, y); }  // exact, so the same everywhere
+double length(double x, double y) { return std::sqrt(x * x + y * y); }
+double negative(double x) { return -x; }
+double positive(double x) { return x; }
+double least(const double* x, int n) { return *std::min_element(x, x + n); }
+double greatest(const double* x, int n) { return *std::max_element(x, x + n); }
+
+int read_number(const char* text, int* at, double* value) {
+    const std::string_view rest(text);
+    std::size_t size = 0;
+    const auto digit = [&](std::size_t i) {
+        return i < rest.size() && rest[i] >= '0' && rest[i] <= '9';
+    };
+    while (digit(size)) ++size;
+    if (size < rest.size() && rest[size] == '.' && (size > 0 || digit(1)))
+        for (++size; digit(size);) ++size;
+    if (size == 0) return 0;
+    if (size < rest.size() && (rest[size] == 'e' || rest[size] == 'E')) {
+        const std::size_t signs =
+            size + 1 < rest.size() && (rest[size + 1] == '+' || rest[size + 1] == '-');
+        if (digit(size + 1 + signs))
+            for (size += 1 + signs; digit(size);) ++size;
+    }
+    const auto number = parse_number(rest.substr(0, size));
+    if (!number) return 0;
+    *value = *number;
+    *at += static_cast<int>(size);
+    return 1;
+}
+
+constexpr char power_mark = '~';  // ^ is built in and the C library's; this one is ours
+
+/// muParser with our functions and none of its own.
+class Parser final : public mu::ParserBase {
+  public:
+    Parser(const std::string& text, std::vector<double>& variables) {
+        DefineNameChars("0123456789_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ");
+        DefineOprtChars("+-*/^?<>=!&|~");
+        DefineInfixOprtChars("+-");
+        AddValIdent(read_number);
+        InitFun();
+        InitConst();
+        InitOprt();
+        EnableOptimizer(false);
+        const std::string_view letters = "xyz";
+        for (std::size_t k = 0; k < variables.size(); ++k) {
+            DefineVar(fmt::format("x{}", k + 1), &variables[k]);
+            if (variables.size() <= letters.size())
+                DefineVar(std::string(1, letters[k]), &variables[k]);
+        }
+        std::string marked = text;
+        std::ranges::replace(marked, '^', power_mark);
+        SetExpr(marked);
+    }
+
+  protected:
+    void InitCharSets() override {}
+    void InitFun() override {
+        DefineFun("sin", sine);
+        DefineFun("cos", cosine);
+        DefineFun("tan", tangent);
+        DefineFun("asin", arc_sine);
+        DefineFun("acos", arc_cosine);
+        DefineFun("atan", arc_tangent);
+        DefineFun("atan2", angle);
+        DefineFun("sinh", sinh_of);
+        DefineFun("cosh", cosh_of);
+        DefineFun("tanh", tanh_of);
+        DefineFun("exp", exp_of);
+        DefineFun("log", log_of);
+        DefineFun("ln", log_of);
+        DefineFun("log2", log_2);
+        DefineFun("log10", log_10);
+        DefineFun("sqrt", root);
+        DefineFun("cbrt", cube_root_of);
+        DefineFun("pow", power);
+        DefineFun("abs", magnitude);
+        DefineFun("sign", sign);
+        DefineFun("min", least);
+        DefineFun("max", greatest);
+        DefineFun("floor", floor_of);
+        DefineFun("ceil", ceil_of);
+        DefineFun("round", round_of);
+        DefineFun("mod", modulo);
+        DefineFun("hypot", length);
+    }
+    void InitConst() override {
+        DefineConst("pi", std::numbers::pi);
+        DefineConst("e", std::numbers::e);
+    }
+    void InitOprt() override {
+        DefineInfixOprt("-", negative);
+        DefineInfixOprt("+", positive);
+        DefineOprt(std::string(1, power_mark), power, mu::prPOW, mu::oaRIGHT);
+    }
+};
+
+std::string names_of(std::size_t dimension) {
+    constexpr std::string_view letters = "xyz";
+    if (dimension > letters.size()) return fmt::format("x1 to x{}", dimension);
+    return fmt::format("{}", fmt::join(letters.substr(0, dimension), ", "));
+}
+
+/// What would have been right where muParser met something else.
+std::string expectation(const mu::ParserError& error, std::size_t dimension) {
+    switch (error.GetCode()) {
+        case mu::ecUNASSIGNABLE_TOKEN:
+            return fmt::format(
+                "expected a number, an operator, {}, pi, e or a function such as exp",
+                names_of(dimension));
+        case mu::ecTOO_MANY_PARAMS:
+            return "expected fewer arguments";
+        case mu::ecTOO_FEW_PARAMS:
+            return "expected more arguments";
+        case mu::ecUNEXPECTED_ARG_SEP:
+        case mu::ecUNEXPECTED_ARG:
+            return "expected one formula, with commas between arguments of a function only";
+        case mu::ecUNEXPECTED_VAL:
+        case mu::ecUNEXPECTED_VAR:
+        case mu::ecUNEXPECTED_FUN:
+            return "expected an operator before it";
+        case mu::ecUNEXPECTED_PARENS:
+            if (error.GetToken() == "(") return "expected an operator before it";
+            return "expected a '(' for it, and something between";
+        case mu::ecUNEXPECTED_OPERATOR:
+        case mu::ecUNEXPECTED_CONDITIONAL:
+            return "expected a number, a variable, a function or '(' before it";
+        default:
+            return error.GetMsg();
+    }
+}
+
+/// What is wrong at a column, counted from 1.
+[[noreturn]] void refuse(std::string_view option, std::string_view text, std::size_t column,
+                         std::string_view token, std::string_view expected) {
+    const std::string found = token.empty() ? "" : fmt::format(" '{}':", token);
+    fail(ErrorKind::usage, "--{}: '{}', column {}:{} {}", option, text, column, found, expected);
+}
+
+/// Where the formula ends too early.
+[[noreturn]] void refuse_end(std::string_view option, std::string_view text, std::size_t column,
+                             mu::EErrorCodes code) {
+    std::string_view wanted = "a number, a variable, a function or '('";
+    if (code == mu::ecMISSING_PARENS) wanted = "')'";
+    if (code == mu::ecMISSING_ELSE_CLAUSE) wanted = "':' and what holds else";
+    fail(ErrorKind::usage, "--{}: '{}': the formula ends at column {}, where {} was expected",
+         option, text, column, wanted);
+}
+
+/// The word or sign at the start of what muParser did not understand, which goes on to the end.
+std::string_view first_word(std::string_view rest) {
+    const auto is_name = [](char c) {
+        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+               c == '_';
+    };
+    const auto end = std::ranges::find_if_not(rest, is_name);
+    if (end != rest.begin()) return rest.substr(0, static_cast<std::size_t>(end - rest.begin()));
+    std::size_t size = std::min<std::size_t>(rest.size(), 1);  // and the other bytes of a character
+    while (size < rest.size() && (static_cast<unsigned char>(rest[size]) & 0xC0U) == 0x80U) ++size;
+    return rest.substr(0, size);
+}
+
+/// Says what muParser found wrong.
+[[noreturn]] void explain(std::string_view option, std::string_view text,
+                          const mu::ParserError& error, std::size_t dimension,
+                          const mu::funmap_type& functions) {
+    const std::size_t end = text.find_last_not_of(" \t") + 1;  // 0 for blanks alone
+    if (end == 0) refuse(option, text, 1, "", "expected a formula");
+    const auto code = error.GetCode();
+    const auto at = static_cast<std::size_t>(std::max(error.GetPos(), 0));
+    if (at >= end || code == mu::ecUNEXPECTED_EOF || code == mu::ecMISSING_PARENS ||
+        code == mu::ecMISSING_ELSE_CLAUSE)
+        refuse_end(option, text, end + 1, code);
+    if (code != mu::ecUNASSIGNABLE_TOKEN) {
+        std::string token = error.GetToken();
+        std::ranges::replace(token, power_mark, '^');
+        refuse(option, text, at + 1, token, expectation(error, dimension));
+    }
+    const std::string word(first_word(text.substr(at)));
+    refuse(option, text, at + 1, word,
+           functions.contains(word) ? "expected '(' behind it" : expectation(error, dimension));
+}
+
+/// A lone = would change a variable.
+void check_characters(std::string_view option, std::string_view text) {
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char before = i > 0 ? text[i - 1] : ' ';
+        const char behind = i + 1 < text.size() ? text[i + 1] : ' ';
+        if (text[i] == power_mark || text[i] == '"')
+            refuse(option, text, i + 1, text.substr(i, 1),
+                   "expected a number, a variable or an operator");
+        if (text[i] != '=' || behind == '=') continue;
+        if (before != '=' && before != '<' && before != '>' && before != '!')
+            refuse(option, text, i + 1, "=", "expected == to compare");
+    }
+}
+
+}  // namespace
+
+/// Parsers with their variables, lent to one thread at a time.
+class Expression::Machines {
+  public:
+    struct Machine {
+        Machine(const std::string& text, std::size_t dimension)
+            : variables(dimension), parser(text, variables) {}
+        std::vector<double> variables;
+        Parser parser;
+    };
+
+    Machines(std::string text, std::size_t dimension)
+        : text_(std::move(text)), dimension_(dimension) {}
+
+    std::unique_ptr<Machine> take() {
+        {
+            const std::lock_guard lock(mutex_);
+            if (!idle_.empty()) {
+                auto machine = std::move(idle_.back());
+                idle_.pop_back();
+                return machine;
+            }
+        }
+        return std::make_unique<Machine>(text_, dimension_);
+    }
+
+    void give_back(std::unique_ptr<Machine> machine) {
+        const std::lock_guard lock(mutex_);
+        idle_.push_back(std::move(machine));
+    }
+
+  private:
+    std::string text_;
+    std::size_t dimension_;
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<Machine>> idle_;
+};
+
+Expression::Expression(std::string_view option, std::string_view text, std::size_t dimension)
+    : dimension_(dimension) {
+    check_characters(option, text);
+    for (const char c : text)
+        if (c != ' ' && c != '\t') text_ += c;
+    machines_ = std::make_shared<Machines>(std::string(text), dimension);
+    std::unique_ptr<Machines::Machine> machine;
+    try {
+        machine = machines_->take();
+        machine->parser.Eval();
+        if (machine->parser.GetNumResults() > 1)
+            refuse(option, text, text.rfind(',') + 1, ",",
+                   "expected one formula, with commas between arguments of a function only");
+        machines_->give_back(std::move(machine));
+    } catch (const mu::ParserError& error) {
+        explain(option, text, error, dimension,
+                machine ? machine->parser.GetFunDef() : mu::funmap_type());
+    }
+    machines_ = std::make_shared<Machines>(text_, dimension);
+}
+
+double Expression::at(std::span<const double> point) const {
+    double value = 0;
+    evaluate(point, {&value, 1});
+    return value;
+}
+
+void Expression::evaluate(std::span<const double> points, std::span<double> values) const {
+    auto machine = machines_->take();
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        std::copy_n(&points[i * dimension_], dimension_, machine->variables.begin());
+        values[i] = machine->parser.Eval();
+    }
+    machines_->give_back(std::move(machine));
+}
+
+std::string muparser_version() {
+    const std::string version = mu::ParserVersion;
+    return version.substr(0, version.find(' '));
+}
+
+std::string place_text(std::span<const double> point) {
+    if (point.size() == 1) return fmt::format("x = {}", point[0]);
+    return fmt::format("({})", fmt::join(point, ", "));
+}
+
+}  // namespace stipple

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT
+#include "math/densities/line_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+#include "core/error.hpp"
+#include "math/densities/expression.hpp"
+
+namespace stipple {
+namespace {
+
+constexpr std::size_t most_pieces = std::size_t{1} << 20;
+constexpr std::size_t first_pieces = 97;  // no whole part of a period that people choose
+constexpr std::size_t fewest_probes = std::size_t{1} << 16;  // places looked at, at least
+
+/// A piece with f at 0, 1/4, 1/2, 3/4 and 1 of it.
+struct Sampled {
+    double low;
+    double high;
+    std::array<double, 5> f;
+
+    [[nodiscard]] double width() const { return high - low; }
+    [[nodiscard]] double at(double part) const { return low + part * width(); }
+    [[nodiscard]] Estimate integral() const {
+        const double simpson = width() / 12 * (f[0] + 4 * f[1] + 2 * f[2] + 4 * f[3] + f[4]);
+        const double boole =
+            width() / 90 * (7 * f[0] + 32 * f[1] + 12 * f[2] + 32 * f[3] + 7 * f[4]);
+        return {boole, std::abs(boole - simpson)};
+    }
+    [[nodiscard]] double mass() const { return width() * 0.5 * (f[0] + f[4]); }
+    [[nodiscard]] double error() const {
+        double worst = 0;
+        for (std::size_t k = 1; k < 4; ++k) {
+            const double part = 0.25 * static_cast<double>(k);
+            worst = std::max(worst, std::abs(f[k] - ((1 - part) * f[0] + part * f[4])));
+        }
+        return worst * width();
+    }
+};
+
+class LineTabulator {
+  public:
+    LineTabulator(const std::string& what, const BlockFunction& f, const RunContext& run)
+        : what_(what), f_(f), run_(run) {}
+
+    std::vector<LinePiece> tabulate(const LineRange& range, double tolerance) {
+        lay_out(range);
+        refine(tolerance);
+        std::ranges::sort(pieces_, {}, &Sampled::low);
+        std::vector<LinePiece> pieces;
+        double mass = 0;
+        for (const Sampled& piece : pieces_) {
+            pieces.push_back({piece.low, piece.high, piece.f[0], piece.f[4], piece.integral()});
+            if (has_gap(piece)) pieces.back().f_low = pieces.back().f_high = 0;
+            mass += pieces.back().f_low + pieces.back().f_high;
+        }
+        if (!(mass > 0))
+            fail(ErrorKind::usage, "{} is 0 wherever it was looked at from {} to {}", what_,
+                 range.low, range.high);
+        return pieces;
+    }
+
+  private:
+    [[nodiscard]] double value(double x) const {
+        double result = 0;
+        f_({&x, 1}, {&result, 1});
+        require_density(what_, {&x, 1}, result);
+        return result;
+    }
+
+    /// At breaks, f is looked at from inside each piece.
+    void lay_out(const LineRange& range) {
+        std::vector<double> ends = {range.low};
+        ends.insert(ends.end(), range.breaks.begin(), range.breaks.end());
+        ends.push_back(range.high);
+        std::vector<Sampled> pieces;
+        for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+            const double left = k == 0 ? ends[k] : std::nextafter(ends[k], range.high);
+            const double right =
+                k + 2 == ends.size() ? ends[k + 1] : std::nextafter(ends[k + 1], range.low);
+            for (std::size_t i = 0; i < first_pieces; ++i) {
+                const auto cut = [&](std::size_t j) {
+                    const double part = static_cast<double>(j) / first_pieces;
+                    return j == first_pieces ? ends[k + 1]
+                                             : ends[k] + part * (ends[k + 1] - ends[k]);
+                };
+                Sampled piece{cut(i), cut(i + 1), {}};
+                if (!(piece.low < piece.high)) continue;
+                piece.f[0] = value(i == 0 ? left : piece.low);
+                piece.f[2] = value(piece.at(0.5));
+                piece.f[4] = value(i + 1 == first_pieces ? right : piece.high);
+                fill_quarters(piece);
+                pieces.push_back(piece);
+            }
+        }
+        places_.resize(std::max<std::size_t>(16, fewest_probes / pieces.size()));
+        for (const Sampled& piece : pieces) scout(piece);
+    }
+
+    /// Adds a piece after a look at many places of it; cut at all of them if f is not there what
+    /// the quarters lead to expect, for else something narrow would be missed.
+    void scout(const Sampled& piece) {
+        const std::size_t cuts = places_.size();
+        const auto part = [&](std::size_t i) {
+            return static_cast<double>(i + 1) / static_cast<double>(cuts + 1);
+        };
+        for (std::size_t i = 0; i < cuts; ++i) places_[i] = piece.at(part(i));
+        values_.resize(cuts);
+        f_(places_, values_);
+        double worst = 0;
+        for (std::size_t i = 0; i < cuts; ++i) {
+            require_density(what_, {&places_[i], 1}, values_[i]);
+            const double line = (1 - part(i)) * piece.f[0] + part(i) * piece.f[4];
+            worst = std::max(worst, std::abs(values_[i] - line));
+        }
+        constexpr double rounding = 1e-12;
+        const double expected = 2 * piece.error() / piece.width();
+        if (worst <= expected + rounding * std::ranges::max(piece.f)) return add(piece);
+        Sampled cut{piece.low, 0, {piece.f[0]}};
+        for (std::size_t i = 0; i <= cuts; ++i) {
+            cut.high = i < cuts ? places_[i] : piece.high;
+            cut.f[4] = i < cuts ? values_[i] : piece.f[4];
+            if (cut.low < cut.high) {
+                cut.f[2] = value(cut.at(0.5));
+                fill_quarters(cut);
+                add(cut);
+            }
+            cut.low = cut.high;
+            cut.f[0] = cut.f[4];
+        }
+    }
+
+    void fill_quarters(Sampled& piece) const {
+        piece.f[1] = value(piece.at(0.25));
+        piece.f[3] = value(piece.at(0.75));
+    }
+
+    void add(const Sampled& piece) {
+        worst_.emplace(piece.error(), pieces_.size());
+        pieces_.push_back(piece);
+        error_ += piece.error();
+        mass_ += piece.mass();
+    }
+
+    void refine(double tolerance) {
+        while (error_ > tolerance * mass_) {
+            const auto [error, index] = worst_.top();
+            worst_.pop();
+            const Sampled piece = pieces_[index];
+            const double middle = piece.at(0.5);
+            if (error <= 0) return;  // what is left is the rounding of the sum
+            if (!(piece.low < middle && middle < piece.high) || pieces_.size() == most_pieces)
+                refuse(piece, tolerance);
+            if (pieces_.size() % 1024 == 0) run_.check_stop();
+            error_ -= error;
+            mass_ -= piece.mass();
+            Sampled left{piece.low, middle, {piece.f[0], 0, piece.f[1], 0, piece.f[2]}};
+            Sampled right{middle, piece.high, {piece.f[2], 0, piece.f[3], 0, piece.f[4]}};
+            fill_quarters(left);
+            fill_quarters(right);
+            replace(index, left);
+            add(right);
+            if (pieces_.size() % 64 == 0) sum_anew();
+        }
+    }
+
+    void replace(std::size_t index, const Sampled& piece) {
+        pieces_[index] = piece;
+        worst_.emplace(piece.error(), index);
+        error_ += piece.error();
+        mass_ += piece.mass();
+    }
+
+    /// What adding and taking away has left in the sums grows with their largest size.
+    void sum_anew() {
+        if (pieces_.size() > 4096 && pieces_.size() % 4096 != 0) return;
+        error_ = 0;
+        mass_ = 0;
+        for (const Sampled& piece : pieces_) {
+            error_ += piece.error();
+            mass_ += piece.mass();
+        }
+    }
+
+    [[noreturn]] void refuse(const Sampled& piece, double tolerance) const {
+        const double mean = mass_ / range_width();
+        if (std::ranges::max(piece.f) > 1e6 * mean)
+            fail(ErrorKind::usage, "{} has no bound near x = {}; a density is to be finite", what_,
+                 piece.at(0.5));
+        fail_with_hint(ErrorKind::limit, "name its jumps by --breaks, or ask for less",
+                       "{}: --tolerance {} is out of reach, {:.2g} was reached, worst near x = {}",
+                       what_, tolerance, error_ / mass_, piece.at(0.5));
+    }
+
+    [[nodiscard]] double range_width() const {
+        double low = pieces_.front().low;
+        double high = pieces_.front().high;
+        for (const Sampled& piece : pieces_) {
+            low = std::min(low, piece.low);
+            high = std::max(high, piece.high);
+        }
+        return high - low;
+    }
+
+    /// Whether f is 0 in the piece although not in all of it. At an end that is 0, it may just get
+    /// there: what is near the end tells.
+    [[nodiscard]] bool has_gap(const Sampled& piece) const {
+        constexpr double near = 0x1p-12;
+        if (std::ranges::max(piece.f) == 0) return false;
+        if (piece.f[1] == 0 || piece.f[2] == 0 || piece.f[3] == 0) return true;
+        return (piece.f[0] == 0 && value(piece.at(near)) == 0) ||
+               (piece.f[4] == 0 && value(piece.at(1 - near)) == 0);
+    }
+
+    const std::string& what_;
+    const BlockFunction& f_;
+    const RunContext& run_;
+    std::vector<Sampled> pieces_;
+    std::priority_queue<std::pair<double, std::size_t>> worst_;
+    std::vector<double> places_;  ///< where it is probed
+    std::vector<double> values_;
+    double error_ = 0;
+    double mass_ = 0;
+};
+
+}  // namespace
+
+void require_density(const std::string& what, std::span<const double> place, double value) {
+    if (value >= 0 && std::isfinite(value)) return;
+    // A NaN may have a sign, which means nothing.
+    const double shown = std::isnan(value) ? std::numeric_limits<double>::quiet_NaN() : value;
+    fail(ErrorKind::usage, "{} is {} at {}; a density is finite and not below 0", what, shown,
+         place_text(place));
+}
+
+std::vector<LinePiece> tabulate_line(const std::string& what, const BlockFunction& f,
+                                     const LineRange& range, double tolerance,
+                                     const RunContext& run) {
+    return LineTabulator(what, f, run).tabulate(range, tolerance);
+}
+
+double width_share(double a, double b, double r) {
+    const double slowness = a + std::sqrt((1 - r) * (a * a) + r * (b * b));
+    return slowness > 0 ? std::min(r * (a + b) / slowness, 1.0) : 0;  // all at 0 for a = r = 0
+}
+
+double mass_share(double a, double b, double t) {
+    return a + b > 0 ? std::min(t * (2 * a + (b - a) * t) / (a + b), 1.0) : 0;
+}
+
+LineTable::LineTable(std::vector<LinePiece> pieces) : pieces_(std::move(pieces)) {
+    double top = 0;
+    for (const LinePiece& piece : pieces_) top = std::max({top, piece.f_low, piece.f_high});
+    double sum = 0;
+    for (LinePiece& piece : pieces_) {
+        // To a largest density of 1, whose square is finite.
+        piece.f_low /= top;
+        piece.f_high /= top;
+        sums_.push_back(sum += 0.5 * (piece.f_low + piece.f_high) * (piece.x_high - piece.x_low));
+    }
+    most_ = std::nextafter(sum, 0.0);
+    buckets_ = Buckets(sum, sums_.size());
+    guide_.resize(sums_.size() + 1);
+    fill_guide(sums_, guide_);
+}
+
+std::size_t LineTable::piece_of(double x) const {
+    const auto above = std::ranges::upper_bound(pieces_, x, {}, &LinePiece::x_low);
+    return above == pieces_.begin() ? 0 : static_cast<std::size_t>(above - pieces_.begin()) - 1;
+}
+
+double LineTable::place(double u) const {
+    const double wanted = std::min(u * sums_.back(), most_);
+    const std::size_t bucket = buckets_.of(wanted);
+    const std::size_t i = first_above(sums_, guide_[bucket], guide_[bucket + 1], wanted);
+    const double before = i == 0 ? 0 : sums_[i - 1];
+    const LinePiece& piece = pieces_[i];
+    const double t =
+        width_share(piece.f_low, piece.f_high, (wanted - before) / (sums_[i] - before));
+    const double x = piece.x_low + t * (piece.x_high - piece.x_low);
+    return x < piece.x_high ? x : std::nextafter(piece.x_high, piece.x_low);
+}
+
+double LineTable::find(double x) const {
+    const std::size_t i = piece_of(x);
+    const LinePiece& piece = pieces_[i];
+    const double before = i == 0 ? 0 : sums_[i - 1];
+    const double t = std::clamp((x - piece.x_low) / (piece.x_high - piece.x_low), 0.0, 1.0);
+    const double share = mass_share(piece.f_low, piece.f_high, t);
+    return std::min((before + share * (sums_[i] - before)) / sums_.back(), 1.0);
+}
+
+}  // namespace stipple

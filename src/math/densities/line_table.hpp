@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+//
+// A density on an interval, tabulated: linear on pieces that are halved, the worst one first, until
+//
+//     sum over pieces of  width * largest |f - table|  <=  tolerance * integral,
+//
+// which bounds what any probability is off by. The table itself is inverted exactly: in a piece
+// with ends a and b, the share r of its mass lies below the share
+//
+//     t = r (a + b) / (a + sqrt((1 - r) a^2 + r b^2))    of its width.
+//
+// Shape   any f that is finite and not negative, not 0 everywhere; jumps and corners where they
+//         are, faster where they are named.
+// Cost    about 1 / sqrt(8 tolerance / f'') pieces; O(1) a point on average (guide table).
+// Promise a piece in which f was seen to be 0 between points holds no mass, so that no point lands
+//         beyond a jump to 0; rising in u.
+// Beware  f is looked at in 2^16 places at least: what is narrower than the range over that and not
+//         at a break may not be seen.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/domain.hpp"
+#include "core/run_context.hpp"
+#include "math/densities/guide_table.hpp"
+
+namespace stipple {
+
+/// Linear from f_low at x_low to f_high at x_high.
+struct LinePiece {
+    double x_low;
+    double x_high;
+    double f_low;
+    double f_high;
+    Estimate integral = {};  ///< of f itself, by Boole's rule and what Simpson's differs from it
+};
+
+/// Values of a function at places, which stand one after the other.
+using BlockFunction = std::function<void(std::span<const double> at, std::span<double> values)>;
+
+struct LineRange {
+    double low = 0;
+    double high = 1;
+    std::vector<double> breaks = {};  ///< inside, rising
+};
+
+/// Pieces for f. `what` names it: "--density: 1/x". @throws Error(usage): negative, not finite,
+/// unbounded, 0 everywhere; Error(limit): tolerance out of reach
+std::vector<LinePiece> tabulate_line(const std::string& what, const BlockFunction& f,
+                                     const LineRange& range, double tolerance,
+                                     const RunContext& run);
+
+/// @throws Error(usage) for a value that no density has
+void require_density(const std::string& what, std::span<const double> place, double value);
+
+/// The share of a piece's width below which the share r of its mass lies, for densities a and b at
+/// its ends.
+double width_share(double a, double b, double r);
+
+/// The way back.
+double mass_share(double a, double b, double t);
+
+class LineTable {
+  public:
+    /// Pieces side by side, not all without mass.
+    explicit LineTable(std::vector<LinePiece> pieces);
+
+    [[nodiscard]] const std::vector<LinePiece>& pieces() const { return pieces_; }
+
+    /// Piece that holds a place of the closed range.
+    [[nodiscard]] std::size_t piece_of(double x) const;
+
+    /// Where the share u in [0, 1] of the mass lies below.
+    [[nodiscard]] double place(double u) const;
+
+    /// The share of the mass below x.
+    [[nodiscard]] double find(double x) const;
+
+  private:
+    std::vector<LinePiece> pieces_;
+    std::vector<double> sums_;  ///< of the pieces' masses, up to each
+    double most_ = 0;           ///< the largest number below the last sum
+    Buckets buckets_;
+    std::vector<std::uint32_t> guide_;
+};
+
+}  // namespace stipple

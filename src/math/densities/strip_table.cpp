@@ -1,0 +1,463 @@
+// SPDX-License-Identifier: MIT
+#include "math/densities/strip_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+#include "core/error.hpp"
+#include "math/densities/expression.hpp"
+
+namespace stipple {
+namespace {
+
+constexpr std::size_t most_patches = std::size_t{1} << 22;
+constexpr std::size_t most_in_strip = 8192;
+constexpr std::size_t first_strips = 13;
+constexpr std::size_t first_patches = 7;
+constexpr std::size_t probes_a_side = 512;  // along each axis
+
+/// A patch with f on the lines x_low, the middle and x_high, at 0, 1/4, 1/2, 3/4 and 1 of it.
+struct SampledPatch {
+    double low;
+    double high;
+    std::array<std::array<double, 5>, 3> f;
+    double hidden = 0;  ///< difference where f was looked at besides, if these do not show it
+
+    [[nodiscard]] double at(double part) const { return low + part * (high - low); }
+
+    /// From the corners, for shares of the extents.
+    [[nodiscard]] double bilinear(double s, double t) const {
+        return (1 - s) * ((1 - t) * f[0][0] + t * f[0][4]) + s * ((1 - t) * f[2][0] + t * f[2][4]);
+    }
+
+    /// Largest difference from a line along y.
+    [[nodiscard]] double bend() const {
+        double worst = hidden;
+        for (const auto& line : f)
+            for (std::size_t k = 1; k < 4; ++k) {
+                const double part = 0.25 * static_cast<double>(k);
+                worst =
+                    std::max(worst, std::abs(line[k] - ((1 - part) * line[0] + part * line[4])));
+            }
+        return worst;
+    }
+
+    /// Largest difference from a line along x.
+    [[nodiscard]] double slope() const {
+        double worst = hidden;
+        for (std::size_t k = 0; k < 5; ++k)
+            worst = std::max(worst, std::abs(f[1][k] - 0.5 * (f[0][k] + f[2][k])));
+        return worst;
+    }
+
+    [[nodiscard]] double top() const {
+        double top = 0;
+        for (const auto& line : f) top = std::max(top, std::ranges::max(line));
+        return top;
+    }
+
+    /// What is lost when the patch is given up since f is 0 inside it.
+    [[nodiscard]] double loss() const {
+        const bool gap = f[1][1] == 0 || f[1][2] == 0 || f[1][3] == 0;
+        return gap ? top() : 0;
+    }
+
+    [[nodiscard]] double mean() const { return 0.25 * (f[0][0] + f[0][4] + f[2][0] + f[2][4]); }
+};
+
+struct SampledStrip {
+    double low;
+    double high;
+    std::vector<SampledPatch> patches = {};
+    double error = 0;
+    double mass = 0;
+
+    [[nodiscard]] double width() const { return high - low; }
+};
+
+/// x, below the upper end of what it lies in.
+double within(double low, double high, double x) {
+    return x < high ? x : std::nextafter(high, low);
+}
+
+class StripTabulator {
+  public:
+    StripTabulator(const std::string& what, const BlockFunction& f, const Box& box,
+                   double tolerance, const RunContext& run)
+        : what_(what), f_(f), box_(box), tolerance_(tolerance), run_(run) {}
+
+    std::vector<Strip> tabulate() {
+        probe_density();
+        for (std::size_t i = 0; i < first_strips; ++i) insert(made(cut(i), cut(i + 1)), i);
+        while (error_ > tolerance_ * mass_) split_worst();
+        std::ranges::sort(strips_, {}, &SampledStrip::low);
+        std::vector<Strip> out;
+        double mass = 0;
+        for (const SampledStrip& strip : strips_) {
+            out.push_back({strip.low, strip.high, {}});
+            for (const SampledPatch& patch : strip.patches) {
+                StripPatch shape{patch.low, patch.high, {}, {}};
+                if (!has_gap(strip, patch)) {
+                    shape.left = {patch.f[0][0], patch.f[0][4]};
+                    shape.right = {patch.f[2][0], patch.f[2][4]};
+                }
+                mass += shape.left[0] + shape.left[1] + shape.right[0] + shape.right[1];
+                out.back().patches.push_back(shape);
+            }
+        }
+        if (!(mass > 0))
+            fail(ErrorKind::usage, "{} is 0 wherever it was looked at in {}", what_,
+                 format_box(box_));
+        return out;
+    }
+
+  private:
+    [[nodiscard]] double cut(std::size_t i) const {
+        const double part = static_cast<double>(i) / first_strips;
+        return i == first_strips ? box_.high[0] : box_.low[0] + part * box_.extent(0);
+    }
+
+    /// f at the points in points_, checked.
+    void look() {
+        values_.resize(points_.size() / 2);
+        f_(points_, values_);
+        for (std::size_t i = 0; i < values_.size(); ++i)
+            require_density(what_, std::span(points_).subspan(2 * i, 2), values_[i]);
+    }
+
+    /// Fills the samples at the given fifths of the patch on all three lines.
+    void sample(const SampledStrip& strip, SampledPatch& patch,
+                std::initializer_list<std::size_t> which) {
+        points_.clear();
+        for (std::size_t line = 0; line < 3; ++line)
+            for (const std::size_t k : which) {
+                points_.push_back(line == 0   ? strip.low
+                                  : line == 2 ? strip.high
+                                              : strip.low + 0.5 * strip.width());
+                points_.push_back(k == 4 ? patch.high : patch.at(0.25 * static_cast<double>(k)));
+            }
+        look();
+        std::size_t i = 0;
+        for (auto& line : patch.f)
+            for (const std::size_t k : which) line[k] = values_[i++];
+    }
+
+    /// Where a scout of an axis is.
+    [[nodiscard]] double post(std::size_t axis, std::size_t i) const {
+        const double part = (static_cast<double>(i) + 0.5) / double{probes_a_side};
+        return box_.low[axis] + part * box_.extent(axis);
+    }
+
+    /// The first scout of an axis at a place or beyond.
+    [[nodiscard]] std::size_t first_from(std::size_t axis, double place) const {
+        const double at =
+            (place - box_.low[axis]) / box_.extent(axis) * double{probes_a_side} - 0.5;
+        return static_cast<std::size_t>(std::clamp(std::ceil(at), 0.0, double{probes_a_side}));
+    }
+
+    /// Looks at f all over the box.
+    void probe_density() {
+        for (std::size_t i = 0; i < probes_a_side; ++i) {
+            run_.check_stop();
+            points_.clear();
+            for (std::size_t j = 0; j < probes_a_side; ++j) {
+                points_.push_back(post(0, i));
+                points_.push_back(post(1, j));
+            }
+            look();
+            seen_.insert(seen_.end(), values_.begin(), values_.end());
+        }
+    }
+
+    /// Notes the largest difference between a patch and what else is known of f there, if its own
+    /// samples do not lead to expect it.
+    void hear(const SampledStrip& strip, SampledPatch& patch) const {
+        const double worst = std::max(from_probes(strip, patch), from_elder(strip, patch));
+        constexpr double rounding = 1e-12;
+        const double expected = 2 * (patch.bend() + patch.slope()) + rounding * patch.top();
+        if (worst > expected) patch.hidden = worst;
+    }
+
+    /// Largest difference between the patch's table and what the probes saw.
+    [[nodiscard]] double from_probes(const SampledStrip& strip, const SampledPatch& patch) const {
+        double worst = 0;
+        const std::size_t last_x = first_from(0, strip.high);
+        const std::size_t last_y = first_from(1, patch.high);
+        for (std::size_t i = first_from(0, strip.low); i < last_x; ++i) {
+            const double s = (post(0, i) - strip.low) / strip.width();
+            for (std::size_t j = first_from(1, patch.low); j < last_y; ++j) {
+                const double t = (post(1, j) - patch.low) / (patch.high - patch.low);
+                worst =
+                    std::max(worst, std::abs(seen_[i * probes_a_side + j] - patch.bilinear(s, t)));
+            }
+        }
+        return worst;
+    }
+
+    /// The same for what the whole strip's samples show on the sides of its half.
+    [[nodiscard]] double from_elder(const SampledStrip& strip, const SampledPatch& patch) const {
+        if (elder_ == nullptr) return 0;
+        const std::size_t left = strip.low == elder_->low ? 0 : 1;  // line
+        const auto behind =
+            std::ranges::upper_bound(elder_->patches, patch.low, {}, &SampledPatch::high);
+        double worst = 0;
+        for (auto p = behind; p != elder_->patches.end() && p->low < patch.high; ++p)
+            for (std::size_t k = 0; k < 5; ++k) {
+                const double y = p->at(0.25 * static_cast<double>(k));
+                if (!(y >= patch.low && y <= patch.high)) continue;
+                const double t = (y - patch.low) / (patch.high - patch.low);
+                worst = std::max({worst, std::abs(p->f[left][k] - patch.bilinear(0, t)),
+                                  std::abs(p->f[left + 1][k] - patch.bilinear(1, t))});
+            }
+        return worst;
+    }
+
+    SampledStrip made(double low, double high) {
+        SampledStrip strip{low, high};
+        for (std::size_t j = 0; j < first_patches; ++j) {
+            const auto y = [&](std::size_t i) {
+                const double part = static_cast<double>(i) / first_patches;
+                return i == first_patches ? box_.high[1] : box_.low[1] + part * box_.extent(1);
+            };
+            SampledPatch patch{.low = y(j), .high = y(j + 1), .f = {}};
+            sample(strip, patch, {0, 1, 2, 3, 4});
+            hear(strip, patch);
+            strip.patches.push_back(patch);
+        }
+        refine(strip);
+        return strip;
+    }
+
+    /// Puts a strip at an index, or behind the last one.
+    void insert(SampledStrip strip, std::size_t index) {
+        error_ += strip.error;
+        mass_ += strip.mass;
+        count_ += strip.patches.size();
+        worst_.emplace(strip.error, index);
+        if (index == strips_.size())
+            strips_.push_back(std::move(strip));
+        else
+            strips_[index] = std::move(strip);
+    }
+
+    /// Halves patches until what they bend along y is little beside what they change along x, or
+    /// beside what is asked for.
+    void refine(SampledStrip& strip) {
+        std::priority_queue<std::pair<double, std::size_t>> worst;
+        double bend = 0;
+        double slope = 0;
+        double mass = 0;
+        const auto account = [&](std::size_t j, double sign) {
+            const SampledPatch& patch = strip.patches[j];
+            const double area = (patch.high - patch.low) * strip.width();
+            bend += sign * area * patch.bend();
+            slope += sign * area * patch.slope();
+            mass += sign * area * patch.mean();
+            if (sign > 0) worst.emplace(area * patch.bend(), j);
+        };
+        for (std::size_t j = 0; j < strip.patches.size(); ++j) account(j, 1);
+        const double share = strip.width() / box_.extent(0);
+        while (strip.patches.size() < most_in_strip) {
+            const double goal = 0.25 * tolerance_ * std::max(mass_ * share, mass);
+            if (!(bend > std::max(goal, 0.5 * slope)) || worst.empty()) break;
+            const auto [error, j] = worst.top();
+            worst.pop();
+            if (error <= 0 || !halve(strip, j, account)) break;
+        }
+        strip.error = std::max(bend, 0.0) + std::max(slope, 0.0);
+        for (const SampledPatch& patch : strip.patches)
+            strip.error += (patch.high - patch.low) * strip.width() * patch.loss();
+        strip.mass = std::max(mass, 0.0);
+        std::ranges::sort(strip.patches, {}, &SampledPatch::low);
+    }
+
+    template <class Account>
+    bool halve(SampledStrip& strip, std::size_t j, const Account& account) {
+        const SampledPatch whole = strip.patches[j];
+        const double middle = whole.at(0.5);
+        if (!(whole.low < middle && middle < whole.high)) return false;
+        account(j, -1);
+        SampledPatch lower{.low = whole.low, .high = middle, .f = {}};
+        SampledPatch upper{.low = middle, .high = whole.high, .f = {}};
+        for (std::size_t line = 0; line < 3; ++line) {
+            lower.f[line] = {whole.f[line][0], 0, whole.f[line][1], 0, whole.f[line][2]};
+            upper.f[line] = {whole.f[line][2], 0, whole.f[line][3], 0, whole.f[line][4]};
+        }
+        sample(strip, lower, {1, 3});
+        sample(strip, upper, {1, 3});
+        hear(strip, lower);
+        hear(strip, upper);
+        strip.patches[j] = lower;
+        strip.patches.push_back(upper);
+        account(j, 1);
+        account(strip.patches.size() - 1, 1);
+        return true;
+    }
+
+    void split_worst() {
+        run_.check_stop();
+        const auto [error, index] = worst_.top();
+        worst_.pop();
+        const SampledStrip strip = std::move(strips_[index]);
+        const double middle = strip.low + 0.5 * strip.width();
+        if (!(strip.low < middle && middle < strip.high) || count_ > most_patches) refuse(strip);
+        error_ -= strip.error;
+        mass_ -= strip.mass;
+        count_ -= strip.patches.size();
+        elder_ = &strip;
+        insert(made(strip.low, middle), index);
+        insert(made(middle, strip.high), strips_.size());
+        elder_ = nullptr;
+        if (strips_.size() % 1024 == 0) sum_anew();
+    }
+
+    void sum_anew() {
+        error_ = 0;
+        mass_ = 0;
+        for (const SampledStrip& strip : strips_) {
+            error_ += strip.error;
+            mass_ += strip.mass;
+        }
+    }
+
+    [[noreturn]] void refuse(const SampledStrip& strip) const {
+        fail_with_hint(ErrorKind::limit, "ask for less by --tolerance",
+                       "{}: --tolerance {} is out of reach, {:.2g} was reached, worst near x = {}",
+                       what_, tolerance_, error_ / mass_, strip.low);
+    }
+
+    /// Whether f is 0 somewhere inside the patch although not in all of it.
+    bool has_gap(const SampledStrip& strip, const SampledPatch& patch) {
+        if (patch.top() == 0) return false;
+        bool any = false;
+        for (const auto& line : patch.f) any = any || std::ranges::min(line) == 0;
+        if (!any) return false;
+        constexpr double near = 0x1p-12;
+        points_.clear();
+        for (const double s : {near, 0.5, 1 - near})
+            for (const double t : {near, 0.5, 1 - near}) {
+                points_.push_back(strip.low + s * strip.width());
+                points_.push_back(patch.at(t));
+            }
+        look();
+        return std::ranges::min(values_) == 0;
+    }
+
+    const std::string& what_;
+    const BlockFunction& f_;
+    const Box& box_;
+    double tolerance_;
+    const RunContext& run_;
+    std::vector<SampledStrip> strips_;
+    std::priority_queue<std::pair<double, std::size_t>> worst_;
+    std::vector<double> points_;
+    std::vector<double> values_;
+    std::vector<double> seen_;             ///< by the probes
+    const SampledStrip* elder_ = nullptr;  ///< whose half is made
+    std::size_t count_ = 0;
+    double error_ = 0;
+    double mass_ = 0;
+};
+
+}  // namespace
+
+std::vector<Strip> tabulate_strips(const std::string& what, const BlockFunction& f, const Box& box,
+                                   double tolerance, const RunContext& run) {
+    return StripTabulator(what, f, box, tolerance, run).tabulate();
+}
+
+StripTable::StripTable(const std::vector<Strip>& strips) {
+    double top = 0;
+    for (const Strip& strip : strips)
+        for (const StripPatch& patch : strip.patches)
+            top = std::max({top, patch.left[0], patch.left[1], patch.right[0], patch.right[1]});
+    double sum = 0;
+    for (const Strip& strip : strips) {
+        Column column{strip.x_low, strip.x_high, patches_.size(), 0, 0};
+        for (StripPatch shape : strip.patches) {
+            // To a largest density of 1, whose square is finite.
+            for (auto* side : {&shape.left, &shape.right})
+                for (double& density : *side) density /= top;
+            const double height = 0.5 * (shape.y_high - shape.y_low);
+            column.left += height * (shape.left[0] + shape.left[1]);
+            column.right += height * (shape.right[0] + shape.right[1]);
+            patches_.push_back({shape, column.left, column.right});
+        }
+        sums_.push_back(sum += 0.5 * (column.left + column.right) * (column.x_high - column.x_low));
+        columns_.push_back(column);
+    }
+    columns_.push_back({0, 0, patches_.size(), 0, 0});
+    most_ = std::nextafter(sum, 0.0);
+    buckets_ = Buckets(sum, sums_.size());
+    guide_.resize(sums_.size() + 1);
+    fill_guide(sums_, guide_);
+}
+
+std::array<double, 2> StripTable::place(double u, double v) const {
+    const double wanted = std::min(u * sums_.back(), most_);
+    const std::size_t bucket = buckets_.of(wanted);
+    const std::size_t i = first_above(sums_, guide_[bucket], guide_[bucket + 1], wanted);
+    const double before = i == 0 ? 0 : sums_[i - 1];
+    const Column& column = columns_[i];
+    const double share = width_share(column.left, column.right,
+                                     std::min((wanted - before) / (sums_[i] - before), 1.0));
+    const double x =
+        within(column.x_low, column.x_high, column.x_low + share * (column.x_high - column.x_low));
+    // The place that x has, rounded as it is, so that the way back is the same.
+    const double t = column.side((x - column.x_low) / (column.x_high - column.x_low));
+
+    const auto patches = patches_of(i);
+    const auto sum_to = [&](const Patch& patch) {
+        return (1 - t) * patch.left_sum + t * patch.right_sum;
+    };
+    const double total = sum_to(patches.back());
+    const double mass = std::min(v * total, std::nextafter(total, 0.0));
+    // By halves without a branch, since one would be guessed wrong half of the time.
+    const Patch* above = patches.data();
+    for (std::size_t left = patches.size(); left > 1;) {
+        const std::size_t half = left / 2;
+        above += sum_to(above[half - 1]) <= mass ? half : 0;
+        left -= half;
+    }
+    const double below = above == patches.data() ? 0 : sum_to(*(above - 1));
+    const StripPatch& shape = above->shape;
+    const double low = (1 - t) * shape.left[0] + t * shape.right[0];
+    const double high = (1 - t) * shape.left[1] + t * shape.right[1];
+    const double part =
+        width_share(low, high, std::min((mass - below) / (sum_to(*above) - below), 1.0));
+    return {x,
+            within(shape.y_low, shape.y_high, shape.y_low + part * (shape.y_high - shape.y_low))};
+}
+
+std::array<double, 2> StripTable::find(double x, double y) const {
+    const auto columns = std::span(columns_).first(columns_.size() - 1);
+    const auto next = std::ranges::upper_bound(columns, x, {}, &Column::x_low);
+    const auto i =
+        static_cast<std::size_t>(std::max<std::ptrdiff_t>(next - columns.begin(), 1) - 1);
+    const Column& column = columns_[i];
+    const double before = i == 0 ? 0 : sums_[i - 1];
+    const double width = std::clamp((x - column.x_low) / (column.x_high - column.x_low), 0.0, 1.0);
+    const double u = (before + mass_share(column.left, column.right, width) * (sums_[i] - before)) /
+                     sums_.back();
+    const double t = column.side(width);
+
+    const auto patches = patches_of(i);
+    const auto sum_to = [&](const Patch& patch) {
+        return (1 - t) * patch.left_sum + t * patch.right_sum;
+    };
+    const auto above = std::ranges::upper_bound(
+        patches, y, {}, [](const Patch& patch) { return patch.shape.y_low; });
+    const auto at = above == patches.begin() ? above : above - 1;
+    const double below = at == patches.begin() ? 0 : sum_to(*(at - 1));
+    const StripPatch& shape = at->shape;
+    const double share = mass_share(
+        (1 - t) * shape.left[0] + t * shape.right[0], (1 - t) * shape.left[1] + t * shape.right[1],
+        std::clamp((y - shape.y_low) / (shape.y_high - shape.y_low), 0.0, 1.0));
+    const double total = sum_to(patches.back());
+    const double v = total > 0 ? (below + share * (sum_to(*at) - below)) / total : 0;
+    return {std::min(u, 1.0), std::min(v, 1.0)};
+}
+
+}  // namespace stipple

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#include "math/digital/radical_inverse.hpp"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "math/functions/ratio.hpp"
+
+namespace stipple {
+namespace {
+
+/// The digits of an index in reverse as a whole number, and the power of the base above it.
+struct Mirror {
+    Wide digits = 0;
+    Wide power = 1;
+};
+
+Mirror mirror(std::uint64_t index, std::uint64_t base,
+              std::span<const std::uint32_t> permutation = {}) {
+    Mirror out;
+    for (; index > 0; index /= base) {
+        const std::uint64_t digit = index % base;
+        out.digits = out.digits * base + (permutation.empty() ? digit : permutation[digit]);
+        out.power *= base;
+    }
+    return out;
+}
+
+/// Low digits behind high ones: numbers (low * high.power + high.digits) / (block * high.power).
+template <class Low>
+void join(const Low& low, const Mirror& high, std::uint64_t block, std::size_t count, double* out,
+          std::size_t stride) {
+    const Wide denominator = high.power * block;
+    if (denominator > exact_limit) {
+        for (std::size_t j = 0; j < count; ++j) {
+            const Wide turned = static_cast<std::uint64_t>(low(j));
+            out[j * stride] = ratio(turned * high.power + high.digits, denominator);
+        }
+        return;
+    }
+    // Every number here is whole and at most 2^53: only the division rounds.
+    const auto power = static_cast<double>(static_cast<std::uint64_t>(high.power));
+    const auto digits = static_cast<double>(static_cast<std::uint64_t>(high.digits));
+    const auto whole = static_cast<double>(static_cast<std::uint64_t>(denominator));
+    for (std::size_t j = 0; j < count; ++j) out[j * stride] = (low(j) * power + digits) / whole;
+}
+
+}  // namespace
+
+double radical_inverse(std::uint64_t index, std::uint32_t base) {
+    const Mirror all = mirror(index, base);
+    return ratio(all.digits, all.power);
+}
+
+RadicalInverse::RadicalInverse(std::uint32_t base) : RadicalInverse(base, {}) {}
+
+RadicalInverse::RadicalInverse(std::uint32_t base, std::vector<std::uint32_t> permutation)
+    : base_(base), block_(base), permutation_(std::move(permutation)) {
+    while (block_ * base <= largest_digit_table) block_ *= base;
+    if (block_ == base && permutation_.empty()) return;
+    for (std::uint64_t i = 0; i < block_; ++i) {
+        // The digit above stands in for leading zeros.
+        const Mirror low = mirror(i + block_, base, permutation_);
+        reversed_.push_back(static_cast<double>(static_cast<std::uint64_t>(low.digits / base)));
+    }
+}
+
+double RadicalInverse::of(std::uint64_t index) const {
+    const Mirror all = mirror(index, base_, permutation_);
+    return ratio(all.digits, all.power);
+}
+
+void RadicalInverse::fill(std::uint64_t first, std::size_t count, double* out,
+                          std::size_t stride) const {
+    while (count > 0) {
+        const std::uint64_t start = first % block_;
+        const auto run = std::min<std::size_t>(count, block_ - start);
+        const Mirror high = mirror(first / block_, base_, permutation_);
+        if (reversed_.empty()) {
+            const auto low = [begin = static_cast<double>(start)](std::size_t j) {
+                return begin + static_cast<double>(static_cast<std::int32_t>(j));
+            };
+            join(low, high, block_, run, out, stride);
+        } else {
+            const auto low = [begin = reversed_.data() + start](std::size_t j) { return begin[j]; };
+            join(low, high, block_, run, out, stride);
+        }
+        first += run;
+        count -= run;
+        out += run * stride;
+    }
+}
+
+}  // namespace stipple

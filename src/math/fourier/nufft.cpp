@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: MIT
+#include "math/fourier/nufft.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "core/parallel.hpp"
+#include "math/functions/powers.hpp"
+
+namespace stipple {
+namespace {
+
+/// Seconds, nearly, of one core.
+struct Cost {
+    double spreading;
+    double transforming;
+    [[nodiscard]] double total() const { return spreading + transforming; }
+};
+
+Cost cost_of(std::uint64_t count, std::size_t dimension, std::size_t side,
+             const Interpolator& window) {
+    const auto width = static_cast<double>(window.width());
+    // Vectors of four or of eight: the choice does not depend on the machine.
+    const double vectors = std::ceil(width / 4) / 2 + std::ceil(width / 8);
+    const double d = static_cast<double>(dimension);
+    const double cells = real_power_of(side, dimension);
+    const double adding = real_power_of(window.width(), dimension - 1) * vectors * 0.4e-9;
+    const double evaluating = d * (2e-9 + vectors * 1.1e-9);
+    const double n = static_cast<double>(count);
+    const double passes = std::ceil(n / std::clamp(cells, 1048576.0, 4194304.0));
+    constexpr double touching = 5e-9;  // of fresh memory, a cell
+    return {.spreading = n * (8e-9 + adding + evaluating) + passes * cells * 4e-9,
+            .transforming = transform_seconds(dimension, side) + cells * touching};
+}
+
+/// How many points of a tile are added up in a row, before the sums are folded.
+struct Folding {
+    std::size_t together;
+    double rounding;  ///< of sums over points in one place, a point, which are largest; by trying
+};
+constexpr Folding rare{2048, 2e-14};
+constexpr Folding usual{512, 1e-15};
+constexpr Folding frequent{64, 5e-16};
+
+/// What the tolerance is times the errors of all axes: the rest is left to rounding errors, and to
+/// places where the interpolator was not looked at.
+constexpr double reserve = 1.2;
+
+/// Whether the division by the scaling factors leaves rounding errors as they should be.
+bool keeps_digits(const Interpolator& window, std::size_t dimension, double allowed,
+                  const Folding& folding) {
+    // Those of the polynomials, found by trying, too, are of one axis each.
+    const double times = window.magnification();
+    return folding.rounding * std::pow(times, dimension) <= std::max(allowed / 8, 2e-14) &&
+           6e-15 * times <= std::max(allowed / 16, 4e-14);
+}
+
+/// The fewest foldings that keep digits; few points fill few tiles, where many foldings cost
+/// little.
+const Folding& folding_for(const Interpolator& window, std::size_t dimension, double allowed,
+                           std::uint64_t count) {
+    constexpr std::uint64_t few = std::uint64_t{1} << 17;
+    if (count <= few) return frequent;
+    return keeps_digits(window, dimension, allowed, rare) ? rare : usual;
+}
+
+}  // namespace
+
+double rounding_floor(std::size_t count) {
+    const auto n = static_cast<double>(count);
+    // Measured below 7e-14 a point up to n = 10^6; beyond, the sums of ever more buffers of a tile.
+    return (1.5e-13 + n * 0x1p-62) * std::sqrt(n);
+}
+
+Nufft::Nufft(std::uint64_t count, std::size_t dimension, std::size_t max_frequency,
+             double tolerance, bool weighted)
+    : count_(count),
+      dimension_(dimension),
+      frequency_(max_frequency),
+      weighted_(weighted),
+      window_(Interpolator::min_width, 0.25) {
+    assert(dimension >= 1 && dimension <= 3 && max_frequency >= 1);
+    // Of each point, in each dimension; less than rounding errors leave would be of no use.
+    const double allowed = std::max(tolerance / std::sqrt(static_cast<double>(count)), 3e-14) /
+                           (reserve * static_cast<double>(dimension));
+    const auto wanted = static_cast<double>(2 * frequency_ + 1);
+    double cheapest = std::numeric_limits<double>::infinity();
+    // More are planned for than come, where nobody knows.
+    const std::uint64_t likely = std::min(count, std::uint64_t{1} << 23);
+    // A finer grid takes a narrower window, and magnifies rounding errors less.
+    std::size_t side = std::max(static_cast<std::size_t>(1.25 * wanted), CellGrid::smallest_side);
+    for (; static_cast<double>(side) < 4.5 * wanted || side_ == 0; side += 2) {
+        side = quick_length(side);
+        if (transform_seconds(dimension, side) >= cheapest) break;
+        const double band = static_cast<double>(frequency_) / static_cast<double>(side);
+        const Interpolator window = interpolator_for(allowed, band);
+        const double cost = cost_of(likely, dimension, side, window).total();
+        const Folding& folding = folding_for(window, dimension, allowed, count);
+        const bool exact =
+            window.error() <= allowed && keeps_digits(window, dimension, allowed, folding);
+        const bool finest = side_ == 0 && static_cast<double>(side) > 3.9 * wanted;
+        if (cost >= cheapest || !(exact || finest)) continue;
+        cheapest = cost;
+        side_ = side;
+        window_ = window;
+        together_ = folding.together;
+    }
+}
+
+double Nufft::bytes() const {
+    const double cells =
+        real_power_of(side_, dimension_ - 1) * static_cast<double>(stride_of(side_));
+    const CellGrid grid{.dimension = dimension_, .side = side_};
+    const double batch = Spreader::bytes(static_cast<double>(count_), grid, weighted_);
+    const double out = fourier_sums_size(dimension_, frequency_) * 16;
+    const double between =
+        dimension_ == 3 ? out * static_cast<double>(side_) / static_cast<double>(2 * frequency_ + 1)
+                        : 0;
+    return std::max({8 * cells + batch, 8 * cells + between, between + out, 8 * cells + out});
+}
+
+double Nufft::error(double count) const {
+    return reserve * static_cast<double>(dimension_) * window_.error() * std::sqrt(count);
+}
+
+double Nufft::spreading_share() const {
+    const Cost cost = cost_of(count_, dimension_, side_, window_);
+    return cost.spreading / cost.total();
+}
+
+FourierSums Nufft::transform(std::span<const double> rows, const RunContext& run,
+                             Planning planning) const {
+    FourierSummation summation(*this);
+    const double spreading = spreading_share();
+    const RunContext part = run.stage(0, spreading);
+    RunContext quiet = run;
+    quiet.progress = {};
+    const std::size_t portion = spreading_batch({.dimension = dimension_, .side = side_}) *
+                                (dimension_ + (weighted_ ? 1 : 0));
+    for (std::size_t at = 0; at < rows.size(); at += portion) {
+        const auto some = rows.subspan(at, std::min(portion, rows.size() - at));
+        summation.add(some, quiet);
+        part.tick(at + some.size(), rows.size());
+    }
+    return summation.finish(planning, run.stage(spreading, 1));
+}
+
+FourierSummation::FourierSummation(const Nufft& nufft) : block_(block_of(nufft)) { begin(nufft); }
+
+FourierSummation::FourierSummation(const Nufft& first, const Nufft& later)
+    : later_(later), block_(block_of(later)) {
+    begin(first);
+}
+
+void FourierSummation::begin(const Nufft& nufft) {
+    nufft_ = nufft;
+    spreader_.reset();
+    const std::size_t stride = stride_of(nufft.side());
+    std::size_t lines = 1;
+    for (std::size_t k = 1; k < nufft.dimension(); ++k) lines *= nufft.side();
+    cells_ = GridCells(lines * stride);
+    grid_ = {.dimension = nufft.dimension(),
+             .side = nufft.side(),
+             .stride = stride,
+             .cells = cells_.get()};
+    spreader_ =
+        std::make_unique<Spreader>(nufft.window(), grid_, nufft.together(), nufft.weighted());
+}
+
+namespace {
+
+/// For the next block.
+void zero(std::span<double> cells, const RunContext& run) {
+    constexpr std::uint64_t some = std::uint64_t{1} << 18;
+    for_each_block(
+        run, cells.size(), some,
+        [&](const Block& b) { std::ranges::fill(cells.subspan(b.first, b.last - b.first), 0.0); },
+        true);
+}
+
+}  // namespace
+
+std::uint64_t FourierSummation::block_of(const Nufft& nufft) {
+    constexpr std::uint64_t least = std::uint64_t{1} << 24;
+    constexpr std::uint64_t most = std::uint64_t{1} << 26;
+    const double cells = real_power_of(nufft.side(), nufft.dimension());
+    return std::clamp(std::bit_ceil(static_cast<std::uint64_t>(cells)), least, most);
+}
+
+std::span<double> FourierSummation::cells() const {
+    const double lines = real_power_of(grid_.side, grid_.dimension - 1);
+    return {cells_.get(), static_cast<std::size_t>(lines) * grid_.stride};
+}
+
+void FourierSummation::add(std::span<const double> rows, const RunContext& run) {
+    const std::size_t numbers = grid_.dimension + (nufft_->weighted() ? 1 : 0);
+    while (!rows.empty()) {
+        if (points_ == block_ && later_) {
+            go_on_with_later(run);
+        } else if (points_ == block_) {
+            close_block(run);
+            zero(cells(), run);
+        }
+        const std::uint64_t some = std::min<std::uint64_t>(rows.size() / numbers, block_ - points_);
+        const auto here = rows.first(static_cast<std::size_t>(some) * numbers);
+        spreader_->add(here, run);
+        if (nufft_->weighted())
+            for (std::size_t at = numbers - 1; at < here.size(); at += numbers)
+                strongest_ = std::max(strongest_, std::abs(here[at]));
+        else
+            strongest_ = 1;
+        points_ += some;
+        rows = rows.subspan(here.size());
+    }
+}
+
+void FourierSummation::close_block(const RunContext& run) {
+    spreader_->finish(run);
+    sum_.add(cells(), strongest_, run);
+    points_ = 0;
+    strongest_ = 0;
+}
+
+void FourierSummation::pack(Packer& to, const RunContext& run) {
+    close_block(run);
+    sum_.pack(to);
+}
+
+/// Plans are estimated here: the grid is one that takes no time.
+void FourierSummation::go_on_with_later(const RunContext& run) {
+    early_ = transformed(Planning::estimated, run);
+    begin(*later_);
+    later_.reset();
+    points_ = 0;
+    strongest_ = 0;
+}
+
+void FourierSummation::merge(Unpacker& from, const RunContext& run) {
+    if (later_) go_on_with_later(run);
+    if (points_ > 0) close_block(run);
+    sum_.merge(from);
+}
+
+FourierSums FourierSummation::finish(Planning planning, const RunContext& run) {
+    FourierSums sums = transformed(planning, run);
+    for (std::size_t i = 0; i < early_.values.size(); ++i) sums.values[i] += early_.values[i];
+    return sums;
+}
+
+FourierSums FourierSummation::transformed(Planning planning, const RunContext& run) {
+    RunContext quiet = run;
+    quiet.progress = {};
+    spreader_->finish(quiet);
+    if (!sum_.empty()) {
+        if (points_ > 0) sum_.add(cells(), strongest_, quiet);
+        sum_.copy_to(cells(), quiet);
+        sum_ = {};
+    }
+    std::vector<double> factors;
+    const auto side = static_cast<double>(nufft_->side());
+    for (std::size_t f = 0; f <= nufft_->max_frequency(); ++f)
+        factors.push_back(1 / nufft_->window().scaling(static_cast<double>(f) / side));
+    return transform_grid(std::move(cells_), grid_, factors, planning, run);
+}
+
+namespace {
+
+/// exp(-2 pi i f x) for f = 0..last. The product f x is split, so that its whole part goes before
+/// anything is rounded.
+void phases(double x, std::size_t last, std::complex<double>* out) {
+    const double high = static_cast<double>(static_cast<float>(x));
+    for (std::size_t f = 0; f <= last; ++f) {
+        const auto frequency = static_cast<double>(f);
+        const double product = frequency * high;  // 24 + 20 bits: exact
+        const double turn = (product - std::round(product)) + frequency * (x - high);
+        out[f] = std::polar(1.0, -2 * std::numbers::pi * turn);
+    }
+}
+
+/// Phases of a few points at a time, for each axis: [axis][point][0..F].
+class PhaseTables {
+  public:
+    PhaseTables(std::size_t dimension, std::size_t last)
+        : dimension_(dimension),
+          last_(last),
+          capacity_(std::clamp<std::size_t>((std::size_t{1} << 20) / (last + 1), 1, 64)),
+          table_(dimension * capacity_ * (last + 1)) {}
+
+    /// Points that fit.
+    [[nodiscard]] std::size_t capacity() const { return capacity_; }
+
+    /// @param numbers of a row: the coordinates, and perhaps a strength.
+    void fill(std::span<const double> rows, std::size_t numbers, const RunContext& run) {
+        count_ = rows.size() / numbers;
+        for (std::size_t i = 0; i < count_; ++i, run.check_stop()) {
+            for (std::size_t k = 0; k < dimension_; ++k)
+                phases(rows[i * numbers + k], last_, at(k, i));
+            if (numbers > dimension_)
+                for (std::size_t f = 0; f <= last_; ++f)
+                    at(0, i)[f] *= rows[i * numbers + dimension_];
+        }
+    }
+
+    /// Adds exp(-2 pi i f.x) of all points, f_0 = 0..F, to a row of sums with the given f_1, f_2.
+    void add(std::int64_t f1, std::int64_t f2, std::complex<double>* row) {
+        for (std::size_t i = 0; i < count_; ++i) {
+            const std::complex<double> factor = value(1, i, f1) * value(2, i, f2);
+            const std::complex<double>* along = at(0, i);
+            for (std::size_t f = 0; f <= last_; ++f) {
+                const double re = along[f].real();
+                const double im = along[f].imag();
+                row[f] += std::complex<double>(re * factor.real() - im * factor.imag(),
+                                               re * factor.imag() + im * factor.real());
+            }
+        }
+    }
+
+  private:
+    std::complex<double>* at(std::size_t k, std::size_t i) {
+        return table_.data() + (k * capacity_ + i) * (last_ + 1);
+    }
+    std::complex<double> value(std::size_t k, std::size_t i, std::int64_t f) {
+        if (k >= dimension_) return 1;
+        const auto v = at(k, i)[std::abs(f)];
+        return f < 0 ? std::conj(v) : v;
+    }
+
+    std::size_t dimension_;
+    std::size_t last_;
+    std::size_t capacity_;
+    std::size_t count_ = 0;
+    std::vector<std::complex<double>> table_;
+};
+
+}  // namespace
+
+DirectSummation::DirectSummation(std::size_t dimension, std::size_t max_frequency, bool weighted)
+    : weighted_(weighted), sums_{dimension, max_frequency, {}} {
+    sums_.values.resize(static_cast<std::size_t>(fourier_sums_size(dimension, max_frequency)));
+}
+
+void DirectSummation::add(std::span<const double> rows, const RunContext& run) {
+    const std::size_t dimension = sums_.dimension;
+    const std::size_t numbers = dimension + (weighted_ ? 1 : 0);
+    const std::size_t width = sums_.max_frequency + 1;
+    const std::size_t span = 2 * sums_.max_frequency + 1;
+    PhaseTables tables(dimension, sums_.max_frequency);
+    const std::size_t portion = tables.capacity() * numbers;
+    const auto last = static_cast<std::int64_t>(sums_.max_frequency);
+    for (std::size_t at = 0; at < rows.size(); at += portion) {
+        tables.fill(rows.subspan(at, std::min(portion, rows.size() - at)), numbers, run);
+        for_each_block(
+            run, sums_.values.size() / width, std::max<std::size_t>(1, 4096 / width),
+            [&](const Block& b) {
+                for (std::size_t i = b.first; i < b.last; ++i) {
+                    // Sums of a portion first: rounding errors of long sums stay small.
+                    std::vector<std::complex<double>> row(width);
+                    const auto f1 = dimension > 1 ? static_cast<std::int64_t>(i % span) - last : 0;
+                    const auto f2 = static_cast<std::int64_t>(i / span) - last;
+                    tables.add(f1, f2, row.data());
+                    for (std::size_t f = 0; f < width; ++f) sums_.values[i * width + f] += row[f];
+                }
+            },
+            true);
+        run.tick(std::min(at + portion, rows.size()), rows.size());
+    }
+}
+
+FourierSums fourier_sums_directly(std::span<const double> rows, std::size_t dimension,
+                                  std::size_t max_frequency, const RunContext& run, bool weighted) {
+    DirectSummation sums(dimension, max_frequency, weighted);
+    sums.add(rows, run);
+    return sums.finish();
+}
+
+}  // namespace stipple

@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: MIT
+#include "math/fourier/spreading.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "core/parallel.hpp"
+#include "core/wide.hpp"
+#include "math/fourier/grid_cells.hpp"
+#include "math/fourier/window_spreading.hpp"
+
+namespace stipple {
+namespace {
+
+/// Cells of a tile along each axis, at least.
+double smallest_tile(std::size_t dimension) {
+    return dimension == 1 ? 1024 : dimension == 2 ? 32 : 16;
+}
+
+/// Points are sorted in streams, which threads may share out: chunk after chunk of them goes to the
+/// next stream.
+constexpr std::size_t streams = 2;
+constexpr std::size_t stream_chunk = std::size_t{1} << 15;
+constexpr std::size_t round_of_streams = streams * stream_chunk;
+constexpr std::size_t sorting_block = std::size_t{1} << 12;  // points that the caches hold
+
+}  // namespace
+
+/// The grid cut into an even number of tiles along each axis.
+class Tiling {
+  public:
+    Tiling(const CellGrid& grid, const WeightTable& window, bool weighted) : grid_(grid) {
+        const std::size_t smallest =
+            std::max(static_cast<std::size_t>(smallest_tile(grid.dimension)), window.width());
+        pairs_ = std::max<std::size_t>(1, grid.side / (2 * smallest));
+        along_ = 2 * pairs_;
+        for (std::size_t t = 0; t <= along_; ++t) starts_.push_back(t * grid.side / along_);
+        for (std::size_t t = 0; t < along_; ++t)
+            widest_ = std::max(widest_, starts_[t + 1] - starts_[t]);
+        assert(widest_ <= 4096);  // places in a tile have 12 bits for their grid points
+        common_ = {.side = static_cast<double>(grid.side),
+                   .tiles = static_cast<double>(along_),
+                   .shift = window.width() % 2 == 1 ? 0.5 : 0.0,
+                   .lead = static_cast<double>((window.width() - 1) / 2),
+                   .width = window.width(),
+                   .piece_bits = static_cast<unsigned>(std::countr_zero(window.pieces())),
+                   .coefficients = window.coefficients(),
+                   .numbers = grid.dimension + (weighted ? 1 : 0),
+                   .extent = (widest_ + WeightTable::row_of(window.width()) + 7) / 8 * 8};
+        common_.plane = common_.extent * common_.extent;
+    }
+
+    [[nodiscard]] std::size_t count() const { return power(along_); }
+    [[nodiscard]] std::size_t pairs() const { return pairs_; }  ///< of tiles along an axis
+    [[nodiscard]] std::size_t colours() const { return power(2); }
+    [[nodiscard]] std::size_t count_of_colour() const { return power(pairs_); }
+    [[nodiscard]] std::size_t buffer_size() const { return power(common_.extent); }
+
+    void find(std::span<const double> rows, std::uint32_t* tile_of, double* places) const {
+        find_places(rows, grid_.dimension, common_, tile_of, places);
+    }
+
+    /// Number of the i-th tile of a colour; bit k of the colour is the parity along axis k.
+    [[nodiscard]] std::size_t tile(std::size_t colour, std::size_t i) const {
+        std::size_t tile = 0;
+        std::size_t step = 1;
+        for (std::size_t k = 0; k < grid_.dimension; ++k, step *= along_, i /= pairs_)
+            tile += (2 * (i % pairs_) + (colour >> k & 1)) * step;
+        return tile;
+    }
+
+    [[nodiscard]] SpreadTile describe(std::size_t tile) const {
+        SpreadTile description = common_;
+        for (std::size_t k = 0; k < grid_.dimension; ++k, tile /= along_) {
+            const std::size_t start = starts_[tile % along_];
+            description.start[k] = static_cast<std::int64_t>(start);
+            description.reach[k] = starts_[tile % along_ + 1] - start + common_.width - 1;
+        }
+        return description;
+    }
+
+    /// The same with the grid for its buffer, if windows that begin there end within the grid.
+    [[nodiscard]] std::optional<SpreadTile> describe_in_place(std::size_t tile) const {
+        SpreadTile description = describe(tile);
+        for (std::size_t k = 0; k < grid_.dimension; ++k)
+            if (static_cast<std::size_t>(description.start[k]) + description.reach[k] > grid_.side)
+                return {};
+        description.extent = grid_.stride;
+        description.plane = grid_.side * grid_.stride;
+        description.in_grid = true;
+        return description;
+    }
+
+    /// Where such a tile begins.
+    [[nodiscard]] double* place(const SpreadTile& tile) const {
+        return grid_.cells + line(tile, 0, 0) * grid_.stride + wrapped(tile.start[0], 0);
+    }
+
+    /// Adds a tile's buffer to the grid, around its ends; no cell beyond the tile's reach, for
+    /// another thread may be at the next tile of the colour.
+    STIPPLE_WIDE void add_back(const SpreadTile& tile, const double* buffer) const {
+        const std::size_t x = wrapped(tile.start[0], 0);
+        const std::size_t before_end = std::min(tile.reach[0], grid_.side - x);
+        for (std::size_t z = 0; z < tile.reach[2]; ++z)
+            for (std::size_t y = 0; y < tile.reach[1]; ++y) {
+                double* row = grid_.cells + line(tile, y, z) * grid_.stride;
+                const double* from = buffer + (z * tile.extent + y) * tile.extent;
+                for (std::size_t i = 0; i < before_end; ++i) row[x + i] += from[i];
+                for (std::size_t i = before_end; i < tile.reach[0]; ++i)
+                    row[i - before_end] += from[i];
+            }
+    }
+
+    /// Tells the processor that some rows of a tile, [first, last), are added to soon.
+    void fetch(const SpreadTile& tile, std::size_t first, std::size_t last) const {
+        const std::size_t x = wrapped(tile.start[0], 0);
+        for (std::size_t i = first; i < std::min(last, tile.reach[1] * tile.reach[2]); ++i) {
+            const double* row =
+                grid_.cells + line(tile, i % tile.reach[1], i / tile.reach[1]) * grid_.stride;
+            for (std::size_t at = x; at < std::min(x + tile.reach[0] + 7, grid_.side); at += 8)
+                __builtin_prefetch(row + at, 1, 2);
+        }
+    }
+
+  private:
+    /// The grid's line to which a line of the buffer is added.
+    [[nodiscard]] std::size_t line(const SpreadTile& tile, std::size_t y, std::size_t z) const {
+        return wrapped(tile.start[2], z) * grid_.side + wrapped(tile.start[1], y);
+    }
+    [[nodiscard]] std::size_t power(std::size_t base) const {
+        std::size_t value = 1;
+        for (std::size_t k = 0; k < grid_.dimension; ++k) value *= base;
+        return value;
+    }
+    [[nodiscard]] std::size_t wrapped(std::int64_t start, std::size_t offset) const {
+        const std::size_t i = static_cast<std::size_t>(start) + offset;
+        return i < grid_.side ? i : i - grid_.side;
+    }
+
+    CellGrid grid_;
+    std::size_t pairs_ = 1;
+    std::size_t along_ = 2;
+    std::size_t widest_ = 0;
+    std::vector<std::size_t> starts_;
+    SpreadTile common_{};
+};
+
+/// Two buffers of a tile: what some points add to it, and their sums.
+class TileSums {
+  public:
+    /// @param most points that are added up in a row
+    TileSums(std::size_t cells, std::size_t most) : cells_(cells), most_(most), room_(2 * cells) {}
+
+    void begin() {
+        std::fill_n(points(), cells_, 0.0);
+        several_ = false;
+        count_ = 0;
+    }
+    [[nodiscard]] double* points() { return room_.get(); }
+
+    /// To be called before so many points are added: rounding errors of long sums stay small.
+    void expect(std::size_t count) {
+        if (count_ > 0 && count_ + count > most_) fold();
+        count_ += count;
+    }
+    [[nodiscard]] const double* finish() {
+        if (several_) fold();
+        return several_ ? sums() : points();
+    }
+
+  private:
+    [[nodiscard]] double* sums() { return room_.get() + cells_; }
+    void fold() {
+        if (several_)
+            for (std::size_t i = 0; i < cells_; ++i) sums()[i] += points()[i];
+        else
+            std::copy_n(points(), cells_, sums());
+        std::fill_n(points(), cells_, 0.0);
+        several_ = true;
+        count_ = 0;
+    }
+
+    std::size_t cells_;
+    std::size_t most_;
+    GridCells room_;
+    bool several_ = false;
+    std::size_t count_ = 0;
+};
+
+std::size_t spreading_batch(const CellGrid& grid) {
+    constexpr std::size_t most = std::size_t{1} << 30;  // counters of 32 bits are enough for it
+    std::size_t cells = 1;
+    for (std::size_t k = 0; k < grid.dimension; ++k) cells = std::min(most, cells * grid.side);
+    // Fewer points than cells would pass over the grid too often.
+    cells = std::clamp(cells, std::size_t{1} << 20, std::size_t{1} << 22);
+    return cells / round_of_streams * round_of_streams;
+}
+
+Spreader::Spreader(const Interpolator& window, const CellGrid& grid, std::size_t together,
+                   bool weighted)
+    : table_(window),
+      tiling_(std::make_unique<Tiling>(grid, table_, weighted)),
+      dimension_(grid.dimension),
+      width_(grid.dimension + (weighted ? 1 : 0)),
+      batch_(spreading_batch(grid)),
+      together_(together) {
+    assert(grid.side % 2 == 0 && grid.side >= CellGrid::smallest_side && grid.side < 1U << 24);
+    for (std::size_t s = 0; s < streams; ++s)
+        points_.emplace_back(tiling_->count(), width_, batch_ / streams);
+}
+
+Spreader::~Spreader() = default;
+
+double Spreader::bytes(double count, const CellGrid& grid, bool weighted) {
+    const double points = std::min(count, static_cast<double>(spreading_batch(grid)));
+    const double tiles = std::pow(static_cast<double>(grid.side) / smallest_tile(grid.dimension),
+                                  static_cast<double>(grid.dimension));
+    return TilePoints::bytes(points, streams * tiles, grid.dimension + (weighted ? 1 : 0));
+}
+
+void Spreader::add(std::span<const double> rows, const RunContext& run) {
+    while (!rows.empty()) {
+        const std::size_t count = std::min(rows.size() / width_, batch_ - waits_);
+        sort(rows.first(count * width_), run);
+        waits_ += count;
+        if (waits_ == batch_) finish(run);
+        rows = rows.subspan(count * width_);
+    }
+}
+
+void Spreader::finish(const RunContext& run) {
+    if (waits_ == 0) return;
+    const std::size_t pairs = tiling_->pairs();
+    const std::size_t shares = 4 * std::size_t{std::max(1U, run.threads)};
+    // Enough blocks for all threads, but none with less work than handing it over is.
+    if (pairs >= shares || run.threads == 1)
+        spread_bands(std::max({std::size_t{1}, pairs / shares, 1024 * pairs / waits_}), run);
+    else
+        for (std::size_t colour = 0; colour < tiling_->colours(); ++colour)
+            spread_colour(colour, run);
+    for (TilePoints& points : points_) points.clear();
+    waits_ = 0;
+}
+
+/// Brings the points to their tiles, stream by stream; within a tile a stream's keep their order.
+void Spreader::sort(std::span<const double> rows, const RunContext& run) {
+    const std::size_t end = waits_ + rows.size() / width_;
+    const auto sort_stream = [&](const Block& stream) {
+        std::vector<std::uint32_t> tile_of(sorting_block);
+        std::vector<double> places(sorting_block * width_);
+        for (std::size_t at = waits_; at < end;) {
+            const std::size_t chunk = at / stream_chunk;
+            const std::size_t last = std::min(end, (chunk + 1) * stream_chunk);
+            for (; chunk % streams == stream.index && at < last; at += sorting_block) {
+                const std::size_t some = std::min(sorting_block, last - at);
+                const auto here = rows.subspan((at - waits_) * width_, some * width_);
+                tiling_->find(here, tile_of.data(), places.data());
+                points_[stream.index].add(places.data(), tile_of.data(), some);
+            }
+            at = last;
+        }
+    };
+    RunContext context = run;
+    if (end - waits_ <= stream_chunk) context.threads = 1;
+    for_each_block(context, streams, 1, sort_stream, true);
+}
+
+/// Spreads block by block of bands across the last axis, which stay in the caches meanwhile: a
+/// band of odd place when both of its neighbours are done, and those between blocks at the end.
+void Spreader::spread_bands(std::size_t block, const RunContext& run) {
+    const std::size_t pairs = tiling_->pairs();
+    const auto inside = [&](const Block& b) {
+        TileSums sums(tiling_->buffer_size(), together_);
+        for (std::size_t i = b.first; i < b.last; ++i) {
+            spread_band(2 * i, sums, run);
+            if (i > b.first) spread_band(2 * i - 1, sums, run);
+        }
+    };
+    for_each_block(run, pairs, block, inside, true);
+    const auto between = [&](const Block& b) {
+        TileSums sums(tiling_->buffer_size(), together_);
+        spread_band(2 * std::min((b.index + 1) * block, pairs) - 1, sums, run);
+    };
+    for_each_block(run, block_count(pairs, block), 1, between, true);
+}
+
+void Spreader::spread_band(std::size_t band, TileSums& sums, const RunContext& run) const {
+    const std::size_t colours = tiling_->colours() / 2;
+    const std::size_t tiles = tiling_->count_of_colour() / tiling_->pairs();
+    for (std::size_t colour = 0; colour < colours; ++colour)
+        for (std::size_t i = 0; i < tiles; ++i)
+            spread_tile(tiling_->tile(colour + band % 2 * colours, i + band / 2 * tiles), sums,
+                        run);
+}
+
+void Spreader::spread_colour(std::size_t colour, const RunContext& run) {
+    const std::size_t tiles = tiling_->count_of_colour();
+    // Enough blocks for all threads, but none with less work than handing it over is.
+    const std::size_t block = std::max(1 + tiles / 128, 1024 * tiling_->count() / (waits_ + 1));
+    const auto spread = [&](const Block& b) {
+        TileSums sums(tiling_->buffer_size(), together_);
+        for (std::size_t i = b.first; i < b.last; ++i)
+            spread_tile(tiling_->tile(colour, i), sums, run);
+    };
+    for_each_block(run, tiles, block, spread, true);
+}
+
+template <class Visit>
+void Spreader::visit(std::size_t tile, Visit&& visit) const {
+    for (std::size_t s = 0; s < streams; ++s) {
+        if (s + 1 < streams) points_[s + 1].expect(tile);
+        points_[s].visit(tile, visit);
+    }
+}
+
+void Spreader::spread_tile(std::size_t number, TileSums& sums, const RunContext& run) const {
+    constexpr std::size_t rows_ahead = 4;  // too many at once would keep the points' own waiting
+    constexpr std::size_t few = 16;        // points that touch fewer cells than the tile has
+    std::size_t count = 0;
+    for (const TilePoints& points : points_) count += points.count_in_block(number);
+    if (count == 0) return;
+    if (count <= few)
+        if (const auto tile = tiling_->describe_in_place(number))
+            return visit(number, [&](std::span<const double> rows) {
+                spread_points(rows, dimension_, *tile, tiling_->place(*tile));
+            });
+    const SpreadTile tile = tiling_->describe(number);
+    std::size_t row = 0;
+    sums.begin();
+    visit(number, [&](std::span<const double> rows) {
+        run.check_stop();
+        tiling_->fetch(tile, row, row + rows_ahead);
+        row += rows_ahead;
+        sums.expect(rows.size() / width_);
+        spread_points(rows, dimension_, tile, sums.points());
+    });
+    tiling_->add_back(tile, sums.finish());
+}
+
+}  // namespace stipple

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+//
+// Points spread over a periodic grid of cells: every point of strength s (1, if not told) adds s
+// times the product of one window a dimension,
+//
+//     g[i] += s prod_k phi(M x_k - i_k),    indices modulo M,
+//
+// where coordinate 0 runs along the rows of the grid, the fastest index.
+//
+// Cost    O(n w^d + M^d ceil(n / batch)). Points come in any portions, are sorted into tiles of the
+//         grid as they come, and spread a batch at a time; a tile is summed in a buffer that the
+//         nearest cache holds, and then added to the grid.
+// Promise the same bits for any number of threads, and however the points are portioned. The colour
+//         of a tile is the parity of its place along each axis. Tiles of one colour do not touch
+//         each other, and where tiles do they are added in the order of their colours; so every
+//         cell has its summands in a fixed order.
+// Beware  M x is never rounded to a double: the product's high part is exact, and the place between
+//         two grid points keeps 52 bits.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/run_context.hpp"
+#include "math/fourier/interpolator.hpp"
+#include "math/fourier/tile_points.hpp"
+
+namespace stipple {
+
+/// Where the cells of a grid stand in memory.
+struct CellGrid {
+    std::size_t dimension = 1;  ///< 1, 2 or 3
+    std::size_t side = 0;       ///< M: even, at least smallest_side, below 2^24
+    std::size_t stride = 0;     ///< numbers from one row to the next, at least `side`
+    double* cells = nullptr;    ///< stride * side^(dimension - 1) numbers
+
+    static constexpr std::size_t smallest_side = 2 * Interpolator::max_width;
+};
+
+/// Points that are sorted at a time: about as many as cells, but at least 2^20 and at most 2^22.
+std::size_t spreading_batch(const CellGrid& grid);
+
+class Tiling;
+class TileSums;
+
+class Spreader {
+  public:
+    /// @param together points of a tile that are added up in a row, before the sums are folded to
+    /// keep rounding errors small.
+    /// @param weighted whether a row holds the point's strength behind its coordinates.
+    Spreader(const Interpolator& window, const CellGrid& grid, std::size_t together,
+             bool weighted = false);
+    Spreader(const Spreader&) = delete;
+    Spreader& operator=(const Spreader&) = delete;
+    ~Spreader();
+
+    /// Takes points, rows of `dimension` numbers in [0, 1] and their strengths.
+    void add(std::span<const double> rows, const RunContext& run);
+
+    /// Spreads what still waits for a full batch.
+    void finish(const RunContext& run);
+
+    /// Peak memory besides the grid, for so many points.
+    static double bytes(double count, const CellGrid& grid, bool weighted);
+
+  private:
+    void sort(std::span<const double> rows, const RunContext& run);
+    void spread_bands(std::size_t block, const RunContext& run);
+    void spread_band(std::size_t band, TileSums& sums, const RunContext& run) const;
+    void spread_colour(std::size_t colour, const RunContext& run);
+    void spread_tile(std::size_t number, TileSums& sums, const RunContext& run) const;
+    template <class Visit>
+    void visit(std::size_t tile, Visit&& visit) const;
+
+    WeightTable table_;
+    std::unique_ptr<Tiling> tiling_;
+    std::size_t dimension_;
+    std::size_t width_;               ///< numbers of a row
+    std::size_t batch_;               ///< points of a batch
+    std::size_t together_;            ///< points of a tile that are added up in a row
+    std::size_t waits_ = 0;           ///< points that are sorted, and not spread yet
+    std::vector<TilePoints> points_;  ///< of each stream
+};
+
+}  // namespace stipple

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+#include "math/fourier/transform.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "core/file_bytes.hpp"
+#include "core/large_pages.hpp"
+#include "core/parallel.hpp"
+#include "math/fourier/fftw.hpp"
+#include "math/functions/powers.hpp"
+
+namespace stipple {
+namespace {
+
+/// One complex number, moved as a whole.
+using Pair = double __attribute__((vector_size(16)));
+using PairInMemory = double __attribute__((vector_size(16), aligned(8), may_alias));
+
+/// A transform of one length, in place, that any number of threads may execute.
+class LineTransform {
+  public:
+    enum class Kind { real, complex };
+
+    LineTransform(Kind kind, std::size_t length, Planning planning) : kind_(kind) {
+        const auto n = static_cast<int>(length);
+        const unsigned effort = planning == Planning::measured ? FFTW_MEASURE : FFTW_ESTIMATE;
+        const FftwReals line = fftw_reals(2 * length + 2);
+        double* p = line.get();
+        const std::lock_guard lock(fftw_planner());
+        plan_ = kind == Kind::real
+                    ? fftw_plan_dft_r2c_1d(n, p, as_fftw(p), effort)
+                    : fftw_plan_dft_1d(n, as_fftw(p), as_fftw(p), FFTW_FORWARD, effort);
+        if (plan_ == nullptr) throw std::bad_alloc();
+    }
+    LineTransform(const LineTransform&) = delete;
+    LineTransform& operator=(const LineTransform&) = delete;
+    ~LineTransform() {
+        const std::lock_guard lock(fftw_planner());
+        fftw_destroy_plan(plan_);
+    }
+
+    /// @param line aligned as fftw_reals() does, or a multiple of 8 numbers behind.
+    void execute(double* line) const {
+        if (kind_ == Kind::real)
+            fftw_execute_dft_r2c(plan_, line, as_fftw(line));
+        else
+            fftw_execute_dft(plan_, as_fftw(line), as_fftw(line));
+    }
+
+  private:
+    Kind kind_;
+    fftw_plan plan_ = nullptr;
+};
+
+/// Lines whose transform takes about a quarter of a millisecond.
+std::size_t lines_at_a_time(std::size_t side) { return std::max<std::size_t>(1, 65536 / side); }
+
+/// Transforms the rows of the grid and scales what is wanted of them.
+void transform_rows(const CellGrid& grid, std::span<const double> factors, Planning planning,
+                    const RunContext& run) {
+    const LineTransform line(LineTransform::Kind::real, grid.side, planning);
+    std::size_t rows = 1;
+    for (std::size_t k = 1; k < grid.dimension; ++k) rows *= grid.side;
+    for_each_block(run, rows, lines_at_a_time(grid.side), [&](const Block& b) {
+        for (std::size_t i = b.first; i < b.last; ++i) {
+            double* row = grid.cells + i * grid.stride;
+            line.execute(row);
+            auto* numbers = reinterpret_cast<PairInMemory*>(row);
+            for (std::size_t f = 0; f < factors.size(); ++f) numbers[f] *= factors[f];
+        }
+    });
+}
+
+/// Lines across the memory: for each of `planes`, `side` rows of `width` complex numbers that
+/// stand `stride` complex numbers apart.
+struct Columns {
+    const std::complex<double>* values;
+    std::size_t planes;
+    std::size_t side;
+    std::size_t stride;
+    std::size_t width;
+};
+
+constexpr std::size_t ahead = 16;     // rows are pages apart, where no machine looks by itself
+constexpr std::size_t together = 16;  // columns share the cache lines that they are read from
+
+/// Some columns of a plane, gathered into lines.
+class Gathered {
+  public:
+    explicit Gathered(std::size_t side)
+        : side_(side), spacing_(stride_of(2 * side)), lines_(fftw_reals(together * spacing_)) {}
+
+    void take(const std::complex<double>* from, std::size_t stride, std::size_t count) {
+        const auto* rows = reinterpret_cast<const PairInMemory*>(from);
+        auto* lines = reinterpret_cast<PairInMemory*>(lines_.get());
+        if (count == together) return copy<together>(rows, stride, lines);
+        for (std::size_t i = 0; i < side_; ++i)
+            for (std::size_t c = 0; c < count; ++c)
+                lines[c * spacing_ / 2 + i] = rows[i * stride + c];
+    }
+
+    void transform(const LineTransform& line, std::size_t count) {
+        for (std::size_t c = 0; c < count; ++c) line.execute(lines_.get() + c * spacing_);
+    }
+
+    /// Gives the frequencies -F..F, scaled, one row of `width` numbers each.
+    void give(std::span<const double> factors, std::complex<double>* to, std::size_t width,
+              std::size_t count) const {
+        const auto* lines = reinterpret_cast<const PairInMemory*>(lines_.get());
+        auto* rows = reinterpret_cast<PairInMemory*>(to);
+        const std::size_t last = factors.size() - 1;
+        for (std::size_t i = 0; i <= 2 * last; ++i) {
+            const std::size_t at = i < last ? side_ + i - last : i - last;
+            const double factor = factors[i < last ? last - i : i - last];
+            const PairInMemory* later = rows + std::min(i + ahead, 2 * last) * width;
+            for (std::size_t c = 0; c < count; c += 4) __builtin_prefetch(later + c, 1);
+            for (std::size_t c = 0; c < count; ++c)
+                rows[i * width + c] = lines[c * spacing_ / 2 + at] * factor;
+        }
+    }
+
+  private:
+    template <std::size_t Count>
+    void copy(const PairInMemory* rows, std::size_t stride, PairInMemory* lines) const {
+        for (std::size_t i = 0; i < side_; ++i) {
+            const PairInMemory* later = rows + std::min(i + ahead, side_ - 1) * stride;
+            for (std::size_t c = 0; c < Count; c += 4) __builtin_prefetch(later + c);
+            for (std::size_t c = 0; c < Count; ++c)
+                lines[c * spacing_ / 2 + i] = rows[i * stride + c];
+        }
+    }
+
+    std::size_t side_;
+    std::size_t spacing_;  ///< numbers from one line to the next
+    FftwReals lines_;
+};
+
+/// Transforms all columns and keeps their frequencies -F..F, scaled: planes x (2F + 1) x width.
+std::vector<std::complex<double>> transform_columns(const Columns& in,
+                                                    std::span<const double> factors,
+                                                    Planning planning, const RunContext& run) {
+    const LineTransform line(LineTransform::Kind::complex, in.side, planning);
+    const std::size_t span = 2 * factors.size() - 1;
+    const std::size_t groups = (in.width + together - 1) / together;
+    std::vector<std::complex<double>> out;
+    fill_with_zeros(out, in.planes * span * in.width);
+    const std::size_t size = std::max<std::size_t>(1, lines_at_a_time(in.side) / together);
+    for_each_block(run, in.planes * groups, size, [&](const Block& b) {
+        Gathered lines(in.side);
+        for (std::size_t i = b.first; i < b.last; ++i) {
+            const std::size_t plane = i / groups;
+            const std::size_t first = i % groups * together;
+            const std::size_t count = std::min(together, in.width - first);
+            lines.take(in.values + plane * in.side * in.stride + first, in.stride, count);
+            lines.transform(line, count);
+            lines.give(factors, out.data() + plane * span * in.width + first, in.width, count);
+        }
+    });
+    return out;
+}
+
+}  // namespace
+
+std::complex<double> FourierSums::at(std::array<std::int64_t, 3> f) const {
+    const bool mirrored = f[0] < 0;
+    const auto last = static_cast<std::int64_t>(max_frequency);
+    std::int64_t index = 0;
+    for (std::size_t k = dimension; k-- > 1;)
+        index = index * (2 * last + 1) + (mirrored ? -f[k] : f[k]) + last;
+    index = index * (last + 1) + std::abs(f[0]);
+    const auto value = values[static_cast<std::size_t>(index)];
+    return mirrored ? std::conj(value) : value;
+}
+
+double fourier_sums_size(std::size_t dimension, std::size_t max_frequency) {
+    return real_power_of(2 * max_frequency + 1, dimension - 1) *
+           static_cast<double>(max_frequency + 1);
+}
+
+Planning planning_for(std::size_t dimension, std::size_t side) {
+    // To try takes about half a second a plan, and gains a tenth.
+    return transform_seconds(dimension, side) > 10 ? Planning::measured : Planning::estimated;
+}
+
+std::size_t stride_of(std::size_t side) { return side / 8 * 8 + 16; }
+
+std::size_t quick_length(std::size_t least) {
+    for (std::size_t length = least + least % 2;; length += 2) {
+        const std::size_t odd = length >> std::countr_zero(length);
+        std::size_t rest = odd;
+        for (const std::size_t prime : {3U, 5U})
+            while (rest % prime == 0) rest /= prime;
+        if (rest == 1 && (odd < 27 || length < 256)) return length;
+    }
+}
+
+double transform_seconds(std::size_t dimension, std::size_t side) {
+    // FFTW is quickest at powers of two, as estimated plans go.
+    const double a_cell = dimension == 3 ? 1e-8 : std::has_single_bit(side) ? 5e-9 : 6.5e-9;
+    return real_power_of(side, dimension) * a_cell;
+}
+
+FourierSums transform_grid(GridCells cells, const CellGrid& grid, std::span<const double> factors,
+                           Planning planning, const RunContext& run) {
+    transform_rows(grid, factors, planning, run.stage(0, 0.5));
+    const std::size_t last = factors.size() - 1;
+    FourierSums sums{.dimension = grid.dimension, .max_frequency = last, .values = {}};
+    const auto* transformed = reinterpret_cast<const std::complex<double>*>(grid.cells);
+    Columns columns{transformed, 1, grid.side, grid.stride / 2, last + 1};
+    if (grid.dimension == 1) sums.values.assign(transformed, transformed + last + 1);
+    if (grid.dimension == 2)
+        sums.values = transform_columns(columns, factors, planning, run.stage(0.5, 1));
+    if (grid.dimension == 3) {
+        columns.planes = grid.side;
+        const auto between = transform_columns(columns, factors, planning, run.stage(0.5, 0.75));
+        cells.reset();
+        const std::size_t width = (2 * last + 1) * (last + 1);
+        sums.values = transform_columns({between.data(), 1, grid.side, width, width}, factors,
+                                        planning, run.stage(0.75, 1));
+    }
+    return sums;
+}
+
+void read_wisdom(const std::string& path) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(path, ignored) && !ignored) return;
+    const std::string text = read_file(path);
+    const std::lock_guard lock(fftw_planner());
+    if (fftw_import_wisdom_from_string(text.c_str()) == 0)
+        fail_with_hint(ErrorKind::input, "it is written anew where it is not there",
+                       "{}: this is no wisdom of {}", path, fftw_version);
+}
+
+std::string wisdom_text() {
+    const std::lock_guard lock(fftw_planner());
+    const std::unique_ptr<char, void (*)(void*)> text(fftw_export_wisdom_to_string(), std::free);
+    if (!text) throw std::bad_alloc();
+    return std::string(text.get()) + "\n";
+}
+
+}  // namespace stipple

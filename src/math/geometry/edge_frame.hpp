@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+//
+// Coordinates along two edges e and f that leave one corner c, in the plane or in space:
+//
+//     p = c + s e + t f  (+ what p is off the plane)     s = g . (p - c),  t = h . (p - c)
+//
+// where g and h lie in the plane of e and f, g . e = h . f = 1 and g . f = h . e = 0.
+//
+// Promise nothing over- or underflows for edges between 1e-140 and 1e150.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "math/geometry/vector3.hpp"
+
+namespace stipple {
+
+/// A point of two or three coordinates in space; the plane is z = 0.
+Vector3 space_point(std::span<const double> point);
+
+class EdgeFrame {
+  public:
+    struct Coordinates {
+        double s;
+        double t;
+    };
+
+    /// `size` is the largest coordinate of the points that are made with it.
+    EdgeFrame(const Vector3& corner, const Vector3& e, const Vector3& f, double size);
+    EdgeFrame() = default;
+
+    /// Whether the edges span no area, but for rounding; nothing else may be asked then.
+    [[nodiscard]] bool flat() const { return flat_; }
+
+    [[nodiscard]] Coordinates coordinates(const Vector3& point) const;
+
+    /// Distance from the plane of the edges.
+    [[nodiscard]] double off_plane(const Vector3& point) const;
+
+    /// Area of the parallelogram of the edges.
+    [[nodiscard]] double area() const { return area_; }
+
+    /// Lengths of e, f and f - e.
+    [[nodiscard]] const std::array<double, 3>& lengths() const { return lengths_; }
+
+    /// How far rounding takes a point that was made: 16 epsilon (largest coordinate) (longest edge
+    /// / smallest height).
+    [[nodiscard]] double slack() const { return slack_; }
+
+  private:
+    Vector3 corner_{};
+    Vector3 g_{};
+    Vector3 h_{};
+    Vector3 normal_{};
+    std::array<double, 3> lengths_{};
+    double area_ = 0;
+    double slack_ = 0;
+    bool flat_ = true;
+};
+
+}  // namespace stipple

@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: MIT
+#include "math/geometry/polygon_rows.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/wide.hpp"
+#include "math/geometry/law_moments.hpp"
+#include "math/geometry/planar_area.hpp"
+
+namespace stipple {
+namespace {
+
+/// An edge that is not level, from its lower to its upper end.
+struct SlantedEdge {
+    PlanePoint low;
+    PlanePoint high;
+
+    [[nodiscard]] double x_at(double y) const {
+        if (y == high.y) return high.x;
+        return low.x + (high.x - low.x) * ((y - low.y) / (high.y - low.y));
+    }
+};
+
+/// An edge that passes through the slab at hand, and where it does half way up.
+struct Passing {
+    const SlantedEdge* edge;
+    double x = 0;
+};
+
+/// By insertion: edges don't cross, so that all but the new ones at the end are in order already.
+void sort_from_left(std::vector<Passing>& passing, double middle) {
+    for (Passing& p : passing) p.x = p.edge->x_at(middle);
+    for (auto p = passing.begin(); p != passing.end(); ++p) {
+        if (p == passing.begin() || (p - 1)->x <= p->x) continue;
+        const auto place = std::ranges::upper_bound(passing.begin(), p, p->x, {}, &Passing::x);
+        std::rotate(place, p, p + 1);
+    }
+}
+
+/// The share of a slab's height, from the end where its row is w0 long, that has the share f of its
+/// area; the longer one of w0 and w1 is 1.
+double height_share(double f, double w0, double w1) {
+    const double root = std::sqrt((1 - f) * w0 * w0 + f * w1 * w1);
+    const double null = f == 0;  // where w0 = 0, too, this is 0 / 0
+    return f * (w0 + w1) / (w0 + root + null);
+}
+
+constexpr std::size_t batch_size = 128;
+
+/// What the rows of some points are worked out from, and their rows; in columns, so that loops over
+/// them are widened.
+struct Batch {
+    using Column = std::array<double, batch_size>;
+    std::array<std::uint32_t, batch_size> slab;
+    Column bottom, top, area, width_bottom, width_top;  ///< of the slab
+    Column passed;      ///< the area from the nearer end of the region up to the slab
+    Column near, away;  ///< widths of the slab there and at its other end, the greater one is 1
+    Column y;           ///< the row
+    Column t;           ///< its place in the slab
+    Column way;         ///< the length to go along it
+};
+
+/// The row in the slab that has the share u of the whole area below it, from the end of the slab
+/// that u is nearer to. Written without branches, since they would be guessed wrong half of the
+/// time.
+STIPPLE_WIDE [[gnu::flatten]] void find_rows(Batch& of, const double* cube, double whole,
+                                             std::size_t size) {
+    for (std::size_t i = 0; i < size; ++i) {
+        const double u = cube[2 * i];
+        const bool up = u < 0.5;
+        const double height = of.top[i] - of.bottom[i];
+        const double rest = (up ? u : 1 - u) * whole - of.passed[i];
+        const double f = std::max(0.0, std::min(rest / of.area[i], 1.0));
+        const double step = height_share(f, of.near[i], of.away[i]) * height;
+        const double row = up ? of.bottom[i] + step : of.top[i] - step;
+        const double y = std::max(of.bottom[i], std::min(row, of.top[i]));
+        const double t = (y - of.bottom[i]) / height;  // of the row as it is rounded
+        of.y[i] = y;
+        of.t[i] = t;
+        of.way[i] =
+            cube[2 * i + 1] * (of.width_bottom[i] + t * (of.width_top[i] - of.width_bottom[i]));
+    }
+}
+
+/// The way back: the share of the area that has the share t of the height.
+double area_share(double t, double w0, double w1) {
+    return w0 + w1 > 0 ? t * (2 * w0 + t * (w1 - w0)) / (w0 + w1) : 0;
+}
+
+/// A share in [0, 1] next to `share` that forward() finds in the piece [low, high) of the whole, on
+/// whose edge it may be.
+double share_within(double share, double whole, double low, double high) {
+    double x = std::clamp(share, 0.0, 1.0);
+    while (x < 1 && x * whole < low) x = std::nextafter(x, 1);
+    while (x > 0 && x * whole >= high) x = std::nextafter(x, 0);
+    return x;
+}
+
+double distance(PlanePoint p, PlanePoint a, PlanePoint b) {
+    const double dx = b.x - a.x;
+    const double dy = b.y - a.y;
+    const double longest = std::max(std::abs(dx), std::abs(dy));  // so that squares don't overflow
+    const double ex = dx / longest;
+    const double ey = dy / longest;
+    const double along = ((p.x - a.x) * ex + (p.y - a.y) * ey) / (ex * ex + ey * ey);
+    const double t = std::clamp(along / longest, 0.0, 1.0);
+    return std::hypot(p.x - (a.x + t * dx), p.y - (a.y + t * dy));
+}
+
+}  // namespace
+
+PolygonRows::PolygonRows(const std::vector<Ring>& rings, const RunContext& run) {
+    measure_rings(rings);
+    cut_slabs(run);
+    measure_slabs();
+    fill_guide();
+}
+
+void PolygonRows::measure_rings(const std::vector<Ring>& rings) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    box_ = {{infinity, infinity}, {-infinity, -infinity}};
+    double size = 0;
+    for (const Ring& ring : rings)
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const PlanePoint p = ring[i];
+            rim_.emplace_back(p, ring[(i + 1) % ring.size()]);
+            size = std::max({size, std::abs(p.x), std::abs(p.y)});
+            box_ = {{std::min(box_.low[0], p.x), std::min(box_.low[1], p.y)},
+                    {std::max(box_.high[0], p.x), std::max(box_.high[1], p.y)}};
+        }
+    slack_ = 16 * std::numeric_limits<double>::epsilon() * size;
+}
+
+/// One slab between each height of a vertex and the next, with the parts of it that are inside:
+/// every second interval between the edges that pass through it, from left to right.
+void PolygonRows::cut_slabs(const RunContext& run) {
+    std::vector<SlantedEdge> edges;
+    std::vector<double> heights;
+    for (const auto& [p, q] : rim_) {
+        heights.push_back(p.y);
+        if (p.y != q.y) edges.push_back(p.y < q.y ? SlantedEdge{p, q} : SlantedEdge{q, p});
+    }
+    std::ranges::sort(heights);
+    heights.erase(std::unique(heights.begin(), heights.end()), heights.end());
+    std::ranges::sort(edges, {}, [](const SlantedEdge& edge) { return edge.low.y; });
+
+    std::vector<Passing> passing;
+    auto next = edges.begin();
+    for (std::size_t j = 0; j + 1 < heights.size(); ++j) {
+        run.check_stop();
+        const double bottom = heights[j];
+        const double top = heights[j + 1];
+        std::erase_if(passing, [&](const Passing& p) { return p.edge->high.y <= bottom; });
+        for (; next != edges.end() && next->low.y <= bottom; ++next) passing.push_back({&*next});
+        sort_from_left(passing, bottom + 0.5 * (top - bottom));
+        const std::size_t first = parts_.size();
+        for (std::size_t k = 0; k + 1 < passing.size(); k += 2) {
+            const SlantedEdge& left = *passing[k].edge;
+            const SlantedEdge& right = *passing[k + 1].edge;
+            parts_.push_back(
+                {left.x_at(bottom), left.x_at(top), right.x_at(bottom), right.x_at(top)});
+        }
+        slabs_.push_back({.bottom = bottom, .top = top, .first = first, .last = parts_.size()});
+        run.need_memory(static_cast<double>(parts_.size()) * 2 * sizeof(Part),
+                        "the rows of the polygon");
+    }
+}
+
+void PolygonRows::measure_slabs() {
+    for (std::size_t j = 0; j < slabs_.size(); ++j) {
+        Slab& slab = slabs_[j];
+        for (const Part& part : parts_of(slab)) {
+            slab.width_bottom += part.right(0) - part.left(0);
+            slab.width_top += part.right(1) - part.left(1);
+        }
+        slab.area = 0.5 * (slab.width_bottom + slab.width_top) * slab.height();
+        slab.area_below = area_;
+        area_ += slab.area;
+        if (!(slab.area > 0)) continue;
+        const double widest = std::max(slab.width_bottom, slab.width_top);
+        slab.share_bottom = slab.width_bottom / widest;
+        slab.share_top = slab.width_top / widest;
+        last_filled_ = j;
+    }
+    double above = 0;
+    for (std::size_t j = slabs_.size(); j-- > 0;) {
+        slabs_[j].area_above = above;
+        above += slabs_[j].area;
+    }
+}
+
+void PolygonRows::fill_guide() {
+    const std::size_t shares = std::max<std::size_t>(64, 4 * slabs_.size());
+    shares_ = static_cast<double>(shares);
+    guide_.resize(shares + 1);  // the last one is for u = 1
+    std::size_t j = 0;
+    for (std::size_t k = 0; k < guide_.size(); ++k) {
+        const double below = static_cast<double>(k) / shares_ * area_;
+        while (j < last_filled_ && slabs_[j].area_below + slabs_[j].area <= below) ++j;
+        guide_[k] = static_cast<std::uint32_t>(j);
+    }
+}
+
+/// What is between two edges from one height to another is a quadrilateral.
+double PolygonRows::area_in(const Box& box) const {
+    const Polygon window{{box.low[0], box.low[1]},
+                         {box.high[0], box.low[1]},
+                         {box.high[0], box.high[1]},
+                         {box.low[0], box.high[1]}};
+    const auto from = std::ranges::upper_bound(slabs_, box.low[1], {}, &Slab::top);
+    double sum = 0;
+    for (auto slab = from; slab != slabs_.end() && slab->bottom < box.high[1]; ++slab)
+        for (const Part& part : parts_of(*slab))
+            sum += shared_area({{part.left(0), slab->bottom},
+                                {part.right(0), slab->bottom},
+                                {part.right(1), slab->top},
+                                {part.left(1), slab->top}},
+                               window);
+    return sum;
+}
+
+Moments PolygonRows::moments() const {
+    MixedMoments all({0.5 * (box_.low[0] + box_.high[0]), 0.5 * (box_.low[1] + box_.high[1])});
+    for (const Slab& slab : slabs_)
+        for (const Part& part : parts_of(slab)) {
+            const std::vector<double> low = {part.left_bottom, slab.bottom};
+            const std::vector<double> high = {part.right_top, slab.top};
+            // Weights are widths at the sides: both triangles are as high.
+            all.add((part.right_bottom - part.left_bottom) * slab.height(),
+                    triangle_moments({low, {part.right_bottom, slab.bottom}, high}));
+            all.add((part.right_top - part.left_top) * slab.height(),
+                    triangle_moments({low, {part.left_top, slab.top}, high}));
+        }
+    return all.moments();
+}
+
+PlanePoint PolygonRows::forward(double u, double v) const {
+    const std::array<double, 2> cube{u, v};
+    std::array<double, 2> image;
+    forward_all(cube, image);
+    return {image[0], image[1]};
+}
+
+void PolygonRows::forward_all(std::span<const double> cube, std::span<double> image) const {
+    Batch batch;
+    for (std::size_t first = 0; first < cube.size() / 2; first += batch_size) {
+        const std::size_t size = std::min(batch_size, cube.size() / 2 - first);
+        const double* in = cube.data() + 2 * first;
+        double* out = image.data() + 2 * first;
+        for (std::size_t i = 0; i < size; ++i) {
+            batch.slab[i] = static_cast<std::uint32_t>(slab_at(in[2 * i]));
+            const Slab& slab = slabs_[batch.slab[i]];
+            const bool up = in[2 * i] < 0.5;
+            batch.bottom[i] = slab.bottom;
+            batch.top[i] = slab.top;
+            batch.area[i] = slab.area;
+            batch.passed[i] = up ? slab.area_below : slab.area_above;
+            batch.near[i] = up ? slab.share_bottom : slab.share_top;
+            batch.away[i] = up ? slab.share_top : slab.share_bottom;
+            batch.width_bottom[i] = slab.width_bottom;
+            batch.width_top[i] = slab.width_top;
+        }
+        find_rows(batch, in, area_, size);
+        for (std::size_t i = 0; i < size; ++i) {
+            out[2 * i] = along_row(slabs_[batch.slab[i]], batch.t[i], batch.way[i]);
+            out[2 * i + 1] = batch.y[i];
+        }
+    }
+}
+
+/// The slab of the row that has the share u of the area below it.
+std::size_t PolygonRows::slab_at(double u) const {
+    const double below = u * area_;
+    std::size_t j = guide_[static_cast<std::size_t>(static_cast<std::int64_t>(u * shares_))];
+    while (j > 0 && slabs_[j].area_below > below) --j;  // rounding took the share too high
+    while (j < last_filled_ && slabs_[j].area_below + slabs_[j].area <= below) ++j;
+    return j;
+}
+
+/// The place in a row, the length `way` from its left end on.
+double PolygonRows::along_row(const Slab& slab, double t, double way) const {
+    const auto parts = parts_of(slab);
+    double passed = 0;
+    for (std::size_t k = 0;; ++k) {
+        const double left = parts[k].left(t);
+        const double right = parts[k].right(t);
+        const double after = passed + (right - left);
+        if (way < after || k + 1 == parts.size())
+            return std::min(left + std::max(0.0, way - passed), right);
+        passed = after;
+    }
+}
+
+PlanePoint PolygonRows::inverse(PlanePoint p) const {
+    const Slab& slab = slab_around(p);
+    const double y = std::clamp(p.y, slab.bottom, slab.top);
+    const double t = (y - slab.bottom) / slab.height();
+    const double from_top = (slab.top - y) / slab.height();
+    const double below =
+        slab.area_below + area_share(t, slab.width_bottom, slab.width_top) * slab.area;
+    const double above =
+        slab.area_above + area_share(from_top, slab.width_top, slab.width_bottom) * slab.area;
+    const double u = below < above ? below / area_ : 1 - above / area_;
+    const bool topmost = &slab == &slabs_[last_filled_];
+    return {
+        share_within(u, area_, slab.area_below, topmost ? 2 * area_ : slab.area_below + slab.area),
+        place_in_row(slab, t, p.x)};
+}
+
+/// The share of the row's length that is on the left of x, or of the part that is nearest to it.
+double PolygonRows::place_in_row(const Slab& slab, double t, double x) const {
+    const double width = slab.width(t);
+    if (!(width > 0)) return 0;
+    double passed = 0;
+    double nearest = std::numeric_limits<double>::infinity();
+    double place = 0;
+    const auto parts = parts_of(slab);
+    for (std::size_t k = 0; k < parts.size() && nearest > 0; ++k) {
+        const double left = parts[k].left(t);
+        const double right = parts[k].right(t);
+        const double after = passed + (right - left);
+        const double gap = std::max({left - x, x - right, 0.0});
+        if (gap < nearest) {
+            nearest = gap;
+            place = share_within((passed + std::clamp(x - left, 0.0, right - left)) / width, width,
+                                 passed, k + 1 == parts.size() ? 2 * width : after);
+        }
+        passed = after;
+    }
+    return place;
+}
+
+/// How far the point is from the slab's parts, along its row.
+double PolygonRows::gap(const Slab& slab, PlanePoint p) const {
+    const double t = (std::clamp(p.y, slab.bottom, slab.top) - slab.bottom) / slab.height();
+    double least = std::numeric_limits<double>::infinity();
+    for (const Part& part : parts_of(slab))
+        least = std::min(least, std::max({part.left(t) - p.x, p.x - part.right(t), 0.0}));
+    return least;
+}
+
+/// The slab of the point. Where two meet, or are thinner than rounding, the one that holds it.
+const PolygonRows::Slab& PolygonRows::slab_around(PlanePoint p) const {
+    const auto above = std::ranges::upper_bound(slabs_, p.y, {}, &Slab::bottom);
+    const auto home = above == slabs_.begin() ? above : above - 1;
+    auto best = home;
+    double least = gap(*home, p);
+    const auto consider = [&](auto slab) {
+        const double distance = gap(*slab, p);
+        if (distance < least) {
+            least = distance;
+            best = slab;
+        }
+    };
+    for (auto slab = home; least > 0 && slab != slabs_.begin() && p.y - slab->bottom <= slack_;)
+        consider(--slab);
+    for (auto slab = home + 1; least > 0 && slab != slabs_.end() && slab->bottom - p.y <= slack_;)
+        consider(slab++);
+    return *best;
+}
+
+double PolygonRows::distance_to_rim(PlanePoint p) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [a, b] : rim_) least = std::min(least, distance(p, a, b));
+    return least;
+}
+
+bool PolygonRows::contains(PlanePoint p) const {
+    const bool near = p.x >= box_.low[0] - slack_ && p.x <= box_.high[0] + slack_ &&
+                      p.y >= box_.low[1] - slack_ && p.y <= box_.high[1] + slack_;
+    if (!near) return false;
+    const bool in_rows = p.y >= box_.low[1] && p.y <= box_.high[1];
+    return (in_rows && gap(slab_around(p), p) <= slack_) || distance_to_rim(p) <= slack_;
+}
+
+}  // namespace stipple

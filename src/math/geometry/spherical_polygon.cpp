@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "math/geometry/spherical_polygon.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "math/functions/trigonometry.hpp"
+
+namespace stipple {
+
+double half_area_turns(const Vector3& a, const Vector3& b, const Vector3& c) {
+    const double volume = dot(a, cross(minus(b, a), minus(c, a)));
+    return turns_of(1 + dot(a, b) + dot(b, c) + dot(c, a), std::abs(volume));
+}
+
+SphericalPolygon::SphericalPolygon(std::vector<Vector3> corners) : corners_(std::move(corners)) {
+    const std::size_t n = corners_.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        const Vector3 edge = minus(corners_[(i + 1) % n], corners_[i]);
+        Vector3 normal = normalized(cross(corners_[i], edge));
+        if (dot(normal, minus(corners_[(i + 2) % n], corners_[i])) < 0) normal = times(normal, -1);
+        inward_.push_back(normal);
+    }
+}
+
+std::vector<SphereCircle> SphericalPolygon::edges() const {
+    std::vector<SphereCircle> circles;
+    for (const Vector3& normal : inward_) circles.push_back({normal, 0});
+    return circles;
+}
+
+bool SphericalPolygon::contains(const Vector3& v, double slack) const {
+    if (!(std::abs(length(v) - 1) <= slack)) return false;
+    for (std::size_t i = 0; i < corners_.size(); ++i)
+        if (!(dot(inward_[i], minus(v, corners_[i])) >= -slack)) return false;
+    return true;
+}
+
+double SphericalPolygon::edge_top(std::size_t i, const Vector3& up) const {
+    const Vector3& from = corners_[i];
+    const Vector3& to = corners_[(i + 1) % corners_.size()];
+    const Vector3& normal = inward_[i];
+    const Vector3 highest = minus(up, times(normal, dot(normal, up)));  // of the edge's circle
+    // Turning with or against the normal, the edge passes it between its ends or not.
+    const double turn = dot(cross(from, to), normal);
+    const bool passes =
+        turn * dot(cross(from, highest), normal) > 0 && turn * dot(cross(highest, to), normal) > 0;
+    return passes ? length(highest) : std::max(dot(from, up), dot(to, up));
+}
+
+std::array<double, 3> SphericalPolygon::axial(const Vector3& w, double area) const {
+    std::array<double, 3> along{};  // sums of w . n times the integrals of (w . v)^0, ^1, ^2
+    for (std::size_t i = 0; i < corners_.size(); ++i) {
+        const Vector3& from = corners_[i];
+        const Vector3& to = corners_[(i + 1) % corners_.size()];
+        const double sine = length(cross(from, to));
+        const double cosine = dot(from, to);
+        const double angle = std::atan2(sine, cosine);
+        // The edge is a cos(s) + b sin(s) along w, for s from 0 to the angle.
+        const double a = dot(w, from);
+        const double b = (dot(w, to) - cosine * a) / sine;
+        const double bend = 0.5 * sine * cosine;
+        const double side = dot(w, inward_[i]);
+        along[0] += side * angle;
+        along[1] += side * (a * sine + b * (1 - cosine));
+        along[2] += side * (a * a * (0.5 * angle + bend) + a * b * sine * sine +
+                            b * b * (0.5 * angle - bend));
+    }
+    const double ww = dot(w, w);
+    const double first = along[0] / 2;
+    return {first, (ww * area + along[1]) / 3, (2 * ww * first + along[2]) / 4};
+}
+
+std::optional<Moments> SphericalPolygon::moments(double area) const {
+    constexpr double least = 1e-3;
+    if (area < least) return std::nullopt;
+    Moments m{std::vector<double>(3), std::vector<double>(9), std::vector<double>(3)};
+    std::array<double, 3> squares;
+    for (std::size_t k = 0; k < 3; ++k) {
+        Vector3 w{};
+        w[k] = 1;
+        const auto [first, second, third] = axial(w, area);
+        const double mean = first / area;
+        squares[k] = second / area;
+        m.mean[k] = mean;
+        m.covariance[4 * k] = squares[k] - mean * mean;
+        m.skewness[k] = (third / area - 3 * mean * squares[k] + 2 * mean * mean * mean) /
+                        std::pow(m.covariance[4 * k], 1.5);
+    }
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < i; ++j) {
+            Vector3 w{};
+            w[i] = w[j] = 1;
+            const double both = axial(w, area)[1] / area;
+            m.covariance[3 * i + j] = m.covariance[3 * j + i] =
+                0.5 * (both - squares[i] - squares[j]) - m.mean[i] * m.mean[j];
+        }
+    return m;
+}
+
+Box SphericalPolygon::bounding_box() const {
+    Box box;
+    for (std::size_t k = 0; k < 3; ++k)
+        for (const double sign : {-1.0, 1.0}) {
+            Vector3 up{};
+            up[k] = sign;
+            double top = contains(up, 0) ? 1 : -1;
+            for (std::size_t i = 0; i < corners_.size(); ++i) top = std::max(top, edge_top(i, up));
+            (sign < 0 ? box.low : box.high).push_back(sign * top);
+        }
+    return box;
+}
+
+}  // namespace stipple

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "math/geometry/zone_integral.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "math/densities/smooth_quadrature.hpp"
+
+namespace stipple {
+namespace {
+
+constexpr double full_turn = 2 * std::numbers::pi;
+
+/// Where a circle meets the half-circle of a longitude, and that opposite of it.
+void add_meridian(const SphereCircle& circle, double turn, std::vector<double>& cuts) {
+    const auto& [n, h] = circle;
+    const double p = n[0] * std::cos(full_turn * turn) + n[1] * std::sin(full_turn * turn);
+    const double a = n[2] * n[2] + p * p;
+    const double root = a - h * h;
+    if (!(a > 0) || !(root >= 0)) return;
+    for (const double sign : {-1.0, 1.0})
+        cuts.push_back((h * n[2] + sign * std::abs(p) * std::sqrt(root)) / a);
+}
+
+/// Where two circles meet.
+void add_corners(const SphereCircle& p, const SphereCircle& q, std::vector<double>& cuts) {
+    const double g = dot(p.normal, q.normal);
+    const double rest = 1 - g * g;
+    if (!(rest > 1e-12)) return;
+    const double a = (p.height - q.height * g) / rest;
+    const double b = (q.height - p.height * g) / rest;
+    const Vector3 middle = plus(times(p.normal, a), times(q.normal, b));
+    const double root = (1 - dot(middle, middle)) / rest;
+    if (!(root >= 0)) return;
+    const double step = std::sqrt(root) * cross(p.normal, q.normal)[2];
+    cuts.push_back(middle[2] + step);
+    cuts.push_back(middle[2] - step);
+}
+
+/// The ends of the pieces of a range: those of `cuts` inside, and its own.
+std::vector<double> ends_of(std::vector<double> cuts, double low, double high) {
+    std::erase_if(cuts, [&](double x) { return !(x > low && x < high); });
+    cuts.push_back(low);
+    cuts.push_back(high);
+    std::ranges::sort(cuts);
+    return cuts;
+}
+
+std::vector<double> height_cuts(const Zone& zone, const Rims& rims) {
+    std::vector<double> cuts;
+    for (std::size_t i = 0; i < rims.circles.size(); ++i) {
+        const SphereCircle& circle = rims.circles[i];
+        const auto& [n, h] = circle;
+        const double across = std::sqrt(n[0] * n[0] + n[1] * n[1]);
+        const double reach = across * std::sqrt(std::max(0.0, 1 - h * h));
+        cuts.push_back(h * n[2] - reach);
+        cuts.push_back(h * n[2] + reach);
+        add_meridian(circle, zone.turn_low, cuts);
+        add_meridian(circle, zone.turn_high, cuts);
+        for (std::size_t j = 0; j < i; ++j) add_corners(circle, rims.circles[j], cuts);
+    }
+    return ends_of(std::move(cuts), zone.z_low, zone.z_high);
+}
+
+/// Longitudes, in turns, at which circles are at this height.
+std::vector<double> turn_cuts(double z, const Zone& zone, const Rims& rims) {
+    std::vector<double> cuts;
+    const double r = std::sqrt((1 - z) * (1 + z));
+    for (const auto& [n, h] : rims.circles) {
+        const double across = r * std::sqrt(n[0] * n[0] + n[1] * n[1]);
+        const double cosine = (h - n[2] * z) / across;
+        if (!(std::abs(cosine) < 1)) continue;
+        const double middle = std::atan2(n[1], n[0]) / full_turn;
+        const double half = std::acos(cosine) / full_turn;
+        for (const double turn : {middle - half, middle + half})
+            cuts.push_back(turn - std::floor(turn));
+    }
+    return ends_of(std::move(cuts), zone.turn_low, zone.turn_high);
+}
+
+/// Over the longitudes of one height.
+Estimate integrate_row(const SphereDensity& f, double z, const Zone& zone, const Rims& rims) {
+    const double r = std::sqrt((1 - z) * (1 + z));
+    const auto at = [&](double turn) {
+        return f({r * std::cos(full_turn * turn), r * std::sin(full_turn * turn), z});
+    };
+    Estimate sum;
+    const auto turns = turn_cuts(z, zone, rims);
+    for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
+        const double width = turns[i + 1] - turns[i];
+        if (!(width > 0)) continue;
+        if (rims.level) {
+            sum.value += full_turn * width * at(turns[i] + 0.5 * width);
+            continue;
+        }
+        const Estimate piece = integrate_smooth(at, turns[i], turns[i + 1]);
+        sum.value += full_turn * piece.value;
+        sum.error += full_turn * piece.error;
+    }
+    return sum;
+}
+
+}  // namespace
+
+Estimate integrate_zone(const SphereDensity& f, const Zone& zone, const Rims& rims) {
+    Estimate total;
+    if (rims.level && rims.circles.empty()) {
+        const double z = zone.z_low + 0.5 * (zone.z_high - zone.z_low);
+        total.value = (zone.z_high - zone.z_low) * integrate_row(f, z, zone, rims).value;
+        return total;
+    }
+    double inner = 0;
+    const auto heights = height_cuts(zone, rims);
+    for (std::size_t i = 0; i + 1 < heights.size(); ++i) {
+        const auto slice = [&](double z) {
+            const Estimate row = integrate_row(f, z, zone, rims);
+            inner = std::max(inner, row.error);
+            return row.value;
+        };
+        const Estimate piece = integrate_smooth(slice, heights[i], heights[i + 1]);
+        total.value += piece.value;
+        total.error += piece.error;
+    }
+    total.error += inner * (zone.z_high - zone.z_low);
+    return total;
+}
+
+}  // namespace stipple

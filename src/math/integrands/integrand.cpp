@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "math/integrands/integrand.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "math/integrands/genz_integrands.hpp"
+#include "math/integrands/planar_integrands.hpp"
+#include "math/integrands/smooth_integrands.hpp"
+
+namespace stipple {
+namespace {
+
+std::vector<IntegrandKind> collected() {
+    std::vector<IntegrandKind> kinds = genz_integrands();
+    for (auto&& family : {planar_integrands(), smooth_integrands()})
+        kinds.insert(kinds.end(), family.begin(), family.end());
+    return kinds;
+}
+
+}  // namespace
+
+const std::vector<IntegrandKind>& integrand_kinds() {
+    static const std::vector<IntegrandKind> kinds = collected();
+    return kinds;
+}
+
+const IntegrandKind& integrand_kind(std::string_view name) {
+    const auto& kinds = integrand_kinds();
+    const auto it = std::ranges::find(kinds, name, &IntegrandKind::name);
+    if (it != kinds.end()) return *it;
+    std::vector<std::string> names;
+    for (const IntegrandKind& kind : kinds) names.push_back(kind.name);
+    fail_with_hint(ErrorKind::usage, suggest(name, names), "'{}' is not an integrand", name);
+}
+
+std::vector<std::string> split_specs(std::string_view list) {
+    std::vector<std::string> specs;
+    int depth = 0;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i <= list.size(); ++i) {
+        if (i < list.size()) {
+            depth += (list[i] == '[') - (list[i] == ']');
+            if (list[i] != ',' || depth > 0) continue;
+        }
+        const std::string_view part = list.substr(first, i - first);
+        const bool goes_on = !specs.empty() && part.find('=') < part.find(':');
+        if (goes_on)
+            specs.back().append(",").append(part);
+        else
+            specs.emplace_back(trim(part));
+        first = i + 1;
+    }
+    return specs;
+}
+
+}  // namespace stipple

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+//
+// Indicator functions on the unit square, with their areas: the discontinuities that pictures have.
+//
+//     disk-indicator        |x - c| <= r          c uniform in the square, r in [1/10, 1/2]
+//     half-plane-indicator  n . (x - p) <= 0      p uniform in the square, n any direction
+//     soft-shadow           the point c + x a + y b of a light is seen from the origin past a card
+//
+// all drawn from the seed. The light is a parallelogram 2 above the receiver, its sides about 1
+// long and a little askew; the card is a rectangle about halfway, turned at random, that hides 10
+// to 90 % of the light. Whether a point of the light is seen is found by the ray to it; the area by
+// projecting the card onto the light and clipping.
+//
+// Shape   2 coordinates; values 0 and 1.
+// Promise areas to a few rounding errors.
+
+#include "math/integrands/planar_integrands.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "math/functions/draws.hpp"
+#include "math/geometry/planar_area.hpp"
+
+namespace stipple {
+namespace {
+
+constexpr Param<std::int64_t> placing_seed{
+    .name = "placing_seed", .fallback = 1, .low = 0, .help = "Draws where things stand"};
+
+DrawStream draws(const Values& values, std::uint64_t what) {
+    constexpr std::uint64_t stream = 0x706c616e6500;  // "plane"
+    return DrawStream(Rng(static_cast<std::uint64_t>(values[placing_seed]), stream + what));
+}
+
+/// A direction in the plane.
+PlanePair direction(DrawStream& numbers) {
+    const double angle = 2 * std::numbers::pi * numbers.next();
+    return {std::cos(angle), std::sin(angle)};
+}
+
+Integrand disk(std::size_t, const Values& values) {
+    DrawStream numbers = draws(values, 0);
+    const PlanePair c{numbers.next(), numbers.next()};
+    const double r = 0.1 + 0.4 * numbers.next();
+    return {[c, rr = r * r](auto x) {
+                const double dx = x[0] - c[0];
+                const double dy = x[1] - c[1];
+                return dx * dx + dy * dy <= rr ? 1.0 : 0.0;
+            },
+            area_in_disk(unit_square(), c, r)};
+}
+
+Integrand half_plane(std::size_t, const Values& values) {
+    DrawStream numbers = draws(values, 1);
+    const PlanePair p{numbers.next(), numbers.next()};
+    const PlanePair n = direction(numbers);
+    return {[p, n](auto x) { return n[0] * (x[0] - p[0]) + n[1] * (x[1] - p[1]) <= 0 ? 1.0 : 0.0; },
+            signed_area(clipped(unit_square(), p, n))};
+}
+
+// ---------------------------------------------------------------- soft shadow
+
+using Vector = std::array<double, 3>;
+
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vector cross(const Vector& a, const Vector& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Vector sum(const Vector& a, double s, const Vector& b, double t, const Vector& c) {
+    return {a[0] + s * b[0] + t * c[0], a[1] + s * b[1] + t * c[1], a[2] + s * b[2] + t * c[2]};
+}
+
+/// A parallelogram, and the coordinates in it of where a ray from the origin meets its plane.
+struct Parallelogram {
+    Vector corner, side, other;
+
+    /// Coordinates (s, t) and how far along `ray` it is met; at infinity or never: not finite.
+    [[nodiscard]] Vector met_by(const Vector& ray) const {
+        const Vector normal = cross(side, other);
+        const double far = dot(normal, corner) / dot(normal, ray);
+        const Vector at = sum({far * ray[0], far * ray[1], far * ray[2]}, -1, corner, 0, corner);
+        const double area = dot(normal, normal);
+        return {dot(cross(at, other), normal) / area, dot(cross(side, at), normal) / area, far};
+    }
+};
+
+struct Scene {
+    Parallelogram light;
+    Parallelogram card;
+
+    [[nodiscard]] bool sees(double x, double y) const {
+        const Vector to = sum(light.corner, x, light.side, y, light.other);
+        const auto [s, t, far] = card.met_by(to);
+        return !(s >= 0 && s <= 1 && t >= 0 && t <= 1 && far > 0 && far < 1);
+    }
+
+    /// The share of the light that is seen.
+    [[nodiscard]] double seen() const {
+        Polygon shadow;
+        constexpr PlanePair corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+        for (const auto& [s, t] : corners) {
+            const Vector at = light.met_by(sum(card.corner, s, card.side, t, card.other));
+            shadow.push_back({at[0], at[1]});
+        }
+        return 1 - shared_area(shadow, unit_square());
+    }
+};
+
+Scene draw_scene(DrawStream& numbers) {
+    const auto about = [&](double x, double reach) { return x + reach * (2 * numbers.next() - 1); };
+    Scene scene;
+    scene.light = {{about(-0.5, 0.2), about(-0.5, 0.2), 2},
+                   {about(1, 0.1), about(0, 0.2), about(0, 0.2)},
+                   {about(0, 0.2), about(1, 0.1), about(0, 0.2)}};
+    const auto [c, s] = direction(numbers);
+    const double length = about(0.6, 0.3);
+    const double width = about(0.4, 0.2);
+    const Vector middle{about(0, 0.4), about(0, 0.4), about(1, 0.3)};
+    const Vector side{c * length, s * length, about(0, 0.1)};
+    const Vector other{-s * width, c * width, about(0, 0.1)};
+    scene.card = {sum(middle, -0.5, side, -0.5, other), side, other};
+    return scene;
+}
+
+Integrand soft_shadow(std::size_t, const Values& values) {
+    DrawStream numbers = draws(values, 2);
+    Scene scene = draw_scene(numbers);
+    while (!(scene.seen() >= 0.1 && scene.seen() <= 0.9)) scene = draw_scene(numbers);
+    return {[scene](auto x) { return scene.sees(x[0], x[1]) ? 1.0 : 0.0; }, scene.seen()};
+}
+
+IntegrandKind planar(std::string name, std::string summary,
+                     Integrand (*make)(std::size_t, const Values&)) {
+    return {.name = std::move(name),
+            .summary = std::move(summary),
+            .min_dimension = 2,
+            .max_dimension = 2,
+            .options = Schema(placing_seed),
+            .make = make};
+}
+
+}  // namespace
+
+std::vector<IntegrandKind> planar_integrands() {
+    return {planar("disk-indicator", "1 in a disk, 0 outside", disk),
+            planar("half-plane-indicator", "1 on one side of a line", half_plane),
+            planar("soft-shadow", "1 where a light is seen past a card", soft_shadow)};
+}
+
+}  // namespace stipple

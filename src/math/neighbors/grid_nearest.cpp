@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "math/neighbors/grid_nearest.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/parallel.hpp"
+#include "math/neighbors/point_grid.hpp"
+
+namespace stipple {
+namespace {
+
+constexpr double points_in_cell = 2;
+
+/// Points that a point's own cell may hold on average, itself included: 3 for random points, which
+/// a tree overtakes at some ten times as many.
+constexpr double crowded = 24;
+
+/// Side of cubes of which as many fill the box as there are cells wanted. Flat directions have one
+/// layer of them.
+double side_of_cells(const Box& box, double cells) {
+    std::vector<double> sides;
+    for (std::size_t k = 0; k < box.dimension(); ++k) sides.push_back(box.extent(k));
+    std::ranges::sort(sides);
+    double side = 0;
+    for (std::size_t flat = 0; flat < sides.size(); ++flat) {
+        double logarithm = -std::log(cells);
+        for (std::size_t k = flat; k < sides.size(); ++k) logarithm += std::log(sides[k]);
+        side = std::exp(logarithm / static_cast<double>(sides.size() - flat));
+        if (side > 0 && side <= sides[flat]) break;
+    }
+    return side;
+}
+
+template <std::size_t D>
+Neighbor nearest_of(const SortedPoints<D>& points, std::size_t s, double radius) {
+    Neighbor best{std::numeric_limits<double>::infinity(), KdTree::none};
+    for (; best.index == KdTree::none; radius *= 2)
+        points.visit(points[s], radius, [&](std::size_t other, double squared) {
+            const Neighbor found{squared, points.original(other)};
+            if (found < best && other != s) best = found;
+        });
+    return best;
+}
+
+template <std::size_t D>
+std::optional<std::vector<Neighbor>> find_all(std::span<const double> rows, const Box& box,
+                                              bool torus, const RunContext& run) {
+    const auto n = static_cast<double>(rows.size() / D);
+    const double side = side_of_cells(box, n / points_in_cell);
+    if (!(side > 0 && side < std::numeric_limits<double>::infinity())) return std::nullopt;
+    const SortedPoints<D> points(GridFrame<D>(box, torus, side, n), rows, run);
+    if (points.mean_company() > crowded) return std::nullopt;
+    std::vector<Neighbor> found(points.count());
+    const double guess = 0.75 * side;
+    for_each_block(run, points.count(), 4096, [&](const Block& b) {
+        for (std::size_t s = b.first; s < b.last; ++s)
+            found[points.original(s)] = nearest_of(points, s, guess);
+    });
+    return found;
+}
+
+}  // namespace
+
+std::optional<std::vector<Neighbor>> all_nearest_by_grid(std::span<const double> rows,
+                                                         const Box& box, bool torus,
+                                                         const RunContext& run) {
+    const std::size_t d = box.dimension();
+    if (rows.size() / d >= std::numeric_limits<std::uint32_t>::max()) return std::nullopt;
+    for (std::size_t k = 0; k < d; ++k)  // squares that neither vanish nor overflow
+        if (const double x = box.extent(k); x != 0 && !(x > 1e-140 && x < 1e140))
+            return std::nullopt;
+    if (d == 1) return find_all<1>(rows, box, torus, run);
+    if (d == 2) return find_all<2>(rows, box, torus, run);
+    if (d == 3) return find_all<3>(rows, box, torus, run);
+    return std::nullopt;
+}
+
+Box box_around(std::span<const double> rows, std::size_t dimension) {
+    Box box{
+        std::vector<double>(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(dimension)),
+        {}};
+    box.high = box.low;
+    for (std::size_t i = 0; i < rows.size(); i += dimension)
+        for (std::size_t k = 0; k < dimension; ++k) {
+            box.low[k] = std::min(box.low[k], rows[i + k]);
+            box.high[k] = std::max(box.high[k], rows[i + k]);
+        }
+    return box;
+}
+
+}  // namespace stipple

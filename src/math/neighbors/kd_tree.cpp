@@ -1,0 +1,509 @@
+// SPDX-License-Identifier: MIT
+#include "math/neighbors/kd_tree.hpp"
+
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/parallel.hpp"
+
+namespace stipple {
+namespace {
+
+constexpr std::size_t leaf_size = 8;
+
+/// Distances in D dimensions, or in as many as is said when D = 0. Bounds are made by the same
+/// operations as distances, each of which rounds monotonically: a bound is never on the wrong side
+/// of a distance as computed.
+template <std::size_t D, bool Torus>
+class Metric {
+  public:
+    Metric(std::size_t dimension, const double* sides) : dimension_(dimension), sides_(sides) {}
+
+    [[nodiscard]] double distance(const double* p, const double* q) const {
+        return sum([&](std::size_t k) {
+            const double d = std::abs(p[k] - q[k]);
+            return Torus ? std::min(d, sides_[k] - d) : d;
+        });
+    }
+
+    /// No point of the box is nearer to p.
+    [[nodiscard]] double nearest(const double* box, const double* p) const {
+        return sum([&](std::size_t k) {
+            const double gap = std::max({box[k] - p[k], p[k] - box[size() + k], 0.0});
+            return Torus ? std::min(gap, sides_[k] - reach(box, p, k)) : gap;
+        });
+    }
+
+    /// No point of the box is nearer to any point of the other.
+    [[nodiscard]] double between(const double* box, const double* other) const {
+        const std::size_t d = size();
+        return sum([&](std::size_t k) {
+            const double gap = std::max({box[k] - other[d + k], other[k] - box[d + k], 0.0});
+            if (!Torus) return gap;
+            const double far = std::max(other[d + k] - box[k], box[d + k] - other[k]);
+            return std::min(gap, sides_[k] - far);
+        });
+    }
+
+    /// No point of the box is farther from p.
+    [[nodiscard]] double farthest(const double* box, const double* p) const {
+        return sum([&](std::size_t k) {
+            const double far = reach(box, p, k);
+            if (!Torus) return far;
+            const double gap = std::max({box[k] - p[k], p[k] - box[size() + k], 0.0});
+            return std::min(far, sides_[k] - gap);
+        });
+    }
+
+  private:
+    [[nodiscard]] std::size_t size() const { return D > 0 ? D : dimension_; }
+    [[nodiscard]] double reach(const double* box, const double* p, std::size_t k) const {
+        return std::max(p[k] - box[k], box[size() + k] - p[k]);
+    }
+    template <class Along>
+    [[nodiscard]] double sum(const Along& along) const {
+        double squared = 0;
+        for (std::size_t k = 0; k < size(); ++k) {
+            const double d = along(k);
+            squared += d * d;
+        }
+        return squared;
+    }
+
+    std::size_t dimension_;
+    const double* sides_;
+};
+
+/// Widens box by a row or another box: low and high may be the same.
+void widen(double* box, const double* low, const double* high, std::size_t d) {
+    for (std::size_t k = 0; k < d; ++k) {
+        box[k] = std::min(box[k], low[k]);
+        box[d + k] = std::max(box[d + k], high[k]);
+    }
+}
+
+}  // namespace
+
+/// Sorts the points into the leaves: the first levels of all points, then subtrees that fit into a
+/// cache, each from a copy of its rows.
+class KdTree::Builder {
+  public:
+    Builder(KdTree& tree, std::span<const double> rows) : tree_(tree), rows_(rows) {}
+
+    void build(const RunContext& run) {
+        const std::size_t n = rows_.size() / tree_.dimension_;
+        std::vector<std::uint32_t> order(n);
+        std::iota(order.begin(), order.end(), 0U);
+        keys_.resize(n);
+        std::size_t roots = 1;  // of subtrees
+        while (roots < tree_.leaves_ && n / roots > subtree_size) {
+            for_each_block(
+                run, roots, 1, [&](const Block& b) { split(rows_, order, roots + b.first, 0); },
+                true);
+            roots *= 2;
+        }
+        for_each_block(run, roots, 1,
+                       [&](const Block& b) { build_subtree(order, roots + b.first); });
+        for (std::size_t node = roots - 1; node > 0; --node) join(node);
+    }
+
+  private:
+    static constexpr std::size_t subtree_size = 8192;
+
+    struct Key {
+        double value;
+        std::uint32_t index;
+        friend bool operator<(const Key& a, const Key& b) {
+            return a.value < b.value || (a.value == b.value && a.index < b.index);
+        }
+    };
+
+    [[nodiscard]] std::size_t widest(std::span<const double> rows,
+                                     std::span<const std::uint32_t> order) const {
+        const std::size_t d = tree_.dimension_;
+        std::size_t axis = 0;
+        double widest = -1;
+        for (std::size_t k = 0; k < d && d > 1; ++k) {
+            double low = rows[order[0] * d + k];
+            double high = low;
+            for (const std::uint32_t i : order) {
+                low = std::min(low, rows[i * d + k]);
+                high = std::max(high, rows[i * d + k]);
+            }
+            if (high - low > widest) axis = k;
+            widest = std::max(widest, high - low);
+        }
+        return axis;
+    }
+
+    /// Parts a node's points of `order`, which begins with the tree's `offset`-th, into halves.
+    void split(std::span<const double> rows, std::span<std::uint32_t> order, std::size_t node,
+               std::size_t offset) {
+        const auto [first, last] = tree_.range_of(node);
+        const std::size_t middle = tree_.range_of(2 * node).last;
+        const auto own = order.subspan(first - offset, last - first);
+        const std::size_t axis = widest(rows, own);
+        const std::span<Key> keys(keys_.data() + first, own.size());
+        for (std::size_t i = 0; i < own.size(); ++i)
+            keys[i] = {rows[own[i] * tree_.dimension_ + axis], own[i]};
+        std::nth_element(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(middle - first),
+                         keys.end());
+        for (std::size_t i = 0; i < own.size(); ++i) own[i] = keys[i].index;
+    }
+
+    void build_subtree(std::span<std::uint32_t> order, std::size_t root) {
+        const std::size_t d = tree_.dimension_;
+        const auto [first, last] = tree_.range_of(root);
+        const auto own = order.subspan(first, last - first);
+        std::ranges::sort(own);  // so that local order is that of the set
+        std::vector<double> rows(own.size() * d);
+        for (std::size_t i = 0; i < own.size(); ++i)
+            std::copy_n(rows_.data() + own[i] * d, d, rows.data() + i * d);
+        std::vector<std::uint32_t> local(own.size());
+        std::iota(local.begin(), local.end(), 0U);
+        std::size_t width = 1;
+        for (std::size_t row = root; row < tree_.leaves_; row *= 2, width *= 2)
+            for (std::size_t i = 0; i < width; ++i) split(rows, local, row + i, first);
+        const std::size_t leaf = root * width;
+        for (std::size_t i = 0; i < width; ++i) {
+            const auto range = tree_.range_of(leaf + i);
+            std::sort(local.begin() + static_cast<std::ptrdiff_t>(range.first - first),
+                      local.begin() + static_cast<std::ptrdiff_t>(range.last - first));
+        }
+        for (std::size_t i = 0; i < own.size(); ++i) {
+            tree_.indices_[first + i] = own[local[i]];
+            std::copy_n(rows.data() + local[i] * d, d, tree_.rows_.data() + (first + i) * d);
+        }
+        for (std::size_t i = 0; i < width; ++i) close(leaf + i);
+        for (std::size_t row = leaf / 2; row >= root; row /= 2) {
+            width /= 2;
+            for (std::size_t i = 0; i < width; ++i) join(row + i);
+        }
+    }
+
+    [[nodiscard]] double* box_of(std::size_t node) {
+        return tree_.boxes_.data() + node * 2 * tree_.dimension_;
+    }
+
+    /// The box of a leaf, which is not empty.
+    void close(std::size_t leaf) {
+        const std::size_t d = tree_.dimension_;
+        const auto [first, last] = tree_.range_of(leaf);
+        std::copy_n(tree_.row(first), d, box_of(leaf));
+        std::copy_n(tree_.row(first), d, box_of(leaf) + d);
+        for (std::size_t i = first + 1; i < last; ++i)
+            widen(box_of(leaf), tree_.row(i), tree_.row(i), d);
+        tree_.lowest_[leaf] = tree_.indices_[first];
+    }
+
+    /// The box of a node from those of its halves.
+    void join(std::size_t node) {
+        const std::size_t d = tree_.dimension_;
+        std::copy_n(box_of(2 * node), 2 * d, box_of(node));
+        widen(box_of(node), box_of(2 * node + 1), box_of(2 * node + 1) + d, d);
+        tree_.lowest_[node] = std::min(tree_.lowest_[2 * node], tree_.lowest_[2 * node + 1]);
+    }
+
+    KdTree& tree_;
+    std::span<const double> rows_;
+    std::vector<Key> keys_;
+};
+
+KdTree::KdTree(std::span<const double> rows, std::size_t dimension, std::vector<double> sides,
+               const RunContext& run)
+    : dimension_(dimension), sides_(std::move(sides)) {
+    const std::size_t n = rows.size() / dimension;
+    if (n >= std::numeric_limits<std::uint32_t>::max())
+        fail(ErrorKind::limit, "a search tree takes up to 2^32 - 2 points; these are {}", n);
+    while (n / leaves_ > leaf_size) leaves_ *= 2;
+    run.need_memory(
+        static_cast<double>(n) * (8.0 * static_cast<double>(dimension) + 24) +
+            static_cast<double>(leaves_) * 2 * (16.0 * static_cast<double>(dimension) + 4),
+        "a search tree");
+    if (n == 0) return;
+    rows_.resize(n * dimension);
+    indices_.resize(n);
+    boxes_.resize(2 * leaves_ * 2 * dimension);
+    lowest_.resize(2 * leaves_);
+    Builder(*this, rows).build(run);
+}
+
+template <class Work>
+auto KdTree::with_metric(const Work& work) const {
+    const auto with = [&]<std::size_t D>() {
+        if (torus()) return work(Metric<D, true>(dimension_, sides_.data()));
+        return work(Metric<D, false>(dimension_, nullptr));
+    };
+    switch (dimension_) {
+        case 1:
+            return with.template operator()<1>();
+        case 2:
+            return with.template operator()<2>();
+        case 3:
+            return with.template operator()<3>();
+        case 4:
+            return with.template operator()<4>();
+        default:
+            return with.template operator()<0>();
+    }
+}
+
+/// Goes to the query's leaves, the nearest first. A query has a bound for a node's points; wants a
+/// node when a point at that bound, of the node's lowest index, could change its answer.
+template <class Query>
+void KdTree::search(Query& query) const {
+    struct Entry {
+        std::size_t node;
+        Neighbor bound;
+    };
+    const auto entry = [&](std::size_t node) {
+        return Entry{node, {query.bound(box_of(node)), lowest_[node]}};
+    };
+    std::array<Entry, 66> stack;
+    std::size_t size = 0;
+    if (count() > 0) stack[size++] = entry(1);
+    while (size > 0) {
+        Entry now = stack[--size];
+        if (!query.wants(now.bound)) continue;
+        while (now.node < leaves_) {
+            Entry other = entry(2 * now.node + 1);
+            now = entry(2 * now.node);
+            if (other.bound < now.bound) std::swap(now, other);
+            if (query.wants(other.bound)) stack[size++] = other;
+        }
+        query.visit(now.node);
+    }
+}
+
+template <class Metric>
+struct KdTree::Nearest {
+    const KdTree& tree;
+    const Metric& metric;
+    const double* place;
+    std::size_t except;
+    Neighbor best{std::numeric_limits<double>::infinity(), none};
+
+    [[nodiscard]] double bound(const double* box) const { return metric.nearest(box, place); }
+    [[nodiscard]] bool wants(const Neighbor& bound) const { return bound < best; }
+    void visit(std::size_t leaf) {
+        const auto [first, last] = tree.range_of(leaf);
+        for (std::size_t i = first; i < last; ++i) {
+            const Neighbor point{metric.distance(place, tree.row(i)), tree.indices_[i]};
+            if (point < best && point.index != except) best = point;
+        }
+    }
+};
+
+template <class Metric>
+struct KdTree::NearestOfOthers {
+    const KdTree& tree;
+    const Metric& metric;
+    const Groups& groups;
+    const double* place;
+    std::uint32_t own;
+    Neighbor best;  ///< at a finite distance: those of the own group are at none
+
+    [[nodiscard]] double bound(const double* box) const {
+        const auto node =
+            static_cast<std::size_t>(box - tree.boxes_.data()) / (2 * tree.dimension_);
+        if (groups.nodes[node] == own) return std::numeric_limits<double>::infinity();
+        return metric.nearest(box, place);
+    }
+    [[nodiscard]] bool wants(const Neighbor& bound) const { return bound < best; }
+    void visit(std::size_t leaf) {
+        const auto [first, last] = tree.range_of(leaf);
+        for (std::size_t i = first; i < last; ++i) {
+            if (groups.places[i] == own) continue;
+            const Neighbor point{metric.distance(place, tree.row(i)), tree.indices_[i]};
+            if (point < best) best = point;
+        }
+    }
+};
+
+template <class Metric>
+struct KdTree::Several {
+    const KdTree& tree;
+    const Metric& metric;
+    const double* place;
+    std::size_t k;
+    std::size_t except;
+    std::vector<Neighbor> heap = {};  ///< the farthest on top
+
+    [[nodiscard]] double bound(const double* box) const { return metric.nearest(box, place); }
+    [[nodiscard]] bool wants(const Neighbor& bound) const {
+        return heap.size() < k || bound < heap.front();
+    }
+    void visit(std::size_t leaf) {
+        const auto [first, last] = tree.range_of(leaf);
+        for (std::size_t i = first; i < last; ++i) {
+            const Neighbor point{metric.distance(place, tree.row(i)), tree.indices_[i]};
+            if (wants(point) && point.index != except) add(point);
+        }
+    }
+    void add(const Neighbor& point) {
+        if (heap.size() == k) {
+            std::pop_heap(heap.begin(), heap.end());
+            heap.back() = point;
+        } else {
+            heap.push_back(point);
+        }
+        std::push_heap(heap.begin(), heap.end());
+    }
+};
+
+template <class Metric>
+struct KdTree::Within {
+    const KdTree& tree;
+    const Metric& metric;
+    const double* place;
+    double squared;
+    std::vector<Neighbor>& found;
+
+    [[nodiscard]] double bound(const double* box) const { return metric.nearest(box, place); }
+    [[nodiscard]] bool wants(const Neighbor& bound) const { return bound.squared <= squared; }
+    void visit(std::size_t leaf) {
+        const auto [first, last] = tree.range_of(leaf);
+        for (std::size_t i = first; i < last; ++i) {
+            const double distance = metric.distance(place, tree.row(i));
+            if (distance <= squared) found.push_back({distance, tree.indices_[i]});
+        }
+    }
+};
+
+/// The nearest of all points of a leaf at once: they share most of the way.
+template <class Metric>
+struct KdTree::NearestOfLeaf {
+    const KdTree& tree;
+    const Metric& metric;
+    std::size_t leaf;
+    std::array<Neighbor, leaf_size + 1> best = {};
+    Neighbor worst = {};  ///< of those
+
+    [[nodiscard]] double bound(const double* box) const {
+        return metric.between(box, tree.box_of(leaf));
+    }
+    [[nodiscard]] bool wants(const Neighbor& bound) const { return bound < worst; }
+    void visit(std::size_t other) {
+        const auto [first, last] = tree.range_of(leaf);
+        worst = {-1, 0};
+        for (std::size_t i = first; i < last; ++i) {
+            Nearest<Metric> one{tree, metric, tree.row(i), tree.indices_[i], best[i - first]};
+            if (one.wants({one.bound(tree.box_of(other)), tree.lowest_[other]})) one.visit(other);
+            best[i - first] = one.best;
+            if (worst < one.best) worst = one.best;
+        }
+    }
+    void find() {
+        best.fill({std::numeric_limits<double>::infinity(), none});
+        visit(leaf);
+        tree.search(*this);
+    }
+};
+
+Neighbor KdTree::nearest(std::span<const double> place, std::size_t except) const {
+    return with_metric([&](const auto metric) {
+        Nearest query{*this, metric, place.data(), except};
+        search(query);
+        return query.best;
+    });
+}
+
+void KdTree::spread(Groups& groups) const {
+    groups.nodes.resize(2 * leaves_);
+    for (std::size_t node = 2 * leaves_ - 1; node > 0; --node) {
+        if (node < leaves_) {
+            const std::uint32_t left = groups.nodes[2 * node];
+            groups.nodes[node] = left == groups.nodes[2 * node + 1] ? left : Groups::mixed;
+            continue;
+        }
+        const auto [first, last] = range_of(node);
+        groups.nodes[node] = groups.places[first];
+        for (std::size_t i = first + 1; i < last; ++i)
+            if (groups.places[i] != groups.places[first]) groups.nodes[node] = Groups::mixed;
+    }
+}
+
+Neighbor KdTree::nearest_of_others(std::size_t place, const Groups& groups, double squared) const {
+    return with_metric([&](const auto metric) {
+        NearestOfOthers query{*this,
+                              metric,
+                              groups,
+                              row(place),
+                              groups.places[place],
+                              {std::min(squared, std::numeric_limits<double>::max()), none}};
+        search(query);
+        return query.best;
+    });
+}
+
+std::vector<Neighbor> KdTree::nearest_several(std::span<const double> place, std::size_t k,
+                                              std::size_t except) const {
+    if (k == 0) return {};
+    return with_metric([&](const auto metric) {
+        Several query{*this, metric, place.data(), std::min(k, count()), except};
+        query.heap.reserve(query.k);
+        search(query);
+        std::sort_heap(query.heap.begin(), query.heap.end());
+        return std::move(query.heap);
+    });
+}
+
+void KdTree::within(std::span<const double> place, double squared,
+                    std::vector<Neighbor>& found) const {
+    with_metric([&](const auto metric) {
+        Within query{*this, metric, place.data(), squared, found};
+        search(query);
+    });
+}
+
+template <class Metric>
+std::size_t KdTree::count_nearer(const Metric& metric, const double* place, double squared,
+                                 std::size_t node) const {
+    if (!(metric.nearest(box_of(node), place) < squared)) return 0;
+    const auto [first, last] = range_of(node);
+    if (metric.farthest(box_of(node), place) < squared) return last - first;
+    if (node < leaves_)
+        return count_nearer(metric, place, squared, 2 * node) +
+               count_nearer(metric, place, squared, 2 * node + 1);
+    std::size_t found = 0;
+    for (std::size_t i = first; i < last; ++i)
+        found += metric.distance(place, row(i)) < squared ? 1 : 0;
+    return found;
+}
+
+std::size_t KdTree::count_nearer(std::span<const double> place, double squared) const {
+    if (count() == 0) return 0;
+    return with_metric(
+        [&](const auto& metric) { return count_nearer(metric, place.data(), squared, 1); });
+}
+
+std::vector<Neighbor> KdTree::all_nearest(const RunContext& run) const {
+    constexpr std::size_t crowded = 4;  // so many dimensions that a leaf's points share no way
+    std::vector<Neighbor> found(count());
+    if (found.empty()) return found;
+    const std::size_t block = dimension_ <= 4 ? 512 : dimension_ <= 8 ? 16 : 1;
+    const auto find_leaf = [&](const auto& metric, std::size_t leaf) {
+        const auto [first, last] = range_of(leaf);
+        if (dimension_ < crowded) {
+            NearestOfLeaf query{*this, metric, leaf};
+            query.find();
+            for (std::size_t i = first; i < last; ++i) found[indices_[i]] = query.best[i - first];
+            return;
+        }
+        for (std::size_t i = first; i < last; ++i) {
+            Nearest query{*this, metric, row(i), indices_[i]};
+            search(query);
+            found[indices_[i]] = query.best;
+        }
+    };
+    for_each_block(run, leaves_, block, [&](const Block& b) {
+        with_metric([&](const auto metric) {
+            for (std::size_t i = b.first; i < b.last; ++i) find_leaf(metric, leaves_ + i);
+        });
+    });
+    return found;
+}
+
+}  // namespace stipple

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: MIT
+#include "math/neighbors/minimum_spanning_tree.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/parallel.hpp"
+#include "math/functions/radix_sort.hpp"
+#include "math/neighbors/grid_nearest.hpp"
+#include "math/neighbors/kd_tree.hpp"
+#include "math/neighbors/planar_sites.hpp"
+
+namespace stipple {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Coordinates from which on a k-d tree leaves out too little.
+constexpr std::size_t many_dimensions = 8;
+
+/// Which points are joined already.
+class Parts {
+  public:
+    explicit Parts(std::size_t n) : parents_(n) { std::iota(parents_.begin(), parents_.end(), 0U); }
+
+    std::uint32_t root(std::uint32_t i) {
+        while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
+        return i;
+    }
+    /// Joins the parts of two points; false if they are one. The lower root stays.
+    bool join(std::uint32_t i, std::uint32_t j) {
+        const std::uint32_t a = root(i);
+        const std::uint32_t b = root(j);
+        parents_[std::max(a, b)] = std::min(a, b);
+        return a != b;
+    }
+
+  private:
+    std::vector<std::uint32_t> parents_;
+};
+
+double squared_between(const double* p, const double* q, std::size_t d,
+                       const std::vector<double>& sides) {
+    double sum = 0;
+    for (std::size_t k = 0; k < d; ++k) {
+        double gap = std::abs(p[k] - q[k]);
+        if (!sides.empty()) gap = std::min(gap, sides[k] - gap);
+        sum += gap * gap;
+    }
+    return sum;
+}
+
+// ---------------------------------------------------------------- planar
+
+struct Edge {
+    double squared;
+    std::uint32_t from;
+    std::uint32_t to;
+};
+
+/// Whether the middle between a site and its neighbour is on the edge between them. Edges of the
+/// tree have it well inside: no other site is nearer to it than sqrt(3) times the half way.
+bool holds_middle(const CellCorner& from, const Vec2& to) {
+    const Vec2 along{to.x - from.at.x, to.y - from.at.y};
+    const Vec2 middle{from.neighbor.x / 2, from.neighbor.y / 2};
+    const auto ahead = [&](const Vec2& at) {
+        return (at.x - middle.x) * along.x + (at.y - middle.y) * along.y;
+    };
+    return ahead(from.at) < 0 && ahead(to) > 0;
+}
+
+/// Pairs of neighbouring places, i < j, that may be edges of the tree.
+std::vector<Edge> candidates_of(const PlanarSites& sites, std::span<const double> rows,
+                                const std::vector<double>& sides, const RunContext& run) {
+    constexpr std::uint64_t size = 4096;
+    const PlanarCells cells(sites, run);
+    std::vector<std::vector<Edge>> parts(block_count(sites.count(), size));
+    for_each_block(run, sites.count(), size, [&](const Block& b) {
+        VoronoiCell cell;
+        std::vector<Edge> part;
+        for (std::uint64_t i = b.first; i < b.last; ++i) {
+            if (i % 64 == 0) run.check_stop();
+            cells.cut(static_cast<std::size_t>(i), cell);
+            const auto corners = cell.corners();
+            for (std::size_t k = 0; k < corners.size(); ++k) {
+                const std::uint32_t j = corners[k].site;
+                const Vec2& next = corners[k + 1 < corners.size() ? k + 1 : 0].at;
+                if (j == CellCorner::wall || j <= i || !holds_middle(corners[k], next)) continue;
+                const double* p = rows.data() + 2 * std::size_t{sites.points[i]};
+                const double* q = rows.data() + 2 * std::size_t{sites.points[j]};
+                part.push_back({squared_between(p, q, 2, sides), static_cast<std::uint32_t>(i), j});
+            }
+        }
+        parts[b.index] = std::move(part);
+    });
+    std::vector<Edge> edges;
+    for (const auto& part : parts) edges.insert(edges.end(), part.begin(), part.end());
+    return edges;
+}
+
+std::vector<double> shortest_first(const std::vector<Edge>& edges, std::size_t places,
+                                   std::size_t points, const RunContext& run) {
+    std::vector<Placed> order(edges.size());
+    for (std::size_t e = 0; e < edges.size(); ++e)
+        order[e] = {edges[e].squared, static_cast<std::uint32_t>(e)};
+    radix_sort(order, run);
+    Parts parts(places);
+    std::vector<double> tree(points - places, 0.0);  // to the duplicates
+    tree.reserve(points - 1);
+    for (std::size_t e = 0; e < order.size() && tree.size() + 1 < points; ++e) {
+        if (e % 65536 == 0) run.check_stop();
+        const Edge& edge = edges[order[e].place];
+        if (parts.join(edge.from, edge.to)) tree.push_back(edge.squared);
+    }
+    return tree;
+}
+
+/// The points' own box, no thinner than a row of squares with the points in it would be.
+Box box_about(std::span<const double> rows) {
+    Box box = box_around(rows, 2);
+    const double least = std::max(box.extent(0), box.extent(1)) / static_cast<double>(rows.size());
+    for (std::size_t k = 0; k < 2; ++k)
+        if (box.extent(k) < least) box.high[k] = box.low[k] + least;
+    return box;
+}
+
+// ---------------------------------------------------------------- near
+
+/// Grows all parts at once. What is nearest to a point outside its part is kept for as long as it
+/// is outside: nearer ones cannot come.
+class Growth {
+  public:
+    Growth(const KdTree& tree, const RunContext& run)
+        : tree_(tree),
+          run_(run),
+          parts_(tree.count()),
+          nearest_(tree.count(), Neighbor{0, KdTree::none}),
+          best_(tree.count()),
+          bounds_(tree.count()) {
+        groups_.places.resize(tree.count());
+    }
+
+    std::vector<double> edges() {
+        const std::size_t all = tree_.count() - 1;
+        std::vector<double> found;
+        found.reserve(all);
+        while (found.size() < all) {
+            name_parts();
+            search();
+            choose();
+            join(found);
+            run_.tick(found.size(), all);
+        }
+        std::ranges::sort(found);
+        return found;
+    }
+
+  private:
+    struct Candidate {
+        double squared = infinity;
+        std::uint32_t low = 0;
+        std::uint32_t high = 0;
+        auto operator<=>(const Candidate&) const = default;
+    };
+
+    [[nodiscard]] std::uint32_t own(std::size_t place) const {
+        return static_cast<std::uint32_t>(tree_.index(place));
+    }
+
+    void name_parts() {
+        for (std::size_t s = 0; s < tree_.count(); ++s) groups_.places[s] = parts_.root(own(s));
+        tree_.spread(groups_);
+        for (auto& bound : bounds_) bound.store(infinity, std::memory_order_relaxed);
+        for (std::size_t s = 0; s < tree_.count(); ++s) {
+            Neighbor& nearest = nearest_[s];
+            if (nearest.index == KdTree::none) continue;
+            const auto index = static_cast<std::uint32_t>(nearest.index);
+            if (parts_.root(index) == groups_.places[s])
+                nearest.index = KdTree::none;  // its distance stays as a bound
+            else
+                lower(groups_.places[s], nearest.squared);
+        }
+    }
+
+    /// A part's bound only tells what need not be looked at: it may be late.
+    void lower(std::uint32_t part, double squared) {
+        std::atomic<double>& bound = bounds_[part];
+        double now = bound.load(std::memory_order_relaxed);
+        while (squared < now && !bound.compare_exchange_weak(now, squared)) {
+        }
+    }
+
+    void search() {
+        for_each_block(
+            run_, tree_.count(), 1024,
+            [&](const Block& b) {
+                for (auto s = static_cast<std::size_t>(b.first); s < b.last; ++s) {
+                    if (s % 64 == 0) run_.check_stop();
+                    Neighbor& nearest = nearest_[s];
+                    if (nearest.index != KdTree::none) continue;
+                    const double bound = bounds_[groups_.places[s]].load(std::memory_order_relaxed);
+                    if (nearest.squared > bound) continue;
+                    nearest = tree_.nearest_of_others(s, groups_, bound);
+                    if (nearest.index != KdTree::none) lower(groups_.places[s], nearest.squared);
+                }
+            },
+            true);
+    }
+
+    void choose() {
+        std::ranges::fill(best_, Candidate{});
+        for (std::size_t s = 0; s < tree_.count(); ++s) {
+            if (nearest_[s].index == KdTree::none) continue;
+            const auto other = static_cast<std::uint32_t>(nearest_[s].index);
+            const Candidate edge{nearest_[s].squared, std::min(own(s), other),
+                                 std::max(own(s), other)};
+            best_[groups_.places[s]] = std::min(best_[groups_.places[s]], edge);
+        }
+    }
+
+    void join(std::vector<double>& found) {
+        for (const Candidate& edge : best_)
+            if (edge.squared < infinity && parts_.join(edge.low, edge.high))
+                found.push_back(edge.squared);
+    }
+
+    const KdTree& tree_;
+    const RunContext& run_;
+    Parts parts_;
+    KdTree::Groups groups_;
+    std::vector<Neighbor> nearest_;  ///< of each place; without an index none is nearer
+    std::vector<Candidate> best_;    ///< of each part, by its root
+    std::vector<std::atomic<double>> bounds_;
+};
+
+}  // namespace
+
+std::vector<double> near_spanning_tree(std::span<const double> rows, std::size_t dimension,
+                                       const std::vector<double>& sides, const RunContext& run) {
+    const KdTree tree(rows, dimension, sides, run.stage(0, 0.1));
+    if (tree.count() < 2) return {};
+    run.need_memory(72.0 * static_cast<double>(tree.count()), "the spanning tree");
+    return Growth(tree, run.stage(0.1, 1)).edges();
+}
+
+std::vector<double> plain_spanning_tree(std::span<const double> rows, std::size_t dimension,
+                                        const std::vector<double>& sides, const RunContext& run) {
+    const std::size_t n = rows.size() / dimension;
+    std::vector<double> least(n, infinity);
+    std::vector<std::uint32_t> outside(n);
+    std::iota(outside.begin(), outside.end(), 0U);
+    std::vector<double> tree;
+    std::uint32_t latest = 0;
+    for (std::size_t left = n; left > 1; --left) {
+        run.tick(n - left + 1, n - 1);
+        outside.erase(std::ranges::find(outside, latest));
+        const double* p = rows.data() + std::size_t{latest} * dimension;
+        for (const std::uint32_t i : outside) {
+            const double* q = rows.data() + std::size_t{i} * dimension;
+            least[i] = std::min(least[i], squared_between(p, q, dimension, sides));
+        }
+        latest = *std::ranges::min_element(outside, {}, [&](std::uint32_t i) { return least[i]; });
+        tree.push_back(least[latest]);
+    }
+    std::ranges::sort(tree);
+    return tree;
+}
+
+std::vector<double> planar_spanning_tree(std::span<const double> rows,
+                                         const std::vector<double>& low,
+                                         const std::vector<double>& sides, const RunContext& run) {
+    const std::size_t n = rows.size() / 2;
+    if (n < 2) return {};
+    run.need_memory(150.0 * static_cast<double>(n), "the spanning tree");
+    Box box = box_about(rows);
+    if (!sides.empty()) box = {low, {low[0] + sides[0], low[1] + sides[1]}};
+    if (!(box.extent(0) > 0 && box.extent(1) > 0)) return near_spanning_tree(rows, 2, sides, run);
+    const PlanarSites sites = planar_sites(rows, box, !sides.empty(), run);
+    if (sites.company > crowded_cell) return near_spanning_tree(rows, 2, sides, run);
+    const auto edges = candidates_of(sites, rows, sides, run.stage(0, 0.8));
+    auto tree = shortest_first(edges, sites.count(), n, run);
+    run.tick(1, 1);
+    // Seen from a corner far away, cells may be too coarse to join all.
+    return tree.size() + 1 == n ? tree : near_spanning_tree(rows, 2, sides, run);
+}
+
+std::vector<double> minimum_spanning_tree(std::span<const double> rows, std::size_t dimension,
+                                          const std::vector<double>& low,
+                                          const std::vector<double>& sides, const RunContext& run) {
+    if (dimension == 2) return planar_spanning_tree(rows, low, sides, run);
+    if (dimension < many_dimensions) return near_spanning_tree(rows, dimension, sides, run);
+    return plain_spanning_tree(rows, dimension, sides, run);
+}
+
+}  // namespace stipple

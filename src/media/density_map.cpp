@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+#include "media/density_map.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "core/error.hpp"
+#include "core/file_bytes.hpp"
+#include "core/large_pages.hpp"
+#include "core/npy_header.hpp"
+#include "core/rng.hpp"
+#include "core/text.hpp"
+#include "media/pfm_picture.hpp"
+#include "media/png_picture.hpp"
+
+namespace stipple {
+namespace {
+
+using Cells = PlaneValues;
+
+Cells cells_of_png(std::string_view bytes, const std::string& path, bool invert,
+                   const RunContext& run) {
+    PngPicture picture = read_png(bytes, path, run);
+    std::vector<double>& values = picture.grey;
+    if (invert)
+        for (double& value : values) value = 1 - value;
+    for (std::size_t i = 0; i < picture.opacity.size(); ++i) values[i] *= picture.opacity[i];
+    for (std::size_t j = 0; j < picture.height / 2; ++j) {
+        const auto row = [&](std::size_t k) {
+            return values.begin() + static_cast<std::ptrdiff_t>(k * picture.width);
+        };
+        std::swap_ranges(row(j), row(j + 1), row(picture.height - 1 - j));
+    }
+    return {picture.width, picture.height, std::move(values)};
+}
+
+/// @throws Error(input) naming the first value that is not as expected
+template <class Good>
+void check_values(const Cells& cells, const std::string& path, const Good& good,
+                  const char* expected) {
+    const auto bad = std::ranges::find_if_not(cells.values, good);
+    if (bad == cells.values.end()) return;
+    const auto index = static_cast<std::size_t>(bad - cells.values.begin());
+    fail(ErrorKind::input, "{}: value {} in row {}, column {}; expected {}", path,
+         format_number(*bad), index / cells.width, index % cells.width, expected);
+}
+
+Cells cells_of_array(std::string_view bytes, const std::string& path, const RunContext& run) {
+    const NpyHeader header = read_npy_header(bytes, path);
+    if (header.shape.size() != 2)
+        fail(ErrorKind::input, "{}: an array of shape {}; expected (rows, columns)", path,
+             header.shown_shape);
+    if (header.empty())
+        fail(ErrorKind::input, "{}: an array of shape {} is empty", path, header.shown_shape);
+    const std::size_t count = npy_numbers(header, bytes.size());
+    run.need_memory(static_cast<double>(count) * 24, "the array " + path);
+    Cells cells{header.shape[1], header.shape[0], std::vector<double>(count)};
+    take_raw(bytes.substr(header.size), header.type, cells.values);
+    if (header.columns_first) {
+        const std::vector<double> stored = cells.values;
+        for (std::size_t i = 0; i < count; ++i)
+            cells.values[i] = stored[i / cells.width + i % cells.width * cells.height];
+    }
+    return cells;
+}
+
+/// Densities that are not a picture's shades: they need to be checked, and have no white.
+Cells densities(Cells cells, const std::string& path, bool invert) {
+    check_values(
+        cells, path, [](double value) { return value >= 0 && std::isfinite(value); },
+        "finite densities, none below 0");
+    if (invert) {
+        const double top = std::ranges::max(cells.values);
+        for (double& value : cells.values) value = top - value;
+    }
+    return cells;
+}
+
+Cells cells_of_pfm(std::string_view bytes, const std::string& path, const RunContext& run) {
+    PfmPicture picture = read_pfm(bytes, path, run);
+    return {picture.width, picture.height, std::move(picture.grey)};
+}
+
+Cells read_cells(const std::string& path, bool invert, const RunContext& run) {
+    const std::string bytes = read_file(path);
+    if (bytes.empty())
+        fail(ErrorKind::input,
+             "{}: the file is empty; expected a PNG or PFM picture or an NPY array", path);
+    Cells cells;
+    if (bytes.starts_with(png_magic))
+        cells = cells_of_png(bytes, path, invert, run);
+    else if (bytes.starts_with(npy_magic))
+        cells = densities(cells_of_array(bytes, path, run), path, invert);
+    else if (looks_like_pfm(bytes))
+        cells = densities(cells_of_pfm(bytes, path, run), path, invert);
+    else
+        fail(ErrorKind::input, "{}: neither a PNG or PFM picture nor an NPY array", path);
+    if (std::ranges::all_of(cells.values, [](double value) { return value == 0; }))
+        fail(ErrorKind::input, "{}: all values are 0{}; there is no place for a point", path,
+             invert ? " when inverted" : "");
+    return cells;
+}
+
+/// The fraction of a cell that lies before `wanted`, below 1.
+double fraction_before(std::span<const double> sums, std::size_t cell, double wanted) {
+    const double before = cell == 0 ? 0 : sums[cell - 1];
+    return std::min((wanted - before) / (sums[cell] - before), one_minus_ulp);
+}
+
+/// first_above() for a bucket of few sums, most often: a look at no sum beyond it, which would be
+/// on another line of memory.
+std::size_t first_of_few(std::span<const double> sums, std::size_t low, std::size_t high,
+                         double w) {
+    constexpr std::size_t few = 4;
+    if (high - low >= few) [[unlikely]]
+        return first_above(sums, low, high, w);
+    const std::size_t last = sums.size() - 1;
+    low += sums[std::min(low + 1, last)] <= w ? 2 : 0;
+    return low + (sums[std::min(low, last)] <= w ? 1 : 0);
+}
+
+/// The share of the total that lies before a place in a cell.
+double share_before(std::span<const double> sums, std::size_t cell, double fraction) {
+    if (!(sums.back() > 0)) return 0;
+    const double before = cell == 0 ? 0 : sums[cell - 1];
+    return std::min((before + fraction * (sums[cell] - before)) / sums.back(), 1.0);
+}
+
+/// (cell + fraction) / cells, kept in that cell when rounding would leave it.
+double coordinate(std::size_t cell, double fraction, std::size_t cells) {
+    const auto count = static_cast<double>(cells);
+    const auto floor = static_cast<double>(cell);
+    double x = (floor + fraction) / count;
+    while (x * count >= floor + 1) x = std::nextafter(x, 0.0);
+    while (x * count < floor) x = std::nextafter(x, 1.0);
+    return x;
+}
+
+}  // namespace
+
+DensityMap::DensityMap(std::size_t width, std::size_t height, std::vector<double> values)
+    : width_(width), height_(height), values_(std::move(values)) {
+    fill_with_zeros(row_sums_, width * height);
+    // First to a largest value of 1, so that no sum is too large for a double.
+    const double top = std::ranges::max(values_);
+    double sum = 0;
+    for (double& value : values_) sum += value /= top;
+    const double mean = sum / static_cast<double>(values_.size());
+    double total = 0;
+    for (std::size_t j = 0; j < height_; ++j) {
+        double row = 0;
+        for (std::size_t k = j * width_; k < (j + 1) * width_; ++k) {
+            values_[k] /= mean;
+            row_sums_[k] = row += values_[k];
+        }
+        column_.push_back(total += row);
+    }
+    largest_ = std::ranges::max(values_);
+    most_ = std::nextafter(total, 0.0);
+    lay_out_guides();
+}
+
+// A bucket of about 2 cells lies in one cache line of sums, mostly.
+void DensityMap::lay_out_guides() {
+    const std::size_t buckets = (width_ + 1) / 2;
+    column_buckets_ = Buckets(column_.back(), height_);
+    column_guide_.resize(height_ + 1);
+    fill_guide(column_, column_guide_);
+    row_guide_size_ = buckets + 1;
+    fill_with_zeros(row_guides_, height_ * row_guide_size_);
+    for (std::size_t j = 0; j < height_; ++j) {
+        const auto sums = std::span(row_sums_).subspan(j * width_, width_);
+        rows_.push_back({sums.back(), std::nextafter(sums.back(), 0.0), {sums.back(), buckets}});
+        fill_guide(sums, std::span(row_guides_).subspan(j * row_guide_size_, row_guide_size_));
+    }
+}
+
+inline DensityMap::Visit DensityMap::visit(double u, double v) const {
+    const double mass = std::min(v * column_.back(), most_);
+    const std::size_t bucket = column_buckets_.of(mass);
+    const std::size_t row =
+        first_of_few(column_, column_guide_[bucket], column_guide_[bucket + 1], mass);
+    const double wanted = std::min(u * rows_[row].total, rows_[row].most);
+    return {row, row * row_guide_size_ + rows_[row].buckets.of(wanted), wanted,
+            coordinate(row, fraction_before(column_, row, mass), height_)};
+}
+
+inline double DensityMap::across(const Visit& visit) const {
+    const auto sums = std::span(row_sums_).subspan(visit.row * width_, width_);
+    const std::size_t cell =
+        first_of_few(sums, row_guides_[visit.bucket], row_guides_[visit.bucket + 1], visit.wanted);
+    return coordinate(cell, fraction_before(sums, cell, visit.wanted), width_);
+}
+
+double DensityMap::largest_in(double x0, double x1, double y0, double y1) const {
+    double largest = 0;
+    for (std::size_t j = cell_of(y0, height_); j <= cell_of(y1, height_); ++j)
+        for (std::size_t i = cell_of(x0, width_); i <= cell_of(x1, width_); ++i)
+            largest = std::max(largest, values_[j * width_ + i]);
+    return largest;
+}
+
+std::array<double, 2> DensityMap::place(double u, double v) const {
+    const Visit visit = this->visit(u, v);
+    return {across(visit), visit.y};
+}
+
+/// In three steps, each some points ahead of the next, so that cells of many points are on their
+/// way from memory at a time.
+[[gnu::flatten]] void DensityMap::place_all(std::span<const double> cube,
+                                            std::span<double> image) const {
+    constexpr std::size_t ahead = 8;
+    constexpr std::size_t ring = 32;  // a power of two above 2 * ahead
+    std::array<Visit, ring> visits;
+    const std::size_t count = cube.size() / 2;
+    for (std::size_t i = 0; i < count + 2 * ahead; ++i) {
+        if (i < count) {
+            Visit& next = visits[i % ring];
+            next = visit(cube[2 * i], cube[2 * i + 1]);
+            __builtin_prefetch(&row_guides_[next.bucket]);
+        }
+        if (i >= ahead && i - ahead < count) {
+            const Visit& next = visits[(i - ahead) % ring];
+            // The bucket's sums and the one before may lie on two lines of memory.
+            const std::size_t sum = next.row * width_ + row_guides_[next.bucket];
+            __builtin_prefetch(&row_sums_[std::max<std::size_t>(sum, 1) - 1]);
+            __builtin_prefetch(&row_sums_[std::min(sum + 2, row_sums_.size() - 1)]);
+        }
+        if (i >= 2 * ahead) {
+            const std::size_t at = i - 2 * ahead;
+            image[2 * at] = across(visits[at % ring]);
+            image[2 * at + 1] = visits[at % ring].y;
+        }
+    }
+}
+
+std::array<double, 2> DensityMap::find(double x, double y) const {
+    const std::size_t j = cell_of(y, height_);
+    const std::size_t i = cell_of(x, width_);
+    const auto sums = std::span(row_sums_).subspan(j * width_, width_);
+    return {share_before(sums, i, x * static_cast<double>(width_) - static_cast<double>(i)),
+            share_before(column_, j, y * static_cast<double>(height_) - static_cast<double>(j))};
+}
+
+DensityMap read_density(const std::string& path, bool invert, const RunContext& run) {
+    Cells cells = read_cells(path, invert, run);
+    return {cells.width, cells.height, std::move(cells.values)};
+}
+
+PlaneValues read_lengths(const std::string& path, const RunContext& run) {
+    const std::string bytes = read_file(path);
+    if (!bytes.starts_with(npy_magic))
+        fail(ErrorKind::input, "{}: not an NPY array, which lengths have to be in", path);
+    Cells cells = cells_of_array(bytes, path, run);
+    check_values(
+        cells, path, [](double value) { return value > 0 && std::isfinite(value); },
+        "finite lengths above 0");
+    return cells;
+}
+
+DensityMap read_mask(const std::string& path, bool invert, const RunContext& run) {
+    Cells cells = read_cells(path, invert, run);
+    for (double& value : cells.values) value = value != 0;
+    return {cells.width, cells.height, std::move(cells.values)};
+}
+
+}  // namespace stipple

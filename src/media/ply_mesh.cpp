@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "media/token_file.hpp"
+#include "media/triangle_mesh.hpp"
+
+namespace stipple {
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+
+enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+struct Property {
+    std::string name;
+    Type type;
+    bool list = false;
+    Type length = Type::uint8;
+};
+
+struct Element {
+    std::string name;
+    std::uint64_t count;
+    std::vector<Property> properties;
+};
+
+struct Header {
+    bool ascii = false;
+    std::vector<Element> elements;
+};
+
+Type type_of(TokenFile& file) {
+    const Token token = file.next("a type");
+    constexpr std::pair<std::string_view, Type> names[] = {
+        {"char", Type::int8},      {"int8", Type::int8},       {"uchar", Type::uint8},
+        {"uint8", Type::uint8},    {"short", Type::int16},     {"int16", Type::int16},
+        {"ushort", Type::uint16},  {"uint16", Type::uint16},   {"int", Type::int32},
+        {"int32", Type::int32},    {"uint", Type::uint32},     {"uint32", Type::uint32},
+        {"float", Type::float32},  {"float32", Type::float32}, {"double", Type::float64},
+        {"float64", Type::float64}};
+    for (const auto& [name, type] : names)
+        if (token.text == name) return type;
+    file.refuse(token, fmt::format("{} is not a type; expected char, uchar, short, ushort, int, "
+                                   "uint, float or double",
+                                   TokenFile::shown(token)));
+}
+
+bool is_ascii(TokenFile& file) {
+    const Token token = file.next("a format");
+    if (token.text != "ascii" && token.text != "binary_little_endian")
+        file.refuse(token, fmt::format("format {} is not read; expected ascii or "
+                                       "binary_little_endian",
+                                       TokenFile::shown(token)));
+    return token.text == "ascii";
+}
+
+Property property_of(TokenFile& file) {
+    Property property{.name = {}, .type = Type::float32};
+    if (file.peek().text == "list") {
+        file.next("list");
+        property.list = true;
+        property.length = type_of(file);
+    }
+    property.type = type_of(file);
+    property.name = file.next("the name of a property").text;
+    return property;
+}
+
+/// The header; the file then stands at what follows.
+Header header_of(TokenFile& file) {
+    Header header;
+    file.next("ply");
+    while (true) {
+        const Token word = file.next("end_header");
+        if (word.text == "end_header") return header;
+        if (word.text == "format") {
+            header.ascii = is_ascii(file);
+        } else if (word.text == "element") {
+            Element element{.name = std::string(file.next("the name of an element").text),
+                            .count = file.number("the number of its rows"),
+                            .properties = {}};
+            header.elements.push_back(std::move(element));
+        } else if (word.text == "property") {
+            if (header.elements.empty()) file.refuse(word, "a property before any element");
+            header.elements.back().properties.push_back(property_of(file));
+        } else if (word.text != "comment" && word.text != "obj_info") {
+            file.refuse(word, fmt::format("{} is not known; expected format, element, property, "
+                                          "comment or end_header",
+                                          TokenFile::shown(word)));
+        }
+        while (!file.at_line_end()) file.next("a word");
+    }
+}
+
+/// The numbers behind the header, one after the other.
+class Body {
+  public:
+    Body() = default;
+    Body(const Body&) = delete;
+    Body& operator=(const Body&) = delete;
+    virtual ~Body() = default;
+
+    /// What is read next, for complaints.
+    void stand_at(const Element& element, const Property& property, std::uint64_t row) {
+        element_ = &element;
+        property_ = &property;
+        row_ = row;
+    }
+    /// "x of vertex 3 of 8".
+    [[nodiscard]] std::string what() const {
+        return fmt::format("{} of {} {} of {}", property_->name, element_->name, row_ + 1,
+                           element_->count);
+    }
+
+    /// The next number. @throws Error(input) when there is none.
+    virtual double next(Type type) = 0;
+    /// Complains about the last number.
+    [[noreturn]] virtual void refuse(const std::string& what) = 0;
+    /// Holds that nothing is left.
+    virtual void finish() = 0;
+
+  private:
+    const Element* element_ = nullptr;
+    const Property* property_ = nullptr;
+    std::uint64_t row_ = 0;
+};
+
+class AsciiBody final : public Body {
+  public:
+    explicit AsciiBody(TokenFile& file) : file_(file) {}
+
+    double next(Type /*type*/) override {
+        if (file_.at_end()) file_.next(what());
+        last_ = file_.next("a number");
+        const auto value = parse_number(last_.text);
+        if (!value) refuse(fmt::format("not a finite number; expected {}", what()));
+        return *value;
+    }
+    [[noreturn]] void refuse(const std::string& what) override {
+        file_.refuse(last_, fmt::format("{}: {}", TokenFile::shown(last_), what));
+    }
+    void finish() override {
+        if (file_.at_end()) return;
+        last_ = file_.peek();
+        refuse("more than the header announces; expected the end of the file");
+    }
+
+  private:
+    TokenFile& file_;
+    Token last_;
+};
+
+class BinaryBody final : public Body {
+  public:
+    BinaryBody(std::string_view bytes, std::size_t at, std::string name)
+        : bytes_(bytes), at_(at), name_(std::move(name)) {}
+
+    double next(Type type) override {
+        switch (type) {
+            case Type::int8:
+                return take<std::int8_t>();
+            case Type::uint8:
+                return take<std::uint8_t>();
+            case Type::int16:
+                return take<std::int16_t>();
+            case Type::uint16:
+                return take<std::uint16_t>();
+            case Type::int32:
+                return take<std::int32_t>();
+            case Type::uint32:
+                return take<std::uint32_t>();
+            case Type::float32:
+                return static_cast<double>(take<float>());
+            case Type::float64:
+                return take<double>();
+        }
+        return 0;
+    }
+    [[noreturn]] void refuse(const std::string& what) override {
+        fail(ErrorKind::input, "{}: byte {}: {}", name_, last_ + 1, what);
+    }
+    void finish() override {
+        if (at_ == bytes_.size()) return;
+        last_ = at_;
+        refuse(fmt::format("{} bytes more than the header announces", bytes_.size() - at_));
+    }
+
+  private:
+    template <class T>
+    T take() {
+        last_ = at_;
+        if (bytes_.size() - at_ < sizeof(T))
+            fail(ErrorKind::input, "{}: byte {}: the file ends here; expected {}", name_,
+                 bytes_.size() + 1, what());
+        T value;
+        std::memcpy(&value, bytes_.data() + at_, sizeof(T));
+        at_ += sizeof(T);
+        return value;
+    }
+
+    std::string_view bytes_;
+    std::size_t at_;
+    std::size_t last_ = 0;  ///< where the last number began
+    std::string name_;
+};
+
+/// Reads the rows of all elements into a mesh.
+class Assembly {
+  public:
+    Assembly(Body& body, const Header& header, const RunContext& run)
+        : body_(body), header_(header), run_(run) {}
+
+    TriangleMesh mesh() {
+        for (const Element& element : header_.elements)
+            for (std::uint64_t row = 0; row < element.count && !element.properties.empty(); ++row) {
+                if (row % 65536 == 0) run_.check_stop();
+                read_row(element, row);
+            }
+        body_.finish();
+        return std::move(mesh_);
+    }
+
+  private:
+    void read_row(const Element& element, std::uint64_t row) {
+        Vector3 at{};
+        for (const Property& property : element.properties) {
+            body_.stand_at(element, property, row);
+            if (property.list) {
+                read_list(element, property);
+                continue;
+            }
+            const double value = body_.next(property.type);
+            const std::size_t axis = std::string_view("xyz").find(property.name);
+            if (element.name != "vertex" || property.name.size() != 1 || axis > 2) continue;
+            if (!(std::abs(value) <= most_coordinate))
+                body_.refuse(fmt::format("{} is {}; expected a number in [-1e150, 1e150]",
+                                         body_.what(), value));
+            at[axis] = value;
+        }
+        if (element.name == "vertex") mesh_.vertices.push_back(at);
+    }
+
+    void read_list(const Element& element, const Property& property) {
+        const double length = body_.next(property.length);
+        if (!(length >= 0 && length <= 1e9 && length == std::floor(length)))
+            body_.refuse(fmt::format("a list of {} numbers in {}", length, body_.what()));
+        const bool corners = element.name == "face" && property.name.starts_with("vertex_ind");
+        if (corners && length < 3)
+            body_.refuse(
+                fmt::format("{} corners in {}; at least 3 are needed", length, body_.what()));
+        polygon_.clear();
+        for (auto left = static_cast<std::uint64_t>(length); left > 0; --left) {
+            const double index = body_.next(property.type);
+            if (corners) polygon_.push_back(place_of(index));
+        }
+        if (corners) mesh_.add_fan(polygon_);
+    }
+
+    std::uint32_t place_of(double index) {
+        const auto count = static_cast<double>(mesh_.vertices.size());
+        if (!(index >= 0 && index < count && index == std::floor(index)))
+            body_.refuse(fmt::format("there is no vertex {} as in {}; there are {}, from 0", index,
+                                     body_.what(), mesh_.vertices.size()));
+        return static_cast<std::uint32_t>(index);
+    }
+
+    Body& body_;
+    const Header& header_;
+    const RunContext& run_;
+    TriangleMesh mesh_;
+    std::vector<std::uint32_t> polygon_;
+};
+
+/// @throws Error(input) when the header announces no mesh.
+void check(const Header& header, TokenFile& file) {
+    const auto has = [&](std::string_view element, std::string_view property, bool list) {
+        for (const Element& e : header.elements)
+            for (const Property& p : e.properties)
+                if (e.name == element && p.name.starts_with(property) && p.list == list)
+                    return true;
+        return false;
+    };
+    for (const char* axis : {"x", "y", "z"})
+        if (!has("vertex", axis, false))
+            file.refuse_whole(fmt::format("no property {} of element vertex in the header", axis));
+    if (!has("face", "vertex_ind", true))
+        file.refuse_whole(
+            "no property list vertex_indices of element face in the header; points alone have no "
+            "surface");
+    if (header.elements.size() > 64) file.refuse_whole("more than 64 elements in the header");
+    for (const Element& element : header.elements)
+        if (element.count > std::numeric_limits<std::uint32_t>::max())
+            file.refuse_whole(fmt::format("{} rows of element {}; at most 2^32 - 1 are read",
+                                          element.count, element.name));
+}
+
+}  // namespace
+
+TriangleMesh parse_ply(std::string bytes, const std::string& name, const RunContext& run) {
+    constexpr std::string_view last = "\nend_header";
+    const auto found = bytes.find(last);
+    if (found == std::string::npos)
+        fail(ErrorKind::input, "{}: no line end_header; the header is cut", name);
+    const auto end = bytes.find('\n', found + last.size());
+    const std::size_t begin = end == std::string::npos ? bytes.size() : end + 1;
+    TokenFile head(bytes.substr(0, begin), name);
+    const Header header = header_of(head);
+    check(header, head);
+    TriangleMesh mesh;
+    if (header.ascii) {
+        TokenFile file(std::move(bytes), name);
+        header_of(file);
+        AsciiBody body(file);
+        mesh = Assembly(body, header, run).mesh();
+    } else {
+        BinaryBody body(bytes, begin, name);
+        mesh = Assembly(body, header, run).mesh();
+    }
+    if (mesh.triangles.empty()) head.refuse_whole("no faces");
+    return mesh;
+}
+
+}  // namespace stipple

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+//
+// Triangle meshes from files: PLY (ascii or binary little endian) and Wavefront OBJ. Polygons are
+// cut into triangles in a fan from their first corner; what else a file holds is skipped.
+//
+//     const TriangleMesh mesh = read_mesh("bunny.ply", run);
+//
+// Shape   at least one triangle; finite coordinates in [-1e150, 1e150].
+// Promise every complaint names the file with line and column, or with the byte where it is binary
+//         (all from 1).
+// Beware  the fan of a polygon that is not convex covers what is not the polygon's.
+// Source  G. Turk, The PLY polygon file format, Stanford University, 1994; Wavefront Technologies,
+//         The Advanced Visualizer manual, appendix B1 (OBJ).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/run_context.hpp"
+#include "math/geometry/vector3.hpp"
+
+namespace stipple {
+
+struct TriangleMesh {
+    std::vector<Vector3> vertices;
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< corners, as places in `vertices`
+
+    [[nodiscard]] std::array<Vector3, 3> corners(std::size_t triangle) const {
+        const auto& [a, b, c] = triangles[triangle];
+        return {vertices[a], vertices[b], vertices[c]};
+    }
+
+    /// Adds the fan of a polygon, at least 3 corners.
+    void add_fan(const std::vector<std::uint32_t>& polygon);
+};
+
+/// The largest size of a coordinate.
+constexpr double most_coordinate = 1e150;
+
+/// Reads a mesh; the kind of file is told by its first line. @throws Error(io) as read_file,
+/// Error(input): not a mesh, numbers that are none, corners that are not there, a file that is cut.
+TriangleMesh read_mesh(const std::string& path, const RunContext& run);
+
+/// The mesh of a PLY file's bytes; messages call it `name`. @throws Error(input)
+TriangleMesh parse_ply(std::string bytes, const std::string& name, const RunContext& run);
+
+/// The mesh of an OBJ file's bytes; messages call it `name`. @throws Error(input)
+TriangleMesh parse_obj(std::string bytes, const std::string& name, const RunContext& run);
+
+}  // namespace stipple

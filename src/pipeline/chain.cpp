@@ -1,0 +1,440 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/chain.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <filesystem>
+#include <iterator>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "core/file_bytes.hpp"
+#include "core/fingerprint.hpp"
+#include "core/parallel.hpp"
+#include "core/rng.hpp"
+#include "core/text.hpp"
+#include "pipeline/pipeline.hpp"
+
+namespace stipple {
+namespace {
+
+/// What work(rows, first) makes of blocks of points, one after the other, with their provenance.
+template <class Work>
+PointSet by_blocks(const PointSet& points, std::size_t width, const RunContext& run,
+                   const Work& work) {
+    const std::size_t d = points.dimension();
+    run.need_memory(8.0 * static_cast<double>(points.count() * width), "the image of the points");
+    constexpr std::size_t block = 1 << 14;
+    std::vector<std::vector<double>> parts(block_count(points.count(), block));
+    for_each_block(run, points.count(), block, [&](const Block& b) {
+        const auto rows = points.flat().subspan(b.first * d, (b.last - b.first) * d);
+        parts[b.index] = work(std::vector<double>(rows.begin(), rows.end()), b.first);
+    });
+    std::size_t numbers = 0;
+    for (const auto& part : parts) numbers += part.size();
+    std::vector<double> all;
+    all.reserve(numbers);
+    for (auto& part : parts) {
+        all.insert(all.end(), part.begin(), part.end());
+        part = {};  // so that the points are not held twice
+    }
+    PointSet made(std::move(all), width);
+    made.provenance = points.provenance;
+    return made;
+}
+
+/// Columns of rows as rows of their own.
+std::vector<double> gather(std::span<const double> rows, std::size_t width,
+                           std::span<const std::size_t> columns) {
+    std::vector<double> out;
+    out.reserve(rows.size() / width * columns.size());
+    for (std::size_t i = 0; i < rows.size(); i += width)
+        for (const std::size_t k : columns) out.push_back(rows[i + k]);
+    return out;
+}
+
+/// Coordinates of a row of `width` numbers that are not in `taken`, in order.
+std::vector<std::size_t> others(std::size_t width, std::span<const std::size_t> taken) {
+    std::vector<std::size_t> rest;
+    for (std::size_t k = 0; k < width; ++k)
+        if (std::ranges::find(taken, k) == taken.end()) rest.push_back(k);
+    return rest;
+}
+
+/// Where the numbers of an image of `size` go, replacing `taken`: one to one where sizes agree,
+/// else together where the first of them stood.
+std::vector<std::size_t> places(std::span<const std::size_t> taken, std::size_t size) {
+    if (taken.size() == size) return {taken.begin(), taken.end()};
+    const auto before =
+        std::ranges::count_if(taken, [&](std::size_t k) { return k < taken.front(); });
+    std::vector<std::size_t> at(size);
+    std::iota(at.begin(), at.end(), taken.front() - static_cast<std::size_t>(before));
+    return at;
+}
+
+/// Rows made of `part` at the places `at` and of the columns `rest` of `rows` in between.
+std::vector<double> interleave(std::span<const double> rows, std::size_t width,
+                               std::span<const std::size_t> rest, std::span<const double> part,
+                               std::span<const std::size_t> at) {
+    const std::size_t wide = rest.size() + at.size();
+    const auto free = others(wide, at);
+    const std::size_t count = rows.size() / width;
+    std::vector<double> out(count * wide);
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t k = 0; k < at.size(); ++k) out[i * wide + at[k]] = part[i * at.size() + k];
+        for (std::size_t k = 0; k < rest.size(); ++k)
+            out[i * wide + free[k]] = rows[i * width + rest[k]];
+    }
+    return out;
+}
+
+void keep_rows(std::vector<double>& rows, std::size_t width, std::span<const std::uint8_t> keep) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < keep.size(); ++i) {
+        if (!keep[i]) continue;
+        std::copy_n(rows.begin() + static_cast<std::ptrdiff_t>(i * width), width,
+                    rows.begin() + static_cast<std::ptrdiff_t>(kept * width));
+        ++kept;
+    }
+    rows.resize(kept * width);
+}
+
+/// Where " x " parts a factor of a domain from the next; not in brackets, where a file's name may
+/// hold it.
+std::size_t end_of_factor(std::string_view text) {
+    bool bracketed = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '[' || text[i] == ']') bracketed = text[i] == '[';
+        if (!bracketed && text.substr(i).starts_with(" x ")) return i;
+    }
+    return std::string_view::npos;
+}
+
+/// The warp that a domain is the image of. @throws Error(usage)
+const Warp& warp_of_domain(const std::string& name) {
+    std::vector<std::string> names = {"unit-cube", "box"};
+    for (const Warp& warp : warps::all()) {
+        if (warp.name == name || std::ranges::count(warp.aliases, name) > 0) return warp;
+        names.push_back(warp.name);
+    }
+    const bool range = name.find("..") != std::string::npos;
+    fail_with_hint(
+        ErrorKind::usage,
+        range ? fmt::format("a box is written box:bounds=[{}]", name) : suggest(name, names),
+        "unknown domain '{}'", name);
+}
+
+std::vector<std::size_t> all_of(std::size_t dimension) {
+    std::vector<std::size_t> all(dimension);
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    return all;
+}
+
+/// The product of factors and of the unit cube in all other coordinates.
+DomainPtr filled_up(std::vector<Factor> factors, std::size_t dimension) {
+    std::vector<std::size_t> taken;
+    for (const Factor& factor : factors)
+        taken.insert(taken.end(), factor.coordinates.begin(), factor.coordinates.end());
+    const auto rest = others(dimension, taken);
+    if (!rest.empty()) factors.push_back({unit_cube(rest.size()), rest});
+    const bool whole = factors.size() == 1 && factors[0].coordinates == all_of(dimension);
+    return whole ? factors[0].domain : product_domain(std::move(factors));
+}
+
+}  // namespace
+
+WarpChain::WarpChain(std::span<const Spec> specs, std::size_t dimension, const ChainSet& set,
+                     const RunContext& run, std::vector<Factor> warped)
+    : dimension_in_(dimension), dimension_out_(dimension) {
+    for (Factor& before : warped)
+        steps_.push_back({.domain = std::move(before.domain),
+                          .image = std::move(before.coordinates),
+                          .width_in = dimension,
+                          .width_out = dimension});
+    for (const Spec& spec : specs) add(spec, set, run);
+    find_domain();
+}
+
+void WarpChain::add(const Spec& spec, const ChainSet& set, const RunContext& run) {
+    if (const Scramble* scramble = scramble_named(spec.name))
+        add_scramble(*scramble, spec, set);
+    else
+        add_warp(find_warp(spec.name), spec, run);
+}
+
+/// The coordinates that a spec names, or all. They must be there, and still be uniform.
+std::vector<std::size_t> WarpChain::coordinates_of(const Spec& spec) const {
+    const auto named = spec.coordinates.empty() ? all_of(dimension_out_) : spec.coordinates;
+    for (const std::size_t k : named) {
+        if (k >= dimension_out_)
+            fail(ErrorKind::usage, "{}@{}: the points have coordinates 1 to {}", spec.name,
+                 format_coordinates(named), dimension_out_);
+        for (const Step& earlier : steps_)
+            if (std::ranges::find(earlier.image, k) != earlier.image.end())
+                fail(ErrorKind::usage,
+                     "warp {}: coordinate {} is already on another domain; it takes coordinates of "
+                     "the unit cube",
+                     spec.name, k + 1);
+    }
+    return named;
+}
+
+template <class Unit>
+void WarpChain::remember(const Unit& unit, const Spec& spec, const Values& values) {
+    std::string text = format_spec(unit.name, values, unit.options);
+    if (!spec.coordinates.empty())
+        text.insert(unit.name.size(), fmt::format("@{}", format_coordinates(spec.coordinates)));
+    specs_.push_back(std::move(text));
+    std::ranges::copy(files_of(unit.options, values), std::back_inserter(files_));
+    if (unit.stream_version > 1) stream_versions_.emplace_back(unit.name, unit.stream_version);
+}
+
+void WarpChain::add_scramble(const Scramble& scramble, const Spec& spec, const ChainSet& set) {
+    const Values values = spec.values(scramble.options);
+    Step step{.coordinates = coordinates_of(spec),
+              .width_in = dimension_out_,
+              .width_out = dimension_out_};
+    std::uint64_t seed = set.seed;
+    if (values.given(scramble_seed)) {
+        const auto own = parse_unsigned(values[scramble_seed]);
+        if (!own)
+            fail(ErrorKind::usage, "{}: seed '{}' is not a whole number in [0, 2^64)", spec.name,
+                 values[scramble_seed]);
+        seed = *own;
+    } else {
+        seeded_ = true;
+    }
+    step.randomization =
+        scramble.make(values, {.coordinates = step.coordinates, .seed = seed, .count = set.count});
+    remember(scramble, spec, values);
+    steps_.push_back(std::move(step));
+}
+
+/// What is said where a warp takes another number of coordinates than there are.
+void WarpChain::refuse_coordinates(const Spec& spec, std::size_t takes, const Step& step) {
+    const std::string wants =
+        fmt::format("warp {} takes {} coordinate{}", spec.name, takes, takes == 1 ? "" : "s");
+    if (!spec.coordinates.empty())
+        fail(ErrorKind::usage, "{}; {} {} named: {}@{}", wants, step.coordinates.size(),
+             step.coordinates.size() == 1 ? "is" : "are", spec.name,
+             format_coordinates(step.coordinates));
+    std::string hint;
+    if (takes < step.width_in)
+        hint = fmt::format("name the coordinates: {}@{}", spec.name,
+                           format_coordinates(all_of(takes)));
+    fail_with_hint(ErrorKind::usage, hint, "{}; the points have {}", wants, step.width_in);
+}
+
+void WarpChain::add_warp(const Warp& warp, const Spec& spec, const RunContext& run) {
+    const Values values = spec.values(warp.options);
+    Step step{.coordinates = coordinates_of(spec), .width_in = dimension_out_};
+    step.mapping = warp.make(values, step.coordinates.size(), run);
+    const std::size_t takes = step.mapping->cube_dimension();
+    if (takes != step.coordinates.size()) refuse_coordinates(spec, takes, step);
+    step.domain = step.mapping->domain();
+    const std::size_t gives = step.domain->dimension();
+    step.width_out = step.width_in - takes + gives;
+    step.image = places(step.coordinates, gives);
+    const auto rest = others(step.width_in, step.coordinates);
+    const auto moved = others(step.width_out, step.image);
+    for (Step& earlier : steps_)
+        for (std::size_t& k : earlier.image)
+            k = moved[static_cast<std::size_t>(std::ranges::find(rest, k) - rest.begin())];
+    remember(warp, spec, values);
+    dimension_out_ = step.width_out;
+    steps_.push_back(std::move(step));
+}
+
+void WarpChain::find_domain() {
+    std::vector<Factor> factors;
+    for (const Step& step : steps_)
+        if (step.domain) factors.push_back({step.domain, step.image});
+    domain_ = filled_up(std::move(factors), dimension_out_);
+}
+
+DomainPtr WarpChain::domain_before(const DomainPtr& after, const RunContext& run) const {
+    std::vector<Factor> factors = warped_factors(after, {}, run);
+    for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
+        if (!step->mapping) continue;
+        const auto at = places(step->coordinates, step->image.size());
+        const auto rest = others(step->width_in, step->coordinates);
+        const auto moved = others(step->width_out, at);
+        std::erase_if(factors, [&](const Factor& factor) {
+            return std::ranges::find_first_of(factor.coordinates, at) != factor.coordinates.end();
+        });
+        for (Factor& factor : factors)
+            for (std::size_t& k : factor.coordinates)
+                k = rest[static_cast<std::size_t>(std::ranges::find(moved, k) - moved.begin())];
+    }
+    return filled_up(std::move(factors), dimension_in_);
+}
+
+bool WarpChain::drops() const {
+    return std::ranges::any_of(
+        steps_, [](const Step& step) { return step.mapping && step.mapping->drops(); });
+}
+
+std::vector<double> WarpChain::forward(std::vector<double> rows, std::uint64_t first) const {
+    for (const Step& step : steps_) {
+        if (!step.mapping && !step.randomization) continue;
+        const std::size_t count = rows.size() / step.width_in;
+        const bool whole = step.coordinates == all_of(step.width_in);
+        auto part = whole ? std::move(rows) : gather(rows, step.width_in, step.coordinates);
+        const bool drops = step.mapping && step.mapping->drops();
+        std::vector<std::uint8_t> keep(drops ? count : 0, 1);
+        if (step.mapping) {
+            std::vector<double> image(count * step.image.size());
+            step.mapping->forward(part, image, keep);
+            part = std::move(image);
+        } else {
+            step.randomization->apply(first, part);
+        }
+        const std::size_t gives = step.mapping ? step.image.size() : step.coordinates.size();
+        rows = whole ? std::move(part)
+                     : interleave(rows, step.width_in, others(step.width_in, step.coordinates),
+                                  part, places(step.coordinates, gives));
+        if (drops) keep_rows(rows, step.width_out, keep);
+    }
+    return rows;
+}
+
+std::vector<double> WarpChain::inverse(std::vector<double> rows) const {
+    for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
+        if (!step->mapping)
+            fail(ErrorKind::usage, "--inverse: a scramble is random and has no inverse");
+        const std::size_t count = rows.size() / step->width_out;
+        const auto at = places(step->coordinates, step->image.size());
+        std::vector<double> cube(count * step->coordinates.size());
+        step->mapping->inverse(gather(rows, step->width_out, at), cube);
+        // A rim is the image of what is just below 1, and the next warp takes nothing else.
+        for (double& x : cube) x = std::min(x, one_minus_ulp);
+        rows =
+            interleave(rows, step->width_out, others(step->width_out, at), cube, step->coordinates);
+    }
+    return rows;
+}
+
+PointSet WarpChain::image(const PointSet& points, const RunContext& run,
+                          std::uint64_t start) const {
+    PointSet image = by_blocks(points, dimension_out_, run, [&](auto rows, std::uint64_t first) {
+        return forward(std::move(rows), start + first);
+    });
+    image.domain = domain_;
+    return image;
+}
+
+PointSet WarpChain::preimage(const PointSet& points, const RunContext& run) const {
+    PointSet before = by_blocks(points, dimension_in_, run,
+                                [&](auto rows, std::uint64_t) { return inverse(std::move(rows)); });
+    before.domain = domain_before(points.domain, run);
+    return before;
+}
+
+std::vector<double> WarpChain::density(std::span<const double> rows) const {
+    std::vector<double> density(rows.size() / dimension_out_, 1.0);
+    std::vector<double> point;
+    for (const Step& step : steps_)
+        for (std::size_t i = 0; step.domain && i < density.size(); ++i) {
+            point.clear();
+            for (const std::size_t k : step.image) point.push_back(rows[i * dimension_out_ + k]);
+            density[i] *= step.mapping ? step.mapping->density(point) : step.domain->density(point);
+        }
+    return density;
+}
+
+std::vector<std::string> files_of(const Schema& schema, const Values& values,
+                                  std::span<const std::string> written) {
+    std::vector<std::string> files;
+    for (const Option& option : schema.options()) {
+        const auto& item = values.find(option.name);
+        const bool output = std::ranges::find(written, option.name) != written.end();
+        if (option.type == "file" && item.given && !output)
+            files.push_back(std::get<std::string>(item.value));
+    }
+    return files;
+}
+
+std::vector<std::pair<std::string, std::string>> fingerprints(std::span<const std::string> files) {
+    std::vector<std::pair<std::string, std::string>> all;
+    for (const std::string& file : files) {
+        // What is read from a pipe can be read once; what is not there, its reader complains of.
+        std::error_code ignored;
+        const bool kept = std::filesystem::is_regular_file(file, ignored);
+        all.emplace_back(
+            file, kept ? format_fingerprint(fingerprint(read_file(file))) : std::string(not_kept));
+    }
+    return all;
+}
+
+namespace {
+
+/// What parts of " x " mean, each of `dimension` coordinates where it names none.
+std::vector<Factor> parse_factors(std::string_view text, std::size_t dimension,
+                                  const RunContext& run) {
+    std::vector<Factor> factors;
+    while (!text.empty()) {
+        const auto times = end_of_factor(text);
+        Spec spec = parse_spec(text.substr(0, times));
+        text = times == std::string_view::npos ? std::string_view() : text.substr(times + 3);
+        const std::size_t given = spec.coordinates.empty() ? dimension : spec.coordinates.size();
+        DomainPtr domain;
+        if (spec.name == "unit-cube") {
+            domain = unit_cube(given);
+        } else if (spec.name == "box") {
+            if (spec.settings.size() != 1 || spec.settings[0].first != "bounds")
+                fail(ErrorKind::usage, "domain box: write box:bounds=[lo..hi,lo..hi]");
+            domain = box_domain(parse_box(spec.settings[0].second, given));
+        } else {
+            const Warp& warp = warp_of_domain(spec.name);
+            domain = warp.make(spec.values(warp.options), given, run)->domain();
+        }
+        factors.push_back(
+            {std::move(domain), spec.coordinates.empty() ? all_of(dimension) : spec.coordinates});
+    }
+    return factors;
+}
+
+}  // namespace
+
+DomainPtr parse_domain(std::string_view text, std::size_t dimension, const RunContext& run) {
+    auto factors = parse_factors(text, dimension, run);
+    std::vector<std::size_t> covered;
+    for (const auto& [domain, coordinates] : factors) {
+        if (domain->dimension() != coordinates.size())
+            fail(ErrorKind::input, "the domain {} has dimension {}; the points have {}",
+                 domain->spec(), domain->dimension(), coordinates.size());
+        covered.insert(covered.end(), coordinates.begin(), coordinates.end());
+    }
+    std::ranges::sort(covered);
+    if (covered != all_of(dimension))
+        fail(ErrorKind::input, "the domain does not cover each of the {} coordinates once",
+             dimension);
+    if (factors.size() == 1 && factors[0].coordinates == all_of(dimension))
+        return factors[0].domain;
+    return product_domain(std::move(factors));
+}
+
+std::vector<Factor> warped_factors(const DomainPtr& domain, std::span<const std::size_t> boxless,
+                                   const RunContext& run) {
+    const std::size_t d = domain->dimension();
+    const std::string text = domain->spec();
+    const bool product = end_of_factor(text) != std::string_view::npos;
+    std::vector<Factor> warped;
+    for (Factor& factor :
+         product ? parse_factors(text, d, run) : std::vector<Factor>{{domain, all_of(d)}}) {
+        const std::string name = parse_spec(factor.domain->spec()).name;
+        if (name == "unit-cube") continue;
+        if (name != "box") {
+            warped.push_back(std::move(factor));
+            continue;
+        }
+        const Box box = factor.domain->bounding_box();
+        for (std::size_t k = 0; k < box.dimension(); ++k)
+            if (std::ranges::find(boxless, factor.coordinates[k]) == boxless.end())
+                warped.push_back(
+                    {box_domain({{box.low[k]}, {box.high[k]}}), {factor.coordinates[k]}});
+    }
+    return warped;
+}
+
+}  // namespace stipple

@@ -1,0 +1,531 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/produce.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <memory>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "generators/density_options.hpp"
+#include "io/carried_meta.hpp"
+#include "media/png_picture.hpp"
+#include "pipeline/chain.hpp"
+#include "pipeline/delivery.hpp"
+#include "pipeline/pipeline.hpp"
+
+namespace stipple {
+namespace {
+
+/// The rows of a set that is in memory.
+Source source_of(const PointSet& points) {
+    const std::size_t d = points.dimension();
+    return {.count = points.count(),
+            .dimension = d,
+            .fill =
+                [&points, d](std::uint64_t first, std::span<double> rows) {
+                    std::ranges::copy(points.flat().subspan(first * d, rows.size()), rows.begin());
+                },
+            .chain = std::make_shared<WarpChain>(std::span<const Spec>(), d)};
+}
+
+/// The image of a set whose first point has the index `start`; tells the user how many points have
+/// none.
+PointSet image_of(const PointSet& points, const WarpChain& chain, bool inverse, std::uint64_t start,
+                  const RunContext& run) {
+    PointSet image = inverse ? chain.preimage(points, run) : chain.image(points, run, start);
+    tell_kept(points.count(), image.count(), chain, run);
+    image.provenance.efficiency *=
+        static_cast<double>(image.count()) / static_cast<double>(points.count());
+    return image;
+}
+
+/// @throws Error(limit) when sets that are held together, of so many numbers, do not fit.
+void need_memory_for(std::uint64_t sets, std::uint64_t numbers, const RunContext& run) {
+    if (sets > 1)
+        run.need_memory(8 * static_cast<double>(sets) * static_cast<double>(numbers),
+                        fmt::format("what {} sets hold together", sets));
+}
+
+/// What a file of several sets tells of them: the first one's provenance, less the options that
+/// are not the same for all, such as a radius that was worked out for each.
+Provenance common_provenance(const std::vector<PointSet>& sets) {
+    Provenance common = sets.front().provenance;
+    std::erase_if(common.options, [&](const auto& option) {
+        return std::ranges::any_of(sets, [&](const PointSet& set) {
+            const auto& options = set.provenance.options;
+            return std::ranges::find(options, option) == options.end();
+        });
+    });
+    return common;
+}
+
+/// Writes sets as they are; `chain` is what gave them, for their density.
+void ship_images(const std::vector<PointSet>& images, const WarpChain& chain, std::size_t first_set,
+                 const Target& target, const RunContext& run,
+                 std::optional<std::uint64_t> first_seed = {}) {
+    const std::size_t d = images.front().dimension();
+    const bool together = !file_per_set(target.path);
+    const Provenance common = common_provenance(images);
+    Shipment shipment{
+        .sets = images.size(),
+        .first_set = first_set,
+        .source = [&](std::size_t set, const RunContext&) { return source_of(images[set]); },
+        .provenance = [&](std::size_t set) { return together ? common : images[set].provenance; },
+        .first_seed = first_seed,
+        .extent =
+            [&](std::size_t set) {
+                return bounding_box(images[set].flat(), images[set].domain->bounding_box());
+            },
+        .side_files = [&](std::size_t set) -> const std::vector<SideFile>& {
+            return images[set].side_files;
+        },
+        .counts = {},
+        .dimension = d,
+        .route = {}};
+    for (const PointSet& set : images) shipment.counts.push_back(set.count());
+    PointSet wide;
+    if (target.columns.any())
+        shipment.source = [&](std::size_t set, const RunContext&) {
+            // Without warps, what the points are on is the unit cube, or what it was scaled to.
+            const double volume = chain.empty() ? images[set].domain->measure() : 1;
+            const Route route{.columns = target.columns, .volume = volume};
+            wide = PointSet(with_columns(images[set].flat(), chain, route),
+                            d + target.columns.names().size());
+            return source_of(wide);
+        };
+    ship(shipment, target, run);
+}
+
+/// Writes down that the set went through a warp. What was cut in writing was so before it.
+void record_warp(PointSet& set, const WarpChain& chain, bool inverse,
+                 const std::vector<std::pair<std::string, std::string>>& inputs) {
+    Provenance& meta = set.provenance;
+    if (meta.single) meta.warps.emplace_back(cut_to_single);
+    if (meta.precision) meta.warps.push_back(fmt::format("{}{}", cut_to_digits, *meta.precision));
+    meta.single = false;
+    meta.precision.reset();
+    const std::string warp = (inverse ? "inverse " : "") + chain.specs().front();
+    for (const auto& input : inputs)
+        if (std::ranges::find(meta.inputs, input) == meta.inputs.end())
+            meta.inputs.push_back(input);
+    for (const auto& version : chain.stream_versions())
+        if (std::ranges::find(meta.stream_versions, version) == meta.stream_versions.end())
+            meta.stream_versions.push_back(version);
+    meta.dimension = set.dimension();
+    meta.count = set.count();
+    meta.domain = set.domain->spec();
+    meta.warps.push_back(warp);
+}
+
+/// Numbers of a row that the warp makes into one of `after` numbers.
+std::size_t dimension_before(const Spec& spec, std::size_t after, const RunContext& run) {
+    const Warp& warp = find_warp(spec.name);
+    if (!warp.traits.invertible)
+        fail(ErrorKind::usage, "--inverse: the warp {} has no inverse", warp.name);
+    const std::size_t given = spec.coordinates.empty() ? after : spec.coordinates.size();
+    const auto mapping = warp.make(spec.values(warp.options), given, run);
+    const std::size_t gives = mapping->domain()->dimension();
+    if (gives > after || (spec.coordinates.empty() && gives != after))
+        fail(ErrorKind::input, "the inverse of {} takes points of {} numbers; these have {}",
+             spec.name, gives, after);
+    return after - gives + mapping->cube_dimension();
+}
+
+void refuse_inverse_density(bool inverse, const Target& target) {
+    if (inverse && target.columns.any())
+        fail(ErrorKind::usage, "--with-{}: the inverse gives points of the unit cube, density 1",
+             target.columns.names().front());
+}
+
+/// The coordinates that a unit takes, of rows of d: no others need be in the unit cube.
+class Taken {
+  public:
+    Taken(const Spec& spec, std::size_t d) : d_(d), named_(!spec.coordinates.empty()) {
+        for (const std::size_t k : spec.coordinates)
+            if (k < d) at_.push_back(k);  // what is beyond is refused later
+        if (named_) return;
+        at_.resize(d);
+        std::iota(at_.begin(), at_.end(), std::size_t{0});
+    }
+
+    [[nodiscard]] const std::vector<std::size_t>& coordinates() const { return at_; }
+
+    /// @throws Error(input) counting the points outside
+    void require_in_cube(const PointSet& points) const {
+        std::size_t count = 0;
+        std::size_t first = 0;
+        for (std::size_t i = 0; i < points.count(); ++i)
+            if (!in_cube(points[i]) && count++ == 0) first = i;
+        if (count == 0) return;
+        fail(ErrorKind::input, "{} of {} points are outside {}; the first is point {}: ({})", count,
+             points.count(), cube(), first, numbers(points[first]));
+    }
+
+    /// The points of a stream before these are in the cube; so must these be.
+    void require_in_cube(std::span<const double> rows, std::uint64_t first) const {
+        for (std::size_t i = 0; i < rows.size(); i += d_)
+            if (const auto row = rows.subspan(i, d_); !in_cube(row))
+                fail(ErrorKind::input, "point {} is outside {}: ({})", first + i / d_, cube(),
+                     numbers(row));
+    }
+
+  private:
+    [[nodiscard]] bool in_cube(std::span<const double> row) const {
+        return std::ranges::all_of(at_, [&](std::size_t k) { return row[k] >= 0 && row[k] <= 1; });
+    }
+    [[nodiscard]] std::string cube() const {
+        const std::string all = fmt::format("the unit cube [0, 1]^{}", at_.size());
+        return named_ ? fmt::format("{} in coordinates {}", all, format_coordinates(at_)) : all;
+    }
+    [[nodiscard]] std::string numbers(std::span<const double> row) const {
+        std::vector<std::string> texts;
+        for (const std::size_t k : at_) texts.push_back(format_number(row[k]));
+        return join(texts, ", ");
+    }
+
+    std::size_t d_;
+    bool named_;
+    std::vector<std::size_t> at_;
+};
+
+/// Whether all coordinates that are neither taken nor warped before are in the unit cube, on which
+/// they are said to be.
+bool others_in_cube(const PointSet& points, const Taken& taken, const std::vector<Factor>& warped) {
+    std::vector<bool> known(points.dimension());
+    for (const std::size_t k : taken.coordinates()) known[k] = true;
+    for (const Factor& factor : warped)
+        for (const std::size_t k : factor.coordinates) known[k] = true;
+    for (std::size_t k = 0; k < known.size(); ++k)
+        for (std::size_t i = 0; i < points.count() && !known[k]; ++i)
+            if (!(points[i][k] >= 0 && points[i][k] <= 1)) return false;
+    return true;
+}
+
+/// A text whose number of sets was not known when the first was begun must have no more.
+void refuse_second_set(io::PointStream& stream) {
+    if (stream.sets() || !stream.next_set()) return;
+    fail_with_hint(ErrorKind::input, "give each set in a file of its own",
+                   "a second set begins in a text that is too large to be read as a whole");
+}
+
+/// Everything about a production that is the same for all its sets.
+class Producer {
+  public:
+    Producer(const Production& job, const Target& target, const RunContext& run)
+        : job_(job),
+          generator_(*job.generator),
+          target_(target),
+          run_(run),
+          plan_(plan_for(generator_, job.request, job.options)),
+          chain_(std::make_shared<WarpChain>(job.warps, plan_.dimension, ChainSet{}, run)) {
+        auto files = files_of(generator_.options, job.options, generator_.writes);
+        std::ranges::copy(chain_->files(), std::back_inserter(files));
+        inputs_ = fingerprints(files);
+        if (!generator_.traits.boxed) bounds_ = job.request.bounds;
+        check();
+    }
+
+    void go() {
+        if (generator_.traits.sequence && !chain_->drops()) return stream();
+        const std::size_t batch = file_per_set(target_.path) ? 1 : job_.sets;
+        if (!chain_->drops())
+            need_memory_for(batch, plan_.count / job_.shard.of * chain_->dimension_out(), run_);
+        for (std::size_t first = 0; first < job_.sets; first += batch) {
+            std::vector<PointSet> images;
+            for (std::size_t set = first; set < first + batch; ++set) {
+                images.push_back(made(set));
+                // Only now is it known how many points fit, or have images.
+                if (set == first) need_memory_for(batch, images[0].flat().size(), run_);
+            }
+            ship_images(images, *chain_, first, target_, lane(run_, first, job_.sets));
+        }
+    }
+
+  private:
+    void check() const {
+        if (job_.shard.of > 1 && job_.sets > 1)
+            fail(ErrorKind::usage, "--shard and --sets: parts are of one set; choose it by --seed");
+        if (job_.request.bounds && !chain_->empty())
+            fail(ErrorKind::usage,
+                 "--bounds and --warp: a warp takes points of the unit cube, which a box is not");
+        if (job_.sets - 1 > ~plan_.seed)
+            fail(ErrorKind::usage, "--seed: {} and {} sets go beyond the 64 bits of a seed",
+                 plan_.seed, job_.sets);
+        if (job_.sets > 1 && !uses_seed(generator_, job_.options) && !chain_->seeded())
+            run_.tell(fmt::format("{} does not use the seed: all {} sets are the same",
+                                  generator_.name, job_.sets));
+        check_columns();
+        check_side_files();
+        if (job_.shard.index == 0) tell_notes(generator_, job_.request, job_.options, run_);
+    }
+
+    /// Columns of densities must be right.
+    void check_columns() const {
+        const char* shaped = shaping_option(job_.options);
+        if (!target_.columns.any() || shaped == nullptr) return;
+        fail_with_hint(ErrorKind::usage,
+                       "'generate random -w image:file=...' tells densities for certain",
+                       "--with-{}: the density of points made with --{} is not known",
+                       target_.columns.names().front(), shaped);
+    }
+
+    /// Side files must not replace each other, nor the points.
+    void check_side_files() const {
+        for (const std::string& option : generator_.writes) {
+            const auto& item = job_.options.find(option);
+            if (!item.given) continue;
+            const auto& path = std::get<std::string>(item.value);
+            if (job_.sets > 1 && !file_per_set(path))
+                fail(ErrorKind::usage, "--{}: {} sets need a name with {{set}} or {{seed}}", option,
+                     job_.sets);
+            if (path_of_set(path, 0, plan_.seed) == path_of_set(target_.path, 0, plan_.seed))
+                fail(ErrorKind::usage, "--{}: '{}' is where the points go; name another file",
+                     option, path);
+        }
+    }
+
+    /// The warps with the random choices of one set.
+    [[nodiscard]] std::shared_ptr<const WarpChain> chain_for(std::size_t set) const {
+        if (!chain_->seeded()) return chain_;
+        return std::make_shared<WarpChain>(
+            job_.warps, plan_.dimension,
+            ChainSet{.seed = plan_.seed + set, .count = job_.request.start + plan_.count}, run_);
+    }
+
+    /// What the points are on in the end.
+    [[nodiscard]] DomainPtr domain() const {
+        return job_.request.bounds ? box_domain(*job_.request.bounds) : chain_->domain();
+    }
+
+    /// The shard's rows [first, last) of `count`.
+    [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> part(std::uint64_t count) const {
+        const auto cut = [&](std::uint64_t index) {
+            return static_cast<std::uint64_t>(static_cast<unsigned __int128>(count) * index /
+                                              job_.shard.of);
+        };
+        const auto first = cut(job_.shard.index);
+        const auto last = cut(job_.shard.index + 1);
+        if (first == last)
+            fail(ErrorKind::usage, "--shard: part {}/{} of {} points is empty", job_.shard.index,
+                 job_.shard.of, count);
+        return {first, last};
+    }
+
+    void stream() {
+        const auto [first, last] = part(plan_.count);
+        const std::uint64_t from = first;
+        const std::uint64_t count = last - first;
+        const bool seeded = uses_seed(generator_, job_.options);
+        std::shared_ptr<Sequence> sequence;
+        const auto source = [&](std::size_t set, const RunContext& run) {
+            Plan plan = plan_;
+            plan.seed += set;
+            if (seeded || !sequence) sequence = generator_.sequence(plan, job_.options, run);
+            const std::uint64_t start = job_.request.start + from;
+            walk_to(*sequence, start, plan.dimension, run);
+            return Source{.count = count,
+                          .dimension = plan.dimension,
+                          .fill = [sequence = sequence, start](
+                                      std::uint64_t at,
+                                      std::span<double> rows) { sequence->fill(start + at, rows); },
+                          .in_order = !sequence->random_access(),
+                          .chain = chain_for(set),
+                          .first = start};
+        };
+        const auto meta = [&](std::size_t set) { return provenance(set, count); };
+        ship({.sets = job_.sets,
+              .source = source,
+              .provenance = meta,
+              .extent = [this](std::size_t) { return domain()->bounding_box(); },
+              .counts = std::vector<std::uint64_t>(job_.sets, count),
+              .dimension = chain_->dimension_out(),
+              .route = {.bounds = bounds_,
+                        .columns = target_.columns,
+                        .volume = chain_->empty() ? domain()->measure() : 1,
+                        .starts = true}},
+             target_, run_);
+    }
+
+    /// One set, made, warped and cut in memory.
+    [[nodiscard]] PointSet made(std::size_t set) const {
+        const RunContext part_of_run = lane(run_, set, job_.sets);
+        Request request = job_.request;
+        request.seed += set;
+        PointSet points = make_points(generator_, request, job_.options, part_of_run);
+        auto options = std::move(points.provenance.options);
+        auto side_files = std::move(points.side_files);
+        double efficiency = 1;
+        for (SideFile& file : side_files)
+            file.path = path_of_set(std::move(file.path), set, plan_.seed + set);
+        if (bounds_) scale_into(*bounds_, points.flat());
+        if (!chain_->empty()) {
+            points = image_of(points, *chain_for(set), false, job_.request.start,
+                              part_of_run.stage(1, 1));
+            efficiency = points.provenance.efficiency;
+        }
+        const auto [first, last] = part(points.count());
+        if (job_.shard.of > 1) {
+            const std::size_t d = points.dimension();
+            const auto rows = points.flat().subspan(first * d, (last - first) * d);
+            points = PointSet(std::vector<double>(rows.begin(), rows.end()), d);
+        }
+        points.domain = domain();
+        points.provenance = provenance(set, points.count());
+        points.provenance.efficiency = efficiency;
+        if (!options.empty()) points.provenance.options = std::move(options);
+        points.side_files = std::move(side_files);
+        sign_pictures(points);
+        return points;
+    }
+
+    /// Pictures that come with the points tell where they are from.
+    void sign_pictures(PointSet& points) const {
+        for (std::size_t i = 0; i < points.side_files.size() && i < generator_.writes.size(); ++i) {
+            std::string& bytes = points.side_files[i].bytes;
+            if (bytes.starts_with(png_magic))
+                bytes = io::png_with_meta(
+                    bytes, {.of = generator_.writes[i], .provenance = points.provenance});
+        }
+    }
+
+    [[nodiscard]] Provenance provenance(std::size_t set, std::uint64_t count) const {
+        Provenance meta{.version = STIPPLE_VERSION,
+                        .generator = generator_.name,
+                        .options = {},
+                        .seed = plan_.seed + set,
+                        .count = count,
+                        .dimension = chain_->dimension_out(),
+                        .start = job_.request.start,
+                        .warps = chain_->specs(),
+                        .domain = domain()->spec(),
+                        .bounds = {},
+                        .shard = {},
+                        .command = job_.command};
+        for (const Option& option : generator_.options.options()) {
+            const auto& item = job_.options.find(option.name);
+            if (!option.optional || item.given)
+                meta.options.emplace_back(option.name, format_value(item.value));
+        }
+        if (job_.request.bounds) meta.bounds = format_box(*job_.request.bounds);
+        if (job_.shard.of > 1) meta.shard = fmt::format("{}/{}", job_.shard.index, job_.shard.of);
+        meta.inputs = inputs_;
+        if (generator_.stream_version > 1)
+            meta.stream_versions.emplace_back(generator_.name, generator_.stream_version);
+        const auto& later = chain_->stream_versions();
+        meta.stream_versions.insert(meta.stream_versions.end(), later.begin(), later.end());
+        return meta;
+    }
+
+    const Production& job_;
+    const Generator& generator_;
+    const Target& target_;
+    const RunContext& run_;
+    Plan plan_;
+    std::shared_ptr<const WarpChain> chain_;
+    std::optional<Box> bounds_;
+    std::vector<std::pair<std::string, std::string>> inputs_;
+};
+
+}  // namespace
+
+void produce(const Production& production, const Target& target, const RunContext& run) {
+    Producer(production, target, run).go();
+}
+
+void write_sets(std::vector<PointSet> sets, const Target& target, const RunContext& run) {
+    ship_images(sets, WarpChain({}, sets.front().dimension()), 0, target, run);
+}
+
+void write_warped(std::vector<PointSet> sets, const Spec& warp, bool inverse, const Target& target,
+                  const RunContext& run) {
+    const std::size_t d = sets.front().dimension();
+    const Taken taken(warp, d);
+    std::vector<Factor> before;
+    if (!inverse) before = warped_factors(sets.front().domain, taken.coordinates(), run);
+    const WarpChain chain({&warp, 1}, inverse ? dimension_before(warp, d, run) : d, {}, run,
+                          before);
+    refuse_inverse_density(inverse, target);
+    const auto inputs = fingerprints(chain.files());
+    for (PointSet& set : sets) {
+        if (!inverse) taken.require_in_cube(set);
+        const bool said = inverse || others_in_cube(set, taken, before);
+        set = image_of(set, chain, inverse, 0, run);
+        record_warp(set, chain, inverse, inputs);
+        if (!said) set.provenance.domain.clear();
+    }
+    ship_images(sets, chain, 0, target, run);
+}
+
+bool can_stream(const io::PointStream& stream, const Target& target) {
+    const bool sets_known = stream.sets() || stream.looks_like_one_set();
+    return sets_known && !stream.held() && !target.format->traits.counts_first && !target.meta &&
+           !file_per_set(target.path);
+}
+
+void write_warped(io::PointStream& stream, const DomainPtr& on, const Spec& warp, bool inverse,
+                  const Target& target, const RunContext& run) {
+    const std::size_t d = stream.dimension();
+    const Taken taken(warp, d);
+    std::vector<Factor> before;
+    if (!inverse) before = warped_factors(on, taken.coordinates(), run);
+    const auto chain = std::make_shared<WarpChain>(
+        std::span(&warp, 1), inverse ? dimension_before(warp, d, run) : d, ChainSet{}, run, before);
+    refuse_inverse_density(inverse, target);
+    const std::size_t sets = stream.sets().value_or(1);
+    const auto source = [&](std::size_t /*set*/, const RunContext&) {
+        stream.next_set();
+        auto at = std::make_shared<std::uint64_t>(0);
+        return Source{.dimension = d,
+                      .fill = {},
+                      .read =
+                          [&stream, &taken, inverse, d, at](std::span<double> rows) {
+                              const std::size_t count = stream.read(rows);
+                              if (count == 0) refuse_second_set(stream);
+                              if (!inverse) taken.require_in_cube(rows.first(count * d), *at);
+                              *at += count;
+                              return count;
+                          },
+                      .chain = chain};
+    };
+    const std::size_t wide = inverse ? chain->dimension_in() : chain->dimension_out();
+    const DomainPtr domain = inverse ? chain->domain_before(on, run) : chain->domain();
+    ship({.sets = sets,
+          .source = source,
+          .provenance = [&](std::size_t) { return stream.provenance(); },
+          .extent = [&](std::size_t) { return domain->bounding_box(); },
+          .counts = std::vector<std::uint64_t>(sets, 0),
+          .dimension = wide,
+          .route = {.bounds = {}, .columns = target.columns, .volume = 1, .inverse = inverse}},
+         target, run);
+}
+
+void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, std::uint64_t seed,
+                     std::uint64_t replications, const Target& target, const RunContext& run) {
+    if (replications * sets.size() - 1 > ~seed)
+        fail(ErrorKind::usage, "--seed: {} and {} sets go beyond the 64 bits of a seed", seed,
+             replications * sets.size());
+    std::uint64_t numbers = 0;
+    for (const PointSet& set : sets) numbers += set.flat().size();
+    need_memory_for(sets.size() * replications, numbers / sets.size(), run);
+    std::vector<PointSet> images;
+    const Taken taken(scramble, sets.front().dimension());
+    const auto before = warped_factors(sets.front().domain, taken.coordinates(), run);
+    for (const PointSet& set : sets) {
+        taken.require_in_cube(set);
+        const bool said = others_in_cube(set, taken, before);
+        for (std::uint64_t r = 0; r < replications; ++r) {
+            Spec spec = scramble;
+            spec.settings.emplace_back(scramble_seed.name, std::to_string(seed + images.size()));
+            const WarpChain chain({&spec, 1}, set.dimension(), {.count = set.count()}, run, before);
+            images.push_back(image_of(set, chain, false, 0, run));
+            record_warp(images.back(), chain, false, fingerprints(chain.files()));
+            if (!said) images.back().provenance.domain.clear();
+        }
+    }
+    const WarpChain nothing({}, images.front().dimension());
+    ship_images(images, nothing, 0, target, run, seed);
+}
+
+}  // namespace stipple

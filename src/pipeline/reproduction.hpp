@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+//
+// Points made a second time, beside those of a file: whether they are the same, number by number,
+// in constant memory where they can be made so.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/point_stream.hpp"
+#include "pipeline/produce.hpp"
+
+namespace stipple {
+
+/// Something that writes sets to a target.
+using Making = std::function<void(const Target&)>;
+
+/// What writing did to the numbers.
+struct Written {
+    std::optional<int> precision = {};  ///< digits after the point that were kept
+    bool single = false;                ///< cut to float32, before the digits
+    Columns columns = {};
+};
+
+/// The sets of a production. Owns it.
+Making making_of(Production production, const RunContext& run);
+
+/// The same sets after a step of a provenance's warps that was taken in a run of its own: a warp,
+/// an inverse, a scramble with its seed, a cut. `replications`: of each set, by a scramble.
+/// @throws Error(usage) for a step that is none of these, when it is made
+Making after_step(Making before, const std::string& step, std::uint64_t replications,
+                  const RunContext& run);
+
+struct Difference {
+    std::size_t set = 0;
+    std::uint64_t point = 0;
+    std::size_t column = 0;
+    double found = 0;  ///< in the file
+    double made = 0;   ///< now
+};
+
+struct Comparison {
+    std::size_t sets = 0;      ///< that were compared
+    std::uint64_t points = 0;  ///< of all of these, that are equal
+    std::optional<Difference> difference = {};
+    std::string mismatch = {};  ///< what is wrong where numbers of points or sets differ
+    Provenance made = {};       ///< what would be written down today
+
+    [[nodiscard]] bool identical() const { return !difference && mismatch.empty(); }
+};
+
+/// Compares with a file at its front; a file of one set may be the first of many. `unmarked`: the
+/// file does not tell where a set ends.
+Comparison compare(const Making& making, const Written& written, io::PointStream& file,
+                   bool unmarked = false);
+
+/// All bytes that would be written.
+std::string bytes_of(const Making& making, Target target);
+
+}  // namespace stipple

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/shared_analysis.hpp"
+
+#include <algorithm>
+#include <future>
+#include <new>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/packed.hpp"
+
+namespace stipple {
+namespace {
+
+/// What went wrong, for the others; empty: nothing.
+std::string trouble_of(const std::function<void()>& work) {
+    const auto packed = [](ErrorKind kind, std::string_view what, std::string_view hint) {
+        return Packer().put(kind).put_all(what).put_all(hint).take();
+    };
+    try {
+        work();
+    } catch (const Error& e) {
+        return packed(e.kind(), e.what(), e.hint());
+    } catch (const std::bad_alloc&) {
+        return packed(ErrorKind::limit, "out of memory", "");
+    } catch (const std::exception& e) {
+        return packed(ErrorKind::io, fmt::format("internal error: {}", e.what()), "");
+    }
+    return {};
+}
+
+/// The points [first, last) of a set.
+struct Stretch {
+    std::uint64_t first = 0;
+    std::uint64_t last = 0;
+};
+
+Stretch stretch_of(std::uint64_t count, std::uint64_t grain, const Peers& peers) {
+    const std::uint64_t grains = (count + grain - 1) / grain;
+    const auto size = static_cast<std::uint64_t>(peers.size());
+    // Where they do not come out even, the first ranks have one more: rank 0 always has some.
+    const auto begin = [&](std::uint64_t rank) {
+        return std::min(count, (grains / size * rank + std::min(rank, grains % size)) * grain);
+    };
+    const auto rank = static_cast<std::uint64_t>(peers.rank());
+    return {begin(rank), begin(rank + 1)};
+}
+
+/// One rank's part of an analysis.
+class Share {
+  public:
+    Share(const Analyzer& analyzer, const SharedSet& set, const Values& options, Ranks& ranks,
+          const RunContext& run)
+        : analyzer_(analyzer), set_(set), options_(options), ranks_(ranks), run_(run) {
+        run_.threads = threads_of(ranks, run);
+        run_.max_memory = run.max_memory / static_cast<std::uint64_t>(ranks.on_machine());
+    }
+
+    std::optional<Found> go() {
+        agreed(ranks_, [this] { count_in(); });
+        run_.progress = {};
+        merge();
+        if (ranks_.rank() != 0) return std::nullopt;
+        return Found{measure_->report(run_), set_.count};
+    }
+
+  private:
+    void count_in() {
+        Arrival arrival{.domain = set_.domain, .count = set_.count, .weighted = set_.weighted};
+        const std::uint64_t grain = analyzer_.sharing.grain(arrival, options_);
+        const Stretch mine = stretch_of(set_.count, grain, ranks_);
+        if (mine.first == mine.last && ranks_.rank() > 0) return;
+        auto made = accumulator_for(analyzer_, arrival, set_.dimension, options_, run_);
+        measure_.reset(&dynamic_cast<SharedAccumulator&>(*made.release()));
+        if (mine.first > 0) {
+            std::vector<double> head(batch() * width());
+            head.resize(set_.from(0)(head) * width());
+            measure_->begin_at(mine.first, head);
+        }
+        add(mine, set_.from(mine.first));
+    }
+
+    [[nodiscard]] std::size_t batch() const { return arrival_batch(set_.dimension); }
+    [[nodiscard]] std::size_t width() const { return set_.dimension + (set_.weighted ? 1 : 0); }
+
+    /// The next batch is fetched while one is looked at.
+    void add(const Stretch& mine, const NextRows& next) {
+        RunContext quiet = run_;
+        quiet.progress = {};
+        std::uint64_t asked = mine.first;
+        const auto fetch = [&](std::vector<double>& rows) {
+            const auto wanted =
+                static_cast<std::size_t>(std::min<std::uint64_t>(batch(), mine.last - asked));
+            asked += wanted;
+            rows.resize(wanted * width());
+            if (wanted > 0 && next(rows) < wanted)
+                fail(ErrorKind::input, "the input became shorter while it was read");
+        };
+        const auto policy = run_.thread_count() > 1 ? std::launch::async : std::launch::deferred;
+        std::vector<double> rows;
+        std::vector<double> ahead;
+        fetch(rows);
+        for (std::uint64_t done = mine.first; !rows.empty(); rows.swap(ahead)) {
+            run_.check_stop();
+            auto fetched = std::async(policy, [&] { fetch(ahead); });
+            measure_->add(rows, quiet);
+            done += rows.size() / width();
+            run_.tick(done - mine.first, mine.last - mine.first);
+            fetched.get();
+        }
+    }
+
+    /// Ranks whose number has `step` as its lowest bit give what they know to those `step` before.
+    void merge() {
+        const int rank = ranks_.rank();
+        for (int step = 1; step < ranks_.size(); step *= 2) {
+            if (rank % (2 * step) != 0)
+                return ranks_.give(rank - step, measure_ ? measure_->state(run_) : std::string());
+            if (rank + step >= ranks_.size()) continue;
+            const std::string more = ranks_.take(rank + step);
+            if (more.empty()) continue;
+            measure_->merge(more, run_);
+        }
+    }
+
+    const Analyzer& analyzer_;
+    const SharedSet& set_;
+    const Values& options_;
+    Ranks& ranks_;
+    RunContext run_;
+    std::unique_ptr<SharedAccumulator> measure_;
+};
+
+}  // namespace
+
+void agreed(Peers& peers, const std::function<void()>& work) {
+    for (const auto& trouble : peers.exchange(trouble_of(work))) {
+        if (trouble.empty()) continue;
+        Unpacker from(trouble);
+        const auto kind = from.take<ErrorKind>();
+        const std::string what = from.take_text();
+        throw Error(kind, what, from.take_text());
+    }
+}
+
+SharedFiles::SharedFiles(std::vector<std::string> paths, io::Opener open, Peers& peers)
+    : paths_(std::move(paths)), open_(std::move(open)), facts_(paths_.size()) {
+    const auto size = static_cast<std::size_t>(peers.size());
+    const auto rank = static_cast<std::size_t>(peers.rank());
+    Packer packer;
+    agreed(peers, [&] {
+        for (std::size_t i = rank; i < paths_.size(); i += size) {
+            const Facts facts = facts_of(paths_[i]);
+            packer.put(facts.count).put(facts.dimension).put_all(facts.domain);
+        }
+    });
+    const auto all = peers.exchange(packer.take());
+    std::vector<Unpacker> told(all.begin(), all.end());
+    for (std::size_t i = 0; i < paths_.size(); ++i) {
+        Unpacker& from = told[i % size];
+        facts_[i] = {.count = from.take<std::uint64_t>(), .dimension = from.take<std::size_t>()};
+        facts_[i].domain = from.take_text();
+        count_ += facts_[i].count;
+    }
+    check_alike();
+}
+
+SharedFiles::Facts SharedFiles::facts_of(const std::string& path) const {
+    const auto stream = open_(path);
+    if (!stream->next_set()) fail(ErrorKind::input, "{}: it holds no points", path);
+    Facts facts{.count = stream->skip(~std::uint64_t{0}),
+                .dimension = stream->dimension(),
+                .domain = stream->provenance().domain};
+    if (stream->next_set())
+        fail_with_hint(ErrorKind::input, "'stipple study' shares many sets",
+                       "{}: it holds several sets; ranks share one", path);
+    return facts;
+}
+
+void SharedFiles::check_alike() const {
+    const Facts& first = facts_.front();
+    for (std::size_t i = 1; i < facts_.size(); ++i) {
+        if (facts_[i].dimension != first.dimension)
+            fail(ErrorKind::input, "{}: its points have {} coordinates; those before have {}",
+                 paths_[i], facts_[i].dimension, first.dimension);
+        if (facts_[i].domain != first.domain)
+            fail(ErrorKind::input, "{}: its points are on {}; those before are on {}", paths_[i],
+                 facts_[i].domain, first.domain);
+    }
+}
+
+NextRows SharedFiles::from(std::uint64_t first) const {
+    std::size_t file = 0;
+    while (file + 1 < paths_.size() && first >= facts_[file].count) first -= facts_[file++].count;
+    const std::vector<std::string> rest(paths_.begin() + static_cast<std::ptrdiff_t>(file),
+                                        paths_.end());
+    const std::shared_ptr<io::PointStream> stream = io::join_points(rest, open_);
+    stream->next_set();
+    stream->skip(first);
+    return [stream](std::span<double> rows) { return stream->read(rows); };
+}
+
+SharedSet shared_in_memory(PointSet points) {
+    const auto all = std::make_shared<const PointSet>(std::move(points));
+    return {.domain = all->domain,
+            .count = all->count(),
+            .dimension = all->dimension(),
+            .from = [all](std::uint64_t first) -> NextRows {
+                return [all, at = static_cast<std::size_t>(first) *
+                                  all->dimension()](std::span<double> rows) mutable {
+                    const auto rest = all->flat().subspan(at);
+                    const std::size_t some = std::min(rest.size(), rows.size());
+                    std::copy_n(rest.begin(), some, rows.begin());
+                    at += some;
+                    return some / all->dimension();
+                };
+            }};
+}
+
+std::optional<Found> analyze_shared(const Analyzer& analyzer, const SharedSet& set,
+                                    const Values& options, Ranks& ranks, const RunContext& run) {
+    if (set.count == 0)
+        fail(ErrorKind::input, "{} needs at least one point; the set is empty", analyzer.name);
+    return Share(analyzer, set, options, ranks, run).go();
+}
+
+}  // namespace stipple

@@ -1,0 +1,426 @@
+// SPDX-License-Identifier: MIT
+#include "plot/chart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "plot/letters.hpp"
+
+namespace stipple {
+namespace {
+
+constexpr double panel_gap = 12;
+constexpr double legend_row = 19;
+constexpr double legend_size = 12;
+constexpr double swatch = 22;
+constexpr std::size_t most_entries = 12;  ///< of a legend
+
+/// Smallest and largest of what an axis has to show.
+struct Span {
+    bool log = false;
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+
+    void take(double value) {
+        if (!std::isfinite(value) || (log && value <= 0)) return;
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+    void take(const std::vector<double>& values) {
+        for (const double value : values) take(value);
+    }
+};
+
+bool marked(const std::vector<ChartPanel>& panels) {
+    return std::ranges::any_of(panels, [](const ChartPanel& panel) {
+        return std::ranges::any_of(panel.series, &Series::marks);
+    });
+}
+
+/// Room for what would lie on the ends, a share of the axis at each.
+void widen(Axis& axis, double share, bool keep_low = false) {
+    if (axis.log) {
+        const double more = std::pow(axis.high / axis.low, share);
+        axis.low /= more;
+        axis.high *= more;
+        return;
+    }
+    const double more = share * (axis.high - axis.low);
+    if (!keep_low) axis.low -= more;
+    axis.high += more;
+}
+
+Axis x_axis(const std::vector<ChartPanel>& panels, const PictureStyle& style) {
+    const ChartPanel& last = panels.back();
+    Span span{.log = style.log_x.value_or(last.log_x)};
+    for (const ChartPanel& panel : panels) {
+        for (const Series& series : panel.series) span.take(series.x);
+        for (const Bars& bars : panel.bars) span.take(bars.edges);
+        span.take(panel.rug);
+    }
+    Axis axis{.low = span.low,
+              .high = span.high,
+              .log = span.log,
+              .whole = last.whole_x,
+              .name = last.x_name};
+    // What begins next to zero begins there.
+    const bool near_zero = !span.log && span.low > 0 && span.low < 0.04 * span.high;
+    if (near_zero) axis.low = 0;
+    constexpr double share = 0.02;  // more than a mark takes
+    if (marked(panels) && span.low < span.high)
+        widen(axis, share, near_zero && span.low > share * span.high);
+    return axis;
+}
+
+/// Whether the y axis is logarithmic: as asked, but where there are numbers below 0, as of
+/// decibels.
+bool log_upward(const ChartPanel& panel, const PictureStyle& style) {
+    const bool below = std::ranges::any_of(panel.series, [](const Series& series) {
+        return std::ranges::any_of(series.y, [](double y) { return y < 0; });
+    });
+    return below ? panel.log_y : style.log_y.value_or(panel.log_y);
+}
+
+Axis y_axis(const ChartPanel& panel, const PictureStyle& style) {
+    Span span{.log = log_upward(panel, style)};
+    for (const Series& series : panel.series) {
+        span.take(series.y);
+        span.take(series.low);
+        span.take(series.high);
+    }
+    for (const Bars& bars : panel.bars) span.take(bars.heights);
+    // Guides that are far off say so by not being there.
+    const double reach = span.high - span.low;
+    for (const Guide& guide : panel.guides)
+        for (const double y : guide.y) {
+            const bool near = span.log ? y > span.low / 10 && y < span.high * 10
+                                       : std::abs(y - span.low) <= 4 * reach || !(reach > 0);
+            if (guide.reached || (guide.x.empty() && near)) span.take(y);
+        }
+    if (panel.from_zero && !span.log) span.take(0);
+    if (!span.log) span.take(panel.reach_y);
+    // What differs by rounding only is one value.
+    if (span.high - span.low <= 1e-7 * std::abs(span.high)) span.low = span.high;
+    Axis axis{.low = span.low, .high = span.high, .log = span.log, .name = panel.y_name};
+    axis.mend();
+    if (axis.log) {
+        axis.low = std::max(axis.low, panel.least_y > 0 ? panel.least_y : 0);
+        widen(axis, 0.05);
+    } else {
+        widen(axis, 0.06, panel.from_zero && axis.low == 0);
+    }
+    return axis;
+}
+
+Dash dash_of(std::size_t series) {
+    constexpr std::size_t colours = std::tuple_size_v<decltype(Theme::series)>;
+    const std::size_t turn = series / colours % 3;
+    return turn == 0 ? Dash::none : turn == 1 ? Dash::dashed : Dash::dotted;
+}
+
+std::vector<LegendEntry> legend_of(const ChartPanel& panel, bool sets_named, const Theme& theme) {
+    std::vector<LegendEntry> entries;
+    const std::size_t curves = panel.series.size() + panel.bars.size();
+    const bool named = curves > 1 && (!sets_named || !panel.colours_by_set);
+    for (std::size_t i = 0; named && i < panel.series.size(); ++i)
+        entries.push_back({.kind = LegendEntry::Kind::line,
+                           .name = panel.series[i].name,
+                           .colour = theme.series_colour(i),
+                           .dash = dash_of(i)});
+    for (std::size_t i = 0; named && i < panel.bars.size(); ++i)
+        entries.push_back({.kind = LegendEntry::Kind::line,
+                           .name = panel.bars[i].name,
+                           .colour = theme.series_colour(i)});
+    if (entries.size() > most_entries) {
+        const std::size_t more = entries.size() - most_entries;
+        entries.resize(most_entries);
+        entries.push_back({.kind = LegendEntry::Kind::box,
+                           .name = fmt::format("and {} more", more),
+                           .colour = theme.ground});
+    }
+    for (const Background& band : panel.backgrounds)
+        if (!band.name.empty()) entries.push_back({LegendEntry::Kind::band, band.name, theme.band});
+    for (const Guide& guide : panel.guides)
+        if (!guide.name.empty())
+            entries.push_back({LegendEntry::Kind::guide, guide.name, theme.guide});
+    return entries;
+}
+
+/// Spots so near to each other that nobody sees them apart are left out: of each column of half a
+/// unit the first, the lowest, the highest and the last remain.
+std::vector<Spot> thinned(const std::vector<Spot>& spots) {
+    if (spots.size() < 4000) return spots;
+    std::vector<Spot> out;
+    for (std::size_t i = 0; i < spots.size();) {
+        std::size_t end = i;
+        while (end < spots.size() && std::abs(spots[end].x - spots[i].x) < 0.5) ++end;
+        const auto first = spots.begin() + static_cast<std::ptrdiff_t>(i);
+        const auto last = spots.begin() + static_cast<std::ptrdiff_t>(end);
+        const auto [low, high] = std::minmax_element(
+            first, last, [](const Spot& a, const Spot& b) { return a.y < b.y; });
+        auto kept = std::vector{first, low, high, last - 1};
+        std::ranges::sort(kept);
+        const auto repeated = std::ranges::unique(kept);
+        kept.erase(repeated.begin(), repeated.end());
+        for (const auto it : kept) out.push_back(*it);
+        i = end;
+    }
+    return out;
+}
+
+/// Pieces of a curve between its gaps.
+std::vector<std::vector<Spot>> pieces(const Panel& panel, const std::vector<double>& x,
+                                      const std::vector<double>& y) {
+    std::vector<std::vector<Spot>> found(1);
+    for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i) {
+        if (std::isfinite(x[i]) && std::isfinite(y[i]))
+            found.back().push_back(panel.at(x[i], y[i]));
+        else if (!found.back().empty())
+            found.emplace_back();
+    }
+    for (auto& piece : found) piece = thinned(piece);
+    return found;
+}
+
+void draw_band(Drawing& drawing, const Panel& panel, const std::vector<double>& x,
+               const std::vector<double>& low, const std::vector<double>& high, Colour colour,
+               double opacity) {
+    Patch patch{.spots = {}, .colour = colour, .opacity = opacity};
+    std::vector<Spot> back;
+    const std::size_t size = std::min({x.size(), low.size(), high.size()});
+    for (std::size_t i = 0; i < size; ++i) {
+        if (!std::isfinite(low[i]) || !std::isfinite(high[i])) continue;
+        patch.spots.push_back(panel.at(x[i], high[i]));
+        back.push_back(panel.at(x[i], low[i]));
+    }
+    patch.spots.insert(patch.spots.end(), back.rbegin(), back.rend());
+    if (patch.spots.size() > 2) drawing.add(std::move(patch));
+}
+
+void draw_guide(Drawing& drawing, const Panel& panel, const Guide& guide, Colour colour) {
+    Line line{.spots = {}, .colour = colour, .width = 1.2, .dash = Dash::dashed};
+    if (guide.x.empty()) {
+        const double y = panel.y(guide.y[0]);
+        line.spots = {{panel.frame().left, y}, {panel.frame().right(), y}};
+    }
+    for (std::size_t i = 0; i < guide.x.size(); ++i)
+        line.spots.push_back(panel.at(guide.x[i], guide.y[i]));
+    drawing.add(std::move(line));
+}
+
+/// The bars' upper rim, where several histograms lie over each other.
+void draw_steps(Drawing& drawing, const Panel& panel, const Bars& bars, Colour colour) {
+    const double ground = panel.frame().bottom();
+    Line rim{.spots = {{panel.x(bars.edges[0]), ground}}, .colour = colour, .width = 1.6};
+    for (std::size_t i = 0; i < bars.heights.size(); ++i) {
+        const double top = std::min(panel.y(bars.heights[i]), ground);
+        rim.spots.push_back({panel.x(bars.edges[i]), top});
+        rim.spots.push_back({panel.x(bars.edges[i + 1]), top});
+    }
+    rim.spots.push_back({panel.x(bars.edges.back()), ground});
+    drawing.add(std::move(rim));
+}
+
+void draw_bars(Drawing& drawing, const Panel& panel, const Bars& bars, Colour colour) {
+    const double ground = panel.frame().bottom();
+    for (std::size_t i = 0; i < bars.heights.size(); ++i) {
+        const double left = panel.x(bars.edges[i]);
+        const double right = panel.x(bars.edges[i + 1]);
+        // A hair of ground between bars that are wide enough for it.
+        const double space = right - left > 4 ? 0.5 : 0;
+        const double top = panel.y(bars.heights[i]);
+        if (!(top < ground)) continue;
+        drawing.rectangle({left + space, top, right - left - 2 * space, ground - top}, colour);
+    }
+}
+
+void draw_series(Drawing& drawing, const Panel& panel, const Series& series, Colour colour,
+                 Dash dash) {
+    for (auto& piece : pieces(panel, series.x, series.y)) {
+        const bool alone = piece.size() == 1;
+        if (series.marks || alone)
+            drawing.add(
+                Disks{.centres = piece, .radius = series.marks ? 2.6 : 2, .colour = colour});
+        if (series.line && !alone)
+            drawing.add(
+                Line{.spots = std::move(piece), .colour = colour, .width = 1.6, .dash = dash});
+    }
+}
+
+void draw_rug(Drawing& drawing, const Panel& panel, const std::vector<double>& values,
+              Colour colour) {
+    constexpr std::size_t most = 4000;  // more cannot be seen
+    if (values.size() > most) return;
+    for (const double value : values) {
+        const double x = panel.x(value);
+        drawing.add(Line{.spots = {{x, panel.frame().bottom() - 9}, {x, panel.frame().bottom()}},
+                         .colour = colour,
+                         .width = 0.8});
+    }
+}
+
+void draw_panel(Drawing& drawing, const ChartPanel& content, const Panel& panel,
+                const Theme& theme) {
+    panel.draw_grid(drawing, theme);
+    const Area& f = panel.frame();
+    drawing.add(Window{.area = {f.left, f.top - 3, f.width + 3, f.height + 3}});
+    for (const Background& band : content.backgrounds)
+        draw_band(drawing, panel, band.x, band.low, band.high, theme.band, 1);
+    const bool several = content.bars.size() > 1;
+    for (std::size_t i = 0; !several && i < content.bars.size(); ++i)
+        draw_bars(drawing, panel, content.bars[i], theme.series_colour(i));
+    for (std::size_t i = 0; several && i < content.bars.size(); ++i)
+        draw_steps(drawing, panel, content.bars[i], theme.series_colour(i));
+    for (std::size_t i = 0; i < content.series.size(); ++i)
+        draw_band(drawing, panel, content.series[i].x, content.series[i].low,
+                  content.series[i].high, theme.series_colour(i), 0.25);
+    for (const Guide& guide : content.guides) draw_guide(drawing, panel, guide, theme.guide);
+    draw_rug(drawing, panel, content.rug, theme.ink);
+    for (std::size_t i = 0; i < content.series.size(); ++i)
+        draw_series(drawing, panel, content.series[i], theme.series_colour(i), dash_of(i));
+    drawing.add(Window{.area = {}, .open = true});
+    panel.draw_axes(drawing, theme, false);
+}
+
+/// Where an entry of a legend stands, left to right in rows.
+std::vector<Spot> legend_places(const std::vector<LegendEntry>& entries, double width) {
+    std::vector<Spot> places;
+    double x = 0;
+    double y = 0;
+    for (const LegendEntry& entry : entries) {
+        const double wide =
+            swatch + 6 + std::min(text_width(entry.name, legend_size), width - swatch - 6);
+        if (x > 0 && x + wide > width) {
+            x = 0;
+            y += legend_row;
+        }
+        places.push_back({x, y});
+        x += wide + 18;
+    }
+    return places;
+}
+
+}  // namespace
+
+double legend_height(const std::vector<LegendEntry>& entries, double width) {
+    return entries.empty() ? 0 : legend_places(entries, width).back().y + legend_row + 5;
+}
+
+void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Spot top_left,
+                 double width, const Theme& theme) {
+    using Kind = LegendEntry::Kind;
+    const auto places = legend_places(entries, width);
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+        const LegendEntry& entry = entries[i];
+        const double x = top_left.x + places[i].x;
+        const double y = top_left.y + places[i].y + legend_row / 2;
+        if (entry.kind == Kind::line || entry.kind == Kind::guide)
+            drawing.add(Line{.spots = {{x, y}, {x + swatch, y}},
+                             .colour = entry.colour,
+                             .width = entry.kind == Kind::line ? 2.0 : 1.2,
+                             .dash = entry.kind == Kind::line ? entry.dash : Dash::dashed});
+        else if (entry.kind == Kind::disk)
+            drawing.add(
+                Disks{.centres = {{x + swatch - 6, y}}, .radius = 4, .colour = entry.colour});
+        else
+            drawing.rectangle({x, y - 5, swatch, 10}, entry.colour);
+        drawing.add(Label{.text = shortened_to(entry.name, legend_size, width - swatch - 6),
+                          .at = {x + swatch + 6, y + 0.36 * legend_size},
+                          .size = legend_size,
+                          .colour = theme.words});
+    }
+}
+
+double draw_title(Drawing& drawing, const std::string& title, const std::string& subtitle,
+                  const PictureStyle& style) {
+    const std::string& first = style.title.value_or(title);
+    double y = picture_margin;
+    const double width = drawing.width - 2 * picture_margin;
+    const auto put = [&](const std::string& text, double size, bool bold, Colour colour) {
+        if (text.empty()) return;
+        // Bold letters are a little wider.
+        const double sized = bold ? 1.08 * size : size;
+        drawing.add(
+            Label{.text = bold ? shortened_to(text, sized, width) : cut_to(text, sized, width),
+                  .at = {picture_margin, y + 0.8 * size},
+                  .size = size,
+                  .colour = colour,
+                  .bold = bold});
+        y += 1.45 * size;
+    };
+    put(first, 15, true, style.theme->ink);
+    put(subtitle, 12, false, style.theme->words);
+    drawing.title = first.empty() ? "stipple plot" : first;
+    return y == picture_margin ? y : y + 5;
+}
+
+std::pair<Axis, Axis> chart_axes(const Chart& chart, std::size_t panel, const PictureStyle& style) {
+    std::pair axes{x_axis(chart.panels, style), y_axis(chart.panels[panel], style)};
+    axes.first.mend();
+    axes.second.mend();
+    return axes;
+}
+
+Drawing draw_chart(const Chart& chart, const PictureStyle& style) {
+    const Theme& theme = *style.theme;
+    const auto more_panels = static_cast<double>(chart.panels.size() - 1);
+    Drawing drawing{.width = style.width > 0 ? style.width : 720,
+                    .height = style.height > 0 ? style.height : 420 + 170 * more_panels,
+                    .ground = theme.ground,
+                    .title = {}};
+    double y = draw_title(drawing, chart.title, chart.subtitle, style);
+    const Axis x = x_axis(chart.panels, style);
+    const double whole_width = drawing.width - 2 * picture_margin;
+    double used = y + Panel::room_below(x) + picture_margin + panel_gap * more_panels;
+    double shares = 0;
+    std::vector<std::vector<LegendEntry>> legends;
+    for (const ChartPanel& panel : chart.panels) {
+        legends.push_back(legend_of(panel, !legends.empty(), theme));
+        used += legend_height(legends.back(), whole_width);
+        shares += panel.share;
+    }
+    constexpr double least = 60;  // pixels that panels share
+    if (style.height > 0 && drawing.height - used < least)
+        fail(ErrorKind::usage, "--height: {:.0f} leaves no room for the chart; at least {:.0f} do",
+             style.height, std::ceil(used + least));
+    drawing.height = std::max(drawing.height, std::ceil(used + least));
+    const double unit = (drawing.height - used) / shares;
+    double left = 0;
+    for (const ChartPanel& panel : chart.panels)
+        left = std::max(left, Panel::room_left(y_axis(panel, style), unit * panel.share));
+    left = std::ceil(picture_margin / 2 + left);
+    const double width = std::max(40.0, std::floor(drawing.width - left - picture_margin - 8));
+    for (std::size_t i = 0; i < chart.panels.size(); ++i) {
+        const ChartPanel& panel = chart.panels[i];
+        draw_legend(drawing, legends[i], {picture_margin, y}, whole_width, theme);
+        y = std::ceil(y + legend_height(legends[i], whole_width));
+        Axis across = x;
+        across.numbers = i + 1 == chart.panels.size();
+        const Area frame{left, y, width, std::floor(unit * panel.share)};
+        draw_panel(drawing, panel, Panel(frame, across, y_axis(panel, style)), theme);
+        y = frame.bottom() + panel_gap;
+    }
+    return drawing;
+}
+
+Bars histogram_of(const std::vector<double>& values, double low, double high, std::size_t bins) {
+    Bars bars{.name = {}, .edges = {}, .heights = std::vector<double>(bins)};
+    const double width = (high - low) / static_cast<double>(bins);
+    for (std::size_t i = 0; i <= bins; ++i)
+        bars.edges.push_back(i == bins ? high : low + static_cast<double>(i) * width);
+    std::size_t inside = 0;
+    for (const double value : values) {
+        if (!(value >= low && value <= high)) continue;
+        ++inside;
+        const auto bin = static_cast<std::size_t>((value - low) / width);
+        ++bars.heights[std::min(bin, bins - 1)];
+    }
+    for (double& height : bars.heights)
+        height /= std::max(1.0, static_cast<double>(inside)) * width;
+    return bars;
+}
+
+}  // namespace stipple

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+//
+// Charts of curves: panels one above the other over the same x axis, with a legend above each.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plot/drawing.hpp"
+#include "plot/panel.hpp"
+#include "plot/theme.hpp"
+
+namespace stipple {
+
+/// Space between a picture's edge and what is drawn, in units of a drawing.
+constexpr double picture_margin = 14;
+
+/// How a picture is to look. Sizes in units of a drawing; 0: as suits the picture.
+struct PictureStyle {
+    const Theme* theme = &light_theme;
+    double width = 0;
+    double height = 0;
+    std::optional<std::string> title = {};  ///< instead of the picture's own
+    std::optional<bool> log_x = {};
+    std::optional<bool> log_y = {};
+};
+
+/// One curve, or the bars of a histogram. Not finite values are gaps.
+struct Series {
+    std::string name;
+    std::vector<double> x;
+    std::vector<double> y;
+    std::vector<double> low = {};  ///< a band around it; empty: none
+    std::vector<double> high = {};
+    bool marks = false;  ///< a disk at each value
+    bool line = true;
+};
+
+/// What lies behind the curves: what chance allows.
+struct Background {
+    std::string name;
+    std::vector<double> x;
+    std::vector<double> low;
+    std::vector<double> high;
+};
+
+/// A line to compare with.
+struct Guide {
+    std::string name;
+    std::vector<double> x;  ///< empty: across the panel, at y[0]
+    std::vector<double> y;
+    bool reached = false;  ///< the axis goes as far, whatever the curves do
+};
+
+/// Bars of a histogram: edges are one more than heights.
+struct Bars {
+    std::string name;
+    std::vector<double> edges;
+    std::vector<double> heights;
+};
+
+struct ChartPanel {
+    std::string x_name;
+    std::string y_name;
+    std::vector<Series> series = {};
+    std::vector<Background> backgrounds = {};
+    std::vector<Guide> guides = {};
+    std::vector<Bars> bars = {};
+    std::vector<double> rug = {};  ///< marks below, one for each value
+    bool log_x = false;
+    bool log_y = false;
+    bool whole_x = false;
+    bool from_zero = false;      ///< the y axis starts there
+    bool colours_by_set = true;  ///< curve i of every panel belongs to the same set
+    double reach_y =
+        -std::numeric_limits<double>::infinity();  ///< a linear y axis goes up to it at least
+    double least_y = -std::numeric_limits<double>::infinity();  ///< the axis shows no less
+    double share = 1;  ///< of the height, relative to the other panels'
+};
+
+struct Chart {
+    std::string title;
+    std::string subtitle = {};
+    std::vector<ChartPanel> panels = {};
+};
+
+/// @throws Error(usage) where the height asked for leaves no room.
+Drawing draw_chart(const Chart& chart, const PictureStyle& style);
+
+/// The axes of a panel, as they are drawn.
+std::pair<Axis, Axis> chart_axes(const Chart& chart, std::size_t panel, const PictureStyle& style);
+
+/// Draws a picture's title lines at the top left; gives the height that they take.
+double draw_title(Drawing& drawing, const std::string& title, const std::string& subtitle,
+                  const PictureStyle& style);
+
+/// What a legend explains.
+struct LegendEntry {
+    enum class Kind { line, band, guide, box, disk };
+    Kind kind = Kind::line;
+    std::string name;
+    Colour colour = {};
+    Dash dash = Dash::none;
+};
+
+/// Height of a legend in rows as wide as `width`.
+double legend_height(const std::vector<LegendEntry>& entries, double width);
+void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Spot top_left,
+                 double width, const Theme& theme);
+
+/// A histogram in so many bins of one width, over [low, high]; heights are shares over the width.
+Bars histogram_of(const std::vector<double>& values, double low, double high, std::size_t bins);
+
+}  // namespace stipple

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "plot/distance_chart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "analyzers/distances/distances.hpp"
+#include "core/error.hpp"
+
+namespace stipple {
+namespace {
+
+std::vector<double> nearest_distances(const PointSet& set, bool& torus, const RunContext& run) {
+    if (set.count() < 2) fail(ErrorKind::input, "a single point has no nearest neighbour");
+    const auto distances = analyzers::distances_of(set, "");
+    torus = distances.torus;
+    std::vector<double> found;
+    for (const Neighbor& neighbor : analyzers::nearest_neighbors(set, distances, run))
+        found.push_back(std::sqrt(neighbor.squared));
+    return found;
+}
+
+/// The density of independent uniform points' distances.
+Guide random_distances(const PointSet& set, double largest) {
+    const double volume = set.domain->measure();
+    if (!std::isfinite(volume) || !(volume > 0)) return {};
+    const auto d = static_cast<double>(set.dimension());
+    const double ball = std::pow(std::numbers::pi, d / 2) / std::tgamma(d / 2 + 1);
+    const double rate = ball * static_cast<double>(set.count()) / volume;
+    constexpr int steps = 200;
+    Guide guide{.name = "independent uniform points", .x = {}, .y = {}};
+    for (int k = 0; k <= steps; ++k) {
+        const double r = largest * k / steps;
+        guide.x.push_back(r);
+        guide.y.push_back(d * rate * std::pow(r, d - 1) * std::exp(-rate * std::pow(r, d)));
+    }
+    return guide;
+}
+
+}  // namespace
+
+Chart distance_chart(std::span<const PointSet* const> sets, const std::vector<std::string>& names,
+                     const RunContext& run) {
+    std::vector<std::vector<double>> all;
+    double largest = 0;
+    bool torus = false;
+    for (const PointSet* set : sets) {
+        all.push_back(nearest_distances(*set, torus, run));
+        largest = std::max(largest, *std::ranges::max_element(all.back()));
+    }
+    if (!(largest > 0)) fail(ErrorKind::input, "all points are equal: all distances are 0");
+    largest *= 1.08;
+    ChartPanel panel{.x_name = torus ? "distance to the nearest neighbour (torus)"
+                                     : "distance to the nearest neighbour",
+                     .y_name = "density",
+                     .from_zero = true};
+    for (std::size_t s = 0; s < sets.size(); ++s) {
+        const double bins = std::ceil(2.5 * std::cbrt(static_cast<double>(all[s].size())));
+        panel.bars.push_back(histogram_of(all[s], 0, largest,
+                                          static_cast<std::size_t>(std::clamp(bins, 5.0, 200.0))));
+        panel.bars.back().name = names[s];
+    }
+    if (Guide guide = random_distances(*sets[0], largest); !guide.x.empty())
+        panel.guides.push_back(std::move(guide));
+    Chart chart{.title = "Nearest distances", .subtitle = {}, .panels = {}};
+    chart.panels.push_back(std::move(panel));
+    return chart;
+}
+
+}  // namespace stipple

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "plot/domain_outline.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace stipple {
+namespace {
+
+constexpr std::size_t cells_a_side = 200;  ///< of the grid, along each side
+
+class Tracer {
+  public:
+    explicit Tracer(const Domain& domain) : domain_(domain), box_(domain.bounding_box()) {
+        // A little beyond the box, so that the rim is inside of the grid, and never through the
+        // corners of what is aligned with it.
+        for (std::size_t k = 0; k < 2; ++k) {
+            const double more = 0.0137 * box_.extent(k);
+            box_.low[k] -= more;
+            box_.high[k] += 1.07 * more;
+        }
+        fineness_ = 1e-4 * std::hypot(box_.extent(0), box_.extent(1));
+        for (std::size_t j = 0; j <= cells_a_side; ++j)
+            for (std::size_t i = 0; i <= cells_a_side; ++i)
+                inside_.push_back(inside(node(i, j)) ? 1 : 0);
+    }
+
+    std::vector<std::vector<Spot>> trace() {
+        for (std::size_t j = 0; j < cells_a_side; ++j)
+            for (std::size_t i = 0; i < cells_a_side; ++i) cross_cell(i, j);
+        std::vector<std::vector<Spot>> lines;
+        while (!next_.empty()) lines.push_back(follow());
+        return lines;
+    }
+
+  private:
+    /// An edge of the grid: from node (i, j) to the right (0) or up (1).
+    struct Edge {
+        std::size_t i;
+        std::size_t j;
+        int direction;
+        auto operator<=>(const Edge&) const = default;
+    };
+
+    [[nodiscard]] bool inside(Spot p) const {
+        const std::array<double, 2> point = {p.x, p.y};
+        return domain_.contains(point);
+    }
+
+    [[nodiscard]] Spot node(std::size_t i, std::size_t j) const {
+        const auto along = [&](std::size_t k, std::size_t at) {
+            return box_.low[k] + box_.extent(k) * static_cast<double>(at) / cells_a_side;
+        };
+        return {along(0, i), along(1, j)};
+    }
+
+    [[nodiscard]] bool inside_at(std::size_t i, std::size_t j) const {
+        return inside_[j * (cells_a_side + 1) + i] != 0;
+    }
+
+    /// Where the rim is between two spots of which the first is inside.
+    [[nodiscard]] Spot rim_between(Spot in, Spot out) const {
+        for (int halving = 0; halving < 30; ++halving) {
+            const Spot middle{(in.x + out.x) / 2, (in.y + out.y) / 2};
+            (inside(middle) ? in : out) = middle;
+        }
+        return in;
+    }
+
+    [[nodiscard]] Spot rim_on(const Edge& edge) const {
+        const Spot a = node(edge.i, edge.j);
+        const Spot b = edge.direction == 0 ? node(edge.i + 1, edge.j) : node(edge.i, edge.j + 1);
+        return inside_at(edge.i, edge.j) ? rim_between(a, b) : rim_between(b, a);
+    }
+
+    /// Notes how the rim goes through a cell, with the inside on its left: from which side to which
+    /// other one (0 bottom, 1 right, 2 top, 3 left), by the corners that are inside.
+    void cross_cell(std::size_t i, std::size_t j) {
+        struct Way {
+            std::size_t from;
+            std::size_t to;
+        };
+        static const std::array<std::vector<Way>, 16> ways = {{{},
+                                                               {{0, 3}},
+                                                               {{1, 0}},
+                                                               {{1, 3}},
+                                                               {{2, 1}},
+                                                               {{0, 3}, {2, 1}},
+                                                               {{2, 0}},
+                                                               {{2, 3}},
+                                                               {{3, 2}},
+                                                               {{0, 2}},
+                                                               {{1, 0}, {3, 2}},
+                                                               {{1, 2}},
+                                                               {{3, 1}},
+                                                               {{0, 1}},
+                                                               {{3, 0}},
+                                                               {}}};
+        const std::array<Edge, 4> sides = {{{i, j, 0}, {i + 1, j, 1}, {i, j + 1, 0}, {i, j, 1}}};
+        const std::size_t corners = (inside_at(i, j) ? 1U : 0U) + (inside_at(i + 1, j) ? 2U : 0U) +
+                                    (inside_at(i + 1, j + 1) ? 4U : 0U) +
+                                    (inside_at(i, j + 1) ? 8U : 0U);
+        for (const Way& way : ways[corners]) next_.emplace(sides[way.from], sides[way.to]);
+    }
+
+    std::vector<Spot> follow() {
+        std::vector<Spot> line;
+        Edge at = next_.begin()->first;
+        line.push_back(rim_on(at));
+        for (auto step = next_.find(at); step != next_.end(); step = next_.find(at)) {
+            at = step->second;
+            next_.erase(step);
+            refine(line, rim_on(at), 8);
+        }
+        return line;
+    }
+
+    /// Adds the way from the line's end to `to`, halving it where the rim is beside it: round a
+    /// corner, along a bend.
+    void refine(std::vector<Spot>& line, Spot to, int depth) const {
+        const Spot from = line.back();
+        const Spot middle{(from.x + to.x) / 2, (from.y + to.y) / 2};
+        const double reach = std::hypot(to.x - from.x, to.y - from.y);
+        const std::optional<Spot> rim = depth > 0 ? rim_beside(middle, from, to) : std::nullopt;
+        const bool beside = rim && std::hypot(rim->x - middle.x, rim->y - middle.y) > fineness_ &&
+                            reach > fineness_;
+        if (beside) {
+            refine(line, *rim, depth - 1);
+            refine(line, to, depth - 1);
+        } else {
+            line.push_back(to);
+        }
+    }
+
+    /// The rim at right angles to a piece, as far from its middle as the piece is long, at most.
+    [[nodiscard]] std::optional<Spot> rim_beside(Spot middle, Spot from, Spot to) const {
+        const bool middle_inside = inside(middle);
+        const double turn = middle_inside ? 1 : -1;  // the inside is on the left
+        const Spot far{middle.x + turn * (to.y - from.y), middle.y - turn * (to.x - from.x)};
+        if (inside(far) == middle_inside) return std::nullopt;
+        return middle_inside ? rim_between(middle, far) : rim_between(far, middle);
+    }
+
+    const Domain& domain_;
+    Box box_;
+    double fineness_;
+    std::vector<char> inside_;
+    std::multimap<Edge, Edge> next_;
+};
+
+}  // namespace
+
+std::vector<std::vector<Spot>> outline_of(const Domain& domain) {
+    if (domain.dimension() != 2) return {};
+    const Box box = domain.bounding_box();
+    for (std::size_t k = 0; k < 2; ++k)
+        if (!std::isfinite(box.extent(k)) || !(box.extent(k) > 0)) return {};
+    return Tracer(domain).trace();
+}
+
+}  // namespace stipple

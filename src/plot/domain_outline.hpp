@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+//
+// The rim of a domain of the plane, found by asking what is inside.
+//
+// Shape   any domain of two coordinates.
+// Cost    some 60 000 questions.
+// Beware  parts and holes narrower than 1/200 of the box may be missed.
+// Source  marching squares: W. E. Lorensen, H. E. Cline, SIGGRAPH Comput. Graph. 21 (1987) 163-169,
+//         doi:10.1145/37402.37422, in two dimensions.
+#pragma once
+
+#include <vector>
+
+#include "core/domain.hpp"
+#include "plot/drawing.hpp"
+
+namespace stipple {
+
+/// Lines along the rim, in the domain's coordinates; none where the domain has no inside (a circle)
+/// or no end.
+std::vector<std::vector<Spot>> outline_of(const Domain& domain);
+
+}  // namespace stipple

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "plot/picture_title.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "pipeline/pipeline.hpp"
+
+namespace stipple {
+namespace {
+
+/// The generator, if this program has it.
+const Generator* known_generator(const std::string& name) {
+    try {
+        return &find_generator(name);
+    } catch (const Error&) {
+        return nullptr;
+    }
+}
+
+bool is_default(const Generator& generator, const std::string& name, const std::string& text) {
+    const auto& options = generator.options.options();
+    const auto it = std::ranges::find(options, name, &Option::name);
+    return it != options.end() &&
+           format_value(generator.options.defaults().find(name).value) == text;
+}
+
+bool seed_matters(const Generator& generator, const Provenance& from) {
+    try {
+        Values values = generator.options.defaults();
+        for (const auto& [name, text] : from.options) generator.options.set(values, name, text);
+        return uses_seed(generator, values);
+    } catch (const Error&) {
+        return generator.traits.seeded;  // options of another version
+    }
+}
+
+/// "owen", "owen:depth=3": random, unlike a warp.
+bool is_scramble(const std::string& warp) {
+    return scramble_named(warp.substr(0, warp.find_first_of(":@"))) != nullptr;
+}
+
+}  // namespace
+
+std::string title_of_points(const PointSet& points, const std::string& source) {
+    const Provenance& from = points.provenance;
+    if (from.generator.empty())
+        return source == "-" || source.empty() ? "points" : source.substr(source.rfind('/') + 1);
+    std::string title = from.generator;
+    for (const std::string& warp : from.warps) title += ", " + warp;
+    return title;
+}
+
+std::string subtitle_of_points(const PointSet& points) {
+    const Provenance& from = points.provenance;
+    std::string text = fmt::format("{} point{}", points.count(), points.count() == 1 ? "" : "s");
+    const Generator* generator = known_generator(from.generator);
+    if (generator == nullptr) return text;
+    if (std::ranges::any_of(from.warps, is_scramble) || seed_matters(*generator, from))
+        text += fmt::format(", seed {}", from.seed);
+    if (from.start > 0) text += fmt::format(", from index {}", from.start);
+    for (const auto& [name, value] : from.options) {
+        constexpr std::size_t readable = 40;
+        if (is_default(*generator, name, value) || value.size() > readable) continue;
+        text += fmt::format(", {}={}", name, value);
+    }
+    return text;
+}
+
+}  // namespace stipple

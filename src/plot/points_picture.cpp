@@ -1,0 +1,647 @@
+// SPDX-License-Identifier: MIT
+#include "plot/points_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "io/disk_size.hpp"
+#include "io/format.hpp"
+#include "plot/colour_bar.hpp"
+#include "plot/domain_outline.hpp"
+#include "plot/letters.hpp"
+
+namespace stipple {
+namespace {
+
+std::size_t points_of(const PointsPicture& picture) {
+    std::size_t sum = 0;
+    for (const PointSet* set : picture.sets) sum += set->count();
+    return sum;
+}
+
+/// Whether the frame of the picture is the domain's rim.
+bool is_box(const PointSet& set) {
+    const std::string spec = set.domain->spec();
+    return spec.starts_with("unit-cube") || spec.starts_with("box");
+}
+
+bool all_inside(const PointSet& set) {
+    for (std::size_t i = 0; i < set.count(); ++i)
+        if (!set.domain->contains(set[i])) return false;
+    return true;
+}
+
+/// Whether nobody but the reader said that the points live on the unit cube, and they do not.
+bool without_domain(const PointSet& set) {
+    return set.domain->spec().starts_with("unit-cube") && !all_inside(set);
+}
+
+/// The same directions a little longer on both sides.
+void widen(Box& box, double share) {
+    for (std::size_t k = 0; k < box.dimension(); ++k) {
+        double more = share * box.extent(k);
+        if (!(more > 0)) more = box.low[k] == 0 ? 0.5 : 0.5 * std::abs(box.low[k]);
+        box.low[k] -= more;
+        box.high[k] += more;
+    }
+}
+
+bool frame_is_rim(const PointsPicture& picture) {
+    return std::ranges::all_of(
+        picture.sets, [](const PointSet* set) { return is_box(*set) && !without_domain(*set); });
+}
+
+/// How much of its box a domain of the plane takes.
+double share_of_box(const PointSet& set) {
+    if (set.dimension() != 2 || without_domain(set)) return 1;
+    const Box box = set.domain->bounding_box();
+    const double share = set.domain->measure() / (box.extent(0) * box.extent(1));
+    return share > 0.02 && share < 1 ? share : 1;
+}
+
+/// Puts a point of a set at its place in the drawing.
+using Place = std::function<Spot(std::span<const double>)>;
+
+/// How many points there are in the squares of a raster.
+struct Tally {
+    Raster raster;
+    std::vector<std::uint64_t> counts;
+
+    [[nodiscard]] double largest() const {
+        return static_cast<double>(*std::ranges::max_element(counts));
+    }
+};
+
+/// The numbers beside a bar of counts from 0 to the largest.
+std::vector<Tick> count_ticks(double largest) {
+    std::vector<Tick> ticks;
+    for (auto& [value, text] : linear_ticks(0, largest, 6, true).numbers)
+        ticks.push_back({value / largest, text});
+    return ticks;
+}
+
+/// Points as marks in an area of a drawing.
+class Cloud {
+  public:
+    Cloud(const PointsPicture& picture, const PictureStyle& style, const RunContext& run)
+        : picture_(picture), theme_(*style.theme), run_(run) {}
+
+    [[nodiscard]] bool as_disks() const {
+        return picture_.marking == Marking::disks ||
+               (picture_.marking == Marking::automatic && points_of(picture_) <= most_disks);
+    }
+
+    /// Whether a frame of a size shows counts: where single points would fill most of it.
+    [[nodiscard]] bool as_density(double width, double height) const {
+        if (as_disks() || picture_.sets.size() > 1) return false;
+        return picture_.marking == Marking::density ||
+               static_cast<double>(points_of(picture_)) >= density_share * width * height;
+    }
+
+    /// A disk for each point.
+    void disks(Drawing& drawing, const Area& area, const Place& place) const {
+        const double side = std::max(area.width, area.height);
+        const double unit = side / 1000;
+        const auto n = static_cast<double>(points_of(picture_));
+        // Small pictures get somewhat larger disks than their share.
+        const double radius = std::max(
+            0.6,
+            1.25 * unit * io::disk_radius(share_ * area.width * area.height / (unit * unit), n));
+        for (std::size_t s = 0; s < picture_.sets.size(); ++s) {
+            const PointSet& set = *picture_.sets[s];
+            Disks marks{.centres = {}, .radius = radius, .colour = theme_.series_colour(s)};
+            marks.centres.reserve(set.count());
+            for (std::size_t i = 0; i < set.count(); ++i) marks.centres.push_back(place(set[i]));
+            if (picture_.sets.size() > 1) marks.opacity = 0.85;
+            drawing.add(std::move(marks));
+        }
+    }
+
+    /// A pixel for each point, half a unit wide.
+    void specks(Drawing& drawing, const Area& area, const Place& place) const {
+        Raster raster = empty_raster(area, 0.5);
+        for (std::size_t s = 0; s < picture_.sets.size(); ++s)
+            for_each_bin(*picture_.sets[s], raster, place,
+                         [&](std::size_t bin) { raster.pixels[bin] = theme_.series_colour(s); });
+        drawing.add(std::move(raster));
+    }
+
+    /// Points in squares that hold some of them on average.
+    [[nodiscard]] Tally tally(const Area& area, const Place& place) const {
+        const auto n = static_cast<double>(points_of(picture_));
+        const double side =
+            std::clamp(std::ceil(std::sqrt(6 * area.width * area.height / n)), 1.0, 16.0);
+        Tally tally{.raster = empty_raster(area, side), .counts = {}};
+        tally.counts.resize(tally.raster.pixels.size());
+        for_each_bin(*picture_.sets[0], tally.raster, place,
+                     [&](std::size_t bin) { ++tally.counts[bin]; });
+        return tally;
+    }
+
+    /// The tally in shades up to the largest number.
+    void density(Drawing& drawing, Tally tally, double largest) const {
+        for (std::size_t i = 0; i < tally.counts.size(); ++i)
+            tally.raster.pixels[i] = shade(static_cast<double>(tally.counts[i]) / largest);
+        drawing.add(std::move(tally.raster));
+    }
+
+    void draw_bar(Drawing& drawing, const Area& frame, double largest) const {
+        draw_colour_bar(
+            drawing, {frame.right() + 14, frame.top, 14, frame.height}, "points", theme_,
+            [this](double share) { return shade(share); }, count_ticks(largest));
+    }
+
+    /// From the ground over the first colour to the ink.
+    [[nodiscard]] Colour shade(double share) const {
+        const Colour middle = theme_.series[0];
+        return share < 0.6 ? mixed(theme_.ground, middle, share / 0.6)
+                           : mixed(middle, theme_.ink, (share - 0.6) / 0.4);
+    }
+
+  private:
+    [[nodiscard]] Raster empty_raster(const Area& area, double side) const {
+        Raster raster{.area = area,
+                      .columns = static_cast<std::size_t>(std::ceil(area.width / side)),
+                      .rows = static_cast<std::size_t>(std::ceil(area.height / side)),
+                      .pixels = {}};
+        raster.pixels.assign(raster.columns * raster.rows, theme_.ground);
+        return raster;
+    }
+
+    template <class Visit>
+    void for_each_bin(const PointSet& set, const Raster& raster, const Place& place,
+                      const Visit& visit) const {
+        constexpr std::size_t patience = 65536;
+        const Area& a = raster.area;
+        const auto columns = static_cast<double>(raster.columns);
+        const auto rows = static_cast<double>(raster.rows);
+        for (std::size_t i = 0; i < set.count(); ++i) {
+            if (i % patience == 0) run_.tick(i, set.count());
+            const Spot spot = place(set[i]);
+            const double x = (spot.x - a.left) / a.width * columns;
+            const double y = (spot.y - a.top) / a.height * rows;
+            if (!(x >= 0 && x <= columns && y >= 0 && y <= rows)) continue;
+            visit(std::min(static_cast<std::size_t>(y), raster.rows - 1) * raster.columns +
+                  std::min(static_cast<std::size_t>(x), raster.columns - 1));
+        }
+    }
+
+    const PointsPicture& picture_;
+    const Theme& theme_;
+    const RunContext& run_;
+    double share_ = share_of_box(*picture_.sets[0]);  ///< of the frame, where there are points
+};
+
+std::vector<LegendEntry> legend_of(const PointsPicture& picture, const Theme& theme) {
+    std::vector<LegendEntry> entries;
+    for (std::size_t s = 0; picture.sets.size() > 1 && s < picture.sets.size(); ++s)
+        entries.push_back({.kind = LegendEntry::Kind::disk,
+                           .name = picture.names[s],
+                           .colour = theme.series_colour(s)});
+    return entries;
+}
+
+/// A drawing that has its title and its legend; `top` is what they take.
+struct Page {
+    Drawing drawing;
+    double top = 0;
+    double width = 0;  ///< between the margins
+
+    Page(const PointsPicture& picture, const PictureStyle& style, double usual_width) {
+        drawing = {.width = style.width > 0 ? style.width : usual_width,
+                   .height = style.height,
+                   .ground = style.theme->ground,
+                   .title = {}};
+        width = drawing.width - 2 * picture_margin;
+        top = draw_title(drawing, picture.title, picture.subtitle, style);
+        const auto entries = legend_of(picture, *style.theme);
+        draw_legend(drawing, entries, {picture_margin, top}, width, *style.theme);
+        top = std::ceil(top + legend_height(entries, width));
+    }
+};
+
+// ---------------------------------------------------------------- two coordinates
+
+void draw_rim(Drawing& drawing, const PointsPicture& picture, const Panel& panel,
+              const Theme& theme) {
+    const PointSet& first = *picture.sets[0];
+    if (is_box(first)) return;
+    for (const auto& line : outline_of(*first.domain)) {
+        Line rim{.spots = {}, .colour = theme.frame, .width = 1};
+        for (const Spot& spot : line) rim.spots.push_back(panel.at(spot.x, spot.y));
+        drawing.add(std::move(rim));
+    }
+}
+
+/// How large the frame of a box is, so that lengths along x and y are alike unless it is very thin.
+std::pair<double, double> frame_size(const Box& box, double width, double height) {
+    double ratio = std::clamp(box.extent(1) / box.extent(0), 0.12, 3.0);
+    if (!(ratio > 0)) ratio = 1;
+    double wide = width;
+    if (height > 0 && wide * ratio > height) wide = height / ratio;
+    if (height <= 0) wide = std::min(wide, 1.25 * width / ratio);
+    wide = std::max(wide, 40.0);
+    return {std::floor(wide), std::floor(std::max(wide * ratio, 40.0))};
+}
+
+Drawing draw_plane(const PointsPicture& picture, const PictureStyle& style, const RunContext& run) {
+    const Theme& theme = *style.theme;
+    const Cloud cloud(picture, style, run);
+    Page page(picture, style, 640);
+    Box box = shown_box(picture.sets);
+    if (!frame_is_rim(picture)) widen(box, 0.03);
+    const Axis x{.low = box.low[0], .high = box.high[0], .name = "x"};
+    const Axis y{.low = box.low[1], .high = box.high[1], .name = "y"};
+    const double left = std::ceil(picture_margin / 2 + Panel::room_left(y, 500));
+    const double below = Panel::room_below(x) + picture_margin;
+    const bool dense = cloud.as_density(page.width, style.height > 0 ? style.height : page.width);
+    const double right = dense ? colour_bar_room + picture_margin : picture_margin + 8;
+    const double top = page.top + (dense ? 14 : 4);
+    const double room = style.height > 0 ? style.height - top - below : 0;
+    const auto [width, height] = frame_size(box, page.drawing.width - left - right, room);
+    const Area frame{left, top, width, height};
+    if (style.height <= 0) page.drawing.height = std::ceil(top + height + below);
+    const Panel panel(frame, x, y);
+    const Place place = [&panel](std::span<const double> p) { return panel.at(p[0], p[1]); };
+    Drawing& drawing = page.drawing;
+    if (dense) {
+        Tally tally = cloud.tally(frame, place);
+        const double largest = tally.largest();
+        cloud.density(drawing, std::move(tally), largest);
+        cloud.draw_bar(drawing, frame, largest);
+    } else if (!cloud.as_disks()) {
+        cloud.specks(drawing, frame, place);
+    }
+    panel.draw_axes(drawing, theme, true);
+    draw_rim(drawing, picture, panel, theme);
+    if (cloud.as_disks()) cloud.disks(drawing, frame, place);
+    return std::move(page.drawing);
+}
+
+// ---------------------------------------------------------------- three coordinates
+
+/// A point of the box where each coordinate is its low (0) or high (1) end, or between.
+std::array<double, 3> corner(const Box& box, double a, double b, double c) {
+    return {box.low[0] + a * box.extent(0), box.low[1] + b * box.extent(1),
+            box.low[2] + c * box.extent(2)};
+}
+
+/// The box seen from the front: scale and shift to a drawing.
+struct Scene {
+    const Box& box;
+    double scale = 1;
+    double left = 0;
+    double top = 0;
+
+    [[nodiscard]] Spot at(std::span<const double> point) const {
+        const Seen seen = seen_at(box, point);
+        return {left + scale * seen.right, top - scale * seen.up};
+    }
+    [[nodiscard]] Spot at(double a, double b, double c) const {
+        const auto point = corner(box, a, b, c);
+        return at(point);
+    }
+};
+
+struct Extent {
+    double left = 0;
+    double right = 0;
+    double bottom = 0;
+    double top = 0;
+};
+
+Extent extent_of(const Box& box) {
+    Extent e{1e9, -1e9, 1e9, -1e9};
+    for (int bits = 0; bits < 8; ++bits) {
+        const auto point = corner(box, bits & 1, bits >> 1 & 1, bits >> 2 & 1);
+        const Seen seen = seen_at(box, point);
+        e = {std::min(e.left, seen.right), std::max(e.right, seen.right),
+             std::min(e.bottom, seen.up), std::max(e.top, seen.up)};
+    }
+    return e;
+}
+
+/// The edges of the box that are behind all points, or before them.
+void draw_edges(Drawing& drawing, const Scene& scene, const Theme& theme, bool front) {
+    constexpr std::array<std::array<int, 3>, 3> steps = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    // Seen from high x, low y and high z: the corner behind all is (0, 1, 0).
+    for (int bits = 0; bits < 8; ++bits)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::array<int, 3> a = {bits & 1, bits >> 1 & 1, bits >> 2 & 1};
+            if (a[k] != 0) continue;
+            const std::array<int, 3> b = {a[0] + steps[k][0], a[1] + steps[k][1],
+                                          a[2] + steps[k][2]};
+            const auto is_hidden = [](const std::array<int, 3>& c) {
+                return c[0] == 0 && c[1] == 1 && c[2] == 0;
+            };
+            if ((is_hidden(a) || is_hidden(b)) == front) continue;
+            drawing.add(Line{.spots = {scene.at(a[0], a[1], a[2]), scene.at(b[0], b[1], b[2])},
+                             .colour = front ? theme.frame : mixed(theme.frame, theme.ground, 0.6),
+                             .width = 1});
+        }
+}
+
+/// Names, and the numbers at the ends, of the three edges that are free to the outside.
+void draw_ends(Drawing& drawing, const Scene& scene, const Theme& theme) {
+    const auto put = [&](Spot at, double dx, double dy, const std::string& text, Anchor anchor,
+                         bool name) {
+        drawing.add(Label{.text = text,
+                          .at = {at.x + dx, at.y + dy},
+                          .size = name ? name_size : number_size,
+                          .colour = name ? theme.ink : theme.words,
+                          .anchor = anchor});
+    };
+    const Box& box = scene.box;
+    const auto end = [&](std::size_t k, bool high) {
+        return rounded(high ? box.high[k] : box.low[k], 3);
+    };
+    put(scene.at(0.08, 0, 0), -2, 18, end(0, false), Anchor::end, false);
+    put(scene.at(0.95, 0, 0), -2, 18, end(0, true), Anchor::end, false);
+    put(scene.at(0.5, 0, 0), -8, 24, "x", Anchor::end, true);
+    put(scene.at(1, 0.08, 0), 10, 16, end(1, false), Anchor::start, false);
+    put(scene.at(1, 0.95, 0), 10, 16, end(1, true), Anchor::start, false);
+    put(scene.at(1, 0.5, 0), 14, 22, "y", Anchor::start, true);
+    put(scene.at(0, 0, 0.04), -8, 4, end(2, false), Anchor::end, false);
+    put(scene.at(0, 0, 0.98), -8, 4, end(2, true), Anchor::end, false);
+    put(scene.at(0, 0, 0.5), -14, 4, "z", Anchor::end, true);
+}
+
+/// Disks in layers from far to near: paler and smaller behind.
+void draw_layers(Drawing& drawing, const PointsPicture& picture, const Scene& scene,
+                 const Theme& theme, double side) {
+    constexpr std::size_t layers = 10;
+    const auto n = static_cast<double>(points_of(picture));
+    const double radius = std::clamp(0.075 * side / std::cbrt(std::max(n, 1.0)), 0.7, 4.0);
+    double near = -1e9;
+    double far = 1e9;
+    for (int bits = 0; bits < 8; ++bits) {
+        const auto point = corner(scene.box, bits & 1, bits >> 1 & 1, bits >> 2 & 1);
+        const double depth = seen_at(scene.box, point).depth;
+        near = std::max(near, depth);
+        far = std::min(far, depth);
+    }
+    std::vector<Disks> disks;
+    for (std::size_t layer = 0; layer < layers; ++layer)
+        for (std::size_t s = 0; s < picture.sets.size(); ++s) {
+            const double share = static_cast<double>(layer) / (layers - 1);
+            disks.push_back(
+                {.centres = {},
+                 .radius = radius * (0.7 + 0.3 * share),
+                 .colour = mixed(theme.series_colour(s), theme.ground, 0.62 * (1 - share))});
+        }
+    for (std::size_t s = 0; s < picture.sets.size(); ++s)
+        for (std::size_t i = 0; i < picture.sets[s]->count(); ++i) {
+            const auto point = (*picture.sets[s])[i];
+            const double share = (seen_at(scene.box, point).depth - far) / (near - far);
+            const auto layer = static_cast<std::size_t>(
+                std::clamp(share * layers, 0.0, static_cast<double>(layers - 1)));
+            disks[layer * picture.sets.size() + s].centres.push_back(scene.at(point));
+        }
+    for (Disks& layer : disks)
+        if (!layer.centres.empty()) drawing.add(std::move(layer));
+}
+
+Drawing draw_space(const PointsPicture& picture, const PictureStyle& style, const RunContext& run) {
+    const Theme& theme = *style.theme;
+    const Cloud cloud(picture, style, run);
+    Page page(picture, style, 640);
+    Box box = shown_box(picture.sets);
+    for (std::size_t k = 0; k < 3; ++k)
+        if (!(box.extent(k) > 0)) box.high[k] = box.low[k] + 1;
+    const Extent e = extent_of(box);
+    const double sides = 46 + picture_margin;
+    const double below = 30 + picture_margin;
+    double scale = (page.drawing.width - 2 * sides) / (e.right - e.left);
+    if (style.height > 0)
+        scale = std::min(scale, (style.height - page.top - below - 8) / (e.top - e.bottom));
+    scale = std::max(scale, 20.0);
+    Drawing& drawing = page.drawing;
+    if (style.height <= 0)
+        drawing.height = std::ceil(page.top + 8 + scale * (e.top - e.bottom) + below);
+    const double wide = scale * (e.right - e.left);
+    const double left = (drawing.width - wide) / 2;
+    const Scene scene{box, scale, left - scale * e.left, page.top + 8 + scale * e.top};
+    if (cloud.as_disks()) {
+        draw_edges(drawing, scene, theme, false);
+        draw_layers(drawing, picture, scene, theme, scale);
+    } else {
+        const Place place = [&scene](std::span<const double> p) { return scene.at(p); };
+        const Area area{std::floor(left), std::floor(page.top + 8), std::ceil(wide),
+                        std::ceil(scale * (e.top - e.bottom))};
+        if (cloud.as_density(area.width, area.height)) {
+            Tally tally = cloud.tally(area, place);
+            const double largest = tally.largest();
+            cloud.density(drawing, std::move(tally), largest);
+        } else {
+            cloud.specks(drawing, area, place);
+        }
+        draw_edges(drawing, scene, theme, false);
+    }
+    draw_edges(drawing, scene, theme, true);
+    draw_ends(drawing, scene, theme);
+    return std::move(page.drawing);
+}
+
+// ---------------------------------------------------------------- pairs of coordinates
+
+/// The sheet of panels of every pair: x_i to the right and x_j > x_i upward in column i, row j - 1.
+class PairSheet {
+  public:
+    PairSheet(const PointsPicture& picture, const PictureStyle& style, const RunContext& run)
+        : picture_(picture),
+          theme_(*style.theme),
+          cloud_(picture, style, run),
+          page_(picture, style, 800),
+          box_(shown_box(picture.sets)),
+          names_(coordinate_names(picture.sets[0]->dimension())),
+          shown_(std::min(box_.dimension(), most_pair_coordinates)) {
+        if (!frame_is_rim(picture)) widen(box_, 0.03);
+        const auto columns = static_cast<double>(shown_ - 1);
+        double room = 0;
+        for (std::size_t j = 1; j < shown_; ++j)
+            room = std::max(room, Panel::room_left(axis(j), 200));
+        left_ = std::ceil(picture_margin / 2 + room);
+        below_ = Panel::room_below(axis(1)) + picture_margin;
+        const double across = page_.drawing.width - left_ - picture_margin - (columns - 1) * gap;
+        side_ = across / columns;
+        if (style.height > 0)
+            side_ = std::min(
+                side_, (style.height - page_.top - 4 - below_ - (columns - 1) * gap) / columns);
+        side_ = std::max(std::floor(side_), 30.0);
+        if (style.height <= 0)
+            page_.drawing.height = page_.top + 4 + columns * side_ + (columns - 1) * gap + below_;
+    }
+
+    /// Of coordinate j, drawn upward.
+    [[nodiscard]] Axis axis(std::size_t j) const {
+        return {.low = box_.low[j], .high = box_.high[j], .name = names_[j]};
+    }
+
+    Drawing draw() {
+        if (cloud_.as_density(side_, side_)) draw_densities();
+        for (std::size_t j = 1; j < shown_; ++j)
+            for (std::size_t i = 0; i < j; ++i) draw_pair(i, j);
+        return std::move(page_.drawing);
+    }
+
+  private:
+    static constexpr double gap = 10;
+
+    /// Numbers and names stand at the sheet's rim only.
+    [[nodiscard]] Panel panel(std::size_t i, std::size_t j) const {
+        const Area frame{left_ + static_cast<double>(i) * (side_ + gap),
+                         page_.top + 4 + static_cast<double>(j - 1) * (side_ + gap), side_, side_};
+        const bool bottom = j + 1 == shown_;
+        return {frame,
+                {.low = box_.low[i],
+                 .high = box_.high[i],
+                 .name = bottom ? names_[i] : "",
+                 .numbers = bottom,
+                 .tight = true},
+                {.low = box_.low[j],
+                 .high = box_.high[j],
+                 .name = i == 0 ? names_[j] : "",
+                 .numbers = i == 0,
+                 .tight = true}};
+    }
+
+    [[nodiscard]] static Place place(const Panel& panel, std::size_t i, std::size_t j) {
+        return [&panel, i, j](std::span<const double> p) { return panel.at(p[i], p[j]); };
+    }
+
+    /// All pairs in the same shades, whose bar stands in the sheet's free corner.
+    void draw_densities() {
+        std::vector<Tally> tallies;
+        double largest = 0;
+        for (std::size_t j = 1; j < shown_; ++j)
+            for (std::size_t i = 0; i < j; ++i) {
+                const Panel here = panel(i, j);
+                tallies.push_back(cloud_.tally(here.frame(), place(here, i, j)));
+                largest = std::max(largest, tallies.back().largest());
+            }
+        for (Tally& tally : tallies) cloud_.density(page_.drawing, std::move(tally), largest);
+        cloud_.draw_bar(page_.drawing, panel(0, 1).frame(), largest);
+    }
+
+    void draw_pair(std::size_t i, std::size_t j) {
+        const Panel here = panel(i, j);
+        const Area& frame = here.frame();
+        const bool dense = cloud_.as_density(side_, side_);
+        if (!dense && !cloud_.as_disks()) cloud_.specks(page_.drawing, frame, place(here, i, j));
+        here.draw_axes(page_.drawing, theme_, true);
+        if (cloud_.as_disks()) cloud_.disks(page_.drawing, frame, place(here, i, j));
+    }
+
+    const PointsPicture& picture_;
+    const Theme& theme_;
+    Cloud cloud_;
+    Page page_;
+    Box box_;
+    std::vector<std::string> names_;
+    std::size_t shown_;
+    double left_ = 0;
+    double below_ = 0;
+    double side_ = 0;
+};
+
+std::vector<double> coordinate(const PointSet& set, std::size_t k) {
+    std::vector<double> values;
+    values.reserve(set.count());
+    for (std::size_t i = 0; i < set.count(); ++i) values.push_back(set[i][k]);
+    return values;
+}
+
+/// Bins of a histogram of n values: their cube root has the least error for smooth densities.
+std::size_t bins_of(std::size_t n) {
+    return std::clamp<std::size_t>(
+        static_cast<std::size_t>(std::ceil(2 * std::cbrt(static_cast<double>(n)))), 5, 200);
+}
+
+ChartPanel histogram_panel(const PointsPicture& picture, const Box& box, std::size_t k) {
+    const auto names = coordinate_names(box.dimension());
+    ChartPanel panel{.x_name = names[k], .y_name = "density", .from_zero = true};
+    for (std::size_t s = 0; s < picture.sets.size(); ++s) {
+        const PointSet& set = *picture.sets[s];
+        panel.bars.push_back(
+            histogram_of(coordinate(set, k), box.low[k], box.high[k], bins_of(set.count())));
+        panel.bars.back().name = picture.names[s];
+    }
+    if (frame_is_rim(picture))
+        panel.guides.push_back({.name = "uniform", .x = {}, .y = {1 / box.extent(k)}});
+    if (picture.sets.size() == 1 && picture.sets[0]->count() <= 2000)
+        panel.rug = coordinate(*picture.sets[0], k);
+    return panel;
+}
+
+}  // namespace
+
+Box shown_box(std::span<const PointSet* const> sets) {
+    const PointSet& first = *sets[0];
+    const std::vector<double> point(first[0].begin(), first[0].end());
+    Box box = without_domain(first) ? Box{point, point} : first.domain->bounding_box();
+    for (std::size_t k = 0; k < box.dimension(); ++k)
+        if (!std::isfinite(box.extent(k))) box.low[k] = box.high[k] = point[k];
+    for (const PointSet* set : sets) box = bounding_box(set->flat(), box);
+    for (std::size_t k = 0; k < box.dimension(); ++k) {
+        if (box.extent(k) > 0) continue;
+        const double more = box.low[k] == 0 ? 0.5 : 0.5 * std::abs(box.low[k]);
+        box.low[k] -= more;
+        box.high[k] += more;
+    }
+    return box;
+}
+
+Seen seen_at(const Box& box, std::span<const double> point) {
+    // From 30 degrees beside the y axis, 25 degrees above the ground.
+    constexpr double side_cosine = 0.8660254037844386;
+    constexpr double side_sine = 0.5;
+    constexpr double rise_cosine = 0.9063077870366499;
+    constexpr double rise_sine = 0.42261826174069944;
+    const double longest = std::max({box.extent(0), box.extent(1), box.extent(2)});
+    const double x = (point[0] - box.low[0]) / longest;
+    const double y = (point[1] - box.low[1]) / longest;
+    const double z = (point[2] - box.low[2]) / longest;
+    const double toward = side_sine * x - side_cosine * y;
+    return {.right = side_cosine * x + side_sine * y,
+            .up = rise_cosine * z - rise_sine * toward,
+            .depth = rise_cosine * toward + rise_sine * z};
+}
+
+Chart histogram_chart(const PointsPicture& picture) {
+    constexpr std::size_t most_panels = 6;
+    const Box box = shown_box(picture.sets);
+    Chart chart{.title = picture.title, .subtitle = picture.subtitle, .panels = {}};
+    const std::size_t panels = std::min(box.dimension(), most_panels);
+    for (std::size_t k = 0; k < panels; ++k) {
+        ChartPanel panel = histogram_panel(picture, box, k);
+        if (panels > 1) {
+            panel.y_name = fmt::format("density of {}", panel.x_name);
+            panel.x_name = "coordinate";
+        }
+        if (k > 0)
+            for (Guide& guide : panel.guides) guide.name.clear();
+        chart.panels.push_back(std::move(panel));
+    }
+    return chart;
+}
+
+Drawing draw_points(const PointsPicture& picture, const PictureStyle& style,
+                    const RunContext& run) {
+    switch (picture.sets[0]->dimension()) {
+        case 1:
+            return draw_chart(histogram_chart(picture), style);
+        case 2:
+            return draw_plane(picture, style, run);
+        case 3:
+            return draw_space(picture, style, run);
+        default:
+            return PairSheet(picture, style, run).draw();
+    }
+}
+
+}  // namespace stipple

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+//
+// Pictures of points.
+//
+//     d = 1   histogram, with a mark for each point below
+//     d = 2   a disk for each point, lengths along x and y alike, and the rim of their domain
+//     d = 3   the same from a fixed place, in a box; what is far is paler and smaller
+//     d > 3   every pair of the first 8 coordinates in a panel of its own
+//
+// What are more disks than eyes tell apart are pixels: one for each point, until (at some 300 000
+// in one frame) they would fill it, then their density. Several sets lie over each other, in
+// colours.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/point_set.hpp"
+#include "core/run_context.hpp"
+#include "plot/chart.hpp"
+
+namespace stipple {
+
+inline constexpr std::size_t most_pair_coordinates = 8;
+inline constexpr std::size_t most_disks = 20'000;  ///< above, points are pixels
+inline constexpr double density_share = 0.75;  ///< of points to a frame's area, for their density
+
+/// How points are marked.
+enum class Marking { automatic, disks, density };
+
+struct PointsPicture {
+    std::vector<const PointSet*> sets;  ///< of one dimension, none empty
+    std::vector<std::string> names;     ///< of the sets, for the legend
+    std::string title;
+    std::string subtitle = {};
+    Marking marking = Marking::automatic;
+};
+
+/// The box that a picture of the sets shows: their domain's and all points. Points that are told to
+/// live on the unit cube, and do not, are shown for themselves.
+Box shown_box(std::span<const PointSet* const> sets);
+
+/// Where a point of three coordinates is seen, in units of the box's longest side; `depth` is
+/// larger for what is nearer.
+struct Seen {
+    double right = 0;
+    double up = 0;
+    double depth = 0;
+};
+Seen seen_at(const Box& box, std::span<const double> point);
+
+Drawing draw_points(const PointsPicture& picture, const PictureStyle& style, const RunContext& run);
+
+/// The histogram of each coordinate in a panel of its own, at most 6 of them.
+Chart histogram_chart(const PointsPicture& picture);
+
+}  // namespace stipple

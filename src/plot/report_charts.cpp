@@ -1,0 +1,641 @@
+// SPDX-License-Identifier: MIT
+#include "plot/report_charts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "plot/ticks.hpp"
+
+namespace stipple {
+namespace {
+
+using Curve = Report::Curve;
+using Measurements = std::span<const Measurement>;
+
+constexpr double log_above = 12;    ///< radial power: a higher peak gets a logarithmic axis
+constexpr double log_floor = 1e-4;  ///< of that axis: what is lower is rounding
+
+std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+/// A list of numbers under a key; nothing where there is none.
+std::optional<Curve> curve_at(const Report& report, std::string_view key) {
+    const Report::Item* item = report.find(key);
+    if (item == nullptr) return std::nullopt;
+    if (const auto* curve = std::get_if<Curve>(item)) return *curve;
+    if (const auto* whole = std::get_if<Report::Integers>(item))
+        return Curve(whole->begin(), whole->end());
+    return std::nullopt;
+}
+
+std::optional<double> number_at(const Report& report, std::string_view key) {
+    const Report::Item* item = report.find(key);
+    if (item == nullptr) return std::nullopt;
+    if (const auto* number = std::get_if<double>(item)) return *number;
+    if (const auto* whole = std::get_if<std::int64_t>(item)) return static_cast<double>(*whole);
+    return std::nullopt;
+}
+
+Curve plus(const Curve& a, const Curve& b, double sign) {
+    Curve sum = a;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) sum[i] += sign * b[i];
+    return sum;
+}
+
+/// Gives the series the band that its report knows: its standard error, or bounds beside it.
+void add_band(Series& series, const Measurement& m, const std::string& group,
+              const std::string& key) {
+    if (m.standard_error) {
+        const auto error = curve_at(*m.standard_error, group + key);
+        if (error && error->size() == series.y.size()) {
+            series.low = plus(series.y, *error, -1);
+            series.high = plus(series.y, *error, 1);
+            return;
+        }
+    }
+    if (key != "value") return;
+    const auto low = curve_at(m.results, group + "lower");
+    const auto high = curve_at(m.results, group + "upper");
+    if (!low || !high || low == high || low->size() != series.y.size()) return;
+    series.low = *low;
+    series.high = *high;
+}
+
+/// One curve for each measurement that has it.
+std::vector<Series> series_of(Measurements ms, const std::string& group, const std::string& x,
+                              const std::string& y) {
+    const auto names = names_of_inputs(ms);
+    std::vector<Series> found;
+    for (std::size_t i = 0; i < ms.size(); ++i) {
+        const auto xs = curve_at(ms[i].results, group + x);
+        const auto ys = curve_at(ms[i].results, group + y);
+        if (!xs || !ys || xs->empty() || xs->size() != ys->size()) continue;
+        Series series{.name = names[i], .x = *xs, .y = *ys};
+        add_band(series, ms[i], group, y);
+        found.push_back(std::move(series));
+    }
+    return found;
+}
+
+/// "n = 1024, d = 2", as far as all have the same.
+std::string size_of(Measurements ms) {
+    const Measurement& first = ms[0];
+    std::string text;
+    if (std::ranges::all_of(ms, [&](const auto& m) { return m.count == first.count; }))
+        text = fmt::format("n = {}", first.count);
+    if (std::ranges::all_of(ms, [&](const auto& m) { return m.dimension == first.dimension; }))
+        text += fmt::format("{}d = {}", text.empty() ? "" : ", ", first.dimension);
+    return text;
+}
+
+/// "Radial power of halton.csv", and of how many points.
+Chart titled(const std::string& what, Measurements ms) {
+    const std::string name = name_of_input(ms[0]);
+    Chart chart{.title = ms.size() > 1 || name.empty() ? what : fmt::format("{} of {}", what, name),
+                .subtitle = size_of(ms),
+                .panels = {}};
+    return chart;
+}
+
+std::string noted(const std::string& subtitle, const std::string& more) {
+    return subtitle.empty() ? more : more.empty() ? subtitle : subtitle + " · " + more;
+}
+
+bool finite_in(const std::vector<Series>& all, double& top) {
+    top = -std::numeric_limits<double>::infinity();
+    for (const Series& series : all)
+        for (const double y : series.y)
+            if (std::isfinite(y)) top = std::max(top, y);
+    return std::isfinite(top);
+}
+
+/// The band of white noise, where one holds for all measurements.
+std::vector<Background> noise_band(Measurements ms) {
+    const auto frequency = curve_at(ms[0].results, "radial.frequency");
+    const auto cells = curve_at(ms[0].results, "radial.cells");
+    const bool same = std::ranges::all_of(ms, [&](const Measurement& m) {
+        return m.sets == ms[0].sets && curve_at(m.results, "radial.cells") == cells;
+    });
+    if (!same || !frequency || !cells) return {};
+    Background band{.name = "white noise, 95 %", .x = *frequency, .low = {}, .high = {}};
+    for (const double ring : *cells) {
+        const auto [low, high] = white_noise_band(ring, static_cast<double>(ms[0].sets));
+        band.low.push_back(low);
+        band.high.push_back(high);
+    }
+    return {band};
+}
+
+/// The anisotropy of independent points, where it is the same for all: in dB, -10 log10 of the sets
+/// that were averaged; of a table of pairs' differences, of the pairs that a pixel has of them.
+Guide noise_anisotropy(Measurements ms) {
+    const auto expected_of = [](const Measurement& m) {
+        const double pairs = number_at(m.results, "expected_differences").value_or(1);
+        return -10 * std::log10(pairs * static_cast<double>(m.sets)) + 0.0;
+    };
+    const double expected = expected_of(ms[0]);
+    if (!std::ranges::all_of(ms, [&](const auto& m) { return expected_of(m) == expected; }))
+        return {};
+    return {
+        .name = fmt::format("white noise: {} dB", rounded(expected, 3)), .x = {}, .y = {expected}};
+}
+
+/// Where there is no power (or no pair), there is no anisotropy: what analyzers put there as the
+/// least of numbers is no value of a curve.
+void make_gaps(std::vector<Series>& all) {
+    constexpr double least = -100;
+    for (Series& series : all) {
+        series.low = series.high = {};
+        if (std::ranges::all_of(series.y, [](double y) { return !(y > least); })) continue;
+        for (double& y : series.y)
+            if (y <= least) y = std::numeric_limits<double>::quiet_NaN();
+    }
+}
+
+bool holds(const Report& report, std::string_view key) {
+    const Report::Item* item = report.find(key);
+    const bool* flag = item == nullptr ? nullptr : std::get_if<bool>(item);
+    return flag != nullptr && *flag;
+}
+
+/// Effective Nyquist frequency and, where the frequencies go far enough for one that compares,
+/// oscillation, of a single measurement.
+std::string summary_of_spectrum(Measurements ms) {
+    if (ms.size() > 1) return {};
+    std::string text;
+    const auto nyquist = number_at(ms[0].results, "effective_nyquist");
+    const auto oscillation = number_at(ms[0].results, "oscillation");
+    if (nyquist && std::isfinite(*nyquist))
+        text += fmt::format("effective Nyquist frequency {}", rounded(*nyquist));
+    if (oscillation && std::isfinite(*oscillation) && holds(ms[0].results, "oscillation_complete"))
+        text += fmt::format("{}oscillation {}", text.empty() ? "" : ", ", rounded(*oscillation));
+    return text;
+}
+
+/// An option of the analyzer; empty where the report does not tell.
+std::string option_of(const Measurement& m, std::string_view name) {
+    const auto at = std::ranges::find(m.options, name, &std::pair<std::string, std::string>::first);
+    return at == m.options.end() ? "" : at->second;
+}
+
+Chart spectrum_chart(Measurements ms) {
+    Chart chart = titled("Power spectrum", ms);
+    chart.subtitle = noted(chart.subtitle, summary_of_spectrum(ms));
+    if (const std::string window = option_of(ms[0], "window"); !window.empty() && window != "none")
+        chart.subtitle = noted(chart.subtitle, "window " + window);
+    if (const std::string weights = option_of(ms[0], "weights"); !weights.empty())
+        chart.subtitle = noted(chart.subtitle, "weights " + weights);
+    const bool normalized = option_of(ms[0], "normalize-frequency") == "true";
+    const std::string x_name = normalized ? "frequency / n^(1/d)" : "frequency";
+    ChartPanel power{.x_name = x_name,
+                     .y_name = "radial power",
+                     .series = series_of(ms, "radial.", "frequency", "power"),
+                     .backgrounds = noise_band(ms),
+                     .guides = {{.name = {}, .x = {}, .y = {1}}},
+                     .from_zero = true,
+                     .reach_y = 1.4,
+                     .least_y = log_floor,
+                     .share = 1.5};
+    double top = 0;
+    if (power.series.empty() || !finite_in(power.series, top))
+        fail(ErrorKind::input, "the report of periodogram has no curve radial.power");
+    power.log_y = top > log_above;
+    ChartPanel anisotropy{.x_name = x_name,
+                          .y_name = "anisotropy (dB)",
+                          .series = series_of(ms, "radial.", "frequency", "anisotropy_db")};
+    make_gaps(anisotropy.series);
+    if (const Guide guide = noise_anisotropy(ms); !guide.y.empty())
+        anisotropy.guides.push_back(guide);
+    // A ring of one dimension is two opposite frequencies, which have one power.
+    const bool line = std::ranges::all_of(ms, [](const auto& m) { return m.dimension == 1; });
+    const bool drawn = !line && finite_in(anisotropy.series, top);
+    chart.panels.push_back(std::move(power));
+    if (drawn) chart.panels.push_back(std::move(anisotropy));
+    return chart;
+}
+
+Chart pair_correlation_chart(Measurements ms) {
+    Chart chart = titled("Pair correlation", ms);
+    const Measurement& first = ms[0];
+    const bool normalized = option_of(first, "normalize-distance") == "true";
+    ChartPanel panel{.x_name = normalized ? "distance / mean distance" : "distance",
+                     .y_name = "pair correlation g",
+                     .series = series_of(ms, "", "distance", "density"),
+                     .guides = {{.name = {}, .x = {}, .y = {1}}},
+                     .from_zero = true,
+                     .reach_y = 1.4};
+    if (panel.series.empty())
+        fail(ErrorKind::input, "the report of pair-correlation has no curve density");
+    const auto distance = curve_at(first.results, "distance");
+    const auto deviation = curve_at(first.results, "deviation");
+    if (ms.size() == 1 && deviation && deviation->size() == distance->size()) {
+        // Two standard deviations of a mean of independent sets.
+        const double width = 2 / std::sqrt(static_cast<double>(first.sets));
+        Background band{
+            .name = "uniform points, ± 2 deviations", .x = *distance, .low = {}, .high = {}};
+        for (const double s : *deviation) {
+            band.low.push_back(std::max(0.0, 1 - width * s));
+            band.high.push_back(1 + width * s);
+        }
+        panel.backgrounds.push_back(std::move(band));
+    } else {
+        panel.guides[0].name = "uniform points";
+    }
+    chart.panels.push_back(std::move(panel));
+    return chart;
+}
+
+// ---------------------------------------------------------------- any analyzer's lists
+
+bool rises(const Curve& curve) {
+    return std::ranges::adjacent_find(curve, [](double a, double b) { return !(a < b); }) ==
+           curve.end();
+}
+
+/// Lists that others are drawn over, by their names.
+bool names_abscissa(const std::string& name) {
+    static const std::set<std::string> known = {"count", "distance", "frequency", "lag",
+                                                "n",     "radius",   "neighbors", "window"};
+    return known.contains(name);
+}
+
+/// Lists that say how sure others are, and are no curves of their own.
+bool names_weight(const std::string& name) {
+    return name == "cells" || name == "pairs" || name == "deviation" || name == "exact";
+}
+
+struct CurveGroup {
+    std::string prefix;  ///< "prefixes."
+    std::string x;
+    std::vector<std::string> ys;
+};
+
+/// Lists of one group as long as its rising first one.
+std::optional<CurveGroup> curves_in(const Report& group, const std::string& prefix) {
+    constexpr std::size_t plainly_curves = 16;
+    CurveGroup found{.prefix = prefix, .x = {}, .ys = {}};
+    std::size_t size = 0;
+    for (const auto& entry : group.entries()) {
+        const auto curve = curve_at(group, entry.name);
+        if (!curve) continue;
+        const bool first = found.x.empty();
+        if (first && curve->size() > 1 && rises(*curve) &&
+            (names_abscissa(entry.name) || curve->size() >= plainly_curves)) {
+            found.x = entry.name;
+            size = curve->size();
+        } else if (!first && curve->size() == size) {
+            found.ys.push_back(entry.name);
+        }
+    }
+    return found.ys.empty() ? std::nullopt : std::optional(found);
+}
+
+void collect_groups(const Report& report, const std::string& prefix,
+                    std::vector<CurveGroup>& found) {
+    if (auto group = curves_in(report, prefix)) found.push_back(*std::move(group));
+    for (const auto& entry : report.entries())
+        if (const auto* inner = std::get_if<Report>(&entry.value))
+            collect_groups(*inner, prefix + entry.name + ".", found);
+}
+
+bool has(const CurveGroup& group, const char* y) {
+    return std::ranges::find(group.ys, y) != group.ys.end();
+}
+
+/// Bounds, and what a variance is compared with, belong to another curve.
+bool accompanies(const CurveGroup& group, const std::string& y) {
+    if (names_weight(y)) return true;
+    if (y == "lower" || y == "upper") return has(group, "value");
+    return y == "mean" && has(group, "variance");
+}
+
+std::string words_of(std::string name) {
+    std::ranges::replace(name, '_', ' ');
+    std::ranges::replace(name, '-', ' ');
+    std::ranges::replace(name, '.', ' ');
+    return name;
+}
+
+/// Lines through the first value that fall as n^(-1/2) and n^(-1).
+std::vector<Guide> slopes(const std::vector<Series>& all) {
+    const Series& series = all[0];
+    const auto first = std::ranges::find_if(series.y, [](double y) { return y > 0; });
+    if (first == series.y.end() || series.x.size() < 3) return {};
+    const double n = series.x[static_cast<std::size_t>(first - series.y.begin())];
+    if (!(n > 0)) return {};
+    std::vector<Guide> guides;
+    for (const double power : {0.5, 1.0}) {
+        Guide guide{.name = guides.empty() ? "falling as 1/√n and as 1/n" : "", .x = {}, .y = {}};
+        for (const double x : {n, series.x.back()}) {
+            guide.x.push_back(x);
+            guide.y.push_back(*first * std::pow(n / x, power));
+        }
+        guides.push_back(std::move(guide));
+    }
+    return guides;
+}
+
+bool positive(const std::vector<Series>& all) {
+    return std::ranges::none_of(all, [](const Series& series) {
+        return std::ranges::any_of(series.y, [](double y) { return y <= 0; });
+    });
+}
+
+/// Over more than a decade: what is seen on a logarithmic axis only.
+bool wants_log(const std::vector<Series>& all) {
+    double low = std::numeric_limits<double>::infinity();
+    double high = 0;
+    for (const Series& series : all)
+        for (const double y : series.y) {
+            if (!std::isfinite(y)) continue;
+            low = std::min(low, y);
+            high = std::max(high, y);
+        }
+    return high > 10 * low;
+}
+
+/// What independent points have, where it is the same for all.
+std::vector<Guide> references(Measurements ms, const CurveGroup& group, const std::string& y) {
+    if (y == "density" || y == "power" || y == "dispersion")
+        return {{.name = "independent points", .x = {}, .y = {1}}};
+    if (y == "anisotropy_db") return {noise_anisotropy(ms)};
+    if (y != "variance" || !has(group, "mean")) return {};
+    const auto x = curve_at(ms[0].results, group.prefix + group.x);
+    const auto mean = curve_at(ms[0].results, group.prefix + "mean");
+    return {{.name = "independent points: the mean", .x = *x, .y = *mean, .reached = true}};
+}
+
+/// Shares of small whole numbers are bars about them.
+void make_bars(ChartPanel& panel) {
+    for (Series& series : panel.series) {
+        const auto filled = [](double y) { return y > 0; };
+        const auto first = std::ranges::find_if(series.y, filled);
+        const auto last = std::find_if(series.y.rbegin(), series.y.rend(), filled).base();
+        if (first == series.y.end()) continue;
+        Bars bars{.name = series.name, .edges = {}, .heights = {first, last}};
+        const auto from = series.x.begin() + (first - series.y.begin());
+        for (auto x = from; x != from + (last - first); ++x) bars.edges.push_back(*x - 0.5);
+        bars.edges.push_back(bars.edges.back() + 1);
+        panel.bars.push_back(std::move(bars));
+    }
+    panel.series.clear();
+    panel.from_zero = true;
+    panel.whole_x = true;
+    panel.log_x = panel.log_y = false;
+}
+
+/// "radius", and in what where that is no length of the points.
+std::string abscissa_of(const std::string& analyzer, const std::string& x) {
+    const bool by_mean = (analyzer == "hyperuniformity" && x == "radius") ||
+                         (analyzer == "differential" && x == "distance");
+    return words_of(x) + (by_mean ? " / mean distance" : "");
+}
+
+ChartPanel curve_panel(Measurements ms, const CurveGroup& group, const std::string& y) {
+    ChartPanel panel{.x_name = abscissa_of(ms[0].analyzer, group.x),
+                     .y_name = y == "value" ? words_of(ms[0].analyzer) : words_of(y),
+                     .series = series_of(ms, group.prefix, group.x, y),
+                     .guides = references(ms, group, y)};
+    if (y == "anisotropy_db") {
+        panel.y_name = "anisotropy (dB)";
+        make_gaps(panel.series);
+    }
+    panel.from_zero = y == "density" || y == "power" || y == "dispersion";
+    if (panel.from_zero) panel.reach_y = 1.2;
+    std::erase_if(panel.guides, [](const Guide& guide) { return guide.y.empty(); });
+    const bool counts = group.x == "count" || group.x == "n";
+    if (counts) panel.x_name = "points n";
+    panel.log_x = counts || y == "variance" || y == "dispersion";
+    const bool steep = counts || y == "variance" || wants_log(panel.series);
+    panel.log_y = panel.log_x && steep && positive(panel.series);
+    for (Series& series : panel.series) series.marks = series.x.size() <= 40;
+    if (counts && panel.log_y && !panel.series.empty()) panel.guides = slopes(panel.series);
+    if (group.x == "neighbors" && !panel.series.empty()) make_bars(panel);
+    return panel;
+}
+
+bool wanted(const CurveGroup& group, const std::string& y, const std::string& key) {
+    if (key.empty()) return !accompanies(group, y);
+    return key == group.prefix + y || key + "." == group.prefix;
+}
+
+std::string sentence_case(std::string text) {
+    if (!text.empty())
+        text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+    return text;
+}
+
+std::optional<Chart> curves_chart(Measurements ms, const std::string& key) {
+    constexpr std::size_t most_panels = 4;
+    std::vector<CurveGroup> groups;
+    collect_groups(ms[0].results, "", groups);
+    Chart chart = titled(sentence_case(words_of(ms[0].analyzer)), ms);
+    std::string x;
+    for (const CurveGroup& group : groups)
+        for (const std::string& y : group.ys) {
+            const bool fits = x.empty() || x == group.prefix + group.x;
+            if (!wanted(group, y, key) || !fits || chart.panels.size() == most_panels) continue;
+            ChartPanel panel = curve_panel(ms, group, y);
+            if (panel.series.empty() && panel.bars.empty()) continue;
+            x = group.prefix + group.x;
+            chart.panels.push_back(std::move(panel));
+        }
+    if (chart.panels.empty()) return std::nullopt;
+    // Panels above each other share one x axis.
+    for (ChartPanel& panel : chart.panels) panel.log_x = chart.panels.back().log_x;
+    return chart;
+}
+
+// ---------------------------------------------------------------- one number of many reports
+
+/// The number that stands for a report: "value", or its first number.
+std::string main_number(const Report& report) {
+    if (number_at(report, "value")) return "value";
+    for (const std::string& key : report.keys())
+        if (number_at(report, key)) return key;
+    return {};
+}
+
+/// What files of one kind have in common: "halton_64.csv" and "halton_256.csv" are of "halton".
+std::string family_of(const std::string& source) {
+    std::string name = file_name(source);
+    name.resize(std::min(name.find('.'), name.size()));
+    std::erase_if(name, [](unsigned char c) { return std::isdigit(c) != 0; });
+    const auto last = name.find_last_not_of("-_ ");
+    return last == std::string::npos ? "" : name.substr(0, last + 1);
+}
+
+/// Mean and standard error of what sets of one size have; of errors, their root mean square.
+struct Gathered {
+    std::vector<double> values;
+    bool errors;
+
+    [[nodiscard]] double mean() const {
+        double sum = 0;
+        for (const double v : values) sum += errors ? v * v : v;
+        sum /= static_cast<double>(values.size());
+        return errors ? std::sqrt(sum) : sum;
+    }
+    [[nodiscard]] double standard_error() const {
+        if (errors || values.size() < 2) return 0;
+        const auto n = static_cast<double>(values.size());
+        double sum = 0;
+        for (const double v : values) sum += (v - mean()) * (v - mean());
+        return std::sqrt(sum / (n * (n - 1)));
+    }
+};
+
+Series series_over_count(const std::string& name, const std::map<std::uint64_t, Gathered>& at) {
+    Series series{.name = name, .x = {}, .y = {}, .marks = true};
+    for (const auto& [n, gathered] : at) {
+        series.x.push_back(static_cast<double>(n));
+        series.y.push_back(gathered.mean());
+        series.low.push_back(gathered.mean() - gathered.standard_error());
+        series.high.push_back(gathered.mean() + gathered.standard_error());
+    }
+    if (series.low == series.high) series.low = series.high = {};
+    return series;
+}
+
+Chart number_over_count(Measurements ms, const std::string& key) {
+    const bool errors = key == "error" || key.ends_with(".error");
+    std::vector<std::string> families;
+    std::map<std::string, std::map<std::uint64_t, Gathered>> found;
+    for (const Measurement& m : ms) {
+        const auto value = number_at(m.results, key);
+        if (!value || !std::isfinite(*value)) continue;
+        const std::string family = family_of(m.source);
+        if (!found.contains(family)) families.push_back(family);
+        auto& gathered = found[family].try_emplace(m.count, Gathered{{}, errors}).first->second;
+        gathered.values.push_back(*value);
+    }
+    ChartPanel panel{.x_name = "points n",
+                     .y_name = key == "value" ? words_of(ms[0].analyzer) : words_of(key),
+                     .log_x = true};
+    if (errors) panel.y_name += ", root mean square";
+    for (const std::string& family : families)
+        panel.series.push_back(series_over_count(family, found[family]));
+    panel.log_y = positive(panel.series);
+    if (panel.log_y) panel.guides = slopes(panel.series);
+    Chart chart = titled(sentence_case(words_of(ms[0].analyzer)), ms);
+    chart.panels.push_back(std::move(panel));
+    return chart;
+}
+
+Chart number_histogram(Measurements ms, const std::string& key) {
+    std::vector<double> values;
+    for (const Measurement& m : ms)
+        if (const auto value = number_at(m.results, key); value && std::isfinite(*value))
+            values.push_back(*value);
+    auto [low, high] = std::ranges::minmax(values);
+    if (!(low < high)) {
+        Axis axis{.low = low, .high = high};
+        axis.mend();
+        low = axis.low;
+        high = axis.high;
+    }
+    // Bins as wide as Sturges has them, for some ten to some thousand values.
+    const auto bins =
+        static_cast<std::size_t>(std::ceil(std::log2(static_cast<double>(values.size())))) + 3;
+    Bars bars = histogram_of(values, low, high, bins);
+    const double width = bars.edges[1] - bars.edges[0];
+    for (double& height : bars.heights)
+        height = std::round(height * width * static_cast<double>(values.size()));
+    Chart chart = titled(sentence_case(words_of(ms[0].analyzer)), ms);
+    chart.subtitle = noted(chart.subtitle, fmt::format("{} sets", values.size()));
+    chart.panels.push_back({.x_name = key == "value" ? words_of(ms[0].analyzer) : words_of(key),
+                            .y_name = "sets",
+                            .bars = {std::move(bars)},
+                            .rug = values.size() <= 100 ? values : std::vector<double>{},
+                            .from_zero = true});
+    return chart;
+}
+
+/// Keys under which there is something to draw.
+std::vector<std::string> drawable(Measurements ms) {
+    std::vector<CurveGroup> groups;
+    collect_groups(ms[0].results, "", groups);
+    std::vector<std::string> keys;
+    for (const CurveGroup& group : groups)
+        for (const std::string& y : group.ys)
+            if (!accompanies(group, y)) keys.push_back(group.prefix + y);
+    if (ms.size() == 1) return keys;
+    for (const std::string& key : ms[0].results.keys())
+        if (number_at(ms[0].results, key)) keys.push_back(key);
+    return keys;
+}
+
+[[noreturn]] void refuse(Measurements ms, const std::string& key) {
+    const auto keys = drawable(ms);
+    if (!key.empty() && !keys.empty())
+        fail_with_hint(ErrorKind::usage, "there is " + join(keys, ", "),
+                       "--key: the report of {} has no '{}' to draw", ms[0].analyzer, key);
+    fail_with_hint(
+        ErrorKind::input,
+        "curves can be drawn (periodogram, pair-correlation, star-discrepancy --every), and one "
+        "number of several reports",
+        "a single report of {} has nothing to draw but numbers", ms[0].analyzer);
+}
+
+Chart any_chart(Measurements ms, const std::string& key) {
+    if (auto chart = curves_chart(ms, key)) return *std::move(chart);
+    if (ms.size() == 1) refuse(ms, key);
+    const std::string number = key.empty() ? main_number(ms[0].results) : key;
+    const auto has = [&](const Measurement& m) {
+        const auto value = number_at(m.results, number);
+        return value && std::isfinite(*value);
+    };
+    if (std::ranges::count_if(ms, has) < 2) refuse(ms, key);
+    const bool same_count =
+        std::ranges::all_of(ms, [&](const Measurement& m) { return m.count == ms[0].count; });
+    return same_count ? number_histogram(ms, number) : number_over_count(ms, number);
+}
+
+}  // namespace
+
+std::pair<double, double> white_noise_band(double cells, double sets) {
+    const double spread = 2 / (9 * std::max(1.0, cells * sets));
+    const auto point = [spread](double z) {
+        const double root = std::max(0.0, 1 - spread + z * std::sqrt(spread));
+        return root * root * root;
+    };
+    return {point(-1.96), point(1.96)};
+}
+
+std::string name_of_input(const Measurement& m) {
+    std::string name = m.source == "-" ? "" : file_name(m.source);
+    if (m.set) name += fmt::format("{}set {}", name.empty() ? "" : ", ", *m.set);
+    if (m.sets > 1) name = fmt::format("{} sets{}{}", m.sets, name.empty() ? "" : ": ", name);
+    return name;
+}
+
+std::vector<std::string> names_of_inputs(Measurements ms) {
+    std::vector<std::string> names;
+    std::set<std::string> seen;
+    for (const Measurement& m : ms) seen.insert(names.emplace_back(name_of_input(m)));
+    if (seen.size() == ms.size()) return names;
+    for (std::size_t i = 0; i < ms.size(); ++i) {
+        if (ms[i].source != "-") names[i] = ms[i].source;
+        if (ms[i].set)
+            names[i] += fmt::format("{}set {}", names[i].empty() ? "" : ", ", *ms[i].set);
+        if (names[i].empty()) names[i] = fmt::format("input {}", i + 1);
+    }
+    return names;
+}
+
+Chart chart_of(Measurements ms, const std::string& key) {
+    for (const Measurement& m : ms)
+        if (m.analyzer != ms[0].analyzer)
+            fail(ErrorKind::input, "reports of {} and of {} are not drawn in one picture",
+                 ms[0].analyzer, m.analyzer);
+    if (key.empty() && ms[0].analyzer == "periodogram") return spectrum_chart(ms);
+    if (key.empty() && ms[0].analyzer == "pair-correlation") return pair_correlation_chart(ms);
+    return any_chart(ms, key);
+}
+
+}  // namespace stipple

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "plot/spectral_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stipple {
+namespace {
+
+constexpr std::size_t least_side = 9;  ///< smaller tables may be points
+
+bool is_side(std::size_t side) { return side % 2 == 1 && side >= least_side; }
+
+/// Whether the numbers are those of a table about its middle.
+bool is_symmetric(std::span<const double> v) {
+    for (std::size_t i = 0; i < v.size() / 2; ++i) {
+        const double other = v[v.size() - 1 - i];
+        if (!(v[i] >= 0) || std::abs(v[i] - other) > 1e-6 * (1 + v[i])) return false;
+    }
+    return true;
+}
+
+/// The same of what stands in the sets one after the other, plane by plane.
+bool is_cube(std::span<const PointSet* const> sets) {
+    const std::size_t side = sets.size();
+    if (!is_side(side)) return false;
+    for (std::size_t s = 0; s < side; ++s) {
+        const PointSet& plane = *sets[s];
+        if (plane.dimension() != side || plane.count() != side) return false;
+        const auto here = plane.flat();
+        const auto there = sets[side - 1 - s]->flat();
+        for (std::size_t i = 0; i < here.size(); ++i)
+            if (!(here[i] >= 0) ||
+                std::abs(here[i] - there[here.size() - 1 - i]) > 1e-6 * (1 + here[i]))
+                return false;
+    }
+    return true;
+}
+
+Grid grid_of(const PointSet& table, std::size_t rows) {
+    const auto values = table.flat();
+    return {
+        .rows = rows, .columns = values.size() / rows, .values = {values.begin(), values.end()}};
+}
+
+}  // namespace
+
+bool looks_like_power(const Grid& grid) {
+    return grid.rows == grid.columns && is_side(grid.rows) && is_symmetric(grid.values);
+}
+
+std::optional<SpectralTable> spectral_table(std::span<const PointSet* const> sets) {
+    const PointSet& first = *sets[0];
+    if (!first.provenance.generator.empty()) return std::nullopt;
+    if (sets.size() > 1) {
+        if (!is_cube(sets)) return std::nullopt;
+        return SpectralTable{.dimension = 3,
+                             .values = grid_of(*sets[sets.size() / 2], sets.size())};
+    }
+    if (first.dimension() == 1) {
+        if (!is_side(first.count()) || !is_symmetric(first.flat())) return std::nullopt;
+        return SpectralTable{.dimension = 1, .values = grid_of(first, 1)};
+    }
+    Grid grid = grid_of(first, first.count());
+    if (!looks_like_power(grid)) return std::nullopt;
+    const bool differences = grid.values[grid.values.size() / 2] == 0;
+    return SpectralTable{.differences = differences, .values = std::move(grid)};
+}
+
+Chart power_chart(const Grid& power, const std::string& title) {
+    const std::size_t middle = power.values.size() / 2;
+    Series curve{.name = "power", .x = {}, .y = {}};
+    for (std::size_t f = 1; f <= middle; ++f) {
+        curve.x.push_back(static_cast<double>(f));
+        curve.y.push_back(power.values[middle + f]);
+    }
+    ChartPanel panel{.x_name = "frequency",
+                     .y_name = "power",
+                     .whole_x = true,
+                     .from_zero = true,
+                     .reach_y = 1.4,
+                     .least_y = 1e-4};
+    // As in the chart of radial power: a lattice's peaks leave nothing else to be seen.
+    panel.log_y = std::ranges::max(curve.y) > 12;
+    panel.guides.push_back({.name = "white noise", .x = {}, .y = {1}});
+    panel.series.push_back(std::move(curve));
+    return {.title = title, .panels = {std::move(panel)}};
+}
+
+}  // namespace stipple

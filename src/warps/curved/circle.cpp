@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+//
+// Directions in the plane: points of the circle of radius R about a centre c, by one of two
+// methods:
+//
+//     angle             theta = 2 pi xi,  point = c + R (cos theta, sin theta)
+//     square-normalize  v = 2 xi - 1 in [-1, 1]^2, point = c + R v / |v|: BIASED towards the
+//                       diagonals, with density 1 / (8 R cos^2 theta), theta the angle from the
+//                       nearer axis; E cos 4 theta = 3 - pi. Kept to show the bias
+//
+// and back (square-normalize has no way back).
+//
+// Shape   1 unit coordinate, square-normalize 2; 2 coordinates.
+// Strata  xi turns from the x axis towards the y axis, as it is, not as 1 - xi; strata become arcs.
+//         square-normalize looks at the strata of the square from its centre, which is dropped.
+// Cost    O(1) a point; on one core about 5 ns forward, 30 ns back.
+// Promise density 1 / (2 pi R) for angle. Points lie on the circle up to the rounding stated at
+//         contains(). Forward and back again is the same point within 1e-14 of |c| + R; for c = 0
+//         also the same xi within 1e-15, save that 1 goes back to 0. The same bits on every
+//         machine.
+// Source  L. Devroye, Non-Uniform Random Variate Generation (1986), chapter V.4,
+//         doi:10.1007/978-1-4613-8643-8.
+
+#include <limits>
+#include <numbers>
+
+#include "core/spec.hpp"
+#include "math/functions/trigonometry.hpp"
+#include "math/geometry/law_moments.hpp"
+#include "warps/curved/placement.hpp"
+#include "warps/row_mapping.hpp"
+
+namespace stipple::warps::circle {
+namespace {
+
+constexpr Param<Choice> method{
+    .name = "method",
+    .fallback = "angle",
+    .choices = "angle|square-normalize",
+    .help =
+        "angle: one coordinate; square-normalize: the direction of a point of the square, takes "
+        "2 coordinates, BIASED towards the diagonals, kept to show the bias"};
+
+constexpr Param<Numbers> middle{{.name = "center", .fallback = "0,0", .help = "Centre: x,y"}};
+
+const Schema& schema() {
+    static const Schema options(method, radius, middle);
+    return options;
+}
+
+using Pair = std::array<double, 2>;
+
+struct Ring {
+    double radius;
+    Pair center;
+
+    /// The point where centre and radius are 0 and 1.
+    Pair unit(std::span<const double> point) const {
+        return {(point[0] - center[0]) / radius, (point[1] - center[1]) / radius};
+    }
+    Pair place(double x, double y) const {
+        return {center[0] + radius * x, center[1] + radius * y};
+    }
+};
+
+class CircleDomain final : public Domain {
+  public:
+    CircleDomain(const Ring& ring, std::string spec)
+        : ring_(ring),
+          spec_(std::move(spec)),
+          slack_(8 * std::numeric_limits<double>::epsilon() *
+                 (1 + std::max(std::abs(ring.center[0]), std::abs(ring.center[1])) / ring.radius)) {
+    }
+
+    std::string spec() const override { return spec_; }
+    std::size_t dimension() const override { return 2; }
+    std::size_t cube_dimension() const override { return 1; }
+    double measure() const override { return 2 * std::numbers::pi * ring_.radius; }
+
+    /// Up to 8 epsilon (R + largest |c|) away from the circle: the rounding of a point that was
+    /// made.
+    bool contains(std::span<const double> point) const override {
+        const auto [x, y] = ring_.unit(point);
+        return std::abs(std::sqrt(x * x + y * y) - 1) <= slack_;
+    }
+    Box bounding_box() const override {
+        const auto [x, y] = ring_.center;
+        return {{x - ring_.radius, y - ring_.radius}, {x + ring_.radius, y + ring_.radius}};
+    }
+    void to_cube(std::span<const double> point, std::span<double> cube) const override {
+        const auto [x, y] = ring_.unit(point);
+        cube[0] = turns_of(x, y);
+    }
+    std::optional<Moments> moments() const override {
+        const PlanePlace at{{ring_.center[0], ring_.center[1]}, ring_.radius};
+        return placed_moments({.xx = 0.5, .yy = 0.5}, at);
+    }
+    std::vector<std::string> cube_axes() const override { return {"angle in turns"}; }
+
+  private:
+    Ring ring_;
+    std::string spec_;
+    double slack_;
+};
+
+struct ByAngle {
+    Ring ring;
+
+    Pair forward(const std::array<double, 1>& xi) const {
+        const auto [c, s] = cos_sin_turns(xi[0]);
+        return ring.place(c, s);
+    }
+    std::array<double, 1> inverse(std::span<const double> point) const {
+        const auto [x, y] = ring.unit(point);
+        return {turns_of(x, y)};
+    }
+};
+
+struct BySquare {
+    static constexpr const char* no_way_back =
+        "method square-normalize takes 2 coordinates to 1; it has no inverse";
+
+    Ring ring;
+
+    static Pair scaled(const Pair& xi) { return {2 * xi[0] - 1, 2 * xi[1] - 1}; }
+    Pair forward(const Pair& xi) const {
+        const auto [x, y] = scaled(xi);
+        const double size = std::sqrt(x * x + y * y);
+        const double scale = 1 / (size > 0 ? size : 1);
+        return ring.place(x * scale, y * scale);
+    }
+    bool keeps(const Pair& xi) const {
+        const auto [x, y] = scaled(xi);
+        return x != 0 || y != 0;
+    }
+    double density(std::span<const double> point) const {
+        const auto [x, y] = ring.unit(point);
+        return 0.125 / (std::max(x * x, y * y) * ring.radius);
+    }
+};
+
+std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
+                              const RunContext& /*run*/) {
+    const double r = options[radius];
+    const auto at = options[middle];
+    if (at.size() != 2)
+        fail(ErrorKind::usage, "--center: 2 numbers are needed, x,y; {} given", at.size());
+    for (const double x : at) refuse_far(x, r);
+    const Ring ring{r, {at[0] + 0.0, at[1] + 0.0}};  // -0 would show in points
+    const auto circle = std::make_shared<CircleDomain>(
+        ring, domain_spec("circle", options, schema(), {radius.name, middle.name}));
+    if (options[method] == "angle") return row_mapping(circle, ByAngle{ring});
+    return row_mapping(circle, BySquare{ring});
+}
+
+}  // namespace
+
+Warp unit() {
+    return {.name = "circle",
+            .summary = "Circle, directions in the plane (square-normalize is biased, to show it)",
+            .source = "Devroye 1986, doi:10.1007/978-1-4613-8643-8, chapter V.4",
+            .strata = "xi1 turns from the x axis towards the y axis, as it is",
+            .traits = {.invertible = true, .drops = true, .biased = true},
+            .options = schema(),
+            .make = make};
+}
+
+}  // namespace stipple::warps::circle

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+//
+// Unit square onto the directions within an angle alpha of an axis n, uniform in solid angle:
+//
+//     1 - cos theta = 2 sin^2(alpha / 2) xi0,  longitude 2 pi xi1,  solid angle 4 pi sin^2(alpha/2)
+//
+// and back. 1 - cos is never taken as a difference, so that cones may be as thin as one likes.
+//
+// Shape   2 unit coordinates; 3 coordinates, of unit length. alpha = 90 is a hemisphere, 180 the
+//         sphere.
+// Units   degrees for alpha.
+// Strata  xi0 falls from the axis, where it is 0, to the rim; xi1 turns from x towards y when the
+//         axis is z; both as they are, not as 1 - xi. Strata become rectangles of heights and
+//         longitudes.
+// Cost    O(1) a point; on one core about 6 ns forward, 35 ns back.
+// Promise density 1 / (solid angle). Directions lie in the cone up to the rounding stated at
+//         contains(). Forward and back again is the same direction within 1e-14; about z also x and
+//         y within 1e-14 of themselves, and the same xi within 1e-14, save that all xi1 meet in
+//         the axis, which goes back to xi1 = 0. The same bits on every machine.
+// Source  L. Devroye, Non-Uniform Random Variate Generation (1986), chapter V.4,
+//         doi:10.1007/978-1-4613-8643-8 (Archimedes' theorem).
+
+#include <limits>
+#include <numbers>
+
+#include "math/geometry/law_moments.hpp"
+#include "math/geometry/polar_direction.hpp"
+#include "math/geometry/zone_integral.hpp"
+#include "warps/curved/placement.hpp"
+#include "warps/row_mapping.hpp"
+
+namespace stipple::warps::cone {
+namespace {
+
+constexpr Param<double> half_angle{.name = "half-angle",
+                                   .fallback = 30,
+                                   .low = 1e-150,
+                                   .high = 180,
+                                   .unit = "degrees",
+                                   .help = "Angle between the axis and the rim"};
+
+const Schema& schema() {
+    static const Schema options(half_angle, axis);
+    return options;
+}
+
+/// A part of the sphere about a pole; drop and rise are 1 - cos and 1 + cos of the angle to its
+/// rim.
+struct Cap {
+    Frame frame;
+    CosSin rim;   ///< of the angle from the axis to the rim
+    CosSin half;  ///< of half of it
+
+    double drop() const { return rim.cos > 0.5 ? 2 * half.sin * half.sin : 1 - rim.cos; }
+    double rise() const { return rim.cos < -0.5 ? 2 * half.cos * half.cos : 1 + rim.cos; }
+
+    /// The share of the solid angle within, and the longitude.
+    std::array<double, 2> shares(std::span<const double> point) const {
+        const Vector3 v = frame.in(vector_of(point));
+        const double least = least_drop(v);
+        const double share = v[2] >= 0 ? least / drop() : 1 - (least - rise()) / drop();
+        return {share, turns_of(v[0], v[1])};
+    }
+};
+
+class ConeDomain final : public Domain, public Rimmed {
+  public:
+    ConeDomain(const Cap& cap, std::string spec)
+        : cap_(cap),
+          spec_(std::move(spec)),
+          rim_slack_(slack * (cap.frame.z[2] == 1 ? std::min(2 * cap.half.sin, 1.0) : 1)) {}
+
+    std::string spec() const override { return spec_; }
+    std::size_t dimension() const override { return 3; }
+    std::size_t cube_dimension() const override { return 2; }
+    double measure() const override { return 2 * std::numbers::pi * cap_.drop(); }
+
+    /// Up to 8 epsilon beyond the rim, and as much longer or shorter than 1: the rounding of a
+    /// direction that was made. Thin cones about z: 8 epsilon of the rim's distance from the axis.
+    bool contains(std::span<const double> point) const override {
+        const auto [x, y, z] = cap_.frame.in(vector_of(point));
+        const double rr = x * x + y * y;
+        if (!(std::abs(std::sqrt(rr + z * z) - 1) <= slack)) return false;
+        // Distances on the sphere from the pole that is nearer to the rim.
+        if (cap_.half.sin <= cap_.half.cos)
+            return std::sqrt(rr + (z - 1) * (z - 1)) <= 2 * cap_.half.sin + rim_slack_;
+        return std::sqrt(rr + (z + 1) * (z + 1)) >= 2 * cap_.half.cos - slack;
+    }
+
+    /// Between the highest and the lowest point of the cap along every axis.
+    Box bounding_box() const override {
+        const auto [cos_rim, sin_rim] = cap_.rim;
+        Box box;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double z = cap_.frame.z[k];
+            const double across = std::sqrt(std::max(0.0, 1 - z * z));
+            box.low.push_back(-z >= cos_rim ? -1 : z * cos_rim - across * sin_rim);
+            box.high.push_back(z >= cos_rim ? 1 : z * cos_rim + across * sin_rim);
+        }
+        return box;
+    }
+    void to_cube(std::span<const double> point, std::span<double> cube) const override {
+        const auto [within, longitude] = cap_.shares(point);
+        cube[0] = std::clamp(within, 0.0, 1.0);
+        cube[1] = longitude;
+    }
+    Rims rims() const override { return {.circles = {{cap_.frame.z, cap_.rim.cos}}}; }
+    std::optional<Moments> moments() const override {
+        // By the drop v = 1 - z, which is uniform up to that of the rim: thin cones keep digits.
+        const double v = cap_.drop();
+        const AxialMoments round{.along = {1 - 0.5 * v, v * v / 12, 0},
+                                 .across = v * (0.5 - v / 6),
+                                 .across_along = v * v * (v / 24 - 1 / 12.0)};
+        return axial_moments(round, cap_.frame);
+    }
+    std::vector<std::string> cube_axes() const override {
+        return {"share of the solid angle (1 - cos theta) / (1 - cos alpha)", "longitude in turns"};
+    }
+
+  private:
+    static constexpr double slack = 8 * std::numeric_limits<double>::epsilon();
+
+    Cap cap_;
+    std::string spec_;
+    double rim_slack_;
+};
+
+struct ByHeight {
+    Cap cap;
+
+    Vector3 forward(const std::array<double, 2>& xi) const {
+        const double drop = cap.drop() * xi[0];
+        const double rise = cap.rise() + cap.drop() * (1 - xi[0]);
+        return cap.frame.out(at_pole(drop, rise, xi[1]));
+    }
+    std::array<double, 2> inverse(std::span<const double> point) const { return cap.shares(point); }
+};
+
+std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
+                              const RunContext& /*run*/) {
+    const double degrees = options[half_angle];
+    const Frame frame = frame_of(options);
+    const bool along = std::ranges::count_if(frame.z, [](double x) { return x != 0; }) == 1;
+    // Directions about a slanted axis are rounded by some 1e-14 degrees, along all coordinates.
+    if (!along && degrees < 1e-10)
+        fail(ErrorKind::usage,
+             "--half-angle: {} is below 1e-10, the least about an axis that is no coordinate axis",
+             degrees);
+    const Cap cap{frame, cos_sin_turns(degrees / 360), cos_sin_turns(degrees / 720)};
+    const auto cone = std::make_shared<ConeDomain>(
+        cap, domain_spec("cone", options, schema(), {half_angle.name, axis.name}));
+    return row_mapping(cone, ByHeight{cap});
+}
+
+}  // namespace
+
+Warp unit() {
+    return {.name = "cone",
+            .summary = "Directions within an angle of an axis, uniform in solid angle",
+            .source = "Devroye 1986, doi:10.1007/978-1-4613-8643-8, chapter V.4",
+            .strata =
+                "xi1 falls from the axis to the rim, as the share of the solid angle; xi2 is "
+                "the longitude; both as they are",
+            .traits = {},
+            .options = schema(),
+            .aliases = {"spherical-cap"},
+            .make = make};
+}
+
+}  // namespace stipple::warps::cone

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+//
+// Unit square onto the lateral surface of a cylinder of radius R and height H about a centre c,
+// uniform by area:
+//
+//     point = c + R cos(2 pi xi1) x + R sin(2 pi xi1) y + H (xi0 - 1/2) z
+//
+// in a frame about its axis z; with --caps onto its whole surface. Each cap has the share
+// s = R / (2 (R + H)) of the area: for xi0 < s the point is on the lower one, R sqrt(xi0 / s) from
+// the axis, for xi0 > 1 - s on the upper one, R sqrt((1 - xi0) / s) from it; in between on the
+// side, at the height H ((xi0 - s) / (1 - 2 s) - 1/2).
+//
+// Shape   2 unit coordinates, 3 coordinates.
+// Strata  xi0 rises from the lower end, with --caps from the centre of the lower cap to that of the
+//         upper one; xi1 turns from x towards y when the axis is z; both as they are. Strata become
+//         rectangles, on the caps pieces of rings.
+// Cost    O(1) a point; on one core about 6 ns forward (7 with caps), 35 to 50 ns back.
+// Promise density 1 / (2 pi R H), with --caps 1 / (2 pi R (R + H)). Points lie on the surface up to
+//         the rounding stated at contains(). Forward and back again is the same point within 1e-14
+//         of |c| + R + H. The same bits on every machine.
+// Beware  of points that were not made here, those next to the upper cap's centre go back to an xi0
+//         that is rounded next to 1, and forward again 1e-8 R away.
+// Source  L. Devroye, Non-Uniform Random Variate Generation (1986), chapter V.4,
+//         doi:10.1007/978-1-4613-8643-8 (Archimedes' theorem).
+
+#include <limits>
+#include <numbers>
+
+#include "math/functions/trigonometry.hpp"
+#include "math/geometry/law_moments.hpp"
+#include "warps/curved/placement.hpp"
+#include "warps/row_mapping.hpp"
+
+namespace stipple::warps::cylinder {
+namespace {
+
+constexpr Param<double> height{.name = "height",
+                               .fallback = 1,
+                               .low = 1e-150,
+                               .high = 1e150,
+                               .help = "Height along the axis, above 0"};
+
+constexpr Param<bool> caps{.name = "caps", .help = "The ends, too: the whole surface"};
+
+const Schema& schema() {
+    static const Schema options(radius, height, center, axis, caps);
+    return options;
+}
+
+/// Where a point is around the axis: distance from it, height, angle.
+struct Polar {
+    double distance;
+    double height;
+    double turns;
+};
+
+struct Cylinder {
+    double radius;
+    double height;
+    Vector3 center;
+    Frame frame;
+    bool caps;
+
+    double area() const {
+        return 2 * std::numbers::pi * radius * (caps ? radius + height : height);
+    }
+    double slack() const {
+        return 16 * std::numeric_limits<double>::epsilon() * (radius + height + largest(center));
+    }
+    double cap_share() const { return caps ? 0.5 * (radius / (radius + height)) : 0; }
+    double side_share() const { return caps ? height / (radius + height) : 1; }
+
+    Polar polar(std::span<const double> point) const {
+        const auto [x, y, z] = frame.in(minus(vector_of(point), center));
+        return {std::sqrt(x * x + y * y), z, turns_of(x, y)};
+    }
+    Vector3 place(const Polar& at) const {
+        const auto [c, s] = cos_sin_turns(at.turns);
+        return plus(center, frame.out({at.distance * c, at.distance * s, at.height}));
+    }
+
+    /// The share of the area below a point, and the turn.
+    std::array<double, 2> shares(std::span<const double> point) const {
+        const auto [distance, z, turns] = polar(point);
+        const double share = cap_share();
+        const bool inside = caps && distance < radius - slack();
+        const double ratio = distance / radius;
+        const double side = std::clamp(z / height + 0.5, 0.0, 1.0);
+        if (inside) return {z < 0 ? share * ratio * ratio : 1 - share * ratio * ratio, turns};
+        return {share + side_share() * side, turns};
+    }
+};
+
+class CylinderDomain final : public Domain {
+  public:
+    CylinderDomain(const Cylinder& shape, std::string spec)
+        : shape_(shape), spec_(std::move(spec)) {}
+
+    std::string spec() const override { return spec_; }
+    std::size_t dimension() const override { return 3; }
+    std::size_t cube_dimension() const override { return 2; }
+    double measure() const override { return shape_.area(); }
+
+    /// Up to 16 epsilon (R + H + largest |c|) away from the surface: the rounding of a point that
+    /// was made.
+    bool contains(std::span<const double> point) const override {
+        const auto [distance, z, turns] = shape_.polar(point);
+        const double slack = shape_.slack();
+        const double beyond = std::abs(z) - 0.5 * shape_.height;
+        if (!(beyond <= slack && distance <= shape_.radius + slack)) return false;
+        return distance >= shape_.radius - slack || (shape_.caps && beyond >= -slack);
+    }
+    Box bounding_box() const override {
+        Box box;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double along = shape_.frame.z[k];
+            const double reach = 0.5 * shape_.height * std::abs(along) +
+                                 shape_.radius * std::sqrt(std::max(0.0, 1 - along * along));
+            box.low.push_back(shape_.center[k] - reach);
+            box.high.push_back(shape_.center[k] + reach);
+        }
+        return box;
+    }
+    void to_cube(std::span<const double> point, std::span<double> cube) const override {
+        const auto [below, turns] = shape_.shares(point);
+        cube[0] = std::clamp(below, 0.0, 1.0);
+        cube[1] = turns;
+    }
+    std::optional<Moments> moments() const override {
+        const double rr = shape_.radius * shape_.radius;
+        const double hh = shape_.height * shape_.height;
+        const double side = shape_.side_share();
+        const AxialMoments round{.along = {0, hh * (side / 12 + (1 - side) / 4), 0},
+                                 .across = rr * (side / 2 + (1 - side) / 4)};
+        return axial_moments(round, shape_.frame, shape_.center);
+    }
+    std::vector<std::string> cube_axes() const override {
+        return {"share of the area below", "angle in turns"};
+    }
+
+  private:
+    Cylinder shape_;
+    std::string spec_;
+};
+
+struct Side {
+    Cylinder shape;
+
+    Vector3 forward(const std::array<double, 2>& xi) const {
+        return shape.place({shape.radius, shape.height * (xi[0] - 0.5), xi[1]});
+    }
+    std::array<double, 2> inverse(std::span<const double> point) const {
+        return shape.shares(point);
+    }
+};
+
+struct Whole {
+    Cylinder shape;
+    double cap = shape.cap_share();
+    double side = shape.side_share();
+
+    Vector3 forward(const std::array<double, 2>& xi) const {
+        const double below = xi[0];
+        const double above = 1 - below;
+        const double end = std::min(below, above);  // area left to the nearer centre of a cap
+        const double ratio = std::sqrt(std::min(end / cap, 1.0));
+        const double z = std::max(0.0, std::min((below - cap) / side, 1.0)) - 0.5;
+        return shape.place({shape.radius * ratio, shape.height * z, xi[1]});
+    }
+    std::array<double, 2> inverse(std::span<const double> point) const {
+        return shape.shares(point);
+    }
+};
+
+std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
+                              const RunContext& /*run*/) {
+    const double r = options[radius];
+    const double h = options[height];
+    const Cylinder shape{r, h, center_of(options, std::min(r, h)), frame_of(options),
+                         options[caps]};
+    const auto surface = std::make_shared<CylinderDomain>(
+        shape, domain_spec("cylinder", options, schema(),
+                           {radius.name, height.name, center.name, axis.name, caps.name}));
+    if (shape.caps) return row_mapping(surface, Whole{shape});
+    return row_mapping(surface, Side{shape});
+}
+
+}  // namespace
+
+Warp unit() {
+    return {.name = "cylinder",
+            .summary = "Lateral or whole surface of a cylinder, uniform by area",
+            .source = "Devroye 1986, doi:10.1007/978-1-4613-8643-8, chapter V.4",
+            .strata =
+                "xi1 rises from the lower to the upper end (with --caps from centre to centre "
+                "of the caps), as the share of the area; xi2 is the angle; both as they are",
+            .traits = {},
+            .options = schema(),
+            .make = make};
+}
+
+}  // namespace stipple::warps::cylinder

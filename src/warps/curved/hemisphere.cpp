@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+//
+// Unit square onto the directions w within a right angle of an axis n, by one of three densities in
+// solid angle, with cos theta = w . n:
+//
+//     uniform       1 / (2 pi)                            cos theta = 1 - xi0
+//     cosine        cos theta / pi                        sin^2 theta = xi0
+//     cosine-power  (k + 1) cos^k theta / (2 pi)          cos theta = (1 - xi0)^(1 / (k + 1))
+//
+// with longitude 2 pi xi1. Cosine can also come from the disk of Shirley and Chiu's concentric map
+// (--disk concentric), its points lifted onto the sphere (Malley): any uniform disk gives it.
+//
+// Shape   2 unit coordinates; 3 coordinates, of unit length.
+// Strata  xi0 falls from the axis, where it is 0, to the horizon; xi1 turns from x towards y when
+//         the axis is z; both as they are, not as 1 - xi. Strata become rectangles of heights and
+//         longitudes; with --disk concentric neighbours stay neighbours.
+// Cost    O(1) a point; on one core about 6 ns forward, 35 ns back; cosine-power 11 and 70.
+// Promise forward and back again is the same direction within 1e-14; about z also the same xi
+//         within 1e-14, save that all xi1 meet in the axis, which goes back to xi1 = 0. The same
+//         bits on every machine.
+// Beware  of directions that were not made here, those next to the horizon go back to an xi0 that
+//         is rounded next to 1, and forward again to a height of the root of that: 1e-8.
+// Source  P. Shirley, K. Chiu, J. Graphics Tools 2(3) (1997) 45-52,
+//         doi:10.1080/10867651.1997.10487479 (concentric); T. Malley, M.Sc. thesis, University of
+//         Utah (1988).
+
+#include <limits>
+#include <numbers>
+
+#include "math/functions/exponential.hpp"
+#include "math/functions/logarithm.hpp"
+#include "math/functions/real_power.hpp"
+#include "math/geometry/disk_maps.hpp"
+#include "math/geometry/law_moments.hpp"
+#include "math/geometry/polar_direction.hpp"
+#include "math/geometry/zone_integral.hpp"
+#include "warps/curved/placement.hpp"
+#include "warps/row_mapping.hpp"
+
+namespace stipple::warps::hemisphere {
+namespace {
+
+constexpr Param<Choice> method{
+    .name = "method",
+    .fallback = "uniform",
+    .choices = "uniform|cosine|cosine-power",
+    .help =
+        "Density in solid angle: uniform; cosine: of the angle from the axis, as diffuse light; "
+        "cosine-power: its power --exponent, as a glossy lobe"};
+
+constexpr Param<double> exponent{.name = "exponent",
+                                 .fallback = 10,
+                                 .low = 0,
+                                 .high = 1e6,
+                                 .help = "Of method cosine-power: 0 is uniform, 1 is cosine"};
+
+constexpr Param<Choice> disk_map{
+    .name = "disk",
+    .fallback = "polar",
+    .choices = "polar|concentric",
+    .help = "Of method cosine: the map from the square to the disk below the hemisphere"};
+
+const Schema& schema() {
+    static const Schema options(method, exponent, axis, disk_map);
+    return options;
+}
+
+/// The law of the angle from the axis: cos^k theta, with the share of the directions that are
+/// nearer to the axis. Directions are in the frame of the axis.
+struct Law {
+    double power;
+
+    double density(const Vector3& v) const {
+        const double z = std::clamp(v[2], 0.0, 1.0);
+        return (power + 1) * 0.5 * std::numbers::inv_pi * real_power(z, power);
+    }
+
+    double share(const Vector3& v) const {
+        const double rr = v[0] * v[0] + v[1] * v[1];
+        const double zz = v[2] * v[2];
+        if (power == 0) return drop_of(v);
+        if (power == 1) return rr < zz ? rr / (rr + zz) : 1 - zz / (rr + zz);
+        if (!(v[2] > 0)) return 1;
+        const double log = rr < zz ? 0.5 * log_1p(0 - rr / (rr + zz)) : logarithm(v[2]);
+        return 0 - exp_minus_1((power + 1) * log);
+    }
+};
+
+class HemisphereDomain final : public Domain, public Rimmed {
+  public:
+    HemisphereDomain(const Frame& frame, const Law& law, std::string spec)
+        : frame_(frame), law_(law), spec_(std::move(spec)) {}
+
+    std::string spec() const override { return spec_; }
+    std::size_t dimension() const override { return 3; }
+    std::size_t cube_dimension() const override { return 2; }
+    double measure() const override { return 2 * std::numbers::pi; }
+
+    /// Up to 8 epsilon below the horizon, and as much longer or shorter than 1: the rounding of a
+    /// direction that was made.
+    bool contains(std::span<const double> point) const override {
+        const Vector3 v = vector_of(point);
+        return std::abs(length(v) - 1) <= slack && dot(v, frame_.z) >= -slack;
+    }
+    Box bounding_box() const override {
+        Box box;
+        for (const double z : frame_.z) {
+            const double across = std::sqrt(std::max(0.0, 1 - z * z));  // on the horizon
+            box.low.push_back(z <= 0 ? -1 : -across);
+            box.high.push_back(z >= 0 ? 1 : across);
+        }
+        return box;
+    }
+    double density(std::span<const double> point) const override {
+        return contains(point) ? law_.density(frame_.in(vector_of(point))) : 0;
+    }
+    void to_cube(std::span<const double> point, std::span<double> cube) const override {
+        const Vector3 v = frame_.in(vector_of(point));
+        cube[0] = std::clamp(law_.share(v), 0.0, 1.0);
+        cube[1] = turns_of(v[0], v[1]);
+    }
+    Rims rims() const override { return {.circles = {{frame_.z, 0}}, .level = law_.power == 0}; }
+    std::optional<Moments> moments() const override {
+        // The height is z = u^(1/p) with p = k + 1: Beta(p, 1).
+        const double p = law_.power + 1;
+        const double all = (p + 1) * (p + 2) * (p + 3);
+        const AxialMoments round{.along = {p / (p + 1), p / ((p + 1) * (p + 1) * (p + 2)),
+                                           2 * p * (1 - p) / ((p + 1) * (p + 1) * all)},
+                                 .across = 1 / (p + 2),
+                                 .across_along = -p / all};
+        return axial_moments(round, frame_);
+    }
+    std::vector<std::string> cube_axes() const override {
+        return {"share of the directions nearer to the axis", "longitude in turns"};
+    }
+
+  private:
+    static constexpr double slack = 8 * std::numeric_limits<double>::epsilon();
+
+    Frame frame_;
+    Law law_;
+    std::string spec_;
+};
+
+/// What all methods but concentric share: the way back.
+struct Polar {
+    Frame frame;
+    Law law;
+
+    std::array<double, 2> inverse(std::span<const double> point) const {
+        const Vector3 v = frame.in(vector_of(point));
+        return {law.share(v), turns_of(v[0], v[1])};
+    }
+};
+
+struct Uniform : Polar {
+    Vector3 forward(const std::array<double, 2>& xi) const {
+        return frame.out(at_pole(xi[0], 1 + (1 - xi[0]), xi[1]));
+    }
+};
+
+struct Cosine : Polar {
+    Vector3 forward(const std::array<double, 2>& xi) const {
+        const auto [x, y] = PolarDisk::forward(xi[0], xi[1]);
+        return frame.out({x, y, std::sqrt(1 - xi[0])});
+    }
+};
+
+struct CosinePower : Polar {
+    Vector3 forward(const std::array<double, 2>& xi) const {
+        const double u = std::min(xi[0], one_minus_ulp);
+        const double log = log_1p(0 - u) / (law.power + 1);  // of cos theta
+        const double less = xi[0] < 1 ? exp_minus_1(log) : -1;
+        const double z = 1 + less;
+        const double r = std::sqrt(0 - less * (1 + z));
+        const auto [c, s] = cos_sin_turns(xi[1]);
+        return frame.out({r * c, r * s, z});
+    }
+};
+
+struct CosineConcentric {
+    Frame frame;
+
+    Vector3 forward(const std::array<double, 2>& xi) const {
+        const auto [x, y] = ConcentricDisk::forward(xi[0], xi[1]);
+        const double r = std::max(std::abs(2 * xi[0] - 1), std::abs(2 * xi[1] - 1));
+        return frame.out({x, y, std::sqrt((1 - r) * (1 + r))});
+    }
+
+    /// The disk's way back, but with the radius from the height, which has its digits near the
+    /// horizon.
+    std::array<double, 2> inverse(std::span<const double> point) const {
+        const auto [x, y, z] = frame.in(vector_of(point));
+        const bool wide = std::abs(x) > std::abs(y);
+        const double along = wide ? x : y;
+        const double across = wide ? y : x;
+        const double rr = x * x + y * y;
+        const double zz = z * z / (rr + z * z);
+        const double size = rr < z * z ? std::sqrt(rr) : 1 - zz / (1 + std::sqrt(1 - zz));
+        const double eighths = 8 * turns_of(std::abs(along), std::abs(across));
+        // 1 itself would be on the horizon; next to it, in the corners, rounding may make it.
+        const double last = size < 1 ? one_minus_ulp : 1;
+        const double first = std::min(0.5 + 0.5 * std::copysign(size, along), last);
+        const double second = std::min(0.5 + 0.5 * std::copysign(size * eighths, across), last);
+        return {wide ? first : second, wide ? second : first};
+    }
+};
+
+std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
+                              const RunContext& /*run*/) {
+    const Frame frame = frame_of(options);
+    const std::string how = options[method];
+    const bool powered = how == "cosine-power";
+    const Law law{powered ? options[exponent] : (how == "cosine" ? 1.0 : 0.0)};
+    std::string spec =
+        powered
+            ? domain_spec("hemisphere", options, schema(), {method.name, exponent.name, axis.name})
+            : domain_spec("hemisphere", options, schema(), {method.name, axis.name});
+    const auto domain = std::make_shared<HemisphereDomain>(frame, law, std::move(spec));
+    if (powered) return row_mapping(domain, CosinePower{{frame, law}});
+    if (how == "uniform") return row_mapping(domain, Uniform{{frame, law}});
+    if (options[disk_map] == "polar") return row_mapping(domain, Cosine{{frame, law}});
+    return row_mapping(domain, CosineConcentric{frame});
+}
+
+}  // namespace
+
+Warp unit() {
+    return {.name = "hemisphere",
+            .summary = "Directions of a hemisphere, uniform or by a power of the cosine",
+            .source =
+                "Shirley, Chiu 1997, doi:10.1080/10867651.1997.10487479 (concentric); Malley "
+                "1988 (cosine from a disk)",
+            .strata =
+                "xi1 falls from the axis to the horizon, as the share of the density; xi2 is "
+                "the longitude; with --disk concentric squares about the centre become rings; "
+                "all as they are",
+            .traits = {},
+            .options = schema(),
+            .make = make};
+}
+
+}  // namespace stipple::warps::hemisphere

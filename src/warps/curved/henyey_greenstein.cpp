@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+//
+// Unit square onto directions scattered about an axis by the phase function of Henyey and
+// Greenstein, whose mean cosine is g:
+//
+//     density (1 - g^2) / (4 pi (1 + g^2 - 2 g cos theta)^(3/2))
+//
+// With u = xi0 the probability of the cone about the axis, w = 1 - u, D = (1 + g) w + (1 - g) u:
+//
+//     1 - cos theta = 2 (1 - g)^2 u ((1 + g) w + u) / D^2
+//     1 + cos theta = 2 (1 + g)^2 w ((1 - g) u + w) / D^2,      longitude 2 pi xi1,
+//
+// which is the usual inverse in factors that are sums of positive numbers: g = 0 is no special
+// case, and both poles keep their digits.
+//
+// Shape   2 unit coordinates; 3 coordinates, a unit vector. g > 0 goes forward, along the axis.
+// Strata  xi0 is taken as it is, not as 1 - xi (textbooks do both): 0 is the axis, and small xi0 is
+//         near it. xi1 turns about the axis; for +z from x towards y. Strata become rings of
+//         sectors.
+// Cost    O(1) a point; on one core about 7 ns forward, 25 ns back.
+// Promise unit vectors up to 8 epsilon. Forward and back again is the same vector within 1e-14 and,
+//         off the poles, the same xi within 1e-13, about other axes 1e-12; all xi1 meet in the
+//         poles. The same bits on every machine.
+// Source  L. G. Henyey, J. L. Greenstein, "Diffuse radiation in the Galaxy", Astrophysical J. 93
+//         (1941) 70-83, doi:10.1086/144246.
+
+#include "warps/curved/lobe.hpp"
+#include "warps/curved/placement.hpp"
+
+namespace stipple::warps::henyey_greenstein {
+namespace {
+
+constexpr Param<double> asymmetry{
+    .name = "g",
+    .fallback = 0.5,
+    .low = -0.999999,
+    .high = 0.999999,
+    .help = "Mean cosine of the angle from the axis: above 0 forward, below 0 backward"};
+
+const Schema& schema() {
+    static const Schema options(asymmetry, axis);
+    return options;
+}
+
+struct Phase {
+    double g;
+
+    Tilt forward(double u) const {
+        const double rest = 1 - u;
+        const double below = (1 + g) * rest + (1 - g) * u;
+        const double near = (1 - g) / below;
+        const double far = (1 + g) / below;
+        const double v = 2 * near * near * (u * ((1 + g) * rest + u));
+        const double c = 2 * far * far * (rest * ((1 - g) * u + rest));
+        const double small = std::min(v, c);
+        return {v < c ? 1 - small : small - 1, std::sqrt(small * (2 - small))};
+    }
+
+    /// sqrt(1 + g^2 - 2 g cos theta), the distance between g times the axis and the direction.
+    double distance(double v, double c) const {
+        const double square = g > 0 ? (1 - g) * (1 - g) + 2 * g * v : (1 + g) * (1 + g) - 2 * g * c;
+        return std::sqrt(square);
+    }
+    double share(double v, double c) const {
+        const double t = distance(v, c);
+        const double near = (1 + g) * v / (t * (t + (1 - g)));
+        const double far = (1 - g) * c / (t * (t + (1 + g)));
+        return near < 0.5 ? near : 1 - far;
+    }
+    /// Legendre's polynomials of the cosine have the means g^l.
+    AxialMoments moments() const {
+        const double rest = (1 - g) * (1 + g);
+        return {.along = {g, rest / 3, -0.4 * g * rest},
+                .across = rest / 3,
+                .across_along = -2 / 15.0 * g * rest};
+    }
+    double density(double v, double c) const {
+        const double t = distance(v, c);
+        return (1 - g) * (1 + g) / (4 * std::numbers::pi * t * t * t);
+    }
+};
+
+std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
+                              const RunContext& /*run*/) {
+    return lobe_mapping(
+        Phase{options[asymmetry]}, frame_of(options),
+        domain_spec("henyey-greenstein", options, schema(), {asymmetry.name, axis.name}));
+}
+
+}  // namespace
+
+Warp unit() {
+    return {.name = "henyey-greenstein",
+            .summary = "Directions by the phase function of Henyey and Greenstein, about an axis",
+            .source = "Henyey, Greenstein 1941, doi:10.1086/144246",
+            .strata =
+                "xi1 is the probability of the cone about the axis, 0 on it; xi2 turns about it; "
+                "both as they are",
+            .traits = {},
+            .options = schema(),
+            .make = make};
+}
+
+}  // namespace stipple::warps::henyey_greenstein

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+//
+// Directions about an axis whose density depends on the angle from it alone: a lobe. With u the
+// probability of the cone about the axis that the direction is on the rim of, and theta its angle,
+//
+//     struct Lobe {
+//         Tilt forward(double u) const;           // cosine and sine of theta
+//         double share(double v, double c) const; // u, from v = 1 - cos theta and c = 1 + cos
+//         theta double density(double v, double c) const;   // by solid angle
+//         AxialMoments moments() const;
+//     };
+//
+// v and c are both given since each loses digits where the other is small.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "math/functions/trigonometry.hpp"
+#include "math/geometry/law_moments.hpp"
+#include "math/geometry/vector3.hpp"
+#include "math/geometry/zone_integral.hpp"
+#include "warps/row_mapping.hpp"
+
+namespace stipple::warps {
+
+/// Cosine and sine of an angle from an axis.
+struct Tilt {
+    double cos;
+    double sin;
+};
+
+/// 1 - cos and 1 + cos of the angle between the z axis and a vector that is not null.
+struct Versines {
+    double v;
+    double c;
+};
+
+inline Versines versines_of(const Vector3& local) {
+    const double rr = local[0] * local[0] + local[1] * local[1];
+    const double size = std::sqrt(rr + local[2] * local[2]);
+    const double large = 1 + std::abs(local[2]) / size;
+    const double small = rr / (size * size) / large;
+    return local[2] >= 0 ? Versines{small, large} : Versines{large, small};
+}
+
+template <class Lobe>
+class LobeDomain final : public Domain, public Rimmed {
+  public:
+    LobeDomain(const Lobe& lobe, const Frame& frame, std::string spec)
+        : lobe_(lobe), frame_(frame), spec_(std::move(spec)) {}
+
+    std::string spec() const override { return spec_; }
+    std::size_t dimension() const override { return 3; }
+    std::size_t cube_dimension() const override { return 2; }
+    double measure() const override { return 4 * std::numbers::pi; }
+
+    /// Unit vectors, up to 8 epsilon: the rounding of one that was made.
+    bool contains(std::span<const double> point) const override {
+        constexpr double slack = 8 * std::numeric_limits<double>::epsilon();
+        return std::abs(length({point[0], point[1], point[2]}) - 1) <= slack;
+    }
+    Box bounding_box() const override { return {{-1, -1, -1}, {1, 1, 1}}; }
+    double density(std::span<const double> point) const override {
+        if (!contains(point)) return 0;
+        const auto [v, c] = versines_of(frame_.in({point[0], point[1], point[2]}));
+        return lobe_.density(v, c);
+    }
+    void to_cube(std::span<const double> point, std::span<double> cube) const override {
+        const Vector3 local = frame_.in({point[0], point[1], point[2]});
+        const auto [v, c] = versines_of(local);
+        cube[0] = std::clamp(lobe_.share(v, c), 0.0, 1.0);
+        cube[1] = turns_of(local[0], local[1]);
+    }
+    /// No edges, but where nearly all or nearly nothing is nearer to the axis: peaks are not
+    /// missed.
+    Rims rims() const override {
+        Rims found{.circles = {}, .level = false};
+        for (const double u : {0.01, 0.5, 0.99, 1 - 1e-6, 1 - 1e-12})
+            found.circles.push_back({frame_.z, lobe_.forward(u).cos});
+        return found;
+    }
+    std::optional<Moments> moments() const override {
+        return axial_moments(lobe_.moments(), frame_);
+    }
+    std::vector<std::string> cube_axes() const override {
+        return {"probability of the cone about the axis", "longitude in turns"};
+    }
+
+  private:
+    Lobe lobe_;
+    Frame frame_;
+    std::string spec_;
+};
+
+/// Directions by a lobe about the z axis of a frame.
+template <class Lobe>
+struct ByLobe {
+    Lobe lobe;
+    Frame frame;
+
+    Vector3 forward(const std::array<double, 2>& xi) const {
+        const auto [cosine, sine] = lobe.forward(xi[0]);
+        const auto [x, y] = cos_sin_turns(xi[1]);
+        return frame.out({sine * x, sine * y, cosine});
+    }
+    std::array<double, 2> inverse(std::span<const double> point) const {
+        const Vector3 local = frame.in({point[0], point[1], point[2]});
+        const auto [v, c] = versines_of(local);
+        return {lobe.share(v, c), turns_of(local[0], local[1])};
+    }
+};
+
+template <class Lobe>
+std::unique_ptr<Mapping> lobe_mapping(const Lobe& lobe, const Frame& frame, std::string spec) {
+    return row_mapping(std::make_shared<LobeDomain<Lobe>>(lobe, frame, std::move(spec)),
+                       ByLobe<Lobe>{lobe, frame});
+}
+
+}  // namespace stipple::warps

@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: MIT
+//
+// Unit square onto the surface of a triangle mesh, uniform by area. With the areas A_i of the
+// triangles in the order of the file and their sums S_i = (A_0 + ... + A_{i-1}) / A, xi0 picks the
+// triangle i with S_i <= xi0 < S_{i+1} and is stretched to be used again:
+//
+//     t = (xi0 - S_i) / (S_{i+1} - S_i)
+//     lambda0 = 1 - sqrt(t),  lambda1 = xi1 sqrt(t),  lambda2 = (1 - xi1) sqrt(t)
+//
+// with which the corners are weighted, as `triangle` does. The sums are kept to twice the working
+// precision and then rounded once.
+//
+// Shape   2 unit coordinates; 3 coordinates, with the normal 6, with the barycentrics 7: position,
+//         number of the triangle from 0, lambda0, lambda1, lambda2.
+// Strata  xi0 goes through the triangles in the order of the file, in each from its first corner to
+//         the opposite edge, xi1 along that edge from corner 2 to 1; both as they are. Strata keep
+//         together as far as the order of the file does.
+// Cost    set-up O(n log n) for n triangles; O(1) a point forward, O(log n) back; on one core about
+//         22 ns forward, 740 ns back for 3600 triangles.
+// Promise density 1 / area; a triangle's share of the points is exact to 2^-53. Points lie on the
+//         mesh up to the rounding stated at contains(). Forward and back again is the same point
+//         within 1e-15 n of the mesh's size, for n triangles. The same bits on every machine.
+// Source  G. Turk, "Generating random points in triangles", in: A. S. Glassner (ed.), Graphics Gems
+//         (1990) 24-28.
+
+#include <limits>
+#include <optional>
+
+#include "core/error.hpp"
+#include "math/geometry/law_moments.hpp"
+#include "media/triangle_mesh.hpp"
+#include "warps/curved/placement.hpp"
+#include "warps/curved/triangle_tree.hpp"
+#include "warps/row_mapping.hpp"
+
+namespace stipple::warps::mesh {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+constexpr Param<Path> mesh_file{
+    {.name = "file", .help = "PLY (ascii or binary little endian) or OBJ mesh"}};
+
+constexpr Param<Choice> attributes{
+    .name = "attributes",
+    .fallback = "position",
+    .choices = "position|normal|barycentric",
+    .help =
+        "position: x, y, z; normal: and the unit normal of the triangle, corners "
+        "counter-clockwise; barycentric: and the number of the triangle from 0 and its three "
+        "barycentrics"};
+
+const Schema& schema() {
+    static const Schema options(mesh_file, attributes);
+    return options;
+}
+
+using Pair = std::array<double, 2>;
+
+enum class Gives { position, normal, barycentric };
+
+std::size_t size_of(Gives gives) {
+    return gives == Gives::position ? 3 : (gives == Gives::normal ? 6 : 7);
+}
+
+/// A sum to twice the working precision.
+struct LongSum {
+    double high = 0;
+    double low = 0;
+
+    void add(double x) {
+        const double sum = high + x;
+        const double part = sum - high;
+        low += (high - (sum - part)) + (x - part);
+        high = sum;
+    }
+};
+
+/// The triangles' shares of the area, end to end.
+class Shares {
+  public:
+    Shares(const TriangleMesh& mesh, const std::string& name, const RunContext& run) {
+        std::vector<LongSum> sums(1);
+        for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+            if (i % 65536 == 0) run.check_stop();
+            const auto [a, b, c] = mesh.corners(i);
+            LongSum sum = sums.back();
+            sum.add(0.5 * length(cross(minus(b, a), minus(c, a))));
+            sums.push_back(sum);
+        }
+        area_ = sums.back().high + sums.back().low;
+        if (!(area_ > 0)) fail(ErrorKind::input, "{}: the mesh has no area", name);
+        for (const LongSum& sum : sums) ends_.push_back((sum.high + sum.low) / area_);
+        lay_guide();
+    }
+
+    double area() const { return area_; }
+
+    /// The share up to the part t of a triangle, never that of the next one.
+    double up_to(std::size_t i, double t) const {
+        const double share = ends_[i] + t * width(i);
+        return i == last_ ? std::min(share, 1.0) : std::min(share, std::nextafter(ends_[i + 1], 0));
+    }
+
+    /// The part of a triangle before a share that it holds.
+    double part(std::size_t i, double share) const {
+        return std::min((share - ends_[i]) / width(i), 1.0);
+    }
+
+    /// The triangle that holds this share; the last with an area for 1.
+    std::size_t at(double share) const {
+        auto slot = static_cast<std::size_t>(share * static_cast<double>(guide_.size() - 2));
+        while (ends_[guide_[slot]] > share) --slot;  // rounded up
+        const auto first = ends_.begin() + static_cast<std::ptrdiff_t>(guide_[slot]);
+        const auto last = ends_.begin() + static_cast<std::ptrdiff_t>(guide_[slot + 1]) + 1;
+        const auto above = std::upper_bound(first, last, share);
+        auto i = static_cast<std::size_t>(above - ends_.begin()) - 1;
+        while (i < last_ && ends_[i + 1] <= share) ++i;  // rounded down
+        return std::min(i, last_);
+    }
+
+  private:
+    double width(std::size_t i) const { return ends_[i + 1] - ends_[i]; }
+
+    /// guide_[k] is the triangle that holds k / (slots): where a search begins and ends.
+    void lay_guide() {
+        const std::size_t count = ends_.size() - 1;
+        std::size_t i = 0;
+        for (std::size_t k = 0; k <= count; ++k) {
+            const double share = static_cast<double>(k) / static_cast<double>(count);
+            while (i + 1 < count && ends_[i + 1] <= share) ++i;
+            guide_.push_back(i);
+        }
+        guide_.push_back(count - 1);
+        last_ = count - 1;
+        while (!(width(last_) > 0)) --last_;
+    }
+
+    std::vector<double> ends_;  ///< S_i
+    std::vector<std::size_t> guide_;
+    std::size_t last_ = 0;
+    double area_ = 0;
+};
+
+Vector3 weighted(const std::array<Vector3, 3>& v, const std::array<double, 3>& w) {
+    return {w[0] * v[0][0] + w[1] * v[1][0] + w[2] * v[2][0] + 0.0,  // never -0
+            w[0] * v[0][1] + w[1] * v[1][1] + w[2] * v[2][1] + 0.0,
+            w[0] * v[0][2] + w[1] * v[1][2] + w[2] * v[2][2] + 0.0};
+}
+
+class MeshDomain final : public Domain {
+  public:
+    MeshDomain(TriangleMesh mesh, Gives gives, const std::string& name, std::string spec,
+               const RunContext& run)
+        : mesh_(std::move(mesh)),
+          shares_(mesh_, name, run),
+          tree_(mesh_, run),
+          gives_(gives),
+          spec_(std::move(spec)) {
+        const Box box = positions();
+        for (std::size_t k = 0; k < 3; ++k)
+            size_ = std::max({size_, std::abs(box.low[k]), std::abs(box.high[k])});
+    }
+
+    std::string spec() const override { return spec_; }
+    std::size_t dimension() const override { return size_of(gives_); }
+    std::size_t cube_dimension() const override { return 2; }
+    double measure() const override { return shares_.area(); }
+
+    /// Up to 16 epsilon of the largest coordinate away from a triangle: the rounding of a point
+    /// that was made. Normals and barycentrics must be those of a triangle there, within 1e-12.
+    bool contains(std::span<const double> point) const override { return find(point).has_value(); }
+
+    Box bounding_box() const override {
+        Box box = positions();
+        if (gives_ == Gives::normal) {
+            box.low.resize(6, -1);
+            box.high.resize(6, 1);
+        } else if (gives_ == Gives::barycentric) {
+            box.low.resize(7, 0);
+            box.high.push_back(static_cast<double>(mesh_.triangles.size()));
+            box.high.resize(7, 1);
+        }
+        return box;
+    }
+    void to_cube(std::span<const double> point, std::span<double> cube) const override {
+        std::ranges::copy(find(point).value_or(Pair{}), cube.begin());
+    }
+    std::optional<Moments> moments() const override {
+        std::vector<double> about = positions().low;
+        about.resize(dimension(), 0.0);
+        MixedMoments all(about);
+        for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
+            const auto [a, b, c] = mesh_.corners(i);
+            const double twice = length(cross(minus(b, a), minus(c, a)));
+            if (twice > 0) all.add(twice, triangle_moments(rows_at_corners(i)));
+        }
+        return all.moments();
+    }
+    std::vector<std::string> cube_axes() const override {
+        return {"share of the area in the order of the file", "place between corners 2 and 1"};
+    }
+
+    /// The point of the surface at xi0, xi1: a triangle and the weights of its corners.
+    struct Place {
+        std::size_t triangle;
+        std::array<double, 3> weights;
+    };
+    Place place(double u, double v) const {
+        const std::size_t i = shares_.at(u);
+        const double root = std::sqrt(shares_.part(i, u));
+        return {i, {1 - root, root * v, root * (1 - v)}};
+    }
+    Vector3 position(const Place& at) const {
+        return weighted(mesh_.corners(at.triangle), at.weights);
+    }
+    Gives gives() const { return gives_; }
+
+    /// xi0 and xi1 of a point of the surface, if it is one.
+    std::optional<Pair> find(std::span<const double> point) const {
+        const Vector3 at = vector_of(point);
+        const double reach = 16 * epsilon * size_;
+        if (gives_ == Gives::barycentric) return find_by_number(point, reach);
+        std::optional<Pair> best;
+        double least = std::numeric_limits<double>::infinity();
+        std::uint32_t first = 0;
+        // Where triangles meet, the one from which the way forward comes nearest.
+        tree_.visit(at, reach, [&](std::uint32_t i, const Foot& foot) {
+            if (gives_ == Gives::normal &&
+                !(largest(minus(normal(i), vector_of(point.subspan(3)))) <= 1e-12))
+                return;
+            const Pair cube = shares_in({i, foot.weights});
+            const double off = length(minus(position(place(cube[0], cube[1])), at));
+            if (off > least || (off == least && i > first)) return;
+            best = cube;
+            least = off;
+            first = i;
+        });
+        return best;
+    }
+
+    Vector3 normal(std::size_t triangle) const {
+        const auto [a, b, c] = mesh_.corners(triangle);
+        const Vector3 n = cross(minus(b, a), minus(c, a));
+        return largest(n) > 0 ? normalized(n) : n;
+    }
+
+  private:
+    /// What the triangle's points are between: all that they give changes evenly from corner to
+    /// corner.
+    std::array<std::vector<double>, 3> rows_at_corners(std::size_t i) const {
+        const auto corners = mesh_.corners(i);
+        const auto& [a, b, c] = corners;
+        const Vector3 normal = normalized(cross(minus(b, a), minus(c, a)));
+        std::array<std::vector<double>, 3> rows;
+        for (std::size_t k = 0; k < 3; ++k) {
+            rows[k].assign(corners[k].begin(), corners[k].end());
+            if (gives_ == Gives::normal)
+                rows[k].insert(rows[k].end(), normal.begin(), normal.end());
+            if (gives_ != Gives::barycentric) continue;
+            rows[k].resize(7, 0.0);
+            rows[k][3] = static_cast<double>(i);
+            rows[k][4 + k] = 1;
+        }
+        return rows;
+    }
+
+    Box positions() const {
+        constexpr double far = std::numeric_limits<double>::infinity();
+        Box box{{far, far, far}, {-far, -far, -far}};
+        for (std::size_t i = 0; i < mesh_.triangles.size(); ++i)
+            for (const Vector3& corner : mesh_.corners(i)) box = stipple::bounding_box(corner, box);
+        return box;
+    }
+
+    Pair shares_in(const Place& at) const {
+        const double sum = at.weights[1] + at.weights[2];
+        const double root = std::min(sum, 1.0);
+        return {shares_.up_to(at.triangle, root * root),
+                sum > 0 ? std::min(at.weights[1] / sum, 1.0) : 0};
+    }
+
+    std::optional<Pair> find_by_number(std::span<const double> point, double reach) const {
+        const double number = point[3];
+        const auto count = static_cast<double>(mesh_.triangles.size());
+        if (!(number >= 0 && number < count && number == std::floor(number))) return {};
+        const Place at{static_cast<std::size_t>(number), {point[4], point[5], point[6]}};
+        double sum = -1;
+        for (const double w : at.weights) {
+            if (!(w >= 0 && w <= 1)) return {};
+            sum += w;
+        }
+        const double off = length(minus(vector_of(point), position(at)));
+        if (!(std::abs(sum) <= 1e-12 && off <= reach)) return {};
+        return shares_in(at);
+    }
+
+    TriangleMesh mesh_;
+    Shares shares_;
+    TriangleTree tree_;
+    Gives gives_;
+    std::string spec_;
+    double size_ = 0;
+};
+
+class Mesh final : public Mapping {
+  public:
+    explicit Mesh(std::shared_ptr<const MeshDomain> domain) : domain_(std::move(domain)) {}
+
+    DomainPtr domain() const override { return domain_; }
+    std::size_t cube_dimension() const override { return 2; }
+
+    void forward(std::span<const double> cube, std::span<double> image,
+                 std::span<std::uint8_t> /*keep*/) const override {
+        const std::size_t m = domain_->dimension();
+        for (std::size_t i = 0; i < cube.size() / 2; ++i)
+            write(domain_->place(cube[2 * i], cube[2 * i + 1]), image.subspan(m * i, m));
+    }
+
+    void inverse(std::span<const double> image, std::span<double> cube) const override {
+        const std::size_t m = domain_->dimension();
+        for (std::size_t i = 0; i < image.size() / m; ++i) {
+            const auto point = image.subspan(m * i, m);
+            const auto found = domain_->find(point);
+            if (!found) refuse_outside(point, *domain_);
+            std::ranges::copy(*found, cube.subspan(2 * i, 2).begin());
+        }
+    }
+
+  private:
+    void write(const MeshDomain::Place& at, std::span<double> image) const {
+        std::ranges::copy(domain_->position(at), image.begin());
+        if (domain_->gives() == Gives::normal)
+            std::ranges::copy(domain_->normal(at.triangle), image.begin() + 3);
+        if (domain_->gives() == Gives::barycentric) {
+            image[3] = static_cast<double>(at.triangle);
+            std::ranges::copy(at.weights, image.begin() + 4);
+        }
+    }
+
+    std::shared_ptr<const MeshDomain> domain_;
+};
+
+std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/, const RunContext& run) {
+    if (!options.given(mesh_file))
+        fail(ErrorKind::usage, "--file: name a PLY or OBJ file with a triangle mesh");
+    const std::string how = options[attributes];
+    const Gives gives = how == "normal"        ? Gives::normal
+                        : how == "barycentric" ? Gives::barycentric
+                                               : Gives::position;
+    const std::string path = options[mesh_file];
+    return std::make_unique<Mesh>(std::make_shared<MeshDomain>(
+        read_mesh(path, run), gives, path,
+        domain_spec("mesh", options, schema(), {mesh_file.name, attributes.name}), run));
+}
+
+}  // namespace
+
+Warp unit() {
+    return {.name = "mesh",
+            .summary = "Surface of a triangle mesh from a PLY or OBJ file, uniform by area",
+            .source = "Turk 1990, in: Graphics Gems",
+            .strata =
+                "xi1 goes through the triangles in the order of the file by their areas, in "
+                "each from its first corner to the opposite edge; xi2 runs along that edge; "
+                "both as they are",
+            .traits = {},
+            .options = schema(),
+            .make = make};
+}
+
+}  // namespace stipple::warps::mesh

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "warps/curved/placement.hpp"
+
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/spec.hpp"
+
+namespace stipple::warps {
+
+Vector3 vector_of(const Param<Numbers>& option, const std::vector<double>& numbers) {
+    if (numbers.size() != 3)
+        fail(ErrorKind::usage, "--{}: 3 numbers are needed, x,y,z; {} given", option.name,
+             numbers.size());
+    return {numbers[0] + 0.0, numbers[1] + 0.0, numbers[2] + 0.0};  // -0 would show in points
+}
+
+Vector3 center_of(const Values& options, double reach) {
+    const Vector3 at = vector_of(center, options[center]);
+    for (const double x : at) refuse_far(x, reach);
+    return at;
+}
+
+void refuse_far(double x, double reach) {
+    if (x + reach == x || x - reach == x)
+        fail(ErrorKind::usage, "--{}: {} is so far that a radius of {} is lost in rounding",
+             center.name, x, reach);
+}
+
+Frame frame_of(const Values& options) {
+    const Vector3 along = vector_of(axis, options[axis]);
+    if (largest(along) == 0) fail(ErrorKind::usage, "--{}: 0,0,0 has no direction", axis.name);
+    return frame_about(normalized(along));
+}
+
+std::string domain_spec(std::string_view name, const Values& options, const Schema& schema,
+                        std::initializer_list<std::string_view> which) {
+    Values law = schema.defaults();
+    for (const std::string_view option : which) {
+        const auto& item = options.find(option);
+        law.put(option, item.value, item.given);
+    }
+    return format_spec(name, law, schema);
+}
+
+Box Sphere::bounding_box() const {
+    Box box;
+    for (const double x : center) {
+        box.low.push_back(x - radius);
+        box.high.push_back(x + radius);
+    }
+    return box;
+}
+
+double Sphere::rounding() const {
+    return 8 * std::numeric_limits<double>::epsilon() * (1 + largest(center) / radius);
+}
+
+}  // namespace stipple::warps

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+//
+// Where shapes stand in space: options that several warps share, with their checks.
+#pragma once
+
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/domain.hpp"
+#include "core/options.hpp"
+#include "math/geometry/vector3.hpp"
+
+namespace stipple::warps {
+
+constexpr Param<double> radius{
+    .name = "radius", .fallback = 1, .low = 1e-150, .high = 1e150, .help = "Radius, above 0"};
+
+constexpr Param<Numbers> center{{.name = "center", .fallback = "0,0,0", .help = "Centre: x,y,z"}};
+
+constexpr Param<Numbers> axis{
+    {.name = "axis", .fallback = "0,0,1", .help = "Axis: x,y,z, of any length but 0"}};
+
+/// The centre of a shape of this radius. @throws Error(usage): not three numbers, or so far that
+/// the shape is lost in rounding.
+Vector3 center_of(const Values& options, double reach);
+
+/// @throws Error(usage) when a centre's coordinate is so far that the shape is lost in rounding.
+void refuse_far(double x, double reach);
+
+/// The frame about --axis. @throws Error(usage): not three numbers, or null.
+Frame frame_of(const Values& options);
+
+/// Three numbers of an option. @throws Error(usage) naming it.
+Vector3 vector_of(const Param<Numbers>& option, const std::vector<double>& numbers);
+
+/// The spec of a domain that these options alone decide on; all else is how points are made.
+std::string domain_spec(std::string_view name, const Values& options, const Schema& schema,
+                        std::initializer_list<std::string_view> which);
+
+/// A sphere or ball of this radius about a centre.
+struct Sphere {
+    double radius;
+    Vector3 center;
+
+    /// The point where centre and radius are 0 and 1.
+    [[nodiscard]] Vector3 unit(std::span<const double> point) const {
+        return {(point[0] - center[0]) / radius, (point[1] - center[1]) / radius,
+                (point[2] - center[2]) / radius};
+    }
+
+    /// The point of space for one of the unit ball.
+    [[nodiscard]] Vector3 place(const Vector3& v) const {
+        return {center[0] + radius * v[0], center[1] + radius * v[1], center[2] + radius * v[2]};
+    }
+
+    [[nodiscard]] Box bounding_box() const;
+
+    /// How far rounding may take a point from where it should be, in radii: 8 epsilon (R + largest
+    /// |c|) / R.
+    [[nodiscard]] double rounding() const;
+};
+
+inline Vector3 vector_of(std::span<const double> point) { return {point[0], point[1], point[2]}; }
+
+}  // namespace stipple::warps

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT
+//
+// Unit cube onto the sphere of radius R about a centre c, by one of three methods:
+//
+//     z               z = 1 - 2 xi0,  theta = 2 pi xi1,
+//                     point = c + R (sqrt(1 - z^2) cos theta, sqrt(1 - z^2) sin theta, z)
+//     rejection       v = 2 xi - 1 in [-1, 1]^3, kept if inner <= |v| <= 1; point = c + R v / |v|.
+//                     The share kept is (pi / 6) (1 - inner^3): 0.5230752 for inner = 0.1
+//     naive-lat-long  z = cos(pi xi0),  theta = 2 pi xi1: BIASED towards the poles (E z^2 = 1/2
+//                     in place of 1/3 on the unit sphere); kept to show the bias
+//
+// and back (rejection has no way back). sqrt(1 - z^2) is 2 sqrt(xi0 (1 - xi0)).
+//
+// Shape   2 unit coordinates, rejection 3; 3 coordinates.
+// Strata  xi0 falls from the north pole, where it is 0, to the south pole; xi1 turns from x towards
+//         y; both as they are, not as 1 - xi. Strata become rectangles of heights and longitudes.
+//         rejection keeps the cones of the strata that are left.
+// Cost    O(1) a point; on one core about 7 ns forward, 40 ns back.
+// Promise density 1 / (4 pi R^2) for all but naive-lat-long: 1 / (2 pi^2 R r), r the distance from
+//         the axis, infinite at the poles. Points lie on the sphere up to the rounding stated at
+//         contains(). Forward and back again is the same point within 1e-14 of |c| + R; for c = 0
+//         also the same xi within 1e-14, save that all xi1 meet in the poles, which go back to
+//         xi1 = 0. The same bits on every machine.
+// Source  Archimedes, On the Sphere and Cylinder (areas of zones). Rejection: G. Marsaglia, Annals
+//         of Mathematical Statistics 43 (1972) 645-646, doi:10.1214/aoms/1177692644, compares it.
+
+#include <numbers>
+
+#include "math/geometry/law_moments.hpp"
+#include "math/geometry/polar_direction.hpp"
+#include "warps/curved/placement.hpp"
+#include "warps/row_mapping.hpp"
+
+namespace stipple::warps::sphere {
+namespace {
+
+constexpr Param<Choice> method{
+    .name = "method",
+    .fallback = "z",
+    .choices = "z|rejection|naive-lat-long",
+    .help =
+        "z: uniform height and longitude; rejection: takes 3 coordinates, drops the points of "
+        "the cube that are outside the ball, and normalises; naive-lat-long: uniform latitude "
+        "and longitude, BIASED towards the poles, kept to show the bias"};
+
+constexpr Param<double> inner{
+    .name = "inner",
+    .fallback = 0.1,
+    .low = 0,
+    .high = 0.99,
+    .help = "Of method rejection: drops points nearer to the centre, whose direction is coarse"};
+
+const Schema& schema() {
+    static const Schema options(method, radius, center, inner);
+    return options;
+}
+
+class SphereDomain final : public Domain {
+  public:
+    SphereDomain(const Sphere& sphere, std::string spec)
+        : sphere_(sphere), spec_(std::move(spec)), slack_(sphere.rounding()) {}
+
+    std::string spec() const override { return spec_; }
+    std::size_t dimension() const override { return 3; }
+    std::size_t cube_dimension() const override { return 2; }
+    double measure() const override {
+        return 4 * std::numbers::pi * sphere_.radius * sphere_.radius;
+    }
+
+    /// Up to 8 epsilon (R + largest |c|) away from the sphere: the rounding of a point that was
+    /// made.
+    bool contains(std::span<const double> point) const override {
+        return std::abs(length(sphere_.unit(point)) - 1) <= slack_;
+    }
+    Box bounding_box() const override { return sphere_.bounding_box(); }
+    void to_cube(std::span<const double> point, std::span<double> cube) const override {
+        const Vector3 v = sphere_.unit(point);
+        cube[0] = 0.5 * drop_of(v);
+        cube[1] = turns_of(v[0], v[1]);
+    }
+    std::optional<Moments> moments() const override {
+        return axial_moments(direction_moments(0, 1 / 3.0, 0), {}, sphere_.center, sphere_.radius);
+    }
+    std::vector<std::string> cube_axes() const override {
+        return {"area fraction (1 - z/R) / 2", "longitude in turns"};
+    }
+
+  private:
+    Sphere sphere_;
+    std::string spec_;
+    double slack_;
+};
+
+struct ByHeight {
+    Sphere sphere;
+
+    Vector3 forward(const std::array<double, 2>& xi) const {
+        return sphere.place(at_pole(2 * xi[0], 2 * (1 - xi[0]), xi[1]));
+    }
+    std::array<double, 2> inverse(std::span<const double> point) const {
+        const Vector3 v = sphere.unit(point);
+        return {0.5 * drop_of(v), turns_of(v[0], v[1])};
+    }
+};
+
+struct ByLatitude {
+    Sphere sphere;
+
+    Vector3 forward(const std::array<double, 2>& xi) const {
+        const auto [z, r] = cos_sin_turns(0.5 * xi[0]);
+        const auto [c, s] = cos_sin_turns(xi[1]);
+        return sphere.place({r * c, r * s, z});
+    }
+    std::array<double, 2> inverse(std::span<const double> point) const {
+        const Vector3 v = sphere.unit(point);
+        return {2 * turns_of(v[2], std::sqrt(v[0] * v[0] + v[1] * v[1])), turns_of(v[0], v[1])};
+    }
+    double density(std::span<const double> point) const {
+        const Vector3 v = sphere.unit(point);
+        const double r = sphere.radius * std::sqrt(v[0] * v[0] + v[1] * v[1]);
+        return 1 / (2 * std::numbers::pi * std::numbers::pi * sphere.radius * r);
+    }
+};
+
+struct ByRejection {
+    static constexpr const char* no_way_back =
+        "method rejection takes 3 coordinates to 2; it has no inverse";
+
+    Sphere sphere;
+    double inner;
+
+    static Vector3 scaled(const Vector3& xi) {
+        return {2 * xi[0] - 1, 2 * xi[1] - 1, 2 * xi[2] - 1};
+    }
+    Vector3 forward(const Vector3& xi) const {
+        const Vector3 v = scaled(xi);
+        const double size = length(v);
+        return sphere.place(times(v, 1 / (size > 0 ? size : 1)));
+    }
+    bool keeps(const Vector3& xi) const {
+        const double size = length(scaled(xi));
+        return size > 0 && size >= inner && size <= 1;
+    }
+};
+
+std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
+                              const RunContext& /*run*/) {
+    const Sphere sphere{options[radius], center_of(options, options[radius])};
+    const auto domain = std::make_shared<SphereDomain>(
+        sphere, domain_spec("sphere", options, schema(), {radius.name, center.name}));
+    const std::string how = options[method];
+    if (how == "rejection") return row_mapping(domain, ByRejection{sphere, options[inner]});
+    if (how == "naive-lat-long") return row_mapping(domain, ByLatitude{sphere});
+    return row_mapping(domain, ByHeight{sphere});
+}
+
+}  // namespace
+
+Warp unit() {
+    return {.name = "sphere",
+            .summary = "Sphere, uniform by area (but naive-lat-long: biased, to show its bias)",
+            .source = "Marsaglia 1972, doi:10.1214/aoms/1177692644 (rejection)",
+            .strata =
+                "xi1 falls from the north pole z = R to the south pole, as the share of the "
+                "area; xi2 is the longitude; both as they are",
+            .traits = {.invertible = true, .drops = true, .biased = true},
+            .options = schema(),
+            .make = make};
+}
+
+}  // namespace stipple::warps::sphere

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+//
+// Unit square onto the directions in a spherical triangle with corners a, b, c, uniform in solid
+// angle (Arvo). The great circle through b that leaves the share xi0 of the area A next to the edge
+// ab meets the edge ac at c', q away from a:
+//
+//     tan(q/2) = sin(A xi0 / 2) / (tan(ab/2) sin(alpha - A xi0 / 2)),    alpha the angle at a
+//
+// and the point w is on the arc from b to c', with 1 - cos(bw) = xi1 (1 - cos(bc')). All is
+// written in differences of vectors and tangents of half angles, where Arvo's cosines lose the
+// digits of small triangles: the first from tan(A/2) = tan(p/2) tan(q/2) sin(alpha) /
+// (1 + tan(p/2) tan(q/2) cos(alpha)), for a triangle with sides p and q next to the angle alpha.
+//
+// Shape   2 unit coordinates; 3 coordinates, of unit length. Sides below 180 degrees.
+// Strata  xi0 is the share of the area from the edge ab towards c, xi1 the place along the arc from
+//         b, as the share of the area on its way; both as they are, not as 1 - xi. Strata become
+//         quadrilaterals between arcs through b, triangles where they touch it.
+// Cost    O(1) a point; on one core about 11 ns forward, 46 ns back.
+// Promise density 1 / A. Directions lie in the triangle up to the rounding stated at contains().
+//         Forward and back again is the same direction within 1e-14; nearly hemispheres, within
+//         that over the distance at contains(). The same bits on every machine.
+// Source  J. Arvo, "Stratified sampling of spherical triangles", SIGGRAPH 95, 437-438,
+//         doi:10.1145/218380.218500.
+
+#include <limits>
+#include <numbers>
+
+#include "math/geometry/polar_direction.hpp"
+#include "math/geometry/spherical_polygon.hpp"
+#include "warps/curved/placement.hpp"
+#include "warps/row_mapping.hpp"
+
+namespace stipple::warps::spherical_triangle {
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+constexpr Param<Points> vertices{
+    {.name = "vertices",
+     .fallback = "1,0,0 0,1,0 0,0,1",
+     .help = "Three directions a b c, of any length; xi0 = 0 is the edge ab, xi1 = 0 is b"}};
+
+const Schema& schema() {
+    static const Schema options(vertices);
+    return options;
+}
+
+/// The map for the corners in this order.
+class Arvo {
+  public:
+    Arvo(const Vector3& a, const Vector3& b, const Vector3& c)
+        : a_(a), b_(b), ab_(minus(b, a)), half_area_(half_area_turns(a, b, c)) {
+        const Vector3 to_b = tangent(a, b);
+        to_c_ = tangent(a, c);
+        const double tan_half = length(ab_) / length(plus(a, b));
+        // Of tan(ab/2) times cosine and sine of alpha.
+        along_ = tan_half * dot(to_b, to_c_);
+        across_ = tan_half * length(cross(to_b, to_c_));
+        turn_ = std::copysign(1.0, dot(a, cross(ab_, minus(c, a))));
+    }
+
+    Vector3 forward(const std::array<double, 2>& xi) const {
+        const auto [c, s] = cos_sin_turns(half_area_ * xi[0]);
+        const Vector3 arc = arc_from_b(across_ * c - along_ * s, s);
+        const double whole = 0.25 * dot(arc, arc);  // sin^2 of half the arc from b to c'
+        const double part = xi[1] * whole;
+        const Vector3 across = plus(arc, times(b_, 2));
+        const double rest = 0.25 * dot(across, across);  // 1 - whole
+        const double scale = std::sqrt(xi[1] * (1 - part) / rest);
+        const double lift = 2 * (scale * whole - part);
+        return {b_[0] + (scale * arc[0] + lift * b_[0]) + 0.0,
+                b_[1] + (scale * arc[1] + lift * b_[1]) + 0.0,
+                b_[2] + (scale * arc[2] + lift * b_[2]) + 0.0};
+    }
+
+    std::array<double, 2> inverse(std::span<const double> point) const {
+        const Vector3 way = minus(vector_of(point), b_);
+        const Vector3 plane = cross(b_, way);
+        // cos q and sin q at which the plane through b and w meets the edge ac, times a length.
+        const double x = 0 - turn_ * dot(plane, to_c_);
+        const double y = std::max(0.0, 0 - turn_ * dot(plane, ab_));
+        const double size = std::sqrt(x * x + y * y);
+        if (size == 0) return {0, 0};            // b itself
+        const double c = x >= 0 ? size + x : y;  // cos(q/2) and sin(q/2), times a length
+        const double s = x >= 0 ? y : size - x;
+        const Vector3 arc = arc_from_b(c, s);
+        return {turns_of(c + along_ * s, across_ * s) / half_area_, dot(way, way) / dot(arc, arc)};
+    }
+
+  private:
+    /// The unit tangent of the sphere at `from`, towards `to`.
+    static Vector3 tangent(const Vector3& from, const Vector3& to) {
+        const Vector3 chord = minus(to, from);
+        return normalized(plus(chord, times(from, 0.5 * dot(chord, chord))));
+    }
+
+    /// The chord from b to c', for cos(q/2) and sin(q/2) times a length.
+    Vector3 arc_from_b(double c, double s) const {
+        const double scale = 2 * s / (c * c + s * s);
+        return {scale * (c * to_c_[0] - s * a_[0]) - ab_[0],
+                scale * (c * to_c_[1] - s * a_[1]) - ab_[1],
+                scale * (c * to_c_[2] - s * a_[2]) - ab_[2]};
+    }
+
+    Vector3 a_;
+    Vector3 b_;
+    Vector3 ab_;
+    Vector3 to_c_{};  ///< unit tangent at a
+    double half_area_;
+    double along_ = 0;
+    double across_ = 0;
+    double turn_ = 1;  ///< of a, b, c: 1 counter-clockwise, seen from outside
+};
+
+using Corners = std::array<Vector3, 3>;
+
+class TriangleDomain final : public Domain, public Rimmed {
+  public:
+    TriangleDomain(const Corners& v, std::string spec)
+        : polygon_({v[0], v[1], v[2]}),
+          cells_(v[1], v[2], v[0]),
+          area_(4 * std::numbers::pi * half_area_turns(v[0], v[1], v[2])),
+          spec_(std::move(spec)) {
+        const double opening =
+            std::min({1.0, from_opposite(v[0], v[1], v[2]), from_opposite(v[1], v[2], v[0]),
+                      from_opposite(v[2], v[0], v[1])});
+        slack_ = 16 * epsilon / opening;
+    }
+
+    std::string spec() const override { return spec_; }
+    std::size_t dimension() const override { return 3; }
+    std::size_t cube_dimension() const override { return 2; }
+    double measure() const override { return area_; }
+
+    /// Up to 16 epsilon beyond the planes of the edges, and as much longer or shorter than 1: the
+    /// rounding of a direction that was made. More for a triangle that is nearly a hemisphere,
+    /// where a point opposite of a corner is near the opposite edge: over its distance from it.
+    bool contains(std::span<const double> point) const override {
+        return polygon_.contains(vector_of(point), slack_);
+    }
+    Box bounding_box() const override { return polygon_.bounding_box(); }
+
+    /// Arvo's map back, but about the next corner, so that cells do not line up with the warp's
+    /// strata.
+    void to_cube(std::span<const double> point, std::span<double> cube) const override {
+        const auto [u, v] = cells_.inverse(point);
+        cube[0] = std::clamp(u, 0.0, 1.0);
+        cube[1] = std::clamp(v, 0.0, 1.0);
+    }
+    Rims rims() const override { return {.circles = polygon_.edges()}; }
+    std::optional<Moments> moments() const override { return polygon_.moments(area_); }
+    std::vector<std::string> cube_axes() const override {
+        return {"share of the area next to bc", "share on the way from c"};
+    }
+
+  private:
+    /// How far the point opposite of a corner is from the edge from p to q.
+    static double from_opposite(const Vector3& corner, const Vector3& p, const Vector3& q) {
+        const Vector3 normal = normalized(cross(p, minus(q, p)));
+        const double height = dot(normal, corner);
+        const Vector3 foot = minus(times(normal, height), corner);
+        const bool beside = dot(cross(p, foot), normal) > 0 && dot(cross(foot, q), normal) > 0;
+        return beside ? std::abs(height)
+                      : std::min(length(plus(p, corner)), length(plus(q, corner)));
+    }
+
+    SphericalPolygon polygon_;
+    Arvo cells_;
+    double area_;
+    std::string spec_;
+    double slack_ = 0;
+};
+
+/// @throws Error(usage) when they are not the corners of a triangle.
+Corners corners_of(const Table& table) {
+    if (table.size() != 3 || table[0].size() != 3)
+        fail(ErrorKind::usage,
+             "--vertices: {} points of dimension {}; 3 directions x,y,z are needed", table.size(),
+             table[0].size());
+    Corners corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+        corners[k] = {table[k][0], table[k][1], table[k][2]};
+        if (largest(corners[k]) == 0) fail(ErrorKind::usage, "--vertices: 0,0,0 has no direction");
+        corners[k] = normalized(corners[k]);
+    }
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vector3& next = corners[(k + 1) % 3];
+        longest = std::max(longest, length(minus(next, corners[k])));
+        if (length(plus(next, corners[k])) < 1e-7)
+            fail(ErrorKind::usage,
+                 "--vertices: two of {} are opposite; what joins them is not one arc",
+                 format_value(table));
+    }
+    const auto& [a, b, c] = corners;
+    const double height = std::abs(dot(a, cross(minus(b, a), minus(c, a)))) / longest;
+    if (!(height > 64 * epsilon))
+        fail(ErrorKind::usage, "--vertices: {} lie on one great circle; they span no triangle",
+             format_value(table));
+    return corners;
+}
+
+std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
+                              const RunContext& /*run*/) {
+    const Corners v = corners_of(options[vertices]);
+    const auto domain = std::make_shared<TriangleDomain>(
+        v, domain_spec("spherical-triangle", options, schema(), {vertices.name}));
+    return row_mapping(domain, Arvo(v[0], v[1], v[2]));
+}
+
+}  // namespace
+
+Warp unit() {
+    return {.name = "spherical-triangle",
+            .summary = "Directions in a spherical triangle, uniform in solid angle",
+            .source = "Arvo 1995, doi:10.1145/218380.218500",
+            .strata =
+                "xi1 is the share of the area from the edge of the first two corners towards "
+                "the third, xi2 the share on the way from the second corner; both as they are",
+            .traits = {},
+            .options = schema(),
+            .make = make};
+}
+
+}  // namespace stipple::warps::spherical_triangle

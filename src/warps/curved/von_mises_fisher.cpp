@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+//
+// Unit square onto directions about an axis by von Mises' and Fisher's distribution on the sphere,
+// with concentration kappa:
+//
+//     density kappa exp(kappa cos theta) / (4 pi sinh kappa);    kappa = 0: uniform
+//
+// With xi0 the probability of the cone about the axis, longitude 2 pi xi1 and
+//
+//     1 - cos theta = -log1p(xi0 expm1(-2 kappa)) / kappa        where theta <= 90 degrees,
+//     1 + cos theta =  log1p((1 - xi0) expm1(2 kappa)) / kappa   beyond,
+//
+// so that neither pole loses digits, and no kappa overflows.
+//
+// Shape   2 unit coordinates; 3 coordinates, a unit vector.
+// Strata  xi0 is taken as it is, not as 1 - xi: 0 is the axis, and small xi0 is near it. xi1 turns
+//         about the axis; for +z from x towards y. Strata become rings of sectors. Where kappa is
+//         large, xi0 = 1 is taken as 1 - 2^-55.
+// Cost    O(1) a point; on one core about 8 ns forward, 40 ns back.
+// Promise unit vectors up to 8 epsilon. Forward and back again is the same vector within 1e-14. For
+//         the default axis it is also the same xi within 1e-13, save that all xi1 meet in the
+//         poles; about another axis rounding of the vector moves xi0 by up to 1e-15 (1 +
+//         sqrt(kappa)), and xi1 by 1e-15 / sin theta. The same bits on every machine.
+// Source  R. Fisher, "Dispersion on a sphere", Proc. R. Soc. A 217 (1953) 295-305,
+//         doi:10.1098/rspa.1953.0064.
+
+#include "math/functions/exponential.hpp"
+#include "math/functions/logarithm.hpp"
+#include "warps/curved/lobe.hpp"
+#include "warps/curved/placement.hpp"
+
+namespace stipple::warps::von_mises_fisher {
+namespace {
+
+constexpr Param<double> concentration{
+    .name = "kappa",
+    .fallback = 10,
+    .low = 0,
+    .high = 1e8,
+    .help =
+        "Concentration: 0 is uniform; large ones are normal about the axis, with a standard "
+        "deviation of 1 / sqrt(kappa) radians along each tangent"};
+
+const Schema& schema() {
+    static const Schema options(concentration, axis);
+    return options;
+}
+
+class Fisher {
+  public:
+    explicit Fisher(double kappa) : kappa_(std::max(kappa, 1e-17)) {
+        constexpr double most = 55 * 0.6931471805599453;  // -log 2^-55
+        // Below 1e-17, the density is uniform to the last bit; above 20, 1 + cos keeps its digits
+        // as the complement of 1 - cos, since no xi below 1 comes near the far pole.
+        const bool both = kappa_ <= 20;
+        near_factor_ = exp_minus_1(-2 * kappa_);
+        if (both) far_factor_ = exp_minus_1(2 * kappa_);
+        turn_ = both ? exp_minus_1(-kappa_) / near_factor_ : 2.0;
+        last_ = both ? 0 : std::min(2.0, most / kappa_);
+    }
+
+    Tilt forward(double u) const {
+        const bool near = u < turn_;
+        const double inside = near ? u * near_factor_ : (1 - u) * far_factor_;
+        const double size = std::abs(log_1p(u < 1 ? inside : 0)) / kappa_;
+        const double small = u < 1 ? size : last_;
+        return {near ? 1 - small : small - 1, std::sqrt(small * (2 - small))};
+    }
+    double share(double v, double c) const {
+        if (v < c || far_factor_ == 0) return std::expm1(-kappa_ * v) / near_factor_;
+        return 1 - std::expm1(kappa_ * c) / far_factor_;
+    }
+    double density(double v, double /*c*/) const {
+        constexpr double around = 2 * std::numbers::pi;
+        return kappa_ * std::exp(-kappa_ * v) / (around * -near_factor_);
+    }
+
+    /// Along the axis, the cumulants are the derivatives of log(sinh kappa / kappa).
+    AxialMoments moments() const {
+        if (kappa_ < 1) return series_moments();
+        const double k = kappa_;
+        const double coth = 1 / std::tanh(k);
+        const double csch = 2 * std::exp(-k) / -std::expm1(-2 * k);
+        const double mean = coth - 1 / k;
+        const double variance = 1 / (k * k) - csch * csch;
+        return {.along = {mean, variance, 2 * (coth * csch * csch - 1 / (k * k * k))},
+                .across = mean / k,
+                .across_along = (variance - mean / k) / k};
+    }
+
+  private:
+    /// E z^n = sum kappa^j / j! m(n + j) over sum kappa^j / j! m(j), m those of the uniform law.
+    AxialMoments series_moments() const {
+        std::array<double, 4> sums{};
+        double term = 1;
+        for (int j = 0; j < 24; ++j) {
+            for (int n = 0; n < 4; ++n)
+                if ((n + j) % 2 == 0) sums[static_cast<std::size_t>(n)] += term / (n + j + 1);
+            term *= kappa_ / (j + 1);
+        }
+        return direction_moments(sums[1] / sums[0], sums[2] / sums[0], sums[3] / sums[0]);
+    }
+
+    double kappa_;
+    double near_factor_ = -1;  ///< expm1(-2 kappa)
+    double far_factor_ = 0;    ///< expm1(2 kappa), where it is used
+    double turn_ = 0.5;        ///< the xi of 90 degrees; 2: always near
+    double last_ = 2;          ///< drop below the nearer pole of xi = 1
+};
+
+std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
+                              const RunContext& /*run*/) {
+    return lobe_mapping(
+        Fisher(options[concentration]), frame_of(options),
+        domain_spec("von-mises-fisher", options, schema(), {concentration.name, axis.name}));
+}
+
+}  // namespace
+
+Warp unit() {
+    return {.name = "von-mises-fisher",
+            .summary = "Directions by the distribution of von Mises and Fisher, about an axis",
+            .source = "Fisher 1953, doi:10.1098/rspa.1953.0064",
+            .strata =
+                "xi1 is the probability of the cone about the axis, 0 on it; xi2 turns about it; "
+                "both as they are",
+            .traits = {},
+            .options = schema(),
+            .aliases = {"vmf"},
+            .make = make};
+}
+
+}  // namespace stipple::warps::von_mises_fisher

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+//
+// Unit cube onto the half-line x >= 0, each coordinate by itself, by inversion of the exponential
+// distribution with rate lambda:
+//
+//     x = -log(1 - xi) / lambda,    density lambda exp(-lambda x),    mean 1 / lambda.
+//
+// Shape   any number of coordinates; one rate for all, or one for each.
+// Strata  xi is taken as it is, not as 1 - xi: xi = 0 is x = 0, and strata become intervals of
+// equal
+//         probability in the same order. The last one is endless; xi = 1 is taken as 1 - 2^-55, so
+//         that x is never above 38.13 / lambda.
+// Cost    O(1) a coordinate; about 4 ns on one core.
+// Promise forward and back again is the same xi within 1e-14, and near 0 within 1e-14 of itself.
+// The
+//         same bits on every machine.
+
+#include <cmath>
+#include <limits>
+
+#include "math/functions/logarithm.hpp"
+#include "warps/curved/placement.hpp"
+#include "warps/densities/per_coordinate.hpp"
+
+namespace stipple::warps::exponential {
+namespace {
+
+constexpr Param<Numbers> rate{
+    {.name = "rate",
+     .fallback = "1",
+     .help = "Rate lambda, 1 / mean, above 0: one number for all coordinates, or one for each"}};
+
+const Schema& schema() {
+    static const Schema options(rate);
+    return options;
+}
+
+struct Decay {
+    double rate;
+
+    bool operator==(const Decay&) const = default;
+
+    double forward(double u) const {
+        constexpr double most = 55 * 0.6931471805599453;  // -log 2^-55
+        return (u < 1 ? 0.0 - log_1p(-u) : most) / rate;
+    }
+    double inverse(double x) const { return -std::expm1(-rate * x); }
+    double place(double x) const { return inverse(x); }
+    double density(double x) const { return contains(x) ? rate * std::exp(-rate * x) : 0; }
+    bool contains(double x) const { return x >= 0 && std::isfinite(x); }
+    double measure() const { return std::numeric_limits<double>::infinity(); }
+    LineMoments moments() const { return {1 / rate, 1 / (rate * rate), 2 / (rate * rate * rate)}; }
+    std::pair<double, double> range() const { return {0, 10 / rate}; }
+};
+
+std::unique_ptr<Mapping> make(const Values& options, std::size_t given, const RunContext& /*run*/) {
+    const std::vector<double> rates = options[rate];
+    const std::size_t d = rates.size() == 1 ? given : rates.size();
+    std::vector<Decay> laws;
+    for (std::size_t k = 0; k < d; ++k) {
+        const double lambda = number_for(rates, k);
+        if (!(lambda >= 1e-300 && lambda <= 1e300))
+            fail(ErrorKind::usage, "--rate: {} is outside [1e-300, 1e+300]", lambda);
+        laws.push_back({lambda});
+    }
+    return std::make_unique<LineMapping<Decay>>(std::make_shared<LineDomain<Decay>>(
+        std::move(laws), domain_spec("exponential", options, schema(), {rate.name}),
+        "probability 1 - exp(-rate x)"));
+}
+
+}  // namespace
+
+Warp unit() {
+    return {.name = "exponential",
+            .summary = "Exponential distribution on each coordinate, by inversion",
+            .source = "Inverse of the distribution function 1 - exp(-rate x)",
+            .strata = "xi is the probability below x, as it is: small xi is near 0",
+            .traits = {},
+            .options = schema(),
+            .make = make};
+}
+
+}  // namespace stipple::warps::exponential

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "warps/densities/formula_box.hpp"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "math/densities/line_table.hpp"
+#include "math/densities/quadrature.hpp"
+
+namespace stipple::warps {
+namespace {
+
+// One coordinate inside the other: in three, what is affordable is less. Intervals to begin with
+// are many enough to see what is narrow.
+Effort effort_for(std::size_t dimension) {
+    if (dimension <= 1) return {1e-12, 5000, 1023};
+    if (dimension == 2) return {1e-9, 150, 25};
+    return {1e-5, 12, 5};
+}
+
+Effort effort_in_cell(std::size_t dimension) {
+    if (dimension <= 1) return {1e-10, 200};
+    if (dimension == 2) return {1e-6, 40};
+    return {1e-4, 5};
+}
+
+Effort effort_for_moments(std::size_t dimension) {
+    return dimension <= 1 ? Effort{1e-10, 400, 63} : Effort{1e-7, 60, 15};
+}
+
+}  // namespace
+
+FormulaBox::FormulaBox(std::string spec, Expression f, Box box)
+    : spec_(std::move(spec)), f_(std::move(f)), box_(std::move(box)) {}
+
+Estimate FormulaBox::integral() const {
+    std::call_once(once_, [this] {
+        const std::string what = "--density: " + f_.text();
+        integral_ = integrate_box(
+            [&](std::span<const double> point) {
+                const double value = f_.at(point);
+                require_density(what, point, value);
+                return value;
+            },
+            box_, effort_for(dimension()));
+        if (!(integral_.value > 0))
+            fail(ErrorKind::usage, "{} is 0 wherever it was looked at in {}", what,
+                 format_box(box_));
+    });
+    return integral_;
+}
+
+double FormulaBox::measure() const {
+    double volume = 1;
+    for (std::size_t k = 0; k < dimension(); ++k) volume *= box_.extent(k);
+    return volume;
+}
+
+bool FormulaBox::contains(std::span<const double> point) const {
+    for (std::size_t k = 0; k < dimension(); ++k)
+        if (!(point[k] >= box_.low[k] && point[k] <= box_.high[k])) return false;
+    return true;
+}
+
+double FormulaBox::density(std::span<const double> point) const {
+    return contains(point) ? f_.at(point) / integral().value : 0;
+}
+
+void FormulaBox::to_cube(std::span<const double> point, std::span<double> cube) const {
+    for (std::size_t k = 0; k < dimension(); ++k)
+        cube[k] = std::clamp((point[k] - box_.low[k]) / box_.extent(k), 0.0, 1.0);
+}
+
+Estimate FormulaBox::probability(const Box& cell) const {
+    Box part = box_;
+    for (std::size_t k = 0; k < dimension(); ++k) {
+        part.low[k] = box_.low[k] + cell.low[k] * box_.extent(k);
+        part.high[k] =
+            cell.high[k] < 1 ? box_.low[k] + cell.high[k] * box_.extent(k) : box_.high[k];
+    }
+    const Estimate mass = integrate_box([&](std::span<const double> point) { return f_.at(point); },
+                                        part, effort_in_cell(dimension()));
+    const Estimate whole = integral();
+    const double share = mass.value / whole.value;
+    return {share, (mass.error + share * whole.error) / whole.value};
+}
+
+std::optional<Moments> FormulaBox::moments() const {
+    const std::size_t d = dimension();
+    if (d > 2) return std::nullopt;
+    const Estimate whole = integral();
+    bool fine = whole.error <= 1e-6 * whole.value;
+    // E of a product of coordinates from the middle of the box, in halves of its extents.
+    const auto expect = [&](std::size_t i, int p, std::size_t j, int q) {
+        const auto off = [&](std::span<const double> x, std::size_t k) {
+            return (x[k] - box_.low[k]) / (0.5 * box_.extent(k)) - 1;
+        };
+        const Estimate found = integrate_box(
+            [&](std::span<const double> x) {
+                return f_.at(x) * std::pow(off(x, i), p) * std::pow(off(x, j), q);
+            },
+            box_, effort_for_moments(d));
+        fine = fine && found.error <= 1e-6 * whole.value;
+        return found.value / whole.value;
+    };
+    Moments m{std::vector<double>(d), std::vector<double>(d * d), std::vector<double>(d)};
+    std::vector<double> mean(d);
+    for (std::size_t k = 0; k < d; ++k) {
+        const double half = 0.5 * box_.extent(k);
+        mean[k] = expect(k, 1, k, 0);
+        const double square = expect(k, 2, k, 0);
+        const double variance = square - mean[k] * mean[k];
+        const double third =
+            expect(k, 3, k, 0) - 3 * mean[k] * square + 2 * mean[k] * mean[k] * mean[k];
+        m.mean[k] = box_.low[k] + half * (1 + mean[k]);
+        m.covariance[k * d + k] = half * half * variance;
+        m.skewness[k] = third / std::pow(variance, 1.5);
+    }
+    if (d == 2)
+        m.covariance[1] = m.covariance[2] =
+            0.25 * box_.extent(0) * box_.extent(1) * (expect(0, 1, 1, 1) - mean[0] * mean[1]);
+    return fine ? std::optional(m) : std::nullopt;
+}
+
+Support FormulaBox::support() const {
+    const std::size_t d = dimension();
+    const std::size_t steps = d == 1 ? 256 : (d == 2 ? 16 : 4);
+    std::vector<std::size_t> at(d, 0);
+    Estimate positive;
+    const auto cell = [&] {
+        Box part = box_;
+        for (std::size_t k = 0; k < d; ++k) {
+            const double step = box_.extent(k) / static_cast<double>(steps);
+            part.low[k] += static_cast<double>(at[k]) * step;
+            part.high[k] = at[k] + 1 < steps ? part.low[k] + step : box_.high[k];
+        }
+        return part;
+    };
+    for (bool more = true; more;) {
+        const Estimate part = integrate_box(
+            [&](std::span<const double> point) { return f_.at(point) > 0 ? 1.0 : 0.0; }, cell(),
+            {1e-7, 16});
+        positive.value += part.value;
+        positive.error += part.error;
+        std::size_t k = 0;
+        while (k < d && ++at[k] == steps) at[k++] = 0;
+        more = k < d;
+    }
+    // Less than the whole by more than rounding: there is a gap.
+    const double whole = measure();
+    if (positive.value >= (1 - 1e-9) * whole)
+        return {.measure = Estimate{whole, 0}, .boxes = {box_}};
+    return {.whole = false, .measure = positive, .boxes = {box_}};
+}
+
+std::vector<std::string> FormulaBox::cube_axes() const {
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < dimension(); ++k) names.push_back(fmt::format("x{}", k + 1));
+    return names;
+}
+
+void FormulaBox::require(std::span<const double> point) const {
+    if (!contains(point))
+        fail(ErrorKind::input, "the point ({}) is outside the box of {}", fmt::join(point, ", "),
+             spec_);
+}
+
+Box formula_bounds(const std::string& text, std::size_t most) {
+    const std::size_t ranges = split(text, ',').size();
+    if (ranges > most)
+        fail(ErrorKind::usage, "--bounds: {} ranges; {} are allowed at most", ranges, most);
+    return parse_box(text, std::max<std::size_t>(ranges, 1));
+}
+
+}  // namespace stipple::warps

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+//
+// A box with the density that a formula gives, over its integral: what expression-2d and rejection
+// make points for. Cells of it are boxes; their probabilities are integrals by quadrature
+// (math/densities/quadrature.hpp).
+#pragma once
+
+#include <mutex>
+#include <string>
+
+#include "core/box_mass.hpp"
+#include "core/domain.hpp"
+#include "core/support.hpp"
+#include "math/densities/expression.hpp"
+
+namespace stipple::warps {
+
+class FormulaBox final : public Domain, public Gapped, public Weighable {
+  public:
+    FormulaBox(std::string spec, Expression f, Box box);
+
+    std::string spec() const override { return spec_; }
+    std::size_t dimension() const override { return box_.dimension(); }
+    double measure() const override;
+    bool contains(std::span<const double> point) const override;
+    Box bounding_box() const override { return box_; }
+    double density(std::span<const double> point) const override;
+
+    /// The place in the box.
+    void to_cube(std::span<const double> point, std::span<double> cube) const override;
+    bool even() const override { return false; }
+    Estimate probability(const Box& cell) const override;
+    Estimate box_mass(const Box& box) const override { return box_mass_by_axes(*this, box); }
+    std::vector<std::string> cube_axes() const override;
+
+    /// By quadrature, within 1e-6 of the box's extents; none where that is not reached, or in three
+    /// dimensions.
+    std::optional<Moments> moments() const override;
+
+    /// Looked for on a grid of cells, the measure by quadrature.
+    Support support() const override;
+
+    const Expression& formula() const { return f_; }
+    const Box& box() const { return box_; }
+
+    /// Integral of the formula over the box, worked out when it is first asked for.
+    /// @throws Error(usage) where the formula is no density in the box
+    Estimate integral() const;
+
+    /// Throws unless the point is in the box. @throws Error(input)
+    void require(std::span<const double> point) const;
+
+  private:
+    std::string spec_;
+    Expression f_;
+    Box box_;
+    mutable std::once_flag once_;
+    mutable Estimate integral_;
+};
+
+/// Parses --bounds for formulas: ranges for 1 to 3 coordinates. @throws Error(usage)
+Box formula_bounds(const std::string& text, std::size_t most);
+
+}  // namespace stipple::warps

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: MIT
+//
+// Mixture of other warps with weights w_i that sum to 1:
+//
+//     component i where w_0 + ... + w_i-1 <= xi0 < w_0 + ... + w_i,
+//     its first coordinate xi0' = (xi0 - w_0 - ... - w_i-1) / w_i, the others as they are;
+//     density = sum_i w_i density_i.
+//
+// Components are specs with | between them, as in
+//
+//     mixture:weights=[0.6,0.4],components=[von-mises-fisher:kappa=50,axis=[1,0,0]|sphere]
+//
+// All must give directions (unit vectors of the plane or space), or all must fill the same number
+// of dimensions of the line, plane or space, and none may drop points, which would change the
+// weights. The domain is the whole sphere or space. Its cells are zones of height and longitude or,
+// in space, boxes of the normal probabilities of (x - middle) / (width / 4) of the bounding box.
+//
+// Shape   as many unit coordinates as the components take, and as many coordinates as they give.
+// Strata  xi0 as it is, cut by the weights and stretched: n strata give each component n w_i of
+//         them, rounded up or down. All else is the components'.
+// Cost    that of the components, and about 8 ns a point on one core.
+// Promise a component of weight 0 never comes. Probabilities of cells are the weighted sums of the
+//         components' (mixture_domain.hpp). There is no way back: a point may come from several
+//         components. The same bits on every machine, where the components have them.
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/rng.hpp"
+#include "core/spec.hpp"
+#include "core/text.hpp"
+#include "math/functions/running_sums.hpp"
+#include "warps/densities/mixture_domain.hpp"
+#include "warps/warp.hpp"
+
+namespace stipple::warps::mixture {
+namespace {
+
+constexpr Param<Numbers> weights{
+    {.name = "weights",
+     .fallback = "0.5,0.5",
+     .help = "Probability of each component; they must sum to 1 within 1e-12"}};
+
+constexpr Param<Text> components{
+    {.name = "components",
+     .fallback = "henyey-greenstein:g=0.7|henyey-greenstein:g=-0.3",
+     .help = "Warps as specs, with | between them: 'cone:half-angle=10|hemisphere:method=cosine'"}};
+
+constexpr Param<bool> normalize{.name = "normalize", .help = "Divide the weights by their sum"};
+
+const Schema& schema() {
+    static const Schema options(weights, components, normalize);
+    return options;
+}
+
+struct Component {
+    std::string spec;
+    double weight = 0;
+    std::unique_ptr<Mapping> mapping;
+};
+
+class Mixture final : public Mapping {
+  public:
+    Mixture(std::vector<Component> parts, std::vector<double> sums, std::string spec)
+        : parts_(std::move(parts)), sums_(std::move(sums)) {
+        std::vector<DomainPtr> domains;
+        std::vector<double> shares;
+        for (const Component& part : parts_) {
+            domains.push_back(part.mapping->domain());
+            shares.push_back(part.weight);
+        }
+        domain_ = mixture_domain(std::move(domains), std::move(shares), std::move(spec));
+        double before = 0;
+        for (const double sum : sums_) {
+            shares_.push_back({before, sum - before});
+            before = sum;
+        }
+    }
+
+    DomainPtr domain() const override { return domain_; }
+    std::size_t cube_dimension() const override { return parts_[0].mapping->cube_dimension(); }
+
+    void forward(std::span<const double> cube, std::span<double> image,
+                 std::span<std::uint8_t> /*keep*/) const override {
+        const std::size_t d = cube_dimension();
+        const std::size_t m = domain_->dimension();
+        Work work(parts_.size(), d, m);
+        for (std::size_t first = 0; first < cube.size() / d; first += some) {
+            const std::size_t size = std::min(some, cube.size() / d - first);
+            move(cube.subspan(first * d, size * d), image.subspan(first * m, size * m), work);
+        }
+    }
+
+    double density(std::span<const double> point) const override {
+        double sum = 0;
+        for (const Component& part : parts_) sum += part.weight * part.mapping->density(point);
+        return sum;
+    }
+
+  private:
+    /// Rows that go through at a time: few enough to stay in the nearest caches.
+    static constexpr std::size_t some = 512;
+
+    /// Rows of one component after those of another, each in their order.
+    struct Work {
+        std::array<std::uint32_t, some> which;  ///< component of each row
+        std::array<std::uint32_t, some> place;  ///< of each row among them
+        std::array<std::uint8_t, some> keep;
+        std::vector<std::uint32_t> begin;  ///< of each component's rows, and their end
+        std::vector<std::uint32_t> next;
+        std::vector<double> from;
+        std::vector<double> to;
+
+        Work(std::size_t parts, std::size_t d, std::size_t m)
+            : begin(parts + 1), next(parts + 1), from(some * d), to(some * m) {
+            keep.fill(1);
+        }
+    };
+
+    void move(std::span<const double> cube, std::span<double> image, Work& work) const {
+        const std::size_t d = cube_dimension();
+        const std::size_t m = domain_->dimension();
+        const std::size_t count = cube.size() / d;
+        choose(cube, work.which);
+        sort(count, work);
+        for (std::size_t i = 0; i < count; ++i) {
+            const Share& share = shares_[work.which[i]];
+            const double u = (cube[i * d] - share.before) / share.width;
+            double* row = &work.from[work.place[i] * d];
+            row[0] = std::max(0.0, std::min(u, one_minus_ulp));
+            for (std::size_t k = 1; k < d; ++k) row[k] = cube[i * d + k];
+        }
+        for (std::size_t c = 0; c < parts_.size(); ++c) {
+            const std::size_t first = work.begin[c];
+            const std::size_t size = work.begin[c + 1] - first;
+            if (size > 0)
+                parts_[c].mapping->forward(std::span(work.from).subspan(first * d, size * d),
+                                           std::span(work.to).subspan(first * m, size * m),
+                                           std::span(work.keep).first(size));
+        }
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t k = 0; k < m; ++k) image[i * m + k] = work.to[work.place[i] * m + k];
+    }
+
+    void sort(std::size_t count, Work& work) const {
+        auto& [which, place, keep, begin, next, from, to] = work;
+        std::ranges::fill(begin, 0);
+        for (std::size_t i = 0; i < count; ++i) ++begin[which[i] + 1];
+        for (std::size_t c = 0; c < parts_.size(); ++c) begin[c + 1] += begin[c];
+        next = begin;
+        for (std::size_t i = 0; i < count; ++i) place[i] = next[which[i]]++;
+    }
+
+    /// Where a component's part of the first coordinate begins, and how wide it is.
+    struct Share {
+        double before;
+        double width;
+    };
+
+    /// For each row the first component whose running weight is above its first coordinate.
+    void choose(std::span<const double> cube, std::array<std::uint32_t, some>& which) const {
+        const std::size_t d = cube_dimension();
+        const std::size_t count = cube.size() / d;
+        constexpr std::size_t few = 16;
+        if (sums_.size() > few) {
+            for (std::size_t i = 0; i < count; ++i) {
+                const double u = std::min(cube[i * d], one_minus_ulp);
+                const auto above = std::ranges::upper_bound(sums_, u);
+                which[i] = static_cast<std::uint32_t>(above - sums_.begin());
+            }
+            return;
+        }
+        // Counted, since branches would be guessed wrong.
+        std::fill_n(which.begin(), count, 0);
+        for (const double sum : std::span(sums_).first(sums_.size() - 1))
+            for (std::size_t i = 0; i < count; ++i)
+                which[i] += sum <= std::min(cube[i * d], one_minus_ulp) ? 1 : 0;
+    }
+
+    std::vector<Component> parts_;
+    std::vector<double> sums_;  ///< of the weights; the last is 1
+    std::vector<Share> shares_;
+    DomainPtr domain_;
+};
+
+/// The parts between | outside of brackets.
+std::vector<std::string> parts_of(std::string_view text) {
+    std::vector<std::string> parts(1);
+    int open = 0;
+    for (const char c : text) {
+        open += c == '[' ? 1 : (c == ']' ? -1 : 0);
+        if (c == '|' && open == 0)
+            parts.emplace_back();
+        else
+            parts.back() += c;
+    }
+    return parts;
+}
+
+const Warp& warp_of(const Spec& spec) {
+    std::vector<std::string> names;
+    for (const Warp& warp : all()) {
+        if (warp.name == spec.name || std::ranges::count(warp.aliases, spec.name) > 0) return warp;
+        names.push_back(warp.name);
+    }
+    fail_with_hint(ErrorKind::usage, suggest(spec.name, names),
+                   "--components: there is no warp '{}'", spec.name);
+}
+
+/// Whether random points become unit vectors.
+bool gives_directions(const Mapping& mapping) {
+    constexpr std::size_t n = 16;
+    const std::size_t m = mapping.domain()->dimension();
+    std::vector<double> cube(n * mapping.cube_dimension()), image(n * m);
+    std::vector<std::uint8_t> keep(n, 1);
+    Rng(1).fill(0, cube);
+    mapping.forward(cube, image, keep);
+    for (std::size_t i = 0; i < n; ++i) {
+        double square = 0;
+        for (std::size_t k = 0; k < m; ++k) square += image[i * m + k] * image[i * m + k];
+        if (!(std::abs(square - 1) <= 1e-14)) return false;
+    }
+    return true;
+}
+
+/// What the points of a component are, for people; equal where components can be mixed.
+std::string space_of(const Component& part, const Warp& warp) {
+    const Domain& domain = *part.mapping->domain();
+    const std::size_t m = domain.dimension();
+    const bool full = domain.cube_dimension() == m;
+    if (part.mapping->drops())
+        fail(ErrorKind::usage, "--components: {} drops points, which would change the weights",
+             part.spec);
+    if (warp.name == "discrete" || (!full && !gives_directions(*part.mapping)))
+        fail(ErrorKind::usage,
+             "--components: {} gives neither directions nor points that fill a space", part.spec);
+    if (full) return fmt::format("points that fill {} dimension{}", m, m == 1 ? "" : "s");
+    return m == 2 ? "directions in the plane" : "directions in space";
+}
+
+Component component_of(const std::string& text, std::size_t given, const RunContext& run,
+                       std::string& space) {
+    const Spec spec = parse_spec(text);
+    if (!spec.coordinates.empty())
+        fail(ErrorKind::usage, "--components: {} names coordinates; all take the same", text);
+    const Warp& warp = warp_of(spec);
+    Component part{.spec = text, .mapping = warp.make(spec.values(warp.options), given, run)};
+    space = space_of(part, warp);
+    return part;
+}
+
+std::unique_ptr<Mapping> make(const Values& options, std::size_t given, const RunContext& run) {
+    std::vector<double> shares = options[weights];
+    const auto texts = parts_of(options[components]);
+    if (shares.size() != texts.size())
+        fail(ErrorKind::usage, "--weights: {} given for {} component{}; one for each is needed",
+             shares.size(), texts.size(), texts.size() == 1 ? "" : "s");
+    for (const double w : shares)
+        if (!(w >= 0 && w <= 1e300)) fail(ErrorKind::usage, "--weights: {} is outside [0, 1]", w);
+    const double sum = running_sums(shares).back();
+    if (!options[normalize] && !(std::abs(sum - 1) <= 1e-12))
+        fail_with_hint(ErrorKind::usage, "--normalize divides them by their sum",
+                       "--weights: their sum is {:.15g}; 1 is needed", sum);
+    if (!(sum > 0 && std::isfinite(sum)))
+        fail(ErrorKind::usage, "--weights: their sum is {}; it cannot be divided by", sum);
+    for (double& w : shares) w /= sum;
+
+    std::vector<Component> parts;
+    std::string first;
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        std::string space;
+        parts.push_back(component_of(texts[i], given, run, space));
+        parts.back().weight = shares[i];
+        if (i == 0) first = space;
+        if (space != first ||
+            parts[i].mapping->cube_dimension() != parts[0].mapping->cube_dimension())
+            fail(ErrorKind::usage,
+                 "--components: all must be of one kind; {} gives {}, from {} unit coordinates, {} "
+                 "gives {}, from {}",
+                 texts[0], first, parts[0].mapping->cube_dimension(), texts[i], space,
+                 parts[i].mapping->cube_dimension());
+    }
+    std::vector<double> sums = running_sums(shares);
+    const double total = sums.back();
+    for (double& s : sums) s = s == total ? 1 : s;
+    return std::make_unique<Mixture>(std::move(parts), std::move(sums),
+                                     format_spec("mixture", options, schema()));
+}
+
+}  // namespace
+
+Warp unit() {
+    return {.name = "mixture",
+            .summary = "Mixture of other warps with weights",
+            .source = "Composition: the weighted sum of the components' densities",
+            .strata =
+                "xi1 is cut by the weights, in order, and stretched for the component's own use; "
+                "all else is as the components have it",
+            .traits = {.invertible = false},
+            .options = schema(),
+            .make = make};
+}
+
+}  // namespace stipple::warps::mixture

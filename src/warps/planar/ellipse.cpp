@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+//
+// Unit square onto an ellipse with semi-axes a and b about a centre c, turned by an angle phi: the
+// unit disk, stretched along its axes and turned,
+//
+//     point = c + (cos phi  -sin phi; sin phi  cos phi) (a x, b y),   (x, y) in the unit disk
+//
+// where (x, y) is made of xi by the disk's polar or concentric map (math/geometry/disk_maps.hpp).
+//
+// Shape   2 unit coordinates, 2 coordinates.
+// Units   phi in degrees, from the x axis towards the y axis.
+// Strata  xi0 and xi1 are taken as they are, not as 1 - xi, as disk does: polar makes parts of
+//         elliptic rings of strata, small xi0 near the centre, and xi1 = 0 is the first axis;
+//         concentric takes squares about the centre to ellipses and keeps neighbours neighbours.
+// Cost    O(1) a point; about 9 ns forward, 14 ns back on one core.
+// Promise density 1 / (pi a b). Points lie in the closed ellipse up to 16 epsilon
+//         (max(a, b) + |cx| + |cy|). Forward and back again is the same point within 1e-14 of
+//         |c| + max(a, b), times max(a, b) / min(a, b). The same bits on every machine.
+
+#include <array>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "core/spec.hpp"
+#include "math/geometry/disk_maps.hpp"
+#include "warps/planar/placed_shape.hpp"
+
+namespace stipple::warps::ellipse {
+namespace {
+
+constexpr Param<Choice> method{
+    .name = "method",
+    .fallback = "polar",
+    .choices = "polar|concentric",
+    .help =
+        "polar: elliptic rings and sectors; concentric: squares become ellipses, keeps "
+        "neighbours"};
+
+constexpr Param<Numbers> axes{
+    {.name = "axes", .fallback = "1,0.5", .help = "Lengths of the two semi-axes, above 0: a,b"}};
+
+constexpr Param<double> rotation{
+    .name = "rotation",
+    .fallback = 0,
+    .low = -360,
+    .high = 360,
+    .unit = "degrees",
+    .help = "Angle of the first axis, from the x axis towards the y axis"};
+
+const Schema& schema() {
+    static const Schema options(method, axes, rotation, shape_center);
+    return options;
+}
+
+/// The ellipse with semi-axes a and b, the longer one 1.
+template <class Disk>
+struct Ellipse {
+    double a;
+    double b;
+
+    PlanePoint forward(double u, double v) const {
+        const auto [x, y] = Disk::forward(u, v);
+        return {a * x, b * y};
+    }
+    PlanePoint inverse(double x, double y) const { return Disk::inverse(x / a, y / b); }
+    double area() const { return std::numbers::pi * a * b; }
+    double area_in(Polygon window) const {
+        for (PlanePair& corner : window) corner = {corner[0] / a, corner[1] / b};
+        return a * b * area_in_disk(window, {0, 0}, 1);
+    }
+
+    /// To first order, the distance is what x^2/a^2 + y^2/b^2 is above 1, over its slope.
+    double beyond(double x, double y) const {
+        const double p = x / a;
+        const double q = y / b;
+        const double excess = p * p + q * q - 1;
+        const double slope = 2 * std::sqrt(p * p / (a * a) + q * q / (b * b));
+        return excess > 0 ? excess / slope : excess;
+    }
+
+    /// The outermost points along the axes of the plane.
+    std::vector<PlanePoint> hull(double turn) const {
+        std::vector<PlanePoint> points;
+        const auto [c, s] = cos_sin_turns(turn);
+        for (const auto& [nx, ny] : {PlanePoint{c, -s}, PlanePoint{s, c}}) {
+            const double reach = std::sqrt(a * a * nx * nx + b * b * ny * ny);
+            const PlanePoint q{a * a * nx / reach, b * b * ny / reach};
+            points.push_back(q);
+            points.push_back({-q.x, -q.y});
+        }
+        return points;
+    }
+    PlaneMoments moments() const { return {.xx = 0.25 * a * a, .yy = 0.25 * b * b}; }
+    std::vector<std::string> axes() const {
+        return {"area fraction", "angle in turns on the unit disk"};
+    }
+};
+
+std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
+                              const RunContext& /*run*/) {
+    const auto lengths = options[axes];
+    if (lengths.size() != 2)
+        fail(ErrorKind::usage, "--axes: 2 numbers are needed, a,b; {} given", lengths.size());
+    const double a = lengths[0];
+    const double b = lengths[1];
+    for (const double x : lengths)
+        if (!(x >= 1e-150 && x <= 1e150))
+            fail(ErrorKind::usage, "--axes: {} is outside [1e-150, 1e150]", x);
+    const double longer = std::max(a, b);
+    if (!(std::min(a, b) > lost_in_rounding * longer))
+        fail(ErrorKind::usage, "--axes: {} is lost in rounding beside {}", std::min(a, b), longer);
+    const auto at =
+        place(options[shape_center], longer, options[rotation], std::min(a, b), "a semi-axis");
+    Values shape = options;
+    shape.put(method.name, std::string(method.fallback), false);
+    const Ellipse<PolarDisk> polar{a / longer, b / longer};
+    auto domain = std::make_shared<PlacedDomain<Ellipse<PolarDisk>>>(
+        format_spec("ellipse", shape, schema()), polar, at);
+    if (options[method] == "concentric") {
+        const Ellipse<ConcentricDisk> concentric{polar.a, polar.b};
+        return std::make_unique<PlacedMapping<Ellipse<ConcentricDisk>>>(domain, concentric, at);
+    }
+    return std::make_unique<PlacedMapping<Ellipse<PolarDisk>>>(domain, polar, at);
+}
+
+}  // namespace
+
+Warp unit() {
+    return {.name = "ellipse",
+            .summary = "Ellipse at any angle, uniform by area",
+            .source = "Shirley, Chiu 1997, doi:10.1080/10867651.1997.10487479 (concentric)",
+            .strata =
+                "polar: xi1 is the share of the area within an ellipse of the same shape, xi2 the "
+                "angle from the first axis, both as they are; concentric: squares about the centre "
+                "become ellipses",
+            .traits = {},
+            .options = schema(),
+            .make = make};
+}
+
+}  // namespace stipple::warps::ellipse

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "warps/planar/placed_shape.hpp"
+
+#include "core/error.hpp"
+
+namespace stipple::warps {
+
+double turn_of_degrees(double degrees) {
+    const double turns = degrees / 360;
+    const double rest = turns - std::floor(turns);
+    return rest < 1 ? rest : 0;  // just below a whole turn, the difference rounds to 1
+}
+
+Placement place(const std::vector<double>& center, double size, double degrees, double finest,
+                std::string_view what) {
+    if (center.size() != 2)
+        fail(ErrorKind::usage, "--center: 2 numbers are needed, x,y; {} given", center.size());
+    for (const double x : center)
+        if (!(finest > lost_in_rounding * std::abs(x)))
+            fail(ErrorKind::usage, "--center: {} is so far that {} of {} is lost in rounding", x,
+                 what, finest);
+    const double turn = turn_of_degrees(degrees);
+    const auto [c, s] = cos_sin_turns(turn);
+    return {.center = {center[0] + 0.0, center[1] + 0.0},  // -0 would show in points
+            .size = size,
+            .turn = turn,
+            .cos = c,
+            .sin = s};
+}
+
+}  // namespace stipple::warps

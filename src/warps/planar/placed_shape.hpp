@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+//
+// Shapes of the plane in a frame of their own, at most about 1 from its origin, put at a place:
+//
+//     point = c + R (cos a  -sin a; sin a  cos a) q,    q = shape.forward(xi0, xi1)
+//
+// A Shape is a value with
+//
+//     PlanePoint forward(double u, double v) const     of equal areas, for u, v in [0, 1]
+//     PlanePoint inverse(double x, double y) const     back; rounding may leave the square
+//     double area() const                              in its own frame
+//     double area_in(const Polygon& window) const      what it shares with a convex one
+//     double beyond(double x, double y) const          distance from it, at most 0 inside
+//     std::vector<PlanePoint> hull() const             points whose box is the shape's, once
+//     turned;
+//                                                      `turn` is given in turns
+//     PlaneMoments moments() const                     of its uniform law, in its own frame
+//     std::vector<std::string> axes() const            what its coordinates u and v mean
+//
+// Promise points lie in the closed shape up to 16 epsilon (R + |cx| + |cy|): the rounding of a
+//         point that was made.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/options.hpp"
+#include "core/wide.hpp"
+#include "math/functions/trigonometry.hpp"
+#include "math/geometry/law_moments.hpp"
+#include "math/geometry/plane_point.hpp"
+#include "warps/inside.hpp"
+#include "warps/planar/area_share.hpp"
+#include "warps/warp.hpp"
+
+namespace stipple::warps {
+
+/// The option that all these shapes have.
+inline constexpr Param<Numbers> shape_center{
+    {.name = "center", .fallback = "0,0", .help = "Centre of the shape: x,y"}};
+
+struct Placement {
+    PlanePoint center;
+    double size = 1;  ///< R
+    double turn = 0;  ///< in turns, in [0, 1)
+    double cos = 1;
+    double sin = 0;
+
+    [[nodiscard]] PlanePoint to_world(PlanePoint q) const {
+        return {center.x + size * (cos * q.x - sin * q.y),
+                center.y + size * (sin * q.x + cos * q.y)};
+    }
+    [[nodiscard]] PlanePoint to_frame(double px, double py) const {
+        const double x = (px - center.x) / size;
+        const double y = (py - center.y) / size;
+        return {cos * x + sin * y, cos * y - sin * x};
+    }
+};
+
+/// Lengths below this share of a shape's coordinates cannot be told from rounding.
+inline constexpr double lost_in_rounding = 64 * std::numeric_limits<double>::epsilon();
+
+/// Puts a shape of size R at `center`, turned by `degrees`. `finest` is the smallest length that
+/// must not be lost in rounding, and `what` says which that is: "a radius". @throws Error(usage)
+Placement place(const std::vector<double>& center, double size, double degrees, double finest,
+                std::string_view what);
+
+/// An angle in degrees as turns in [0, 1).
+double turn_of_degrees(double degrees);
+
+template <class Shape>
+class PlacedDomain final : public Domain, public Weighable {
+  public:
+    PlacedDomain(std::string spec, Shape shape, const Placement& at)
+        : spec_(std::move(spec)), shape_(std::move(shape)), at_(at) {
+        slack_ = 16 * std::numeric_limits<double>::epsilon() *
+                 (1 + (std::abs(at.center.x) + std::abs(at.center.y)) / at.size);
+    }
+
+    std::string spec() const override { return spec_; }
+    std::size_t dimension() const override { return 2; }
+    double measure() const override { return shape_.area() * at_.size * at_.size; }
+
+    bool contains(std::span<const double> point) const override {
+        const auto [x, y] = at_.to_frame(point[0], point[1]);
+        return std::abs(x) < 4 && std::abs(y) < 4 && shape_.beyond(x, y) <= slack_;
+    }
+
+    Box bounding_box() const override {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        Box box{{infinity, infinity}, {-infinity, -infinity}};
+        for (const PlanePoint& q : shape_.hull(at_.turn)) {
+            const auto [x, y] = at_.to_world(q);
+            box = {{std::min(box.low[0], x), std::min(box.low[1], y)},
+                   {std::max(box.high[0], x), std::max(box.high[1], y)}};
+        }
+        return box;
+    }
+
+    void to_cube(std::span<const double> point, std::span<double> cube) const override {
+        const auto [x, y] = at_.to_frame(point[0], point[1]);
+        const auto [u, v] = shape_.inverse(x, y);
+        cube[0] = std::clamp(u, 0.0, 1.0);
+        cube[1] = std::clamp(v, 0.0, 1.0);
+    }
+    Estimate box_mass(const Box& box) const override {
+        return area_share(box, *this, [&](Polygon window) {
+            for (PlanePair& corner : window) {
+                const auto [x, y] = at_.to_frame(corner[0], corner[1]);
+                corner = {x, y};
+            }
+            return shape_.area_in(window) * at_.size * at_.size;
+        });
+    }
+    std::optional<Moments> moments() const override {
+        return placed_moments(shape_.moments(), {at_.center, at_.size, at_.cos, at_.sin});
+    }
+    std::vector<std::string> cube_axes() const override { return shape_.axes(); }
+
+  private:
+    std::string spec_;
+    Shape shape_;
+    Placement at_;
+    double slack_;
+};
+
+template <class Shape>
+STIPPLE_WIDE void map_placed(const Shape& shape, const Placement& at, std::span<const double> cube,
+                             std::span<double> image) {
+    const Placement place = at;
+    const Shape form = shape;
+    for (std::size_t i = 0; i + 1 < cube.size(); i += 2) {
+        const auto [x, y] = place.to_world(form.forward(cube[i], cube[i + 1]));
+        image[i] = x;
+        image[i + 1] = y;
+    }
+}
+
+template <class Shape>
+STIPPLE_WIDE void unmap_placed(const Shape& shape, const Placement& at,
+                               std::span<const double> image, std::span<double> cube) {
+    const Placement place = at;
+    const Shape form = shape;
+    for (std::size_t i = 0; i + 1 < image.size(); i += 2) {
+        const auto [x, y] = place.to_frame(image[i], image[i + 1]);
+        const auto [u, v] = form.inverse(x, y);
+        cube[i] = std::max(0.0, std::min(u, 1.0));
+        cube[i + 1] = std::max(0.0, std::min(v, 1.0));
+    }
+}
+
+/// The unit square onto a shape that is put at a place; the domain may be the same shape by another
+/// map.
+template <class Shape>
+class PlacedMapping final : public Mapping {
+  public:
+    PlacedMapping(DomainPtr domain, Shape shape, const Placement& at)
+        : domain_(std::move(domain)), shape_(std::move(shape)), at_(at) {}
+
+    DomainPtr domain() const override { return domain_; }
+    std::size_t cube_dimension() const override { return 2; }
+
+    void forward(std::span<const double> cube, std::span<double> image,
+                 std::span<std::uint8_t> /*keep*/) const override {
+        map_placed(shape_, at_, cube, image);
+    }
+
+    void inverse(std::span<const double> image, std::span<double> cube) const override {
+        expect_inside(*domain_, image);
+        unmap_placed(shape_, at_, image, cube);
+    }
+
+  private:
+    DomainPtr domain_;
+    Shape shape_;
+    Placement at_;
+};
+
+/// The mapping onto a shape whose own coordinates are the domain's.
+template <class Shape>
+std::unique_ptr<Mapping> placed(std::string spec, const Shape& shape, const Placement& at) {
+    auto domain = std::make_shared<PlacedDomain<Shape>>(std::move(spec), shape, at);
+    return std::make_unique<PlacedMapping<Shape>>(std::move(domain), shape, at);
+}
+
+}  // namespace stipple::warps

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+//
+// The part of a ring around the origin between radii q and 1 and angles 0 and w turns, by
+//
+//     r = sqrt(q^2 + u (1 - q^2)),    theta = w v turns
+//
+// and back by u = (r - q) (r + q) / (1 - q^2). The unit disk is q = 0, w = 1.
+//
+// Promise areas are equal; the point (r cos theta, r sin theta) comes back within 4 epsilon of 1.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "math/functions/trigonometry.hpp"
+#include "math/geometry/law_moments.hpp"
+#include "math/geometry/planar_area.hpp"
+#include "math/geometry/plane_point.hpp"
+
+namespace stipple::warps {
+
+struct RingSector {
+    double inner = 0;   ///< q, below 1
+    double spread = 1;  ///< 1 - q^2, told apart for rings that are thin
+    double width = 1;   ///< w, in (0, 1] turns
+
+    /// Radii with inner < outer, and an angle in turns.
+    static RingSector between(double inner, double outer, double width) {
+        const double q = inner / outer;
+        return {.inner = q, .spread = (outer - inner) / outer * (1 + q), .width = width};
+    }
+
+    [[nodiscard]] PlanePoint forward(double u, double v) const {
+        const double r = std::sqrt(inner * inner + u * spread);
+        const auto [c, s] = cos_sin_turns(width * v);
+        return {r * c, r * s};
+    }
+
+    [[nodiscard]] PlanePoint inverse(double x, double y) const {
+        const double r = std::sqrt(x * x + y * y);
+        const double angle = turns_of(x, y);
+        // Rounding may turn a point of the first side backwards, to nearly a whole turn.
+        const double wrapped = 0.5 * (1 + width) < angle;
+        return {(r - inner) * (r + inner) / spread, (angle - wrapped) / width};
+    }
+
+    [[nodiscard]] double area() const;
+    [[nodiscard]] double area_in(const Polygon& window) const;
+    [[nodiscard]] double beyond(double x, double y) const;
+    [[nodiscard]] std::vector<PlanePoint> hull(double turn) const;
+    [[nodiscard]] PlaneMoments moments() const;
+    [[nodiscard]] std::vector<std::string> axes() const;
+};
+
+}  // namespace stipple::warps

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+//
+// Unit square onto the sector of a disk, or of an annulus, of radii q < R about a centre c, between
+// two angles alpha < beta:
+//
+//     r = sqrt(q^2 + xi0 (R^2 - q^2)),  theta = alpha + xi1 (beta - alpha)
+//     point = c + r (cos theta, sin theta)
+//
+// and back: xi0 = (r - q) (r + q) / (R^2 - q^2).
+//
+// Shape   2 unit coordinates, 2 coordinates.
+// Units   angles in degrees, from the x axis towards the y axis.
+// Strata  xi0 and xi1 are taken as they are, not as 1 - xi: small xi0 is near the centre, small xi1
+//         near the first angle. Strata become parts of rings between two angles.
+// Cost    O(1) a point; about 9 ns forward, 30 ns back on one core.
+// Promise density 1 / area. Points lie in the closed sector up to 16 epsilon (R + |cx| + |cy|).
+//         Forward and back again is the same point within 1e-14 of |c| + R; for c = 0 also the same
+//         xi within 1e-14 R / (R - q) and 1e-14 / (beta - alpha) turns, save that all xi1 meet in
+//         the centre where q = 0. The same bits on every machine.
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/spec.hpp"
+#include "warps/planar/placed_shape.hpp"
+#include "warps/planar/ring_sector.hpp"
+
+namespace stipple::warps::sector {
+namespace {
+
+constexpr Param<Numbers> angles{
+    {.name = "angles",
+     .fallback = "0,90",
+     .unit = "degrees",
+     .help = "First and last angle, from the x axis towards the y axis: the last one is above the "
+             "first, by at most 360"}};
+
+constexpr Param<double> inner{.name = "inner",
+                              .fallback = 0,
+                              .low = 0,
+                              .high = 1e150,
+                              .help = "Inner radius, below the outer one; 0: whole to the centre"};
+
+constexpr Param<double> radius{
+    .name = "radius", .fallback = 1, .low = 1e-150, .high = 1e150, .help = "Outer radius, above 0"};
+
+const Schema& schema() {
+    static const Schema options(angles, inner, radius, shape_center);
+    return options;
+}
+
+struct Span {
+    double first;
+    double degrees;
+};
+
+/// What the two angles enclose. @throws Error(usage)
+Span span_of(const std::vector<double>& ends) {
+    if (ends.size() != 2)
+        fail(ErrorKind::usage, "--angles: 2 numbers are needed, first,last; {} given", ends.size());
+    for (const double angle : ends)
+        if (!(std::abs(angle) <= 720))
+            fail(ErrorKind::usage, "--angles: {} is outside [-720, 720]", angle);
+    const double degrees = ends[1] - ends[0];
+    if (!(degrees >= 1e-9 && degrees <= 360))
+        fail(ErrorKind::usage, "--angles: from {} to {} are {} degrees; [1e-9, 360] are allowed",
+             ends[0], ends[1], degrees);
+    return {ends[0], degrees};
+}
+
+std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
+                              const RunContext& /*run*/) {
+    const auto [first, angle] = span_of(options[angles]);
+    const double width = options[radius] - options[inner];
+    if (!(width > lost_in_rounding * options[radius]))
+        fail(ErrorKind::usage,
+             "--inner: {} is not below --radius {}, or lost in rounding beside it", options[inner],
+             options[radius]);
+    const auto shape = RingSector::between(options[inner], options[radius], angle / 360);
+    const auto at = place(options[shape_center], options[radius], first, width, "a sector");
+    return placed(format_spec("sector", options, schema()), shape, at);
+}
+
+}  // namespace
+
+Warp unit() {
+    return {.name = "sector",
+            .summary = "Sector of a disk or an annulus, uniform by area",
+            .source = "the polar map r = sqrt(q^2 + xi1 (R^2 - q^2)) between two angles",
+            .strata =
+                "xi1 is the share of the area within the radius, xi2 the place between the "
+                "two angles, both as they are",
+            .traits = {},
+            .options = schema(),
+            .make = make};
+}
+
+}  // namespace stipple::warps::sector

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: MIT
+//
+// Unit square onto a triangle with vertices v0, v1, v2, in the plane or in space, by barycentric
+// coordinates, point = lambda0 v0 + lambda1 v1 + lambda2 v2:
+//
+//     sqrt            lambda0 = 1 - sqrt(xi0),  lambda1 = xi1 sqrt(xi0),
+//                     lambda2 = (1 - xi1) sqrt(xi0)
+//     low-distortion  lambda1 = xi0 - xi1 / 2,  lambda2 = xi1 / 2      where xi0 > xi1,
+//                     lambda1 = xi0 / 2,        lambda2 = xi1 - xi0 / 2    else;
+//                     lambda0 = 1 - max(xi0, xi1)
+//
+// and back: sqrt by xi0 = (lambda1 + lambda2)^2, xi1 = lambda1 / (lambda1 + lambda2);
+// low-distortion by xi0 = lambda1 + lambda2, xi1 = 2 lambda2 where lambda1 > lambda2, else
+// xi1 = lambda1 + lambda2, xi0 = 2 lambda1.
+//
+// Shape   2 unit coordinates; 2 or 3 coordinates, as the vertices have.
+// Strata  xi0 and xi1 are taken as they are, not as 1 - xi; small xi0 (sqrt), or small xi0 and xi1
+//         (low-distortion) are near v0. sqrt makes trapezoids between rays from v0 of strata,
+//         triangles where they touch it; small xi1 is near the edge v0 v2. low-distortion takes the
+//         diagonal xi0 = xi1 to the median from v0 and is linear on either side of it: strata
+//         become parallelograms, and neighbours stay near.
+// Cost    O(1) a point; about 1.5 ns forward, 17 ns back on one core.
+// Promise density 1 / area. Points lie in the closed triangle up to the rounding stated at
+//         contains(). Forward and back again is the same point within 1e-14 of the largest
+//         coordinate, times longest edge / smallest height; for the default triangle also the same
+//         xi within 1e-14, save that all xi1 of sqrt meet in v0, which goes back to xi1 = 0.
+// Source  G. Turk, "Generating random points in triangles", in: A. S. Glassner (ed.), Graphics Gems
+//         (1990) 24-28 (sqrt). E. Heitz, "A low-distortion map between triangle and square" (2019),
+//         HAL hal-02073696 (low-distortion).
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "core/spec.hpp"
+#include "core/wide.hpp"
+#include "math/geometry/edge_frame.hpp"
+#include "math/geometry/law_moments.hpp"
+#include "math/geometry/plane_point.hpp"
+#include "warps/inside.hpp"
+#include "warps/planar/area_share.hpp"
+#include "warps/warp.hpp"
+
+namespace stipple::warps::triangle {
+namespace {
+
+constexpr Param<Choice> method{
+    .name = "method",
+    .fallback = "sqrt",
+    .choices = "sqrt|low-distortion",
+    .help =
+        "sqrt: parallels of the side v1 v2, and rays from v0; low-distortion: linear on either "
+        "half of the square, keeps neighbours"};
+
+constexpr Param<Points> vertices{
+    {.name = "vertices",
+     .fallback = "0,0 1,0 0,1",
+     .help = "Three corners v0 v1 v2, in 2 or 3 dimensions; xi1 = xi2 = 0 is v0"}};
+
+const Schema& schema() {
+    static const Schema options(method, vertices);
+    return options;
+}
+
+struct Barycentrics {
+    double l0;
+    double l1;
+    double l2;
+};
+
+class TriangleDomain final : public Domain, public Weighable {
+  public:
+    /// @throws Error(usage) when the corners are not those of a triangle.
+    explicit TriangleDomain(const Table& corners) : corners_(corners) {
+        if (corners.size() != 3 || corners[0].size() < 2 || corners[0].size() > 3)
+            fail(ErrorKind::usage,
+                 "--vertices: {} points of dimension {}; 3 points of dimension 2 or 3 are needed",
+                 corners.size(), corners[0].size());
+        double size = 0;  // largest coordinate
+        for (const auto& corner : corners)
+            for (const double x : corner) size = std::max(size, std::abs(x));
+        if (size > 1e150)
+            fail(ErrorKind::usage, "--vertices: a coordinate is outside [-1e150, 1e150]");
+        for (std::size_t k = 0; k < 3; ++k) vertices_[k] = space_point(corners[k]);
+        frame_ = EdgeFrame(vertices_[0], minus(vertices_[1], vertices_[0]),
+                           minus(vertices_[2], vertices_[0]), size);
+        if (frame_.flat())
+            fail(ErrorKind::usage, "--vertices: the triangle {} has no area",
+                 format_value(corners_));
+        const auto [e, f, across] = frame_.lengths();
+        heights_ = {frame_.area() / across, frame_.area() / f, frame_.area() / e};
+    }
+
+    std::string spec() const override {
+        Values values = schema().defaults();
+        values.put(vertices.name, corners_);
+        return format_spec("triangle", values, schema());
+    }
+    std::size_t dimension() const override { return corners_[0].size(); }
+    std::size_t cube_dimension() const override { return 2; }
+    double measure() const override { return 0.5 * frame_.area(); }
+
+    /// Up to 16 epsilon (largest coordinate) (longest edge / smallest height) away from the
+    /// triangle or its plane: the rounding of a point that was made.
+    bool contains(std::span<const double> point) const override {
+        const auto [l0, l1, l2] = barycentrics(point);
+        const double slack = frame_.slack();
+        return l0 * heights_[0] >= -slack && l1 * heights_[1] >= -slack &&
+               l2 * heights_[2] >= -slack && frame_.off_plane(space_point(point)) <= slack;
+    }
+
+    Box bounding_box() const override {
+        Box box{corners_[0], corners_[0]};
+        for (const auto& corner : corners_) box = stipple::bounding_box(corner, box);
+        return box;
+    }
+
+    /// Area left between v1 and the line through the point parallel to the edge v0 v2, and the
+    /// place on that line. From v1, where the warp starts from v0, so that equal areas are known
+    /// without it, and cells do not line up with its strata.
+    void to_cube(std::span<const double> point, std::span<double> cube) const override {
+        const auto [l0, l1, l2] = barycentrics(point);
+        const double from_0 = std::max(l0, 0.0);
+        const double from_2 = std::max(l2, 0.0);
+        const double rest = std::min(from_0 + from_2, 1.0);
+        cube[0] = rest * rest;
+        cube[1] = rest > 0 ? std::min(from_2 / (from_0 + from_2), 1.0) : 0.0;
+    }
+    /// In the plane.
+    Estimate box_mass(const Box& box) const override {
+        return area_share(box, *this, [&](const Polygon& window) {
+            Polygon triangle;
+            for (const auto& corner : corners_) triangle.push_back({corner[0], corner[1]});
+            return shared_area(triangle, window);
+        });
+    }
+    std::optional<Moments> moments() const override {
+        return triangle_moments({corners_[0], corners_[1], corners_[2]});
+    }
+    std::vector<std::string> cube_axes() const override {
+        return {"area fraction (1 - lambda1)^2", "lambda2 / (lambda0 + lambda2)"};
+    }
+
+    Barycentrics barycentrics(std::span<const double> point) const {
+        const auto [l1, l2] = frame_.coordinates(space_point(point));
+        return {1 - l1 - l2, l1, l2};
+    }
+
+    const std::array<Vector3, 3>& corners() const { return vertices_; }
+
+  private:
+    Table corners_;
+    std::array<Vector3, 3> vertices_{};
+    EdgeFrame frame_;                  ///< lambda1 and lambda2 are its coordinates
+    std::array<double, 3> heights_{};  ///< of each vertex above the edge opposite
+};
+
+struct Roots {
+    static Barycentrics forward(double u, double v) {
+        const double root = std::sqrt(u);
+        return {1 - root, root * v, root * (1 - v)};
+    }
+    static PlanePoint inverse(double l1, double l2) {
+        const double root = std::min(l1 + l2, 1.0);
+        return {root * root, root > 0 ? l1 / (l1 + l2) : 0.0};
+    }
+};
+
+struct LowDistortion {
+    static Barycentrics forward(double u, double v) {
+        const bool lower = u > v;
+        const double most = lower ? u : v;
+        const double half = 0.5 * (lower ? v : u);
+        return {1 - most, lower ? most - half : half, lower ? half : most - half};
+    }
+    static PlanePoint inverse(double l1, double l2) {
+        const double most = l1 + l2;
+        return l1 > l2 ? PlanePoint{most, 2 * l2} : PlanePoint{2 * l1, most};
+    }
+};
+
+template <class Method, std::size_t d>
+STIPPLE_WIDE void map_rows(std::span<const double> cube, std::span<double> image,
+                           const std::array<Vector3, 3>& vertex) {
+    const auto [v0, v1, v2] = vertex;
+    for (std::size_t i = 0; i < cube.size() / 2; ++i) {
+        const auto [l0, l1, l2] = Method::forward(cube[2 * i], cube[2 * i + 1]);
+        for (std::size_t k = 0; k < d; ++k) image[d * i + k] = l0 * v0[k] + l1 * v1[k] + l2 * v2[k];
+    }
+}
+
+template <class Method>
+class Triangle final : public Mapping {
+  public:
+    explicit Triangle(const Table& corners)
+        : triangle_(std::make_shared<TriangleDomain>(corners)) {}
+
+    DomainPtr domain() const override { return triangle_; }
+    std::size_t cube_dimension() const override { return 2; }
+
+    void forward(std::span<const double> cube, std::span<double> image,
+                 std::span<std::uint8_t> /*keep*/) const override {
+        if (triangle_->dimension() == 2)
+            map_rows<Method, 2>(cube, image, triangle_->corners());
+        else
+            map_rows<Method, 3>(cube, image, triangle_->corners());
+    }
+
+    void inverse(std::span<const double> image, std::span<double> cube) const override {
+        const std::size_t d = triangle_->dimension();
+        expect_inside(*triangle_, image);
+        for (std::size_t i = 0; i < image.size() / d; ++i) {
+            const auto weights = triangle_->barycentrics(image.subspan(i * d, d));
+            const auto [u, v] =
+                Method::inverse(std::max(weights.l1, 0.0), std::max(weights.l2, 0.0));
+            cube[2 * i] = std::min(u, 1.0);
+            cube[2 * i + 1] = std::min(v, 1.0);
+        }
+    }
+
+  private:
+    std::shared_ptr<const TriangleDomain> triangle_;
+};
+
+std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
+                              const RunContext& /*run*/) {
+    if (options[method] == "low-distortion")
+        return std::make_unique<Triangle<LowDistortion>>(options[vertices]);
+    return std::make_unique<Triangle<Roots>>(options[vertices]);
+}
+
+}  // namespace
+
+Warp unit() {
+    return {.name = "triangle",
+            .summary = "Triangle in the plane or in space, uniform by area",
+            .source =
+                "Turk 1990, in: Graphics Gems (sqrt); Heitz 2019, HAL hal-02073696 "
+                "(low-distortion)",
+            .strata =
+                "sqrt: xi1 is the share of the area between the first vertex and a parallel of the "
+                "opposite side, xi2 the place along it, both as they are; low-distortion: the "
+                "diagonal becomes the median from the first vertex, linear on either side",
+            .traits = {},
+            .options = schema(),
+            .make = make};
+}
+
+}  // namespace stipple::warps::triangle

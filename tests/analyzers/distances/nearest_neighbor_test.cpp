@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "pipeline/chain.hpp"
+#include "support/units.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+constexpr const char* unit = "nearest-neighbor";
+
+struct Expected {
+    double minimum = std::numeric_limits<double>::infinity();
+    double mean = 0;
+    double maximum = 0;
+    std::int64_t duplicates = 0;
+    Report::Integers pair;
+};
+
+/// Oracle: all pairs, by the definition, in a box of these sides (none: straight distances).
+Expected by_definition(const PointSet& p, const std::vector<double>& sides) {
+    Expected found;
+    for (std::size_t i = 0; i < p.count(); ++i) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::size_t j = 0; j < p.count(); ++j) {
+            double sum = 0;
+            for (std::size_t k = 0; k < p.dimension(); ++k) {
+                double gap = std::abs(p[i][k] - p[j][k]);
+                if (!sides.empty()) gap = std::min(gap, sides[k] - gap);
+                sum += gap * gap;
+            }
+            if (i != j) nearest = std::min(nearest, std::sqrt(sum));
+            if (i != j && std::sqrt(sum) < found.minimum) {
+                found.minimum = std::sqrt(sum);
+                found.pair = {static_cast<std::int64_t>(i), static_cast<std::int64_t>(j)};
+            }
+        }
+        found.mean += nearest / static_cast<double>(p.count());
+        found.maximum = std::max(found.maximum, nearest);
+        found.duplicates += nearest == 0 ? 1 : 0;
+    }
+    return found;
+}
+
+void expect_as_defined(const PointSet& set, const std::vector<double>& sides) {
+    const Report report = analyze(unit, set, {{"metric", sides.empty() ? "euclidean" : "torus"}});
+    const Expected expected = by_definition(set, sides);
+    EXPECT_EQ(report.number("minimum"), expected.minimum);
+    EXPECT_NEAR(report.number("mean"), expected.mean, 1e-12 * expected.mean);
+    EXPECT_EQ(report.number("maximum"), expected.maximum);
+    EXPECT_EQ(report.number("duplicates"), static_cast<double>(expected.duplicates));
+    EXPECT_EQ(*std::get_if<Report::Integers>(report.find("pair")), expected.pair);
+    EXPECT_EQ(report.text("metric"), sides.empty() ? "euclidean" : "torus");
+}
+
+/// Points c / 2 for the words of d binary digits that are kept.
+template <class Keep>
+PointSet half_integers(std::size_t d, const Keep& keep) {
+    std::vector<double> rows;
+    for (unsigned word = 0; word < (1U << d); ++word)
+        for (std::size_t k = 0; k < d && keep(word); ++k)
+            rows.push_back((word >> k & 1U) != 0 ? 0.5 : 0);
+    return {std::move(rows), d};
+}
+
+bool even(unsigned word) { return std::popcount(word) % 2 == 0; }
+
+}  // namespace
+
+// Points 0 and 2 are 0.2 apart across the left face; 0 and 1 are 0.3 apart straight.
+TEST(NearestNeighbor, ByHand) {
+    const PointSet set = points_of({{0.1, 0.5}, {0.4, 0.5}, {0.9, 0.5}});
+    const Report torus = analyze(unit, set);
+    EXPECT_NEAR(torus.number("minimum"), 0.2, 1e-15);
+    EXPECT_NEAR(torus.number("mean"), (0.2 + 0.3 + 0.2) / 3, 1e-15);
+    EXPECT_NEAR(torus.number("standard_deviation"), std::sqrt(0.02 / 9), 1e-15);
+    EXPECT_EQ(*std::get_if<Report::Integers>(torus.find("pair")), (Report::Integers{0, 2}));
+    EXPECT_EQ(torus.text("metric"), "torus");
+    const Report straight = analyze(unit, set, {{"metric", "euclidean"}});
+    EXPECT_NEAR(straight.number("minimum"), 0.3, 1e-15);
+    EXPECT_NEAR(straight.number("maximum"), 0.5, 1e-15);
+    EXPECT_EQ(*std::get_if<Report::Integers>(straight.find("pair")), (Report::Integers{0, 1}));
+}
+
+TEST(NearestNeighbor, IsWhatAllPairsGive) {
+    for (const std::size_t d : {1, 2, 3, 4, 5, 6, 7, 8, 9, 10})
+        for (const std::uint64_t n : {2, 3, 200}) {
+            SCOPED_TRACE(::testing::Message() << n << " points in " << d << " dimensions");
+            PointSet set = make("random", points(n, d));
+            expect_as_defined(set, {});
+            expect_as_defined(set, std::vector<double>(d, 1));
+            for (double& x : set.flat()) x = std::floor(8 * x) / 8;  // ties, duplicates
+            set[0][0] = 0;
+            set[1][0] = 1;
+            expect_as_defined(set, {});
+            expect_as_defined(set, std::vector<double>(d, 1));
+            for (std::size_t i = 0; i < n; ++i)
+                for (std::size_t k = 1; k < d; ++k) set[i][k] = set[i][0];  // a diagonal
+            expect_as_defined(set, {});
+            expect_as_defined(set, std::vector<double>(d, 1));
+        }
+}
+
+TEST(NearestNeighbor, HoldsInTheBoxThatThePointsLiveOn) {
+    PointSet set = make("random", {.count = 300, .dimension = 2});
+    set.domain = box_domain({{-1, 10}, {1, 10.1}});
+    scale_into(set.domain->bounding_box(), set.flat());
+    expect_as_defined(set, {2, set.domain->bounding_box().extent(1)});
+    expect_as_defined(set, {});
+    EXPECT_EQ(analyze(unit, set).text("metric"), "torus");
+}
+
+// On the torus 0 and 1 are the same place.
+TEST(NearestNeighbor, DuplicatesAreAtDistanceZero) {
+    const PointSet set = points_of({{0.5, 0.5}, {0.2, 0}, {0.5, 0.5}, {0.2, 1}, {0.9, 0.9}});
+    EXPECT_EQ(measure(unit, "minimum", set), 0);
+    EXPECT_EQ(measure(unit, "duplicates", set), 4);
+    EXPECT_EQ(measure(unit, "duplicates", set, {{"metric", "euclidean"}}), 2);
+    EXPECT_EQ(measure(unit, "relative_radius", set), 0);
+}
+
+// The densest lattices that halves of whole numbers can make: Z, D3, D4, D5, E7 and E8, each with
+// the density that Conway and Sloane print.
+TEST(NearestNeighbor, DensestLatticesHaveRelativeRadiusOne) {
+    const auto d3 = half_integers(3, even);
+    const auto d4 = points_of({{0, 0, 0, 0}, {0.5, 0.5, 0.5, 0.5}});
+    const auto d5 = half_integers(5, even);
+    const auto e7 = half_integers(7, [](unsigned w) {  // orthogonal to the Hamming code
+        return even(w & 0b1010101U) && even(w & 0b1100110U) && even(w & 0b1111000U) && even(w);
+    });
+    const PointSet d8 = half_integers(8, even);
+    std::vector<double> e8(d8.flat().begin(), d8.flat().end());
+    for (const double x : d8.flat()) e8.push_back(x + 0.25);
+    EXPECT_EQ(e7.count(), 8U);
+    for (const PointSet& lattice :
+         {points_of({{0}, {0.25}, {0.5}, {0.75}}), d3, d4, d5, e7, PointSet(e8, 8)})
+        EXPECT_NEAR(measure(unit, "relative_radius", lattice), 1, 1e-14) << lattice.dimension();
+}
+
+// 24 = 4 x 6 columns of side 1 and sqrt(3) / 2 in a box that fits them.
+TEST(NearestNeighbor, HexagonsInABoxThatFitsThemHaveRelativeRadiusOne) {
+    const double height = std::sqrt(3.0) / 2;
+    std::vector<double> rows;
+    for (int j = 0; j < 6; ++j)
+        for (int i = 0; i < 4; ++i) rows.insert(rows.end(), {i + 0.5 * (j % 2), j * height});
+    PointSet set(std::move(rows), 2);
+    set.domain = box_domain({{0, 0}, {4, 6 * height}});
+    EXPECT_NEAR(measure(unit, "relative_radius", set), 1, 1e-14);
+    const PointSet square = make("hexagonal", points(100'000, 2));
+    EXPECT_GT(measure(unit, "relative_radius", square), 0.996);
+    EXPECT_LE(measure(unit, "relative_radius", square), 1);
+}
+
+TEST(NearestNeighbor, HasNoRelativeRadiusWhereNoPackingIsKnown) {
+    EXPECT_EQ(analyze(unit, make("random", points(9, 9))).find("relative_radius"), nullptr);
+}
+
+// Random points: mean distance 1 / (2 sqrt n), in the limit of large n.
+// Standard error of the mean: sqrt((4 - pi) / (4 pi n)) / sqrt n, below 0.001 / sqrt n here; the
+// bound is ten of those.
+TEST(NearestNeighbor, RandomPointsHaveTheMeanDistanceOfAPoissonProcess) {
+    const double mean = measure(unit, "mean", make("random", points(100'000, 2)));
+    EXPECT_NEAR(mean * std::sqrt(100'000), 0.5, 0.01);
+}
+
+TEST(NearestNeighbor, RefusesASinglePoint) {
+    PointSet one = points_of({{0.5, 0.5}});
+    const char* message = "input: nearest-neighbor needs at least two points; this is one";
+    for (const char* metric : {"torus", "euclidean"})
+        EXPECT_EQ(error_of([&] { analyze(unit, one, {{"metric", metric}}); }), message);
+    one.domain = box_domain({{0, 0}, {3, 2}});
+    EXPECT_EQ(error_of([&] { analyze(unit, one); }), message);
+}
+
+// The square of 1e154 is 1e308, the sum of two of them is not; that of 2e200 is far beyond.
+TEST(NearestNeighbor, RefusesSquaresBeyondFloat64) {
+    const PointSet far = points_of({{1e200, 1e-320}, {-1e200, 0.5}, {3, 3}});
+    const auto refusal = [](const char* analyzer, const PointSet& set) {
+        return error_of([&] { analyze(analyzer, set, {{"metric", "euclidean"}}); });
+    };
+    for (const char* analyzer : {"nearest-neighbor", "spanning-tree"})
+        EXPECT_EQ(refusal(analyzer, far),
+                  "input: the points lie too far apart for squared distances in float64: x1 from "
+                  "-1e+200 to 1e+200");
+    EXPECT_EQ(refusal(unit, points_of({{0}, {1e154}})), "");
+    EXPECT_NE(refusal(unit, points_of({{0, 0}, {0, 1.1e154}, {1.1e154, 0}})), "");
+    PointSet wide = points_of({{0.25}, {0.5}});
+    wide.domain = box_domain({{0}, {2e155}});
+    for (const char* analyzer : {"nearest-neighbor", "pair-correlation"})
+        EXPECT_EQ(error_of([&] { analyze(analyzer, wide); }),
+                  "input: the box that the points live on is too wide for squared distances in "
+                  "float64: x1 from 0 to 2e+155");
+}
+
+TEST(NearestNeighbor, MeasuresStraightWhereThereAreNoFaces) {
+    PointSet set = points_of({{-0.9, 0}, {0.9, 0}});
+    const Report anywhere = analyze(unit, set, {{"metric", "euclidean"}});
+    EXPECT_EQ(anywhere.number("minimum"), 1.8);
+    EXPECT_EQ(anywhere.find("relative_radius"), nullptr);
+    EXPECT_EQ(error_of([&] { analyze(unit, set); }),
+              "input: 1 of 2 points are outside the domain unit-cube; the first is point 0: "
+              "(-0.9, 0) | --domain names what the points live on; --metric euclidean takes points "
+              "anywhere");
+    set.domain = parse_domain("disk", 2);
+    EXPECT_EQ(analyze(unit, set).text("metric"), "euclidean");
+    EXPECT_EQ(analyze(unit, set).number("minimum"), 1.8);
+    EXPECT_EQ(error_of([&] {
+                  analyze(unit, set, {{"metric", "torus"}});
+              }),
+              "usage: --metric: a torus joins the faces of a unit cube or a box; the points live "
+              "on disk");
+}
+
+TEST(NearestNeighbor, AMeanOverSetsHasNoPair) {
+    const Analyzer& analyzer = find_analyzer(unit);
+    Report mean = analyze(unit, make("random", points(10, 2)));
+    analyzer.refine(mean, 1, analyzer.options.defaults());
+    EXPECT_NE(mean.find("pair"), nullptr);
+    analyzer.refine(mean, 2, analyzer.options.defaults());
+    EXPECT_EQ(mean.find("pair"), nullptr);
+}

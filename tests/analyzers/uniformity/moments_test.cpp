@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "analyzers/uniformity/moment_sums.hpp"
+#include "support/steps.hpp"
+#include "support/warping.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+double at(const Report& report, const char* key, std::size_t i) { return report.curve(key)[i]; }
+
+}  // namespace
+
+TEST(Moments, SmallSetsByHand) {
+    // x = 0, 0, 0.25, 0.75: mean 1/4, deviations -1/4 -1/4 0 1/2.
+    const Report one = analyze("moments", PointSet(std::vector<double>{0, 0, 0.25, 0.75}, 1));
+    EXPECT_DOUBLE_EQ(at(one, "mean", 0), 0.25);
+    EXPECT_DOUBLE_EQ(at(one, "variance", 0), 0.125);
+    const double m2 = 0.375 / 4, m3 = (0.125 - 2.0 / 64) / 4;
+    EXPECT_DOUBLE_EQ(at(one, "skewness", 0), m3 / std::pow(m2, 1.5));
+    EXPECT_DOUBLE_EQ(at(one, "standard_error.mean", 0), std::sqrt(0.125 / 4));
+    EXPECT_DOUBLE_EQ(at(one, "exact.mean", 0), 0.5);
+    EXPECT_DOUBLE_EQ(at(one, "exact.variance", 0), 1.0 / 12);
+
+    const Report two = analyze("moments", points_of({{0, 0}, {1, 0}, {0, 0.5}, {1, 0.5}}));
+    EXPECT_EQ(at(two, "covariance", 1), 0);
+    const Report line = analyze("moments", points_of({{0, 1}, {0.5, 0.5}, {1, 0}}));
+    EXPECT_DOUBLE_EQ(at(line, "covariance", 1), -0.25);
+    EXPECT_DOUBLE_EQ(at(line, "covariance", 2), -0.25);
+    EXPECT_DOUBLE_EQ(at(line, "covariance", 0), 0.25);
+}
+
+TEST(Moments, EqualPointsHaveNoSpread) {
+    const Report report = analyze("moments", PointSet(std::vector<double>(100, 0.3), 2));
+    for (const char* key : {"variance", "skewness", "covariance", "standard_error.mean"})
+        EXPECT_EQ(at(report, key, 0), 0) << key;
+    EXPECT_DOUBLE_EQ(at(report, "mean", 1), 0.3);
+}
+
+// Oracle: two passes in long double, about the mean; far from the origin and near it.
+TEST(Moments, AgreeWithTheDefinition) {
+    for (const double shift : {0.0, 1e6}) {
+        PointSet set = make("random", {3000, 3});
+        for (std::size_t i = 0; i < set.count(); ++i) {
+            set[i][1] = set[i][0] * set[i][1];
+            set[i][2] = shift + set[i][2] * set[i][2];
+        }
+        set.domain = box_domain({{-1, -1, -1}, {2, 2, 2e6}});
+        const Report report = analyze("moments", set);
+        const auto mean = [&](auto&& f) {
+            long double sum = 0;
+            for (std::size_t i = 0; i < set.count(); ++i) sum += f(i);
+            return sum / static_cast<long double>(set.count());
+        };
+        const long double n = 3000;
+        for (std::size_t a = 0; a < 3; ++a) {
+            const long double ma = mean([&](auto i) { return set[i][a]; });
+            EXPECT_NEAR(at(report, "mean", a), double(ma), 1e-10 * (1 + 1e-3 * shift));
+            const auto m2 = mean([&](auto i) { return std::pow(set[i][a] - ma, 2.0L); });
+            const auto m3 = mean([&](auto i) { return std::pow(set[i][a] - ma, 3.0L); });
+            EXPECT_NEAR(at(report, "skewness", a), double(m3 / std::pow(m2, 1.5L)), 1e-9);
+            for (std::size_t b = 0; b < 3; ++b) {
+                const long double mb = mean([&](auto i) { return set[i][b]; });
+                const auto c = mean([&](auto i) { return (set[i][a] - ma) * (set[i][b] - mb); });
+                const auto m22 = mean(
+                    [&](auto i) { return std::pow((set[i][a] - ma) * (set[i][b] - mb), 2.0L); });
+                EXPECT_NEAR(at(report, "covariance", 3 * a + b), double(c * n / (n - 1)), 1e-10);
+                EXPECT_NEAR(at(report, "standard_error.covariance", 3 * a + b),
+                            double(std::sqrt((m22 - c * c) / n)), 2e-6);
+            }
+        }
+    }
+}
+
+TEST(Moments, DoNotDependOnWhatSumsAreTakenAbout) {
+    const PointSet set = make("random", {500, 2});
+    analyzers::MomentSums far({1.5, -0.5});
+    analyzers::MomentSums near({0.5, 0.5});
+    far.add(set.flat(), {});
+    near.add(set.flat(), {});
+    const auto a = far.moments();
+    const auto b = near.moments();
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_NEAR(a.value.covariance[i], b.value.covariance[i], 1e-14);
+        EXPECT_NEAR(a.error.covariance[i], b.error.covariance[i], 1e-12);
+    }
+    for (std::size_t k = 0; k < 2; ++k) {
+        EXPECT_NEAR(a.value.mean[k], b.value.mean[k], 1e-15);
+        EXPECT_NEAR(a.value.skewness[k], b.value.skewness[k], 1e-12);
+        EXPECT_NEAR(a.error.skewness[k], b.error.skewness[k], 1e-11);
+    }
+}
+
+// 100 sets: each standard error is that of the spread between the sets within 30 %, which 100
+// values miss with a chance of 2e-5.
+TEST(Moments, StandardErrorsAreTheSpreadBetweenSets) {
+    const char* keys[] = {"mean", "variance", "skewness", "covariance"};
+    for (const char* key : keys) {
+        const std::size_t which = std::string(key) == "covariance" ? 1 : 0;
+        double sum = 0, squares = 0, error = 0;
+        for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+            PointSet set = make("random", {400, 2}, {}, {.seed = seed});
+            for (std::size_t i = 0; i < set.count(); ++i)
+                set[i][0] = set[i][0] * set[i][0], set[i][1] = set[i][0] * set[i][1];
+            const Report report = analyze("moments", set);
+            const double x = at(report, key, which);
+            sum += x;
+            squares += x * x;
+            error += at(report, (std::string("standard_error.") + key).c_str(), which) / 100;
+        }
+        const double spread = std::sqrt((squares - sum * sum / 100) / 99);
+        EXPECT_NEAR(spread / error, 1, 0.3) << key;
+    }
+}
+
+TEST(Moments, BoxesAndProductsHaveExactValues) {
+    PointSet set = make("random", {1000, 3});
+    set.domain = product_domain({{box_domain({{-2, 0}, {4, 12}}), {2, 0}}, {unit_cube(1), {1}}});
+    for (std::size_t i = 0; i < set.count(); ++i) {
+        set[i][0] *= 12;
+        set[i][2] = 6 * set[i][2] - 2;
+    }
+    const Report report = analyze("moments", set);
+    EXPECT_EQ(report.curve("exact.mean"), (Report::Curve{6, 0.5, 1}));
+    EXPECT_EQ(report.curve("exact.variance"), (Report::Curve{12, 1.0 / 12, 3}));
+    EXPECT_LT(report.number("cube.largest_z"), 4.5);
+}
+
+// largest_z of 9 values of random points is above 5 with a chance of 1e-5 or so.
+TEST(Moments, CubeCoordinatesTellRightWarpsFromWrong) {
+    const PointSet cube = make("random", {20'000, 2});
+    EXPECT_LT(measure("moments", "cube.largest_z", warped(*mapping("disk"), cube)), 5);
+    EXPECT_GT(measure("moments", "cube.largest_z", warped(*mapping("disk:method=naive"), cube)),
+              50);
+    // The second moment of a unit disk's coordinates is 1/4.
+    const Report disk = analyze("moments", warped(*mapping("disk"), cube));
+    EXPECT_EQ(std::get<bool>(*disk.find("exact.known")), true);
+    EXPECT_EQ(disk.curve("exact.variance"), (Report::Curve{0.25, 0.25}));
+}
+
+TEST(Moments, SayThatExactValuesOfADomainAreNotKnown) {
+    PointSet set = make("random", {100, 1});
+    set.domain = std::make_shared<Steps>(std::vector<double>{0.5, 0.5});
+    const Report report = analyze("moments", set);
+    EXPECT_EQ(std::get<bool>(*report.find("exact.known")), false);
+    EXPECT_EQ(report.find("exact.mean"), nullptr);
+    EXPECT_EQ(report.find("cube"), nullptr);
+    EXPECT_NE(report.find("standard_error.covariance"), nullptr);
+}
+
+TEST(Moments, NeedTwoPointsOnTheirDomain) {
+    EXPECT_EQ(error_of([] {
+                  analyze("moments", make("random", {1, 2}));
+              }),
+              "input: moments needs at least 2 points; there is 1");
+    PointSet far = make("random", {10, 1});
+    far.domain = box_domain({{-1e200}, {1e200}});
+    far[3][0] = 1e150;
+    EXPECT_EQ(error_of([&] { analyze("moments", far); }),
+              "limit: the sixth powers of coordinates are beyond the largest double");
+}
+
+// Points all alike have no spread of their own, and still a finite distance from what is right:
+// (1/2 - 0.25) sqrt(12 * 3) = 1.5, and of the variance (1/12) / sqrt((1/80) / 3) = 1.29.
+TEST(Moments, LargestZIsFiniteWhateverThePoints) {
+    const PointSet same = points_of({{0.25}, {0.25}, {0.25}});
+    EXPECT_DOUBLE_EQ(measure("moments", "cube.largest_z", same), 1.5);
+}
+
+TEST(Moments, SayWhoseExactValuesTheyAre) {
+    const PointSet cube = make("random", {100, 2});
+    const Report naive = analyze("moments", warped(*mapping("disk:method=naive"), cube));
+    EXPECT_EQ(naive.text("exact.law"), "uniform on disk");
+    EXPECT_EQ(naive.curve("exact.variance"), (Report::Curve{0.25, 0.25}));
+    EXPECT_EQ(naive.text("cube.axes"), "area fraction r^2/R^2; angle in turns");
+    const Report bell = analyze("moments", warped(*mapping("normal"), cube));
+    EXPECT_EQ(bell.text("exact.law"), "the density of normal");
+    EXPECT_EQ(analyze("moments", cube).find("cube.axes"), nullptr);
+}

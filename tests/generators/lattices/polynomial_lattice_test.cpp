@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "core/text.hpp"
+#include "generators/lattices/polynomial_search.hpp"
+#include "math/digital/gf2.hpp"
+#include "support/contract.hpp"
+#include "support/nets.hpp"
+#include "support/scrambling.hpp"
+#include "support/sequences.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+std::string listed(const std::vector<std::uint64_t>& numbers) {
+    std::vector<std::string> words;
+    for (const std::uint64_t number : numbers) words.push_back(std::to_string(number));
+    return join(words, ",");
+}
+
+Settings given(std::uint64_t modulus, const std::vector<std::uint64_t>& vector) {
+    return {{"modulus", std::to_string(modulus)}, {"vector", listed(vector)}};
+}
+
+/// The largest degree of a partial quotient of q / p, by Euclid's algorithm.
+int largest_quotient(std::uint64_t p, std::uint64_t q) {
+    int largest = 0;
+    while (q != 0) {
+        largest = std::max(largest, gf2::degree(p) - gf2::degree(q));
+        p = std::exchange(q, gf2::remainder(p, q));
+    }
+    return largest;
+}
+
+/// Oracle: e^2 from the points themselves.
+double error_of_points(const PointSet& set, const std::vector<double>& weights) {
+    double sum = 0;
+    for (std::size_t i = 0; i < set.count(); ++i) {
+        double product = 1;
+        for (std::size_t k = 0; k < set.dimension(); ++k) {
+            const double x = set[i][k];
+            product *= 1 + weights[k] *
+                               (x == 0 ? 1. / 6 : 1. / 6 - std::exp2(std::floor(std::log2(x)) - 1));
+        }
+        sum += product;
+    }
+    return sum / static_cast<double>(set.count()) - 1;
+}
+
+/// Oracle: tries every polynomial for every component.
+std::vector<std::uint64_t> by_trying_all(std::uint64_t modulus,
+                                         const std::vector<double>& weights) {
+    std::vector<std::uint64_t> vector;
+    const std::uint64_t n = std::uint64_t{1} << gf2::degree(modulus);
+    for (std::size_t k = 0; k < weights.size(); ++k) {
+        std::uint64_t best = 0;
+        double least = 1e300;
+        vector.push_back(0);
+        for (std::uint64_t q = 1; q < n; ++q) {
+            vector.back() = q;
+            const PointSet set = make("polynomial-lattice", {.count = n}, given(modulus, vector));
+            const double error = error_of_points(set, weights);
+            if (error < least - 1e-13) {
+                least = error;
+                best = q;
+            }
+        }
+        vector.back() = best;
+    }
+    return vector;
+}
+
+}  // namespace
+
+// By hand: 1 / (x^3 + x + 1) has the digits 0010111 of period 7, so that of i = 1, x, x^2 are 001,
+// 010 and 101; (x + 1) / (x^3 + x + 1) has the digits 0111001, which gives 011, 111 and 110.
+TEST(PolynomialLattice, FirstPointsByHand) {
+    const PointSet set = make("polynomial-lattice", {.count = 8}, given(11, {1, 3}));
+    const std::vector<double> first = {0, 1, 2, 3, 5, 4, 7, 6};
+    const std::vector<double> second = {0, 3, 7, 4, 6, 5, 1, 2};
+    for (std::size_t i = 0; i < 8; ++i) {
+        EXPECT_EQ(set[i][0], first[i] / 8) << i;
+        EXPECT_EQ(set[i][1], second[i] / 8) << i;
+    }
+}
+
+// The definition itself: x is the first m digits of the Laurent series of i(x) q(x) / p(x).
+TEST(PolynomialLattice, IsTheQuotientOfPolynomials) {
+    for (const std::uint64_t p : {2ULL, 7ULL, 19ULL, 24ULL, 283ULL, 1ULL << 10, 1033ULL}) {
+        const int m = gf2::degree(p);
+        const std::uint64_t n = std::uint64_t{1} << m;
+        for (const std::uint64_t q : {std::uint64_t{1}, n - 1, n / 3 + 1}) {
+            const PointSet set = make("polynomial-lattice", {.count = n}, given(p, {q}));
+            for (std::uint64_t i = 0; i < n; ++i) {
+                std::uint64_t rest = gf2::product(i, q, p);
+                std::uint64_t quotient = 0;  // of rest x^m by p
+                for (int digit = 0; digit < m; ++digit) {
+                    rest <<= 1;
+                    quotient = quotient << 1 | rest >> m;
+                    if (rest >> m != 0) rest ^= p;
+                }
+                ASSERT_EQ(set[i][0], std::ldexp(static_cast<double>(quotient), -m))
+                    << "modulus " << p << ", q = " << q << ", i = " << i;
+            }
+        }
+    }
+}
+
+// Niederreiter 1992, section 4.4: with (1, q), t + 1 is the largest degree of a partial quotient in
+// the continued fraction of q / p. So t = 0 where all of them are linear.
+TEST(PolynomialLattice, InThePlaneTIsThatOfTheContinuedFraction) {
+    for (const std::uint64_t p : {67ULL, 64ULL, 73ULL, 131ULL}) {
+        const std::uint64_t n = std::uint64_t{1} << gf2::degree(p);
+        int best = 100;
+        for (std::uint64_t q = 1; q < n; ++q) {
+            if (gf2::common_divisor(p, q) != 1) continue;
+            const PointSet set = make("polynomial-lattice", {.count = n}, given(p, {1, q}));
+            const int t = largest_quotient(p, q) - 1;
+            best = std::min(best, t);
+            ASSERT_EQ(exact_t(set, 2), static_cast<std::size_t>(t)) << p << ", " << q;
+        }
+        EXPECT_EQ(best, 0) << p;
+    }
+}
+
+TEST(PolynomialLattice, IsClosedUnderXor) {
+    const PointSet set = make("polynomial-lattice", points(64, 3));
+    std::set<std::vector<int>> all;
+    const auto digits = [&](std::size_t i) {
+        std::vector<int> row;
+        for (const double x : set[i]) row.push_back(static_cast<int>(x * 64));
+        return row;
+    };
+    for (std::size_t i = 0; i < 64; ++i) all.insert(digits(i));
+    EXPECT_EQ(all.size(), 64U);
+    for (std::size_t i = 0; i < 64; ++i)
+        for (std::size_t j = 0; j < 64; ++j) {
+            auto sum = digits(i);
+            const auto other = digits(j);
+            for (std::size_t k = 0; k < 3; ++k) sum[k] ^= other[k];
+            ASSERT_TRUE(all.contains(sum)) << i << " and " << j;
+        }
+}
+
+TEST(PolynomialLattice, EveryCoordinateOfASearchedOneTakesEveryValueOnce) {
+    const PointSet set = make("polynomial-lattice", points(256, 20));
+    for (std::size_t k = 0; k < 20; ++k) {
+        std::set<double> values;
+        for (std::size_t i = 0; i < 256; ++i) values.insert(set[i][k] * 256);
+        EXPECT_EQ(values.size(), 256U);
+        EXPECT_EQ(*values.rbegin(), 255);
+    }
+}
+
+// The search by Fourier transforms finds what trying all finds, ties to the smallest number. 283
+// has a generator that is not x.
+TEST(PolynomialLattice, ComponentByComponentIsTheBestOfEachComponent) {
+    const std::vector<double> square = {1, 1. / 4, 1. / 9, 1. / 16, 1. / 25};
+    for (const std::uint64_t p : {2ULL, 7ULL, 11ULL, 19ULL, 37ULL, 61ULL, 67ULL, 131ULL})
+        EXPECT_EQ(polynomial_components(p, square, {}), by_trying_all(p, square)) << p;
+    const std::vector<double> equal(4, 1.0);
+    for (const std::uint64_t p : {19ULL, 37ULL, 283ULL})
+        EXPECT_EQ(polynomial_components(p, equal, {}), by_trying_all(p, equal)) << p;
+    const std::vector<double> rising = {0.1, 2, 30};
+    EXPECT_EQ(polynomial_components(67, rising, {}), by_trying_all(67, rising));
+}
+
+TEST(PolynomialLattice, ErrorIsThatOfThePoints) {
+    const std::vector<double> weights = {1, 0.5, 0.25};
+    const std::vector<std::uint64_t> vector = {1, 45, 27};
+    const PointSet set = make("polynomial-lattice", {.count = 64}, given(67, vector));
+    EXPECT_NEAR(squared_shift_error(67, vector, weights), error_of_points(set, weights), 1e-14);
+}
+
+// What the kernel stands for: the mean over all shifts s of the kernel of the Sobolev space,
+// B_1(y) B_1(z) + B_2(|y - z|) / 2 at y = s, z = s XOR x. For x of m digits, s XOR x - s is
+// constant on stretches of 2^-m, where Simpson's rule is exact.
+TEST(PolynomialLattice, KernelIsTheMeanOverShiftsOfTheSobolevSpaces) {
+    const auto b2 = [](double u) { return u * u - u + 1. / 6; };
+    for (unsigned x = 0; x < 32; ++x) {
+        double mean = 0;
+        for (unsigned s = 0; s < 32; ++s) {
+            const double y = s / 32.;
+            const double z = (s ^ x) / 32.;
+            const auto at = [&](double u) {
+                return (y + u - 0.5) * (z + u - 0.5) + b2(std::abs(y - z)) / 2;
+            };
+            mean += (at(0) + 4 * at(1 / 64.) + at(1 / 32.)) / 6 / 32;
+        }
+        EXPECT_NEAR(digital_shift_kernel(x / 32.), mean, 1e-15) << x;
+    }
+}
+
+// Here products reach 2^3000 without their common factor taken out.
+TEST(PolynomialLattice, SearchesInManyDimensionsWithoutOverflow) {
+    const auto vector = polynomial_components(1033, std::vector<double>(3000, 6.0), {});
+    const auto front = polynomial_components(1033, std::vector<double>(30, 6.0), {});
+    EXPECT_EQ(vector.size(), 3000U);
+    EXPECT_TRUE(std::ranges::equal(front, std::span(vector).first(30)));
+    EXPECT_GT(std::set<std::uint64_t>(vector.end() - 100, vector.end()).size(), 1U);
+}
+
+TEST(PolynomialLattice, AnyCountIsTheFrontOfTheSmallestLatticeThatHoldsIt) {
+    const PointSet whole = make("polynomial-lattice", points(1024, 3));
+    const PointSet front = make("polynomial-lattice", points(700, 3));
+    EXPECT_TRUE(std::ranges::equal(front.flat(), whole.flat().first(front.flat().size())));
+    EXPECT_TRUE(stretches_agree("polynomial-lattice", points(50, 3)));
+    EXPECT_TRUE(stretches_agree("polynomial-lattice", points(5000, 2)));
+    EXPECT_EQ(make("polynomial-lattice", points(1, 2)), points_of({{0, 0}}));
+    EXPECT_EQ(make("polynomial-lattice", points(2, 2)), points_of({{0, 0}, {0.5, 0.5}}));
+}
+
+TEST(PolynomialLattice, ReachesItsLargestCount) {
+    const std::uint64_t n = std::uint64_t{1} << 52;
+    const auto sequence = sequence_of("polynomial-lattice", points(n, 2), {{"vector", "1,5"}});
+    const PointSet last = stretch(*sequence, 2, n - 3, 3);
+    for (const double x : last.flat()) EXPECT_TRUE(x >= 0 && x < 1) << x;
+}
+
+TEST(PolynomialLattice, ScrambledPointsAreItsPointsScrambledAndAsGoodANet) {
+    const PointSet plain = make("polynomial-lattice", points(256, 3));
+    for (const char* scramble : {"digital-shift", "matrix", "owen"})
+        for (const std::uint64_t seed : {1, 17}) {
+            const PointSet set = make("polynomial-lattice", points(256, 3),
+                                      {{"scramble", scramble}}, {.seed = seed});
+            EXPECT_EQ(set, scrambled(plain, scramble, seed)) << scramble;
+            EXPECT_EQ(exact_t(set, 2), exact_t(plain, 2)) << scramble;
+        }
+}
+
+TEST(PolynomialLattice, WeightsAndDecaySteerTheSearch) {
+    const Request request = points(256, 4);
+    const PointSet plain = make("polynomial-lattice", request);
+    EXPECT_EQ(make("polynomial-lattice", request, {{"decay", "2"}}), plain);
+    EXPECT_EQ(
+        make("polynomial-lattice", request, {{"weights", "1,0.25,0.1111111111111111,0.0625"}}),
+        plain);
+    EXPECT_NE(make("polynomial-lattice", points(256, 12), {{"decay", "0"}}),
+              make("polynomial-lattice", points(256, 12)));
+    EXPECT_NE(make("polynomial-lattice", request, {{"modulus", "285"}}), plain);
+}
+
+TEST(PolynomialLattice, RefusesWhatItCannotMake) {
+    const auto refusal = [](const Request& request, const Settings& settings) {
+        return error_of([&] { make("polynomial-lattice", request, settings); });
+    };
+    EXPECT_EQ(refusal(points(9, 2), given(11, {1, 3})),
+              "usage: --count: 9 is above 8 = 2^3, the points of modulus 11");
+    EXPECT_EQ(
+        refusal(points(8, 2), {{"modulus", "9"}}),
+        "usage: --modulus: 9 is not irreducible, as cbc needs; 11 is the smallest of degree 3 "
+        "that is | give a --vector, which takes any modulus");
+    EXPECT_EQ(refusal(points(8, 3), given(11, {1, 3})),
+              "usage: --vector: 2 components are too few; dimension 3 needs as many");
+    EXPECT_EQ(refusal(points(8, 2), given(11, {1, 8})),
+              "usage: --vector: 8 is not a polynomial in [1, 7]");
+    EXPECT_EQ(refusal(points(8, 2), {{"modulus", "11"}, {"vector", "1,2.5"}}),
+              "usage: --vector: 2.5 is not a polynomial in [1, 7]");
+    EXPECT_EQ(refusal(points(8, 2), {{"rule", "vector"}}),
+              "usage: --rule: vector needs its --vector");
+    EXPECT_EQ(refusal(points(8, 2), {{"rule", "cbc"}, {"vector", "1,2"}}),
+              "usage: --vector: is of the rule vector; the rule here is cbc");
+    EXPECT_EQ(refusal(points(8, 2), {{"decay", "1"}, {"vector", "1,2"}}),
+              "usage: --decay: is of the rule cbc; the rule here is vector");
+    EXPECT_EQ(refusal(points(8, 2), {{"decay", "1"}, {"weights", "1,2"}}),
+              "usage: --weights and --decay: either gives the weights; leave one out");
+    EXPECT_EQ(refusal(points(8, 2), {{"weights", "1"}}),
+              "usage: --weights: 1 numbers for 2 coordinates; give one for each");
+    EXPECT_EQ(refusal(points(8, 2), {{"weights", "1,-1"}}),
+              "usage: --weights: -1 is outside (0, 1000000]");
+    EXPECT_EQ(refusal(points(5'000'000, 2), {}),
+              "usage: --count: cbc searches for up to 2^22 points; 5000000 points and modulus "
+              "8388641 are of 2^23 | give a --vector");
+    EXPECT_EQ(refusal(points((std::uint64_t{1} << 52) + 1, 2), {}),
+              "usage: --count: 4503599627370497 is outside [1, 2^52], what polynomial-lattice can "
+              "make");
+}
+
+TEST(PolynomialLattice, ASearchCanBeStoppedShowsItsProgressAndKeepsToItsMemory) {
+    const auto search = [&](const RunContext& run) {
+        make("polynomial-lattice", points(1 << 14, 20), {}, run);
+    };
+    expect_to_stop_at_once(search);
+    expect_progress_to_the_end(search);
+    const auto error = error_of(
+        [] { make("polynomial-lattice", points(1 << 16, 2), {}, {.max_memory = 2'000'000}); });
+    EXPECT_TRUE(error.starts_with("limit: the search for a vector")) << error;
+}

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "generators/poisson_disk/near_disks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/rng.hpp"
+#include "generators/poisson_disk/disk_window.hpp"
+
+using namespace stipple;
+
+namespace {
+
+template <std::size_t D>
+using Place = std::array<double, D>;
+
+/// A window somewhere, and disks of which some reach into it; all numbers are floats.
+template <std::size_t D>
+struct Scene {
+    std::vector<Place<D>> centers;
+    Place<D> corner;
+    double part;
+
+    Scene(std::uint64_t seed, std::size_t count) {
+        const Rng rng(seed);
+        std::uint64_t i = 0;
+        const auto draw = [&] { return static_cast<double>(static_cast<float>(rng.uniform(i++))); };
+        part = static_cast<double>(
+            static_cast<float>(std::ldexp(draw(), -static_cast<int>(seed % 5))));
+        for (double& x : corner) x = draw();
+        for (std::size_t n = 0; n < count; ++n) {
+            Place<D> center;
+            for (double& x : center) x = 4 * draw() - 1.5;
+            centers.push_back(center);
+        }
+    }
+
+    template <class Real>
+    [[nodiscard]] NearDisks<D, Real> near() const {
+        NearDisks<D, Real> list;
+        list.clear();
+        for (const Place<D>& c : centers) {
+            std::array<Real, D> center;
+            for (std::size_t k = 0; k < D; ++k) center[k] = static_cast<Real>(c[k]);
+            list.add(center);
+        }
+        list.close();
+        return list;
+    }
+};
+
+/// 1 - the squared distance that decides on a part: the farthest corner of it from the center.
+template <std::size_t D>
+double depth(const Place<D>& center, const Place<D>& low, double side) {
+    double squared = 0;
+    for (std::size_t k = 0; k < D; ++k) {
+        const double far =
+            std::max(std::abs(center[k] - low[k]), std::abs(center[k] - low[k] - side));
+        squared += far * far;
+    }
+    return 1 - squared;
+}
+
+/// Part by part: one that some disk covers with room to spare is not open, one that none covers is.
+template <std::size_t D, class Real>
+void compare_parts(std::uint64_t seed, Real slack) {
+    const Scene<D> scene(seed, 1 + seed % 23);
+    Raster<D, Real> raster;
+    for (std::size_t k = 0; k < D; ++k) {
+        raster.corner[k] = static_cast<Real>(scene.corner[k]);
+        raster.part[k] = static_cast<Real>(scene.part);
+    }
+    NearDisks<D, Real> reaching;
+    OpenParts<D> open;
+    const bool any = uncovered<D, Real>(scene.template near<Real>(), raster, slack, reaching, open);
+    EXPECT_EQ(any, count_open<D>(open) > 0);
+    for (std::size_t line = 0; line < lines<D>; ++line)
+        for (std::size_t i = 0; i < parts<D>; ++i) {
+            Place<D> low;
+            low[0] = scene.corner[0] + static_cast<double>(i) * scene.part;
+            for (std::size_t k = 1, rest = line; k < D; ++k, rest /= parts<D>)
+                low[k] = scene.corner[k] + static_cast<double>(rest % parts<D>) * scene.part;
+            double deepest = -1e9;
+            for (const auto& c : scene.centers)
+                deepest = std::max(deepest, depth<D>(c, low, scene.part));
+            const bool is_open = (open[line] >> i & 1) != 0;
+            const double room = 4 * static_cast<double>(slack);
+            if (deepest < 0) {
+                EXPECT_TRUE(is_open) << D << "-D, seed " << seed << ", part " << i;
+            }
+            if (deepest > room) {
+                EXPECT_FALSE(is_open) << D << "-D, seed " << seed << ", part " << i;
+            }
+        }
+    for (std::size_t i = 0; i < reaching.size(); ++i) EXPECT_LT(std::abs(reaching.along(0)[i]), 5);
+}
+
+template <std::size_t D, class Real>
+void compare_hits(std::uint64_t seed, Real slack) {
+    const Scene<D> scene(seed, 1 + seed % 23);
+    const auto near = scene.template near<Real>();
+    std::array<Real, D> place;
+    for (std::size_t k = 0; k < D; ++k) place[k] = static_cast<Real>(scene.corner[k]);
+    double least = 1e9;
+    for (const auto& c : scene.centers) {
+        double squared = 0;
+        for (std::size_t k = 0; k < D; ++k)
+            squared += (c[k] - scene.corner[k]) * (c[k] - scene.corner[k]);
+        least = std::min(least, squared);
+    }
+    const Hit hit = hits<D, Real>(near, place, slack);
+    const double room = 2 * static_cast<double>(slack);
+    if (least < 1 - room) {
+        EXPECT_EQ(hit, Hit::yes) << D << "-D, seed " << seed;
+    }
+    if (least > 1 + room) {
+        EXPECT_EQ(hit, Hit::no) << D << "-D, seed " << seed;
+    }
+    if (least < 1) {
+        EXPECT_NE(hit, Hit::no);
+    }
+    if (least > 1) {
+        EXPECT_NE(hit, Hit::yes);
+    }
+}
+
+template <std::size_t D>
+void compare_all() {
+    for (std::uint64_t seed = 0; seed < 400; ++seed) {
+        compare_parts<D, float>(seed, float_slack);
+        compare_parts<D, double>(seed, 1e-13);
+        compare_hits<D, float>(seed, float_slack);
+        compare_hits<D, double>(seed, 1e-13);
+    }
+}
+
+}  // namespace
+
+TEST(NearDisks, AgreeWithTheDefinitionPartByPart) {
+    compare_all<2>();
+    compare_all<3>();
+    compare_all<4>();
+    compare_all<5>();
+    compare_all<6>();
+}
+
+TEST(NearDisks, AHitAtTheRimIsUnsure) {
+    NearDisks<2, float> near;
+    near.clear();
+    near.add({0, 0});
+    near.close();
+    EXPECT_EQ((hits<2, float>(near, {1, 0}, float_slack)), Hit::unsure);
+    EXPECT_EQ((hits<2, float>(near, {0.9999F, 0}, float_slack)), Hit::yes);
+    EXPECT_EQ((hits<2, float>(near, {1.0001F, 0}, float_slack)), Hit::no);
+    near.clear();
+    near.close();
+    EXPECT_EQ((hits<2, float>(near, {0, 0}, float_slack)), Hit::no);
+}
+
+TEST(NearDisks, GrowWithoutLosingAny) {
+    NearDisks<4, double> near;
+    near.clear();
+    for (int i = 0; i < 500; ++i) near.add({1.0 * i, 2.0 * i, 3.0 * i, 4.0 * i});
+    near.close();
+    ASSERT_EQ(near.size(), 500);
+    for (std::size_t i = 0; i < 500; ++i)
+        for (std::size_t k = 0; k < 4; ++k)
+            EXPECT_EQ(near.along(k)[i], static_cast<double>((k + 1) * i));
+}

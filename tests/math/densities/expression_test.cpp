@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "math/densities/expression.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <thread>
+#include <tuple>
+
+#include "core/rng.hpp"
+#include "support/units.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+double value(const std::string& text, const std::vector<double>& point = {0.25, 0.5}) {
+    return Expression("density", text, point.size()).at(point);
+}
+
+std::string refused(const std::string& text) {
+    return error_of([&] { Expression("density", text, 2); });
+}
+
+}  // namespace
+
+TEST(Expression, FollowsTheRulesOfArithmetic) {
+    EXPECT_EQ(value("1 + 2 * 3 - 8 / 4"), 5);
+    EXPECT_EQ(value("-2^2"), -4);
+    EXPECT_EQ(value("2^3^2"), 512);
+    EXPECT_EQ(value("2^-1"), 0.5);
+    EXPECT_EQ(value("(x + y) * 4"), 3);
+    EXPECT_EQ(value("x1 + x2"), 0.75);
+    EXPECT_EQ(value("x < y ? 7 : 8"), 7);
+    EXPECT_EQ(value("x == 0.25 && y != 0.5 || x >= 1"), 0);
+    EXPECT_EQ(value("1e-3 + .5 + 2. + 1.5E+1"), 1e-3 + .5 + 2. + 1.5E+1);
+    EXPECT_EQ(value("min(3, x, 2) + max(x, y)"), 0.75);
+    EXPECT_EQ(value("x3 + x4", {1, 2, 3, 4}), 7);
+    EXPECT_EQ(value("z", {1, 2, 3}), 3);
+}
+
+// Against the C library, which is right within a unit in the last place.
+TEST(Expression, FunctionsAreRight) {
+    const std::vector<std::pair<std::string, std::function<double(double)>>> functions = {
+        {"sin(x)", [](double x) { return std::sin(x); }},
+        {"cos(x)", [](double x) { return std::cos(x); }},
+        {"tan(x)", [](double x) { return std::tan(x); }},
+        {"asin(x/5)", [](double x) { return std::asin(x / 5); }},
+        {"acos(x/5)", [](double x) { return std::acos(x / 5); }},
+        {"atan(x)", [](double x) { return std::atan(x); }},
+        {"atan2(x, -0.3)", [](double x) { return std::atan2(x, -0.3); }},
+        {"sinh(x)", [](double x) { return std::sinh(x); }},
+        {"cosh(x)", [](double x) { return std::cosh(x); }},
+        {"tanh(x)", [](double x) { return std::tanh(x); }},
+        {"exp(x)", [](double x) { return std::exp(x); }},
+        {"log(abs(x))", [](double x) { return std::log(std::abs(x)); }},
+        {"ln(abs(x))", [](double x) { return std::log(std::abs(x)); }},
+        {"log2(abs(x))", [](double x) { return std::log2(std::abs(x)); }},
+        {"log10(abs(x))", [](double x) { return std::log10(std::abs(x)); }},
+        {"sqrt(abs(x))", [](double x) { return std::sqrt(std::abs(x)); }},
+        {"cbrt(x)", [](double x) { return std::cbrt(x); }},
+        {"pow(abs(x), 1.7)", [](double x) { return std::pow(std::abs(x), 1.7); }},
+        {"x^3", [](double x) { return x * x * x; }},
+        {"x^17", [](double x) { return std::pow(x, 17); }},
+        {"abs(x)^-0.3", [](double x) { return std::pow(std::abs(x), -0.3); }},
+        {"sign(x)", [](double x) { return x > 0 ? 1 : -1; }},
+        {"floor(x)", [](double x) { return std::floor(x); }},
+        {"ceil(x)", [](double x) { return std::ceil(x); }},
+        {"round(x)", [](double x) { return std::round(x); }},
+        {"mod(x, 0.7)", [](double x) { return std::fmod(x, 0.7); }},
+        {"hypot(x, 2)", [](double x) { return std::hypot(x, 2); }},
+        {"pi * e", [](double) { return M_PI * M_E; }}};
+    for (const auto& [text, expected] : functions) {
+        const Expression f("density", text, 1);
+        for (std::uint64_t i = 0; i < 400; ++i) {
+            const double x = 10 * Rng(1).uniform(i) - 5;
+            const double right = expected(x);
+            EXPECT_NEAR(f.at({&x, 1}), right, 2e-15 * (1 + right * right)) << text << " " << x;
+        }
+    }
+}
+
+TEST(Expression, FunctionsAtTheirEdges) {
+    EXPECT_EQ(value("exp(-1000)"), 0);
+    EXPECT_EQ(value("exp(1000)"), INFINITY);
+    EXPECT_EQ(value("log(0)"), -INFINITY);
+    EXPECT_TRUE(std::isnan(value("log(-1)")));
+    EXPECT_TRUE(std::isnan(value("(-8)^(1/3)")));
+    EXPECT_EQ(value("(-2)^3"), -8);
+    EXPECT_EQ(value("0^0"), 1);
+    EXPECT_EQ(value("0^0.3"), 0);
+    EXPECT_EQ(value("1/0"), INFINITY);
+    EXPECT_EQ(value("asin(1)*2"), M_PI);
+    EXPECT_EQ(value("acos(-1)"), M_PI);
+    EXPECT_TRUE(std::isnan(value("asin(1.1)")));
+    EXPECT_EQ(value("tanh(1000) + tanh(-1000)"), 0);
+    EXPECT_EQ(value("sin(0)"), 0);
+}
+
+TEST(Expression, BlocksAreTheSameAsSinglePoints) {
+    const Expression f("density", "exp(-x*y) + x", 2);
+    std::vector<double> points(200);
+    Rng(4).fill(0, points);
+    std::vector<double> values(100);
+    f.evaluate(points, values);
+    for (std::size_t i = 0; i < 100; ++i) EXPECT_EQ(values[i], f.at({&points[2 * i], 2}));
+}
+
+TEST(Expression, IsSafeToUseFromThreads) {
+    const Expression f("density", "sin(x) + 2", 1);
+    std::vector<std::thread> threads;
+    std::vector<double> sums(4);
+    for (std::size_t t = 0; t < 4; ++t)
+        threads.emplace_back([&, t] {
+            for (int i = 0; i < 5000; ++i) {
+                const double x = i * 1e-3;
+                sums[t] += f.at({&x, 1});
+            }
+        });
+    for (auto& thread : threads) thread.join();
+    for (const double sum : sums) EXPECT_EQ(sum, sums[0]);
+}
+
+TEST(Expression, SaysWhereItEndsTooEarly) {
+    const std::string value = "a number, a variable, a function or '('";
+    const std::vector<std::tuple<std::string, int, std::string>> cases = {
+        {"((x)", 5, "')'"},   {"((x) + 2  ", 9, "')'"},
+        {"sin(x", 6, "')'"},  {"2*x+", 5, value},
+        {"x ^ ", 4, value},   {"x &&", 5, value},
+        {"-", 2, value},      {"sin(", 5, value},
+        {"max(x,", 7, value}, {"x ? 1", 6, "':' and what holds else"}};
+    for (const auto& [text, column, wanted] : cases)
+        EXPECT_EQ(refused(text),
+                  fmt::format("usage: --density: '{}': the formula ends at column {}, where {} was "
+                              "expected",
+                              text, column, wanted));
+}
+
+TEST(Expression, SaysAtWhichColumnWhatIsExpected) {
+    const std::vector<std::pair<std::string, std::string>> cases = {
+        {"x+q",
+         "column 3: 'q': expected a number, an operator, x, y, pi, e or a function such as "
+         "exp"},
+        {"foo(x)",
+         "column 1: 'foo': expected a number, an operator, x, y, pi, e or a function "
+         "such as exp"},
+        {"sin(x))", "column 7: ')': expected a '(' for it, and something between"},
+        {"x y", "column 3: 'y': expected an operator before it"},
+        {"2x", "column 2: 'x': expected an operator before it"},
+        {"", "column 1: expected a formula"},
+        {"x,y",
+         "column 2: ',': expected one formula, with commas between arguments of a function "
+         "only"},
+        {"pow(x)", "column 6: 'pow': expected more arguments"},
+        {"pow(x,y,x)", "column 10: 'pow': expected fewer arguments"},
+        {"x = 3", "column 3: '=': expected == to compare"},
+        {"3 +* x", "column 4: '*': expected a number, a variable, a function or '(' before it"},
+        {"%2 ",
+         "column 1: '%': expected a number, an operator, x, y, pi, e or a function such as exp"},
+        {"x \u00d7 y",
+         "column 3: '\u00d7': expected a number, an operator, x, y, pi, e or a function such as "
+         "exp"},
+        {"sin x", "column 1: 'sin': expected '(' behind it"},
+        {"x~y", "column 2: '~': expected a number, a variable or an operator"}};
+    for (const auto& [text, message] : cases)
+        EXPECT_EQ(refused(text), "usage: --density: '" + text + "', " + message);
+    for (const char* text : {"1e400", "\"abc\"", "(x+", "max()", "sin", "x**2", "!x", "2e", "z",
+                             "\xc3\xa9", "x..y", ")", "?", "((((("})
+        EXPECT_NE(refused(text), "") << text;
+}
+
+TEST(Expression, DropsBlanksFromItsText) {
+    EXPECT_EQ(Expression("density", "1 - x * x", 1).text(), "1-x*x");
+}

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include "math/neighbors/covering_bound.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "core/rng.hpp"
+
+using namespace stipple;
+
+namespace {
+
+template <std::size_t D>
+using Points = std::vector<std::array<double, D>>;
+
+template <std::size_t D>
+double bound_of(const Points<D>& points, const std::array<double, D>& half) {
+    CoveringBound<D> bound;
+    for (const auto& q : points) bound.add(q);
+    return bound.squared(half);
+}
+
+/// Oracle: the largest squared distance to the nearest point, over a lattice of places with the
+/// corners.
+template <std::size_t D>
+double farthest_place(const Points<D>& points, const std::array<double, D>& half,
+                      std::size_t steps) {
+    std::size_t places = 1;
+    for (std::size_t k = 0; k < D; ++k) places *= steps + 1;
+    double farthest = 0;
+    for (std::size_t place = 0; place < places; ++place) {
+        std::array<double, D> x;
+        for (std::size_t k = 0, rest = place; k < D; ++k, rest /= steps + 1)
+            x[k] = half[k] *
+                   (2 * static_cast<double>(rest % (steps + 1)) / static_cast<double>(steps) - 1);
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const auto& q : points) {
+            double squared = 0;
+            for (std::size_t k = 0; k < D; ++k) squared += (x[k] - q[k]) * (x[k] - q[k]);
+            nearest = std::min(nearest, squared);
+        }
+        farthest = std::max(farthest, nearest);
+    }
+    return farthest;
+}
+
+/// The promise, for random points and boxes. The lattice misses at most half of a step's diagonal.
+template <std::size_t D>
+void expect_tight(std::size_t steps) {
+    const Rng rng(D);
+    std::uint64_t i = 0;
+    for (int trial = 0; trial < 60; ++trial) {
+        Points<D> points(1 + trial % 12);
+        for (auto& q : points)
+            for (double& x : q) x = 2 * rng.uniform(i++) - 1;
+        std::array<double, D> half;
+        double squares = 0;
+        for (double& h : half) {
+            h = 0.4 * rng.uniform(i++);
+            squares += h * h;
+        }
+        const double bound = bound_of<D>(points, half);
+        const double sampled = farthest_place<D>(points, half, steps);
+        const double missed = std::sqrt(squares) / static_cast<double>(steps);
+        const double farthest = std::sqrt(sampled) + missed;
+        EXPECT_GE(bound, sampled * (1 - 1e-12)) << D << "-D, trial " << trial;
+        EXPECT_LE(bound, (farthest * farthest + squares) * 1.01) << D << "-D, trial " << trial;
+    }
+}
+
+}  // namespace
+
+// Of one point the farthest corner; of (+-1, 0) over a box about the origin: (0, h) is at 1 + h^2,
+// to which the bound adds w^2.
+TEST(CoveringBound, ByHand) {
+    EXPECT_NEAR(bound_of<2>({{3, -4}}, {1, 2}), 16 + 36, 1e-12);
+    EXPECT_NEAR(bound_of<2>({{1, 0}, {-1, 0}}, {0.25, 0.5}), 1 + 0.25 + 0.0625, 1e-12);
+    EXPECT_NEAR(bound_of<1>({{0}}, {0.5}), 0.25, 1e-12);
+    EXPECT_NEAR(bound_of<1>({{1}, {1}, {-1}}, {0.5}), 1.25, 1e-12);
+}
+
+TEST(CoveringBound, IsAboveTheFarthestPlaceByTheSquareOfTheBox) {
+    expect_tight<1>(100);
+    expect_tight<2>(40);
+    expect_tight<3>(14);
+    expect_tight<4>(6);
+}
+
+TEST(CoveringBound, HoldsForFlatBoxesAndCopies) {
+    EXPECT_NEAR(bound_of<2>({{1, 1}, {1, 1}, {1, 1}}, {0, 0}), 2, 1e-12);
+    EXPECT_NEAR(bound_of<3>({{0, 0, 0}}, {0, 0, 0}), 0, 1e-12);
+}

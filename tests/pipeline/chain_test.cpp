@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/chain.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/rng.hpp"
+#include "support/units.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+WarpChain chain(std::initializer_list<const char*> specs, std::size_t dimension) {
+    std::vector<Spec> parsed;
+    for (const char* text : specs) parsed.push_back(parse_spec(text));
+    return {parsed, dimension};
+}
+
+}  // namespace
+
+TEST(WarpChain, WarpsTheNamedCoordinatesAndLeavesTheOthers) {
+    const auto both = chain({"disk@4,2", "triangle@1,3"}, 5);
+    const auto disk = chain({"disk"}, 2);
+    const auto triangle = chain({"triangle"}, 2);
+    const std::vector<double> row = {0.1, 0.2, 0.3, 0.4, 0.5};
+    const auto out = both.forward(row);
+    const auto on_disk = disk.forward({0.4, 0.2});
+    const auto on_triangle = triangle.forward({0.1, 0.3});
+    EXPECT_EQ(out,
+              (std::vector<double>{on_triangle[0], on_disk[1], on_triangle[1], on_disk[0], 0.5}));
+    EXPECT_EQ(both.domain()->spec(), "disk@4,2 x triangle@1,3 x unit-cube@5");
+    EXPECT_NEAR(both.density(out)[0], 2 / 3.14159265358979, 1e-12);
+}
+
+// A triangle in space has three numbers for two; what stood behind moves up.
+TEST(WarpChain, ImagesOfMoreNumbersMakeRowsLonger) {
+    const auto longer = chain({"disk@3,4", "triangle@1,2:vertices=[0,0,1 1,0,1 0,1,1]"}, 4);
+    EXPECT_EQ(longer.dimension_out(), 5U);
+    const std::vector<double> row = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8};
+    const auto out = longer.forward(row);
+    ASSERT_EQ(out.size(), 10U);
+    EXPECT_EQ(out[2], 1);
+    EXPECT_EQ(out[7], 1);
+    const auto on_disk = chain({"disk"}, 2).forward({0.3, 0.4});
+    EXPECT_EQ(out[3], on_disk[0]);
+    EXPECT_EQ(out[4], on_disk[1]);
+    const auto back = longer.inverse(out);
+    for (std::size_t k = 0; k < row.size(); ++k) EXPECT_NEAR(back[k], row[k], 1e-14) << k;
+}
+
+// What comes back is a point of the cube [0, 1), which every warp takes: never 1.
+TEST(WarpChain, RimsComeBackBelowOne) {
+    for (const char* warp : {"disk:method=concentric", "ellipse", "ball", "tent", "annulus"}) {
+        const std::size_t d = std::string_view(warp) == "ball" ? 3 : 2;
+        const auto there = chain({warp}, d);
+        for (const double x : there.inverse(there.forward(std::vector<double>(d, one_minus_ulp)))) {
+            EXPECT_LT(x, 1) << warp;
+            EXPECT_NEAR(x, 1, 1e-14) << warp;
+        }
+    }
+    const auto corner = chain({"disk:method=concentric"}, 2).inverse({1, 0});
+    EXPECT_EQ(corner, (std::vector<double>{one_minus_ulp, 0.5}));
+}
+
+// A sphere takes two numbers and gives three; what stands behind it moves to the left.
+TEST(WarpChain, TheWayBackLeavesTheDomainsOfOtherCoordinates) {
+    const auto sphere = chain({"sphere@1,2"}, 5);
+    const auto before = [&](const std::string& after) {
+        return sphere.domain_before(parse_domain(after, 6), {})->spec();
+    };
+    EXPECT_EQ(before("sphere@1,2,3 x disk@5,6 x unit-cube@4"), "disk@4,5 x unit-cube@1,2,3");
+    EXPECT_EQ(before("sphere@1,2,3 x unit-cube@4,5,6"), "unit-cube");
+    EXPECT_EQ(before("sphere@1,2,3 x box@4:bounds=[0..2] x unit-cube@5,6"),
+              "box@3:bounds=[0..2] x unit-cube@1,2,4,5");
+}
+
+TEST(WarpChain, DroppedPointsTakeTheirWholeRow) {
+    const auto rejection = chain({"disk@1,2:method=rejection"}, 3);
+    EXPECT_TRUE(rejection.drops());
+    const auto out = rejection.forward({0.5, 0.5, 0.1, 0.01, 0.01, 0.2, 0.75, 0.5, 0.3});
+    EXPECT_EQ(out, (std::vector<double>{0, 0, 0.1, 0.5, 0, 0.3}));
+}
+
+TEST(WarpChain, RefusesWhatDoesNotFit) {
+    EXPECT_EQ(error_of([] { chain({"disk"}, 3); }),
+              "usage: warp disk takes 2 coordinates; the points have 3 | name the coordinates: "
+              "disk@1,2");
+    EXPECT_EQ(error_of([] { chain({"disk"}, 1); }),
+              "usage: warp disk takes 2 coordinates; the points have 1");
+    EXPECT_EQ(error_of([] { chain({"disk@1,2,3"}, 3); }),
+              "usage: warp disk takes 2 coordinates; 3 are named: disk@1,2,3");
+    EXPECT_EQ(error_of([] { chain({"disk:radius=1,radius=2"}, 2); }),
+              "usage: disk: the option 'radius' is given twice: 1 and 2");
+    EXPECT_EQ(error_of([] { parse_domain("0..4", 2); }),
+              "usage: unknown domain '0..4' | a box is written box:bounds=[0..4]");
+    EXPECT_EQ(error_of([] { parse_domain("owen", 2); }).find("scramble"), std::string::npos);
+    EXPECT_NE(error_of([] { chain({"disk@1,4"}, 3); }), "");
+    EXPECT_NE(error_of([] { chain({"disk@1,2", "disk@2,3"}, 3); }), "");
+}
+
+TEST(WarpChain, NothingLeavesTheCube) {
+    const auto nothing = chain({}, 3);
+    EXPECT_EQ(nothing.domain()->spec(), "unit-cube");
+    EXPECT_EQ(nothing.forward({0.1, 0.2, 0.3}), (std::vector<double>{0.1, 0.2, 0.3}));
+    EXPECT_EQ(nothing.density(std::vector<double>{0.1, 0.2, 0.3}), std::vector<double>{1});
+}
+
+TEST(WarpChain, ScramblesKeepCoordinatesInTheCubeForWhatFollows) {
+    const std::vector<double> rows = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
+    const auto alone = chain({"owen"}, 3);
+    EXPECT_TRUE(alone.seeded());
+    EXPECT_EQ(alone.domain()->spec(), "unit-cube");
+    const auto owen = alone.forward(rows);
+    const auto both = chain({"owen", "disk@1,2", "digital-shift@3:seed=5"}, 3);
+    EXPECT_EQ(both.domain()->spec(), "disk@1,2 x unit-cube@3");
+    const auto out = both.forward(rows);
+    const auto disk = chain({"disk"}, 2).forward({owen[0], owen[1], owen[3], owen[4]});
+    EXPECT_EQ(out[0], disk[0]);
+    EXPECT_EQ(out[4], disk[3]);
+    EXPECT_EQ(out[2], chain({"digital-shift@3:seed=5"}, 3).forward({0, 0, owen[2]})[2]);
+    EXPECT_EQ(both.density(out).size(), 2U);
+}
+
+TEST(WarpChain, ScramblesGoByTheSetsSeedOrTheirOwn) {
+    const std::vector<double> rows = {0.1, 0.2};
+    const Spec plain = parse_spec("owen");
+    const Spec own = parse_spec("owen:seed=18446744073709551615");
+    const auto image = [&](const Spec& spec, std::uint64_t seed) {
+        return WarpChain({&spec, 1}, 2, {.seed = seed, .count = 1}).forward(rows);
+    };
+    EXPECT_NE(image(plain, 1), image(plain, 2));
+    EXPECT_EQ(image(own, 1), image(own, 2));
+    EXPECT_EQ(image(own, 1), image(plain, ~std::uint64_t{0}));
+    EXPECT_FALSE(WarpChain({&own, 1}, 2).seeded());
+    EXPECT_EQ(error_of([] { chain({"owen:seed=-1"}, 2); }),
+              "usage: owen: seed '-1' is not a whole number in [0, 2^64)");
+    EXPECT_EQ(error_of([&] { static_cast<void>(chain({"owen"}, 2).inverse(rows)); }),
+              "usage: --inverse: a scramble is random and has no inverse");
+    EXPECT_EQ(
+        error_of([] {
+            chain({"disk", "owen@1"}, 2);
+        }),
+        "usage: warp owen: coordinate 1 is already on another domain; it takes coordinates of "
+        "the unit cube");
+}

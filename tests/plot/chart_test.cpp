@@ -1,0 +1,432 @@
+// SPDX-License-Identifier: MIT
+//
+// Charts: what is drawn of reports, and that it is what they say.
+#include "plot/chart.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.hpp"
+#include "plot/report_charts.hpp"
+#include "plot/spectrum_picture.hpp"
+#include "report/read_document.hpp"
+
+using namespace stipple;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+namespace {
+
+Measurement measurement(const std::string& analyzer, Report results, const std::string& source,
+                        std::uint64_t count = 64) {
+    return {.analyzer = analyzer,
+            .source = source,
+            .count = count,
+            .dimension = 2,
+            .domain = "unit-cube",
+            .results = std::move(results)};
+}
+
+Measurement spectrum(const std::string& source, std::vector<double> power) {
+    Report radial;
+    radial.add("frequency", Report::Curve{1, 2, 3});
+    radial.add("power", std::move(power));
+    radial.add("anisotropy_db", Report::Curve{0, -1, 2});
+    radial.add("cells", Report::Curve{8, 12, 16});
+    Report results;
+    results.add("radial", std::move(radial));
+    results.add("effective_nyquist", 0.5);
+    return measurement("periodogram", std::move(results), source);
+}
+
+Measurement number(double value, std::uint64_t count, const std::string& source = "a.csv") {
+    Report results;
+    results.add("value", value);
+    results.add("method", "sweep");
+    return measurement("star-discrepancy", std::move(results), source, count);
+}
+
+std::string refusal(const std::vector<Measurement>& ms, const std::string& key = {}) {
+    try {
+        chart_of(ms, key);
+    } catch (const Error& e) {
+        return std::string(e.what()) + "; " + e.hint();
+    }
+    return "none";
+}
+
+std::string bad_json(const std::string& text) {
+    try {
+        read_reports(text, "f.json");
+    } catch (const Error& e) {
+        EXPECT_EQ(e.kind(), ErrorKind::input);
+        return e.what();
+    }
+    return "none";
+}
+
+template <class S>
+std::vector<const S*> shapes_of(const Drawing& drawing) {
+    std::vector<const S*> found;
+    for (const Shape& shape : drawing.shapes)
+        if (const auto* s = std::get_if<S>(&shape)) found.push_back(s);
+    return found;
+}
+
+bool has_text(const Drawing& drawing, const std::string& text) {
+    return std::ranges::any_of(shapes_of<Label>(drawing),
+                               [&](const Label* label) { return label->text == text; });
+}
+
+}  // namespace
+
+// ---------------------------------------------------------------- reading reports
+
+TEST(ReadDocument, IsTheWayBack) {
+    std::vector<Measurement> ms = {spectrum("a.csv", {0.5, std::nan(""), 1}),
+                                   number(0.25, 10, "b.csv")};
+    ms[0].sets = 3;
+    ms[0].options = {{"method", "nufft"}, {"tolerance", "1e-09"}};
+    ms[0].standard_error = Report().add("value", 0.5);
+    ms[1].set = 4;
+    const std::string json = to_json(ms);
+    EXPECT_TRUE(looks_like_reports(json));
+    const auto back = read_reports(json, "f.json");
+    ASSERT_EQ(back.size(), 2U);
+    EXPECT_EQ(to_json(back), json);
+    EXPECT_TRUE(std::isnan(back[0].results.curve("radial.power")[1]));
+    EXPECT_EQ(back[1].set, 4U);
+}
+
+TEST(ReadDocument, TakesTextsOneAfterTheOther) {
+    const std::vector<Measurement> one = {number(0.25, 10, "has { and \" in it")};
+    const std::string text = to_json(one);
+    EXPECT_EQ(read_reports(text + text + "\n" + text, "f").size(), 3U);
+}
+
+TEST(ReadDocument, RefusesWhatIsNoReport) {
+    EXPECT_EQ(bad_json("[]"), "f.json: holds no report; expected the JSON of 'stipple analyze'");
+    EXPECT_THAT(bad_json("[{\"format\":\"stipple.points\"}]"), HasSubstr("an entry is no report"));
+    EXPECT_THAT(bad_json("{\"format\":\"stipple.report\",\"version\":2}"), HasSubstr("version 2"));
+    EXPECT_THAT(bad_json("{\"format\":\"stipple.report\",\"vers"), HasSubstr("no whole JSON"));
+    EXPECT_FALSE(looks_like_reports("x,y\n0.1,0.2\n"));
+    EXPECT_FALSE(looks_like_reports("[[0.1,0.2]]"));
+    EXPECT_FALSE(looks_like_reports("{\"format\":\"stipple.points\",\"version\":1}"));
+}
+
+// ---------------------------------------------------------------- what is drawn
+
+TEST(ReportCharts, SpectrumHasPowerAndAnisotropyAsReported) {
+    std::vector<Measurement> ms = {spectrum("dir/a.csv", {0.5, 1.5, 1})};
+    ms[0].sets = 4;
+    ms[0].standard_error =
+        Report().add("radial", Report().add("power", Report::Curve{0.1, 0.2, 0.3}));
+    const Chart chart = chart_of(ms);
+    ASSERT_EQ(chart.panels.size(), 2U);
+    EXPECT_EQ(chart.title, "Power spectrum of 4 sets: a.csv");
+    EXPECT_THAT(chart.subtitle, HasSubstr("effective Nyquist frequency 0.5"));
+    const Series& power = chart.panels[0].series.at(0);
+    EXPECT_THAT(power.x, ElementsAre(1, 2, 3));
+    EXPECT_THAT(power.y, ElementsAre(0.5, 1.5, 1));
+    EXPECT_THAT(power.high, ElementsAre(0.6, 1.7, 1.3));
+    EXPECT_THAT(power.low, ElementsAre(0.4, 1.3, 0.7));
+    EXPECT_FALSE(chart.panels[0].log_y);
+    const auto [low, high] = white_noise_band(12, 4);
+    EXPECT_EQ(chart.panels[0].backgrounds.at(0).high[1], high);
+    EXPECT_EQ(chart.panels[0].backgrounds.at(0).low[1], low);
+    EXPECT_EQ(chart.panels[1].guides.at(0).name, "white noise: −6.02 dB");
+    EXPECT_NEAR(chart.panels[1].guides.at(0).y[0], -10 * std::log10(4.0), 1e-12);
+}
+
+// Chi-square of 20 degrees of freedom over 20: 2.5 % points 9.591 and 34.170 of tables.
+TEST(ReportCharts, WhiteNoiseBandIsThatOfChiSquare) {
+    const auto [low, high] = white_noise_band(20, 1);
+    EXPECT_NEAR(low, 9.591 / 20, 2e-3);
+    EXPECT_NEAR(high, 34.170 / 20, 2e-3);
+}
+
+TEST(ReportCharts, PeaksGetALogarithmicAxis) {
+    const std::vector<Measurement> ms = {spectrum("a.csv", {0.5, 50, 1})};
+    EXPECT_TRUE(chart_of(ms).panels[0].log_y);
+}
+
+TEST(ReportCharts, SeveralReportsAreSeveralCurvesOfOneLegend) {
+    const std::vector<Measurement> ms = {spectrum("a.csv", {1, 2, 3}),
+                                         spectrum("b.csv", {3, 2, 1})};
+    const Drawing drawing = draw_chart(chart_of(ms), {});
+    EXPECT_TRUE(has_text(drawing, "a.csv"));
+    EXPECT_TRUE(has_text(drawing, "b.csv"));
+    EXPECT_TRUE(has_text(drawing, "frequency"));
+    EXPECT_TRUE(has_text(drawing, "radial power"));
+    EXPECT_TRUE(has_text(drawing, "anisotropy (dB)"));
+    EXPECT_EQ(drawing.title, "Power spectrum");
+}
+
+// A curve's ends stand where the axes say: x from 1 to 3, y from 0 to 1.4 and 6 %.
+TEST(ReportCharts, CurvesAreWhereTheAxesSay) {
+    const std::vector<Measurement> ms = {spectrum("a.csv", {0, 0.7, 1.4})};
+    const Drawing drawing = draw_chart(chart_of(ms), {});
+    const Line* curve = nullptr;
+    for (const Line* line : shapes_of<Line>(drawing))
+        if (line->spots.size() == 3 && curve == nullptr) curve = line;
+    ASSERT_NE(curve, nullptr);
+    EXPECT_NEAR(curve->spots[1].x, (curve->spots[0].x + curve->spots[2].x) / 2, 1e-9);
+    EXPECT_NEAR(curve->spots[1].y, (curve->spots[0].y + curve->spots[2].y) / 2, 1e-9);
+    EXPECT_GT(curve->spots[0].y, curve->spots[2].y);
+    const auto [x, y] = chart_axes(chart_of(ms), 0, {});
+    EXPECT_EQ(x.low, 1);
+    EXPECT_EQ(x.high, 3);
+    EXPECT_EQ(y.low, 0);
+    EXPECT_NEAR(y.high, 1.4 * 1.06, 1e-12);
+}
+
+TEST(ReportCharts, PrefixesAreLogarithmicWithBoundsAsABand) {
+    Report prefixes;
+    prefixes.add("count", Report::Integers{16, 32, 64});
+    prefixes.add("value", Report::Curve{0.4, 0.2, 0.1});
+    prefixes.add("lower", Report::Curve{0.4, 0.2, 0.1});
+    prefixes.add("upper", Report::Curve{0.5, 0.3, 0.2});
+    Report results;
+    results.add("prefixes", std::move(prefixes));
+    const std::vector<Measurement> ms = {measurement("star-discrepancy", results, "a.csv")};
+    const Chart chart = chart_of(ms);
+    ASSERT_EQ(chart.panels.size(), 1U);
+    const ChartPanel& panel = chart.panels[0];
+    EXPECT_TRUE(panel.log_x && panel.log_y);
+    EXPECT_THAT(panel.series.at(0).high, ElementsAre(0.5, 0.3, 0.2));
+    EXPECT_EQ(panel.y_name, "star discrepancy");
+    // Lines that fall as n^(-1/2) and n^(-1), from the first value.
+    EXPECT_THAT(panel.guides.at(0).y, ElementsAre(0.4, 0.2));
+    EXPECT_THAT(panel.guides.at(1).y, ElementsAre(0.4, 0.1));
+}
+
+TEST(ReportCharts, PairCorrelationHasWhatUniformPointsHave) {
+    Report results;
+    results.add("distance", Report::Curve{0.1, 0.2});
+    results.add("density", Report::Curve{0, 1.1});
+    results.add("deviation", Report::Curve{0.6, 0.1});
+    std::vector<Measurement> ms = {measurement("pair-correlation", results, "-")};
+    ms[0].sets = 4;
+    const ChartPanel panel = chart_of(ms).panels.at(0);
+    EXPECT_THAT(panel.series.at(0).y, ElementsAre(0, 1.1));
+    EXPECT_THAT(panel.backgrounds.at(0).low, ElementsAre(0.4, 0.9));
+    EXPECT_THAT(panel.backgrounds.at(0).high, ElementsAre(1.6, 1.1));
+}
+
+// Lists of any analyzer, over the rising one before them.
+TEST(ReportCharts, AnyListsAreCurves) {
+    Report results;
+    results.add("exponent", 1.5);
+    results.add("radius", Report::Curve{1, 2, 4});
+    results.add("mean", Report::Curve{3, 12, 50});
+    results.add("variance", Report::Curve{2, 5, 11});
+    results.add("dispersion", Report::Curve{0.7, 0.5, 0.3});
+    std::vector<Measurement> ms = {measurement("hyperuniformity", results, "a.csv")};
+    Chart chart = chart_of(ms);
+    ASSERT_EQ(chart.panels.size(), 2U);
+    EXPECT_THAT(chart.panels[0].series.at(0).y, ElementsAre(2, 5, 11));
+    EXPECT_THAT(chart.panels[0].guides.at(0).y, ElementsAre(3, 12, 50));
+    chart = chart_of(ms, "dispersion");
+    ASSERT_EQ(chart.panels.size(), 1U);
+    EXPECT_THAT(chart.panels[0].series.at(0).y, ElementsAre(0.7, 0.5, 0.3));
+    EXPECT_THAT(refusal(ms, "nothing"), HasSubstr("variance, dispersion"));
+
+    Report valence;
+    valence.add("neighbors", Report::Integers{3, 4, 5, 6, 7});
+    valence.add("share", Report::Curve{0, 0.1, 0.3, 0.6, 0});
+    ms = {measurement("voronoi", Report().add("valence", valence), "a.csv")};
+    chart = chart_of(ms);
+    EXPECT_THAT(chart.panels.at(0).bars.at(0).edges, ElementsAre(3.5, 4.5, 5.5, 6.5));
+    EXPECT_THAT(chart.panels.at(0).bars.at(0).heights, ElementsAre(0.1, 0.3, 0.6));
+}
+
+TEST(ReportCharts, NumbersOfSeveralSizesAreACurveOverTheSize) {
+    const std::vector<Measurement> ms = {number(0.1, 256), number(0.4, 16), number(0.2, 64)};
+    const ChartPanel panel = chart_of(ms).panels.at(0);
+    EXPECT_THAT(panel.series.at(0).x, ElementsAre(16, 64, 256));
+    EXPECT_THAT(panel.series.at(0).y, ElementsAre(0.4, 0.2, 0.1));
+    EXPECT_TRUE(panel.series.at(0).line && panel.log_x && panel.log_y);
+}
+
+// Files of one name but for its digits are one curve; of several sets of one size, means with
+// their standard errors: of 0.1, 0.2 and 0.3 that is sqrt(0.02 / 6).
+TEST(ReportCharts, FilesOfOneNameAreOneCurveOfMeans) {
+    const std::vector<Measurement> ms = {
+        number(0.5, 16, "d/halton_16.csv"), number(0.1, 64, "d/halton_64.csv"),
+        number(0.2, 64, "d/halton_64.csv"), number(0.3, 64, "d/halton_64.csv"),
+        number(0.7, 16, "d/random16.csv"),  number(0.6, 64, "d/random64.csv")};
+    const ChartPanel panel = chart_of(ms).panels.at(0);
+    ASSERT_EQ(panel.series.size(), 2U);
+    EXPECT_EQ(panel.series[0].name, "halton");
+    EXPECT_EQ(panel.series[1].name, "random");
+    EXPECT_NEAR(panel.series[0].y.at(1), 0.2, 1e-15);
+    EXPECT_NEAR(panel.series[0].high.at(1) - 0.2, std::sqrt(0.02 / 6), 1e-15);
+    EXPECT_THAT(panel.series[1].y, ElementsAre(0.7, 0.6));
+    EXPECT_TRUE(panel.series[1].low.empty());
+}
+
+// The root mean square of 3 and -4 is sqrt(12.5).
+TEST(ReportCharts, ErrorsAreDrawnByTheirRootMeanSquare) {
+    std::vector<Measurement> ms;
+    for (const auto& [error, n] : {std::pair{3.0, 10U}, {-4.0, 10U}, {-1.0, 20U}})
+        ms.push_back(measurement("integration", Report().add("f", Report().add("error", error)),
+                                 "a.csv", n));
+    const ChartPanel panel = chart_of(ms, "f.error").panels.at(0);
+    EXPECT_THAT(panel.series.at(0).y, ElementsAre(std::sqrt(12.5), 1));
+}
+
+TEST(ReportCharts, NoPowerIsAGapInTheAnisotropy) {
+    Report radial;
+    radial.add("distance", Report::Curve{1, 2, 3});
+    radial.add("density", Report::Curve{0, 2, 1});
+    radial.add("anisotropy_db", Report::Curve{-100, -3, 0});
+    radial.add("cells", Report::Curve{8, 12, 16});
+    const std::vector<Measurement> ms = {
+        measurement("differential", Report().add("radial", radial), "a.csv")};
+    const Chart chart = chart_of(ms);
+    ASSERT_EQ(chart.panels.size(), 2U);
+    EXPECT_TRUE(std::isnan(chart.panels[1].series.at(0).y[0]));
+    EXPECT_EQ(chart.panels[1].series.at(0).y[1], -3);
+}
+
+// A ring of one dimension is a frequency and its opposite, which have one power.
+TEST(ReportCharts, NoAnisotropyInOneDimension) {
+    std::vector<Measurement> ms = {spectrum("a.csv", {0.5, 1, 1})};
+    EXPECT_EQ(chart_of(ms).panels.size(), 2U);
+    ms[0].dimension = 1;
+    EXPECT_EQ(chart_of(ms).panels.size(), 1U);
+}
+
+TEST(ReportCharts, TellsTheOscillationOnlyWhereItIsComplete) {
+    std::vector<Measurement> ms = {spectrum("a.csv", {0.5, 1, 1})};
+    ms[0].results.add("oscillation", 1.25);
+    const auto told = [&] { return chart_of(ms).subtitle.find("oscillation 1.25"); };
+    EXPECT_EQ(told(), std::string::npos);
+    ms[0].results.add("oscillation_complete", false);
+    EXPECT_EQ(told(), std::string::npos);
+    ms[0].results.add("oscillation_complete", true);
+    EXPECT_NE(told(), std::string::npos);
+}
+
+TEST(ReportCharts, FlagsAreNoCurves) {
+    Report prefixes;
+    prefixes.add("count", Report::Curve{1, 2, 3});
+    prefixes.add("value", Report::Curve{0.5, 0.25, 0.125});
+    prefixes.add("exact", Report::Curve{1, 1, 0});
+    const std::vector<Measurement> ms = {
+        measurement("star-discrepancy", Report().add("prefixes", prefixes), "a.csv"),
+        measurement("star-discrepancy", Report().add("prefixes", prefixes), "b.csv")};
+    const Chart chart = chart_of(ms);
+    ASSERT_EQ(chart.panels.size(), 1U);
+    EXPECT_EQ(chart.panels[0].y_name, "star discrepancy");
+}
+
+TEST(ReportCharts, TellsMeanDistancesOnTheAxis) {
+    Report results;
+    results.add("radius", Report::Curve{1, 2, 3});
+    results.add("variance", Report::Curve{1, 2, 3});
+    const auto x_name = [&](const char* analyzer) {
+        return chart_of(std::vector{measurement(analyzer, results, "a.csv")}).panels.at(0).x_name;
+    };
+    EXPECT_EQ(x_name("hyperuniformity"), "radius / mean distance");
+    EXPECT_EQ(x_name("another"), "radius");
+}
+
+TEST(ReportCharts, NumbersOfOneSizeAreAHistogramThatCountsThem) {
+    std::vector<Measurement> ms;
+    for (int i = 0; i < 50; ++i) ms.push_back(number(0.1 + 0.01 * (i % 7), 64));
+    const Bars bars = chart_of(ms).panels.at(0).bars.at(0);
+    double sum = 0;
+    for (const double height : bars.heights) sum += height;
+    EXPECT_EQ(sum, 50);
+    EXPECT_DOUBLE_EQ(bars.edges.front(), 0.1);
+    EXPECT_DOUBLE_EQ(bars.edges.back(), 0.16);
+    EXPECT_EQ(chart_of(std::vector{number(1, 8), number(1, 8)}).panels.size(), 1U);
+}
+
+TEST(ReportCharts, SaysWhatCanBeDrawnWhereNothingCan) {
+    EXPECT_THAT(refusal({number(0.1, 64)}),
+                HasSubstr("a single report of star-discrepancy has nothing to draw but numbers; "
+                          "curves can be drawn"));
+    EXPECT_THAT(refusal({number(0.1, 64), spectrum("a", {1, 1, 1})}),
+                HasSubstr("reports of star-discrepancy and of periodogram"));
+    EXPECT_THAT(refusal({number(0.1, 64), number(0.2, 64)}, "volume"), HasSubstr("no 'volume'"));
+    EXPECT_THAT(refusal({measurement("periodogram", {}, "a")}), HasSubstr("no curve"));
+}
+
+TEST(Chart, GapsSplitACurve) {
+    const Chart chart{
+        .title = "t",
+        .panels = {
+            {.x_name = "x",
+             .y_name = "y",
+             .series = {{.name = "a", .x = {1, 2, 3, 4, 5}, .y = {1, 2, std::nan(""), 3, 4}}}}}};
+    int curves = 0;
+    const Drawing drawing = draw_chart(chart, {});
+    for (const Line* line : shapes_of<Line>(drawing))
+        curves += !line->crisp && line->width > 1.5 ? 1 : 0;
+    EXPECT_EQ(curves, 2);
+}
+
+// A curve of a million values is drawn by what can be seen of it, its extremes among that.
+TEST(Chart, LongCurvesKeepTheirExtremes) {
+    Series series{.name = {}, .x = {}, .y = {}};
+    for (int i = 0; i < 1'000'000; ++i) {
+        series.x.push_back(i);
+        series.y.push_back(i == 123456 ? 5 : i % 2);
+    }
+    const Chart chart{.title = "t",
+                      .panels = {{.x_name = "x", .y_name = "y", .series = {std::move(series)}}}};
+    const Drawing drawing = draw_chart(chart, {});
+    const Line* longest = shapes_of<Line>(drawing)[0];
+    for (const Line* line : shapes_of<Line>(drawing))
+        if (line->spots.size() > longest->spots.size()) longest = line;
+    EXPECT_LT(longest->spots.size(), 8000U);
+    std::vector<double> heights;
+    for (const Spot& spot : longest->spots) heights.push_back(spot.y);
+    std::ranges::sort(heights);  // upward is less
+    EXPECT_NEAR(heights.back() - heights[0], 5 * (heights.back() - heights[1]), 1e-6);
+}
+
+TEST(Chart, HistogramsIntegrateToOne) {
+    const Bars bars = histogram_of({0, 0.1, 0.25, 0.5, 0.999, 1}, 0, 1, 4);
+    EXPECT_THAT(bars.edges, ElementsAre(0, 0.25, 0.5, 0.75, 1));
+    EXPECT_THAT(bars.heights, ElementsAre(4 * 2 / 6.0, 4 * 1 / 6.0, 4 * 1 / 6.0, 4 * 2 / 6.0));
+}
+
+// ---------------------------------------------------------------- spectra
+
+TEST(SpectrumPicture, IsGreyByShareWithTheLastRowOnTop) {
+    Grid power{.rows = 3, .columns = 3, .values = {0, 1, 3, 1, 9, 1, 3, 1, 0}};
+    const Drawing drawing = draw_spectrum(power, "t", "", {});
+    const Raster& raster = *shapes_of<Raster>(drawing).at(0);
+    EXPECT_EQ(raster.pixels[0].red, 191);  // 3 / 4 of 255, up and to the left
+    EXPECT_EQ(raster.pixels[1].red, 128);
+    EXPECT_EQ(raster.pixels[2].red, 0);
+    EXPECT_EQ(raster.pixels[4].red, 0);  // frequency zero
+    power.values[0] = -1;
+    EXPECT_THROW(draw_spectrum(power, "t", "", {}), Error);
+    power = {.rows = 2, .columns = 2, .values = {1, 1, 1, 1}};
+    EXPECT_THROW(draw_spectrum(power, "t", "", {}), Error);
+}
+// A mark at an end of the axis is seen whole; so it is on a linear one.
+TEST(ReportCharts, MarksAtTheEndsAreWithinTheFrame) {
+    const std::vector<Measurement> ms = {number(0.3, 100), number(0.2, 1024), number(0.1, 2000)};
+    for (const bool log : {false, true}) {
+        PictureStyle style;
+        style.log_x = log;
+        const Chart chart = chart_of(ms);
+        ASSERT_TRUE(chart.panels.at(0).series.at(0).marks);
+        const Drawing drawing = draw_chart(chart, style);
+        const auto disks = shapes_of<Disks>(drawing);
+        const auto windows = shapes_of<Window>(drawing);
+        ASSERT_FALSE(disks.empty());
+        const Area& frame = windows.at(0)->area;
+        for (const Spot& spot : disks[0]->centres) {
+            EXPECT_GE(spot.x - disks[0]->radius, frame.left) << log;
+            EXPECT_LE(spot.x + disks[0]->radius, frame.right()) << log;
+        }
+    }
+}

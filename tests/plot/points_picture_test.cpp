@@ -1,0 +1,295 @@
+// SPDX-License-Identifier: MIT
+//
+// Pictures of points: in the plane, in space, in pairs of coordinates, in letters.
+#include "plot/points_picture.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/error.hpp"
+#include "pipeline/chain.hpp"
+#include "plot/distance_chart.hpp"
+#include "plot/domain_outline.hpp"
+#include "plot/dot_matrix.hpp"
+#include "plot/text_picture.hpp"
+#include "support/units.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+using ::testing::HasSubstr;
+
+namespace {
+
+PointsPicture picture_of(const std::vector<const PointSet*>& sets) {
+    PointsPicture picture{.sets = sets, .names = {}, .title = "t"};
+    for (std::size_t i = 0; i < sets.size(); ++i) picture.names.push_back(std::to_string(i));
+    return picture;
+}
+
+template <class S>
+std::vector<const S*> shapes_of(const Drawing& drawing) {
+    std::vector<const S*> found;
+    for (const Shape& shape : drawing.shapes)
+        if (const auto* s = std::get_if<S>(&shape)) found.push_back(s);
+    return found;
+}
+
+std::vector<Spot> marks_of(const Drawing& drawing) {
+    std::vector<Spot> all;
+    for (const Disks* disks : shapes_of<Disks>(drawing))
+        all.insert(all.end(), disks->centres.begin(), disks->centres.end());
+    return all;
+}
+
+/// Area that closed lines go round.
+double area_of(const std::vector<std::vector<Spot>>& lines) {
+    double sum = 0;
+    for (const auto& line : lines)
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            const Spot a = line[i];
+            const Spot b = line[(i + 1) % line.size()];
+            sum += (a.x * b.y - b.x * a.y) / 2;
+        }
+    return sum;
+}
+
+}  // namespace
+
+TEST(PointsPicture, HasADiskForEachPointWhereItIs) {
+    const PointSet points = points_of({{0, 0}, {1, 1}, {0.5, 0.25}});
+    const Drawing drawing = draw_points(picture_of({&points}), {}, {});
+    const auto marks = marks_of(drawing);
+    ASSERT_EQ(marks.size(), 3U);
+    const double side = marks[1].x - marks[0].x;
+    EXPECT_NEAR(marks[0].y - marks[1].y, side, 1e-9);
+    EXPECT_NEAR(marks[2].x, marks[0].x + side / 2, 1e-9);
+    EXPECT_NEAR(marks[2].y, marks[0].y - side / 4, 1e-9);
+    EXPECT_GT(side, 400);
+}
+
+// One point, equal points, points on a line: still a picture with axes.
+TEST(PointsPicture, DrawsDegenerateSets) {
+    for (const PointSet& points :
+         {points_of({{0.5, 0.5}}), points_of({{7, -3}}), points_of({{7, 3}, {7, 3}, {7, 3}}),
+          points_of({{5, 2}, {6, 2}, {9, 2}}), points_of({{0.3}}), points_of({{4}, {4}}),
+          points_of({{1, 2, 3}}), points_of({{1, 2, 3, 4, 5}})})
+        for (const double width : {200.0, 0.0}) {
+            const Drawing drawing =
+                draw_points(picture_of({&points}), {.width = width, .height = width}, {});
+            EXPECT_GT(drawing.height, 0);
+            for (const Spot& mark : marks_of(drawing))
+                EXPECT_TRUE(std::isfinite(mark.x) && std::isfinite(mark.y));
+            EXPECT_FALSE(svg_bytes(drawing, 1).find("nan") != std::string::npos);
+            EXPECT_FALSE(svg_bytes(drawing, 1).find("inf") != std::string::npos);
+            EXPECT_FALSE(points_as_text(picture_of({&points}), {}).empty());
+        }
+}
+
+// Points of a file that says nothing about its domain are shown for themselves.
+TEST(PointsPicture, ShowsTheBoxOfPointsOutsideOfTheCube) {
+    const PointSet far = points_of({{1000, 5}, {1001, 7}});
+    const PointSet near = points_of({{0.4, 0.5}, {0.5, 0.6}});
+    const PointSet* const far_set[] = {&far};
+    const PointSet* const near_set[] = {&near};
+    EXPECT_EQ(shown_box(far_set), (Box{{1000, 5}, {1001, 7}}));
+    EXPECT_EQ(shown_box(near_set), (Box{{0, 0}, {1, 1}}));
+}
+
+TEST(PointsPicture, SetsHaveColoursAndALegend) {
+    const PointSet a = points_of({{0.1, 0.1}, {0.2, 0.2}});
+    const PointSet b = points_of({{0.3, 0.3}});
+    PictureStyle dark{.theme = &dark_theme};
+    const Drawing drawing = draw_points(picture_of({&a, &b}), dark, {});
+    EXPECT_EQ(drawing.ground, dark_theme.ground);
+    std::vector<Colour> colours;
+    std::size_t marks = 0;
+    for (const Disks* disks : shapes_of<Disks>(drawing)) {
+        colours.push_back(disks->colour);
+        marks += disks->centres.size();
+    }
+    EXPECT_EQ(marks, 3U + 2U);  // two of them in the legend
+    EXPECT_EQ(colours.front(), dark_theme.series[0]);
+    EXPECT_EQ(colours.back(), dark_theme.series[1]);
+}
+
+TEST(PointsPicture, ManyPointsAreADensityThatCountsThemAll) {
+    const PointSet points = make("random", {400'000, 2});
+    const Drawing drawing = draw_points(picture_of({&points}), {}, {});
+    EXPECT_TRUE(marks_of(drawing).empty());
+    EXPECT_EQ(shapes_of<Raster>(drawing).size(), 2U);  // and the bar of colours
+    EXPECT_LT(svg_bytes(drawing, 1).size(), 400'000U);
+    const PointSet fewer = make("random", {50'000, 2});
+    const Drawing specks = draw_points(picture_of({&fewer}), {}, {});
+    const Raster& raster = *shapes_of<Raster>(specks).at(0);
+    std::size_t dark = 0;
+    for (const Colour& pixel : raster.pixels) dark += pixel != light_theme.ground ? 1 : 0;
+    EXPECT_GT(dark, 45'000U);  // some share a pixel
+    EXPECT_LE(dark, 50'000U);
+}
+
+// Seen from the side of high x, low y and high z.
+TEST(PointsPicture, SpaceIsSeenFromAFixedPlace) {
+    const Box box{{0, 0, 0}, {1, 1, 1}};
+    const auto seen = [&](double x, double y, double z) {
+        const std::array<double, 3> point = {x, y, z};
+        return seen_at(box, point);
+    };
+    EXPECT_GT(seen(1, 0, 0).right, seen(0, 0, 0).right);
+    EXPECT_GT(seen(0, 1, 0).right, seen(0, 0, 0).right);
+    EXPECT_GT(seen(0, 0, 1).up, seen(0, 0, 0).up);
+    EXPECT_GT(seen(1, 0, 1).depth, seen(0, 1, 0).depth);
+    // A length is as long in every direction at right angles to the view.
+    const Seen a = seen(1, 0, 0);
+    EXPECT_NEAR(a.right * a.right + a.up * a.up + a.depth * a.depth, 1, 1e-12);
+    const PointSet points = make("random", {500, 3});
+    EXPECT_EQ(marks_of(draw_points(picture_of({&points}), {}, {})).size(), 500U);
+}
+
+TEST(PointsPicture, EveryPairOfCoordinatesHasAPanel) {
+    const PointSet points = make("random", {10, 5});
+    EXPECT_EQ(marks_of(draw_points(picture_of({&points}), {}, {})).size(), 100U);
+    const PointSet more = make("random", {10, 12});
+    EXPECT_EQ(marks_of(draw_points(picture_of({&more}), {}, {})).size(), 280U);  // of 8
+}
+
+// One scale for all panels: a coordinate that bunches is darker than the others.
+TEST(PointsPicture, PairsOfManyPointsAreDensitiesInOneScale) {
+    PointSet points = make("random", {100'000, 4});
+    for (std::size_t i = 0; i < points.count(); ++i)
+        for (std::size_t k = 0; k < 2; ++k) points.flat()[4 * i + k] *= 0.25;
+    const Drawing drawing = draw_points(picture_of({&points}), {}, {});
+    EXPECT_TRUE(marks_of(drawing).empty());
+    const auto rasters = shapes_of<Raster>(drawing);
+    ASSERT_EQ(rasters.size(), 7U);  // six pairs and the bar of colours
+    const auto darkest = [&](std::size_t panel) {
+        int least = 255;
+        for (const Colour& pixel : rasters[panel]->pixels) least = std::min<int>(least, pixel.blue);
+        return least;
+    };
+    EXPECT_LT(darkest(0), 60);   // both bunch: 16 times as dense
+    EXPECT_GT(darkest(5), 180);  // none does
+}
+
+TEST(PointsPicture, NoTextLeavesThePicture) {
+    const PointSet wide = points_of({{0, 0}, {100000.5, 1}});
+    const PointSet five = make("random", {100, 5});
+    const PointSet three = make("random", {100, 3});
+    for (const PointSet* points : {&wide, &five, &three})
+        for (const double width : {300.0, 800.0}) {
+            const Drawing drawing = draw_points(picture_of({points}), {.width = width}, {});
+            for (const Label* label : shapes_of<Label>(drawing)) {
+                EXPECT_TRUE(label->at.x >= 0 && label->at.x <= drawing.width) << label->text;
+                EXPECT_TRUE(label->at.y >= 0 && label->at.y <= drawing.height) << label->text;
+            }
+        }
+}
+
+TEST(DistanceChart, CountsEveryPoint) {
+    const PointSet points = make("random", {1000, 2});
+    const PointSet* const sets[] = {&points};
+    const Chart chart = distance_chart(sets, {"a"}, {});
+    const Bars& bars = chart.panels.at(0).bars.at(0);
+    double sum = 0;
+    for (const double height : bars.heights) sum += height * (bars.edges[1] - bars.edges[0]);
+    EXPECT_NEAR(sum, 1, 1e-9);
+    // The density of independent points has its maximum at 1 / sqrt(2 pi n).
+    const Guide& guide = chart.panels[0].guides.at(0);
+    const auto top = std::ranges::max_element(guide.y) - guide.y.begin();
+    EXPECT_NEAR(guide.x[static_cast<std::size_t>(top)], 1 / std::sqrt(2 * std::numbers::pi * 1000),
+                1e-3);
+    const PointSet one = points_of({{0.5, 0.5}});
+    const PointSet* const single[] = {&one};
+    EXPECT_THROW(distance_chart(single, {"a"}, {}), Error);
+    const PointSet same = points_of({{0.5, 0.5}, {0.5, 0.5}});
+    const PointSet* const equal[] = {&same};
+    EXPECT_THROW(distance_chart(equal, {"a"}, {}), Error);
+}
+
+// ---------------------------------------------------------------- rims
+
+TEST(DomainOutline, GoesRoundTheDomainsArea) {
+    const auto area = [](const char* spec) { return area_of(outline_of(*parse_domain(spec, 2))); };
+    EXPECT_NEAR(area("disk"), std::numbers::pi, 1e-4);
+    EXPECT_NEAR(area("disk:radius=2"), 4 * std::numbers::pi, 4e-4);
+    EXPECT_NEAR(area("triangle:vertices=[0,0 1,0 0,1]"), 0.5, 1e-4);
+    EXPECT_NEAR(area("annulus:inner=0.5"), 0.75 * std::numbers::pi, 1e-4);  // a hole
+}
+
+// The corner of a triangle is there, not cut off.
+TEST(DomainOutline, HasCorners) {
+    double nearest = 1;
+    for (const auto& line : outline_of(*parse_domain("triangle:vertices=[0,0 1,0 0,1]", 2)))
+        for (const Spot& spot : line) nearest = std::min(nearest, std::hypot(spot.x - 1, spot.y));
+    EXPECT_LT(nearest, 1e-3);
+}
+
+TEST(DomainOutline, IsNoneForALineInThePlane) {
+    EXPECT_TRUE(outline_of(*parse_domain("circle", 2)).empty());
+    EXPECT_TRUE(outline_of(*unit_cube(3)).empty());
+}
+
+// ---------------------------------------------------------------- letters
+
+// Dots of one letter, by hand: the left column is 1 2 3 7, the right one 4 5 6 8.
+TEST(DotMatrix, DotsAreWhereBrailleHasThem) {
+    DotMatrix dots(1, 1);
+    dots.set(0, 1);
+    EXPECT_EQ(dots.row(0), "⠁");
+    dots.set(1, 0);
+    EXPECT_EQ(dots.row(0), "⢁");
+    dots.set(0.1, 0.1);
+    dots.set(0.9, 0.9);
+    EXPECT_EQ(dots.row(0), "⣉");
+    dots.set(0.1, 0.6);
+    EXPECT_EQ(dots.row(0), "⣋");
+    EXPECT_EQ(dots.dots(), 5U);
+    dots.set(1.01, 0.5);
+    dots.set(std::nan(""), 0.5);
+    EXPECT_EQ(dots.dots(), 5U);
+    dots.draw(0, 0, 1, 1);
+    EXPECT_EQ(DotMatrix(0, 0).row(0), "⠀");
+}
+
+TEST(DotMatrix, LinesHaveNoGaps) {
+    DotMatrix dots(10, 5);
+    dots.draw(0, 0.5, 1, 0.5);
+    EXPECT_EQ(dots.dots(), 20U);
+    DotMatrix diagonal(2, 1);
+    diagonal.draw(0, 1, 1, 0);
+    EXPECT_EQ(diagonal.row(0), "⠑⢄");
+}
+
+TEST(TextPicture, HasADotForEachPoint) {
+    const PointSet points = points_of({{0, 0}, {1, 1}, {0, 1}, {1, 0}, {0.5, 0.5}});
+    const std::string text = points_as_text(picture_of({&points}), {.columns = 26, .rows = 14});
+    EXPECT_THAT(text, HasSubstr("│⠁"));  // the point on top, to the left
+    EXPECT_THAT(text, HasSubstr("⢀│"));  // at the bottom, to the right
+    EXPECT_THAT(text, HasSubstr("⡀"));
+    EXPECT_THAT(text, HasSubstr("⠈│"));
+    std::size_t longest = 0;
+    std::size_t rows = 0;
+    for (std::size_t at = 0; at < text.size(); ++rows) {
+        const auto end = text.find('\n', at);
+        std::size_t letters = 0;
+        for (std::size_t i = at; i < end; ++i) letters += (text[i] & 0xC0) != 0x80 ? 1 : 0;
+        longest = std::max(longest, letters);
+        at = end + 1;
+    }
+    EXPECT_LE(longest, 26U);
+    EXPECT_LT(rows, 14U);
+}
+
+TEST(TextPicture, DrawsInAnyRoom) {
+    const PointSet points = make("random", {100, 2});
+    const PointSet line = make("random", {100, 1});
+    const PointSet space = make("random", {100, 3});
+    for (const std::size_t columns : {0U, 1U, 20U, 500U})
+        for (const PointSet* set : {&points, &line, &space})
+            EXPECT_FALSE(
+                points_as_text(picture_of({set}), {.columns = columns, .rows = 0}).empty());
+    const Grid power{.rows = 9, .columns = 9, .values = std::vector<double>(81, 1.0)};
+    EXPECT_THAT(spectrum_as_text(power, "t", {.columns = 30, .rows = 20}), HasSubstr("▒▒"));
+}

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+//
+// Tables of spectra among points: what is one, of which dimension, and what is not.
+#include "plot/spectral_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/units.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+/// A table about its middle: its numbers are 1, 2, 3, ... up to the middle and back again.
+PointSet table(std::size_t rows, std::size_t columns) {
+    PointSet set(rows, columns);
+    const auto flat = set.flat();
+    for (std::size_t i = 0; i < flat.size(); ++i)
+        flat[i] = static_cast<double>(std::min(i, flat.size() - 1 - i) + 1);
+    return set;
+}
+
+std::optional<SpectralTable> found(const PointSet& set) {
+    const std::vector<const PointSet*> sets = {&set};
+    return spectral_table(sets);
+}
+
+}  // namespace
+
+TEST(SpectralTable, KnowsATableOfPowerFromPoints) {
+    Grid power{.rows = 9, .columns = 9, .values = std::vector<double>(81, 1.0)};
+    EXPECT_TRUE(looks_like_power(power));
+    power.values[3] = 2;
+    EXPECT_FALSE(looks_like_power(power));
+    power.values[77] = 2;
+    EXPECT_TRUE(looks_like_power(power));
+    power.values[5] = power.values[75] = -1;
+    EXPECT_FALSE(looks_like_power(power));
+    EXPECT_FALSE(looks_like_power({.rows = 3, .columns = 3, .values = std::vector<double>(9)}));
+    EXPECT_FALSE(looks_like_power({.rows = 9, .columns = 8, .values = std::vector<double>(72)}));
+}
+
+TEST(SpectralTable, IsOfTheDimensionOfItsShape) {
+    const auto line = found(table(11, 1));
+    ASSERT_TRUE(line);
+    EXPECT_EQ(line->dimension, 1U);
+    EXPECT_EQ(line->values.columns, 11U);
+    const auto plane = found(table(11, 11));
+    ASSERT_TRUE(plane);
+    EXPECT_EQ(plane->dimension, 2U);
+    EXPECT_FALSE(plane->differences);
+    EXPECT_FALSE(found(table(10, 1)));
+    EXPECT_FALSE(found(table(11, 2)));
+    EXPECT_FALSE(found(make("random", {11, 1})));
+}
+
+TEST(SpectralTable, OfDifferencesHasNothingInTheMiddle) {
+    PointSet set = table(11, 11);
+    set.flat()[60] = 0;
+    EXPECT_TRUE(found(set)->differences);
+}
+
+TEST(SpectralTable, OfSpaceIsDrawnByItsMiddlePlane) {
+    std::vector<PointSet> planes;
+    for (std::size_t k = 0; k < 9; ++k) {
+        planes.push_back(table(9, 9));
+        for (double& v : planes.back().flat()) v += static_cast<double>(std::min(k, 8 - k));
+    }
+    std::vector<const PointSet*> sets;
+    for (const PointSet& plane : planes) sets.push_back(&plane);
+    const auto space = spectral_table(sets);
+    ASSERT_TRUE(space);
+    EXPECT_EQ(space->dimension, 3U);
+    EXPECT_EQ(space->values.rows, 9U);
+    EXPECT_EQ(space->values.values[0], 5);  // 1 + 4, of plane 4
+    planes[2].flat()[7] += 1;               // and not in its mirror image
+    EXPECT_FALSE(spectral_table(sets));
+}
+
+TEST(SpectralTable, OfALineIsDrawnFromFrequencyOne) {
+    const auto line = found(table(11, 1));
+    const Chart chart = power_chart(line->values, "t");
+    EXPECT_EQ(chart.panels.at(0).series.at(0).x, (std::vector<double>{1, 2, 3, 4, 5}));
+    EXPECT_EQ(chart.panels.at(0).series.at(0).y, (std::vector<double>{5, 4, 3, 2, 1}));
+}

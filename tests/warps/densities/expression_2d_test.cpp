@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "pipeline/chain.hpp"
+#include "support/warping.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+struct PlaneMoments {
+    double x, y, xx, yy, xy;
+};
+
+/// Means, variances and covariance of the images of the cells' centres of an n x n grid.
+PlaneMoments moments_of(const Mapping& map, std::size_t n = 1000) {
+    std::vector<double> cube;
+    for (std::size_t i = 0; i < n * n; ++i) {
+        cube.push_back((static_cast<double>(i % n) + 0.5) / static_cast<double>(n));
+        cube.push_back((static_cast<double>(i / n) + 0.5) / static_cast<double>(n));
+    }
+    std::vector<double> image(cube.size());
+    map.forward(cube, image, {});
+    PlaneMoments m{};
+    const auto count = static_cast<double>(n * n);
+    for (std::size_t i = 0; i < image.size(); i += 2) {
+        const double x = image[i];
+        const double y = image[i + 1];
+        m = {m.x + x / count, m.y + y / count, m.xx + x * x / count, m.yy + y * y / count,
+             m.xy + x * y / count};
+    }
+    return {m.x, m.y, m.xx - m.x * m.x, m.yy - m.y * m.y, m.xy - m.x * m.y};
+}
+
+}  // namespace
+
+// p = 2 on x + y < 1: p(x) = 2 - 2 x, p(y | x) = 1 / (1 - x). What F(x, y) / F(x, y_max) gives
+// instead puts 22.7 % of the points outside.
+TEST(Expression2d, TriangleHasItsMomentsAndNoPointOutside) {
+    const auto map = mapping("expression-2d:density=[x + y < 1 ? 1 : 0]");
+    const PlaneMoments m = moments_of(*map);
+    EXPECT_NEAR(m.x, 1 / 3.0, 2e-4);
+    EXPECT_NEAR(m.y, 1 / 3.0, 2e-4);
+    EXPECT_NEAR(m.xx, 1 / 18.0, 2e-4);
+    EXPECT_NEAR(m.yy, 1 / 18.0, 2e-4);
+    EXPECT_NEAR(m.xy, -1 / 36.0, 2e-4);
+    const PointSet image = warped(*map, make("random", points(300'000, 2)));
+    for (std::size_t i = 0; i < image.count(); ++i) ASSERT_LT(image[i][0] + image[i][1], 1);
+    EXPECT_NEAR(map->density(std::vector{0.2, 0.3}), 2, 1e-7);
+    EXPECT_EQ(map->density(std::vector{0.8, 0.3}), 0);
+}
+
+// f = x + y: p(x) = x + 1/2, p(y | x) = (x + y) / (x + 1/2). Means 7/12, variances 11/144,
+// covariance -1/144. Exact at corners: at x = 0, y = sqrt(xi1).
+TEST(Expression2d, SumOfCoordinatesHasItsConditional) {
+    const auto map = mapping("expression-2d:density=x+y");
+    const PlaneMoments m = moments_of(*map);
+    EXPECT_NEAR(m.x, 7 / 12.0, 1e-6);
+    EXPECT_NEAR(m.y, 7 / 12.0, 1e-6);
+    EXPECT_NEAR(m.xx, 11 / 144.0, 1e-6);
+    EXPECT_NEAR(m.yy, 11 / 144.0, 1e-6);
+    EXPECT_NEAR(m.xy, -1 / 144.0, 1e-6);
+    std::vector<double> image(4);
+    map->forward(std::vector<double>{0, 0.49, 3 / 8.0, 0.5}, image, {});
+    EXPECT_EQ(image[0], 0);
+    EXPECT_NEAR(image[1], 0.7, 1e-14);
+    EXPECT_NEAR(image[2], 0.5, 1e-14);                                // (x^2 + x) / 2 = 3/8
+    EXPECT_NEAR(image[3] * image[3] / 2 + image[3] / 2, 0.5, 1e-14);  // of a whole of 1
+}
+
+// p(x) = 0 at x = 0, where the conditional is the limit, 2 y.
+TEST(Expression2d, TakesTheLimitWhereTheMarginalIsZero) {
+    std::vector<double> image(2);
+    mapping("expression-2d:density=x*y")->forward(std::vector{0.0, 0.25}, image, {});
+    EXPECT_EQ(image[0], 0);
+    EXPECT_NEAR(image[1], 0.5, 1e-15);
+    mapping("expression-2d:density=(1-x)*y")->forward(std::vector{1.0, 0.25}, image, {});
+    EXPECT_NEAR(image[0], 1, 2e-8);  // (1 - x)^2 = 2^-53
+    EXPECT_NEAR(image[1], 0.5, 1e-15);
+}
+
+TEST(Expression2d, GoesThereAndBack) {
+    const PointSet cube = telling_points();
+    for (const std::string spec :
+         {"density=1+x*y", "density=[exp(-9*(x-y)^2)],bounds=[-1..2,0..1]",
+          "density=[x*x+y*y<1 ? 1 : 0],bounds=-1..1,tolerance=0.01", "density=x*y"}) {
+        const auto map = mapping("expression-2d:" + spec);
+        PointSet image(cube.count(), 2), back(cube.count(), 2);
+        map->forward(cube.flat(), image.flat(), {});
+        map->inverse(image.flat(), back.flat());
+        for (std::size_t i = 0; i < cube.count(); ++i) {
+            ASSERT_TRUE(map->domain()->contains(image[i])) << spec;
+            ASSERT_NEAR(back[i][0], cube[i][0], 1e-13) << spec << " " << i;
+            ASSERT_NEAR(back[i][1], cube[i][1], 1e-13) << spec << " " << i;
+        }
+    }
+}
+
+// A lower tolerance must bring the points nearer to the law: the mean of x under a slanting jump.
+TEST(Expression2d, ToleranceIsKept) {
+    for (const std::string tolerance : {"0.05", "0.005"}) {
+        const auto map = mapping("expression-2d:density=[x+y<1?1:0],tolerance=" + tolerance);
+        EXPECT_NEAR(moments_of(*map, 300).x, 1 / 3.0, std::stod(tolerance));
+    }
+}
+
+// Small disks and a narrow bell between the places that the first patches know. Of a disk's area a,
+// a / (a + 0.001 (1 - a)) is its share of the mass, which is looked at by 160 000 points of a grid.
+TEST(Expression2d, SeesWhatIsNarrow) {
+    for (const auto& [x, y, r] : {std::array{0.31, 0.7, 0.02}, std::array{0.883, 0.117, 0.004}}) {
+        const auto map = mapping(fmt::format(
+            "expression-2d:density=[(x-{0})^2+(y-{1})^2<{2}^2?1:0.001],tolerance=0.001", x, y, r));
+        constexpr std::size_t n = 400;
+        std::size_t inside = 0;
+        for (std::size_t i = 0; i < n * n; ++i) {
+            std::array<double, 2> at{};
+            map->forward(std::array{(static_cast<double>(i % n) + 0.5) / n,
+                                    (static_cast<double>(i / n) + 0.5) / n},
+                         at, {});
+            inside += std::hypot(at[0] - x, at[1] - y) < r ? 1U : 0U;
+        }
+        const double area = M_PI * r * r;
+        const double whole = area + 0.001 * (1 - area);
+        EXPECT_NEAR(static_cast<double>(inside) / (n * n), area / whole, 0.002) << x << " " << r;
+        EXPECT_NEAR(map->density(std::array{x, y}), 1 / whole, 1e-3 / whole);
+    }
+    const auto bell = mapping("expression-2d:density=[exp(-1e6*((x-0.3)^2+(y-0.7)^2))]");
+    const PlaneMoments m = moments_of(*bell, 300);
+    EXPECT_NEAR(m.x, 0.3, 2e-6);
+    EXPECT_NEAR(m.yy, 0.5e-6, 1e-8);
+    EXPECT_NEAR(bell->density(std::array{0.3, 0.7}), 1e6 / M_PI, 10);
+}
+
+TEST(Expression2d, ProbabilitiesOfCellsAreIntegrals) {
+    const DomainPtr domain = mapping("expression-2d:density=[x+y<1?1:0],tolerance=0.01")->domain();
+    EXPECT_FALSE(domain->even());
+    const auto p = [&](double x, double y) {
+        return domain->probability({{x, y}, {x + 0.25, y + 0.25}});
+    };
+    EXPECT_NEAR(p(0, 0).value, 1 / 8.0, 1e-7);
+    EXPECT_NEAR(p(0.25, 0.5).value, 1 / 16.0, 1e-6);
+    EXPECT_EQ(p(0.5, 0.5).value, 0);
+    EXPECT_EQ(p(0.75, 0.75).error, 0);
+    EXPECT_LT(p(0.25, 0.5).error, 1e-5);
+}
+
+TEST(Expression2d, DomainSaysWhatItIsAndParsesBack) {
+    const DomainPtr domain =
+        mapping("expression-2d:density=[1 + x * y],bounds=[0..2,-0.25..1]")->domain();
+    EXPECT_EQ(domain->spec(), "expression-2d:density=1+x*y,bounds=[0..2,-0.25..1]");
+    EXPECT_EQ(parse_domain(domain->spec(), 2)->spec(), domain->spec());
+    EXPECT_EQ(domain->measure(), 2.5);
+}
+
+TEST(Expression2d, RefusesBadOptions) {
+    EXPECT_EQ(error_of([] { mapping("expression-2d"); }),
+              "usage: --density: give a formula in x and y, such as 'x + y'");
+    EXPECT_EQ(error_of([] { mapping("expression-2d:density=0"); }),
+              "usage: --density: 0 is 0 wherever it was looked at in 0..1,0..1");
+    EXPECT_NE(error_of([] { mapping("expression-2d:density=x-0.5"); }).find("is -0."),
+              std::string::npos);
+    EXPECT_NE(error_of([] { mapping("expression-2d:density=1/(x*y)"); }).find("is inf at (0"),
+              std::string::npos);
+    EXPECT_NE(error_of([] { mapping("expression-2d:density=log(x-2)"); }).find("nan at ("),
+              std::string::npos);
+    EXPECT_NE(error_of([] {
+                  mapping("expression-2d:density=x,bounds=[0..1,1..0]");
+              }).find("usage: --bounds: '1..0' is not a range"),
+              std::string::npos);
+    EXPECT_EQ(error_of([] {
+                  inverse_of(*mapping("expression-2d:density=x"), {1.5, 0});
+              }),
+              "input: the point (1.5, 0) is outside the box of expression-2d:density=x");
+}
