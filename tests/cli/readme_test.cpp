@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// README cannot rot: its tables are the program's, its recipes run.
+// README and the guide cannot rot: their tables are the program's, their recipes run.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <regex>
-#include <sstream>
 
 #include "places.hpp"
 #include "support/program.hpp"
@@ -17,8 +16,8 @@ using ::testing::HasSubstr;
 
 namespace {
 
-std::string readme() {
-    std::ifstream in(STIPPLE_SOURCE_DIR "/README.md");
+std::string page(const std::string& path) {
+    std::ifstream in(STIPPLE_SOURCE_DIR "/" + path);
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
@@ -34,30 +33,39 @@ std::vector<std::string> blocks(const std::string& text, const std::string& lang
     return found;
 }
 
-}  // namespace
-
-TEST(Readme, TablesAreTheRegistry) {
+/// Runs the blocks marked `sh` in order in one folder, and says how many they were.
+std::size_t run_recipes(const std::string& path) {
     const Sandbox box;
-    const std::string text = readme();
-    for (const char* kind : {"generators", "warps", "analyzers", "formats"})
-        EXPECT_THAT(text, HasSubstr(box.run({"list", kind, "--markdown"}).out)) << kind;
-}
-
-// Blocks marked `sh` are recipes; they run in order in one folder. `console` blocks are not run.
-TEST(Readme, RecipesRun) {
-    const Sandbox box;
-    const auto recipes = blocks(readme(), "sh");
-    EXPECT_GT(recipes.size(), 5U);
+    const auto recipes = blocks(page(path), "sh");
     for (const std::string& recipe : recipes) {
         const Outcome outcome =
             box.shell("set -e; export PATH=" STIPPLE_SOURCE_DIR "/scripts:$PATH; " + recipe);
-        EXPECT_EQ(outcome.code, 0) << recipe << outcome.err;
+        EXPECT_EQ(outcome.code, 0) << path << ": " << recipe << outcome.err;
     }
+    return recipes.size();
 }
 
+}  // namespace
+
+TEST(Readme, RecipesRun) { EXPECT_GE(run_recipes("README.md"), 5U); }
+
 TEST(Readme, NamesTheTwoCommands) {
-    const auto commands = blocks(readme(), "console");
+    const auto commands = blocks(page("README.md"), "console");
     ASSERT_GE(commands.size(), 2U);
     EXPECT_THAT(commands[0], HasSubstr("scripts/demo"));
     EXPECT_THAT(commands[1], HasSubstr("scripts/test"));
+}
+
+TEST(Guide, RecipesRun) {
+    std::size_t recipes = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(STIPPLE_SOURCE_DIR "/data/guide"))
+        recipes += run_recipes("data/guide/" + entry.path().filename().string());
+    EXPECT_GT(recipes, 15U);
+}
+
+TEST(Guide, TablesAreTheRegistry) {
+    const Sandbox box;
+    const std::string text = page("data/guide/units.md");
+    for (const char* kind : {"generators", "scrambles", "warps", "analyzers", "formats"})
+        EXPECT_THAT(text, HasSubstr(box.run({"list", kind, "--markdown"}).out)) << kind;
 }
