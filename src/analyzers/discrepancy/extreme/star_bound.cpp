@@ -35,7 +35,7 @@ double star_bound(const PointSet& points, Family family, const SearchLimits& sha
     const BoxGrid grid = anchored_grid(points, family, run);
     const double known = star::quick_bound(grid, run, factor(family, 1), factor(family, d));
     const double promised = 0.6 * std::sqrt(d / n);  // of random points, about
-    if ((d > 2 && factor(family, d) * promised >= known) || run.stop.stop_requested()) return known;
+    if ((d > 2 && factor(family, d) * promised >= 1) || run.stop.stop_requested()) return known;
     double bound = 1;
     if (d > 2) {
         bound = star::find_worst(grid, share, run).upper;
