@@ -56,7 +56,7 @@ class Search {
             if (!stopped_) tasks = next_tasks();
             unless_interrupted([&] { explore_some(tasks); });
             exchange(tasks);
-            if (!stopped_) unless_interrupted([&] { settle(); });
+            if (!stopped_) unless_interrupted([&] { update_bounds(); });
         }
         return {known_.worst, known_.upper, stopped_ ? Ending::stopped : *ending()};
     }
@@ -190,7 +190,7 @@ class Search {
     }
 
     /// Drops what can't matter any more and says what is certain now.
-    void settle() {
+    void update_bounds() {
         const double lower = known_.worst.value();
         if (!cells_.empty() && cells_.front().bound < lower) cells_.clear();
         known_.upper =

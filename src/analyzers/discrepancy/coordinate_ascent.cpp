@@ -13,15 +13,15 @@
 namespace stipple::discrepancy {
 
 /// One ascent at a time from given boxes; keeps its buffers between them.
-class Climber {
+class BoxAscent {
   public:
     /// Ascents end where they are at the limits or, each, after `most` comparisons.
-    Climber(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run,
-            std::uint64_t most = std::numeric_limits<std::uint64_t>::max())
+    BoxAscent(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run,
+              std::uint64_t most = std::numeric_limits<std::uint64_t>::max())
         : grid_(grid), limits_(limits), run_(run), most_(most), outside_(grid.count) {}
 
     /// Gives the excess of the box that it reaches.
-    double climb(GridBox box, WorstBox& worst) {
+    double run(GridBox box, WorstBox& worst) {
         const std::uint64_t before = work_;
         box_ = std::move(box);
         count_outside();
@@ -262,14 +262,14 @@ Ascent ascend(const BoxGrid& grid, const SearchLimits& limits, const RunContext&
     constexpr std::size_t together = 4;  // starts in one block
     Ascent all{WorstBox(grid), 0};
     std::vector<Ascent> found(block_count(plan.starts, together), all);
-    const auto climb_all = [&](const Block& block, Side side) {
-        Climber climber(grid, limits, run, plan.most);
+    const auto ascend_all = [&](const Block& block, Side side) {
+        BoxAscent ascent(grid, limits, run, plan.most);
         Ascent& mine = found[block.index];
         for (std::uint64_t start = block.first; start < block.last; ++start) {
             if (start > 0 && limits.over(run)) break;  // one box there must be
-            climber.climb(random_box(grid, side, start), mine.worst);
+            ascent.run(random_box(grid, side, start), mine.worst);
         }
-        mine.work += climber.work();
+        mine.work += ascent.work();
     };
     RunContext unstopped = run;  // ascents end by themselves, with what they found
     unstopped.stop = {};
@@ -277,8 +277,8 @@ Ascent ascend(const BoxGrid& grid, const SearchLimits& limits, const RunContext&
     for_each_block(
         unstopped, plan.starts, together,
         [&](const Block& block) {
-            climb_all(block, Side::open);
-            if (grid.measure == Measure::discrepancy) climb_all(block, Side::closed);
+            ascend_all(block, Side::open);
+            if (grid.measure == Measure::discrepancy) ascend_all(block, Side::closed);
         },
         silent);
     for (const Ascent& part : found) {
@@ -288,23 +288,23 @@ Ascent ascend(const BoxGrid& grid, const SearchLimits& limits, const RunContext&
     return all;
 }
 
-void ThresholdSearch::walk(Climber& climber, Side side, std::uint64_t number, WorstBox& worst,
+void ThresholdSearch::walk(BoxAscent& ascent, Side side, std::uint64_t number, WorstBox& worst,
                            const SearchLimits& limits, const RunContext& run) const {
     constexpr std::uint64_t effort = 1U << 23;
     const std::uint64_t size = grid_.count * grid_.dimension();
     const std::uint64_t steps = std::clamp<std::uint64_t>(effort / size, 4, 64);
     constexpr std::uint64_t other_streams = 1U << 20;  // than those of ascend()
-    double here = climber.climb(random_anchored_box(grid_, side, other_streams + number), worst);
-    GridBox box = climber.box();
+    double here = ascent.run(random_anchored_box(grid_, side, other_streams + number), worst);
+    GridBox box = ascent.box();
     const Rng rng(1, number);
     for (std::uint64_t step = 0; step < steps && !limits.over(run); ++step) {
         GridBox next = box;
         perturb(grid_, rng, step * draws_of_a_perturbation, next);
-        const double reached = climber.climb(std::move(next), worst);
+        const double reached = ascent.run(std::move(next), worst);
         const double left = 1 - static_cast<double>(step + 1) / static_cast<double>(steps);
         if (reached < here - 0.1 * left * here) continue;  // the first threshold found by trial
         here = reached;
-        box = climber.box();
+        box = ascent.box();
     }
 }
 
@@ -317,10 +317,10 @@ std::uint64_t ThresholdSearch::go(WorstBox& worst, const SearchLimits& limits,
     for_each_block(
         run, walks, 1,
         [&](const Block& block) {
-            Climber climber(grid_, limits, run);
-            walk(climber, block.index % 2 == 0 ? Side::open : Side::closed,
+            BoxAscent ascent(grid_, limits, run);
+            walk(ascent, block.index % 2 == 0 ? Side::open : Side::closed,
                  round_ * walks + block.index, found[block.index], limits, run);
-            work[block.index] = climber.work();
+            work[block.index] = ascent.work();
         },
         silent);
     ++round_;

@@ -39,7 +39,7 @@ class ThresholdSearch {
     std::uint64_t go(WorstBox& worst, const SearchLimits& limits, const RunContext& run);
 
   private:
-    void walk(class Climber& climber, Side side, std::uint64_t number, WorstBox& worst,
+    void walk(class BoxAscent& ascent, Side side, std::uint64_t number, WorstBox& worst,
               const SearchLimits& limits, const RunContext& run) const;
 
     const BoxGrid& grid_;

@@ -227,7 +227,7 @@ bool CellBounder::tighten(Cell& cell, const Line& from, Line& mine) {
     smallest_ = scale_ * section(grid_, cell, Extent::inner);
     const double most = bound(mine);
     cell.bound = std::min(cell.bound, (most + rounding_) * (1 + 0x1p-50) / scale_);
-    if (most <= worst_.excess() - rounding_ || !settle(cell, mine, most)) return false;
+    if (most <= worst_.excess() - rounding_ || !check_exactly(cell, mine, most)) return false;
     if (!grid_.torus()) prune(mine);  // there it takes longer than it saves
     return true;
 }
@@ -312,7 +312,7 @@ double CellBounder::bound(const Line& line) const {
 }
 
 /// Whether the bound, without rounding, is above the worst box; offers the box of a single cell.
-bool CellBounder::settle(const Cell& cell, const Line& line, double bound) {
+bool CellBounder::check_exactly(const Cell& cell, const Line& line, double bound) {
     const bool single = cell.lo == cell.hi;
     if (!single && (rounding_ == 0 || bound > worst_.excess() + rounding_)) return true;
     const Counted counted = counted_of(line, side_);

@@ -76,7 +76,7 @@ class CellBounder {
 
     void refine(const Cell& cell, const Line& from, Line& to);
     [[nodiscard]] double bound(const Line& line) const;
-    bool settle(const Cell& cell, const Line& line, double bound);
+    bool check_exactly(const Cell& cell, const Line& line, double bound);
     [[nodiscard]] double worst_inside(const Stretch& stretch, const Line& line) const;
     [[nodiscard]] bool may_prune(const Stretch& stretch, const Line& line) const;
     void find_useful(const Stretch& stretch, const Line& line);

@@ -13,10 +13,10 @@
 #include <utility>
 
 #include "analyzers/discrepancy/coordinate_ascent.hpp"
+#include "analyzers/discrepancy/star/axis_boxes.hpp"
 #include "analyzers/discrepancy/star/cell.hpp"
 #include "analyzers/discrepancy/star/cover.hpp"
 #include "analyzers/discrepancy/star/net.hpp"
-#include "analyzers/discrepancy/star/slabs.hpp"
 
 namespace stipple::discrepancy::star {
 namespace {
@@ -63,7 +63,7 @@ class AnchoredBoxes final : public Problem {
     /// The bounds that cost next to nothing, once.
     void look_quickly(WorstBox& worst, double& upper) {
         if (std::exchange(looked_, true)) return;
-        offer_slabs(grid_, worst);
+        offer_axis_boxes(grid_, worst);
         upper = std::max(worst.value(), std::min(upper, quick_bound(grid_, run_)));
     }
 
@@ -109,7 +109,7 @@ double quick_bound(const BoxGrid& grid, const RunContext& run, double of_axis, d
     constexpr std::uint64_t few_corners = 1U << 17;
     RunContext unstopped = run;
     unstopped.stop = {};
-    return std::min(slab_bound(grid, of_axis), of_all * cover_bound(grid, few_corners, unstopped));
+    return std::min(axis_bound(grid, of_axis), of_all * cover_bound(grid, few_corners, unstopped));
 }
 
 SearchResult search(const BoxGrid& grid, WorstBox worst, const SearchLimits& limits,

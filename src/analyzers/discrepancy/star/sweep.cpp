@@ -4,7 +4,7 @@
 #include <array>
 #include <mutex>
 
-#include "analyzers/discrepancy/star/slabs.hpp"
+#include "analyzers/discrepancy/star/axis_boxes.hpp"
 #include "analyzers/discrepancy/star/strips.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
@@ -90,7 +90,7 @@ Sweep sweep_2d(const BoxGrid& grid, const SearchLimits& limits, const RunContext
     std::vector<WorstBox> worst(2 * parts, WorstBox(grid));
     bool complete = true;
     try {
-        offer_slabs(grid, worst[0]);
+        offer_axis_boxes(grid, worst[0]);
         worst.assign(2 * parts, WorstBox(worst[0]));
         sweep_parts(plane(grid, run), worst, limits, run);
     } catch (const Halt&) {

@@ -238,7 +238,7 @@ TEST(ExtremeDiscrepancy, IsTheDefinitionsForLargerSets) {
         }
 }
 
-// The climbs find most worst boxes by themselves; what the search excludes must not depend on them.
+// The ascents find most worst boxes by themselves; what the search excludes must not depend on them.
 TEST(ExtremeDiscrepancy, SearchFindsFromNothingWhatItFindsFromAGoodStart) {
     for (const char* kind : kinds) {
         for (std::uint64_t seed = 1; seed <= 4; ++seed) {

@@ -11,10 +11,10 @@
 #include <thread>
 
 #include "analyzers/discrepancy/coordinate_ascent.hpp"
+#include "analyzers/discrepancy/star/axis_boxes.hpp"
 #include "analyzers/discrepancy/star/cover.hpp"
 #include "analyzers/discrepancy/star/net.hpp"
 #include "analyzers/discrepancy/star/search.hpp"
-#include "analyzers/discrepancy/star/slabs.hpp"
 #include "analyzers/discrepancy/star/strips.hpp"
 #include "analyzers/discrepancy/star/sweep.hpp"
 #include "core/rng.hpp"
@@ -370,7 +370,7 @@ TEST(StarDiscrepancy, ComparesBoxesWithoutRounding) {
     expect_box_holds(q, star_report(q));
 }
 
-// The climbs find most worst boxes by themselves; what the search excludes must not depend on them.
+// The ascents find most worst boxes by themselves; what the search excludes must not depend on them.
 // Among these are sets on which ends of cells judged by the bound of another cell go wrong.
 TEST(StarDiscrepancy, SearchFindsFromNothingWhatItFindsFromAGoodStart) {
     for (const auto& [n, d] :
@@ -830,10 +830,10 @@ TEST(StarDiscrepancy, QuickBoundsHold) {
                 for (const auto family : {Family::anchored, Family::half_open}) {
                     const BoxGrid grid = box_grid(p, family, {});
                     const SearchResult exact = star::find_worst(grid, {}, {});
-                    WorstBox slab(grid);
-                    star::offer_slabs(grid, slab);
-                    EXPECT_LE(slab.value(), exact.worst.value()) << n << " " << d << " " << steps;
-                    EXPECT_GE(slab.value(), 0.5 / static_cast<double>(n));
+                    WorstBox found(grid);
+                    star::offer_axis_boxes(grid, found);
+                    EXPECT_LE(found.value(), exact.worst.value()) << n << " " << d << " " << steps;
+                    EXPECT_GE(found.value(), 0.5 / static_cast<double>(n));
                     EXPECT_GE(star::quick_bound(grid, {}), exact.worst.value())
                         << n << " " << d << " " << steps;
                 }
@@ -841,6 +841,24 @@ TEST(StarDiscrepancy, QuickBoundsHold) {
     const PointSet many = make("random", points(100'000, 20));
     EXPECT_LT(star::quick_bound(box_grid(many, Family::anchored, {}), {}), 0.85);
     EXPECT_LT(star::quick_bound(box_grid(halton(100'000, 5), Family::anchored, {}), {}), 0.3);
+}
+
+// On a diagonal, a closed box has as many points as one of its sides; where no point is in the upper
+// part of more than one axis, an open box lacks as many as all of its sides together.
+TEST(StarDiscrepancy, BoundsFromSingleAxesAreReached) {
+    constexpr std::size_t n = 60;
+    PointSet diagonal(n, 3);
+    PointSet apart(n, 2);
+    for (std::size_t i = 0; i < n; ++i) {
+        for (double& x : diagonal[i]) x = (static_cast<double>(i) + 0.5) / n;
+        apart[i][i % 2] = (static_cast<double>(i / 2) + 0.5) / n;
+        apart[i][1 - i % 2] = 0.5 + apart[i][i % 2];
+    }
+    for (const PointSet& p : {diagonal, apart}) {
+        const double bound = star::axis_bound(box_grid(p, Family::anchored, {}), 1);
+        EXPECT_GE(bound, star_of(p));
+        EXPECT_LE(bound, star_of(p) + 1.5 / n);
+    }
 }
 
 // Where the search has no time, either.
@@ -1057,8 +1075,8 @@ TEST(StarDiscrepancy, OtherKindsEndAtLimitsWithBounds) {
     }
 }
 
-// The first climbs count, and a time limit cuts them short, in many dimensions too.
-TEST(StarDiscrepancy, LimitsHoldForTheFirstClimbs) {
+// The first ascents count, and a time limit cuts them short, in many dimensions too.
+TEST(StarDiscrepancy, LimitsHoldForTheFirstAscents) {
     const PointSet p = make("random", points(20, 500));
     const BoxGrid corners = box_grid(p, Family::anchored, {});
     const std::uint64_t all = ascend(corners, {}, {}).work;

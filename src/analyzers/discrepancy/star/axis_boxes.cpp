@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "analyzers/discrepancy/star/slabs.hpp"
+#include "analyzers/discrepancy/star/axis_boxes.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,17 +8,17 @@ namespace stipple::discrepancy::star {
 namespace {
 
 /// A box that is whole on all axes but one.
-struct Slab {
+struct AxisBox {
     double value = -1;
     std::uint32_t rank = 0;  ///< where it ends on that one
     std::uint64_t points = 0;
 
-    void take(const Slab& other) {
+    void take(const AxisBox& other) {
         if (other.value > value) *this = other;
     }
 };
 
-/// The points that are in no open slab, as they have a coordinate 1.
+/// The points that are in no open one-axis box, as they have a coordinate 1.
 std::vector<bool> points_at_one(const BoxGrid& grid) {
     std::vector<bool> at_one(grid.count);
     for (std::size_t k = 0; k < grid.dimension(); ++k)
@@ -29,7 +29,7 @@ std::vector<bool> points_at_one(const BoxGrid& grid) {
 
 }  // namespace
 
-void offer_slabs(const BoxGrid& grid, WorstBox& worst) {
+void offer_axis_boxes(const BoxGrid& grid, WorstBox& worst) {
     const auto n = static_cast<double>(grid.count);
     const auto at_one = points_at_one(grid);
     std::vector<std::uint32_t> corner;
@@ -41,8 +41,8 @@ void offer_slabs(const BoxGrid& grid, WorstBox& worst) {
         std::vector<std::uint32_t> inside(points.size());
         for (std::size_t i = 0; i < grid.count; ++i)
             if (!at_one[i]) ++inside[grid.ranks[k][i]];
-        Slab open;
-        Slab closed;
+        AxisBox open;
+        AxisBox closed;
         std::uint64_t below = 0;
         std::uint64_t within = 0;
         for (std::uint32_t a = 0; a <= whole; ++a) {
@@ -60,7 +60,7 @@ void offer_slabs(const BoxGrid& grid, WorstBox& worst) {
     }
 }
 
-double slab_bound(const BoxGrid& grid, double times) {
+double axis_bound(const BoxGrid& grid, double times) {
     const auto n = static_cast<double>(grid.count);
     const auto d = static_cast<double>(grid.dimension());
     double most = 0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// What the axes tell one by one. Slabs, boxes that are whole on all axes but one, give a worst box
-// to begin with, and bad ones to report when there is no time for more. An upper bound: let E_k
+// What the axes tell one by one. Boxes that are whole on all axes but one give a worst box to
+// begin with, and bad ones to report when there is no time for more. An upper bound: let E_k
 // bound the discrepancy of the points' coordinates on axis k, of d. A box has sides v_k and the
-// volume v, their product. It has no more points than any slab with one of its sides, and lacks no
+// volume v, their product. It has no more points than any box with one of its sides, and lacks no
 // more than all of these do together:
 //
 //     #/n <= min_k (v_k + E_k),          min_k v_k = p   =>  v >= p^d,
@@ -21,11 +21,11 @@
 
 namespace stipple::discrepancy::star {
 
-/// Offers the worst slabs of each axis and side: worse than 1/(2n), always.
-void offer_slabs(const BoxGrid& grid, WorstBox& worst);
+/// Offers the worst one-axis boxes of each axis and side: worse than 1/(2n), always.
+void offer_axis_boxes(const BoxGrid& grid, WorstBox& worst);
 
 /// The upper bound, where the discrepancy on an axis is at most `times` that of anchored boxes.
 /// Below 1 for any dimension where points are many enough, but never small.
-double slab_bound(const BoxGrid& grid, double times);
+double axis_bound(const BoxGrid& grid, double times);
 
 }  // namespace stipple::discrepancy::star
