@@ -29,13 +29,15 @@
 #include <algorithm>
 
 #include "analyzers/analyzer.hpp"
-#include "analyzers/discrepancy/empty_box.hpp"
-#include "analyzers/discrepancy/extreme/extreme_discrepancy.hpp"
-#include "analyzers/discrepancy/extreme/extreme_search.hpp"
+#include "analyzers/discrepancy/empty_rectangle.hpp"
+#include "analyzers/discrepancy/extreme/search.hpp"
+#include "analyzers/discrepancy/extreme/star_bound.hpp"
 #include "core/error.hpp"
 
 namespace stipple::analyzers::dispersion {
 namespace {
+
+using namespace discrepancy;
 
 constexpr Param<bool> torus{.name = "torus",
                             .help = "Join opposite faces of the cube, so that boxes may wrap"};
@@ -44,12 +46,12 @@ constexpr Param<bool> torus{.name = "torus",
 constexpr std::size_t max_count = std::size_t{1} << 29;
 
 /// Where it is cut short: an empty box has a discrepancy of its volume.
-extreme::SearchResult largest_empty_box(const extreme::BoxGrid& grid, const PointSet& points,
-                                        const SearchLimits& limits, const RunContext& run) {
+SearchResult largest_empty_box(const BoxGrid& grid, const PointSet& points,
+                               const SearchLimits& limits, const RunContext& run) {
     if (grid.dimension() != 2) return extreme::find_worst(grid, limits, run);
-    const auto [worst, complete] = extreme::largest_empty_rectangle(grid, limits, run);
+    const auto [worst, complete] = largest_empty_rectangle(grid, limits, run);
     if (complete) return {worst, worst.value(), Ending::complete};
-    const double upper = extreme::quick_bound(points, grid.space, run);
+    const double upper = extreme::quick_bound(points, grid.family, run);
     return {worst, std::max(worst.value(), upper),
             limits.late(run) ? Ending::time : Ending::stopped};
 }
@@ -67,11 +69,10 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
              points.count());
     const Limits limits(options, run);
     const double lines = extreme::search_memory(points, d > 2 ? run.thread_count() : 0);
-    run.need_memory(lines + static_cast<double>(points.count() * extreme::rectangle_bytes),
+    run.need_memory(lines + static_cast<double>(points.count() * rectangle_bytes),
                     "the search for the largest empty box");
-    const extreme::BoxGrid grid =
-        extreme::box_grid(points, options[torus] ? extreme::Space::torus : extreme::Space::cube,
-                          extreme::Measure::emptiness, run);
+    const BoxGrid grid =
+        box_grid(points, options[torus] ? Family::torus : Family::cube, run, Measure::emptiness);
     const auto [worst, upper, ending] = largest_empty_box(grid, points, limits.search, run);
     limits.judge({worst.value(), upper, ending}, "the largest empty box",
                  fmt::format("{} points in {} dimensions", points.count(), d), run);

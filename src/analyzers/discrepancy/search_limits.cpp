@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 
-namespace stipple::analyzers {
+namespace stipple::discrepancy {
 
 SearchLimits SearchLimits::after(std::uint64_t spent) const {
     SearchLimits left = *this;
@@ -81,4 +81,4 @@ void Limits::judge(const Bounds& found, const std::string& what, const std::stri
         format_number(found.lower), format_number(found.upper), missed));
 }
 
-}  // namespace stipple::analyzers
+}  // namespace stipple::discrepancy

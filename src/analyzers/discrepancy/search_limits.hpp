@@ -11,7 +11,7 @@
 #include "core/options.hpp"
 #include "core/run_context.hpp"
 
-namespace stipple::analyzers {
+namespace stipple::discrepancy {
 
 /// The options.
 namespace limit {
@@ -58,6 +58,14 @@ struct SearchLimits {
     std::uint64_t work = std::numeric_limits<std::uint64_t>::max();  ///< comparisons of coordinates
     double deadline = std::numeric_limits<double>::infinity();       ///< in the run's seconds
     double tolerance = 0;  ///< enough if upper - lower <= tolerance * lower
+
+    /// Comparisons of about a quarter of a second.
+    static constexpr std::uint64_t short_work = 1U << 28;
+
+    /// Whether bounds may be all that is wanted.
+    [[nodiscard]] bool wants_bounds() const {
+        return tolerance > 0 || work < 4 * short_work || timed();
+    }
 
     [[nodiscard]] bool timed() const { return deadline < std::numeric_limits<double>::infinity(); }
 
@@ -115,4 +123,4 @@ class Limits {
     std::int64_t work_ = 0;
 };
 
-}  // namespace stipple::analyzers
+}  // namespace stipple::discrepancy

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analyzers/discrepancy/empty_box.hpp"
-#include "analyzers/discrepancy/extreme/extreme_search.hpp"
+#include "analyzers/discrepancy/empty_rectangle.hpp"
+#include "analyzers/discrepancy/extreme/search.hpp"
 #include "core/rng.hpp"
 #include "support/exact.hpp"
 #include "support/lattices.hpp"
@@ -13,7 +13,7 @@
 
 using namespace stipple;
 using namespace stipple::testing;
-using namespace stipple::analyzers;
+using namespace stipple::discrepancy;
 
 namespace {
 
@@ -33,9 +33,8 @@ double value_of(const PointSet& p, bool torus = false) {
 
 /// By branch and bound alone, from nothing.
 double by_search(const PointSet& p, bool torus) {
-    const extreme::BoxGrid grid = extreme::box_grid(
-        p, torus ? extreme::Space::torus : extreme::Space::cube, extreme::Measure::emptiness, {});
-    const auto found = extreme::search(grid, extreme::WorstBox(grid), {}, {});
+    const BoxGrid grid = box_grid(p, torus ? Family::torus : Family::cube, {}, Measure::emptiness);
+    const auto found = extreme::search(grid, WorstBox(grid), {}, {});
     EXPECT_EQ(found.ending, Ending::complete);
     return found.worst.value();
 }

@@ -11,13 +11,21 @@
 //     D* = max over c of  max( vol(c) - #{x < c} / n,  #{x <= c} / n - vol(c) ).
 //
 // --boxes half-open takes the first line at its word: points with a coordinate 1 are in no box.
+// --kind extreme takes all boxes [a,b) in the cube, --kind periodic those of the torus, where 1 is
+// 0 and each side may wrap; closed boxes count as limits of half-open ones. So D* <= extreme <= 2^d
+// D* and extreme <= periodic. In one dimension, both are Kuiper's statistic.
 //
-// Shape   points n x d in [0, 1];  result in [1/(2n), 1], a pure number, smaller is more even.
+// Shape   points n x d in [0, 1];  result in [1/(2n), 1], a pure number, smaller is more even;
+//         other kinds in [1/n, 1].
 // Cost    d = 1: O(n log n). d = 2: O(n^(4/3)) time in practice and O(n) memory, 61 bytes a point
 //         with the points; 2^16 points take 0.04 s, 10^6 1 s and 10^7 20 s on one core.
 //         d > 2: exponential in d at worst (the problem is NP-hard); branch and bound, which ends
-//         after --max-work or --time-limit. Both are for all rows of a table together; prefixes
-//         start from their neighbours' boxes and bounds.
+//         after --max-work or --time-limit. Both are for all rows of a table together.
+//         Other kinds, d = 2: branch and bound over O(n^2) cells at worst, of a few points each.
+//         1024 points take 0.1 s (random) to 0.4 s (Hammersley), 4096 points 0.5 s to 9 s; the
+//         periodic kind of even points takes ten times as long. d > 2: up to n^(2(d - 1)) cells;
+//         1000 random points in 3-D take 10 s, 128 in 5-D 5 s. A first bound of many points in few
+//         dimensions is 2^d D* (periodic: (3^d - 1) D*).
 // Promise `exact` says whether it is: counts are integers, boxes are compared without rounding, and
 //         the value is the double nearest to that of the worst box. Where it is not, the worst box
 //         found gives `lower`, and no box is worse than `upper`. Never depends on the number of
@@ -26,24 +34,35 @@
 //         Coordinates are taken as the doubles that they are: 0.1 is a little more than 1/10.
 // Source  C. Doerr, M. Gnewuch, M. Wahlstroem, "Calculation of discrepancy measures and
 //         applications", arXiv:1405.1653 (survey); M. Gnewuch, A. Srivastav, C. Winzen, J.
-//         Complexity 25 (2009) 115-127 (NP-hard).
+//         Complexity 25 (2009) 115-127 (NP-hard). Other kinds: W. J. Morokoff, R. E. Caflisch, SIAM
+//         J. Sci. Comput. 15 (1994) 1251-1279, doi:10.1137/0915077 (the measures); N. H. Kuiper,
+//         Indag. Math. 22 (1960) 38-47.
 
 #include <fmt/format.h>
 
-#include <optional>
 #include <string>
 
 #include "analyzers/analyzer.hpp"
-#include "analyzers/discrepancy/extreme/extreme_discrepancy.hpp"
+#include "analyzers/discrepancy/extreme/search.hpp"
+#include "analyzers/discrepancy/extreme/star_bound.hpp"
 #include "analyzers/discrepancy/search_limits.hpp"
-#include "analyzers/discrepancy/star/star_families.hpp"
-#include "analyzers/discrepancy/star/star_search.hpp"
-#include "analyzers/discrepancy/star/star_sweep.hpp"
+#include "analyzers/discrepancy/star/search.hpp"
+#include "analyzers/discrepancy/star/sweep.hpp"
+#include "analyzers/discrepancy/star/tables.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 
 namespace stipple::analyzers::star_discrepancy {
 namespace {
+
+using namespace discrepancy;
+
+constexpr Param<Choice> kind{
+    .name = "kind",
+    .fallback = "star",
+    .choices = "star|extreme|periodic",
+    .help =
+        "Boxes from the origin, all axis-parallel boxes, or those of the torus, which may wrap"};
 
 constexpr Param<Choice> boxes{
     .name = "boxes",
@@ -56,10 +75,18 @@ constexpr Param<Choice> boxes{
 /// More points than any machine's memory holds; counts of points stay far from 2^31.
 constexpr std::size_t max_count = std::size_t{1} << 29;
 
-Report report(const star::WorstBox& worst, double upper, const char* how) {
+/// What a set's search found, and how.
+struct Found {
+    SearchResult result;
+    const char* method = "branch-and-bound";
+};
+
+Report report(const Found& found, Family family) {
+    const auto& [worst, upper, ending] = found.result;
     Report box;
-    box.add("corner", worst.corner());
-    box.add("closed", worst.side() == star::Side::closed);
+    if (family >= Family::cube) box.add("lower_corner", worst.lower_corner());
+    box.add("corner", worst.upper_corner());
+    box.add("closed", worst.closed());
     box.add("points", worst.points());
     box.add("volume", worst.volume());
     Report results;
@@ -67,21 +94,27 @@ Report report(const star::WorstBox& worst, double upper, const char* how) {
     results.add("lower", worst.value());
     results.add("upper", upper);
     results.add("exact", upper == worst.value());
-    results.add("method", how);
+    results.add("method", found.method);
     results.add("worst_box", std::move(box));
     return results;
 }
 
-/// "100 points in 7 dimensions"
-std::string size_of(const PointSet& points) {
-    return fmt::format("{} points in {} dimensions", points.count(), points.dimension());
+Family family_of(const Values& options) {
+    if (options[kind] == "star")
+        return options[boxes] == "closed" ? Family::anchored : Family::half_open;
+    if (options.given(boxes))
+        fail(ErrorKind::usage, "--{} applies to --kind star only", boxes.name);
+    return options[kind] == "extreme" ? Family::cube : Family::torus;
 }
 
 /// @throws Error(limit) saying how many points would do.
-void need_room(const PointSet& points, const RunContext& run) {
+void need_room(const PointSet& points, Family family, const RunContext& run) {
     const std::size_t d = points.dimension();
+    if (family >= Family::cube)
+        return run.need_memory(extreme::search_memory(points, run.thread_count()),
+                               "the search for the worst box");
     const double search = d < 3 ? 0 : star::search_bytes(1, d, run.thread_count());
-    const double each = static_cast<double>(d * star::axis_bytes) + 32 + search;
+    const double each = static_cast<double>(d * axis_bytes(true)) + 32 + search;
     const double all = static_cast<double>(points.count()) * each;
     const double room = static_cast<double>(run.max_memory);
     if (all <= room) return;
@@ -94,70 +127,54 @@ void need_room(const PointSet& points, const RunContext& run) {
 }
 
 /// The square's worst box; bounds alone where the sweep takes longer than a part of the time.
-star::SearchResult sweep_or_search(const star::CornerGrid& grid, const Limits& limits,
-                                   const RunContext& run, std::string& how) {
+Found sweep_or_search(const BoxGrid& grid, const Limits& limits, const RunContext& run) {
     constexpr double part = 0.7;  // what is left is for bounds
     SearchLimits first = limits.search;
     first.deadline = limits.start + part * (first.deadline - limits.start);
     const star::Sweep sweep = star::sweep_2d(grid, first, run);
-    how = "sweep-2d";
-    if (sweep.complete) return {sweep.worst, sweep.worst.value(), Ending::complete};
-    if (run.stop.stop_requested())
-        return star::certain_at_once(grid, sweep.worst, Ending::stopped, run);
-    how = "branch-and-bound";
-    return star::search(grid, sweep.worst, limits.search, run);
+    if (sweep.complete) return {{sweep.worst, sweep.worst.value(), Ending::complete}, "sweep-2d"};
+    const bool stopped = run.stop.stop_requested();
+    return {star::search(grid, sweep.worst, limits.search, run),
+            stopped ? "sweep-2d" : "branch-and-bound"};
 }
 
-/// A box that another set's report calls the worst.
-std::optional<star::Hint> hint_from(const Report* like) {
-    if (like == nullptr || like->find("worst_box") == nullptr) return {};
-    const bool closed = std::get<bool>(*like->find("worst_box.closed"));
-    return star::Hint{closed ? star::Side::closed : star::Side::open,
-                      like->curve("worst_box.corner")};
+Found search_free_boxes(const BoxGrid& grid, const star::Member& set, const RunContext& run) {
+    const SearchLimits& limits = set.limits.search;
+    const SearchLimits share = extreme::share_for_bound(limits, run);
+    RunContext silent = run;
+    silent.progress = {};
+    const double upper = extreme::star_bound(set.points, grid.family, share, silent);
+    return {extreme::find_worst(grid, limits.after(share.work), run, upper),
+            grid.dimension() == 1 ? "sweep-1d" : "branch-and-bound"};
 }
 
-Report star_kind(const star::Member& set, const Values& options, const RunContext& run) {
-    need_room(set.points, run);
-    RunContext steady = run;
-    if (set.peers != nullptr) steady.stop = {};  // peers stop together, in the search
-    const star::CornerGrid grid = star::corner_grid(
-        set.points, steady,
-        options[boxes] == "closed" ? star::Boxes::closed : star::Boxes::half_open);
+Found search(const BoxGrid& grid, const star::Member& set, const RunContext& run) {
+    if (!grid.anchored()) return search_free_boxes(grid, set, run);
     if (grid.dimension() == 1) {
-        const star::WorstBox worst = star::sweep_1d(grid, run);
-        return report(worst, worst.value(), "sweep-1d");
+        const WorstBox worst = star::sweep_1d(grid, run);
+        return {{worst, worst.value(), Ending::complete}, "sweep-1d"};
     }
-    std::string how = "branch-and-bound";
-    const auto hint = hint_from(set.like);
-    const star::SearchResult found =
-        grid.dimension() == 2 && !set.limits.bounded
-            ? sweep_or_search(grid, set.limits, run, how)
-            : star::find_worst(grid, set.limits.search, run, hint ? &*hint : nullptr, set.peers);
-    set.limits.judge({found.worst.value(), found.upper, found.ending}, "the star discrepancy",
-                     size_of(set.points), run);
-    return report(found.worst, found.upper, how.c_str());
-}
-
-/// The kinds extreme and periodic.
-Report other_kind(const star::Member& set, const Values& options, const RunContext& run) {
-    const std::string& kind = options[extreme::kind];
-    if (options.given(boxes))
-        fail(ErrorKind::usage, "--{} applies to --kind star only", boxes.name);
-    const auto space = kind == "extreme" ? extreme::Space::cube : extreme::Space::torus;
-    extreme::Findings found = extreme::discrepancy(set.points, space, set.limits.search, run);
-    set.limits.judge(found.bounds, fmt::format("the {} discrepancy", kind), size_of(set.points),
-                     run);
-    return std::move(found.report);
+    if (grid.dimension() == 2 && !set.limits.bounded) return sweep_or_search(grid, set.limits, run);
+    return {star::find_worst(grid, set.limits.search, run, set.peers)};
 }
 
 Report measure(const star::Member& set, const Values& options, const RunContext& run) {
-    if (set.points.count() == 0)
-        fail(ErrorKind::input, "star-discrepancy needs at least one point");
-    if (set.points.count() > max_count)
+    const PointSet& points = set.points;
+    if (points.count() == 0) fail(ErrorKind::input, "star-discrepancy needs at least one point");
+    if (points.count() > max_count)
         fail(ErrorKind::limit, "star-discrepancy takes up to {} points; these are {}", max_count,
-             set.points.count());
-    return options[extreme::kind] == "star" ? star_kind(set, options, run)
-                                            : other_kind(set, options, run);
+             points.count());
+    const Family family = family_of(options);
+    need_room(points, family, run);
+    RunContext steady = run;
+    if (set.peers != nullptr) steady.stop = {};  // peers stop together, in the search
+    const BoxGrid grid = box_grid(points, family, steady);
+    const Found found = search(grid, set, run);
+    const auto& [worst, upper, ending] = found.result;
+    set.limits.judge(
+        {worst.value(), upper, ending}, fmt::format("the {} discrepancy", options[kind]),
+        fmt::format("{} points in {} dimensions", points.count(), points.dimension()), run);
+    return report(found, family);
 }
 
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
@@ -173,7 +190,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
 /// done than shared.
 Report analyze_together(const PointSet& points, const Values& options, Peers& peers,
                         const RunContext& run) {
-    if (star::wants_families(options) || options[extreme::kind] != "star")
+    if (star::wants_families(options) || options[kind] != "star")
         fail(ErrorKind::usage,
              "star-discrepancy: ranks share the search of one set for the kind star; start one "
              "process for tables and other kinds");
@@ -200,57 +217,56 @@ void refine(Report& mean, std::size_t sets, const Values&) {
 }  // namespace
 
 Analyzer unit() {
-    return {
-        .name = "star-discrepancy",
-        .summary = "Star discrepancy, exact or between bounds, with the worst box",
-        .source = "Doerr, Gnewuch, Wahlstroem 2014, arXiv:1405.1653",
-        .traits = {.max_dimension = 10'000},
-        .options = Schema(extreme::kind, boxes, limit::method, limit::time_limit, limit::tolerance,
-                          limit::max_work, star::prefixes, star::every, star::projections),
-        .results = {{"value", "the star discrepancy; where exact is false, lower"},
-                    {"lower", "it is at least this"},
-                    {"upper", "it is at most this"},
-                    {"exact", "whether the two bounds are the same", true, true_or_false},
-                    {"method", "sweep-1d, sweep-2d or branch-and-bound", true,
-                     "sweep-1d|sweep-2d|branch-and-bound"},
-                    {"worst_box.corner",
-                     "upper corner of the box where the value is reached (of all boxes from "
-                     "the origin, or of all that the kind has)"},
-                    {"worst_box.lower_corner",
-                     "its lower corner, for the kinds extreme and periodic; on an axis where "
-                     "it is above the upper one, the box goes from there across 1 to 0 and on "
-                     "(and all round where an open box has both the same)",
-                     false},
-                    {"worst_box.closed",
-                     "whether points on the box's faces count (upper faces for the kind star)",
-                     true, true_or_false},
-                    {"worst_box.points", "points in that box"},
-                    {"worst_box.volume", "its volume"},
-                    {"prefixes.count", "points of each prefix", false},
-                    {"prefixes.value", "its star discrepancy", false},
-                    {"prefixes.lower", "which is at least this", false},
-                    {"prefixes.upper", "and at most this", false},
-                    {"prefixes.exact", "1 where the two are the same, else 0", false},
-                    {"projections.axis_1", "first axis of each projection, from 1", false},
-                    {"projections.axis_2", "the second, and so on", false},
-                    {"projections.value", "its star discrepancy", false},
-                    {"projections.lower", "which is at least this", false},
-                    {"projections.upper", "and at most this", false},
-                    {"projections.exact", "1 where the two are the same, else 0", false},
-                    {"projections.is_worst",
-                     "1 for the first with the largest value; among bounds, with the largest "
-                     "lower one",
-                     false},
-                    {"projections.worst", "the axes of that one", false},
-                    {"projections.worst_is_certain",
-                     "whether the bounds of no other projection reach above its value", false,
-                     true_or_false},
-                    {"projections.largest.value", "the largest value", false},
-                    {"projections.largest.lower", "the largest of all is at least this", false},
-                    {"projections.largest.upper", "and at most this", false}},
-        .analyze = analyze,
-        .sharing = {.together = analyze_together},
-        .refine = refine};
+    return {.name = "star-discrepancy",
+            .summary = "Star discrepancy, exact or between bounds, with the worst box",
+            .source = "Doerr, Gnewuch, Wahlstroem 2014, arXiv:1405.1653",
+            .traits = {.max_dimension = 10'000},
+            .options = Schema(kind, boxes, limit::method, limit::time_limit, limit::tolerance,
+                              limit::max_work, star::prefixes, star::every, star::projections),
+            .results = {{"value", "the star discrepancy; where exact is false, lower"},
+                        {"lower", "it is at least this"},
+                        {"upper", "it is at most this"},
+                        {"exact", "whether the two bounds are the same", true, true_or_false},
+                        {"method", "sweep-1d, sweep-2d or branch-and-bound", true,
+                         "sweep-1d|sweep-2d|branch-and-bound"},
+                        {"worst_box.corner",
+                         "upper corner of the box where the value is reached (of all boxes from "
+                         "the origin, or of all that the kind has)"},
+                        {"worst_box.lower_corner",
+                         "its lower corner, for the kinds extreme and periodic; on an axis where "
+                         "it is above the upper one, the box goes from there across 1 to 0 and on "
+                         "(and all round where an open box has both the same)",
+                         false},
+                        {"worst_box.closed",
+                         "whether points on the box's faces count (upper faces for the kind star)",
+                         true, true_or_false},
+                        {"worst_box.points", "points in that box"},
+                        {"worst_box.volume", "its volume"},
+                        {"prefixes.count", "points of each prefix", false},
+                        {"prefixes.value", "its star discrepancy", false},
+                        {"prefixes.lower", "which is at least this", false},
+                        {"prefixes.upper", "and at most this", false},
+                        {"prefixes.exact", "1 where the two are the same, else 0", false},
+                        {"projections.axis_1", "first axis of each projection, from 1", false},
+                        {"projections.axis_2", "the second, and so on", false},
+                        {"projections.value", "its star discrepancy", false},
+                        {"projections.lower", "which is at least this", false},
+                        {"projections.upper", "and at most this", false},
+                        {"projections.exact", "1 where the two are the same, else 0", false},
+                        {"projections.is_worst",
+                         "1 for the first with the largest value; among bounds, with the largest "
+                         "lower one",
+                         false},
+                        {"projections.worst", "the axes of that one", false},
+                        {"projections.worst_is_certain",
+                         "whether the bounds of no other projection reach above its value", false,
+                         true_or_false},
+                        {"projections.largest.value", "the largest value", false},
+                        {"projections.largest.lower", "the largest of all is at least this", false},
+                        {"projections.largest.upper", "and at most this", false}},
+            .analyze = analyze,
+            .sharing = {.together = analyze_together},
+            .refine = refine};
 }
 
 }  // namespace stipple::analyzers::star_discrepancy

@@ -4,8 +4,8 @@
 #include <bit>
 #include <cmath>
 
-#include "analyzers/discrepancy/extreme/extreme_ascent.hpp"
-#include "analyzers/discrepancy/extreme/extreme_search.hpp"
+#include "analyzers/discrepancy/coordinate_ascent.hpp"
+#include "analyzers/discrepancy/extreme/search.hpp"
 #include "core/rng.hpp"
 #include "support/exact.hpp"
 #include "support/lattices.hpp"
@@ -13,7 +13,7 @@
 
 using namespace stipple;
 using namespace stipple::testing;
-using namespace stipple::analyzers;
+using namespace stipple::discrepancy;
 
 namespace {
 
@@ -33,10 +33,9 @@ double value_of(const PointSet& p, const char* kind) {
 
 /// By branch and bound alone, from nothing: a good start would hide what the search misses.
 double by_search(const PointSet& p, const char* kind) {
-    const auto space =
-        std::string(kind) == "extreme" ? extreme::Space::cube : extreme::Space::torus;
-    const extreme::BoxGrid grid = extreme::box_grid(p, space, extreme::Measure::discrepancy, {});
-    const auto found = extreme::search(grid, extreme::WorstBox(grid), {}, {});
+    const auto family = std::string(kind) == "extreme" ? Family::cube : Family::torus;
+    const BoxGrid grid = box_grid(p, family, {});
+    const auto found = extreme::search(grid, WorstBox(grid), {}, {});
     EXPECT_EQ(found.ending, Ending::complete);
     return found.worst.value();
 }
@@ -239,7 +238,7 @@ TEST(ExtremeDiscrepancy, IsTheDefinitionsForLargerSets) {
         }
 }
 
-// The climbs find most worst boxes by themselves; what the search excludes must not depend on them.
+// The ascents find most worst boxes by themselves; what the search excludes must not depend on them.
 TEST(ExtremeDiscrepancy, SearchFindsFromNothingWhatItFindsFromAGoodStart) {
     for (const char* kind : kinds) {
         for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -358,6 +357,16 @@ TEST(ExtremeDiscrepancy, BoundsWhatItHasNoTimeFor) {
         const PointSet many = make("random", points(40, 100));
         EXPECT_GE(report_of(many, kind, {{"max-work", "1"}}).number("lower"), 1. / 40 - 1e-15);
     }
+}
+
+// Open cells that would fill the memory are explored to the end, so that what is certain stays so.
+TEST(ExtremeDiscrepancy, KeepsItsBoundsWhereCellsFillTheMemory) {
+    const PointSet p = make("random", points(60, 12));
+    const Settings settings{{"kind", "extreme"}, {"max-work", "100000000"}};
+    const Report report =
+        analyze("star-discrepancy", p, settings, {.threads = 1, .max_memory = 37 << 10});
+    EXPECT_GE(report.number("upper"), report.number("lower"));
+    expect_box_holds(p, report, false);
 }
 
 // A box is the sum and difference of 4 boxes from the origin, on the torus of 8 and the whole; with

@@ -10,20 +10,20 @@
 #include <numeric>
 #include <thread>
 
-#include "analyzers/discrepancy/star/star_ascent.hpp"
-#include "analyzers/discrepancy/star/star_blocks.hpp"
-#include "analyzers/discrepancy/star/star_cover.hpp"
-#include "analyzers/discrepancy/star/star_net.hpp"
-#include "analyzers/discrepancy/star/star_search.hpp"
-#include "analyzers/discrepancy/star/star_strips.hpp"
-#include "analyzers/discrepancy/star/star_sweep.hpp"
+#include "analyzers/discrepancy/coordinate_ascent.hpp"
+#include "analyzers/discrepancy/star/axis_boxes.hpp"
+#include "analyzers/discrepancy/star/cover.hpp"
+#include "analyzers/discrepancy/star/net.hpp"
+#include "analyzers/discrepancy/star/search.hpp"
+#include "analyzers/discrepancy/star/strips.hpp"
+#include "analyzers/discrepancy/star/sweep.hpp"
 #include "core/rng.hpp"
 #include "support/lattices.hpp"
 #include "support/units.hpp"
 
 using namespace stipple;
 using namespace stipple::testing;
-using namespace stipple::analyzers;
+using namespace stipple::discrepancy;
 using boost::multiprecision::cpp_rational;
 using ::testing::HasSubstr;
 
@@ -39,8 +39,8 @@ double half_open_star_of(const PointSet& points) {
 
 /// By branch and bound alone, from nothing: a good start would hide what the search misses.
 double by_search(const PointSet& points) {
-    const star::CornerGrid grid = star::corner_grid(points, {});
-    return star::search(grid, star::WorstBox(grid), {}, {}).worst.value();
+    const BoxGrid grid = box_grid(points, Family::anchored, {});
+    return star::search(grid, WorstBox(grid), {}, {}).worst.value();
 }
 
 /// Radical inverse, rounded once.
@@ -159,7 +159,7 @@ double by_half_open_definition(const PointSet& p, std::int64_t steps) {
 /// Oracle in three dimensions: level by level of the last axis, a table of the points below the
 /// level in every box of the first two. O(n^3).
 double by_levels(const PointSet& p) {
-    const star::CornerGrid grid = star::corner_grid(p, {});
+    const BoxGrid grid = box_grid(p, Family::anchored, {});
     const auto& xs = grid.values[0];
     const auto& ys = grid.values[1];
     const auto& zs = grid.values[2];
@@ -306,8 +306,8 @@ TEST(StarDiscrepancy, OfHalfOpenBoxesIsTheDefinitions) {
                 p[0][d - 1] = 1;
                 const double expected = by_half_open_definition(p, steps);
                 EXPECT_EQ(half_open_star_of(p), expected) << text_of(p);
-                const star::CornerGrid moved = star::corner_grid(p, {}, star::Boxes::half_open);
-                const auto found = star::search(moved, star::WorstBox(moved), {}, {});
+                const BoxGrid moved = box_grid(p, Family::half_open, {});
+                const auto found = star::search(moved, WorstBox(moved), {}, {});
                 EXPECT_EQ(found.worst.value(), expected) << text_of(p);
                 different += expected != star_of(p);
             }
@@ -370,7 +370,7 @@ TEST(StarDiscrepancy, ComparesBoxesWithoutRounding) {
     expect_box_holds(q, star_report(q));
 }
 
-// The climbs find most worst boxes by themselves; what the search excludes must not depend on them.
+// The ascents find most worst boxes by themselves; what the search excludes must not depend on them.
 // Among these are sets on which ends of cells judged by the bound of another cell go wrong.
 TEST(StarDiscrepancy, SearchFindsFromNothingWhatItFindsFromAGoodStart) {
     for (const auto& [n, d] :
@@ -415,16 +415,16 @@ TEST(StarDiscrepancy, SweepAndSearchAgreeOnUnevenSets) {
 TEST(StarDiscrepancy, SweepsFromAnyStripFindTheSame) {
     for (const PointSet& p : {make("random", points(700, 2)), halton(400, 2),
                               on_lattice(600, 2, 32, 1), on_lattice(300, 2, 4096, 2)}) {
-        const star::CornerGrid corners = star::corner_grid(p, {});
+        const BoxGrid corners = box_grid(p, Family::anchored, {});
         const star::Plane plane = star::plane(corners, {});
         const std::size_t strips = plane.strips.count();
         ASSERT_GT(strips, 20U);
         const double value = by_search(p);
         for (std::size_t cut = 0; cut <= strips; cut += 1 + strips / 12) {
-            star::WorstBox worst(corners);
-            for (const auto side : {star::Side::open, star::Side::closed})
+            WorstBox worst(corners);
+            for (const auto side : {Side::open, Side::closed})
                 for (const star::StripRange range : {star::StripRange{0, cut}, {cut, strips}}) {
-                    star::WorstBox part(corners);
+                    WorstBox part(corners);
                     if (range.first < range.last)
                         star::sweep_strips(plane, side, range, part, {}, [](std::uint64_t) {});
                     worst.offer(part);
@@ -500,15 +500,14 @@ TEST(StarDiscrepancy, BoundsHoldTheExactValueWhereverTheyEnd) {
                 make("random", points(static_cast<std::uint64_t>(n), static_cast<std::size_t>(d)),
                      {}, {.seed = seed});
             const double value = star_of(p);
-            const star::CornerGrid corners = star::corner_grid(p, {});
+            const BoxGrid corners = box_grid(p, Family::anchored, {});
             double upper = 1;
             for (std::uint64_t work = 1; work < std::uint64_t{1} << 40; work *= 4) {
-                const auto part =
-                    star::search(corners, star::WorstBox(corners), {.work = work}, {});
+                const auto part = star::search(corners, WorstBox(corners), {.work = work}, {});
                 EXPECT_LE(part.worst.value(), value) << work;
                 EXPECT_GE(part.upper, value) << work;
                 upper = std::min(upper, part.upper);
-                if (part.ending != star::Ending::complete) continue;
+                if (part.ending != Ending::complete) continue;
                 EXPECT_EQ(part.worst.value(), value) << work;
                 EXPECT_EQ(part.upper, value) << work;
                 break;
@@ -523,7 +522,7 @@ TEST(StarDiscrepancy, CoversBoundItFromAboveAndNotByFar) {
         for (std::uint64_t seed = 1; seed <= 6; ++seed) {
             const PointSet p = seed % 2 ? on_lattice(150, d, 8, seed)
                                         : make("random", points(150, d), {}, {.seed = seed});
-            const star::CornerGrid corners = star::corner_grid(p, {});
+            const BoxGrid corners = box_grid(p, Family::anchored, {});
             const double value = star_of(p);
             for (const double side : {6, 9, 15, 17}) {
                 const auto axes = static_cast<double>(d);
@@ -537,14 +536,14 @@ TEST(StarDiscrepancy, CoversBoundItFromAboveAndNotByFar) {
         }
     // All points at 0: the closed box up to 0 is as bad as can be.
     const PointSet zeros = points_of({{0, 0, 0}, {0, 0, 0}});
-    EXPECT_EQ(star::cover_bound(star::corner_grid(zeros, {}), 1 << 15, {}), 1);
+    EXPECT_EQ(star::cover_bound(box_grid(zeros, Family::anchored, {}), 1 << 15, {}), 1);
 }
 
 // Niederreiter's bound for t = 0 in the square is (1 + m) / 2^m, in the cube (1 + m (m + 1) / 2) /
 // 2^m.
 TEST(StarDiscrepancy, NetsBoundItByTheirQuality) {
     const auto bound = [](const PointSet& p, double most = 1) {
-        return star::net_bound(star::corner_grid(p, {}), most, std::uint64_t{1} << 40, {});
+        return star::net_bound(box_grid(p, Family::anchored, {}), most, std::uint64_t{1} << 40, {});
     };
     for (std::size_t m = 1; m <= 12; ++m) {
         const std::uint64_t n = std::uint64_t{1} << m;
@@ -660,9 +659,9 @@ TEST(StarDiscrepancy, ToleranceIsHonouredAndNotOvershotByFar) {
 TEST(StarDiscrepancy, ExactOrNothingExceptWhatIsCertain) {
     const PointSet p = halton(150, 10);
     const double value = star_of(p);
-    const star::CornerGrid corners = star::corner_grid(p, {});
-    const star::SearchResult part = star::find_worst(corners, {.work = 20'000'000}, {});
-    EXPECT_EQ(part.ending, star::Ending::work);
+    const BoxGrid corners = box_grid(p, Family::anchored, {});
+    const SearchResult part = star::find_worst(corners, {.work = 20'000'000}, {});
+    EXPECT_EQ(part.ending, Ending::work);
     EXPECT_LE(part.worst.value(), value);
     EXPECT_GE(part.upper, value);
     EXPECT_LT(part.upper, 0.7);
@@ -804,16 +803,16 @@ TEST(StarDiscrepancy, SaysSomethingCertainWhenStoppedAtOnce) {
     std::stop_source source;
     const RunContext run{.threads = 1, .stop = source.get_token()};
     const PointSet p = halton(500, 5);
-    const star::CornerGrid corners = star::corner_grid(p, run);
+    const BoxGrid corners = box_grid(p, Family::anchored, run);
     source.request_stop();
-    const star::SearchResult found = star::find_worst(corners, {}, run);
-    EXPECT_EQ(found.ending, star::Ending::stopped);
+    const SearchResult found = star::find_worst(corners, {}, run);
+    EXPECT_EQ(found.ending, Ending::stopped);
     EXPECT_LT(found.upper, 0.7);
     EXPECT_GE(found.upper, star_of(p));
     EXPECT_LE(found.worst.value(), star_of(p));
     EXPECT_GE(found.worst.value(), 0.5 / 500);
-    EXPECT_EQ(star::WorstBox(corners).corner(), std::vector<double>(5, 1.0));
-    EXPECT_EQ(star::WorstBox(corners).points(), 500U);
+    EXPECT_EQ(WorstBox(corners).upper_corner(), std::vector<double>(5, 1.0));
+    EXPECT_EQ(WorstBox(corners).points(), 500U);
     const Report table = analyze("star-discrepancy", p, {{"every", "100"}}, run);
     for (std::size_t row = 0; row < 5; ++row) {
         EXPECT_GE(table.curve("prefixes.lower")[row], 0.001);
@@ -828,20 +827,38 @@ TEST(StarDiscrepancy, QuickBoundsHold) {
         for (const std::size_t n : {1, 2, 9, 60})
             for (const std::uint64_t steps : {2, 5, 1000}) {
                 const PointSet p = on_lattice(n, d, steps, n);
-                for (const auto boxes : {star::Boxes::closed, star::Boxes::half_open}) {
-                    const star::CornerGrid grid = star::corner_grid(p, {}, boxes);
-                    const star::SearchResult exact = star::find_worst(grid, {}, {});
-                    star::WorstBox slab(grid);
-                    star::offer_slabs(grid, slab);
-                    EXPECT_LE(slab.value(), exact.worst.value()) << n << " " << d << " " << steps;
-                    EXPECT_GE(slab.value(), 0.5 / static_cast<double>(n));
+                for (const auto family : {Family::anchored, Family::half_open}) {
+                    const BoxGrid grid = box_grid(p, family, {});
+                    const SearchResult exact = star::find_worst(grid, {}, {});
+                    WorstBox found(grid);
+                    star::offer_axis_boxes(grid, found);
+                    EXPECT_LE(found.value(), exact.worst.value()) << n << " " << d << " " << steps;
+                    EXPECT_GE(found.value(), 0.5 / static_cast<double>(n));
                     EXPECT_GE(star::quick_bound(grid, {}), exact.worst.value())
                         << n << " " << d << " " << steps;
                 }
             }
-    EXPECT_LT(star::quick_bound(star::corner_grid(make("random", points(100'000, 20)), {}), {}),
-              0.75);
-    EXPECT_LT(star::quick_bound(star::corner_grid(halton(100'000, 5), {}), {}), 0.3);
+    const PointSet many = make("random", points(100'000, 20));
+    EXPECT_LT(star::quick_bound(box_grid(many, Family::anchored, {}), {}), 0.85);
+    EXPECT_LT(star::quick_bound(box_grid(halton(100'000, 5), Family::anchored, {}), {}), 0.3);
+}
+
+// On a diagonal, a closed box has as many points as one of its sides; where no point is in the upper
+// part of more than one axis, an open box lacks as many as all of its sides together.
+TEST(StarDiscrepancy, BoundsFromSingleAxesAreReached) {
+    constexpr std::size_t n = 60;
+    PointSet diagonal(n, 3);
+    PointSet apart(n, 2);
+    for (std::size_t i = 0; i < n; ++i) {
+        for (double& x : diagonal[i]) x = (static_cast<double>(i) + 0.5) / n;
+        apart[i][i % 2] = (static_cast<double>(i / 2) + 0.5) / n;
+        apart[i][1 - i % 2] = 0.5 + apart[i][i % 2];
+    }
+    for (const PointSet& p : {diagonal, apart}) {
+        const double bound = star::axis_bound(box_grid(p, Family::anchored, {}), 1);
+        EXPECT_GE(bound, star_of(p));
+        EXPECT_LE(bound, star_of(p) + 1.5 / n);
+    }
 }
 
 // Where the search has no time, either.
@@ -1058,13 +1075,13 @@ TEST(StarDiscrepancy, OtherKindsEndAtLimitsWithBounds) {
     }
 }
 
-// The first climbs count, and a time limit cuts them short, in many dimensions too.
-TEST(StarDiscrepancy, LimitsHoldForTheFirstClimbs) {
+// The first ascents count, and a time limit cuts them short, in many dimensions too.
+TEST(StarDiscrepancy, LimitsHoldForTheFirstAscents) {
     const PointSet p = make("random", points(20, 500));
-    const star::CornerGrid corners = star::corner_grid(p, {});
-    const std::uint64_t all = star::ascend(corners, {}, {}).work;
+    const BoxGrid corners = box_grid(p, Family::anchored, {});
+    const std::uint64_t all = ascend(corners, {}, {}).work;
     for (const std::uint64_t most : {1UL, 100'000UL, 3'000'000UL}) {
-        const star::Ascent part = star::ascend(corners, {.work = most}, {});
+        const Ascent part = ascend(corners, {.work = most}, {});
         EXPECT_LE(part.work, most / 4 + 2 * (20 * 500 + 61 + 42)) << most;
         EXPECT_LT(part.work, all);
     }

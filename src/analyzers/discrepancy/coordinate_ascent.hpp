@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+//
+// Good lower bounds quickly: coordinate ascent from random boxes, and from boxes near those where
+// it ended.
+#pragma once
+
+#include <cstdint>
+
+#include "analyzers/discrepancy/box_grid.hpp"
+#include "analyzers/discrepancy/search_limits.hpp"
+#include "core/run_context.hpp"
+
+namespace stipple::discrepancy {
+
+struct Ascent {
+    WorstBox worst;
+    std::uint64_t work;  ///< comparisons of coordinates
+};
+
+/// The worst box that ascents from up to 200 boxes on each side reach, fewer for large sets; a
+/// lower bound for little work, often the worst of all. Each takes the worst interval on one axis
+/// with the others fixed, until none is worse. Open boxes alone for the largest empty box. One step
+/// there is at least. Deterministic, unless the time or a stop ends it: then with what it has.
+Ascent ascend(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run);
+
+/// A search without end for bad anchored boxes, by threshold accepting: ascents start where others
+/// ended, perturbed on some axes; a worse end is taken for one that is better by less than a
+/// threshold, which falls.
+///
+/// Source  M. Gnewuch, M. Wahlstroem, C. Winzen, SIAM J. Numer. Anal. 50 (2012) 781-807 (threshold
+///         accepting for star discrepancies, there without ascents).
+class ThresholdSearch {
+  public:
+    /// Keeps a reference to the grid.
+    explicit ThresholdSearch(const BoxGrid& grid) : grid_(grid) {}
+
+    /// Some walks more; offers what they find. Deterministic, unless the time ends it.
+    /// @returns the comparisons of coordinates that it took.
+    std::uint64_t go(WorstBox& worst, const SearchLimits& limits, const RunContext& run);
+
+  private:
+    void walk(class BoxAscent& ascent, Side side, std::uint64_t number, WorstBox& worst,
+              const SearchLimits& limits, const RunContext& run) const;
+
+    const BoxGrid& grid_;
+    std::uint64_t round_ = 0;
+};
+
+}  // namespace stipple::discrepancy

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+//
+// The worst of all axis-parallel boxes, by branch and bound.
+#pragma once
+
+#include "analyzers/discrepancy/branch_and_bound.hpp"
+
+namespace stipple::discrepancy::extreme {
+
+/// Bytes that a search with so many threads takes, the grid included.
+double search_memory(const PointSet& points, unsigned threads);
+
+/// Searches on from a box found before; no value is above `upper`.
+SearchResult search(const BoxGrid& grid, WorstBox worst, const SearchLimits& limits,
+                    const RunContext& run, double upper = 1);
+
+/// The same from nothing: coordinate ascents first, which are a part of the work.
+SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run,
+                        double upper = 1);
+
+}  // namespace stipple::discrepancy::extreme

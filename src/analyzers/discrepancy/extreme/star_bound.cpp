@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "analyzers/discrepancy/extreme/star_bound.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "analyzers/discrepancy/star/search.hpp"
+#include "analyzers/discrepancy/star/sweep.hpp"
+
+namespace stipple::discrepancy::extreme {
+namespace {
+
+/// For anchored boxes, with the points of the torus that are at 1 moved to 0.
+BoxGrid anchored_grid(const PointSet& points, Family family, const RunContext& run) {
+    PointSet moved = points;
+    if (family == Family::torus)
+        for (double& x : moved.flat())
+            if (x == 1) x = 0;
+    return box_grid(moved, Family::anchored, run);
+}
+
+/// How many times the star discrepancy it may be, or a little more.
+double factor(Family family, double dimension) {
+    return (family == Family::cube ? std::pow(2, dimension) : std::pow(3, dimension) - 1) *
+           (1 + 0x1p-50);
+}
+
+}  // namespace
+
+double star_bound(const PointSet& points, Family family, const SearchLimits& share,
+                  const RunContext& run) {
+    const auto d = static_cast<double>(points.dimension());
+    const auto n = static_cast<double>(points.count());
+    if (d < 2) return 1;
+    const BoxGrid grid = anchored_grid(points, family, run);
+    const double known = star::quick_bound(grid, run, factor(family, 1), factor(family, d));
+    const double promised = 0.6 * std::sqrt(d / n);  // of random points, about
+    if ((d > 2 && factor(family, d) * promised >= 1) || run.stop.stop_requested()) return known;
+    double bound = 1;
+    if (d > 2) {
+        bound = star::find_worst(grid, share, run).upper;
+    } else {
+        const star::Sweep sweep = star::sweep_2d(grid, share, run);
+        if (sweep.complete) bound = sweep.worst.value();
+    }
+    return std::min(known, factor(family, d) * bound);
+}
+
+SearchLimits share_for_bound(const SearchLimits& limits, const RunContext& run) {
+    constexpr double part = 0.1;
+    constexpr std::uint64_t short_work = 1U << 27;
+    SearchLimits share{.work = limits.work / 10, .deadline = limits.deadline, .tolerance = 0.05};
+    if (limits.timed())
+        share.deadline = run.seconds() + part * (limits.deadline - run.seconds());
+    else
+        share.work = std::min(share.work, short_work);
+    return share;
+}
+
+double quick_bound(const PointSet& points, Family family, const RunContext& run) {
+    RunContext unstopped = run;
+    unstopped.stop = {};
+    const BoxGrid grid = anchored_grid(points, family, unstopped);
+    const auto d = static_cast<double>(points.dimension());
+    return star::quick_bound(grid, run, factor(family, 1), factor(family, d));
+}
+
+}  // namespace stipple::discrepancy::extreme

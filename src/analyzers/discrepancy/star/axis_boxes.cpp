@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "analyzers/discrepancy/star/axis_boxes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace stipple::discrepancy::star {
+namespace {
+
+/// A box that is whole on all axes but one.
+struct AxisBox {
+    double value = -1;
+    std::uint32_t rank = 0;  ///< where it ends on that one
+    std::uint64_t points = 0;
+
+    void take(const AxisBox& other) {
+        if (other.value > value) *this = other;
+    }
+};
+
+/// The points that are in no open one-axis box, as they have a coordinate 1.
+std::vector<bool> points_at_one(const BoxGrid& grid) {
+    std::vector<bool> at_one(grid.count);
+    for (std::size_t k = 0; k < grid.dimension(); ++k)
+        for (std::size_t i = 0; i < grid.count; ++i)
+            if (grid.ranks[k][i] + 1 == grid.values[k].size()) at_one[i] = true;
+    return at_one;
+}
+
+}  // namespace
+
+void offer_axis_boxes(const BoxGrid& grid, WorstBox& worst) {
+    const auto n = static_cast<double>(grid.count);
+    const auto at_one = points_at_one(grid);
+    std::vector<std::uint32_t> corner;
+    for (const auto& values : grid.values)
+        corner.push_back(static_cast<std::uint32_t>(values.size() - 1));
+    for (std::size_t k = 0; k < grid.dimension(); ++k) {
+        const std::uint32_t whole = corner[k];
+        const auto points = points_at(grid, k);
+        std::vector<std::uint32_t> inside(points.size());
+        for (std::size_t i = 0; i < grid.count; ++i)
+            if (!at_one[i]) ++inside[grid.ranks[k][i]];
+        AxisBox open;
+        AxisBox closed;
+        std::uint64_t below = 0;
+        std::uint64_t within = 0;
+        for (std::uint32_t a = 0; a <= whole; ++a) {
+            const double x = grid.values[k][a];
+            open.take({x - static_cast<double>(below) / n, a, below});
+            below += inside[a];
+            within += points[a];
+            closed.take({static_cast<double>(within) / n - x, a, within});
+        }
+        corner[k] = open.rank;
+        worst.offer(Side::open, corner, open.points);
+        corner[k] = closed.rank;
+        worst.offer(Side::closed, corner, closed.points);
+        corner[k] = whole;
+    }
+}
+
+double axis_bound(const BoxGrid& grid, double times) {
+    const auto n = static_cast<double>(grid.count);
+    const auto d = static_cast<double>(grid.dimension());
+    double most = 0;
+    double all = 0;
+    for (std::size_t k = 0; k < grid.dimension(); ++k) {
+        const auto points = points_at(grid, k);
+        double below = 0;
+        double worst = 0;
+        for (std::size_t a = 0; a < points.size(); ++a) {
+            worst = std::max(worst, grid.values[k][a] - below / n);
+            below += points[a];
+            worst = std::max(worst, below / n - grid.values[k][a]);
+        }
+        most = std::max(most, times * worst);
+        all += times * worst;
+    }
+    constexpr double rounding = 0x1p-46;
+    if (d == 1) return most + rounding;
+    const double full = (1 - 1 / d) * std::pow(d, -1 / (d - 1)) + most;
+    const double empty = std::pow(1 - 1 / d, d) + all;
+    return std::min(1.0, std::max(full, empty) * (1 + rounding) + rounding);
+}
+
+}  // namespace stipple::discrepancy::star

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "analyzers/discrepancy/star/cover.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace stipple::discrepancy::star {
+namespace {
+
+/// The grid's values on each axis, rising from 0 to 1.
+std::vector<double> cuts_for(double delta, double dimension) {
+    std::vector<double> cuts{1};
+    const double first = std::pow(1 - delta, 1 / dimension);
+    const double stretch = std::pow(first, 1 - dimension);
+    for (double x = first; x > 0; x = (x - delta) * stretch) cuts.push_back(x);
+    cuts.push_back(0);
+    std::ranges::reverse(cuts);
+    return cuts;
+}
+
+/// The finest grid that has no more corners; empty if it would have no inner ones.
+std::vector<double> finest_cuts(std::size_t dimension, double most_corners) {
+    const auto d = static_cast<double>(dimension);
+    const double most = std::floor(std::pow(most_corners, 1 / d) + 1e-9);
+    if (most < 6) return {};  // delta would be above 1/2
+    double coarse = 1 - 1e-9;
+    double fine = 1e-7;
+    for (int step = 0; step < 60; ++step) {
+        const double middle = std::sqrt(coarse * fine);
+        const double corners = static_cast<double>(cuts_for(middle, d).size());
+        (corners > most ? fine : coarse) = middle;
+    }
+    auto cuts = cuts_for(coarse, d);
+    if (static_cast<double>(cuts.size()) > most) cuts.clear();
+    return cuts;
+}
+
+/// Counts of points at most the corner, for all corners; the last axis is the fastest index.
+std::vector<std::uint32_t> corner_counts(const BoxGrid& grid, const std::vector<double>& cuts,
+                                         const RunContext& run) {
+    const std::size_t side = cuts.size();
+    std::size_t corners = 1;
+    std::vector<std::uint32_t> corner_of(grid.count);
+    for (std::size_t k = 0; k < grid.dimension(); ++k, corners *= side) {
+        run.check_stop();
+        std::vector<std::uint32_t> above;  // for each value, the first cut that is not below it
+        std::uint32_t at = 0;
+        for (const double x : grid.values[k]) {
+            while (cuts[at] < x) ++at;
+            above.push_back(at);
+        }
+        for (std::size_t i = 0; i < grid.count; ++i)
+            corner_of[i] =
+                corner_of[i] * static_cast<std::uint32_t>(side) + above[grid.ranks[k][i]];
+    }
+    std::vector<std::uint32_t> counts(corners);
+    for (const std::uint32_t corner : corner_of) ++counts[corner];
+    for (std::size_t stride = 1; stride < corners; stride *= side)
+        for (std::size_t first = 0; first < corners; first += stride * side) {
+            if (first % (std::size_t{1} << 20) < stride * side) run.check_stop();
+            std::uint32_t* at = counts.data() + first;
+            for (std::size_t i = stride; i < stride * side; ++i) at[i] += at[i - stride];
+        }
+    return counts;
+}
+
+/// The worst cell's bound.
+class Cover {
+  public:
+    Cover(const BoxGrid& grid, const std::vector<double>& cuts, const RunContext& run)
+        : axes_(grid.dimension()),
+          points_(static_cast<double>(grid.count)),
+          cuts_(cuts),
+          run_(run),
+          counts_(corner_counts(grid, cuts, run)) {
+        for (std::size_t k = 1; k < axes_; ++k) across_ = across_ * cuts.size() + 1;
+    }
+
+    double worst() {
+        visit(0, 0, 1, 1);
+        return worst_;
+    }
+
+  private:
+    /// Cells whose lower corners have index `base` and these volumes on the axes before.
+    void visit(std::size_t axis, std::size_t base, double low, double high) {
+        if (axis + 1 == axes_) return visit_line(base * cuts_.size(), low, high);
+        for (std::size_t i = 0; i + 1 < cuts_.size(); ++i)
+            visit(axis + 1, base * cuts_.size() + i, low * cuts_[i], high * cuts_[i + 1]);
+    }
+
+    void visit_line(std::size_t base, double low, double high) {
+        if (++lines_ % 65536 == 0) run_.check_stop();
+        const std::uint32_t* below = counts_.data() + base;
+        const std::uint32_t* within = below + across_;
+        double worst = worst_;
+        for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {
+            const double open = high * cuts_[i + 1] - below[i] / points_;
+            const double closed = within[i] / points_ - low * cuts_[i];
+            worst = std::max(worst, std::max(open, closed));
+        }
+        worst_ = worst;
+    }
+
+    std::size_t axes_;
+    double points_;
+    const std::vector<double>& cuts_;
+    const RunContext& run_;
+    std::vector<std::uint32_t> counts_;
+    std::size_t across_ = 1;  ///< from the index of a cell's lower corner to that of the upper one
+    std::size_t lines_ = 0;
+    double worst_ = 0;
+};
+
+}  // namespace
+
+double cover_bound(const BoxGrid& grid, std::uint64_t most_corners, const RunContext& run) {
+    const std::size_t d = grid.dimension();
+    const auto cuts = finest_cuts(d, std::min(static_cast<double>(most_corners), 0x1p31));
+    if (cuts.empty()) return 1;
+    const double worst = Cover(grid, cuts, run).worst();
+    const double rounding = 4e-16 * static_cast<double>(d + 2);
+    return std::min(1.0, worst + rounding);
+}
+
+}  // namespace stipple::discrepancy::star
