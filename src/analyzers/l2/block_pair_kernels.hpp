@@ -101,7 +101,8 @@ STIPPLE_INLINE Group where_less(const Group& a, const Group& b, const Group& x, 
              where_less(a.at[3], b.at[3], x.at[3], y.at[3])}};
 }
 
-/// A number and its error term, of a vector or a group of them.
+/// A number and its error term, of a vector or a group of them. Of groups, either is to be assigned,
+/// not the whole: GCC copies a structure by halves of vectors, and loads then wait for the stores.
 template <class T>
 struct Compensated {
     T value;
@@ -124,8 +125,10 @@ STIPPLE_INLINE Compensated<Group> raised(const Group& a, const Group& b, const G
 /// The same, less the offset.
 STIPPLE_INLINE Compensated<Group> raised(const Group& a, const Group& b,
                                          const AxisConstants& axis) {
-    const auto [high, low] = raised(a, b, all(same(axis.base)));
-    return {high - all(same(axis.offset)), low + all(same(axis.base_error))};
+    Compensated<Group> out = raised(a, b, all(same(axis.base)));
+    out.value = out.value - all(same(axis.offset));
+    out.error = out.error + all(same(axis.base_error));
+    return out;
 }
 
 /// |x - y| - vertex of positions in column 0, position - vertex in column 1 and, if there are any,
@@ -207,9 +210,10 @@ struct Bernoulli {
                                                     const AxisConstants& axis) {
         const auto [u, rest] = from_vertex<relation, rests>(row, block, axis);
         if constexpr (!compensated) return raised(u, u, all(same(axis.base)));
-        const auto [value, error] = raised(u, u, axis);
-        if constexpr (!rests) return {value, error};
-        return {value, fused(u + u, rest, error)};
+        if constexpr (!rests) return raised(u, u, axis);
+        Compensated<Group> out = raised(u, u, axis);
+        out.error = fused(u + u, rest, out.error);
+        return out;
     }
 };
 
@@ -226,10 +230,10 @@ struct Mixture {
         constexpr std::size_t height = (columns_of_factor - 2) * block_width;
         constexpr std::size_t error = (columns_of_factor - 1) * block_width;
         const auto [u, rest] = from_vertex<relation, rests>(row, block, axis);
-        const Compensated<Group> out = raised(u, u, columns(block + height) + rows(row + height));
-        const Group errors = out.error + (columns(block + error) + rows(row + error));
-        if constexpr (!rests) return {out.value, errors};
-        return {out.value, fused(u + u, rest, errors)};
+        Compensated<Group> out = raised(u, u, columns(block + height) + rows(row + height));
+        out.error = out.error + (columns(block + error) + rows(row + error));
+        if constexpr (rests) out.error = fused(u + u, rest, out.error);
+        return out;
     }
 };
 
@@ -247,19 +251,11 @@ struct OnePlusMinima {
         const Group room = where_less(x, y, columns(block + block_width), rows(row + block_width));
         const Group room_error =
             where_less(x, y, columns(block + 2 * block_width), rows(row + 2 * block_width));
-        const auto [value, error] = raised(lower, room, axis);
-        return {value, fused(lower, room_error, error)};
+        Compensated<Group> out = raised(lower, room, axis);
+        out.error = fused(lower, room_error, out.error);
+        return out;
     }
 };
-
-/// A product's first factor.
-template <class Kernel>
-STIPPLE_INLINE Compensated<Group> product_of(const Compensated<Group>& first) {
-    if constexpr (Kernel::rounding != Rounding::above_one) return first;
-    const Group one = all(same(1));
-    const Group value = first.value + one;
-    return {value, first.value - (value - one)};
-}
 
 template <class Kernel, class T>
 STIPPLE_INLINE void multiply(Compensated<T>& product, const Compensated<T>& by) {
@@ -305,7 +301,12 @@ STIPPLE_INLINE Compensated<Group> first_factor(const GroupPair& g, std::size_t k
     const PointProducts& own = g.pair.column_products;
     if constexpr (Kernel::separates) return {columns(own.value + k), columns(own.error + k)};
     const std::size_t factor = g.pair.steps.front().factor;
-    return product_of<Kernel>(factor_of<Kernel, BlockRelation::mixed>(g, factor, k));
+    if constexpr (Kernel::rounding != Rounding::above_one)
+        return factor_of<Kernel, BlockRelation::mixed>(g, factor, k);
+    const Group more = factor_of<Kernel, BlockRelation::mixed>(g, factor, k).value;
+    const Group one = all(same(1));
+    const Group value = more + one;
+    return {value, more - (value - one)};
 }
 
 /// The products of a group of rows with as many of a block's points as a vector holds, from the

@@ -188,10 +188,10 @@ bool is_two_sided(const PointSet& points, Kind kind, const AxisWeights& weights)
 class LongProduct {
   public:
     void multiply(const DoubleDouble& factor) {
-        constexpr int room = 300;
+        constexpr int safe = 300;
         value_ = value_ * factor;
         const int exponent = value_.high == 0 ? 0 : std::ilogb(value_.high);
-        if (std::abs(exponent) < room) return;
+        if (std::abs(exponent) < safe) return;
         value_ = {std::ldexp(value_.high, -exponent), std::ldexp(value_.low, -exponent)};
         exponent_ += exponent;
     }
@@ -387,7 +387,7 @@ Factors factors_of(const Axes& axes) {
 }
 
 /// Products may reach so far above 1, or come so far back from below, in binary digits.
-constexpr double room = 850;
+constexpr double safe_digits = 850;
 
 BlockTable table_of(PairForm form, const Numbers& numbers, const Scaling& scaling,
                     std::vector<AxisConstants> constants, const std::vector<std::size_t>& order) {
@@ -399,7 +399,7 @@ BlockTable table_of(PairForm form, const Numbers& numbers, const Scaling& scalin
                 root * axis.vertex};
         roots.push_back(root);
     }
-    BlockTable table(form, order.size(), std::move(constants), scaling.any_order <= room);
+    BlockTable table(form, order.size(), std::move(constants), scaling.any_order <= safe_digits);
     for (std::size_t i = 0; i < order.size(); ++i)
         for (std::size_t f = 0; f < numbers.factors; ++f) {
             const PointNumbers& point = numbers.of[order[i] * numbers.factors + f];
