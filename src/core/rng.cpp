@@ -3,6 +3,7 @@
 
 #include <Random123/philox.h>
 
+#include "core/int128.hpp"
 #include "core/philox_avx2.hpp"
 
 namespace stipple {
@@ -34,7 +35,7 @@ std::array<std::uint32_t, 4> philox_block(const std::array<std::uint32_t, 4>& co
 std::uint64_t Rng::bits(std::uint64_t i) const { return block(seed_, stream_, i / 2)[i % 2]; }
 
 std::uint64_t Rng::below(std::uint64_t i, std::uint64_t n) const {
-    return static_cast<std::uint64_t>((static_cast<unsigned __int128>(bits(i)) * n) >> 64);
+    return high_half(wide_product(bits(i), n));
 }
 
 void Rng::fill(std::uint64_t first, std::span<double> out) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What a computation may know of the world outside: nothing but this, passed down.
+// Execution context of a computation: threads, progress, cancellation, memory limit. Nothing else of
+// the world outside reaches it, and none of this changes a result.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +14,7 @@
 namespace stipple {
 
 struct RunContext {
-    std::uint64_t seed = 1;
-
-    /// Threads to use, 0 for all cores; never changes a result.
+    /// Threads to use, 0 for all cores.
     unsigned threads = 0;
 
     /// Called with the fraction done, in [0, 1] and rising; from one thread at a time.

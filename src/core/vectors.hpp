@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// For code that is compiled once for every width of vectors, where STIPPLE_WIDE cannot be used:
-// templates, and products that are added before they are rounded. Such code stands in a file that
-// is included under `#pragma GCC target` in one namespace after the other.
+// For code that is compiled once for every width of vectors where STIPPLE_WIDE cannot be used:
+// templates, and products that are added before they are rounded. core/vector_widths.hpp includes
+// such code once for every width; pick_vectors() chooses between the results.
 #pragma once
 
-// One instruction adds a product without rounding it where there is one, and a slow function else.
+#include <algorithm>
+
+// Other compilers have no pragma for the instructions of a part of a file.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
 #include <immintrin.h>
 #define STIPPLE_PICKS_VECTORS
@@ -22,11 +24,28 @@ enum class Vectors { anywhere, fours, eights };
 inline Vectors widest_vectors() {
 #ifdef STIPPLE_PICKS_VECTORS
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512vl"))
+        __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
         return Vectors::eights;
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return Vectors::fours;
+    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+        __builtin_cpu_supports("bmi"))
+        return Vectors::fours;
 #endif
     return Vectors::anywhere;
+}
+
+/// Of one thing for each width, that of the widest vectors here, or of narrower ones.
+template <class T>
+const T& pick_vectors(const T& anywhere, const T& fours, const T& eights,
+                      Vectors widest = Vectors::eights) {
+    static const Vectors here = widest_vectors();
+    switch (std::min(widest, here)) {
+        case Vectors::eights:
+            return eights;
+        case Vectors::fours:
+            return fours;
+        default:
+            return anywhere;
+    }
 }
 
 }  // namespace stipple

@@ -13,10 +13,10 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "core/int128.hpp"
+
 namespace stipple::io {
 namespace {
-
-__extension__ using Wide = unsigned __int128;
 
 constexpr std::size_t longest = 25;  // "-1.2345678901234567e-308" and one to spare
 
@@ -34,7 +34,7 @@ std::uint64_t cut_fraction(double fraction, int precision) {
     if (biased == 0 || shift >= 128) return 0;
     const std::uint64_t c = (bits & ((std::uint64_t{1} << 52) - 1)) | std::uint64_t{1} << 52;
     // Below 2^53 * 10^19 < 2^117.
-    const Wide product = Wide{c} * small_powers_of_10[static_cast<std::size_t>(precision)];
+    const Uint128 product = Uint128{c} * small_powers_of_10[static_cast<std::size_t>(precision)];
     return static_cast<std::uint64_t>(product >> shift);
 }
 

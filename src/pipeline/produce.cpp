@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "core/int128.hpp"
 #include "core/text.hpp"
 #include "generators/density_options.hpp"
 #include "io/carried_meta.hpp"
@@ -302,8 +303,7 @@ class Producer {
     /// The shard's rows [first, last) of `count`.
     [[nodiscard]] std::pair<std::uint64_t, std::uint64_t> part(std::uint64_t count) const {
         const auto cut = [&](std::uint64_t index) {
-            return static_cast<std::uint64_t>(static_cast<unsigned __int128>(count) * index /
-                                              job_.shard.of);
+            return static_cast<std::uint64_t>(Uint128{count} * index / job_.shard.of);
         };
         const auto first = cut(job_.shard.index);
         const auto last = cut(job_.shard.index + 1);

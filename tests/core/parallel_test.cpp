@@ -37,8 +37,8 @@ TEST(Parallel, ErrorsOfBlocksComeOut) {
 }
 
 TEST(Parallel, OnlyLongWorkIsWorthThreads) {
-    const RunContext run{.seed = 9, .threads = 8};
+    const RunContext run{.threads = 8, .max_memory = 9};
     EXPECT_EQ(worth_threads(run, 1).thread_count(), 8);
     EXPECT_EQ(worth_threads(run, 1e-4).thread_count(), 1);
-    EXPECT_EQ(worth_threads(run, 1e-4).seed, 9);
+    EXPECT_EQ(worth_threads(run, 1e-4).max_memory, 9);
 }

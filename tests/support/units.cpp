@@ -8,9 +8,10 @@ Request points(std::uint64_t count, std::size_t dimension, std::uint64_t start) 
 }
 
 PointSet make(std::string_view generator, Request request, const Settings& settings,
-              const RunContext& run) {
-    request.seed = run.seed;
-    return generate(generator, request, settings, run);
+              const Seeded& seeded) {
+    request.seed = seeded.seed;
+    return generate(generator, request, settings,
+                    {.threads = seeded.threads, .max_memory = seeded.max_memory});
 }
 
 PointSet points_of(const std::vector<std::vector<double>>& rows) {

@@ -3,6 +3,9 @@
 // Short ways for tests to make and measure point sets.
 #pragma once
 
+#include <concepts>
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,9 +18,23 @@ namespace stipple::testing {
 /// Count and dimension, and what else a request has.
 Request points(std::uint64_t count, std::size_t dimension, std::uint64_t start = 0);
 
-/// The generator's points for that request; the seed is run.seed.
+/// A request's seed, and what of a run tests like to choose.
+struct Seeded {
+    std::uint64_t seed = 1;
+    unsigned threads = 0;
+    std::uint64_t max_memory = std::numeric_limits<std::uint64_t>::max();
+};
+
+/// The generator's points for that request, whose own seed does not count.
 PointSet make(std::string_view generator, Request request, const Settings& settings = {},
-              const RunContext& run = {});
+              const Seeded& seeded = {});
+
+/// The same in a given run; a template, so that braces are a Seeded.
+template <std::same_as<RunContext> Run>
+PointSet make(std::string_view generator, const Request& request, const Settings& settings,
+              const Run& run) {
+    return generate(generator, request, settings, run);
+}
 
 /// A set of the given points.
 PointSet points_of(const std::vector<std::vector<double>>& rows);

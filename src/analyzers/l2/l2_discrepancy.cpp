@@ -45,12 +45,10 @@
 #include <limits>
 
 #include "analyzers/analyzer.hpp"
-#include "analyzers/l2/l2_carried.hpp"
-#include "analyzers/l2/l2_divide.hpp"
-#include "analyzers/l2/l2_kind.hpp"
-#include "analyzers/l2/l2_pairs.hpp"
-#include "analyzers/l2/l2_plane.hpp"
-#include "analyzers/l2/l2_twins.hpp"
+#include "analyzers/l2/divide_and_conquer.hpp"
+#include "analyzers/l2/kinds.hpp"
+#include "analyzers/l2/pair_sums.hpp"
+#include "analyzers/l2/planar.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 
@@ -93,7 +91,7 @@ Report result_of(double squared, const char* method) {
 }
 
 Report in_plane(const PointSet& points, const std::vector<l2::Kind>& kinds,
-                const std::vector<double>& weights, const RunContext& run) {
+                const l2::AxisWeights& weights, const RunContext& run) {
     run.need_memory(static_cast<double>(points.count()) * 48, "the sums of l2-discrepancy");
     const l2::PlaneSums sums = l2::plane_sums(points, run);
     Report results;
@@ -112,10 +110,9 @@ double error_of_root(double squared, double error) {
 }
 
 /// Says so where all pairs take more than some ten minutes on one core.
-void warn_of_pairs(std::size_t n, std::size_t d, l2::Kind which, bool carried,
-                   const RunContext& run) {
+void warn_of_pairs(std::size_t n, std::size_t d, l2::Kind which, const RunContext& run) {
     const double pairs = static_cast<double>(n) * static_cast<double>(n) / 2;
-    const double seconds = (carried ? 0.6e-9 : 4e-9) * pairs * static_cast<double>(d);
+    const double seconds = 0.6e-9 * pairs * static_cast<double>(d);
     if (seconds < 600) return;
     run.tell(
         fmt::format("{} l2-discrepancy takes all pairs of {} points in {} dimensions, some "
@@ -135,21 +132,7 @@ Report off_by(const l2::Square& square, l2::Kind which, const char* method, cons
     return result_of(square.squared, method).add("error", error);
 }
 
-/// Of products that leave the range of doubles with their corrections: from plain doubles where
-/// what they lose is little enough.
-l2::Square near_enough(const PointSet& points, l2::Kind which, const std::vector<double>& weights,
-                       const RunContext& run) {
-    constexpr double near = 1e-12;
-    constexpr double plain_share = 0.05;  // of the time of twins
-    if (l2::twins_are_quick(points.count(), points.dimension()))
-        return l2::twin_square(points, which, weights, run);
-    const l2::Square plain = l2::pair_square(points, which, weights, run.stage(0, plain_share));
-    const double value = std::sqrt(std::max(plain.squared, 0.0));
-    if (error_of_root(plain.squared, plain.error) <= near * value) return plain;
-    return l2::twin_square(points, which, weights, run.stage(plain_share, 1));
-}
-
-Report in_space(const PointSet& points, l2::Kind which, const std::vector<double>& weights,
+Report in_space(const PointSet& points, l2::Kind which, const l2::AxisWeights& weights,
                 const RunContext& run) {
     const std::size_t n = points.count();
     const std::size_t d = points.dimension();
@@ -158,18 +141,13 @@ Report in_space(const PointSet& points, l2::Kind which, const std::vector<double
         return off_by(l2::divide_square(points, which, weights, run), which, "divide-and-conquer",
                       run);
     }
-    const bool carried = l2::carries(d, which, weights);
-    warn_of_pairs(n, d, which, carried, run);
-    const double columns = carried ? 16 : 3;
-    run.need_memory((columns * static_cast<double>(d) + 1) * static_cast<double>(n) * 8,
-                    "the tables of l2-discrepancy");
-    return off_by(carried ? l2::carried_square(points, which, weights, run)
-                          : near_enough(points, which, weights, run),
-                  which, "all-pairs", run);
+    warn_of_pairs(n, d, which, run);
+    run.need_memory(l2::pair_memory(n, d), "the tables of l2-discrepancy");
+    return off_by(l2::pair_square(points, which, weights, run), which, "all-pairs", run);
 }
 
 Report in_spaces(const PointSet& points, const std::vector<l2::Kind>& kinds,
-                 const std::vector<double>& weights, const RunContext& run) {
+                 const l2::AxisWeights& weights, const RunContext& run) {
     Report results;
     const auto parts = static_cast<double>(kinds.size());
     for (std::size_t i = 0; i < kinds.size(); ++i) {

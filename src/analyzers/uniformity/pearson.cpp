@@ -11,6 +11,7 @@
 
 #include "analyzers/uniformity/cell_grid.hpp"
 #include "core/error.hpp"
+#include "core/int128.hpp"
 
 namespace stipple::analyzers {
 namespace {
@@ -142,7 +143,6 @@ double doubt_of(double statistic, const std::vector<Group>& groups) {
 }  // namespace
 
 Fit fit_equal(std::span<const std::uint64_t> counts, std::uint64_t n, const RunContext& run) {
-    using Wide = __int128;
     const std::uint64_t total = counts.size();
     const std::uint64_t size = group_size(n, total);
     Fit found{.groups = total / size, .pooled = size > 1 ? total : 0};
@@ -154,8 +154,8 @@ Fit fit_equal(std::span<const std::uint64_t> counts, std::uint64_t n, const RunC
         std::uint64_t observed = 0;
         for (std::uint64_t c = first; c < last; ++c) observed += counts[c];
         // K (O - E) and K n E are whole numbers.
-        const auto scaled = static_cast<double>(static_cast<Wide>(observed) * total -
-                                                static_cast<Wide>(last - first) * n);
+        const auto scaled = static_cast<double>(static_cast<Int128>(observed) * total -
+                                                static_cast<Int128>(last - first) * n);
         const double expected = static_cast<double>(n) *
                                 (static_cast<double>(last - first) / static_cast<double>(total));
         const double off = scaled / static_cast<double>(total);

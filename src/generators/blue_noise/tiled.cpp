@@ -43,6 +43,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/int128.hpp"
 #include "core/wide.hpp"
 #include "generators/blue_noise/ranked_tile.hpp"
 #include "generators/blue_noise/thinned_tiles.hpp"
@@ -112,8 +113,7 @@ class Tiles final : public Sequence {
 
     /// Point j of the last rank.
     std::uint64_t fill_last(std::uint64_t j, double* out) const {
-        __extension__ using Product = unsigned __int128;
-        const auto place = static_cast<std::uint64_t>(Product{j} * tiling_.tiles() / last_count_);
+        const auto place = static_cast<std::uint64_t>(Uint128{j} * tiling_.tiles() / last_count_);
         out[0] = (static_cast<double>(place % tiling_.columns) + tile_.back().x) /
                  static_cast<double>(tiling_.columns);
         out[1] = (static_cast<double>(place / tiling_.columns) + tile_.back().y) /

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/int128.hpp"
+
 namespace stipple {
 
 std::uint64_t binomial(std::uint64_t n, std::uint64_t k) {
     if (k > n) return 0;
     k = std::min(k, n - k);
-    unsigned __int128 value = 1;
+    Uint128 value = 1;
     for (std::uint64_t i = 1; i <= k; ++i) {
         value = value * (n - k + i) / i;  // C(n - k + i, i), a whole number, rising
         if (value > std::numeric_limits<std::uint64_t>::max())

@@ -10,6 +10,8 @@
 
 #include <cstdint>
 
+#include "core/int128.hpp"
+
 namespace stipple {
 
 class Mixer {
@@ -25,8 +27,7 @@ class Mixer {
 
     /// Uniform in {0, ..., n - 1}, each within 2^-64 of 1/n.
     constexpr std::uint64_t below(std::uint64_t n) {
-        __extension__ using Product = unsigned __int128;
-        return static_cast<std::uint64_t>((Product{next()} * n) >> 64);
+        return static_cast<std::uint64_t>((Uint128{next()} * n) >> 64);
     }
 
   private:

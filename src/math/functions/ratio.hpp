@@ -5,9 +5,11 @@
 
 #include <cstdint>
 
+#include "core/int128.hpp"
+
 namespace stipple {
 
-__extension__ using Wide = unsigned __int128;
+using Wide = Uint128;
 
 /// Whole numbers up to this are doubles, and one division of two of them is correctly rounded.
 inline constexpr std::uint64_t exact_limit = std::uint64_t{1} << 53;

@@ -5,13 +5,12 @@
 #include <numeric>
 #include <optional>
 
+#include "core/int128.hpp"
 #include "math/functions/powers.hpp"
 #include "math/functions/ratio.hpp"
 
 namespace stipple {
 namespace {
-
-__extension__ using Long = __int128;
 
 struct Vector {
     std::int64_t x;
@@ -36,7 +35,7 @@ Bezout bezout(std::int64_t a, std::int64_t b) {
     return now;
 }
 
-constexpr Long modulo(Long a, Long m) { return (a % m + m) % m; }
+constexpr Int128 modulo(Int128 a, Int128 m) { return (a % m + m) % m; }
 
 /// The v with u x v = n that is nearest to half of u, or minus that, along u; none if there is no
 /// v.
@@ -44,14 +43,14 @@ std::optional<Vector> partner(Vector u, std::int64_t n) {
     const Bezout unit = bezout(u.x, u.y);
     const std::int64_t g = unit.divisor;
     if (n % g != 0) return std::nullopt;
-    const Long vx = -Long{unit.t} * (n / g);
-    const Long vy = Long{unit.s} * (n / g);
-    const Long norm = Long{u.x} * u.x + Long{u.y} * u.y;
-    const Long along = vx * u.x + vy * u.y;
-    const Long step = norm / g;  // of `along`, when u / g is added to v
-    const Long upper = norm / 2 - modulo(norm / 2 - along, step);
-    const Long lower = -(norm / 2) + modulo(norm / 2 + along, step);
-    const Long turns = ((upper >= -lower ? upper : lower) - along) / step;
+    const Int128 vx = -Int128{unit.t} * (n / g);
+    const Int128 vy = Int128{unit.s} * (n / g);
+    const Int128 norm = Int128{u.x} * u.x + Int128{u.y} * u.y;
+    const Int128 along = vx * u.x + vy * u.y;
+    const Int128 step = norm / g;  // of `along`, when u / g is added to v
+    const Int128 upper = norm / 2 - modulo(norm / 2 - along, step);
+    const Int128 lower = -(norm / 2) + modulo(norm / 2 + along, step);
+    const Int128 turns = ((upper >= -lower ? upper : lower) - along) / step;
     return Vector{static_cast<std::int64_t>(vx + turns * (u.x / g)),
                   static_cast<std::int64_t>(vy + turns * (u.y / g))};
 }
@@ -87,7 +86,7 @@ TorusPacking rows_of(const Basis& basis, std::int64_t n) {
     const Bezout unit = bezout(std::abs(u.y), std::abs(v.y));
     const std::int64_t s = u.y < 0 ? -unit.s : unit.s;
     const std::int64_t t = v.y < 0 ? -unit.t : unit.t;
-    const Long shift = modulo(Long{s} * u.x + Long{t} * v.x, n / unit.divisor);
+    const Int128 shift = modulo(Int128{s} * u.x + Int128{t} * v.x, n / unit.divisor);
     return {.row_points = static_cast<std::uint64_t>(unit.divisor),
             .shift = static_cast<std::uint64_t>(shift),
             .shortest = norm(u)};

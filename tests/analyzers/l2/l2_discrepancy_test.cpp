@@ -6,12 +6,14 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
+#include <tuple>
 
-#include "analyzers/l2/l2_carried.hpp"
-#include "analyzers/l2/l2_divide.hpp"
-#include "analyzers/l2/l2_pairs.hpp"
-#include "analyzers/l2/l2_twins.hpp"
+#include "analyzers/l2/divide_and_conquer.hpp"
+#include "analyzers/l2/pair_sums.hpp"
+#include "core/int128.hpp"
 #include "core/rng.hpp"
+#include "math/functions/double_double.hpp"
 #include "support/exact.hpp"
 #include "support/lattices.hpp"
 #include "support/units.hpp"
@@ -25,7 +27,7 @@ namespace {
 using Weights = std::vector<double>;
 
 const Fraction half(1, 2);
-Fraction bend(const Fraction& x) { return abs(x - half); }
+Fraction from_middle(const Fraction& x) { return abs(x - half); }
 
 /// A kind by its definition: its kernel on an axis, the kernel's mean and the mean of that.
 struct Definition {
@@ -52,18 +54,20 @@ const Definition definitions[] = {
     {"periodic", false, wrapped, third, Fraction(1, 3)},
     {"centered", true,
      [](const Fraction& x, const Fraction& y) -> Fraction {
-         return (bend(x) + bend(y) - abs(x - y)) / 2;
+         return (from_middle(x) + from_middle(y) - abs(x - y)) / 2;
      },
-     [](const Fraction& x) -> Fraction { return (bend(x) - bend(x) * bend(x)) / 2; },
+     [](const Fraction& x) -> Fraction {
+         return (from_middle(x) - from_middle(x) * from_middle(x)) / 2;
+     },
      Fraction(1, 12)},
     {"wraparound", true, wrapped, third, Fraction(1, 3)},
     {"mixture", true,
      [](const Fraction& x, const Fraction& y) -> Fraction {
          const Fraction t = abs(x - y);
-         return Fraction(7, 8) - bend(x) / 4 - bend(y) / 4 - t * 3 / 4 + t * t / 2;
+         return Fraction(7, 8) - from_middle(x) / 4 - from_middle(y) / 4 - t * 3 / 4 + t * t / 2;
      },
      [](const Fraction& x) -> Fraction {
-         return Fraction(2, 3) - bend(x) / 4 - bend(x) * bend(x) / 4;
+         return Fraction(2, 3) - from_middle(x) / 4 - from_middle(x) * from_middle(x) / 4;
      },
      Fraction(7, 12)},
     {"modified", true, falling, falling_mean, Fraction(1, 3)},
@@ -117,6 +121,108 @@ Fraction product_square(std::span<const double> line, const Definition& kind, in
         products *= pairs;
     }
     return totals - 2 * means + products;
+}
+
+/// Numbers of 104 bits and a power of two, for products of any size.
+struct Precise {
+    DoubleDouble number;
+    int exponent = 0;
+
+    void multiply(const DoubleDouble& by) {
+        number = number * by;
+        if (number.high == 0) return;
+        const int shift = std::ilogb(number.high);
+        number = {std::ldexp(number.high, -shift), std::ldexp(number.low, -shift)};
+        exponent += shift;
+    }
+    [[nodiscard]] DoubleDouble over(int unit) const {
+        return {std::ldexp(number.high, exponent - unit), std::ldexp(number.low, exponent - unit)};
+    }
+};
+
+DoubleDouble negative(const DoubleDouble& x) { return {-x.high, -x.low}; }
+DoubleDouble magnitude(const DoubleDouble& x) { return x.high < 0 ? negative(x) : x; }
+DoubleDouble times(double a, const DoubleDouble& x) { return DoubleDouble{a, 0} * x; }
+
+/// A kernel on an axis by its definition.
+DoubleDouble kernel_of(Kind kind, double x, double y) {
+    const DoubleDouble t = magnitude(exact_sum(x, -y));
+    const DoubleDouble u = magnitude(exact_sum(x, -0.5));
+    const DoubleDouble v = magnitude(exact_sum(y, -0.5));
+    const DoubleDouble parabola = t * (t + DoubleDouble{-1, 0});
+    switch (kind) {
+        case Kind::star:
+        case Kind::modified:
+            return exact_sum(1, -std::max(x, y));
+        case Kind::extreme:
+            return times(std::min(x, y), exact_sum(1, -std::max(x, y)));
+        case Kind::centered:
+            return times(0.5, u + v + negative(t));
+        case Kind::mixture:
+            return DoubleDouble{0.875, 0} + times(-0.25, u + v + times(3, t)) + times(0.5, t * t);
+        case Kind::diaphony: {
+            const DoubleDouble sixth{1.0 / 6, 0x1.5555555555555p-57};
+            return times(2 * std::numbers::pi * std::numbers::pi, sixth + parabola);
+        }
+        default:
+            return DoubleDouble{0.5, 0} + parabola;
+    }
+}
+
+/// The mean of a kernel over y, and with no x the mean of that.
+DoubleDouble mean_of(Kind kind, std::optional<double> x) {
+    const DoubleDouble third{1.0 / 3, 0x1.5555555555555p-56};
+    const DoubleDouble u = magnitude(exact_sum(x.value_or(0), -0.5));
+    switch (kind) {
+        case Kind::star:
+        case Kind::modified:
+            if (!x) return third;
+            return times(0.5, DoubleDouble{1, 0} + negative(exact_product(*x, *x)));
+        case Kind::extreme:
+        case Kind::centered:
+            if (!x) return times(0.25, third);
+            return kind == Kind::extreme ? times(0.5 * *x, exact_sum(1, -*x))
+                                         : times(0.5, u + negative(u * u));
+        case Kind::mixture:
+            if (!x) return times(1.75, third);
+            return times(2, third) + times(-0.25, u + u * u);
+        case Kind::diaphony:
+            return {0, 0};
+        default:
+            return third;
+    }
+}
+
+/// Oracle: the square pair by pair, by the definitions; off by some 2^-90 of the largest sum, for
+/// sums that doubles hold.
+double plain_square(const PointSet& set, Kind kind, const Weights& weights = {}) {
+    const std::size_t n = set.count();
+    const bool alone = weights.empty() && !analyzers::l2::record_of(kind).projections;
+    const auto product = [&](const auto& kernel) {
+        Precise all{{1, 0}};
+        for (std::size_t j = 0; j < set.dimension(); ++j) {
+            const DoubleDouble k = times(weights.empty() ? 1 : weights[j], kernel(j));
+            all.multiply(alone ? k : DoubleDouble{1, 0} + k);
+        }
+        return all;
+    };
+    const Precise total = product([&](std::size_t) { return mean_of(kind, {}); });
+    const int unit = total.exponent;
+    DoubleDouble means;
+    DoubleDouble pairs;
+    for (std::size_t i = 0; i < n; ++i) {
+        means = means + product([&](std::size_t j) { return mean_of(kind, set[i][j]); }).over(unit);
+        for (std::size_t k = 0; k <= i; ++k) {
+            const auto pair =
+                product([&](std::size_t j) { return kernel_of(kind, set[i][j], set[k][j]); });
+            pairs = pairs + times(k < i ? 2 : 1, pair.over(unit));
+        }
+    }
+    const Fraction count = n;
+    const auto exact = [](const DoubleDouble& x) { return exactly(x.high) + exactly(x.low); };
+    const Fraction squared =
+        exact(total.over(unit)) - 2 * exact(means) / count + exact(pairs) / (count * count);
+    return std::ldexp(static_cast<double>(squared), unit);
 }
 
 Settings settings_of(const char* kinds, const Weights& weights) {
@@ -360,10 +466,9 @@ TEST(L2Discrepancy, OfALatticeIsASingleSum) {
         const std::uint64_t j = i * step % n;
         set[i][0] = std::ldexp(static_cast<double>(i), -20);
         set[i][1] = std::ldexp(static_cast<double>(j), -20);
-        __extension__ using Long = __int128;
-        const auto a = static_cast<Long>(n * n - 2 * i * (n - i));
-        const auto b = static_cast<Long>(n * n - 2 * j * (n - j));
-        const auto whole = static_cast<Long>(2 * n * n);
+        const auto a = static_cast<Int128>(n * n - 2 * i * (n - i));
+        const auto b = static_cast<Int128>(n * n - 2 * j * (n - j));
+        const auto whole = static_cast<Int128>(2 * n * n);
         periodic += cpp_int(a * b);
         wraparound += cpp_int((a + whole) * (b + whole));
     }
@@ -400,7 +505,8 @@ TEST(L2Discrepancy, OfThePlaneIsThatOfAllPairs) {
             const Report report = report_of(set);
             for (const Kind kind : analyzers::l2::all_kinds) {
                 const auto pairs = analyzers::l2::pair_square(set, kind, {}, {});
-                EXPECT_NEAR(squared(report, name_of(kind)), pairs.squared, pairs.error)
+                EXPECT_NEAR(squared(report, name_of(kind)), pairs.squared,
+                            pairs.error + 0x1p-51 * pairs.squared)  // and its own rounding
                     << name_of(kind) << ", n = " << n;
                 EXPECT_LE(pairs.error, 1e-9 * pairs.squared) << name_of(kind);
             }
@@ -408,56 +514,50 @@ TEST(L2Discrepancy, OfThePlaneIsThatOfAllPairs) {
 }
 
 // In the plane and by division it is exact; on even sets most of the digits cancel.
-TEST(L2Discrepancy, OfTwinsIsExactWhereMuchCancels) {
+TEST(L2Discrepancy, OfAllPairsIsExactWhereMuchCancels) {
     for (const PointSet& set :
          {random_set(300, 2, 1), on_lattice(277, 2, 40, 2), make("sobol", points(1024, 2)),
           make("sobol", points(1024, 3)), make("halton", points(500, 4))})
         for (const Kind kind : analyzers::l2::all_kinds) {
             if (set.dimension() > 2 && !analyzers::l2::divides(set.dimension(), kind, {})) continue;
-            const auto twins = analyzers::l2::twin_square(set, kind, {}, {.threads = 2});
+            const auto pairs = analyzers::l2::pair_square(set, kind, {}, {.threads = 2});
             const double exact = set.dimension() == 2
                                      ? squared(report_of(set), name_of(kind))
                                      : analyzers::l2::divide_square(set, kind, {}, {}).squared;
-            EXPECT_NEAR(twins.squared, exact, 0x1p-51 * exact) << name_of(kind);
-            EXPECT_LE(twins.error, 1e-13 * exact) << name_of(kind) << set.dimension();
-            EXPECT_EQ(twins.squared,
-                      analyzers::l2::twin_square(set, kind, {}, {.threads = 1}).squared);
+            EXPECT_NEAR(pairs.squared, exact, 0x1p-51 * exact) << name_of(kind);
+            EXPECT_LE(pairs.error, 1e-13 * exact) << name_of(kind) << set.dimension();
+            EXPECT_EQ(pairs.squared,
+                      analyzers::l2::pair_square(set, kind, {}, {.threads = 1}).squared);
         }
 }
 
 // Coordinates that are multiples of 2^-53, and others; equal ones, and ones next to each other.
-TEST(L2Discrepancy, OfCarriedProductsIsThatOfTwins) {
+TEST(L2Discrepancy, OfAllPairsIsThatOfItsDefinition) {
     PointSet close = random_set(131, 3, 3);
     for (std::size_t i = 1; i < close.count(); i += 2)
         for (std::size_t k = 0; k < 3; ++k) close[i][k] = std::nextafter(close[i - 1][k], 0.0);
     PointSet tiny = random_set(100, 3, 4);
     for (double& x : tiny.flat()) x *= 1e-18;
     for (const PointSet& set :
-         {random_set(300, 3, 1), on_lattice(277, 4, 40, 2), make("sobol", points(1024, 5)),
-          make("halton", points(500, 9)), make("rank1-lattice", points(512, 5)), close, tiny,
-          random_set(1000, 6, 2)})
+         {random_set(300, 3, 1), on_lattice(277, 4, 40, 2), make("sobol", points(512, 5)),
+          make("halton", points(300, 9)), make("rank1-lattice", points(512, 5)), close, tiny,
+          random_set(500, 6, 2)})
         for (const Kind kind : analyzers::l2::all_kinds) {
-            const auto twins = analyzers::l2::twin_square(set, kind, {}, {});
-            const auto carried = analyzers::l2::carried_square(set, kind, {}, {.threads = 2});
-            EXPECT_NEAR(carried.squared, twins.squared, 0x1p-51 * twins.squared)
+            const double plain = plain_square(set, kind);
+            const auto pairs = analyzers::l2::pair_square(set, kind, {}, {});
+            EXPECT_NEAR(pairs.squared, plain, 0x1p-51 * plain)
                 << name_of(kind) << ", d = " << set.dimension();
-            EXPECT_LE(carried.error, 1e-13 * carried.squared) << name_of(kind);
-            EXPECT_EQ(carried.squared,
-                      analyzers::l2::carried_square(set, kind, {}, {.threads = 1}).squared);
+            EXPECT_LE(pairs.error, 1e-13 * pairs.squared) << name_of(kind);
         }
 }
 
-TEST(L2Discrepancy, OfTwinsAndCarriedProductsIsExactWithWeights) {
+TEST(L2Discrepancy, OfAllPairsIsExactWithWeights) {
     const Weights weights{0.25, 1.5, 0, 3};
     for (const PointSet& set : small_sets(4)) {
         if (set.count() > 7) continue;
         for (const Definition& kind : definitions) {
             const auto which = analyzers::l2::parse_kinds(kind.name).front();
-            EXPECT_LE(off(analyzers::l2::twin_square(set, which, weights, {}).squared,
-                          exact_square(set, kind, weights)),
-                      0x1p-51)
-                << kind.name << ", n = " << set.count();
-            EXPECT_LE(off(analyzers::l2::carried_square(set, which, weights, {}).squared,
+            EXPECT_LE(off(analyzers::l2::pair_square(set, which, weights, {}).squared,
                           exact_square(set, kind, weights)),
                       0x1p-51)
                 << kind.name << ", n = " << set.count();
@@ -467,14 +567,14 @@ TEST(L2Discrepancy, OfTwinsAndCarriedProductsIsExactWithWeights) {
 
 // Lanes are summed alike, whatever holds them; so are places without points behind the last.
 TEST(L2Discrepancy, DoesNotDependOnTheWidthOfVectors) {
-    using analyzers::l2::carried_square;
+    using analyzers::l2::pair_square;
     for (const PointSet& set : {random_set(150, 3, 1), on_lattice(67, 4, 40, 2),
                                 make("halton", points(129, 3)), random_set(2, 3, 1)})
         for (const Kind kind : analyzers::l2::all_kinds)
             for (const Weights& weights : {Weights{}, Weights(set.dimension(), 0.3)}) {
-                const double widest = carried_square(set, kind, weights, {}).squared;
+                const double widest = pair_square(set, kind, weights, {}).squared;
                 for (const Vectors vectors : {Vectors::anywhere, Vectors::fours})
-                    EXPECT_EQ(carried_square(set, kind, weights, {}, vectors).squared, widest)
+                    EXPECT_EQ(pair_square(set, kind, weights, {}, vectors).squared, widest)
                         << name_of(kind);
             }
 }
@@ -498,32 +598,37 @@ TEST(L2Discrepancy, SaysWhatItIsOffByWhereNothingIsLeft) {
     EXPECT_GE(report_of(few, tiny, "star").number("star.error"), 1e-20);
 }
 
-// Of products that doubles hold with their corrections, and of others: star's are near 3^-d, those
-// of small weights near 1.
-TEST(L2Discrepancy, IsWithinATrillionth) {
-    const PointSet even = make("sobol", points(5100, 4));
-    const auto plain = analyzers::l2::pair_square(even, Kind::star, {}, {});
-    EXPECT_GT(plain.error, 1e-12 * plain.squared);
-    const PointSet high = make("sobol", points(600, 410));
-    const PointSet many = make("sobol", points(1010, 100));
-    const Weights light(100, 1e-6);
-    for (const auto& [set, weights] : {std::pair{even, Weights{}}, {high, {}}, {many, light}}) {
-        const Report report = report_of(set, weights, "star");
-        EXPECT_LE(report.number("star.error"), 1e-12 * report.number("star.value"))
-            << set.dimension();
-        const auto twins = analyzers::l2::twin_square(set, Kind::star, weights, {});
-        EXPECT_NEAR(report.number("star.value"), std::sqrt(twins.squared),
-                    report.number("star.error"));
+// Products of hundreds of factors leave the range of doubles on their way: star's are near 3^-d,
+// those of small weights near 1, and those of large ones beyond.
+TEST(L2Discrepancy, IsWithinATrillionthInHundredsOfDimensions) {
+    const PointSet high = random_set(40, 600, 1);
+    const PointSet low = make("sobol", points(64, 410));
+    const PointSet many = make("sobol", points(256, 100));
+    PointSet sides = random_set(100, 400, 2);  // first factors small and last ones large, or not
+    for (std::size_t i = 0; i < sides.count(); ++i)
+        for (std::size_t j = 0; j < sides.dimension(); ++j)
+            sides[i][j] = std::ldexp(sides[i][j] + ((i % 2 == 0) == (j < 200) ? 1 : 0), -1);
+    for (const auto& [set, weights, kind] : {std::tuple{high, Weights{}, Kind::star},
+                                             {high, {}, Kind::periodic},
+                                             {high, {}, Kind::wraparound},
+                                             {high, {}, Kind::centered},
+                                             {high, {}, Kind::mixture},
+                                             {low, {}, Kind::diaphony},
+                                             {low, {}, Kind::modified},
+                                             {low, {}, Kind::star},
+                                             {random_set(40, 250, 1), {}, Kind::extreme},
+                                             {many, Weights(100, 1e-6), Kind::star},
+                                             {many, Weights(100, 1e-6), Kind::mixture},
+                                             {many, Weights(100, 3e2), Kind::extreme},
+                                             {many, Weights(100, 100), Kind::diaphony},
+                                             {sides, {}, Kind::star},
+                                             {sides, {}, Kind::modified}}) {
+        const double plain = plain_square(set, kind, weights);
+        const auto pairs = analyzers::l2::pair_square(set, kind, weights, {});
+        EXPECT_NEAR(pairs.squared, plain, 1e-13 * plain + pairs.error)
+            << name_of(kind) << ", d = " << set.dimension();
+        EXPECT_LE(pairs.error, 1e-12 * plain) << name_of(kind) << ", d = " << set.dimension();
     }
-}
-
-// Products of hundreds of factors leave the range of doubles.
-TEST(L2Discrepancy, CarriesProductsThatDoublesHold) {
-    using analyzers::l2::carries;
-    EXPECT_TRUE(carries(100, Kind::wraparound, {}));
-    EXPECT_FALSE(carries(401, Kind::star, {}));
-    EXPECT_FALSE(carries(300, Kind::diaphony, {}));
-    EXPECT_FALSE(carries(100, Kind::star, Weights(100, 1e-6)));
 }
 
 TEST(L2Discrepancy, OfDividedSetsIsExact) {
@@ -554,7 +659,7 @@ TEST(L2Discrepancy, OfDividedSetsIsThatOfAllPairs) {
                 const double divided =
                     analyzers::l2::divide_square(set, kind, {}, {.threads = 1}).squared;
                 const auto pairs = analyzers::l2::pair_square(set, kind, {}, {});
-                EXPECT_NEAR(divided, pairs.squared, pairs.error) << name_of(kind) << ", d = " << d;
+                EXPECT_NEAR(divided, pairs.squared, pairs.error + 0x1p-52 * divided) << name_of(kind) << ", d = " << d;
                 EXPECT_EQ(divided,
                           analyzers::l2::divide_square(set, kind, {}, {.threads = 3}).squared);
             }
@@ -696,8 +801,6 @@ TEST(L2Discrepancy, RefusesWhatNoDoubleHolds) {
     EXPECT_EQ(error_of([&] { report_of(set, {}, "wraparound"); }),
               "limit: the wraparound discrepancy of points in 2000 dimensions is made of numbers "
               "beyond the largest double | --kind chooses others");
-    EXPECT_EQ(error_of([&] { analyzers::l2::pair_square(set, Kind::wraparound, {}, {}); }),
-              error_of([&] { analyzers::l2::twin_square(set, Kind::wraparound, {}, {}); }));
     EXPECT_TRUE(std::isfinite(squared(report_of(set, {}, "star"), "star")));
 }
 

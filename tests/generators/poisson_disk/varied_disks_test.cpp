@@ -171,8 +171,9 @@ class Cover {
 };
 
 /// Points of a density that has these values, by the options.
-PointSet of_density(const std::string& shape, const std::vector<double>& values, Request request,
-                    Settings settings, const RunContext& run = {}) {
+template <class Run = Seeded>
+PointSet of_density(const std::string& shape, const std::vector<double>& values,
+                    const Request& request, Settings settings, const Run& run = {}) {
     const TemporaryFile file(npy_of("<f8", shape, values));
     settings.emplace_back("density", file.path());
     return make("poisson-disk", request, settings, run);

@@ -33,22 +33,11 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "analyzers/l2/kinds.hpp"
 #include "core/point_set.hpp"
 #include "core/run_context.hpp"
 
 namespace stipple::analyzers::l2 {
-
-/// Kernel of an axis by its coefficients, all of them times 48; what is not there is 0.
-struct AxisKernel {
-    std::int64_t s00 = 0;
-    std::int64_t s01 = 0;  ///< s10 is the same, and so on
-    std::int64_t s02 = 0;
-    std::int64_t s03 = 0;
-    std::int64_t s11 = 0;
-    std::int64_t sigma = 0;
-    std::array<std::int64_t, 4> mean{};  ///< of k(x, y) over y, in phi(x)
-    std::int64_t total = 0;              ///< mean of that
-};
 
 /// Sums over the points of a set; phi_p is scaled by 2^63 to the power of its degree.
 struct PlaneSums {
@@ -64,14 +53,9 @@ struct PlaneSums {
 /// Of points with one or two coordinates in [0, 1]; a second coordinate that is missing is 0.
 PlaneSums plane_sums(const PointSet& points, const RunContext& run);
 
-/// Squared discrepancy of the projections onto each axis, and onto both:
-/// mean of k over the cube - 2/n sum_i mean of k(x_i, .) + n^-2 sum_ik k(x_i, x_k).
-struct PlaneSquares {
-    std::array<double, 2> axis;
-    double both;
-};
-
-/// Each the double nearest to the exact value, or one of its neighbors.
-PlaneSquares plane_squares(const PlaneSums& sums, const AxisKernel& kernel);
+/// The squared discrepancy: of each projection the double nearest to the exact value, or one of its
+/// neighbors.
+double plane_square(const PlaneSums& sums, std::size_t dimension, Kind kind,
+                    const AxisWeights& weights);
 
 }  // namespace stipple::analyzers::l2

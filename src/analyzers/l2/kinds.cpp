@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "analyzers/l2/l2_kind.hpp"
+#include "analyzers/l2/kinds.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
 
 namespace stipple::analyzers::l2 {
 namespace {
-
-// Coefficients are those of l2_plane.hpp, times 48.
 
 // 1 - max(x, y) = 1 - (x + y + |x - y|) / 2
 constexpr AxisKernel star_kernel{
@@ -56,12 +53,8 @@ constexpr KindRecord records[] = {
 
 const KindRecord& record_of(Kind kind) { return records[static_cast<std::size_t>(kind)]; }
 
-void require_finite(double squared, Kind kind, std::size_t dimension) {
-    if (std::isfinite(squared)) return;
-    fail_with_hint(ErrorKind::limit, "--kind chooses others",
-                   "the {} discrepancy of points in {} dimensions is made of numbers beyond the "
-                   "largest double",
-                   record_of(kind).name, dimension);
+bool is_kernel_alone(Kind kind, const AxisWeights& weights) {
+    return weights.empty() && !record_of(kind).projections;
 }
 
 std::vector<Kind> parse_kinds(std::string_view words) {
@@ -85,19 +78,6 @@ std::vector<Kind> parse_kinds(std::string_view words) {
     if (kinds.empty())
         fail(ErrorKind::usage, "--kind: is empty; it takes all, {}", join(names, ", "));
     return kinds;
-}
-
-double plane_square(const PlaneSums& sums, std::size_t dimension, Kind kind,
-                    const std::vector<double>& weights) {
-    const KindRecord& record = record_of(kind);
-    const PlaneSquares squares = plane_squares(sums, record.kernel);
-    if (!record.projections && weights.empty())
-        return dimension == 1 ? squares.axis[0] : squares.both;
-    const auto weight = [&](std::size_t j) {
-        return j >= dimension ? 0 : record.scale * (weights.empty() ? 1 : weights[j]);
-    };
-    return weight(0) * squares.axis[0] + weight(1) * squares.axis[1] +
-           weight(0) * weight(1) * squares.both;
 }
 
 }  // namespace stipple::analyzers::l2

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "analyzers/l2/l2_plane.hpp"
+#include "analyzers/l2/planar.hpp"
 
 #include <algorithm>
 #include <utility>
 #include <vector>
 
-#include "analyzers/l2/l2_numbers.hpp"
+#include "analyzers/l2/fixed_point.hpp"
+#include "core/int128.hpp"
 #include "core/parallel.hpp"
 #include "math/functions/radix_sort.hpp"
 
@@ -14,7 +15,41 @@ namespace {
 
 using Integer = PlaneSums::Integer;
 
-constexpr std::uint64_t half = std::uint64_t{1} << (place - 1);
+constexpr std::uint64_t half = std::uint64_t{1} << (fraction_bits - 1);
+
+/// Sum of whole numbers below 2^256, its carries left for the end.
+class LongSum {
+  public:
+    void add(Uint128 value) {
+        parts_[0] += low_half(value);
+        parts_[1] += high_half(value);
+    }
+    void add_product(Uint128 a, std::uint64_t b) { add_product(a, b, 0); }
+    void add_product(Uint128 a, Uint128 b) {
+        add_product(a, low_half(b), 0);
+        add_product(a, high_half(b), 1);
+    }
+    void add(const LongSum& other) {
+        for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i] += other.parts_[i];
+    }
+    [[nodiscard]] Integer value() const {
+        Integer sum = 0;
+        for (std::size_t i = parts_.size(); i-- > 0;)
+            sum = (sum << 64) + (Integer(high_half(parts_[i])) << 64) + low_half(parts_[i]);
+        return sum;
+    }
+
+  private:
+    void add_product(Uint128 a, std::uint64_t b, std::size_t at) {
+        const Uint128 lower = wide_product(low_half(a), b);
+        const Uint128 upper = wide_product(high_half(a), b);
+        parts_[at] += low_half(lower);
+        parts_[at + 1] += high_half(lower);
+        parts_[at + 1] += low_half(upper);
+        parts_[at + 2] += high_half(upper);
+    }
+    std::array<Uint128, 4> parts_{};
+};
 
 /// A point, along the axis that orders it and across.
 struct Item {
@@ -25,17 +60,17 @@ struct Item {
 /// phi_1, phi_2, phi_3 of a coordinate.
 struct Features {
     explicit Features(std::uint64_t at)
-        : x(at), square(product(at, at)), bend(at < half ? half - at : at - half) {}
+        : x(at), square(wide_product(at, at)), from_middle(at < half ? half - at : at - half) {}
     std::uint64_t x;
-    Wide square;
-    std::uint64_t bend;
+    Uint128 square;
+    std::uint64_t from_middle;
 };
 
 /// Adds a phi_q to sums[q - 1] for all q > 0.
-void add_features(std::array<LongSum, 3>& sums, Wide a, const Features& phi) {
+void add_features(std::array<LongSum, 3>& sums, Uint128 a, const Features& phi) {
     sums[0].add_product(a, phi.x);
     sums[1].add_product(a, phi.square);
-    sums[2].add_product(a, phi.bend);
+    sums[2].add_product(a, phi.from_middle);
 }
 
 /// Sums of points in order of t: i counts the points before, T and W are sums over them.
@@ -47,18 +82,18 @@ struct AxisSums {
     std::array<LongSum, 3> behind;                  ///< phi_q(w) T
     LongSum mixed;                                  ///< t w W
 
-    void add(const Item& item, std::uint64_t before, Wide t_before, Wide w_before);
+    void add(const Item& item, std::uint64_t before, Uint128 t_before, Uint128 w_before);
     void add_moments(const Item& item);
     void add(const AxisSums& other);
 };
 
-void AxisSums::add(const Item& item, std::uint64_t before, Wide t_before, Wide w_before) {
+void AxisSums::add(const Item& item, std::uint64_t before, Uint128 t_before, Uint128 w_before) {
     const Features w(item.w);
-    const Wide rank = product(item.t, before);
+    const Uint128 rank = wide_product(item.t, before);
     ranked.add(rank);
     add_features(ranked_by, rank, w);
     add_features(behind, t_before, w);
-    mixed.add_product(product(item.t, item.w), w_before);
+    mixed.add_product(wide_product(item.t, item.w), w_before);
 }
 
 void AxisSums::add_moments(const Item& item) {
@@ -68,7 +103,7 @@ void AxisSums::add_moments(const Item& item) {
     add_features(moments[0], 1, w);
     add_features(moments[1], t.x, w);
     add_features(moments[2], t.square, w);
-    add_features(moments[3], t.bend, w);
+    add_features(moments[3], t.from_middle, w);
 }
 
 void add_all(std::array<LongSum, 3>& sums, const std::array<LongSum, 3>& others) {
@@ -88,7 +123,7 @@ constexpr std::size_t stretch = std::size_t{1} << 14;
 
 /// Of points in order of t; moments only where wanted.
 AxisSums axis_sums(const std::vector<Item>& items, bool moments, const RunContext& run) {
-    std::vector<std::pair<Wide, Wide>> before(block_count(items.size(), stretch));
+    std::vector<std::pair<Uint128, Uint128>> before(block_count(items.size(), stretch));
     for_each_block(run.stage(0, 0.2), items.size(), stretch, [&](const Block& block) {
         auto& [t, w] = before[block.index];
         for (std::uint64_t i = block.first; i < block.last; ++i) {
@@ -96,7 +131,7 @@ AxisSums axis_sums(const std::vector<Item>& items, bool moments, const RunContex
             w += items[i].w;
         }
     });
-    std::pair<Wide, Wide> sum{};
+    std::pair<Uint128, Uint128> sum{};
     for (auto& block : before) {
         const auto [t, w] = block;
         block = sum;
@@ -119,32 +154,16 @@ AxisSums axis_sums(const std::vector<Item>& items, bool moments, const RunContex
     return all;
 }
 
-/// Sum of products of 64 bits and 93.
-struct PairSum {
-    Wide lower = 0;
-    Wide upper = 0;
-
-    void add(std::uint64_t a, Wide b) {
-        const Wide first = product(a, low(b));
-        lower += low(first);
-        upper += high(first) + product(a, high(b));
-    }
-    [[nodiscard]] Integer value() const {
-        const Integer whole = (Integer(high(upper)) << 64) + low(upper);
-        return (whole << 64) + (Integer(high(lower)) << 64) + low(lower);
-    }
-};
-
 /// Sorts a few items by w, adding t_i (w_i - w_k) for those that pass each other not: k before i.
-void insertion_sort(Item* items, std::size_t n, PairSum& sum) {
+void insertion_sort(Item* items, std::size_t n, LongSum& sum) {
     for (std::size_t i = 1; i < n; ++i) {
         const Item item = items[i];
-        Wide excess = 0;
+        Uint128 excess = 0;
         std::size_t k = i;
         for (; k > 0 && items[k - 1].w > item.w; --k) items[k] = items[k - 1];
         for (std::size_t below = 0; below < k; ++below) excess += item.w - items[below].w;
         items[k] = item;
-        sum.add(item.t, excess);
+        sum.add_product(excess, item.t);
     }
 }
 
@@ -156,17 +175,17 @@ struct Merging {
     const Item* right_end;
     Item* out;
     std::uint64_t passed = 0;  ///< items of the left run that went out
-    Wide passed_w = 0;         ///< their w together
+    Uint128 passed_w = 0;      ///< their w together
 };
 
 /// Merges up to `most` items by w, with no branch that depends on them; adds t_i (w_i - w_k) for
 /// items i of the right run and those k of the left one that go out first.
-void merge_some(Merging& at, std::size_t most, PairSum& sum) {
+void merge_some(Merging& at, std::size_t most, LongSum& sum) {
     Merging m = at;
     for (; most > 0 && m.left != m.left_end && m.right != m.right_end; --most) {
         const bool from_left = m.left->w <= m.right->w;
         const Item item = from_left ? *m.left : *m.right;
-        sum.add(from_left ? 0 : item.t, product(item.w, m.passed) - m.passed_w);
+        sum.add_product(wide_product(item.w, m.passed) - m.passed_w, from_left ? 0 : item.t);
         m.passed += from_left;
         m.passed_w += from_left ? item.w : 0;
         m.left += from_left;
@@ -177,7 +196,7 @@ void merge_some(Merging& at, std::size_t most, PairSum& sum) {
 }
 
 /// Merges the runs [0, left) and [left, n) of `items` into `out`.
-void merge(const Item* items, std::size_t left, std::size_t n, Item* out, PairSum& sum,
+void merge(const Item* items, std::size_t left, std::size_t n, Item* out, LongSum& sum,
            const RunContext& run) {
     constexpr std::size_t between_looks = std::size_t{1} << 16;
     Merging m{items, items + left, items + left, items + n, out};
@@ -187,7 +206,7 @@ void merge(const Item* items, std::size_t left, std::size_t n, Item* out, PairSu
     }
     m.out = std::copy(m.left, m.left_end, m.out);
     for (; m.right != m.right_end; ++m.right) {
-        sum.add(m.right->t, product(m.right->w, m.passed) - m.passed_w);
+        sum.add_product(wide_product(m.right->w, m.passed) - m.passed_w, m.right->t);
         *m.out++ = *m.right;
     }
 }
@@ -199,9 +218,9 @@ Integer dominance(std::vector<Item>& items, const RunContext& run) {
     const std::size_t n = items.size();
     std::vector<Item> other(n);
     const std::size_t blocks = block_count(n, stretch);
-    std::vector<PairSum> sums(blocks);
+    std::vector<LongSum> sums(blocks);
     for_each_block(run.stage(0, 0.6), n, stretch, [&](const Block& block) {
-        PairSum& sum = sums[block.index];
+        LongSum& sum = sums[block.index];
         Item* from = items.data() + block.first;
         Item* to = other.data() + block.first;
         const std::size_t size = block.last - block.first;
@@ -214,10 +233,10 @@ Integer dominance(std::vector<Item>& items, const RunContext& run) {
     });
     static_assert(stretch == few << 10, "sorted blocks are back where they were");
     Integer total = 0;
-    for (const PairSum& sum : sums) total += sum.value();
+    for (const LongSum& sum : sums) total += sum.value();
 
     for (std::size_t width = stretch; width < n; width *= 2) {
-        std::vector<PairSum> merged(block_count(n, 2 * width));
+        std::vector<LongSum> merged(block_count(n, 2 * width));
         for_each_block(
             run, n, 2 * width,
             [&](const Block& block) {
@@ -226,7 +245,7 @@ Integer dominance(std::vector<Item>& items, const RunContext& run) {
                       run);
             },
             true);
-        for (const PairSum& sum : merged) total += sum.value();
+        for (const LongSum& sum : merged) total += sum.value();
         items.swap(other);
     }
     run.tick(1, 1);
@@ -330,14 +349,14 @@ std::vector<Term> terms_of(const AxisKernel& k) {
 /// value / (n^2 48^axes 2^(126 axes)) where value is scaled so.
 double quotient(const Integer& value, std::size_t n, unsigned axes) {
     using Fraction = boost::multiprecision::cpp_rational;
-    Integer below = (Integer(n) * n) << (2 * place * axes);
+    Integer below = (Integer(n) * n) << (2 * fraction_bits * axes);
     for (unsigned j = 0; j < axes; ++j) below *= unit;
     return Fraction(value, below).convert_to<double>();
 }
 
 /// `value` of so many degrees, scaled to those of so many axes.
 Integer scaled(const Integer& value, unsigned degrees, unsigned axes) {
-    return value << (place * (2 * axes - degrees));
+    return value << (fraction_bits * (2 * axes - degrees));
 }
 
 /// Of one axis, from the moments along it and its V of (0, 0).
@@ -375,10 +394,19 @@ double planar_square(const PlaneSums& sums, const AxisKernel& kernel) {
 
 }  // namespace
 
-PlaneSquares plane_squares(const PlaneSums& sums, const AxisKernel& kernel) {
-    return {.axis = {axis_square(column(sums, 0), sums.along[0][0], kernel),
-                     axis_square(sums.moments[0], sums.along[1][0], kernel)},
-            .both = planar_square(sums, kernel)};
+double plane_square(const PlaneSums& sums, std::size_t dimension, Kind kind,
+                    const AxisWeights& weights) {
+    const KindRecord& record = record_of(kind);
+    const bool alone = is_kernel_alone(kind, weights);
+    const auto weight = [&](std::size_t j) { return record.scale * weight_of(weights, j); };
+    const auto along = [&](std::size_t j) {
+        return axis_square(j == 0 ? column(sums, 0) : sums.moments[0], sums.along[j][0],
+                           record.kernel);
+    };
+    if (dimension == 1) return alone ? along(0) : weight(0) * along(0);
+    const double both = planar_square(sums, record.kernel);
+    if (alone) return both;
+    return weight(0) * along(0) + weight(1) * along(1) + weight(0) * weight(1) * both;
 }
 
 }  // namespace stipple::analyzers::l2

@@ -1,0 +1,407 @@
+// SPDX-License-Identifier: MIT
+//
+// Factors of L2 kernels for as many pairs of points as a vector V holds, each a double and an error
+// term, their products and their sums. This is no header of its own: core/vector_widths.hpp
+// includes it in block_pairs.cpp for STIPPLE_VECTOR_BITS.
+//
+// The factors are those of pair_sums.hpp, with parabolas about their vertices:
+//
+//     a + t (t - 1)             = (a - 1/4) + (t - 1/2)^2
+//     h_x + h_y + t (t - 3/2)   = (h_x + h_y - 9/16) + (t - 3/4)^2
+//
+// so that with a coordinate as a multiple of 2^-53 and a rest, the square's root has no rounding.
+// Where all weights are 1 and no coordinate has a rest, the two minima of the centered kernel are
+//
+//     1 + max(min(x - 1/2, y - 1/2), min(1/2 - x, 1/2 - y), 0)
+//
+// The numbers of a block's points follow each other in columns; `row` is one point of its block and
+// `block` the first of as many as a vector holds. Where blocks lie on one side of each other, less
+// is left to work out.
+
+constexpr std::size_t lanes = STIPPLE_VECTOR_BITS / 64;
+using V [[gnu::vector_size(8 * lanes)]] = double;
+using Bits [[gnu::vector_size(8 * lanes)]] = std::int64_t;
+
+STIPPLE_INLINE V load(const double* from) {
+    V v;
+    std::memcpy(&v, from, sizeof v);
+    return v;
+}
+
+/// A number in all lanes.
+STIPPLE_INLINE V same(double x) { return x - V{}; }
+
+/// x, its sign turned where the other is negative.
+STIPPLE_INLINE V flipped(V x, V by) { return (V)((Bits)x ^ ((Bits)by & (std::int64_t{1} << 63))); }
+STIPPLE_INLINE V where_less(V a, V b, V x, V y) { return a < b ? x : y; }
+
+#if STIPPLE_VECTOR_BITS == 512
+STIPPLE_INLINE V least(V a, V b) { return _mm512_maskz_min_pd(0xff, a, b); }
+STIPPLE_INLINE V greatest(V a, V b) { return _mm512_maskz_max_pd(0xff, a, b); }
+/// a b + c, rounded once.
+STIPPLE_INLINE V fused(V a, V b, V c) { return _mm512_fmadd_pd(a, b, c); }
+#elif STIPPLE_VECTOR_BITS == 256
+STIPPLE_INLINE V least(V a, V b) { return _mm256_min_pd(a, b); }
+STIPPLE_INLINE V greatest(V a, V b) { return _mm256_max_pd(a, b); }
+STIPPLE_INLINE V fused(V a, V b, V c) { return _mm256_fmadd_pd(a, b, c); }
+#else
+STIPPLE_INLINE V least(V a, V b) { return a < b ? a : b; }
+STIPPLE_INLINE V greatest(V a, V b) { return a > b ? a : b; }
+STIPPLE_INLINE V fused(V a, V b, V c) {
+    V r;
+    for (std::size_t l = 0; l < lanes; ++l) r[l] = __builtin_fma(a[l], b[l], c[l]);
+    return r;
+}
+#endif
+
+/// A vector for each point of a group of rows. What is done to one is done to all before anything
+/// else is, so that no instruction waits for the one before.
+struct Group {
+    V at[group];
+};
+
+STIPPLE_INLINE Group all(V a) { return {{a, a, a, a}}; }
+STIPPLE_INLINE Group rows(const double* from) {
+    return {{same(from[0]), same(from[1]), same(from[2]), same(from[3])}};
+}
+STIPPLE_INLINE Group columns(const double* from) { return all(load(from)); }
+
+STIPPLE_INLINE Group operator+(const Group& a, const Group& b) {
+    return {{a.at[0] + b.at[0], a.at[1] + b.at[1], a.at[2] + b.at[2], a.at[3] + b.at[3]}};
+}
+STIPPLE_INLINE Group operator-(const Group& a, const Group& b) {
+    return {{a.at[0] - b.at[0], a.at[1] - b.at[1], a.at[2] - b.at[2], a.at[3] - b.at[3]}};
+}
+STIPPLE_INLINE Group operator-(const Group& a) {
+    return {{-a.at[0], -a.at[1], -a.at[2], -a.at[3]}};
+}
+STIPPLE_INLINE Group operator*(const Group& a, const Group& b) {
+    return {{a.at[0] * b.at[0], a.at[1] * b.at[1], a.at[2] * b.at[2], a.at[3] * b.at[3]}};
+}
+STIPPLE_INLINE Group fused(const Group& a, const Group& b, const Group& c) {
+    return {{fused(a.at[0], b.at[0], c.at[0]), fused(a.at[1], b.at[1], c.at[1]),
+             fused(a.at[2], b.at[2], c.at[2]), fused(a.at[3], b.at[3], c.at[3])}};
+}
+STIPPLE_INLINE Group least(const Group& a, const Group& b) {
+    return {{least(a.at[0], b.at[0]), least(a.at[1], b.at[1]), least(a.at[2], b.at[2]),
+             least(a.at[3], b.at[3])}};
+}
+STIPPLE_INLINE Group greatest(const Group& a, const Group& b) {
+    return {{greatest(a.at[0], b.at[0]), greatest(a.at[1], b.at[1]), greatest(a.at[2], b.at[2]),
+             greatest(a.at[3], b.at[3])}};
+}
+STIPPLE_INLINE Group flipped(const Group& x, const Group& by) {
+    return {{flipped(x.at[0], by.at[0]), flipped(x.at[1], by.at[1]), flipped(x.at[2], by.at[2]),
+             flipped(x.at[3], by.at[3])}};
+}
+STIPPLE_INLINE Group where_less(const Group& a, const Group& b, const Group& x, const Group& y) {
+    return {{where_less(a.at[0], b.at[0], x.at[0], y.at[0]),
+             where_less(a.at[1], b.at[1], x.at[1], y.at[1]),
+             where_less(a.at[2], b.at[2], x.at[2], y.at[2]),
+             where_less(a.at[3], b.at[3], x.at[3], y.at[3])}};
+}
+
+/// A number and its error term, of a vector or a group of them. Of groups, either is to be assigned,
+/// not the whole: GCC copies a structure by halves of vectors, and loads then wait for the stores.
+template <class T>
+struct Compensated {
+    T value;
+    T error;
+};
+
+/// What a product has to heed of a factor.
+enum class Rounding {
+    none,         ///< it has no error term
+    compensated,  ///< it has one
+    above_one     ///< it is given as what it is more than 1, without an error term
+};
+
+/// base + a b: the base is at least as large as |a b|.
+STIPPLE_INLINE Compensated<Group> raised(const Group& a, const Group& b, const Group& base) {
+    const Group high = fused(a, b, base);
+    return {high, fused(a, b, base - high)};
+}
+
+/// The same, less the offset.
+STIPPLE_INLINE Compensated<Group> raised(const Group& a, const Group& b,
+                                         const AxisConstants& axis) {
+    Compensated<Group> out = raised(a, b, all(same(axis.base)));
+    out.value = out.value - all(same(axis.offset));
+    out.error = out.error + all(same(axis.base_error));
+    return out;
+}
+
+/// |x - y| - vertex of positions in column 0, position - vertex in column 1 and, if there are any,
+/// rests in column 2. Without rounding.
+template <BlockRelation relation, bool rests>
+STIPPLE_INLINE Compensated<Group> from_vertex(const double* row, const double* block,
+                                              const AxisConstants& axis) {
+    Group rest = all(V{});
+    if constexpr (rests) rest = columns(block + 2 * block_width) - rows(row + 2 * block_width);
+    if constexpr (relation == BlockRelation::below)
+        return {columns(block + block_width) - rows(row), rest};
+    if constexpr (relation == BlockRelation::above)
+        return {rows(row + block_width) - columns(block), -rest};
+    const Group vertex = all(same(axis.vertex));
+    const Group t = columns(block) - rows(row);
+    if constexpr (!rests) return {flipped(t, t) - vertex, rest};
+    const Group whole = t + rest;
+    return {flipped(t, whole) - vertex, flipped(rest, whole)};
+}
+
+/// One minimum, of numbers without error terms.
+struct Minimum {
+    static constexpr std::size_t columns_of_factor = 1;
+    static constexpr bool separates = true;
+    static constexpr Rounding rounding = Rounding::none;
+    template <BlockRelation>
+    STIPPLE_INLINE static Compensated<Group> factor(const double* row, const double* block,
+                                                    const AxisConstants&) {
+        return {least(columns(block), rows(row)), all(V{})};
+    }
+    /// Of the points of a block that come before the others.
+    STIPPLE_INLINE static Compensated<V> own(const double* block) { return {load(block), V{}}; }
+};
+
+/// One minimum: of the numbers of the point that comes first in the order of column 0.
+struct MinimumCompensated {
+    static constexpr std::size_t columns_of_factor = 3;
+    static constexpr bool separates = true;
+    static constexpr Rounding rounding = Rounding::compensated;
+    template <BlockRelation>
+    STIPPLE_INLINE static Compensated<Group> factor(const double* row, const double* block,
+                                                    const AxisConstants&) {
+        const Group mine = rows(row);
+        const Group other = columns(block);
+        return {
+            where_less(mine, other, rows(row + block_width), columns(block + block_width)),
+            where_less(mine, other, rows(row + 2 * block_width), columns(block + 2 * block_width))};
+    }
+    STIPPLE_INLINE static Compensated<V> own(const double* block) {
+        return {load(block + block_width), load(block + 2 * block_width)};
+    }
+};
+
+/// Both minima of the centered kernel: x - 1/2 in column 0, 1/2 - x in column 1.
+struct TwoSided {
+    static constexpr std::size_t columns_of_factor = 2;
+    static constexpr bool separates = false;
+    static constexpr Rounding rounding = Rounding::above_one;
+    template <BlockRelation relation>
+    STIPPLE_INLINE static Compensated<Group> factor(const double* row, const double* block,
+                                                    const AxisConstants&) {
+        const Group none = all(V{});
+        const Group above = least(columns(block), rows(row));
+        if constexpr (relation == BlockRelation::above) return {above, none};
+        const Group below = least(columns(block + block_width), rows(row + block_width));
+        if constexpr (relation == BlockRelation::below) return {below, none};
+        return {greatest(greatest(above, below), none), none};
+    }
+};
+
+/// A parabola of the distance. Without compensation its base has neither an offset nor an error.
+template <bool compensated, bool rests>
+struct Bernoulli {
+    static constexpr std::size_t columns_of_factor = rests ? 3 : 2;
+    static constexpr bool separates = false;
+    static constexpr Rounding rounding = Rounding::compensated;
+    template <BlockRelation relation>
+    STIPPLE_INLINE static Compensated<Group> factor(const double* row, const double* block,
+                                                    const AxisConstants& axis) {
+        const auto [u, rest] = from_vertex<relation, rests>(row, block, axis);
+        if constexpr (!compensated) return raised(u, u, all(same(axis.base)));
+        if constexpr (!rests) return raised(u, u, axis);
+        Compensated<Group> out = raised(u, u, axis);
+        out.error = fused(u + u, rest, out.error);
+        return out;
+    }
+};
+
+/// The mixture kernel: a parabola of the distance over a sum of a number of either point, which
+/// has no rounding.
+template <bool rests>
+struct Mixture {
+    static constexpr std::size_t columns_of_factor = rests ? 5 : 4;
+    static constexpr bool separates = false;
+    static constexpr Rounding rounding = Rounding::compensated;
+    template <BlockRelation relation>
+    STIPPLE_INLINE static Compensated<Group> factor(const double* row, const double* block,
+                                                    const AxisConstants& axis) {
+        constexpr std::size_t height = (columns_of_factor - 2) * block_width;
+        constexpr std::size_t error = (columns_of_factor - 1) * block_width;
+        const auto [u, rest] = from_vertex<relation, rests>(row, block, axis);
+        Compensated<Group> out = raised(u, u, columns(block + height) + rows(row + height));
+        out.error = out.error + (columns(block + error) + rows(row + error));
+        if constexpr (rests) out.error = fused(u + u, rest, out.error);
+        return out;
+    }
+};
+
+/// a + min(x, y) min(1 - x, 1 - y)
+struct OnePlusMinima {
+    static constexpr std::size_t columns_of_factor = 3;
+    static constexpr bool separates = false;
+    static constexpr Rounding rounding = Rounding::compensated;
+    template <BlockRelation>
+    STIPPLE_INLINE static Compensated<Group> factor(const double* row, const double* block,
+                                                    const AxisConstants& axis) {
+        const Group x = rows(row);
+        const Group y = columns(block);
+        const Group lower = least(x, y);
+        const Group room = where_less(x, y, columns(block + block_width), rows(row + block_width));
+        const Group room_error =
+            where_less(x, y, columns(block + 2 * block_width), rows(row + 2 * block_width));
+        Compensated<Group> out = raised(lower, room, axis);
+        out.error = fused(lower, room_error, out.error);
+        return out;
+    }
+};
+
+template <class Kernel, class T>
+STIPPLE_INLINE void multiply(Compensated<T>& product, const Compensated<T>& by) {
+    if constexpr (Kernel::rounding == Rounding::above_one) {
+        const T next = fused(product.value, by.value, product.value);
+        const T rounded = fused(product.value, by.value, product.value - next);
+        product.error = fused(product.error, by.value, product.error + rounded);
+        product.value = next;
+    } else {
+        const T next = product.value * by.value;
+        T rounded = fused(product.value, by.value, -next);
+        if constexpr (Kernel::rounding == Rounding::compensated)
+            rounded = fused(product.value, by.error, rounded);
+        product.error = fused(product.error, by.value, rounded);
+        product.value = next;
+    }
+}
+
+STIPPLE_INLINE void add(Compensated<V>& total, const Compensated<V>& product) {
+    const V next = total.value + product.value;
+    const V part = next - total.value;
+    total.error += ((total.value - (next - part)) + (product.value - part)) + product.error;
+    total.value = next;
+}
+
+/// A group of rows, some of which may be no more than places, and a block.
+struct GroupPair {
+    const BlockTable& table;
+    const BlockPair& pair;
+    std::size_t first;  ///< of the group in its block
+};
+
+template <class Kernel, BlockRelation relation>
+STIPPLE_INLINE Compensated<Group> factor_of(const GroupPair& g, std::size_t factor, std::size_t k) {
+    const std::size_t column = factor * Kernel::columns_of_factor * block_width;
+    return Kernel::template factor<relation>(
+        g.pair.rows + column + g.first, g.pair.columns + column + k, g.table.factors()[factor]);
+}
+
+/// What the products begin with: those of the columns alone, or their first factor.
+template <class Kernel>
+STIPPLE_INLINE Compensated<Group> first_factor(const GroupPair& g, std::size_t k) {
+    const PointProducts& own = g.pair.column_products;
+    if constexpr (Kernel::separates) return {columns(own.value + k), columns(own.error + k)};
+    const std::size_t factor = g.pair.steps.front().factor;
+    if constexpr (Kernel::rounding != Rounding::above_one)
+        return factor_of<Kernel, BlockRelation::mixed>(g, factor, k);
+    const Group more = factor_of<Kernel, BlockRelation::mixed>(g, factor, k).value;
+    const Group one = all(same(1));
+    const Group value = more + one;
+    return {value, more - (value - one)};
+}
+
+/// The products of a group of rows with as many of a block's points as a vector holds, from the
+/// k-th.
+template <class Kernel>
+STIPPLE_INLINE Compensated<Group> products(const GroupPair& g, std::size_t k) {
+    Compensated<Group> p = first_factor<Kernel>(g, k);
+    const Step* step = g.pair.steps.data() + (Kernel::separates ? 0 : 1);
+    for (const Step* const end = g.pair.steps.data() + g.pair.steps.size(); step < end; ++step) {
+        if (Kernel::separates || step->relation == BlockRelation::mixed)
+            multiply<Kernel>(p, factor_of<Kernel, BlockRelation::mixed>(g, step->factor, k));
+        else if (step->relation == BlockRelation::below)
+            multiply<Kernel>(p, factor_of<Kernel, BlockRelation::below>(g, step->factor, k));
+        else
+            multiply<Kernel>(p, factor_of<Kernel, BlockRelation::above>(g, step->factor, k));
+    }
+    if (Kernel::separates || g.pair.full) return p;
+    const std::size_t last = (g.table.height() - 1) * block_width;
+    const Group there = columns(g.pair.columns + last + k) * rows(g.pair.rows + last + g.first);
+    return {p.value * there, p.error * there};
+}
+
+/// Adds a vector's products of a group of rows with a block to the sums from `lane` on: lane by
+/// lane the same in vectors of any width. Rows with products of their own are summed one by one.
+template <class Kernel>
+STIPPLE_INLINE void add_lanes(const GroupPair& g, std::size_t lane, LaneSums& sums) {
+    constexpr std::size_t apart = Kernel::separates ? group : 1;
+    Compensated<V> totals[apart];
+#pragma GCC unroll 4
+    for (std::size_t r = 0; r < apart; ++r) totals[r] = {V{}, V{}};
+    for (std::size_t k = lane; k < block_width; k += max_lanes) {
+        const Compensated<Group> p = products<Kernel>(g, k);
+#pragma GCC unroll 4
+        for (std::size_t r = 0; r < group; ++r)
+            add(totals[r % apart], {p.value.at[r], p.error.at[r]});
+    }
+    Compensated<V> total = {load(sums.sum + lane), load(sums.error + lane)};
+    for (std::size_t r = 0; r < apart; ++r) {
+        const PointProducts& own = g.pair.row_products;
+        if constexpr (Kernel::separates)
+            multiply<MinimumCompensated, V>(
+                totals[r], {same(own.value[g.first + r]), same(own.error[g.first + r])});
+        add(total, totals[r]);
+    }
+    std::memcpy(sums.sum + lane, &total.value, sizeof(V));
+    std::memcpy(sums.error + lane, &total.error, sizeof(V));
+}
+
+/// Adds the products of all pairs of two blocks' points.
+template <class Kernel>
+void add_pairs(const BlockTable& table, const BlockPair& pair, LaneSums& sums) {
+    for (std::size_t i = 0; i < block_width; i += group)
+        for (std::size_t lane = 0; lane < max_lanes; lane += lanes)
+            add_lanes<Kernel>({table, pair, i}, lane, sums);
+}
+
+/// The products of those factors of a block's points that are their own.
+template <class Kernel>
+void multiply_own(const BlockTable& table, const double* block,
+                  const std::vector<std::size_t>& factors, PointProducts& products) {
+    for (std::size_t k = 0; k < block_width; k += lanes) {
+        Compensated<V> p = {load(block + (table.height() - 1) * block_width + k), V{}};
+        if constexpr (Kernel::separates)
+            for (const std::size_t factor : factors)
+                multiply<Kernel>(
+                    p, Kernel::own(block + factor * Kernel::columns_of_factor * block_width + k));
+        std::memcpy(products.value + k, &p.value, sizeof(V));
+        std::memcpy(products.error + k, &p.error, sizeof(V));
+    }
+}
+
+template <class Kernel>
+PairKernel kernel_of() {
+    return {add_pairs<Kernel>, multiply_own<Kernel>, Kernel::columns_of_factor, Kernel::separates};
+}
+
+inline PairKernel kernel_for(PairForm form) {
+    switch (form) {
+        case PairForm::minimum:
+            return kernel_of<Minimum>();
+        case PairForm::minimum_compensated:
+            return kernel_of<MinimumCompensated>();
+        case PairForm::two_sided:
+            return kernel_of<TwoSided>();
+        case PairForm::bernoulli:
+            return kernel_of<Bernoulli<false, false>>();
+        case PairForm::bernoulli_compensated:
+            return kernel_of<Bernoulli<true, false>>();
+        case PairForm::bernoulli_with_rests:
+            return kernel_of<Bernoulli<true, true>>();
+        case PairForm::mixture:
+            return kernel_of<Mixture<false>>();
+        case PairForm::mixture_with_rests:
+            return kernel_of<Mixture<true>>();
+        default:
+            return kernel_of<OnePlusMinima>();
+    }
+}
