@@ -85,11 +85,14 @@ std::unique_ptr<Sequence> binary_sequence(BinaryMatrices matrices, const Plan& p
                                           const Values& options) {
     if (options[binary_order] == "gray") matrices = in_gray_order(std::move(matrices));
     const std::string scramble = options[binary_scramble];
-    if (scramble == "owen")
-        return std::make_unique<OwenBinarySequence>(BinaryNet(matrices), plan.seed);
+    if (scramble == "owen") return owen_sequence(matrices, plan.seed);
     if (scramble == "none") return std::make_unique<BinarySequence>(BinaryNet(matrices));
     if (scramble == "matrix") matrices = scrambled(std::move(matrices), plan.seed);
     return std::make_unique<BinarySequence>(BinaryNet(matrices, shifts(plan.dimension, plan.seed)));
+}
+
+std::unique_ptr<Sequence> owen_sequence(const BinaryMatrices& matrices, std::uint64_t seed) {
+    return std::make_unique<OwenBinarySequence>(BinaryNet(matrices), seed);
 }
 
 bool binary_uses_seed(const Values& options) { return options[binary_scramble] != "none"; }
