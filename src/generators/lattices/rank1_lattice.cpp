@@ -24,11 +24,11 @@
 
 #include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "core/wide.hpp"
 #include "generators/generator.hpp"
 #include "generators/lattices/component_by_component.hpp"
 #include "generators/lattices/product_weights.hpp"
@@ -58,61 +58,35 @@ constexpr Param<Path> vector_file{{.name = "vector-file",
                                    .help = "File of a generating vector: a line a coordinate, "
                                            "with its value, or its number from 1 and its value"}};
 
-constexpr std::size_t table_numbers = 2048;  // 16 KiB: half of a first-level cache
-constexpr std::size_t chunk_numbers = 64;
-
-/// out = (base - back mod n) / n, where `base` repeats after `width` numbers; all of these are
-/// whole and at most 2^53, so that only the division rounds.
-STIPPLE_WIDE void step(const double* base, std::size_t width, const double* back, std::size_t count,
-                       double n, double* out) {
-    for (std::size_t offset = 0; offset < count; offset += width) {
-        const std::size_t length = std::min(width, count - offset);
-        for (std::size_t m = 0; m < length; ++m) {
-            const double r = base[m] - back[offset + m];
-            out[offset + m] = (r < 0 ? r + n : r) / n;
-        }
+/// One row: x = residues / n, and on to the next point; all numbers are whole and at most 2^53, so
+/// that only the division rounds.
+void step(std::span<const double> back, double n, std::span<double> residues, double* x) {
+    for (std::size_t k = 0; k < residues.size(); ++k) {
+        x[k] = residues[k] / n;
+        const double next = residues[k] - back[k];
+        residues[k] = next < 0 ? next + n : next;
     }
 }
 
 class Rank1Lattice final : public Sequence {
   public:
-    Rank1Lattice(std::uint64_t n, std::vector<std::uint64_t> z)
-        : n_(n),
-          z_(std::move(z)),
-          chunk_((chunk_numbers + z_.size() - 1) / z_.size()),
-          rows_(std::max(table_numbers / z_.size() / chunk_, std::size_t{1}) * chunk_) {
-        for (std::size_t t = 0; t < rows_; ++t)
-            for (std::size_t k = 0; k < z_.size(); ++k) back_.push_back(whole(n_ - times(t, k)));
+    Rank1Lattice(std::uint64_t n, std::vector<std::uint64_t> z) : n_(n), z_(std::move(z)) {
+        for (const std::uint64_t component : z_)
+            back_.push_back(static_cast<double>(n - component % n));
     }
 
     void fill(std::uint64_t first, std::span<double> rows) override {
-        std::vector<double> base(chunk_ * z_.size());
-        for (std::size_t k = 0; k < z_.size(); ++k) base[k] = whole(times(first, k));
-        const double n = whole(n_);
-        for (std::size_t offset = 0; offset < rows.size(); offset += back_.size()) {
-            for (std::size_t m = z_.size(); m < base.size(); ++m) base[m] = base[m - z_.size()];
-            const std::size_t count = std::min(back_.size(), rows.size() - offset);
-            step(base.data(), base.size(), back_.data(), count, n, rows.data() + offset);
-            for (std::size_t k = 0; k < z_.size(); ++k) {
-                base[k] -= whole(n_ - times(rows_, k));
-                base[k] += base[k] < 0 ? n : 0;
-            }
-        }
+        std::vector<double> residues;
+        for (const std::uint64_t component : z_)
+            residues.push_back(static_cast<double>(Wide{first} * component % n_));
+        for (std::size_t at = 0; at < rows.size(); at += z_.size())
+            step(back_, static_cast<double>(n_), residues, rows.data() + at);
     }
 
   private:
-    static double whole(std::uint64_t number) { return static_cast<double>(number); }
-
-    /// i z_k mod n.
-    [[nodiscard]] std::uint64_t times(std::uint64_t i, std::size_t k) const {
-        return static_cast<std::uint64_t>(Wide{i} * z_[k] % n_);
-    }
-
     std::uint64_t n_;
     std::vector<std::uint64_t> z_;
-    std::size_t chunk_;         ///< points after which the pattern of the vector loop repeats
-    std::size_t rows_;          ///< points of the table
-    std::vector<double> back_;  ///< n - (t z mod n) for t < rows_
+    std::vector<double> back_;  ///< n - z mod n
 };
 
 /// The rule that the options mean together.
