@@ -33,7 +33,6 @@
 #include "core/rng.hpp"
 #include "core/text.hpp"
 #include "generators/blue_noise/all_candidates.hpp"
-#include "generators/blue_noise/near_lists.hpp"
 #include "generators/box_space.hpp"
 #include "generators/generator.hpp"
 #include "math/functions/mixer.hpp"
@@ -160,7 +159,6 @@ class Sieve {
           factor_(factor),
           rng_(seed),
           points_(space.box, space.torus),
-          near_(space.box, space.torus),
           heap_(space.largest_distance()),
           tiles_(space.box, space.torus, infinity) {
         Cell whole{.low = {}, .bound = infinity};
@@ -205,7 +203,7 @@ class Sieve {
         }
         left -= hits;
         while (!heap_.empty() && best_ < heap_.top().bound && left > 0) left -= go_on(left, draws);
-        add_winner();
+        points_.add(winner_.data());
         tidy();
     }
 
@@ -215,7 +213,6 @@ class Sieve {
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     static constexpr std::uint32_t most_halvings = 50;
     static constexpr std::uint32_t closed = 0xffff'ffff;
-    static constexpr double reach_in_best = 1.5;
     static constexpr double eager = 64;  ///< candidates that are to fall into open cells, at least
 
     struct Cell {
@@ -235,14 +232,6 @@ class Sieve {
         std::uint32_t size = 0;             ///< of the points below
         std::array<Point, D + 1> points{};  ///< near it, seen from `low`: most candidates lose here
     };
-
-    void add_winner() {
-        points_.add(winner_.data());
-        if (2 * points_.count() >= 3 * near_.renewed_at() && best_ > 0)
-            near_.renew(reach_in_best * best_, points_.rows());
-        else if (near_.reach() > 0)
-            near_.add(winner_.data());
-    }
 
     /// Takes the highest cell of the heap: bounds it anew, halves it, or opens it, which gives
     /// true.
@@ -398,16 +387,9 @@ class Sieve {
 
     /// Bounds a cell anew by all points that may be nearest somewhere in it.
     void bound(Cell& cell) {
-        const std::uint32_t before = cell.points;
-        if (before == points_.count()) return;
+        if (cell.points == points_.count()) return;
         cell.points = static_cast<std::uint32_t>(points_.count());
-        const Point middle = center(cell);
-        const double reach = reach_of(cell);
-        if (near_.reach() >= reach && before > 0) {
-            const auto& list = near_.at(middle.data());
-            if (list.empty() || list.back().index < before) return;  // nothing new near by
-        }
-        gather(middle, reach);
+        gather(center(cell), reach_of(cell));
         if (covering_.empty()) return;
         constexpr double safety = 1 + 1e-12;  // far above what rounding does
         cell.bound =
@@ -422,15 +404,6 @@ class Sieve {
     /// All points within the reach of the middle.
     void gather(const Point& middle, double reach) {
         covering_.clear();
-        if (near_.reach() >= reach) {
-            for (const auto& near : near_.at(middle.data())) {
-                const Point way = shift(middle, near.at.data());
-                double squared = 0;
-                for (const double x : way) squared += x * x;
-                if (squared <= reach * reach) covering_.add(way);
-            }
-            return;
-        }
         points_.visit(middle.data(), reach, [&](std::size_t, double, const double* q) {
             covering_.add(shift(middle, q));
             return true;
@@ -511,12 +484,6 @@ class Sieve {
     /// Distance of the nearest point, which is at most `bound`; or some number up to the best
     /// distance so far, if that is not reached.
     [[nodiscard]] double distance_of(const Point& p, double bound) const {
-        if (near_.reach() >= bound) {
-            double least = infinity;
-            for (const auto& near : near_.at(p.data()))
-                least = std::min(least, points_.frame().squared_distance(p.data(), near.at.data()));
-            return std::sqrt(least);
-        }
         if (best_ > 0 && points_.any_nearer(p.data(), best_)) return 0;
         const double guess = bound < infinity ? bound : space_.largest_distance();
         return std::sqrt(points_.nearest_squared(p.data(), guess));
@@ -526,7 +493,6 @@ class Sieve {
     double factor_;
     Rng rng_;
     GrowingPoints<D> points_;
-    NearLists<D> near_;                              ///< the same points; empty unless `listed`
     std::array<Point, most_halvings + 1> sides_{};   ///< of cells, by depth
     std::array<Point, most_halvings + 1> halves_{};  ///< of those sides
     std::array<double, most_halvings + 1> diagonals_{};
