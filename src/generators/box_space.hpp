@@ -62,6 +62,10 @@ std::vector<double> proportions_of(const Plan& plan);
 /// another dimension, or with a side longer than largest_proportion times another.
 Plan plan_in_proportion(const Request& request);
 
+/// Traits of sets that are made as a whole in a rectangle.
+inline const GeneratorTraits planar_traits{
+    .min_dimension = 2, .max_dimension = 2, .sequence = false, .prefix = false, .boxed = true};
+
 /// Moves points of the unit cube into the plan's box, which becomes their domain.
 void put_in_box(const Plan& plan, PointSet& points);
 

@@ -120,19 +120,11 @@ std::vector<Vec2> random_places(std::size_t n, const Planar& planar,
     return places;
 }
 
-void need_memory(std::uint64_t n, const RunContext& run) {
-    run.need_memory(300.0 * static_cast<double>(n), "the transport");
-}
-
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
-    need_memory(plan.count, run);
-    const Planar planar = planar_of(plan, !options[bounded_option]);
-    const auto density = planar_density(options, run);
+    auto [planar, density, rows] = planar_start(plan, options, 300, "the transport", run);
     const auto floor = [](double value) { return std::max(value, 1e-3); };
     const auto moments = planar_moments(density, floor, planar, run);
-    auto rows = starting_rows(plan, options, planar, density, run);
     const std::size_t n = rows.size() / 2;
-    need_memory(n, run);
     const auto rescue = random_places(n, planar, density, Rng(plan.seed, 1));
     run.tick(0, 1);
     EqualCells cells(planar, moments, rows, run);
@@ -162,11 +154,7 @@ Generator unit() {
     return {.name = "capacity-constrained",
             .summary = "Points with cells of equal mass, by optimal transport (blue noise)",
             .source = "de Goes, Breeden, Ostromoukhov, Desbrun 2012, doi:10.1145/2366145.2366190",
-            .traits = {.min_dimension = 2,
-                       .max_dimension = 2,
-                       .sequence = false,
-                       .prefix = false,
-                       .boxed = true},
+            .traits = planar_traits,
             .options = Schema(iterations, crystals, planar::initial, from, density_option,
                               invert_option, torus_option, bounded_option),
             .aliases = {"bnot", "optimal-transport", "ccvt"},

@@ -227,9 +227,7 @@ std::pair<std::vector<double>, double> throw_all(Darts darts, const BoxSpace& sp
 template <std::size_t D>
 PointSet make_in(const Plan& plan, const Values& options, const RunContext& run) {
     const BoxSpace space = space_of(plan, !options[bounded_option]);
-    std::optional<DensityMap> map;
-    if (options.given(density_option))
-        map = read_density(options[density_option], options[invert_option], run);
+    const auto map = given_density(options, run);
     const double expected =
         plan.count ? static_cast<double>(plan.start + plan.count)
                    : space.expected_points(packed, options[radius]) / (map ? map->largest() : 1);
@@ -244,8 +242,7 @@ PointSet make_in(const Plan& plan, const Values& options, const RunContext& run)
     notes = {{"radius", format_number(r)}, {"misses", std::to_string(options[misses])}};
     if (!options.given(radius)) notes.emplace_back("shrink", format_number(options[shrink]));
     notes.emplace_back(space.torus ? "torus" : "bounded", "true");
-    if (map) notes.emplace_back("density", options[density_option]);
-    if (options[invert_option]) notes.emplace_back("invert", "true");
+    note_density(options, points);
     return points;
 }
 

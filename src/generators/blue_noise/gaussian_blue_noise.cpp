@@ -22,7 +22,6 @@
 //         (2022), doi:10.1145/3550454.3555519; its sigma of 1 is this one.
 
 #include <algorithm>
-#include <optional>
 
 #include "core/error.hpp"
 #include "core/rng.hpp"
@@ -51,10 +50,7 @@ constexpr Param<std::int64_t> iterations{
 
 Plan plan(const Request& request, const Values& options) {
     const Plan plan = plan_in_proportion(request);
-    check_invert(options);
-    if (options.given(density_option) && plan.dimension != 2)
-        fail(ErrorKind::usage, "--dimension: {} is not 2, the dimension of a --density",
-             plan.dimension);
+    check_density(options, plan.dimension);
     return plan;
 }
 
@@ -70,9 +66,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     if (static_cast<double>(plan.count) >= most)
         fail(ErrorKind::limit, "gaussian-blue-noise makes fewer than 2^32 points; {} are too many",
              plan.count);
-    std::optional<DensityMap> map;
-    if (options.given(density_option))
-        map = read_density(options[density_option], options[invert_option], run);
+    const auto map = given_density(options, run);
     const double working = map ? density_relaxation_bytes(plan.count, *map)
                                : relaxation_bytes(plan.count, plan.dimension);
     const auto numbers = static_cast<double>(plan.count * plan.dimension);
@@ -92,8 +86,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     }
     put_in_box(plan, points);
     points.provenance.options = {{"iterations", std::to_string(steps)}};
-    if (map) points.provenance.options.emplace_back("density", options[density_option]);
-    if (options[invert_option]) points.provenance.options.emplace_back("invert", "true");
+    note_density(options, points);
     return points;
 }
 

@@ -9,8 +9,8 @@
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "core/text.hpp"
+#include "generators/points_from.hpp"
 #include "math/functions/powers.hpp"
-#include "media/points_file.hpp"
 
 namespace stipple {
 namespace {
@@ -48,7 +48,7 @@ std::vector<double> random_rows(std::uint64_t n, const Rng& rng) {
 /// Points of a file, seen from the lower corner of the box.
 std::vector<double> rows_of_file(const std::string& path, const Planar& planar,
                                  const RunContext& run) {
-    const PointSet points = read_points(path, run);
+    const PointSet points = points_from(path, run);
     if (points.dimension() != 2)
         fail(ErrorKind::input, "{}: points of {} coordinates; expected 2", path,
              points.dimension());
@@ -63,6 +63,24 @@ std::vector<double> rows_of_file(const std::string& path, const Planar& planar,
                  format_box({{planar.low.x, planar.low.y}, {high.x, high.y}}));
         x = std::clamp(x - planar.low.x, 0.0, planar.sides.x);
         y = std::clamp(y - planar.low.y, 0.0, planar.sides.y);
+    }
+    return rows;
+}
+
+std::vector<double> starting_rows(const Plan& plan, const Values& options, const Planar& planar,
+                                  const std::optional<DensityMap>& density, const RunContext& run) {
+    if (options.given(planar::from)) return rows_of_file(options[planar::from], planar, run);
+    if (plan.count >= 0xffff'ffff)
+        fail(ErrorKind::limit, "--count: {} points are too many; at most 2^32 - 2", plan.count);
+    const Rng rng(plan.seed);
+    auto rows = options[planar::initial] == "random" ? random_rows(plan.count, rng)
+                                                     : jittered_rows(plan.count, rng, run);
+    for (std::size_t i = 0; i < rows.size(); i += 2) {
+        if (density)
+            std::ranges::copy(density->place(rows[i], rows[i + 1]),
+                              rows.begin() + static_cast<std::ptrdiff_t>(i));
+        rows[i] *= planar.sides.x;
+        rows[i + 1] *= planar.sides.y;
     }
     return rows;
 }
@@ -100,12 +118,6 @@ Planar planar_of(const Plan& plan, bool torus) {
         .low = {box.low[0], box.low[1]}, .sides = {box.extent(0), box.extent(1)}, .torus = torus};
 }
 
-std::optional<DensityMap> planar_density(const Values& options, const RunContext& run) {
-    check_invert(options);
-    if (!options.given(density_option)) return {};
-    return read_density(options[density_option], options[invert_option], run);
-}
-
 std::optional<DensityMoments> planar_moments(const std::optional<DensityMap>& density,
                                              double (*function)(double), const Planar& planar,
                                              const RunContext& run) {
@@ -118,22 +130,15 @@ std::optional<DensityMoments> planar_moments(const std::optional<DensityMap>& de
     return DensityMoments(density->width(), density->height(), values, planar.sides);
 }
 
-std::vector<double> starting_rows(const Plan& plan, const Values& options, const Planar& planar,
-                                  const std::optional<DensityMap>& density, const RunContext& run) {
-    if (options.given(planar::from)) return rows_of_file(options[planar::from], planar, run);
-    if (plan.count >= 0xffff'ffff)
-        fail(ErrorKind::limit, "--count: {} points are too many; at most 2^32 - 2", plan.count);
-    const Rng rng(plan.seed);
-    auto rows = options[planar::initial] == "random" ? random_rows(plan.count, rng)
-                                                     : jittered_rows(plan.count, rng, run);
-    for (std::size_t i = 0; i < rows.size(); i += 2) {
-        if (density)
-            std::ranges::copy(density->place(rows[i], rows[i + 1]),
-                              rows.begin() + static_cast<std::ptrdiff_t>(i));
-        rows[i] *= planar.sides.x;
-        rows[i + 1] *= planar.sides.y;
-    }
-    return rows;
+PlanarStart planar_start(const Plan& plan, const Values& options, double bytes,
+                         std::string_view who, const RunContext& run) {
+    run.need_memory(bytes * static_cast<double>(plan.count), std::string(who));
+    PlanarStart start{.planar = planar_of(plan, !options[bounded_option]),
+                      .density = given_density(options, run),
+                      .rows = {}};
+    start.rows = starting_rows(plan, options, start.planar, start.density, run);
+    run.need_memory(bytes * static_cast<double>(start.count()), std::string(who));
+    return start;
 }
 
 std::vector<std::uint32_t> along_strips(const std::vector<double>& rows, const Planar& planar,

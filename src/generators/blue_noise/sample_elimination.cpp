@@ -39,8 +39,8 @@
 #include "generators/box_space.hpp"
 #include "generators/density_options.hpp"
 #include "generators/generator.hpp"
+#include "generators/points_from.hpp"
 #include "math/functions/draws.hpp"
-#include "media/points_file.hpp"
 
 namespace stipple::generators::sample_elimination {
 namespace {
@@ -58,7 +58,7 @@ constexpr Param<Choice> order{.name = "order",
 constexpr Param<Path> from{
     {.name = "from",
      .unit = "file",
-     .help = "Text file of points to choose from (on a warp's domain, too), not random ones: "
+     .help = "File of points to choose from (on a warp's domain, too), not random ones: "
              "a fifth of them by default, with bounded distances, no seed"}};
 constexpr Param<std::int64_t> manifold{
     .name = "manifold-dimension",
@@ -86,7 +86,7 @@ struct Crowd {
 };
 
 PointSet points_of_file(const Values& options, const RunContext& run) {
-    PointSet points = read_points(options[from], run);
+    PointSet points = points_from(options[from], run);
     if (points.dimension() > most_directions)
         fail(ErrorKind::input, "{}: {} coordinates a point; sample-elimination takes up to {}",
              options[from], points.dimension(), most_directions);
@@ -172,8 +172,7 @@ Crowd random_crowd(const Plan& plan, const Values& options, const RunContext& ru
         if (i % 65536 == 0) run.check_stop();
         draws.point(crowd.space.box, crowd.rows.data() + i * plan.dimension);
     }
-    if (dense)
-        follow_all(read_density(options[density_option], options[invert_option], run), crowd);
+    if (const auto map = given_density(options, run)) follow_all(*map, crowd);
     return crowd;
 }
 

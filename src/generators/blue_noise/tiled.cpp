@@ -193,11 +193,10 @@ bool is_constant(const DensityMap& density) {
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext& run) {
     const auto extents = proportions_of(plan);
     const Vec2 sides = extents.empty() ? Vec2{1, 1} : Vec2{extents[0], extents[1]};
-    if (!options.given(density_option)) return make_even(plan, options, sides, run);
-    auto density = std::make_shared<const DensityMap>(
-        read_density(options[density_option], options[invert_option], run));
-    if (is_constant(*density)) return make_even(plan, options, sides, run);
-    return make_thinned(plan, options, sides, std::move(density), run);
+    auto density = given_density(options, run);
+    if (!density || is_constant(*density)) return make_even(plan, options, sides, run);
+    return make_thinned(plan, options, sides,
+                        std::make_shared<const DensityMap>(std::move(*density)), run);
 }
 
 Plan plan(const Request& request, const Values& options) {
