@@ -98,18 +98,19 @@ std::unique_ptr<Sequence> owen_sequence(const BinaryMatrices& matrices, std::uin
 bool binary_uses_seed(const Values& options) { return options[binary_scramble] != "none"; }
 
 std::vector<std::string> binary_notes(const Request& request, const Plan& plan, const Values&) {
-    constexpr const char* nets = "are no net, as 2^k points from a multiple of 2^k on are";
     const std::uint64_t start = request.start;
     if (std::has_single_bit(plan.count)) {
         const std::uint64_t before = start / plan.count * plan.count;
         if (start == before) return {};
-        return {fmt::format("{} points from index {} on {}; {} and {} are the nearest such starts",
-                            plan.count, start, nets, before, before + plan.count)};
+        return {
+            fmt::format("{0} points from index {1} on do not form a net; start at a multiple "
+                        "of {0}: {2} or {3}",
+                        plan.count, start, before, before + plan.count)};
     }
     // What starts elsewhere is a piece of a set that is made in several runs.
     if (start > 0) return {};
     const std::uint64_t below = std::bit_floor(plan.count);
-    return {fmt::format("{} points {}; {} and {} are the nearest such counts", plan.count, nets,
+    return {fmt::format("{} points do not form a net; take a power of two: {} or {}", plan.count,
                         below, 2 * below)};
 }
 

@@ -127,15 +127,6 @@ DigitMatrix product(const BaseMatrix& left, const DigitMatrix& right, std::uint3
     return result;
 }
 
-/// The digits that a shift adds, since it is the image of 0.
-std::vector<std::uint32_t> shift_digits(const BaseShift& shift, std::uint32_t base) {
-    std::vector<std::uint32_t> digits;
-    std::uint64_t rest = reversed_digits(shift.of(0), base);
-    for (std::size_t j = 0; j < digits_of(base); ++j, rest /= base)
-        digits.push_back(static_cast<std::uint32_t>(rest % base));
-    return digits;
-}
-
 }  // namespace
 
 std::size_t net_digits(std::uint32_t base) { return base == 2 ? binary_digits : digits_of(base); }
@@ -175,7 +166,7 @@ std::unique_ptr<Sequence> net_sequence(std::uint32_t base, std::vector<DigitMatr
             const BaseMatrix matrix(plan.seed, k, base);
             net.append(product(matrix, matrices[k], base), matrix.shift());
         } else if (linear) {
-            net.append(matrices[k], shift_digits(BaseShift(plan.seed, k, base), base));
+            net.append(matrices[k], BaseShift(plan.seed, k, base).shift());
         } else {
             net.append(matrices[k]);
         }

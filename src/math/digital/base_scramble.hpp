@@ -42,6 +42,9 @@ class BaseShift {
     BaseShift(std::uint64_t seed, std::size_t coordinate, std::uint32_t base);
     [[nodiscard]] double of(std::uint64_t reversed) const;
 
+    /// What is added to each digit.
+    [[nodiscard]] std::span<const std::uint32_t> shift() const { return shift_; }
+
   private:
     std::uint32_t base_;
     std::vector<std::uint32_t> shift_;
