@@ -104,20 +104,6 @@ double digital_shift_kernel(double x) {
     return x == 0 ? 1. / 6 : 1. / 6 - std::ldexp(0.5, std::ilogb(x));
 }
 
-double squared_shift_error(std::uint64_t modulus, std::span<const std::uint64_t> vector,
-                           std::span<const double> weights) {
-    const int m = gf2::degree(modulus);
-    const std::uint64_t n = std::uint64_t{1} << m;
-    double sum = 0;
-    for (std::uint64_t i = 0; i < n; ++i) {
-        double product = 1;
-        for (std::size_t k = 0; k < vector.size(); ++k)
-            product *= 1 + weights[k] * omega(gf2::product(i, vector[k], modulus), m);
-        sum += product - 1;
-    }
-    return sum / static_cast<double>(n);
-}
-
 std::vector<std::uint64_t> polynomial_components(std::uint64_t modulus,
                                                  std::span<const double> weights,
                                                  const RunContext& run) {
