@@ -4,12 +4,12 @@
 //
 //     E = sum over pairs i < j of  exp(-(n / V)^(2/d) |x_i - x_j|^2 / 2)
 //
-// by --iterations accelerated gradient steps (math/neighbors/gaussian_relaxation.hpp). Points convolved with
+// by --iterations accelerated gradient steps (gaussian_relaxation.hpp). Points convolved with
 // Gaussians of standard deviation sqrt(1/2) (V / n)^(1/d), whose squares E adds up, come as near to
 // a constant as they can: what is below the frequency (n / V)^(1/d) / 2 vanishes from the spectrum.
 //
 // With a --density kernels are as wide as points are to be apart, and the density itself pulls as
-// much as the points push (generators/blue_noise/density_relaxation.hpp).
+// much as the points push (density_relaxation.hpp).
 //
 // Shape   d = 1 ... 4, distances on the torus, which is the unit cube or a box with no side a
 //         thousand times another; a density in 2-D.
@@ -26,10 +26,10 @@
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "generators/blue_noise/density_relaxation.hpp"
+#include "generators/blue_noise/gaussian_relaxation.hpp"
 #include "generators/box_space.hpp"
 #include "generators/density_options.hpp"
 #include "generators/generator.hpp"
-#include "math/neighbors/gaussian_relaxation.hpp"
 #include "media/density_map.hpp"
 
 namespace stipple::generators::gaussian_blue_noise {

@@ -15,6 +15,13 @@
 namespace stipple {
 namespace {
 
+Planar planar_of(const Plan& plan, bool torus) {
+    if (!plan.bounds) return {.low = {0, 0}, .sides = {1, 1}, .torus = torus};
+    const Box& box = *plan.bounds;
+    return {
+        .low = {box.low[0], box.low[1]}, .sides = {box.extent(0), box.extent(1)}, .torus = torus};
+}
+
 /// A point for each of n strata of equal area, columns of them, some of one more: uniform in the
 /// stratum and the next ones, twice as wide and as high, and beyond the last from the first on.
 /// Points in their own strata would still show the columns after hundreds of iterations, as peaks
@@ -89,7 +96,7 @@ std::vector<double> starting_rows(const Plan& plan, const Values& options, const
 
 Plan planar_plan(const Request& request, const Values& options) {
     check_torus(options);
-    Plan plan = default_plan(request, 1024, 2);
+    Plan plan = plan_in_bounds(request);
     if (options.given(planar::from)) {
         if (request.count)
             fail(ErrorKind::usage,
@@ -99,8 +106,6 @@ Plan planar_plan(const Request& request, const Values& options) {
         plan.count = 0;
     }
     if (!plan.bounds || plan.dimension != 2) return plan;
-    if (plan.bounds->dimension() != 2)
-        fail(ErrorKind::usage, "--bounds: {} ranges for 2 coordinates", plan.bounds->dimension());
     const double longest = std::max(plan.bounds->extent(0), plan.bounds->extent(1));
     const double shortest = std::min(plan.bounds->extent(0), plan.bounds->extent(1));
     if (!(shortest > 1e-100 && longest < 1e100 && longest <= 1e6 * shortest))
@@ -109,13 +114,6 @@ Plan planar_plan(const Request& request, const Values& options) {
              "none a million times the other",
              format_box(*plan.bounds));
     return plan;
-}
-
-Planar planar_of(const Plan& plan, bool torus) {
-    if (!plan.bounds) return {.low = {0, 0}, .sides = {1, 1}, .torus = torus};
-    const Box& box = *plan.bounds;
-    return {
-        .low = {box.low[0], box.low[1]}, .sides = {box.extent(0), box.extent(1)}, .torus = torus};
 }
 
 std::optional<DensityMoments> planar_moments(const std::optional<DensityMap>& density,

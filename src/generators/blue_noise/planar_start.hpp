@@ -41,8 +41,6 @@ struct Planar {
 /// The plan of a set in two dimensions, its box checked; the count is 0 with --from.
 Plan planar_plan(const Request& request, const Values& options);
 
-Planar planar_of(const Plan& plan, bool torus);
-
 /// Points to start from, and what they are to follow.
 struct PlanarStart {
     Planar planar;
