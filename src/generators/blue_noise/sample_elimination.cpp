@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Weighted sample elimination (generators/blue_noise/eliminator.hpp): of M points those are taken out, one by
+// Weighted sample elimination (eliminator.hpp): of M points those are taken out, one by
 // one, that are crowded most, until N are left.
 //
 //     M = --ratio N points, uniform in the box, or the points of a file (--from), in any box.
@@ -10,7 +10,7 @@
 // r_max^3 = V / (4 sqrt(2) N), in d > 3 dimensions r_max^d = V / (N C_d), C_d the volume of the
 // unit ball. The points of a file may fill a part of their box, or lie on a surface:
 // --manifold-dimension 2 --measure 12.566 takes d and A from the unit sphere, while distances stay
-// those in space. Where nobody says what they fill, they do (generators/blue_noise/crowd_extent.hpp), unless
+// those in space. Where nobody says what they fill, they do (crowd_extent.hpp), unless
 // that is about their box: with a measure that is a fourth too large all near pairs weigh the same.
 //
 // --density: in the plane, the M points are random in proportion to it, and r_max of a point is
@@ -204,8 +204,8 @@ CrowdExtent extent_of_file(const Crowd& crowd, const Values& options, const RunC
 /// Chooses points of a crowd: numbers of its rows.
 class Chooser {
   public:
-    Chooser(const Crowd& crowd, const CrowdExtent& extent, const RunContext& run)
-        : crowd_(crowd), run_(run), dimension_(crowd.space.box.dimension()), extent_(extent) {}
+    Chooser(const Crowd& crowd, const CrowdExtent& extent)
+        : crowd_(crowd), dimension_(crowd.space.box.dimension()), extent_(extent) {}
 
     [[nodiscard]] double radius(std::uint64_t kept) const {
         return packing_radius(static_cast<double>(kept), extent_.dimension, extent_.measure);
@@ -264,7 +264,6 @@ class Chooser {
     }
 
     const Crowd& crowd_;
-    const RunContext& run_;
     std::size_t dimension_;
     CrowdExtent extent_;
 };
@@ -276,7 +275,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& outside
     const std::size_t d = plan.dimension;
     const CrowdExtent extent =
         file ? extent_of_file(crowd, options, run) : CrowdExtent{d, crowd.space.measure()};
-    Chooser chooser(crowd, extent, run);
+    Chooser chooser(crowd, extent);
     const double r_max = chooser.radius(plan.count);
     if (!(r_max > 0))
         fail_with_hint(ErrorKind::input,
