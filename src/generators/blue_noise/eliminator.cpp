@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <queue>
 #include <utility>
 
 #include "core/parallel.hpp"
@@ -131,23 +132,6 @@ struct Candidate {
     }
 };
 
-/// Moves the top of a heap, whose weight has fallen, down to its place. Four children a node: their
-/// nodes fill a cache line.
-void sift_down(std::vector<Candidate>& heap, std::size_t size, std::size_t at) {
-    const Candidate moving = heap[at];
-    for (;;) {
-        const std::size_t first = 4 * at + 1;
-        if (first >= size) break;
-        std::size_t best = first;
-        for (std::size_t c = first + 1; c < std::min(first + 4, size); ++c)
-            if (heap[best] < heap[c]) best = c;
-        if (!(moving < heap[best])) break;
-        heap[at] = heap[best];
-        at = best;
-    }
-    heap[at] = moving;
-}
-
 template <std::size_t D>
 class Elimination {
   public:
@@ -160,24 +144,22 @@ class Elimination {
 
     std::vector<std::uint32_t> go() {
         weigh();
-        make_heap();
+        auto heap = heaviest_first();
         std::vector<std::uint32_t> gone;
         const std::size_t wanted = points_.count() - kept_;
         gone.reserve(wanted);
         const RunContext run = run_.stage(0.3, 1);
-        std::size_t size = heap_.size();
         for (std::uint64_t step = 0; gone.size() < wanted; ++step) {
             if (step % 1024 == 0) run.tick(gone.size(), wanted);
-            Candidate& top = heap_.front();
+            Candidate top = heap.top();
+            heap.pop();
             if (top.weight != weights_[top.sorted]) {
                 top.weight = weights_[top.sorted];
-                sift_down(heap_, size, 0);
+                heap.push(top);
                 continue;
             }
             gone.push_back(top.original);
             remove(top.sorted);
-            heap_.front() = heap_[--size];
-            sift_down(heap_, size, 0);
         }
         return gone;
     }
@@ -195,14 +177,12 @@ class Elimination {
         });
     }
 
-    void make_heap() {
-        heap_.reserve(points_.count());
+    [[nodiscard]] std::priority_queue<Candidate> heaviest_first() const {
+        std::vector<Candidate> all;
+        all.reserve(points_.count());
         for (std::size_t s = 0; s < points_.count(); ++s)
-            heap_.push_back({weights_[s], points_.original(s), static_cast<std::uint32_t>(s)});
-        for (std::size_t i = heap_.size() / 4 + 1; i-- > 0;) {
-            if (i % 65536 == 0) run_.check_stop();
-            if (i < heap_.size()) sift_down(heap_, heap_.size(), i);
-        }
+            all.push_back({weights_[s], points_.original(s), static_cast<std::uint32_t>(s)});
+        return std::priority_queue<Candidate>({}, std::move(all));
     }
 
     /// Takes a point out, and its part of the others' weights.
@@ -217,7 +197,6 @@ class Elimination {
     LayeredPoints<D> points_;
     Kernel kernel_;
     std::vector<std::uint64_t> weights_;  ///< by the new numbers
-    std::vector<Candidate> heap_;
 };
 
 }  // namespace
