@@ -51,7 +51,8 @@ UnitInfo info(const Generator& unit) {
                   {"prefix", t.prefix},
                   {"seeded", t.seeded},
                   {"max_index", t.max_index}};
-    out.remarks = {dimensions(t.min_dimension, t.max_dimension),
+    out.remarks = {dimensions(t.min_dimension, t.max_dimension) +
+                       (t.more_dimensions.empty() ? "" : ", more with --" + t.more_dimensions),
                    t.sequence ? "streams in constant memory" : "made as a whole, in memory",
                    t.prefix ? "any prefix of a longer set is the shorter set; --start and --shard"
                             : "the points depend on their number; --shard",

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "core/text.hpp"
-#include "math/neighbors/gaussian_relaxation.hpp"
 
 namespace stipple {
 
@@ -60,13 +59,18 @@ BoxSpace space_of(const Plan& plan, bool torus) {
             torus};
 }
 
+Plan plan_in_bounds(const Request& request) {
+    const Plan plan = default_plan(request, 1024, request.bounds ? request.bounds->dimension() : 2);
+    if (plan.bounds && plan.bounds->dimension() != plan.dimension)
+        fail(ErrorKind::usage, "--bounds: {} ranges for {} coordinates", plan.bounds->dimension(),
+             plan.dimension);
+    return plan;
+}
+
 Plan plan_in_box(const Request& request, const Values& options) {
     check_torus(options);
-    const Plan plan = default_plan(request, 1024, request.bounds ? request.bounds->dimension() : 2);
+    const Plan plan = plan_in_bounds(request);
     const BoxSpace space = space_of(plan, false);
-    if (space.box.dimension() != plan.dimension)
-        fail(ErrorKind::usage, "--bounds: {} ranges for {} coordinates", space.box.dimension(),
-             plan.dimension);
     const double most = space.largest_distance();
     if (!(most > 1e-140 && most < 1e150))
         fail(ErrorKind::usage, "--bounds: {} has no distances that float64 can square",
@@ -87,11 +91,7 @@ std::vector<double> proportions_of(const Plan& plan) {
 }
 
 Plan plan_in_proportion(const Request& request) {
-    Plan plan = default_plan(request, 1024, request.bounds ? request.bounds->dimension() : 2);
-    if (!plan.bounds) return plan;
-    if (plan.bounds->dimension() != plan.dimension)
-        fail(ErrorKind::usage, "--bounds: {} ranges for {} coordinates", plan.bounds->dimension(),
-             plan.dimension);
+    const Plan plan = plan_in_bounds(request);
     for (const double side : proportions_of(plan))
         if (!(side <= largest_proportion))
             fail(ErrorKind::usage,

@@ -23,6 +23,10 @@ inline constexpr Param<bool> bounded_option{.name = "bounded",
 /// @throws Error(usage): --torus and --bounded
 void check_torus(const Values& options);
 
+/// Points to r^d when hardly one more that keeps the distance r finds a place in d dimensions;
+/// rather too many.
+inline constexpr double saturated_density[] = {0, 0.76, 0.71, 0.75, 0.86, 1.06, 1.40};
+
 /// A box with distances; they go across opposite faces on the torus.
 struct BoxSpace {
     Box box;
@@ -50,17 +54,27 @@ struct BoxSpace {
 BoxSpace space_of(const Plan& plan, bool torus);
 
 /// The plan for a request whose box may say the dimension.
-/// @throws Error(usage): --torus and --bounded, a box of another dimension, or one whose distances
-/// cannot be squared.
+/// @throws Error(usage): a box of another dimension
+Plan plan_in_bounds(const Request& request);
+
+/// The same for distances. @throws Error(usage): --torus and --bounded, or a box whose distances
+/// cannot be squared
 Plan plan_in_box(const Request& request, const Values& options);
 
 /// Sides of the plan's box in proportion, the shortest 1; none where all are alike, as those of the
 /// unit cube.
 std::vector<double> proportions_of(const Plan& plan);
 
+/// Of the longest side to the shortest, for those.
+inline constexpr double largest_proportion = 1000;
+
 /// The plan of a generator that knows its box by its proportions. @throws Error(usage): a box of
 /// another dimension, or with a side longer than largest_proportion times another.
 Plan plan_in_proportion(const Request& request);
+
+/// Traits of sets that are made as a whole in a rectangle.
+inline const GeneratorTraits planar_traits{
+    .min_dimension = 2, .max_dimension = 2, .sequence = false, .prefix = false, .boxed = true};
 
 /// Moves points of the unit cube into the plan's box, which becomes their domain.
 void put_in_box(const Plan& plan, PointSet& points);

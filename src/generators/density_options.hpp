@@ -3,8 +3,13 @@
 // The options of generators whose points follow a density (media/density_map.hpp).
 #pragma once
 
-#include "core/error.hpp"
+#include <cstddef>
+#include <optional>
+
 #include "core/options.hpp"
+#include "core/point_set.hpp"
+#include "core/run_context.hpp"
+#include "media/density_map.hpp"
 
 namespace stipple {
 
@@ -16,23 +21,19 @@ inline constexpr Param<bool> invert_option{
     .name = "invert", .help = "Points where --density is dark, as ink on paper"};
 
 /// @throws Error(usage) where there is nothing to invert.
-inline void check_invert(const Values& options) {
-    if (options[invert_option] && !options.given(density_option))
-        fail(ErrorKind::usage, "--invert: there is no --density to invert");
-}
+void check_invert(const Values& options);
 
 /// @throws Error(usage) also where points have other than two coordinates.
-inline void check_density(const Values& options, std::size_t dimension) {
-    check_invert(options);
-    if (options.given(density_option) && dimension != 2)
-        fail(ErrorKind::usage, "--dimension: {} is not 2, the dimension of a --density", dimension);
-}
+void check_density(const Values& options, std::size_t dimension);
+
+/// The density of --density; nothing where it is not given, or the unit has no such option.
+/// @throws as check_invert, read_density
+std::optional<DensityMap> given_density(const Values& options, const RunContext& run);
+
+/// Puts these options, where they are given, into the points' provenance.
+void note_density(const Values& options, PointSet& points);
 
 /// The option, if one is given, by which points are not spread evenly; else nullptr.
-inline const char* shaping_option(const Values& options) {
-    for (const char* name : {"density", "mask", "radius-map"})
-        if (const auto* item = options.try_find(name); item != nullptr && item->given) return name;
-    return nullptr;
-}
+const char* shaping_option(const Values& options);
 
 }  // namespace stipple

@@ -9,11 +9,15 @@
 namespace stipple {
 namespace {
 
-void check_dimension(const Generator& generator, std::size_t dimension) {
+void check_dimension(const Generator& generator, std::size_t dimension, const Values& options) {
     const auto& traits = generator.traits;
-    if (dimension >= traits.min_dimension && dimension <= traits.max_dimension) return;
-    fail(ErrorKind::usage, "--dimension: {} is outside [{}, {}], what {} can make", dimension,
-         traits.min_dimension, traits.max_dimension, generator.name);
+    const std::string& more = traits.more_dimensions;
+    const bool unlimited = !more.empty() && options.find(more).given;
+    if (dimension >= traits.min_dimension && (dimension <= traits.max_dimension || unlimited))
+        return;
+    fail_with_hint(ErrorKind::usage, more.empty() ? "" : fmt::format("--{} brings more", more),
+                   "--dimension: {} is outside [{}, {}], what {} can make", dimension,
+                   traits.min_dimension, traits.max_dimension, generator.name);
 }
 
 void check_indices(const Generator& generator, const Request& request, std::uint64_t count,
@@ -47,9 +51,9 @@ Plan default_plan(const Request& request, std::uint64_t count, std::size_t dimen
 Plan plan_for(const Generator& generator, const Request& request, const Values& options) {
     if (request.count == std::uint64_t{0})
         fail(ErrorKind::usage, "--count: 0 is outside [1, 2^53]; a set has at least one point");
-    if (request.dimension) check_dimension(generator, *request.dimension);
+    if (request.dimension) check_dimension(generator, *request.dimension, options);
     const Plan plan = generator.plan ? generator.plan(request, options) : default_plan(request);
-    check_dimension(generator, plan.dimension);
+    check_dimension(generator, plan.dimension, options);
     check_indices(generator, request, plan.count, plan.dimension);
     if (generator.max_seed && plan.seed > generator.max_seed(options))
         fail(ErrorKind::usage, "--seed: {} is outside [0, {}], what this generator's seeding takes",

@@ -61,6 +61,7 @@ struct GeneratorTraits {
     bool seeded = true;    ///< uses the seed, at least under some options
     bool boxed = false;    ///< takes the bounds itself, since its distances hold in them
     std::uint64_t max_index = std::uint64_t{1} << 53;  ///< start + count is at most this
+    std::string more_dimensions = {};  ///< option with a file that has more than max_dimension
 };
 
 struct Generator {

@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "generators/box_space.hpp"
-#include "math/functions/mixer.hpp"
+#include "math/functions/splitmix64.hpp"
 #include "math/neighbors/spaced_points.hpp"
 
 namespace stipple {
@@ -155,7 +155,7 @@ class VariedIndex {
     }
 
     static std::uint64_t row_hash(std::size_t c, std::uint64_t row) {
-        return Mixer(row << 8 | c).next();
+        return SplitMix64(row << 8 | c).next();
     }
     [[nodiscard]] std::size_t bucket(std::uint64_t row, std::uint64_t column) const {
         return (row + column) & (heads_.size() - 1);

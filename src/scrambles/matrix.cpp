@@ -11,11 +11,8 @@
 
 #include <array>
 #include <bit>
-#include <variant>
 
-#include "math/digital/base_scramble.hpp"
-#include "math/digital/binary_scramble.hpp"
-#include "scrambles/scramble.hpp"
+#include "scrambles/digit_scramble.hpp"
 
 namespace stipple::scrambles::matrix {
 namespace {
@@ -39,44 +36,19 @@ class BinaryProduct {
             }
     }
 
-    [[nodiscard]] std::uint64_t of(std::uint64_t fraction) const {
-        std::uint64_t image = shift_;
-        for (std::size_t byte = 0; byte < bytes; ++byte)
-            image ^= tables_[byte][(fraction >> (56 - 8 * byte)) & 0xff];
-        return image;
+    void apply(std::span<std::uint64_t> fractions) const {
+        for (std::uint64_t& fraction : fractions) {
+            std::uint64_t image = shift_;
+            for (std::size_t byte = 0; byte < bytes; ++byte)
+                image ^= tables_[byte][(fraction >> (56 - 8 * byte)) & 0xff];
+            fraction = image;
+        }
     }
 
   private:
     static constexpr std::size_t bytes = 7;  // hold the 53 digits of a double
     std::uint64_t shift_;
     std::vector<std::array<std::uint64_t, 256>> tables_;
-};
-
-class Matrix final : public CoordinateWise {
-  public:
-    Matrix(const ScrambleRequest& request, const std::vector<std::uint32_t>& bases)
-        : CoordinateWise(bases.size()), bases_(bases) {
-        for (std::size_t k = 0; k < bases.size(); ++k) {
-            const std::size_t coordinate = request.coordinates[k];
-            if (bases[k] == 2)
-                products_.emplace_back(BinaryProduct(request.seed, coordinate));
-            else
-                products_.emplace_back(BaseMatrix(request.seed, coordinate, bases[k]));
-        }
-    }
-
-  private:
-    void move(std::size_t k, std::span<double> x) const override {
-        if (const auto* binary = std::get_if<BinaryProduct>(&products_[k])) {
-            for (double& value : x) value = fraction_to_unit(binary->of(unit_to_fraction(value)));
-            return;
-        }
-        const BaseMatrix& matrix = std::get<BaseMatrix>(products_[k]);
-        for (double& value : x) value = matrix.of(mirrored_digits(value, bases_[k]));
-    }
-
-    std::vector<std::uint32_t> bases_;
-    std::vector<std::variant<BinaryProduct, BaseMatrix>> products_;
 };
 
 }  // namespace
@@ -89,11 +61,7 @@ Scramble unit() {
             .source = "Matousek 1998, doi:10.1006/jcom.1998.0489",
             .options = Schema(base, scramble_seed),
             .aliases = {"linear-matrix"},
-            .make = [](const Values& options,
-                       const ScrambleRequest& request) -> std::unique_ptr<Randomization> {
-                return std::make_unique<Matrix>(
-                    request, bases_for(options[base], request.coordinates.size(), true));
-            }};
+            .make = digit_scramble<BinaryProduct, BaseMatrix>(base, true)};
 }
 
 }  // namespace stipple::scrambles::matrix

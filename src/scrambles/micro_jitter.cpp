@@ -47,9 +47,9 @@ class MicroJitter final : public Randomization {
         constexpr std::uint64_t stride = std::uint64_t{1} << 20;
         const std::size_t d = coordinates_.size();
         for (std::size_t i = 0; i < rows.size(); ++i) {
-            const std::uint64_t low = interval_of(rows[i], count_);
+            const auto low = static_cast<double>(interval_of(rows[i], count_));
             rows[i] = rng_.uniform((first + i / d) * stride + coordinates_[i % d]);
-            place_in_strata({.low = low, .width = 1, .step = 0, .parts = count_}, 1, &rows[i], 1);
+            place_in_strata({.low = {&low, 1}, .parts = count_}, &rows[i], 1);
         }
     }
 

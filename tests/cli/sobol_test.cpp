@@ -35,8 +35,7 @@ TEST(Sobol, TellsOnceThatACountIsNoNet) {
         return outcome.err;
     };
     const std::string note =
-        "stipple: 1000 points are no net, as 2^k points from a multiple of 2^k on are; 512 and "
-        "1024 are the nearest such counts\n";
+        "stipple: 1000 points do not form a net; take a power of two: 512 or 1024\n";
     EXPECT_EQ(said({}), note);
     EXPECT_EQ(said({"--scramble", "owen", "-m", "3"}), note);
     EXPECT_EQ(said({"--scramble", "owen", "-m", "3", "-o", "a{set}.csv"}), note);

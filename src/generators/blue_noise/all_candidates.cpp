@@ -8,7 +8,7 @@
 #include <span>
 
 #include "core/wide.hpp"
-#include "math/functions/mixer.hpp"
+#include "math/functions/splitmix64.hpp"
 
 namespace stipple {
 namespace {
@@ -58,14 +58,14 @@ void AllCandidates::add() {
     const std::size_t number = rows_.size() / d;
     const auto all = static_cast<std::uint64_t>(
         std::max(1.0, std::floor(factor_ * static_cast<double>(number))));
-    Mixer mixer(rng_.bits(number));
+    SplitMix64 stream(rng_.bits(number));
     std::vector<double> winner(d);
     std::vector<double> p(d);
     double best = -1;
     for (std::uint64_t candidate = 0; candidate < all; ++candidate) {
         if (candidate % 0x10000 == 0xffff) run_.check_stop();
         for (std::size_t k = 0; k < d; ++k) do
-                p[k] = space_.box.low[k] + to_unit(mixer.next()) * space_.box.extent(k);
+                p[k] = space_.box.low[k] + to_unit(stream.next()) * space_.box.extent(k);
             while (p[k] >= space_.box.high[k]);
         const double squared = least_squared(along_, turns_, p.data(), best);
         if (squared <= best) continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Mitchell's method as it is written down (generators/blue_noise/best_candidate.cpp): of max(1, c i) places
+// Mitchell's method as it is written down (best_candidate.cpp): of max(1, c i) places
 // uniform in the box, all of which are made, the one farthest from the i points before it.
 //
 // A place loses as soon as a point is met that is as near as one of the best so far.

@@ -12,8 +12,7 @@
 // opened, too, and gets its binomial number of the candidates that are left. The rest cannot win,
 // and is never made. Cells are halved, and their bounds worked out anew, when their turn comes.
 //
-// In more dimensions cells leave out too little, and all candidates are made
-// (generators/blue_noise/all_candidates.hpp).
+// In more dimensions cells leave out too little, and all candidates are made (all_candidates.hpp).
 //
 // Shape   d = 1, ..., 32; distances are those in the box of --bounds, across its faces too (torus)
 //         or not.
@@ -26,18 +25,17 @@
 
 #include <fmt/format.h>
 
-#include <bit>
+#include <cmath>
 #include <limits>
 #include <queue>
 
 #include "core/rng.hpp"
 #include "core/text.hpp"
 #include "generators/blue_noise/all_candidates.hpp"
-#include "generators/blue_noise/near_lists.hpp"
 #include "generators/box_space.hpp"
 #include "generators/generator.hpp"
-#include "math/functions/mixer.hpp"
 #include "math/functions/roots.hpp"
+#include "math/functions/splitmix64.hpp"
 #include "math/neighbors/covering_bound.hpp"
 #include "math/neighbors/point_grid.hpp"
 
@@ -56,8 +54,8 @@ constexpr Param<double> candidates{
 /// Uniform numbers for one point: they depend on the seed and its index alone.
 class PointDraws {
   public:
-    PointDraws(const Rng& rng, std::uint64_t point) : mixer_(rng.bits(point)) {}
-    double next() { return to_unit(mixer_.next()); }
+    PointDraws(const Rng& rng, std::uint64_t point) : stream_(rng.bits(point)) {}
+    double next() { return to_unit(stream_.next()); }
 
     /// How many of m throws hit what has the chance p each.
     std::uint64_t binomial(std::uint64_t m, double p) {
@@ -83,7 +81,7 @@ class PointDraws {
         return product;
     }
 
-    Mixer mixer_;
+    SplitMix64 stream_;
 };
 
 /// A cell that waits for its turn.
@@ -95,73 +93,18 @@ struct Waiting {
     }
 };
 
-/// The waiting cells, the highest bound first. Only the highest are in a heap, small enough for a
-/// cache; the others lie in drawers a thousandth wide.
-class WaitingCells {
-  public:
-    /// @param largest no finite bound is above twice that; any may be.
-    explicit WaitingCells(double largest) : base_(code(largest) - octaves * octave) {}
-
-    void push(const Waiting& cell) {
-        ++size_;
-        const std::size_t drawer = drawer_of(cell.bound);
-        if (drawer >= lowest_)
-            high_.push(cell);
-        else
-            drawers_[drawer].push_back(cell);
-    }
-
-    [[nodiscard]] bool empty() const { return size_ == 0; }
-
-    const Waiting& top() {
-        while (high_.empty()) {
-            for (const Waiting& cell : drawers_[--lowest_]) high_.push(cell);
-            drawers_[lowest_] = {};
-        }
-        return high_.top();
-    }
-
-    void pop() {
-        top();
-        --size_;
-        high_.pop();
-    }
-
-  private:
-    static constexpr std::int64_t octave = 1024;  ///< drawers for bounds in [b, 2b)
-    static constexpr std::int64_t octaves = 40;
-    static constexpr std::size_t drawers = (octaves + 2) * octave;
-
-    /// Grows with the bound, by `octave` in an octave.
-    static std::int64_t code(double bound) {
-        return static_cast<std::int64_t>(std::bit_cast<std::uint64_t>(bound) >> 42);
-    }
-    [[nodiscard]] std::size_t drawer_of(double bound) const {
-        const auto last = static_cast<std::int64_t>(drawers) - 1;
-        return static_cast<std::size_t>(std::clamp<std::int64_t>(code(bound) - base_, 0, last));
-    }
-
-    std::int64_t base_;
-    std::priority_queue<Waiting> high_;
-    std::vector<std::vector<Waiting>> drawers_{drawers};
-    std::size_t lowest_ = drawers;  ///< of the drawers that are in the heap
-    std::size_t size_ = 0;
-};
-
 /// The box in cells with bounds. The highest ones are open: candidates are thrown into all of them
 /// at once, and so many are kept open that a few fall there. All others are in a heap.
 template <std::size_t D>
-class Sieve {
+class LazySearch {
   public:
     using Point = typename GridFrame<D>::Point;
 
-    Sieve(const BoxSpace& space, std::uint64_t seed, double factor)
+    LazySearch(const BoxSpace& space, std::uint64_t seed, double factor)
         : space_(space),
           factor_(factor),
           rng_(seed),
           points_(space.box, space.torus),
-          near_(space.box, space.torus),
-          heap_(space.largest_distance()),
           tiles_(space.box, space.torus, infinity) {
         Cell whole{.low = {}, .bound = infinity};
         for (std::size_t k = 0; k < D; ++k) {
@@ -205,7 +148,7 @@ class Sieve {
         }
         left -= hits;
         while (!heap_.empty() && best_ < heap_.top().bound && left > 0) left -= go_on(left, draws);
-        add_winner();
+        points_.add(winner_.data());
         tidy();
     }
 
@@ -215,7 +158,6 @@ class Sieve {
     static constexpr double infinity = std::numeric_limits<double>::infinity();
     static constexpr std::uint32_t most_halvings = 50;
     static constexpr std::uint32_t closed = 0xffff'ffff;
-    static constexpr double reach_in_best = 1.5;
     static constexpr double eager = 64;  ///< candidates that are to fall into open cells, at least
 
     struct Cell {
@@ -235,14 +177,6 @@ class Sieve {
         std::uint32_t size = 0;             ///< of the points below
         std::array<Point, D + 1> points{};  ///< near it, seen from `low`: most candidates lose here
     };
-
-    void add_winner() {
-        points_.add(winner_.data());
-        if (2 * points_.count() >= 3 * near_.renewed_at() && best_ > 0)
-            near_.renew(reach_in_best * best_, points_.rows());
-        else if (near_.reach() > 0)
-            near_.add(winner_.data());
-    }
 
     /// Takes the highest cell of the heap: bounds it anew, halves it, or opens it, which gives
     /// true.
@@ -398,16 +332,9 @@ class Sieve {
 
     /// Bounds a cell anew by all points that may be nearest somewhere in it.
     void bound(Cell& cell) {
-        const std::uint32_t before = cell.points;
-        if (before == points_.count()) return;
+        if (cell.points == points_.count()) return;
         cell.points = static_cast<std::uint32_t>(points_.count());
-        const Point middle = center(cell);
-        const double reach = reach_of(cell);
-        if (near_.reach() >= reach && before > 0) {
-            const auto& list = near_.at(middle.data());
-            if (list.empty() || list.back().index < before) return;  // nothing new near by
-        }
-        gather(middle, reach);
+        gather(center(cell), reach_of(cell));
         if (covering_.empty()) return;
         constexpr double safety = 1 + 1e-12;  // far above what rounding does
         cell.bound =
@@ -422,15 +349,6 @@ class Sieve {
     /// All points within the reach of the middle.
     void gather(const Point& middle, double reach) {
         covering_.clear();
-        if (near_.reach() >= reach) {
-            for (const auto& near : near_.at(middle.data())) {
-                const Point way = shift(middle, near.at.data());
-                double squared = 0;
-                for (const double x : way) squared += x * x;
-                if (squared <= reach * reach) covering_.add(way);
-            }
-            return;
-        }
         points_.visit(middle.data(), reach, [&](std::size_t, double, const double* q) {
             covering_.add(shift(middle, q));
             return true;
@@ -511,12 +429,6 @@ class Sieve {
     /// Distance of the nearest point, which is at most `bound`; or some number up to the best
     /// distance so far, if that is not reached.
     [[nodiscard]] double distance_of(const Point& p, double bound) const {
-        if (near_.reach() >= bound) {
-            double least = infinity;
-            for (const auto& near : near_.at(p.data()))
-                least = std::min(least, points_.frame().squared_distance(p.data(), near.at.data()));
-            return std::sqrt(least);
-        }
         if (best_ > 0 && points_.any_nearer(p.data(), best_)) return 0;
         const double guess = bound < infinity ? bound : space_.largest_distance();
         return std::sqrt(points_.nearest_squared(p.data(), guess));
@@ -526,13 +438,12 @@ class Sieve {
     double factor_;
     Rng rng_;
     GrowingPoints<D> points_;
-    NearLists<D> near_;                              ///< the same points; empty unless `listed`
     std::array<Point, most_halvings + 1> sides_{};   ///< of cells, by depth
     std::array<Point, most_halvings + 1> halves_{};  ///< of those sides
     std::array<double, most_halvings + 1> diagonals_{};
     std::array<double, most_halvings + 1> shares_{1};  ///< of the box, by depth
     std::vector<Cell> cells_;
-    WaitingCells heap_;
+    std::priority_queue<Waiting> heap_;
     std::array<std::vector<Open>, most_halvings + 1> open_;  ///< by depth
     bool crowded_ = false;                                   ///< more is open than need be
     std::uint32_t shallowest_ = 0;
@@ -549,13 +460,13 @@ class Sieve {
     Point winner_{};
 };
 
-/// What cells and the lists take for a point: 2000 in 2-D, more in 3-D.
+/// What cells take for a point: 1500 in 2-D, more in 3-D.
 constexpr double cell_bytes = 5000;
 
 /// In more dimensions cells take longer than all candidates, for fewer than 10^4.5 points.
-constexpr std::size_t most_sieved = 3;
+constexpr std::size_t most_lazy = 3;
 
-/// The rows of so many points. @param maker a Sieve or AllCandidates
+/// The rows of so many points. @param maker a LazySearch or AllCandidates
 template <class Maker>
 std::vector<double> rows_of(Maker&& maker, std::uint64_t wanted, const RunContext& run) {
     for (std::uint64_t i = 0; i < wanted; ++i) {
@@ -567,7 +478,7 @@ std::vector<double> rows_of(Maker&& maker, std::uint64_t wanted, const RunContex
 }
 
 template <std::size_t D>
-std::vector<double> sieved(const BoxSpace& space, const Plan& plan, double factor,
+std::vector<double> lazily(const BoxSpace& space, const Plan& plan, double factor,
                            std::uint64_t wanted, const RunContext& run) {
     const auto number = static_cast<double>(wanted);
     run.need_memory(GrowingPoints<D>::memory(number) + number * cell_bytes,
@@ -575,7 +486,7 @@ std::vector<double> sieved(const BoxSpace& space, const Plan& plan, double facto
     if (number >= 2e7)
         fail(ErrorKind::limit, "--count: {} points; at most 2e7 have cells with 32-bit numbers",
              wanted);
-    return rows_of(Sieve<D>(space, plan.seed, factor), wanted, run);
+    return rows_of(LazySearch<D>(space, plan.seed, factor), wanted, run);
 }
 
 std::vector<double> rows_in(const BoxSpace& space, const Plan& plan, double factor,
@@ -583,11 +494,11 @@ std::vector<double> rows_in(const BoxSpace& space, const Plan& plan, double fact
     const std::uint64_t wanted = plan.start + plan.count;
     switch (plan.dimension) {
         case 1:
-            return sieved<1>(space, plan, factor, wanted, run);
+            return lazily<1>(space, plan, factor, wanted, run);
         case 2:
-            return sieved<2>(space, plan, factor, wanted, run);
-        case most_sieved:
-            return sieved<most_sieved>(space, plan, factor, wanted, run);
+            return lazily<2>(space, plan, factor, wanted, run);
+        case most_lazy:
+            return lazily<most_lazy>(space, plan, factor, wanted, run);
         default:
             run.need_memory(AllCandidates::memory(static_cast<double>(wanted), plan.dimension),
                             fmt::format("{} points", wanted));

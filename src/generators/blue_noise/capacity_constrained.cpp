@@ -6,7 +6,7 @@
 //     minimise over x  sum over i of integral of |y - x_i|^2 rho(y) dy over cell i,
 //     with weights w such that  integral of rho over cell i = total / n  for all i.
 //
-// In turn, the weights are found for the points where they are (generators/blue_noise/equal_cells.hpp), and
+// In turn, the weights are found for the points where they are (equal_cells.hpp), and
 // the points move to the centroids of their cells, both of which lower the cost. Left alone the
 // points become crystals of hexagons: so every tenth iteration, but for the last nine, hexagons
 // beside hexagons are shaken by up to half a spacing. Hexagons are told by the bond order of a
@@ -14,12 +14,10 @@
 //
 //     | sum_j exp(6 i theta_j) | / k  >  3/4    for the point and two of its neighbours or more.
 //
-// Shape   d = 2; any rectangle, torus or bounded. A density is raised to at least 10^-4 of its
-// mean,
-//         so that no cell is without mass.
+// Shape   d = 2; any rectangle, torus or bounded. A density is raised to at least 10^-3 of its
+//         mean, so that no cell is without mass.
 // Cost    4 us a point and iteration at n = 4096 on one core, 7 us at 10^5; with a density of
-// strong
-//         contrasts up to ten times that. 300 bytes a point.
+//         strong contrasts up to ten times that. 300 bytes a point.
 // Promise masses are equal within 10^-6 of them, or the user is told; the same bits for any number
 //         of threads.
 // Source  F. de Goes, K. Breeden, V. Ostromoukhov, M. Desbrun, "Blue noise through optimal
@@ -120,19 +118,11 @@ std::vector<Vec2> random_places(std::size_t n, const Planar& planar,
     return places;
 }
 
-void need_memory(std::uint64_t n, const RunContext& run) {
-    run.need_memory(300.0 * static_cast<double>(n), "the transport");
-}
-
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
-    need_memory(plan.count, run);
-    const Planar planar = planar_of(plan, !options[bounded_option]);
-    const auto density = planar_density(options, run);
+    auto [planar, density, rows] = planar_start(plan, options, 300, "the transport", run);
     const auto floor = [](double value) { return std::max(value, 1e-3); };
     const auto moments = planar_moments(density, floor, planar, run);
-    auto rows = starting_rows(plan, options, planar, density, run);
     const std::size_t n = rows.size() / 2;
-    need_memory(n, run);
     const auto rescue = random_places(n, planar, density, Rng(plan.seed, 1));
     run.tick(0, 1);
     EqualCells cells(planar, moments, rows, run);
@@ -162,11 +152,7 @@ Generator unit() {
     return {.name = "capacity-constrained",
             .summary = "Points with cells of equal mass, by optimal transport (blue noise)",
             .source = "de Goes, Breeden, Ostromoukhov, Desbrun 2012, doi:10.1145/2366145.2366190",
-            .traits = {.min_dimension = 2,
-                       .max_dimension = 2,
-                       .sequence = false,
-                       .prefix = false,
-                       .boxed = true},
+            .traits = planar_traits,
             .options = Schema(iterations, crystals, planar::initial, from, density_option,
                               invert_option, torus_option, bounded_option),
             .aliases = {"bnot", "optimal-transport", "ccvt"},

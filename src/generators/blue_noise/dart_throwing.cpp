@@ -62,8 +62,6 @@ constexpr Param<double> shrink{.name = "shrink",
                                .high = 0.999999,
                                .help = "What the radius is multiplied by when it shrinks"};
 
-constexpr double packed = 0.8;  // points to r^d when hardly one more finds a place; rather too many
-
 Plan plan(const Request& request, const Values& options) {
     Plan plan = plan_in_box(request, options);
     check_density(options, plan.dimension);
@@ -227,12 +225,11 @@ std::pair<std::vector<double>, double> throw_all(Darts darts, const BoxSpace& sp
 template <std::size_t D>
 PointSet make_in(const Plan& plan, const Values& options, const RunContext& run) {
     const BoxSpace space = space_of(plan, !options[bounded_option]);
-    std::optional<DensityMap> map;
-    if (options.given(density_option))
-        map = read_density(options[density_option], options[invert_option], run);
-    const double expected =
-        plan.count ? static_cast<double>(plan.start + plan.count)
-                   : space.expected_points(packed, options[radius]) / (map ? map->largest() : 1);
+    const auto map = given_density(options, run);
+    const double expected = plan.count
+                                ? static_cast<double>(plan.start + plan.count)
+                                : space.expected_points(saturated_density[D], options[radius]) /
+                                      (map ? map->largest() : 1);
     check_size(expected, map ? DenseDarts::memory(expected) : GrowingPoints<D>::memory(expected),
                run);
     auto [rows, r] =
@@ -244,8 +241,7 @@ PointSet make_in(const Plan& plan, const Values& options, const RunContext& run)
     notes = {{"radius", format_number(r)}, {"misses", std::to_string(options[misses])}};
     if (!options.given(radius)) notes.emplace_back("shrink", format_number(options[shrink]));
     notes.emplace_back(space.torus ? "torus" : "bounded", "true");
-    if (map) notes.emplace_back("density", options[density_option]);
-    if (options[invert_option]) notes.emplace_back("invert", "true");
+    note_density(options, points);
     return points;
 }
 

@@ -9,21 +9,21 @@
 #include "core/parallel.hpp"
 #include "core/rng.hpp"
 #include "core/wide.hpp"
+#include "generators/blue_noise/gaussian_relaxation.hpp"
 #include "math/functions/exponential.hpp"
 
 namespace stipple {
 namespace {
 
 constexpr double reach = 5;        // exp(-12.5) = 3.7e-6
-constexpr std::size_t lanes = 8;   // sums run side by side, the same on every machine
 constexpr double leaf_mass = 0.5;  // of a point
 constexpr double window_mass = 2;  // points
 constexpr int deepest = 24;        // levels of the quadtree
 
-using Sides = std::array<double, 2>;
+using PlaneSides = std::array<double, 2>;
 
-/// Sides of the torus of area `count`, in proportion to `extents`; of a square without any.
-Sides sides_of(std::size_t count, std::span<const double> extents) {
+/// PlaneSides of the torus of area `count`, in proportion to `extents`; of a square without any.
+PlaneSides sides_of(std::size_t count, std::span<const double> extents) {
     const double side = std::sqrt(static_cast<double>(count));
     if (extents.empty()) return {side, side};
     const double stretch = std::sqrt(extents[0] / extents[1]);
@@ -56,12 +56,13 @@ struct Bodies {
 };
 
 /// Bodies near a point.
-struct Candidates {
+struct NearBodies {
     std::size_t count = 0;
     Bodies bodies = Bodies(0);
 
     void take(const Bodies& from, std::size_t first, std::size_t size, double across, double up) {
-        if (bodies.x.size() < count + size + lanes) bodies.resize(2 * (count + size + lanes));
+        if (bodies.x.size() < count + size + sum_lanes)
+            bodies.resize(2 * (count + size + sum_lanes));
         for (std::size_t i = 0; i < size; ++i) {
             bodies.x[count + i] = from.x[first + i] + across;
             bodies.y[count + i] = from.y[first + i] + up;
@@ -71,23 +72,23 @@ struct Candidates {
         count += size;
     }
 
-    /// Adds bodies of mass 0 up to a multiple of the lanes.
+    /// Adds bodies of mass 0 up to a multiple of the sum_lanes.
     void pad() {
-        for (; count % lanes != 0; ++count) bodies.put(count, {0, 0, 1, 0});
+        for (; count % sum_lanes != 0; ++count) bodies.put(count, {0, 0, 1, 0});
     }
 };
 
 /// The force on a body of sigma^2 = a at (x, y).
-STIPPLE_WIDE std::array<double, 2> force_at(double x, double y, double a, const Candidates& near) {
+STIPPLE_WIDE std::array<double, 2> force_at(double x, double y, double a, const NearBodies& near) {
     const double* xs = near.bodies.x.data();
     const double* ys = near.bodies.y.data();
     const double* squares = near.bodies.squares.data();
     const double* masses = near.bodies.masses.data();
-    double fx[lanes] = {};
-    double fy[lanes] = {};
-    for (std::size_t j = 0; j < near.count; j += lanes) {
-        double weights[lanes];
-        for (std::size_t l = 0; l < lanes; ++l) {
+    double fx[sum_lanes] = {};
+    double fy[sum_lanes] = {};
+    for (std::size_t j = 0; j < near.count; j += sum_lanes) {
+        double weights[sum_lanes];
+        for (std::size_t l = 0; l < sum_lanes; ++l) {
             const double dx = x - xs[j + l];
             const double dy = y - ys[j + l];
             const double per_sum = 1 / (a + squares[j + l]);
@@ -96,22 +97,18 @@ STIPPLE_WIDE std::array<double, 2> force_at(double x, double y, double a, const 
             const double kernel = exponential(-r2);
             weights[l] = r2 < reach * reach / 2 ? masses[j + l] * share * kernel : 0;
         }
-        for (std::size_t l = 0; l < lanes; ++l) {
+        for (std::size_t l = 0; l < sum_lanes; ++l) {
             fx[l] += (x - xs[j + l]) * weights[l];
             fy[l] += (y - ys[j + l]) * weights[l];
         }
     }
-    const auto total = [](const double* parts) {
-        return ((parts[0] + parts[4]) + (parts[1] + parts[5])) +
-               ((parts[2] + parts[6]) + (parts[3] + parts[7]));
-    };
-    return {total(fx), total(fy)};
+    return {sum_of_lanes(fx), sum_of_lanes(fy)};
 }
 
 /// Bodies of the torus whose sigma^2 is in one octave, in cells of about sigma.
 class Octave {
   public:
-    Octave(const Sides& sides, int exponent, const std::vector<Body>& bodies)
+    Octave(const PlaneSides& sides, int exponent, const std::vector<Body>& bodies)
         : sides_(sides), most_(std::ldexp(1.0, exponent + 1)), sorted_(bodies.size()) {
         for (std::size_t k = 0; k < 2; ++k) {
             const auto cells = static_cast<std::size_t>(sides[k] / std::sqrt(most_));
@@ -126,7 +123,7 @@ class Octave {
     }
 
     /// Adds all within reach of a body of sigma^2 = a at (x, y), on all images.
-    void gather(double x, double y, double a, Candidates& near) const {
+    void gather(double x, double y, double a, NearBodies& near) const {
         const double far = reach * std::sqrt((a + most_) / 2);
         const auto low = [&](double c) {
             return static_cast<std::int64_t>((c - far) / widths_[1]) - 1;
@@ -152,7 +149,7 @@ class Octave {
         return j * along_[0] + i;
     }
 
-    void add_row(std::int64_t row, std::int64_t first, std::int64_t last, Candidates& near) const {
+    void add_row(std::int64_t row, std::int64_t first, std::int64_t last, NearBodies& near) const {
         const auto columns = static_cast<std::int64_t>(along_[0]);
         const auto rows = static_cast<std::int64_t>(along_[1]);
         const auto turns_of = [](std::int64_t c, std::int64_t period) {
@@ -173,16 +170,16 @@ class Octave {
         }
     }
 
-    Sides sides_;
+    PlaneSides sides_;
     double most_;                         ///< sigma^2 of all bodies is at most this
     std::array<std::size_t, 2> along_{};  ///< cells along each side
-    Sides widths_{};                      ///< of a cell
+    PlaneSides widths_{};                 ///< of a cell
     std::vector<std::uint32_t> starts_;
     Bodies sorted_;
 };
 
 /// Bodies by octaves of sigma^2.
-std::vector<Octave> octaves(const Sides& sides, const std::vector<Body>& bodies) {
+std::vector<Octave> octaves(const PlaneSides& sides, const std::vector<Body>& bodies) {
     constexpr int lowest = -60;
     constexpr int highest = 60;
     std::vector<std::vector<Body>> split(highest - lowest + 1);
@@ -247,7 +244,7 @@ class Masses {
 /// Squares of the density that hold at most leaf_mass points each.
 class Quadtree {
   public:
-    Quadtree(const DensityMap& map, double count, const Sides& sides, const RunContext& run)
+    Quadtree(const DensityMap& map, double count, const PlaneSides& sides, const RunContext& run)
         : masses_(map),
           count_(count),
           sides_(sides),
@@ -303,7 +300,7 @@ class Quadtree {
 
     Masses masses_;
     double count_;
-    Sides sides_;
+    PlaneSides sides_;
     double longest_;
     const RunContext& run_;
     std::vector<Body> leaves_;
@@ -311,12 +308,12 @@ class Quadtree {
 
 /// Forces on all points, from each other and from the density.
 void all_forces(const std::vector<Body>& points, const std::vector<Octave>& density,
-                const Sides& sides, std::span<double> forces, const RunContext& run) {
+                const PlaneSides& sides, std::span<double> forces, const RunContext& run) {
     const std::vector<Octave> moving = octaves(sides, points);
     for_each_block(
         run, points.size(), 32,
         [&](const Block& block) {
-            Candidates near;
+            NearBodies near;
             for (std::uint64_t i = block.first; i < block.last; ++i) {
                 const Body& point = points[i];
                 near.count = 0;
@@ -343,36 +340,30 @@ double density_relaxation_bytes(std::uint64_t count, const DensityMap& map) {
 void relax_to_density(std::span<double> rows, const DensityMap& map, std::uint64_t steps,
                       const RunContext& run, std::span<const double> extents) {
     const std::size_t n = rows.size() / 2;
-    const Sides sides = sides_of(n, extents);
+    const PlaneSides sides = sides_of(n, extents);
     const Quadtree tree(map, static_cast<double>(n), sides, run);
     const std::vector<Octave> density = octaves(sides, tree.leaves());
     const RunContext part = worth_threads(run, 3e-6 * static_cast<double>(n));
     std::vector<Body> points(n);
     std::vector<double> forces(2 * n);
-    std::vector<double> speeds(2 * n);
-    double k = 1;
+    Descent descent(2 * n);
     for (std::uint64_t step = 0; step < steps; ++step) {
         run.tick(step, steps);
         for (std::size_t i = 0; i < n; ++i)
             points[i] = {rows[2 * i] * sides[0], rows[2 * i + 1] * sides[1],
                          tree.square_at(rows[2 * i], rows[2 * i + 1]), 1};
         all_forces(points, density, sides, forces, part);
-        double along = 0;
-        for (std::size_t i = 0; i < 2 * n; ++i) along += forces[i] * speeds[i];
-        k = along < 0 ? 1 : k + 1;
-        const double kept = k > 1 ? 1 - 3 / (k + 2) : 0;
-        for (std::size_t i = 0; i < n; ++i) {
+        const auto ways = descent.step(forces, 0.25);
+        for (std::size_t i = 0; i < 2 * n; i += 2) {
             std::array<double, 2> to{};
             for (std::size_t c = 0; c < 2; ++c) {
-                double& speed = speeds[2 * i + c];
-                speed = 0.25 * forces[2 * i + c] + kept * speed;
-                const double x = rows[2 * i + c] + speed / sides[c];
+                const double x = rows[i + c] + ways[i + c] / sides[c];
                 to[c] = std::min(x - std::floor(x), one_minus_ulp);
             }
             if (map.at(to[0], to[1]) > 0)
-                std::ranges::copy(to, rows.begin() + static_cast<std::ptrdiff_t>(2 * i));
+                std::ranges::copy(to, rows.begin() + static_cast<std::ptrdiff_t>(i));
             else
-                speeds[2 * i] = speeds[2 * i + 1] = 0;
+                ways[i] = ways[i + 1] = 0;
         }
     }
     run.tick(1, 1);

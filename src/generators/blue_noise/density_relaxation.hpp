@@ -7,7 +7,7 @@
 //
 // is 0 where points and density are alike; sigma, near rho^(-1/2), is the distance of points.
 // Points move down the gradient of f, smoothed by their own kernel, as in
-// math/neighbors/gaussian_relaxation.hpp:
+// gaussian_relaxation.hpp:
 //
 //     F_i = sum_j m_j 4 a b / (a + b)^2 (x_i - x_j) exp(-|x_i - x_j|^2 / (a + b)),
 //     a = sigma_i^2,  b = sigma_j^2,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <queue>
 #include <utility>
 
 #include "core/parallel.hpp"
@@ -36,95 +37,41 @@ class Kernel {
     double nearest_;  ///< r_min / r_max: a distance below 2 r_min counts as that
 };
 
-/// Points, numbered anew, of which the near ones can be found. This is where all have one radius.
+/// Points, numbered anew, of which the near ones can be found. They lie in layers, in which no
+/// radius is more than twice another, so that a layer's grid fits all of its points.
 template <std::size_t D>
-class Crowd {
+class LayeredPoints {
   public:
-    Crowd(std::span<const double> rows, const BoxSpace& space, double r_max, const RunContext& run)
-        : reach_(2 * r_max),
-          inverse_(1 / reach_),
-          points_(GridFrame<D>(space.box, space.torus, reach_ / 2,
-                               1024 + 0.5 * static_cast<double>(rows.size() / D)),
-                  rows, run) {}
-
-    [[nodiscard]] std::size_t count() const { return points_.count(); }
-    [[nodiscard]] std::uint32_t original(std::size_t s) const { return points_.original(s); }
-
-    /// Calls visit(t, squared distance, inverse of the distance at which the pair's term ends) for
-    /// all points with a term, s itself among them.
-    template <class Visit>
-    void visit(std::size_t s, Visit&& visit) const {
-        this->visit(points_[s], visit);
-    }
-
-    /// The same for the others, when point s has been taken out.
-    template <class Visit>
-    void visit_without(std::size_t s, Visit&& visit) {
-        std::array<double, D> p;
-        std::copy_n(points_[s], D, p.begin());
-        points_.remove(s);
-        this->visit(p.data(), visit);
-    }
-
-  private:
-    template <class Visit>
-    void visit(const double* p, Visit& visit) const {
-        points_.visit(p, reach_,
-                      [&](std::size_t t, double squared) { visit(t, squared, inverse_); });
-    }
-
-    double reach_;
-    double inverse_;
-    SortedPoints<D> points_;
-};
-
-/// The same for points with radii of their own. In a layer none is more than twice another, so that
-/// its grid fits all of its points.
-template <std::size_t D>
-class LayeredCrowd {
-  public:
-    LayeredCrowd(std::span<const double> rows, const BoxSpace& space, double r_max,
-                 std::span<const double> shares, const RunContext& run) {
-        std::vector<double> radii;
+    /// @param shares as eliminate takes them
+    LayeredPoints(std::span<const double> rows, const BoxSpace& space, double r_max,
+                  std::span<const double> shares, const RunContext& run) {
+        const std::size_t count = rows.size() / D;
+        radii_.assign(count, r_max);
         std::map<int, std::vector<std::uint32_t>> by_size;
-        const double most = space.largest_distance() / r_max;  // no pair is farther apart
-        for (const double given : shares) {
-            const double share = std::min(given, most);
-            by_size[std::ilogb(share)].push_back(static_cast<std::uint32_t>(radii.size()));
-            radii.push_back(r_max * share);
+        const double most = space.largest_distance();  // no pair is farther apart
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const double share = shares.empty() ? 1 : std::min(shares[i], most / r_max);
+            radii_[i] = r_max * share;
+            by_size[std::ilogb(share)].push_back(i);
         }
-        std::vector<double> some;
-        for (const auto& [size, members] : by_size) {
-            some.clear();
-            Layer layer{.first = originals_.size(), .largest = 0, .points = {}};
-            for (const std::uint32_t i : members) {
-                const auto row = rows.begin() + static_cast<std::ptrdiff_t>(i * D);
-                some.insert(some.end(), row, row + D);
-                layer.largest = std::max(layer.largest, radii[i]);
-            }
-            // Points of small radii may all be in a small part of the box.
-            const GridFrame<D> frame(space.box, space.torus, layer.largest,
-                                     1024 + 8 * static_cast<double>(members.size()));
-            layer.points.emplace(frame, some, run);
-            for (std::size_t t = 0; t < members.size(); ++t) {
-                const std::uint32_t i = members[layer.points->original(t)];
-                originals_.push_back(i);
-                radii_.push_back(radii[i]);
-                layer_of_.push_back(static_cast<std::uint8_t>(layers_.size()));
-            }
-            layers_.push_back(std::move(layer));
-        }
+        for (const auto& [size, members] : by_size) add_layer(members, rows, space, run);
+        std::vector<double> sorted;
+        for (const std::uint32_t i : originals_) sorted.push_back(radii_[i]);
+        radii_ = std::move(sorted);
     }
 
     [[nodiscard]] std::size_t count() const { return originals_.size(); }
     [[nodiscard]] std::uint32_t original(std::size_t s) const { return originals_[s]; }
 
+    /// Calls visit(t, squared distance, inverse of the distance at which the pair's term ends) for
+    /// all points with a term, s itself among them.
     template <class Visit>
     void visit(std::size_t s, Visit&& visit) const {
         const Layer& layer = layers_[layer_of_[s]];
         this->visit((*layer.points)[s - layer.first], radii_[s], visit);
     }
 
+    /// The same for the others, when point s has been taken out.
     template <class Visit>
     void visit_without(std::size_t s, Visit&& visit) {
         Layer& layer = layers_[layer_of_[s]];
@@ -140,6 +87,25 @@ class LayeredCrowd {
         double largest;     ///< radius
         std::optional<SortedPoints<D>> points;
     };
+
+    void add_layer(const std::vector<std::uint32_t>& members, std::span<const double> rows,
+                   const BoxSpace& space, const RunContext& run) {
+        std::vector<double> some;
+        Layer layer{.first = originals_.size(), .largest = 0, .points = {}};
+        for (const std::uint32_t i : members) {
+            const auto row = rows.begin() + static_cast<std::ptrdiff_t>(i * D);
+            some.insert(some.end(), row, row + D);
+            layer.largest = std::max(layer.largest, radii_[i]);
+        }
+        // Points of small radii may all be in a small part of the box.
+        const GridFrame<D> frame(space.box, space.torus, layer.largest,
+                                 1024 + 8 * static_cast<double>(members.size()));
+        layer.points.emplace(frame, some, run);
+        for (std::size_t t = 0; t < members.size(); ++t)
+            originals_.push_back(members[layer.points->original(t)]);
+        layer_of_.resize(originals_.size(), static_cast<std::uint8_t>(layers_.size()));
+        layers_.push_back(std::move(layer));
+    }
 
     template <class Visit>
     void visit(const double* p, double radius, Visit& visit) const {
@@ -166,53 +132,34 @@ struct Candidate {
     }
 };
 
-/// Moves the top of a heap, whose weight has fallen, down to its place. Four children a node: their
-/// nodes fill a cache line.
-void sift_down(std::vector<Candidate>& heap, std::size_t size, std::size_t at) {
-    const Candidate moving = heap[at];
-    for (;;) {
-        const std::size_t first = 4 * at + 1;
-        if (first >= size) break;
-        std::size_t best = first;
-        for (std::size_t c = first + 1; c < std::min(first + 4, size); ++c)
-            if (heap[best] < heap[c]) best = c;
-        if (!(moving < heap[best])) break;
-        heap[at] = heap[best];
-        at = best;
-    }
-    heap[at] = moving;
-}
-
-template <class Crowd>
+template <std::size_t D>
 class Elimination {
   public:
-    Elimination(Crowd crowd, std::uint64_t kept, const RunContext& run)
+    Elimination(LayeredPoints<D> points, std::uint64_t kept, const RunContext& run)
         : run_(run),
           kept_(kept),
-          points_(std::move(crowd)),
+          points_(std::move(points)),
           kernel_(static_cast<double>(kept) / static_cast<double>(points_.count())),
           weights_(points_.count()) {}
 
     std::vector<std::uint32_t> go() {
         weigh();
-        make_heap();
+        auto heap = heaviest_first();
         std::vector<std::uint32_t> gone;
         const std::size_t wanted = points_.count() - kept_;
         gone.reserve(wanted);
         const RunContext run = run_.stage(0.3, 1);
-        std::size_t size = heap_.size();
         for (std::uint64_t step = 0; gone.size() < wanted; ++step) {
             if (step % 1024 == 0) run.tick(gone.size(), wanted);
-            Candidate& top = heap_.front();
+            Candidate top = heap.top();
+            heap.pop();
             if (top.weight != weights_[top.sorted]) {
                 top.weight = weights_[top.sorted];
-                sift_down(heap_, size, 0);
+                heap.push(top);
                 continue;
             }
             gone.push_back(top.original);
             remove(top.sorted);
-            heap_.front() = heap_[--size];
-            sift_down(heap_, size, 0);
         }
         return gone;
     }
@@ -230,14 +177,12 @@ class Elimination {
         });
     }
 
-    void make_heap() {
-        heap_.reserve(points_.count());
+    [[nodiscard]] std::priority_queue<Candidate> heaviest_first() const {
+        std::vector<Candidate> all;
+        all.reserve(points_.count());
         for (std::size_t s = 0; s < points_.count(); ++s)
-            heap_.push_back({weights_[s], points_.original(s), static_cast<std::uint32_t>(s)});
-        for (std::size_t i = heap_.size() / 4 + 1; i-- > 0;) {
-            if (i % 65536 == 0) run_.check_stop();
-            if (i < heap_.size()) sift_down(heap_, heap_.size(), i);
-        }
+            all.push_back({weights_[s], points_.original(s), static_cast<std::uint32_t>(s)});
+        return std::priority_queue<Candidate>({}, std::move(all));
     }
 
     /// Takes a point out, and its part of the others' weights.
@@ -249,10 +194,9 @@ class Elimination {
 
     const RunContext& run_;
     std::uint64_t kept_;
-    Crowd points_;
+    LayeredPoints<D> points_;
     Kernel kernel_;
-    std::vector<std::uint64_t> weights_;  ///< by the crowd's numbers
-    std::vector<Candidate> heap_;
+    std::vector<std::uint64_t> weights_;  ///< by the new numbers
 };
 
 }  // namespace
@@ -280,8 +224,7 @@ std::vector<std::uint32_t> eliminate(std::span<const double> rows, const BoxSpac
                                      double r_max, std::uint64_t kept, const RunContext& run,
                                      std::span<const double> shares) {
     return with_dimension(space.box.dimension(), [&]<std::size_t D>() {
-        if (shares.empty()) return Elimination(Crowd<D>(rows, space, r_max, run), kept, run).go();
-        return Elimination(LayeredCrowd<D>(rows, space, r_max, shares, run), kept, run).go();
+        return Elimination(LayeredPoints<D>(rows, space, r_max, shares, run), kept, run).go();
     });
 }
 

@@ -93,12 +93,6 @@ double EqualCells::least_mass() const {
     return std::ranges::min_element(moments_, {}, &CellMoments::mass)->mass;
 }
 
-double EqualCells::energy() const {
-    double sum = 0;
-    for (const CellMoments& cell : moments_) sum += cell.second;
-    return sum;
-}
-
 std::vector<double> EqualCells::newton_step() const {
     constexpr double accuracy = 1e-5;  // of the residual, against the masses' error
     const std::size_t n = count();

@@ -63,9 +63,6 @@ class EqualCells {
     [[nodiscard]] std::span<const CellMoments> moments() const { return moments_; }
     [[nodiscard]] std::span<const Bond> bonds() const { return bonds_; }
 
-    /// Sum of all integrals of |x - x_i|^2 rho.
-    [[nodiscard]] double energy() const;
-
   private:
     void measure();
     void measure_cell(std::size_t i, VoronoiCell& cell, std::vector<Bond>& bonds);

@@ -177,16 +177,10 @@ class FarthestPoint {
     VoronoiCell cell_;
 };
 
-void need_memory(std::uint64_t n, const RunContext& run) {
-    run.need_memory(130.0 * static_cast<double>(n), "the farthest-point optimisation");
-}
-
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
-    need_memory(plan.count, run);
-    const Planar planar = planar_of(plan, !options[bounded_option]);
-    auto rows = starting_rows(plan, options, planar, {}, run);
+    auto [planar, density, rows] =
+        planar_start(plan, options, 130, "the farthest-point optimisation", run);
     const std::size_t n = rows.size() / 2;
-    need_memory(n, run);
     const auto sweeps = static_cast<std::uint64_t>(options[iterations]);
     run.tick(0, 1);
     FarthestPoint set(planar, rows, run);
@@ -216,11 +210,7 @@ Generator unit() {
                 "Points moved to the largest gap, one by one: the least distance near its "
                 "bound (blue noise)",
             .source = "Schloemer, Heck, Deussen 2011, doi:10.1145/2018323.2018345",
-            .traits = {.min_dimension = 2,
-                       .max_dimension = 2,
-                       .sequence = false,
-                       .prefix = false,
-                       .boxed = true},
+            .traits = planar_traits,
             .options = Schema(iterations, initial, planar::from, torus_option, bounded_option),
             .aliases = {"fpo", "farthest-point-optimization"},
             .plan = planar_plan,

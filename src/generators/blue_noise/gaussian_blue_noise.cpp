@@ -4,12 +4,12 @@
 //
 //     E = sum over pairs i < j of  exp(-(n / V)^(2/d) |x_i - x_j|^2 / 2)
 //
-// by --iterations accelerated gradient steps (math/neighbors/gaussian_relaxation.hpp). Points convolved with
+// by --iterations accelerated gradient steps (gaussian_relaxation.hpp). Points convolved with
 // Gaussians of standard deviation sqrt(1/2) (V / n)^(1/d), whose squares E adds up, come as near to
 // a constant as they can: what is below the frequency (n / V)^(1/d) / 2 vanishes from the spectrum.
 //
 // With a --density kernels are as wide as points are to be apart, and the density itself pulls as
-// much as the points push (generators/blue_noise/density_relaxation.hpp).
+// much as the points push (density_relaxation.hpp).
 //
 // Shape   d = 1 ... 4, distances on the torus, which is the unit cube or a box with no side a
 //         thousand times another; a density in 2-D.
@@ -22,15 +22,14 @@
 //         (2022), doi:10.1145/3550454.3555519; its sigma of 1 is this one.
 
 #include <algorithm>
-#include <optional>
 
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "generators/blue_noise/density_relaxation.hpp"
+#include "generators/blue_noise/gaussian_relaxation.hpp"
 #include "generators/box_space.hpp"
 #include "generators/density_options.hpp"
 #include "generators/generator.hpp"
-#include "math/neighbors/gaussian_relaxation.hpp"
 #include "media/density_map.hpp"
 
 namespace stipple::generators::gaussian_blue_noise {
@@ -51,10 +50,7 @@ constexpr Param<std::int64_t> iterations{
 
 Plan plan(const Request& request, const Values& options) {
     const Plan plan = plan_in_proportion(request);
-    check_invert(options);
-    if (options.given(density_option) && plan.dimension != 2)
-        fail(ErrorKind::usage, "--dimension: {} is not 2, the dimension of a --density",
-             plan.dimension);
+    check_density(options, plan.dimension);
     return plan;
 }
 
@@ -70,9 +66,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     if (static_cast<double>(plan.count) >= most)
         fail(ErrorKind::limit, "gaussian-blue-noise makes fewer than 2^32 points; {} are too many",
              plan.count);
-    std::optional<DensityMap> map;
-    if (options.given(density_option))
-        map = read_density(options[density_option], options[invert_option], run);
+    const auto map = given_density(options, run);
     const double working = map ? density_relaxation_bytes(plan.count, *map)
                                : relaxation_bytes(plan.count, plan.dimension);
     const auto numbers = static_cast<double>(plan.count * plan.dimension);
@@ -92,8 +86,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     }
     put_in_box(plan, points);
     points.provenance.options = {{"iterations", std::to_string(steps)}};
-    if (map) points.provenance.options.emplace_back("density", options[density_option]);
-    if (options[invert_option]) points.provenance.options.emplace_back("invert", "true");
+    note_density(options, points);
     return points;
 }
 

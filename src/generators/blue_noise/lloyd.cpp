@@ -12,8 +12,7 @@
 //
 // Shape   d = 2; any rectangle, its opposite sides joined (torus) or walls.
 // Cost    1.3 us a point and iteration on one core, with a density 2 us and more; 100 bytes a
-// point.
-//         Points where the density is 0 all around stay where they are.
+//         point. Points where the density is 0 all around stay where they are.
 // Promise E never rises; the same bits for any number of threads. Of points in one place all but
 //         one are moved to random places.
 // Source  S. P. Lloyd, IEEE Trans. Inf. Theory 28 (1982) 129-137, doi:10.1109/TIT.1982.1056489.
@@ -106,19 +105,11 @@ class Lloyd {
     PeriodicVoronoi sites_;
 };
 
-void need_memory(std::uint64_t n, const RunContext& run) {
-    run.need_memory(100.0 * static_cast<double>(n), "Lloyd's relaxation");
-}
-
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
-    need_memory(plan.count, run);
-    const Planar planar = planar_of(plan, !options[bounded_option]);
-    const auto density = planar_density(options, run);
+    const PlanarStart start = planar_start(plan, options, 100, "Lloyd's relaxation", run);
     const auto square = [](double value) { return value * value; };
-    const auto moments = planar_moments(density, square, planar, run);
-    const auto rows = starting_rows(plan, options, planar, density, run);
-    need_memory(rows.size() / 2, run);
-    Lloyd lloyd(planar, rows, moments, plan.seed, run);
+    const auto moments = planar_moments(start.density, square, start.planar, run);
+    Lloyd lloyd(start.planar, start.rows, moments, plan.seed, run);
     const auto steps = static_cast<std::uint64_t>(options[iterations]);
     run.tick(0, 1);
     for (std::uint64_t i = 0; i < steps; ++i) {
@@ -126,7 +117,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
         run.tick(i + 1, steps);
     }
     run.tick(1, 1);
-    return planar_points(plan, planar, lloyd.rows());
+    return planar_points(plan, start.planar, lloyd.rows());
 }
 
 bool uses_seed(const Values& options) { return !options.given(from); }
@@ -137,11 +128,7 @@ Generator unit() {
     return {.name = "lloyd",
             .summary = "Centroidal Voronoi relaxation: every point in the middle of its cell",
             .source = "Lloyd 1982, doi:10.1109/TIT.1982.1056489",
-            .traits = {.min_dimension = 2,
-                       .max_dimension = 2,
-                       .sequence = false,
-                       .prefix = false,
-                       .boxed = true},
+            .traits = planar_traits,
             .options = Schema(iterations, planar::initial, from, density_option, invert_option,
                               torus_option, bounded_option),
             .aliases = {"cvt", "centroidal-voronoi"},

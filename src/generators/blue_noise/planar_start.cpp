@@ -9,11 +9,18 @@
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "core/text.hpp"
+#include "generators/points_from.hpp"
 #include "math/functions/powers.hpp"
-#include "media/points_file.hpp"
 
 namespace stipple {
 namespace {
+
+Planar planar_of(const Plan& plan, bool torus) {
+    if (!plan.bounds) return {.low = {0, 0}, .sides = {1, 1}, .torus = torus};
+    const Box& box = *plan.bounds;
+    return {
+        .low = {box.low[0], box.low[1]}, .sides = {box.extent(0), box.extent(1)}, .torus = torus};
+}
 
 /// A point for each of n strata of equal area, columns of them, some of one more: uniform in the
 /// stratum and the next ones, twice as wide and as high, and beyond the last from the first on.
@@ -48,7 +55,7 @@ std::vector<double> random_rows(std::uint64_t n, const Rng& rng) {
 /// Points of a file, seen from the lower corner of the box.
 std::vector<double> rows_of_file(const std::string& path, const Planar& planar,
                                  const RunContext& run) {
-    const PointSet points = read_points(path, run);
+    const PointSet points = points_from(path, run);
     if (points.dimension() != 2)
         fail(ErrorKind::input, "{}: points of {} coordinates; expected 2", path,
              points.dimension());
@@ -67,57 +74,6 @@ std::vector<double> rows_of_file(const std::string& path, const Planar& planar,
     return rows;
 }
 
-}  // namespace
-
-Plan planar_plan(const Request& request, const Values& options) {
-    check_torus(options);
-    Plan plan = default_plan(request, 1024, 2);
-    if (options.given(planar::from)) {
-        if (request.count)
-            fail(ErrorKind::usage,
-                 "--from contradicts --count; the points of the file are counted");
-        if (options.given(planar::initial))
-            fail(ErrorKind::usage, "--from contradicts --initial; give one of them");
-        plan.count = 0;
-    }
-    if (!plan.bounds || plan.dimension != 2) return plan;
-    if (plan.bounds->dimension() != 2)
-        fail(ErrorKind::usage, "--bounds: {} ranges for 2 coordinates", plan.bounds->dimension());
-    const double longest = std::max(plan.bounds->extent(0), plan.bounds->extent(1));
-    const double shortest = std::min(plan.bounds->extent(0), plan.bounds->extent(1));
-    if (!(shortest > 1e-100 && longest < 1e100 && longest <= 1e6 * shortest))
-        fail(ErrorKind::usage,
-             "--bounds: {} is no rectangle to cut cells from; expected sides in [1e-100, 1e100], "
-             "none a million times the other",
-             format_box(*plan.bounds));
-    return plan;
-}
-
-Planar planar_of(const Plan& plan, bool torus) {
-    if (!plan.bounds) return {.low = {0, 0}, .sides = {1, 1}, .torus = torus};
-    const Box& box = *plan.bounds;
-    return {
-        .low = {box.low[0], box.low[1]}, .sides = {box.extent(0), box.extent(1)}, .torus = torus};
-}
-
-std::optional<DensityMap> planar_density(const Values& options, const RunContext& run) {
-    check_invert(options);
-    if (!options.given(density_option)) return {};
-    return read_density(options[density_option], options[invert_option], run);
-}
-
-std::optional<DensityMoments> planar_moments(const std::optional<DensityMap>& density,
-                                             double (*function)(double), const Planar& planar,
-                                             const RunContext& run) {
-    if (!density) return {};
-    run.need_memory(56.0 * static_cast<double>(density->values().size()), "the density");
-    std::vector<double> values(density->values().size());
-    std::ranges::transform(density->values(), values.begin(), function);
-    const double sum = std::accumulate(values.begin(), values.end(), 0.0);
-    for (double& value : values) value *= static_cast<double>(values.size()) / sum;
-    return DensityMoments(density->width(), density->height(), values, planar.sides);
-}
-
 std::vector<double> starting_rows(const Plan& plan, const Values& options, const Planar& planar,
                                   const std::optional<DensityMap>& density, const RunContext& run) {
     if (options.given(planar::from)) return rows_of_file(options[planar::from], planar, run);
@@ -134,6 +90,53 @@ std::vector<double> starting_rows(const Plan& plan, const Values& options, const
         rows[i + 1] *= planar.sides.y;
     }
     return rows;
+}
+
+}  // namespace
+
+Plan planar_plan(const Request& request, const Values& options) {
+    check_torus(options);
+    Plan plan = plan_in_bounds(request);
+    if (options.given(planar::from)) {
+        if (request.count)
+            fail(ErrorKind::usage,
+                 "--from contradicts --count; the points of the file are counted");
+        if (options.given(planar::initial))
+            fail(ErrorKind::usage, "--from contradicts --initial; give one of them");
+        plan.count = 0;
+    }
+    if (!plan.bounds || plan.dimension != 2) return plan;
+    const double longest = std::max(plan.bounds->extent(0), plan.bounds->extent(1));
+    const double shortest = std::min(plan.bounds->extent(0), plan.bounds->extent(1));
+    if (!(shortest > 1e-100 && longest < 1e100 && longest <= 1e6 * shortest))
+        fail(ErrorKind::usage,
+             "--bounds: {} is no rectangle to cut cells from; expected sides in [1e-100, 1e100], "
+             "none a million times the other",
+             format_box(*plan.bounds));
+    return plan;
+}
+
+std::optional<DensityMoments> planar_moments(const std::optional<DensityMap>& density,
+                                             double (*function)(double), const Planar& planar,
+                                             const RunContext& run) {
+    if (!density) return {};
+    run.need_memory(56.0 * static_cast<double>(density->values().size()), "the density");
+    std::vector<double> values(density->values().size());
+    std::ranges::transform(density->values(), values.begin(), function);
+    const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+    for (double& value : values) value *= static_cast<double>(values.size()) / sum;
+    return DensityMoments(density->width(), density->height(), values, planar.sides);
+}
+
+PlanarStart planar_start(const Plan& plan, const Values& options, double bytes,
+                         std::string_view who, const RunContext& run) {
+    run.need_memory(bytes * static_cast<double>(plan.count), std::string(who));
+    PlanarStart start{.planar = planar_of(plan, !options[bounded_option]),
+                      .density = given_density(options, run),
+                      .rows = {}};
+    start.rows = starting_rows(plan, options, start.planar, start.density, run);
+    run.need_memory(bytes * static_cast<double>(start.count()), std::string(who));
+    return start;
 }
 
 std::vector<std::uint32_t> along_strips(const std::vector<double>& rows, const Planar& planar,

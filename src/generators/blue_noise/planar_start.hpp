@@ -10,6 +10,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "generators/box_space.hpp"
@@ -23,7 +24,7 @@ namespace stipple {
 
 namespace planar {
 constexpr Param<Path> from{
-    {.name = "from", .help = "Text file of the points to start from, which make the count"}};
+    {.name = "from", .help = "File of the points to start from, which make the count"}};
 constexpr Param<Choice> initial{.name = "initial",
                                 .fallback = "jittered",
                                 .choices = "jittered|random",
@@ -40,19 +41,24 @@ struct Planar {
 /// The plan of a set in two dimensions, its box checked; the count is 0 with --from.
 Plan planar_plan(const Request& request, const Values& options);
 
-Planar planar_of(const Plan& plan, bool torus);
+/// Points to start from, and what they are to follow.
+struct PlanarStart {
+    Planar planar;
+    std::optional<DensityMap> density;
+    std::vector<double> rows;  ///< x, y in [0, side)
 
-/// The density of --density over the rectangle, nothing without the option.
-std::optional<DensityMap> planar_density(const Values& options, const RunContext& run);
+    [[nodiscard]] std::size_t count() const { return rows.size() / 2; }
+};
 
-/// Moments of a function of it over cells, scaled to a mean of 1.
+/// The start that the options ask for.
+/// @param bytes that a point takes, of what messages call `who`. @throws Error(limit) too
+PlanarStart planar_start(const Plan& plan, const Values& options, double bytes,
+                         std::string_view who, const RunContext& run);
+
+/// Moments of a function of the density over cells, scaled to a mean of 1.
 std::optional<DensityMoments> planar_moments(const std::optional<DensityMap>& density,
                                              double (*function)(double), const Planar& planar,
                                              const RunContext& run);
-
-/// Rows (x, y) in [0, side) to start from, as the options say.
-std::vector<double> starting_rows(const Plan& plan, const Values& options, const Planar& planar,
-                                  const std::optional<DensityMap>& density, const RunContext& run);
 
 /// The order of the points along strips of the rectangle: what is near in it is near in memory.
 std::vector<std::uint32_t> along_strips(const std::vector<double>& rows, const Planar& planar,

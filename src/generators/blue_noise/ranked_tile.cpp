@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/rng.hpp"
+#include "generators/blue_noise/gaussian_relaxation.hpp"
 #include "math/functions/exponential.hpp"
-#include "math/neighbors/gaussian_relaxation.hpp"
 
 namespace stipple {
 namespace {

@@ -2,7 +2,7 @@
 //
 // A tile of blue noise whose points have ranks: the first m of them are well spread, for every m.
 //
-// The tile is toroidal Gaussian blue noise (math/neighbors/gaussian_relaxation.hpp). Its points are ranked
+// The tile is toroidal Gaussian blue noise (gaussian_relaxation.hpp). Its points are ranked
 // from the last to the first: each time the point goes that feels most of those left,
 //
 //     argmax over i of  sum over j of exp(-|x_i - x_j|^2 / (2 sigma^2)),
@@ -10,7 +10,7 @@
 // as void-and-cluster takes cells away; sigma is 0.47 of the mean distance of all points, and
 // doubles when a quarter is left.
 //
-// Shape   2-D, any proportions up to those of math/neighbors/gaussian_relaxation.hpp.
+// Shape   2-D, any proportions up to those of gaussian_relaxation.hpp.
 // Cost    O(t (steps + t)): 1.5 seconds for t = 4096 and 250 steps.
 // Promise coordinates are multiples of 2^-28, so that those of repeated tiles are exact sums.
 // Source  R. Ulichney, "The void-and-cluster method for dither array generation", Proc. SPIE 1913

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Weighted sample elimination (generators/blue_noise/eliminator.hpp): of M points those are taken out, one by
+// Weighted sample elimination (eliminator.hpp): of M points those are taken out, one by
 // one, that are crowded most, until N are left.
 //
 //     M = --ratio N points, uniform in the box, or the points of a file (--from), in any box.
@@ -10,7 +10,7 @@
 // r_max^3 = V / (4 sqrt(2) N), in d > 3 dimensions r_max^d = V / (N C_d), C_d the volume of the
 // unit ball. The points of a file may fill a part of their box, or lie on a surface:
 // --manifold-dimension 2 --measure 12.566 takes d and A from the unit sphere, while distances stay
-// those in space. Where nobody says what they fill, they do (generators/blue_noise/crowd_extent.hpp), unless
+// those in space. Where nobody says what they fill, they do (crowd_extent.hpp), unless
 // that is about their box: with a measure that is a fourth too large all near pairs weigh the same.
 //
 // --density: in the plane, the M points are random in proportion to it, and r_max of a point is
@@ -39,8 +39,8 @@
 #include "generators/box_space.hpp"
 #include "generators/density_options.hpp"
 #include "generators/generator.hpp"
+#include "generators/points_from.hpp"
 #include "math/functions/draws.hpp"
-#include "media/points_file.hpp"
 
 namespace stipple::generators::sample_elimination {
 namespace {
@@ -58,7 +58,7 @@ constexpr Param<Choice> order{.name = "order",
 constexpr Param<Path> from{
     {.name = "from",
      .unit = "file",
-     .help = "Text file of points to choose from (on a warp's domain, too), not random ones: "
+     .help = "File of points to choose from (on a warp's domain, too), not random ones: "
              "a fifth of them by default, with bounded distances, no seed"}};
 constexpr Param<std::int64_t> manifold{
     .name = "manifold-dimension",
@@ -86,7 +86,7 @@ struct Crowd {
 };
 
 PointSet points_of_file(const Values& options, const RunContext& run) {
-    PointSet points = read_points(options[from], run);
+    PointSet points = points_from(options[from], run);
     if (points.dimension() > most_directions)
         fail(ErrorKind::input, "{}: {} coordinates a point; sample-elimination takes up to {}",
              options[from], points.dimension(), most_directions);
@@ -172,8 +172,7 @@ Crowd random_crowd(const Plan& plan, const Values& options, const RunContext& ru
         if (i % 65536 == 0) run.check_stop();
         draws.point(crowd.space.box, crowd.rows.data() + i * plan.dimension);
     }
-    if (dense)
-        follow_all(read_density(options[density_option], options[invert_option], run), crowd);
+    if (const auto map = given_density(options, run)) follow_all(*map, crowd);
     return crowd;
 }
 
@@ -205,8 +204,8 @@ CrowdExtent extent_of_file(const Crowd& crowd, const Values& options, const RunC
 /// Chooses points of a crowd: numbers of its rows.
 class Chooser {
   public:
-    Chooser(const Crowd& crowd, const CrowdExtent& extent, const RunContext& run)
-        : crowd_(crowd), run_(run), dimension_(crowd.space.box.dimension()), extent_(extent) {}
+    Chooser(const Crowd& crowd, const CrowdExtent& extent)
+        : crowd_(crowd), dimension_(crowd.space.box.dimension()), extent_(extent) {}
 
     [[nodiscard]] double radius(std::uint64_t kept) const {
         return packing_radius(static_cast<double>(kept), extent_.dimension, extent_.measure);
@@ -265,7 +264,6 @@ class Chooser {
     }
 
     const Crowd& crowd_;
-    const RunContext& run_;
     std::size_t dimension_;
     CrowdExtent extent_;
 };
@@ -277,7 +275,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& outside
     const std::size_t d = plan.dimension;
     const CrowdExtent extent =
         file ? extent_of_file(crowd, options, run) : CrowdExtent{d, crowd.space.measure()};
-    Chooser chooser(crowd, extent, run);
+    Chooser chooser(crowd, extent);
     const double r_max = chooser.radius(plan.count);
     if (!(r_max > 0))
         fail_with_hint(ErrorKind::input,

@@ -4,7 +4,7 @@
 //
 //     K x K tiles,  K = least with K^2 T >= n,  of  t = ceil(n / K^2) points,   T = --tile-points.
 //
-// The tile is a torus of ranked points (generators/blue_noise/ranked_tile.hpp). Points i of the set stand by
+// The tile is a torus of ranked points (ranked_tile.hpp). Points i of the set stand by
 // rank: those of rank 0 in all tiles, row after row; then those of rank 1, ...; of the last rank
 // n - K^2 (t - 1) are there, spread evenly over the tiles: m of K^2, the j-th in tile
 // floor(j K^2 / m).
@@ -14,7 +14,7 @@
 //             and a torus, whatever the proportions. Points stay in [0, 1)^2 until they are
 //             scaled.
 // --density   tiles of t = ceil((n + 2 sqrt(n)) top / K^2) points, top the largest density over its
-//             mean. Ranks are thresholds (generators/blue_noise/thinned_tiles.hpp): of all points with
+//             mean. Ranks are thresholds (thinned_tiles.hpp): of all points with
 //             a density above 0 the n stay whose (rank + u) / density is the least, 0 <= u < 1 one
 //             number a tile. The few more than n top keep where the density is the largest from
 //             running out of points; where they do nevertheless, as in a picture as fine as the
@@ -193,11 +193,10 @@ bool is_constant(const DensityMap& density) {
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext& run) {
     const auto extents = proportions_of(plan);
     const Vec2 sides = extents.empty() ? Vec2{1, 1} : Vec2{extents[0], extents[1]};
-    if (!options.given(density_option)) return make_even(plan, options, sides, run);
-    auto density = std::make_shared<const DensityMap>(
-        read_density(options[density_option], options[invert_option], run));
-    if (is_constant(*density)) return make_even(plan, options, sides, run);
-    return make_thinned(plan, options, sides, std::move(density), run);
+    auto density = given_density(options, run);
+    if (!density || is_constant(*density)) return make_even(plan, options, sides, run);
+    return make_thinned(plan, options, sides,
+                        std::make_shared<const DensityMap>(std::move(*density)), run);
 }
 
 Plan plan(const Request& request, const Values& options) {

@@ -182,9 +182,7 @@ PointSet place(const Torus& torus, const std::vector<std::uint32_t>& cells, std:
 }
 
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
-    std::optional<DensityMap> map;
-    if (options.given(density_option))
-        map = read_density(options[density_option], options[invert_option], run);
+    const auto map = given_density(options, run);
     const auto wanted = static_cast<double>(plan.count);
     const auto proportions = proportions_of(plan);
     const Torus torus = options.given(size) ? torus_of(options[size], {})
@@ -204,8 +202,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     const Value extents = std::vector<std::int64_t>{static_cast<std::int64_t>(torus.width),
                                                     static_cast<std::int64_t>(torus.height)};
     points.provenance.options = {{"size", format_value(extents)}, {"cell", options[cell]}};
-    if (map) points.provenance.options.emplace_back("density", options[density_option]);
-    if (options[invert_option]) points.provenance.options.emplace_back("invert", "true");
+    note_density(options, points);
     if (options.given(mask_image))
         points.side_files.push_back({options[mask_image], mask_png(torus, order)});
     run.tick(1, 1);
@@ -218,11 +215,7 @@ Generator unit() {
     return {.name = "void-and-cluster",
             .summary = "Cells of a torus in the order of void and cluster, and its dither mask",
             .source = "Ulichney 1993, doi:10.1117/12.152707",
-            .traits = {.min_dimension = 2,
-                       .max_dimension = 2,
-                       .sequence = false,
-                       .prefix = false,
-                       .boxed = true},
+            .traits = planar_traits,
             .options = Schema(size, cell, density_option, invert_option, mask_image),
             .aliases = {"dither"},
             .writes = {std::string(mask_image.name)},

@@ -85,28 +85,32 @@ std::unique_ptr<Sequence> binary_sequence(BinaryMatrices matrices, const Plan& p
                                           const Values& options) {
     if (options[binary_order] == "gray") matrices = in_gray_order(std::move(matrices));
     const std::string scramble = options[binary_scramble];
-    if (scramble == "owen")
-        return std::make_unique<OwenBinarySequence>(BinaryNet(matrices), plan.seed);
+    if (scramble == "owen") return owen_sequence(matrices, plan.seed);
     if (scramble == "none") return std::make_unique<BinarySequence>(BinaryNet(matrices));
     if (scramble == "matrix") matrices = scrambled(std::move(matrices), plan.seed);
     return std::make_unique<BinarySequence>(BinaryNet(matrices, shifts(plan.dimension, plan.seed)));
 }
 
+std::unique_ptr<Sequence> owen_sequence(const BinaryMatrices& matrices, std::uint64_t seed) {
+    return std::make_unique<OwenBinarySequence>(BinaryNet(matrices), seed);
+}
+
 bool binary_uses_seed(const Values& options) { return options[binary_scramble] != "none"; }
 
 std::vector<std::string> binary_notes(const Request& request, const Plan& plan, const Values&) {
-    constexpr const char* nets = "are no net, as 2^k points from a multiple of 2^k on are";
     const std::uint64_t start = request.start;
     if (std::has_single_bit(plan.count)) {
         const std::uint64_t before = start / plan.count * plan.count;
         if (start == before) return {};
-        return {fmt::format("{} points from index {} on {}; {} and {} are the nearest such starts",
-                            plan.count, start, nets, before, before + plan.count)};
+        return {
+            fmt::format("{0} points from index {1} on do not form a net; start at a multiple "
+                        "of {0}: {2} or {3}",
+                        plan.count, start, before, before + plan.count)};
     }
     // What starts elsewhere is a piece of a set that is made in several runs.
     if (start > 0) return {};
     const std::uint64_t below = std::bit_floor(plan.count);
-    return {fmt::format("{} points {}; {} and {} are the nearest such counts", plan.count, nets,
+    return {fmt::format("{} points do not form a net; take a power of two: {} or {}", plan.count,
                         below, 2 * below)};
 }
 

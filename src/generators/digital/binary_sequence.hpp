@@ -36,6 +36,9 @@ inline constexpr Param<Choice> binary_scramble{
 std::unique_ptr<Sequence> binary_sequence(BinaryMatrices matrices, const Plan& plan,
                                           const Values& options);
 
+/// The sequence of these matrices with nested uniform scrambling.
+std::unique_ptr<Sequence> owen_sequence(const BinaryMatrices& matrices, std::uint64_t seed);
+
 /// For Generator::uses_seed.
 bool binary_uses_seed(const Values& options);
 

@@ -14,8 +14,7 @@
 //         points from an index that b^m divides are a (0, m, d)-net, which meets every box of b^m
 //         equal ones of sides b^-k_1, ..., b^-k_d exactly once.
 // Beware  the first b points lie on the diagonal; a base much above the dimension has long
-// stretches
-//         of points on lines.
+//         stretches of points on lines.
 // Source  H. Faure, Acta Arith. 41 (1982) 337-351, doi:10.4064/aa-41-4-337-351.
 
 #include "core/error.hpp"

@@ -37,10 +37,10 @@ struct LowDigits {
     explicit LowDigits(std::uint32_t base) : block(base), count(1) {
         for (; block * base <= largest_digit_table; block *= base) ++count;
         for (std::size_t m = 0; m < block; ++m) {
-            std::size_t mirror = 0;
+            std::size_t turned = 0;
             for (std::size_t rest = m, j = 0; j < count; ++j, rest /= base)
-                mirror = mirror * base + rest % base;
-            mirrored.push_back(static_cast<std::uint32_t>(mirror));
+                turned = turned * base + rest % base;
+            reversed.push_back(static_cast<std::uint32_t>(turned));
         }
     }
     /// Whether these digits meet the first t rows of the matrix only.
@@ -53,7 +53,7 @@ struct LowDigits {
 
     std::size_t block;
     std::size_t count;
-    std::vector<std::uint32_t> mirrored;  ///< of m < block: its t digits from last to first
+    std::vector<std::uint32_t> reversed;  ///< of m < block: its t digits from last to first
 };
 
 /// Nested scrambling in an odd base. Where the matrices are triangular, points of a block share all
@@ -87,17 +87,17 @@ class OwenNetSequence final : public Sequence {
         const std::size_t d = scrambles_.size();
         if (!by_block_[k] || count < low_.block / 8) {
             for (std::size_t i = 0; i < count; ++i)
-                out[i * d] = scrambles_[k].of(mirrored_digits(out[i * d], base_));
+                out[i * d] = scrambles_[k].of(reversed_digits(out[i * d], base_));
             return;
         }
         std::vector<double> images(low_.block);
-        const std::uint64_t shared = mirrored_digits(*out, base_) / low_.block;
+        const std::uint64_t shared = reversed_digits(*out, base_) / low_.block;
         scrambles_[k].fill(shared * low_.block, low_.block, images.data(), 1);
         // Coordinates are 2^-50 apart at least, and rounded by 2^-54.
         const auto block = static_cast<double>(low_.block);
         for (std::size_t i = 0; i < count; ++i)
             out[i * d] =
-                images[low_.mirrored[static_cast<std::size_t>((out[i * d] + 0x1p-51) * block)]];
+                images[low_.reversed[static_cast<std::size_t>((out[i * d] + 0x1p-51) * block)]];
     }
 
     BaseNet net_;
@@ -125,15 +125,6 @@ DigitMatrix product(const BaseMatrix& left, const DigitMatrix& right, std::uint3
             result.at(r, c) = static_cast<std::uint32_t>(sum);
         }
     return result;
-}
-
-/// The digits that a shift adds, since it is the image of 0.
-std::vector<std::uint32_t> shift_digits(const BaseShift& shift, std::uint32_t base) {
-    std::vector<std::uint32_t> digits;
-    std::uint64_t rest = mirrored_digits(shift.of(0), base);
-    for (std::size_t j = 0; j < digits_of(base); ++j, rest /= base)
-        digits.push_back(static_cast<std::uint32_t>(rest % base));
-    return digits;
 }
 
 }  // namespace
@@ -175,7 +166,7 @@ std::unique_ptr<Sequence> net_sequence(std::uint32_t base, std::vector<DigitMatr
             const BaseMatrix matrix(plan.seed, k, base);
             net.append(product(matrix, matrices[k], base), matrix.shift());
         } else if (linear) {
-            net.append(matrices[k], shift_digits(BaseShift(plan.seed, k, base), base));
+            net.append(matrices[k], BaseShift(plan.seed, k, base).shift());
         } else {
             net.append(matrices[k]);
         }

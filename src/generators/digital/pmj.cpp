@@ -9,8 +9,9 @@
 // points j 2^m, ..., (j + 1) 2^m - 1 for every j. Other elementary intervals are left to chance:
 // that is how this differs from pmj02.
 //
-// Points come from a random binary matrix, another one for every seed, with nested uniform
-// scrambling (generators/digital/progressive.hpp). The promises are those of its minors: with r_m, c_m for
+// Coordinate 0 of point i is the radical inverse of i, coordinate 1 a random binary matrix, another
+// one for every seed, times the digits of i; then both get nested uniform scrambling, which moves
+// elementary intervals onto each other. The promises are those of the matrix's minors: with r_m, c_m for
 // the first rows and the last of the first m columns, the r x r block of rows 1..r and columns
 // m-r+1..m is regular for r = m (strips) and for r = m/2 (squares), or both r = (m-1)/2 and
 // (m+1)/2 (opposite quarters) for odd m. Given the columns before, each of these conditions is that
@@ -26,13 +27,18 @@
 //         doi:10.1111/cgf.13472 (what the points are); the construction is stipple's own, in the
 //         spirit of A. Helmer, P. Christensen, A. Kensler, EGSR (2021), doi:10.2312/sr.20211287.
 
+#include <array>
+
 #include "core/rng.hpp"
-#include "generators/digital/progressive.hpp"
+#include "generators/digital/binary_sequence.hpp"
 
 namespace stipple::generators::pmj {
 namespace {
 
 constexpr std::uint64_t top = std::uint64_t{1} << 63;
+
+/// A matrix by its columns, the first digit of each in bit 63.
+using ColumnMatrix = std::array<std::uint64_t, 53>;
 
 /// Whether the rows 1..r of columns last-r+1..last (counted from 0) are a regular block.
 bool is_regular(ColumnMatrix matrix, std::size_t r, std::size_t last) {
@@ -67,7 +73,11 @@ ColumnMatrix random_matrix(std::uint64_t seed) {
 }
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values&, const RunContext&) {
-    return std::make_unique<Progressive>(plan, random_matrix(plan.seed));
+    BinaryMatrices matrices{2};
+    const ColumnMatrix second = random_matrix(plan.seed);
+    for (std::size_t j = 0; j < second.size(); ++j)
+        matrices.columns.insert(matrices.columns.end(), {top >> j, second[j]});
+    return owen_sequence(matrices, plan.seed);
 }
 
 }  // namespace

@@ -22,22 +22,16 @@
 //         doi:10.1007/978-1-4612-2552-2_19 (scrambling); A. Helmer, P. Christensen, A. Kensler,
 //         EGSR (2021), doi:10.2312/sr.20211287 (that it makes such sequences).
 
-#include "generators/digital/progressive.hpp"
+#include "generators/digital/binary_sequence.hpp"
+#include "generators/digital/sobol_directions.hpp"
 
 namespace stipple::generators::pmj02 {
 namespace {
 
-/// Column j holds C(j, k) mod 2 as digit k, which is 1 where the bits of k are among those of j.
-ColumnMatrix pascal() {
-    ColumnMatrix matrix{};
-    for (std::size_t j = 0; j < matrix.size(); ++j)
-        for (std::size_t k = 0; k <= j; ++k)
-            if ((k & ~j) == 0) matrix[j] |= std::uint64_t{1} << (63 - k);
-    return matrix;
-}
+constexpr std::size_t index_digits = 53;
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values&, const RunContext&) {
-    return std::make_unique<Progressive>(plan, pascal());
+    return owen_sequence(sobol_matrices(2, index_digits), plan.seed);
 }
 
 }  // namespace

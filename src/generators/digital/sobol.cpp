@@ -18,7 +18,6 @@
 //         doi:10.1016/0041-5553(67)90144-9. Order: I. A. Antonov, V. M. Saleev, ibid. 19(1) (1979)
 //         252-256, doi:10.1016/0041-5553(79)90085-5. Directions: S. Joe, F. Y. Kuo, SIAM J. Sci.
 //         Comput. 30 (2008) 2635-2654, doi:10.1137/070709359.
-#include "core/error.hpp"
 #include "generators/digital/binary_sequence.hpp"
 #include "generators/digital/sobol_directions.hpp"
 
@@ -29,15 +28,6 @@ constexpr Param<Path> directions{
     {.name = "directions",
      .help = "Direction numbers in the format of Joe and Kuo's files: a line of names, then a line "
              "\"d s a m_1 ... m_s\" for each dimension from 2 on; without it, a table of theirs"}};
-
-Plan plan(const Request& request, const Values& options) {
-    const Plan plan = default_plan(request);
-    if (plan.dimension > sobol_table_dimensions && !options.given(directions))
-        fail_with_hint(ErrorKind::usage, "--directions FILE brings more",
-                       "--dimension: {} is outside [1, {}], what the table of sobol has",
-                       plan.dimension, sobol_table_dimensions);
-    return plan;
-}
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
     auto matrices = options.given(directions)
@@ -54,10 +44,11 @@ Generator unit() {
             .source =
                 "Sobol' 1967, doi:10.1016/0041-5553(67)90144-9; Joe and Kuo 2008, "
                 "doi:10.1137/070709359",
-            .traits = {.max_dimension = 21'201, .max_index = std::uint64_t{1} << binary_digits},
+            .traits = {.max_dimension = sobol_table_dimensions,
+                       .max_index = std::uint64_t{1} << binary_digits,
+                       .more_dimensions = std::string(directions.name)},
             .options = Schema(binary_order, binary_scramble, directions),
             .aliases = {"lp-tau"},
-            .plan = plan,
             .sequence = make,
             .uses_seed = binary_uses_seed,
             .notes = binary_notes};

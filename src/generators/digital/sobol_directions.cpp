@@ -22,36 +22,36 @@ namespace {
 
 using JoeKuoTable = boost::random::detail::qrng_tables::sobol;
 
-/// What one dimension's matrix grows from.
-struct Seedling {
+/// The polynomial and the first direction numbers of a dimension, which initialise the others.
+struct Initializer {
     std::size_t degree = 0;
     std::uint64_t interior = 0;             ///< a_1 ... a_(s-1), a_1 the highest bit
     std::vector<std::uint64_t> first = {};  ///< m_1 ... m_s
 };
 
-Seedling from_table(std::size_t row) {
+Initializer from_table(std::size_t row) {
     const std::uint64_t polynomial = JoeKuoTable::polynomial(row);
-    Seedling seedling{.degree = static_cast<std::size_t>(std::bit_width(polynomial)) - 1};
-    seedling.interior = (polynomial ^ std::bit_floor(polynomial)) >> 1;
-    for (std::size_t j = 0; j < seedling.degree; ++j)
-        seedling.first.push_back(JoeKuoTable::minit(row, j));
-    return seedling;
+    Initializer initial{.degree = static_cast<std::size_t>(std::bit_width(polynomial)) - 1};
+    initial.interior = (polynomial ^ std::bit_floor(polynomial)) >> 1;
+    for (std::size_t j = 0; j < initial.degree; ++j)
+        initial.first.push_back(JoeKuoTable::minit(row, j));
+    return initial;
 }
 
-void grow(const Seedling& seedling, std::size_t k, BinaryMatrices& matrices) {
-    const std::size_t s = seedling.degree;
+void grow(const Initializer& initial, std::size_t k, BinaryMatrices& matrices) {
+    const std::size_t s = initial.degree;
     const std::size_t digits = matrices.digits();
     const auto column = [&](std::size_t j) -> std::uint64_t& {
         return matrices.columns[j * matrices.dimension + k];
     };
     for (std::size_t j = 0; j < digits; ++j) {
         if (j < s) {
-            column(j) = seedling.first[j] << (63 - j);
+            column(j) = initial.first[j] << (63 - j);
             continue;
         }
         std::uint64_t sum = column(j - s) ^ (column(j - s) >> s);
         for (std::size_t i = 1; i < s; ++i)
-            if (seedling.interior >> (s - 1 - i) & 1) sum ^= column(j - i);
+            if (initial.interior >> (s - 1 - i) & 1) sum ^= column(j - i);
         column(j) = sum;
     }
 }
@@ -63,22 +63,22 @@ BinaryMatrices van_der_corput_first(std::size_t dimension, std::size_t digits) {
     return matrices;
 }
 
-Seedling read_line(TokenFile& file, std::size_t dimension) {
+Initializer read_line(TokenFile& file, std::size_t dimension) {
     file.number("the dimension that comes next", dimension, dimension);
-    Seedling seedling{.degree = file.number_on_line("the degree s", 1, 63)};
-    const std::size_t s = seedling.degree;
-    seedling.interior =
+    Initializer initial{.degree = file.number_on_line("the degree s", 1, 63)};
+    const std::size_t s = initial.degree;
+    initial.interior =
         file.number_on_line("the coefficients a", 0, (std::uint64_t{1} << (s - 1)) - 1);
     for (std::size_t j = 1; j <= s; ++j) {
         const Token token = file.peek();
         const std::string what = fmt::format("an odd m_{}", j);
-        seedling.first.push_back(file.number_on_line(what, 1, (std::uint64_t{1} << j) - 1));
-        if (seedling.first.back() % 2 == 0)
+        initial.first.push_back(file.number_on_line(what, 1, (std::uint64_t{1} << j) - 1));
+        if (initial.first.back() % 2 == 0)
             file.refuse(token,
                         fmt::format("{} is even; expected {}", TokenFile::shown(token), what));
     }
     file.expect_line_end();
-    return seedling;
+    return initial;
 }
 
 }  // namespace
@@ -97,8 +97,8 @@ BinaryMatrices sobol_matrices(std::size_t dimension, std::size_t digits, const s
     BinaryMatrices matrices = van_der_corput_first(dimension, digits);
     std::size_t next = 2;
     for (; !file.at_end(); ++next) {
-        const Seedling seedling = read_line(file, next);
-        if (next <= dimension) grow(seedling, next - 1, matrices);
+        const Initializer initial = read_line(file, next);
+        if (next <= dimension) grow(initial, next - 1, matrices);
     }
     if (next == 2) file.refuse_whole("no direction numbers; expected lines \"d s a m_1 ... m_s\"");
     if (next <= dimension)

@@ -11,11 +11,8 @@
 // divisor by divisor).
 //
 // Cost     O(d n log n + d n t) for n with t divisors; 60 n bytes.
-// Promise  the same vector on every machine. Transforms round differently on different machines,
-//          so they only nominate: all components nearer to the best than rounding may bring them
-//          are compared by plain sums in a fixed order, of which the first equal to the least
-//          counts. The products lose a common power of two when they grow, so they do not overflow
-//          in high dimensions, and their mean over each group, which cannot change the choice.
+// Promise  the same vector on every machine, also in high dimensions, where the products lose a
+//          common power of two before they overflow (component_search.hpp).
 // Source   D. Nuyens, R. Cools, Math. Comp. 75 (2006) 903-920, doi:10.1090/S0025-5718-06-01785-6
 //          (n prime); J. Complexity 22 (2006) 4-28, doi:10.1016/j.jco.2005.07.002 (any n).
 #include "generators/lattices/component_by_component.hpp"
@@ -28,8 +25,7 @@
 
 #include "core/error.hpp"
 #include "core/wide.hpp"
-#include "generators/lattices/search_progress.hpp"
-#include "math/fourier/fftw.hpp"
+#include "generators/lattices/component_search.hpp"
 #include "math/functions/ratio.hpp"
 
 namespace stipple {
@@ -161,54 +157,22 @@ struct Units {
 };
 
 /// The part of E that comes from the i with gcd(i, n) = n / e.
-class Correlation {
+class Part {
   public:
-    Correlation(std::uint64_t n, std::uint64_t e)
-        : units_(e),
-          step_(n / e),
-          halves_(units_.halves()),
-          line_(fftw_reals(units_.elements.size())),
-          spectrum_(fftw_reals(2 * halves_)),
-          kernel_(fftw_reals(2 * halves_)) {
-        const int rank = static_cast<int>(units_.shape.size());
-        {
-            const std::lock_guard lock(fftw_planner());
-            forward_ = fftw_plan_dft_r2c(rank, units_.shape.data(), line_.get(),
-                                         as_fftw(spectrum_.get()), FFTW_ESTIMATE);
-            backward_ = fftw_plan_dft_c2r(rank, units_.shape.data(), as_fftw(spectrum_.get()),
-                                          line_.get(), FFTW_ESTIMATE);
-        }
-        if (forward_ == nullptr || backward_ == nullptr) throw std::bad_alloc();
+    Part(std::uint64_t n, std::uint64_t e) : units_(e), step_(n / e), correlation_(units_.shape) {
         const Omega omega{static_cast<double>(e)};
         for (std::size_t a = 0; a < units_.elements.size(); ++a)
-            line_[a] = omega(units_.elements[a], 1) / static_cast<double>(units_.elements.size());
-        fftw_execute(forward_);
-        std::copy_n(spectrum_.get(), 2 * halves_, kernel_.get());
-    }
-    Correlation(const Correlation&) = delete;
-    Correlation& operator=(const Correlation&) = delete;
-    ~Correlation() {
-        const std::lock_guard lock(fftw_planner());
-        fftw_destroy_plan(forward_);
-        fftw_destroy_plan(backward_);
+            correlation_.values()[a] = omega(units_.elements[a], 1);
+        correlation_.take_kernel();
     }
 
     /// Adds to total[z], z = 0, 1, ..., this part of E(z), up to a constant; z prime to n.
-    void add(const std::vector<double>& p, std::vector<double>& total) {
+    void add(std::span<const double> p, std::vector<double>& total) {
         gather(p);
-        fftw_execute(forward_);
-        for (std::size_t k = 0; k < halves_; ++k) {  // times the conjugate
-            const double re = spectrum_[2 * k];
-            const double im = spectrum_[2 * k + 1];
-            const double kernel_re = kernel_[2 * k];
-            const double kernel_im = kernel_[2 * k + 1];
-            spectrum_[2 * k] = re * kernel_re + im * kernel_im;
-            spectrum_[2 * k + 1] = re * kernel_im - im * kernel_re;
-        }
-        fftw_execute(backward_);
+        correlation_.correlate();
         std::vector<double> residues(units_.modulus);
         for (std::size_t a = 0; a < units_.elements.size(); ++a)
-            residues[units_.elements[a]] = line_[a];
+            residues[units_.elements[a]] = correlation_.values()[a];
         for (std::size_t z = 0; z < total.size(); z += units_.modulus) {
             const std::size_t count = std::min<std::size_t>(units_.modulus, total.size() - z);
             for (std::size_t j = 0; j < count; ++j) total[z + j] += residues[j];
@@ -216,102 +180,71 @@ class Correlation {
     }
 
   private:
-    void gather(const std::vector<double>& p) {
+    /// The products without their mean, which cannot change the choice.
+    void gather(std::span<const double> p) {
+        const std::span<double> line = correlation_.values();
         double sum = 0;
-        for (std::size_t a = 0; a < units_.elements.size(); ++a) {
-            line_[a] = p[units_.elements[a] * step_];
-            sum += line_[a];
-        }
-        const double mean = sum / static_cast<double>(units_.elements.size());
-        for (std::size_t a = 0; a < units_.elements.size(); ++a) line_[a] -= mean;
+        for (std::size_t a = 0; a < line.size(); ++a)
+            sum += line[a] = p[units_.elements[a] * step_];
+        const double mean = sum / static_cast<double>(line.size());
+        for (double& value : line) value -= mean;
     }
 
     Units units_;
     std::uint64_t step_;
-    std::size_t halves_;
-    FftwReals line_;
-    FftwReals spectrum_;
-    FftwReals kernel_;
-    fftw_plan forward_ = nullptr;
-    fftw_plan backward_ = nullptr;
+    CyclicCorrelation correlation_;
 };
 
-/// The products p_i and the choice of the next component.
 class Construction {
   public:
     Construction(std::uint64_t n, const RunContext& run)
-        : run_(run), n_(n), omega_{static_cast<double>(n)}, p_(n, 1.0) {
+        : run_(run), n_(n), omega_{static_cast<double>(n)}, products_(n) {
         for (std::uint64_t e = 2; e <= n; ++e) {
             if (n % e != 0) continue;
             run_.check_stop();
-            parts_.push_back(std::make_unique<Correlation>(n, e));
+            parts_.push_back(std::make_unique<Part>(n, e));
         }
+        double square = 0;
         for (std::uint64_t i = 1; i < n; ++i) {
             const double w = omega_(static_cast<double>(i), 1);
-            kernel_square_ += w * w;
+            square += w * w;
         }
+        kernel_norm_ = std::sqrt(square);
     }
 
     void multiply_by(std::uint64_t z, double weight) {
-        double largest = 0;
-        for (std::uint64_t i = 0; i < n_; i += block) {
-            const std::size_t count = std::min<std::size_t>(block, n_ - i);
-            multiply(omega_, i, count, static_cast<double>(z), weight, &p_[i]);
-            for (std::size_t j = i == 0 ? 1 : 0; j < count; ++j)
-                largest = std::max(largest, std::abs(p_[i + j]));
-        }
-        p_[0] = 0;  // the origin is in every lattice
-        const int exponent = std::ilogb(largest);
-        if (largest == 0 || std::abs(exponent) < 64) return;
-        for (double& p : p_) p = std::ldexp(p, -exponent);
+        const std::span<double> p = products_.all();
+        for (std::uint64_t i = 0; i < n_; i += block)
+            multiply(omega_, i, std::min<std::size_t>(block, n_ - i), static_cast<double>(z),
+                     weight, &p[i]);
+        p[0] = 0;  // the origin is in every lattice
+        products_.keep_in_range();
     }
 
     [[nodiscard]] std::uint64_t next() {
         std::vector<double> error(n_ / 2 + 1, 0.0);
         for (const auto& part : parts_) {
             run_.check_stop();
-            part->add(p_, error);
+            part->add(products_.all(), error);
         }
-        double least = std::numeric_limits<double>::infinity();
-        for (std::uint64_t z = 1; z < error.size(); ++z)
-            if (std::gcd(z, n_) == 1) least = std::min(least, error[z]);
-        const double mean = std::accumulate(p_.begin(), p_.end(), 0.0) / static_cast<double>(n_);
-        const double margin = rounding(mean);
-        std::vector<std::uint64_t> nominees;
-        for (std::uint64_t z = 1; z < error.size() && nominees.size() < most_nominees; ++z)
-            if (error[z] <= least + margin && std::gcd(z, n_) == 1) nominees.push_back(z);
-        return nominees.size() == 1 ? nominees.front() : first_of_best(nominees, mean, margin / 4);
+        for (std::uint64_t z = 0; z < error.size(); ++z)
+            if (std::gcd(z, n_) != 1) error[z] = std::numeric_limits<double>::infinity();
+        const double mean = products_.mean();
+        const double margin = products_.rounding(kernel_norm_);
+        return best_component(
+            error.size(), [&](std::uint64_t z) { return error[z]; }, margin,
+            [&](std::uint64_t z) { return error_by_sum(static_cast<double>(z), mean); },
+            margin / 4);
     }
 
   private:
-    static constexpr std::size_t most_nominees = 64;
-
-    /// More than transforms and sums are wrong by: they round relatively to the norms.
-    [[nodiscard]] double rounding(double mean) const {
-        double square = 0;
-        for (const double p : p_) square += (p - mean) * (p - mean);
-        return 1e-13 * std::sqrt(square * kernel_square_);
-    }
-
-    [[nodiscard]] std::uint64_t first_of_best(const std::vector<std::uint64_t>& nominees,
-                                              double mean, double margin) const {
-        std::vector<double> errors;
-        for (const std::uint64_t z : nominees) {
-            run_.check_stop();
-            errors.push_back(error_by_sum(static_cast<double>(z), mean));
-        }
-        const double least = std::ranges::min(errors);
-        const auto first =
-            std::ranges::find_if(errors, [&](double error) { return error <= least + margin; });
-        return nominees[static_cast<std::size_t>(first - errors.begin())];
-    }
-
     [[nodiscard]] double error_by_sum(double z, double mean) const {
+        run_.check_stop();
         std::vector<double> terms(block);
         double sum = 0;
         for (std::uint64_t i = 0; i < n_; i += block) {
             const std::size_t count = std::min<std::size_t>(block, n_ - i);
-            weigh(omega_, i, count, z, mean, &p_[i], terms.data());
+            weigh(omega_, i, count, z, mean, &products_.all()[i], terms.data());
             sum += std::accumulate(terms.begin(),
                                    terms.begin() + static_cast<std::ptrdiff_t>(count), 0.0);
         }
@@ -321,9 +254,9 @@ class Construction {
     const RunContext& run_;
     std::uint64_t n_;
     Omega omega_;
-    double kernel_square_ = 0;
-    std::vector<double> p_;
-    std::vector<std::unique_ptr<Correlation>> parts_;
+    double kernel_norm_ = 0;
+    Products products_;
+    std::vector<std::unique_ptr<Part>> parts_;
 };
 
 }  // namespace
@@ -348,16 +281,9 @@ double squared_lattice_error(std::uint64_t n, std::span<const std::uint64_t> vec
 
 std::vector<std::uint64_t> component_by_component(std::uint64_t n, std::span<const double> weights,
                                                   const RunContext& run) {
-    std::vector<std::uint64_t> vector{1};
     if (n < 4 || weights.size() == 1) return std::vector<std::uint64_t>(weights.size(), 1);
     run.need_memory(60 * static_cast<double>(n), "the search for a vector");
-    Construction construction(n, run);
-    for (std::size_t k = 1; k < weights.size(); ++k) {
-        search_tick(run, k, weights.size());
-        construction.multiply_by(vector.back(), weights[k - 1]);
-        vector.push_back(construction.next());
-    }
-    return vector;
+    return grow_vector(Construction(n, run), weights, run);
 }
 
 std::vector<std::uint64_t> powers_modulo(std::uint64_t a, std::size_t count, std::uint64_t n) {

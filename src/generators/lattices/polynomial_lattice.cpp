@@ -21,6 +21,8 @@
 //         section 4.4, doi:10.1137/1.9781611970081; cbc: J. Baldeaux et al., Numer. Algorithms 59
 //         (2012) 403-431, doi:10.1007/s11075-011-9497-y.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -104,18 +106,9 @@ Plan plan(const Request& request, const Values& options) {
 }
 
 std::vector<std::uint64_t> given_vector(const Values& options, std::size_t dimension, int m) {
-    std::vector<std::uint64_t> vector;
-    for (const double q : options[vector_option]) {
-        if (!(q >= 1 && q < std::ldexp(1, m) && q == std::floor(q)))
-            fail(ErrorKind::usage, "--vector: {} is not a polynomial in [1, {}]", q,
-                 (std::uint64_t{1} << m) - 1);
-        vector.push_back(static_cast<std::uint64_t>(q));
-    }
-    if (vector.size() < dimension)
-        fail(ErrorKind::usage, "--vector: {} components are too few; dimension {} needs as many",
-             vector.size(), dimension);
-    vector.resize(dimension);
-    return vector;
+    const std::uint64_t most = (std::uint64_t{1} << m) - 1;
+    return given_components(options[vector_option], dimension, 1, static_cast<double>(most),
+                            fmt::format("a polynomial in [1, {}]", most));
 }
 
 /// Entry (r, c) is digit r + c + 1 of q / modulus.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "generators/lattices/product_weights.hpp"
 
+#include <cmath>
+
 #include "core/error.hpp"
 
 namespace stipple {
@@ -14,6 +16,22 @@ void check_weights(const Values& options, bool searches, std::string_view search
              given ? product_weights.name : weight_decay.name, searching, rule);
     if (given && decays)
         fail(ErrorKind::usage, "--weights and --decay: either gives the weights; leave one out");
+}
+
+std::vector<std::uint64_t> given_components(const std::vector<double>& numbers,
+                                            std::size_t dimension, double least, double most,
+                                            std::string_view range) {
+    std::vector<std::uint64_t> components;
+    for (const double z : numbers) {
+        if (!(z >= least && z <= most && z == std::floor(z)))
+            fail(ErrorKind::usage, "--vector: {} is not {}", z, range);
+        components.push_back(static_cast<std::uint64_t>(z));
+    }
+    if (components.size() < dimension)
+        fail(ErrorKind::usage, "--vector: {} components are too few; dimension {} needs as many",
+             components.size(), dimension);
+    components.resize(dimension);
+    return components;
 }
 
 std::vector<double> weights_of(const Values& options, std::size_t dimension) {

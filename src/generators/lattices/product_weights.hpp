@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// The options that give the weights of coordinates to a search for a generating vector: they decay
-// like a power, or are given one by one.
+// What the lattices' options have in common: components of a vector, and the weights of coordinates
+// in the search for one, which decay like a power, or are given one by one.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -27,6 +29,12 @@ inline constexpr Param<std::int64_t> weight_decay{
 /// @param rule the one at hand
 void check_weights(const Values& options, bool searches, std::string_view searching,
                    std::string_view rule);
+
+/// The first components of a vector that an option gives. @throws Error(usage): too few, or one
+/// that is no whole number from `least` to `most`, which messages call `range`.
+std::vector<std::uint64_t> given_components(const std::vector<double>& numbers,
+                                            std::size_t dimension, double least, double most,
+                                            std::string_view range);
 
 /// The weights of the first coordinates. @throws Error(usage): too few, or not in (0, 10^6].
 std::vector<double> weights_of(const Values& options, std::size_t dimension);

@@ -22,8 +22,8 @@
 //         D. Nuyens, R. Cools, Math. Comp. 75 (2006) 903-920, doi:10.1090/S0025-5718-06-01785-6;
 //         korobov: N. M. Korobov, Dokl. Akad. Nauk SSSR 124 (1959) 1207-1210.
 
-#include <cmath>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "core/error.hpp"
@@ -58,61 +58,49 @@ constexpr Param<Path> vector_file{{.name = "vector-file",
                                    .help = "File of a generating vector: a line a coordinate, "
                                            "with its value, or its number from 1 and its value"}};
 
-constexpr std::size_t table_numbers = 2048;  // 16 KiB: half of a first-level cache
-constexpr std::size_t chunk_numbers = 64;
+/// Numbers that are stepped side by side, a few points: none waits for the one before it.
+constexpr std::size_t some_numbers = 64;
 
-/// out = (base - back mod n) / n, where `base` repeats after `width` numbers; all of these are
-/// whole and at most 2^53, so that only the division rounds.
-STIPPLE_WIDE void step(const double* base, std::size_t width, const double* back, std::size_t count,
-                       double n, double* out) {
-    for (std::size_t offset = 0; offset < count; offset += width) {
-        const std::size_t length = std::min(width, count - offset);
-        for (std::size_t m = 0; m < length; ++m) {
-            const double r = base[m] - back[offset + m];
-            out[offset + m] = (r < 0 ? r + n : r) / n;
-        }
+/// x = residues / n, and on by the step; all numbers are whole and at most 2^53, so that only the
+/// division rounds.
+/// @param back n - step
+STIPPLE_WIDE void advance(const double* back, double n, std::size_t count, double* residues,
+                          double* x) {
+    for (std::size_t k = 0; k < count; ++k) {
+        x[k] = residues[k] / n;
+        const double next = residues[k] - back[k];
+        residues[k] = next < 0 ? next + n : next;
     }
 }
 
 class Rank1Lattice final : public Sequence {
   public:
     Rank1Lattice(std::uint64_t n, std::vector<std::uint64_t> z)
-        : n_(n),
-          z_(std::move(z)),
-          chunk_((chunk_numbers + z_.size() - 1) / z_.size()),
-          rows_(std::max(table_numbers / z_.size() / chunk_, std::size_t{1}) * chunk_) {
-        for (std::size_t t = 0; t < rows_; ++t)
-            for (std::size_t k = 0; k < z_.size(); ++k) back_.push_back(whole(n_ - times(t, k)));
+        : n_(n), z_(std::move(z)), points_((some_numbers + z_.size() - 1) / z_.size()) {
+        for (std::size_t m = 0; m < points_ * z_.size(); ++m)
+            back_.push_back(static_cast<double>(n) - times(points_, m % z_.size()));
     }
 
     void fill(std::uint64_t first, std::span<double> rows) override {
-        std::vector<double> base(chunk_ * z_.size());
-        for (std::size_t k = 0; k < z_.size(); ++k) base[k] = whole(times(first, k));
-        const double n = whole(n_);
-        for (std::size_t offset = 0; offset < rows.size(); offset += back_.size()) {
-            for (std::size_t m = z_.size(); m < base.size(); ++m) base[m] = base[m - z_.size()];
-            const std::size_t count = std::min(back_.size(), rows.size() - offset);
-            step(base.data(), base.size(), back_.data(), count, n, rows.data() + offset);
-            for (std::size_t k = 0; k < z_.size(); ++k) {
-                base[k] -= whole(n_ - times(rows_, k));
-                base[k] += base[k] < 0 ? n : 0;
-            }
-        }
+        const std::size_t d = z_.size();
+        std::vector<double> residues;
+        for (std::size_t m = 0; m < back_.size(); ++m)
+            residues.push_back(times(first + m / d, m % d));
+        for (std::size_t at = 0; at < rows.size(); at += back_.size())
+            advance(back_.data(), static_cast<double>(n_), std::min(back_.size(), rows.size() - at),
+                    residues.data(), rows.data() + at);
     }
 
   private:
-    static double whole(std::uint64_t number) { return static_cast<double>(number); }
-
     /// i z_k mod n.
-    [[nodiscard]] std::uint64_t times(std::uint64_t i, std::size_t k) const {
-        return static_cast<std::uint64_t>(Wide{i} * z_[k] % n_);
+    [[nodiscard]] double times(std::uint64_t i, std::size_t k) const {
+        return static_cast<double>(static_cast<std::uint64_t>(Wide{i} * z_[k] % n_));
     }
 
     std::uint64_t n_;
     std::vector<std::uint64_t> z_;
-    std::size_t chunk_;         ///< points after which the pattern of the vector loop repeats
-    std::size_t rows_;          ///< points of the table
-    std::vector<double> back_;  ///< n - (t z mod n) for t < rows_
+    std::size_t points_;        ///< that are made at once
+    std::vector<double> back_;  ///< n - (points z mod n), for each number of these
 };
 
 /// The rule that the options mean together.
@@ -196,17 +184,7 @@ std::vector<std::uint64_t> read_vector(const std::string& path, std::size_t dime
 
 std::vector<std::uint64_t> given_vector(const Values& options, std::size_t dimension) {
     if (options.given(vector_file)) return read_vector(options[vector_file], dimension);
-    std::vector<std::uint64_t> numbers;
-    for (const double z : options[vector]) {
-        if (!(z >= 0 && z <= 0x1p53 && z == std::floor(z)))
-            fail(ErrorKind::usage, "--vector: {} is not a whole number in [0, 2^53]", z);
-        numbers.push_back(static_cast<std::uint64_t>(z));
-    }
-    if (numbers.size() < dimension)
-        fail(ErrorKind::usage, "--vector: {} components are too few; dimension {} needs as many",
-             numbers.size(), dimension);
-    numbers.resize(dimension);
-    return numbers;
+    return given_components(options[vector], dimension, 0, 0x1p53, "a whole number in [0, 2^53]");
 }
 
 std::vector<std::uint64_t> vector_of(const Plan& plan, const Values& options,

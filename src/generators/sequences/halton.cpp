@@ -20,7 +20,8 @@
 //         W. J. Whiten, ACM Trans. Math. Softw. 23 (1997) 266-294, doi:10.1145/264029.264064;
 //         permutations: math/digital/digit_permutations.hpp, math/digital/base_scramble.hpp.
 
-#include <memory>
+#include <string_view>
+#include <variant>
 
 #include "core/error.hpp"
 #include "generators/generator.hpp"
@@ -49,39 +50,14 @@ constexpr Param<std::int64_t> leap{
         "MATLAB's Leap is one less); shares no factor with a base"};
 
 /// One coordinate of the sequence.
-class Coordinate {
-  public:
-    Coordinate() = default;
-    Coordinate(const Coordinate&) = delete;
-    Coordinate& operator=(const Coordinate&) = delete;
-    virtual ~Coordinate() = default;
-    [[nodiscard]] virtual double of(std::uint64_t index) const = 0;
-    virtual void fill(std::uint64_t first, std::size_t count, double* out,
-                      std::size_t stride) const = 0;
-};
+using Inverse = std::variant<RadicalInverse, PermutedInverse, BaseOwen>;
 
-template <class Inverse>
-class Digits final : public Coordinate {
-  public:
-    explicit Digits(Inverse inverse) : inverse_(std::move(inverse)) {}
-    [[nodiscard]] double of(std::uint64_t index) const override { return inverse_.of(index); }
-    void fill(std::uint64_t first, std::size_t count, double* out,
-              std::size_t stride) const override {
-        inverse_.fill(first, count, out, stride);
-    }
-
-  private:
-    Inverse inverse_;
-};
-
-std::unique_ptr<Coordinate> coordinate(std::size_t k, std::string_view how, std::uint64_t seed) {
+Inverse inverse(std::size_t k, std::string_view how, std::uint64_t seed) {
     const std::uint32_t b = primes[k];
-    if (how == "faure")
-        return std::make_unique<Digits<RadicalInverse>>(RadicalInverse(b, faure_permutation(b)));
-    if (how == "permutation")
-        return std::make_unique<Digits<PermutedInverse>>(PermutedInverse(b, Rng(seed, k)));
-    if (how == "owen") return std::make_unique<Digits<BaseOwen>>(BaseOwen(seed, k, b));
-    return std::make_unique<Digits<RadicalInverse>>(RadicalInverse(b));
+    if (how == "faure") return RadicalInverse(b, faure_permutation(b));
+    if (how == "permutation") return PermutedInverse(b, Rng(seed, k));
+    if (how == "owen") return BaseOwen(seed, k, b);
+    return RadicalInverse(b);
 }
 
 class Halton final : public Sequence {
@@ -89,22 +65,23 @@ class Halton final : public Sequence {
     Halton(const Plan& plan, const Values& options)
         : leap_(static_cast<std::uint64_t>(options[leap])) {
         for (std::size_t k = 0; k < plan.dimension; ++k)
-            coordinates_.push_back(coordinate(k, options[scramble], plan.seed));
+            inverses_.push_back(inverse(k, options[scramble], plan.seed));
     }
     void fill(std::uint64_t first, std::span<double> rows) override {
-        const std::size_t dimension = coordinates_.size();
-        const std::size_t count = rows.size() / dimension;
-        for (std::size_t k = 0; k < dimension; ++k)
-            if (leap_ == 1)
-                coordinates_[k]->fill(first, count, rows.data() + k, dimension);
-            else
-                for (std::size_t j = 0; j < count; ++j)
-                    rows[j * dimension + k] = coordinates_[k]->of((first + j) * leap_);
+        const std::size_t d = inverses_.size();
+        const std::size_t count = rows.size() / d;
+        const auto fill = [&](std::size_t k, const auto& inverse) {
+            if (leap_ == 1) return inverse.fill(first, count, rows.data() + k, d);
+            for (std::size_t j = 0; j < count; ++j)
+                rows[j * d + k] = inverse.of((first + j) * leap_);
+        };
+        for (std::size_t k = 0; k < d; ++k)
+            std::visit([&](const auto& inverse) { fill(k, inverse); }, inverses_[k]);
     }
 
   private:
     std::uint64_t leap_;
-    std::vector<std::unique_ptr<Coordinate>> coordinates_;
+    std::vector<Inverse> inverses_;
 };
 
 Plan plan(const Request& request, const Values& options) {

@@ -2,8 +2,7 @@
 //
 // Hammersley set of n points. Point i = 0, ..., n - 1 is
 //
-//     (s, phi_2(i), phi_3(i), phi_5(i), ...)    with the sweep    s = i / n    or    (2 i + 1) /
-//     2n,
+//     (s, phi_2(i), phi_3(i), ...)    with the sweep    s = i / n    or    s = (2 i + 1) / 2n,
 //
 // phi_b being the radical inverse in base b. The sweep is the first coordinate and starts at 0,
 // unless asked otherwise: it may be the last one, and start at 1 / 2n.
@@ -42,31 +41,14 @@ class Hammersley final : public Sequence {
     void fill(std::uint64_t first, std::span<double> rows) override {
         const std::size_t dimension = inverses_.size() + 1;
         const std::size_t count = rows.size() / dimension;
-        fill_sweep(first, count, rows.data() + (last_ ? dimension - 1 : 0));
+        const std::uint64_t scale = half_ ? 2 : 1;
+        fill_ratios(scale * first + (half_ ? 1 : 0), scale, scale * count_, count,
+                    rows.data() + (last_ ? dimension - 1 : 0), dimension);
         for (std::size_t k = 0; k + 1 < dimension; ++k)
             inverses_[k].fill(first, count, rows.data() + k + (last_ ? 0 : 1), dimension);
     }
 
   private:
-    void fill_sweep(std::uint64_t first, std::size_t count, double* x) const {
-        const std::size_t dimension = inverses_.size() + 1;
-        const std::uint64_t scale = half_ ? 2 : 1;
-        const std::uint64_t parts = scale * count_;
-        const std::uint64_t begin = scale * first + (half_ ? 1 : 0);
-        if (parts > exact_limit) {
-            for (std::size_t j = 0; j < count; ++j)
-                x[j * dimension] = ratio(begin + scale * j, parts);
-            return;
-        }
-        // Every number here is whole and at most 2^53: only the division rounds.
-        const auto from = static_cast<double>(begin);
-        const auto step = static_cast<double>(scale);
-        const auto whole = static_cast<double>(parts);
-        for (std::size_t j = 0; j < count; ++j)
-            x[j * dimension] =
-                (from + step * static_cast<double>(static_cast<std::int64_t>(j))) / whole;
-    }
-
     bool last_;
     bool half_;
     std::uint64_t count_;

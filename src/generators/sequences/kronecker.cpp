@@ -8,7 +8,7 @@
 // the generalised golden ratio, the root x > 1 of x^(d + 1) = x + 1; so g^d (1 + g) = 1.
 //
 // Shape   n x d; indices below 2^53.
-// Cost    O(n d): five additions and shifts a coordinate.
+// Cost    O(n d): an addition of two words a coordinate.
 // Promise all arithmetic is in whole numbers of 127 bits, modulo 1: a coordinate is the first 53
 //         bits of frac(offset + i alpha_k), at any index. A given alpha is the double that it reads
 //         as. Those of R_d are within d 2^-126, so that a point i is within i d 2^-126 + 2^-53.
@@ -23,7 +23,6 @@
 
 #include "core/error.hpp"
 #include "core/rng.hpp"
-#include "core/wide.hpp"
 #include "generators/generator.hpp"
 #include "math/functions/bits.hpp"
 #include "math/functions/ratio.hpp"
@@ -41,64 +40,25 @@ constexpr Param<double> offset{.name = "offset",
                                .high = one_minus_ulp,
                                .help = "Every coordinate of point 0; 0.5 is M. Roberts' choice"};
 
-constexpr std::uint64_t low_mask = ~std::uint64_t{0} >> 1;
-constexpr std::size_t table_numbers = 1024;  // 16 KiB: half of a first-level cache
-constexpr std::size_t chunk_numbers = 64;
-
-/// Many numbers of 127 bits behind the point: 64 high ones, 63 low ones.
-struct Fractions {
-    std::vector<std::uint64_t> high;
-    std::vector<std::uint64_t> low;
-
-    void push_back(Wide fraction) {
-        high.push_back(static_cast<std::uint64_t>(fraction >> 63));
-        low.push_back(static_cast<std::uint64_t>(fraction) & low_mask);
-    }
-    [[nodiscard]] std::size_t size() const { return high.size(); }
-};
-
-/// out = frac(base + step), where `base` repeats.
-STIPPLE_WIDE void add(const std::uint64_t* base_high, const std::uint64_t* base_low,
-                      std::size_t width, const std::uint64_t* step_high,
-                      const std::uint64_t* step_low, std::size_t count, double* out) {
-    for (std::size_t first = 0; first < count; first += width) {
-        const std::size_t length = std::min(width, count - first);
-        for (std::size_t m = 0; m < length; ++m) {
-            const std::uint64_t carry = (base_low[m] + step_low[first + m]) >> 63;
-            out[first + m] = fraction_to_unit(base_high[m] + step_high[first + m] + carry);
-        }
-    }
-}
-
 class Kronecker final : public Sequence {
   public:
     /// Both in fractions of 127 bits.
-    Kronecker(std::vector<Wide> steps, Wide origin)
-        : alpha_(std::move(steps)),
-          offset_(origin),
-          chunk_((chunk_numbers + alpha_.size() - 1) / alpha_.size()),
-          rows_(std::max(table_numbers / alpha_.size() / chunk_, std::size_t{1}) * chunk_) {
-        for (std::size_t t = 0; t < rows_; ++t)
-            for (const Wide a : alpha_) steps_.push_back(a * t);
-    }
+    Kronecker(std::vector<Wide> alphas, Wide origin)
+        : alphas_(std::move(alphas)), offset_(origin) {}
 
     void fill(std::uint64_t first, std::span<double> rows) override {
-        const std::size_t d = alpha_.size();
-        for (std::size_t at = 0; at < rows.size(); at += steps_.size(), first += rows_) {
-            Fractions base;
-            for (std::size_t row = 0; row < chunk_; ++row)
-                for (std::size_t k = 0; k < d; ++k) base.push_back(offset_ + alpha_[k] * first);
-            add(base.high.data(), base.low.data(), base.size(), steps_.high.data(),
-                steps_.low.data(), std::min(steps_.size(), rows.size() - at), rows.data() + at);
-        }
+        std::vector<Wide> point;
+        for (const Wide a : alphas_) point.push_back(offset_ + a * first);
+        for (std::size_t at = 0; at < rows.size(); at += point.size())
+            for (std::size_t k = 0; k < point.size(); ++k) {
+                rows[at + k] = fraction_to_unit(static_cast<std::uint64_t>(point[k] >> 63));
+                point[k] += alphas_[k];
+            }
     }
 
   private:
-    std::vector<Wide> alpha_;
+    std::vector<Wide> alphas_;
     Wide offset_;
-    std::size_t chunk_;  ///< points after which the pattern of the vector loop repeats
-    std::size_t rows_;   ///< points of the table
-    Fractions steps_;    ///< t alpha for t < rows_
 };
 
 /// The high half of the product of two fractions of 128 bits.

@@ -60,9 +60,7 @@ class CorrelatedMultiJittered final : public StratifiedSequence {
 };
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
-    const StratifiedSequence::Style style{.centered = options[centered_option],
-                                          .shuffled = options[order_option] == "shuffled"};
-    return std::make_unique<CorrelatedMultiJittered>(plan, style,
+    return std::make_unique<CorrelatedMultiJittered>(plan, StratifiedSequence::style_of(options),
                                                      jitter_columns(plan.count, options));
 }
 

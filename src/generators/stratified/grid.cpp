@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "generators/generator.hpp"
+#include "generators/stratified/jitter_grid.hpp"
 #include "math/functions/powers.hpp"
 #include "math/functions/ratio.hpp"
 #include "math/geometry/lattice.hpp"
@@ -45,48 +46,22 @@ class Grid final : public Sequence {
 
   private:
     /// One coordinate of a row: cells first, first + step, ... of k.
-    void place(double* x, std::uint64_t first, std::size_t length, int step,
+    void place(double* x, std::uint64_t first, std::size_t length, std::uint64_t step,
                std::uint64_t k) const {
-        const std::uint64_t numerator = centered_ ? 2 * first + 1 : first;
-        const std::uint64_t denominator = centered_ ? 2 * k : k;
-        const int stride = centered_ ? 2 * step : step;
+        const std::uint64_t scale = centered_ ? 2 : 1;
+        const std::uint64_t numerator = scale * first + (centered_ ? 1 : 0);
         const std::size_t d = shape_.size();
-        if (step == 0) {
-            const double value = ratio(numerator, denominator);
-            for (std::size_t j = 0; j < length; ++j) x[j * d] = value;
-        } else if (denominator > exact_limit) {
-            for (std::size_t j = 0; j < length; ++j)
-                x[j * d] = ratio(numerator + static_cast<std::uint64_t>(stride) * j, denominator);
-        } else {
-            const auto begin = static_cast<double>(numerator);
-            const auto whole = static_cast<double>(denominator);
-            for (std::size_t j = 0; j < length; ++j)
-                x[j * d] = (begin + stride * static_cast<double>(j)) / whole;
-        }
+        if (step > 0) return fill_ratios(numerator, scale * step, scale * k, length, x, d);
+        const double value = ratio(numerator, scale * k);
+        for (std::size_t j = 0; j < length; ++j) x[j * d] = value;
     }
 
     std::vector<std::uint64_t> shape_;
     bool centered_;
 };
 
-/// The plan that a given shape implies; count and dimension may say the same again.
-Plan plan_shape(const Request& request, const std::vector<std::int64_t>& sides) {
-    std::uint64_t count = 1;
-    for (const std::int64_t k : sides)
-        if (__builtin_mul_overflow(count, static_cast<std::uint64_t>(k), &count))
-            fail(ErrorKind::usage, "--shape: {} has more than 2^64 points",
-                 format_value(Value(sides)));
-    if (request.count.value_or(count) != count)
-        fail(ErrorKind::usage, "--count: {} contradicts --shape {}, which has {} points",
-             *request.count, format_value(Value(sides)), count);
-    if (request.dimension.value_or(sides.size()) != sides.size())
-        fail(ErrorKind::usage, "--dimension: {} contradicts --shape {}, which has {} directions",
-             *request.dimension, format_value(Value(sides)), sides.size());
-    return default_plan(request, count, sides.size());
-}
-
 Plan plan(const Request& request, const Values& options) {
-    if (options.given(shape)) return plan_shape(request, options[shape]);
+    if (options.given(shape)) return plan_of_shape(request, options[shape], "points");
     const std::size_t dimension = request.dimension.value_or(2);
     const Plan plan = default_plan(request, nearest_power(1024, dimension), dimension);
     exact_root(plan.count, dimension, "grid");

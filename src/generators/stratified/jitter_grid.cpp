@@ -14,21 +14,29 @@ std::uint64_t jitter_columns(std::uint64_t count, const Values& options) {
     return root;
 }
 
+Plan plan_of_shape(const Request& request, const std::vector<std::int64_t>& sides,
+                   std::string_view cells) {
+    const std::string text = format_value(Value(sides));
+    std::uint64_t count = 1;
+    for (const std::int64_t k : sides)
+        if (__builtin_mul_overflow(count, static_cast<std::uint64_t>(k), &count))
+            fail(ErrorKind::usage, "--shape: {} has more than 2^64 {}", text, cells);
+    if (request.count.value_or(count) != count)
+        fail(ErrorKind::usage, "--count: {} contradicts --shape {}, which has {} {}",
+             *request.count, text, count, cells);
+    if (request.dimension.value_or(sides.size()) != sides.size())
+        fail(ErrorKind::usage, "--dimension: {} contradicts --shape {}, which has {} directions",
+             *request.dimension, text, sides.size());
+    return default_plan(request, count, sides.size());
+}
+
 Plan plan_jitter_grid(const Request& request, const Values& options) {
     if (!options.given(shape_option)) return default_plan(request);
     const auto sides = options[shape_option];
-    const std::string text = format_value(Value(sides));
     if (sides.size() != 2)
-        fail(ErrorKind::usage, "--shape: {} has {} sides; columns x rows are two", text,
-             sides.size());
-    std::uint64_t count = 0;
-    if (__builtin_mul_overflow(static_cast<std::uint64_t>(sides[0]),
-                               static_cast<std::uint64_t>(sides[1]), &count))
-        fail(ErrorKind::usage, "--shape: {} has more than 2^64 cells", text);
-    if (request.count.value_or(count) != count)
-        fail(ErrorKind::usage, "--count: {} contradicts --shape {}, which has {} cells",
-             *request.count, text, count);
-    return default_plan(request, count);
+        fail(ErrorKind::usage, "--shape: {} has {} sides; columns x rows are two",
+             format_value(Value(sides)), sides.size());
+    return plan_of_shape(request, sides, "cells");
 }
 
 }  // namespace stipple::generators

@@ -13,6 +13,9 @@
 // Promise point i is in cell i, half-open, in exact arithmetic (math/digital/stratum.hpp).
 // Source  R. L. Cook, ACM Trans. Graph. 5 (1986) 51-72, doi:10.1145/7529.8927.
 
+#include <algorithm>
+#include <numeric>
+
 #include "core/rng.hpp"
 #include "generators/generator.hpp"
 #include "math/digital/stratum.hpp"
@@ -42,11 +45,15 @@ class Jittered : public Sequence {
     /// Brings all coordinates from [0, 1) into their cells, or to the middles.
     virtual void place_all(std::uint64_t first, std::span<double> rows) const = 0;
 
+    void place(const Strata& strata, double* x, std::size_t stride) const {
+        centered_ ? place_in_middles(strata, x, stride) : place_in_strata(strata, x, stride);
+    }
+
     std::uint64_t count_;
     std::size_t dimension_;
-    bool centered_;
 
   private:
+    bool centered_;
     Rng rng_;
 };
 
@@ -64,18 +71,14 @@ class JitteredRows final : public Jittered {
             const std::uint64_t cells = row_begin(row + 1) - begin;
             const std::uint64_t column = first - begin;
             const auto length = std::min<std::size_t>((rows.size() - offset) / 2, cells - column);
-            place({.low = column, .width = 1, .step = 1, .parts = cells},
-                  {.low = begin, .width = cells, .step = 0, .parts = count_}, length,
-                  rows.data() + offset);
+            std::vector<double> low(length);
+            std::iota(low.begin(), low.end(), static_cast<double>(column));
+            place({.low = low, .parts = cells}, rows.data() + offset, 2);
+            std::ranges::fill(low, static_cast<double>(begin));
+            place({.low = low, .width = cells, .parts = count_}, rows.data() + offset + 1, 2);
             first += length;
             offset += 2 * length;
         }
-    }
-
-    void place(const Strata& x, const Strata& y, std::size_t length, double* points) const {
-        if (!centered_) return place_pairs_in_strata(x, y, length, points);
-        place_in_middles(x, length, points, 2);
-        place_in_middles(y, length, points + 1, 2);
     }
 
     [[nodiscard]] std::uint64_t row_begin(std::uint64_t row) const {
@@ -99,8 +102,7 @@ class JitteredCubes final : public Jittered {
             const auto some = rows.subspan(at, std::min(portion * dimension_, rows.size() - at));
             cells.resize(some.size());
             find_cells(first + at / dimension_, cells);
-            centered_ ? place_in_middles(cells, shape_[0], some.data(), 1)
-                      : place_in_strata(cells, shape_[0], some.data(), 1);
+            place({.low = cells, .parts = shape_[0]}, some.data(), 1);
         }
     }
 

@@ -7,7 +7,7 @@
 //                  permutations (math/functions/permutation.hpp)
 //     strength 2   for n = p^2, p prime, and d <= p + 1: a Latin hypercube in which besides, for
 //                  any two coordinates, each of the p x p squares holds exactly one point. It is
-//                  made from an orthogonal array (generators/stratified/orthogonal_points.hpp).
+//                  made from an orthogonal array (orthogonal_points.hpp).
 //
 // Cost    O(n d); point i is found without the others, in constant memory.
 // Promise each stratum holds one point in exact arithmetic, and floor(x n) says so too

@@ -102,9 +102,8 @@ class MultiJittered final : public StratifiedSequence {
 };
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
-    const StratifiedSequence::Style style{.centered = options[centered_option],
-                                          .shuffled = options[order_option] == "shuffled"};
-    return std::make_unique<MultiJittered>(plan, style, jitter_columns(plan.count, options));
+    return std::make_unique<MultiJittered>(plan, StratifiedSequence::style_of(options),
+                                           jitter_columns(plan.count, options));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 //     cmj    t = d,  n = s^d, any s: multi-jittered in d dimensions
 //
 // With --substrata independent or correlated the points are a Latin hypercube besides: each of the
-// n strips along each axis holds one. How: generators/stratified/orthogonal_points.hpp.
+// n strips along each axis holds one. How: orthogonal_points.hpp.
 //
 // Cost    O(n d t); point i is found without the others.
 // Promise the counts above in exact arithmetic, also after rounding (math/digital/stratum.hpp).
@@ -76,9 +76,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
                            .strength = t,
                            .columns = grid ? Columns::digits : Columns::polynomials};
     const std::string finer = options[substrata];
-    const OrthogonalPoints::Style style{.centered = options[centered_option],
-                                        .shuffled = options[order_option] == "shuffled"};
-    return std::make_unique<OrthogonalPoints>(plan, style, shape,
+    return std::make_unique<OrthogonalPoints>(plan, StratifiedSequence::style_of(options), shape,
                                               finer == "none"          ? Substrata::none
                                               : finer == "independent" ? Substrata::independent
                                                                        : Substrata::shared);

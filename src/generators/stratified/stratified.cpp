@@ -61,11 +61,11 @@ void StratifiedSequence::fill(std::uint64_t first, std::span<double> rows) {
 
 void StratifiedSequence::place(std::size_t coordinate, std::uint64_t first,
                                std::span<const double> low, std::span<double> x) const {
-    if (centered_) return place_in_middles(low, parts(coordinate), x.data(), 1);
+    if (centered_) return place_in_middles({.low = low, .parts = parts(coordinate)}, x.data(), 1);
     const Rng offsets(plan_.seed,
                       static_cast<std::uint64_t>(StratifiedStream::first_of_offsets) + coordinate);
     offsets.fill(first, x);
-    place_in_strata(low, parts(coordinate), x.data(), 1);
+    place_in_strata({.low = low, .parts = parts(coordinate)}, x.data(), 1);
 }
 
 }  // namespace stipple::generators

@@ -40,6 +40,12 @@ class StratifiedSequence : public Sequence {
         bool shuffled;
     };
 
+    /// What the two options above ask for.
+    static Style style_of(const Values& options) {
+        return {.centered = options[centered_option],
+                .shuffled = options[order_option] == "shuffled"};
+    }
+
     void fill(std::uint64_t first, std::span<double> rows) final;
 
   protected:

@@ -128,15 +128,15 @@ Digits first_digits(std::uint64_t q, std::uint64_t base, std::size_t count) {
 
 std::size_t digits_of(std::uint32_t base) { return length(digits_limit, base) - 1; }
 
-std::uint64_t mirrored_digits(double x, std::uint32_t base) {
+std::uint64_t reversed_digits(double x, std::uint32_t base) {
     const std::size_t count = digits_of(base);
     std::uint64_t power = 1;
     for (std::size_t j = 0; j < count; ++j) power *= base;
     auto m = static_cast<std::uint64_t>(std::floor(x * static_cast<double>(power) + 0.5));
     m = std::min(m, power - 1);
-    std::uint64_t mirrored = 0;
-    for (std::size_t j = 0; j < count; ++j, m /= base) mirrored = mirrored * base + m % base;
-    return mirrored;
+    std::uint64_t reversed = 0;
+    for (std::size_t j = 0; j < count; ++j, m /= base) reversed = reversed * base + m % base;
+    return reversed;
 }
 
 BaseShift::BaseShift(std::uint64_t seed, std::size_t coordinate, std::uint32_t base)
@@ -144,9 +144,9 @@ BaseShift::BaseShift(std::uint64_t seed, std::size_t coordinate, std::uint32_t b
       shift_(random_digits(scramble_numbers(seed, ScrambleStream::base_shift), 64 * coordinate,
                            digits_of(base), base)) {}
 
-double BaseShift::of(std::uint64_t mirrored) const {
+double BaseShift::of(std::uint64_t reversed) const {
     const std::size_t count = shift_.size();
-    Digits digits = first_digits(mirrored, base_, count);
+    Digits digits = first_digits(reversed, base_, count);
     for (std::size_t j = 0; j < count; ++j) digits[j] = (digits[j] + shift_[j]) % base_;
     return fraction(std::span(digits).first(count), base_);
 }
@@ -165,9 +165,9 @@ BaseMatrix::BaseMatrix(std::uint64_t seed, std::size_t coordinate, std::uint32_t
     shift_ = random_digits(rng, room * coordinate + 64 * 64, count, base);
 }
 
-double BaseMatrix::of(std::uint64_t mirrored) const {
+double BaseMatrix::of(std::uint64_t reversed) const {
     const std::size_t count = shift_.size();
-    const Digits digits = first_digits(mirrored, base_, count);
+    const Digits digits = first_digits(reversed, base_, count);
     Digits image{};
     for (std::size_t j = 0; j < count; ++j) {
         std::uint64_t sum = shift_[j];
@@ -237,14 +237,14 @@ std::uint64_t BaseOwen::image_of(std::uint64_t q, std::size_t count) const {
     return image;
 }
 
-double BaseOwen::of(std::uint64_t mirrored) const {
+double BaseOwen::of(std::uint64_t reversed) const {
     if (base_ == 2) {
         double x = 0;
-        fill_binary(mirrored, 1, &x, 1);
+        fill_binary(reversed, 1, &x, 1);
         return x;
     }
-    const std::size_t digits = length(mirrored, base_);
-    return inside(image_of(mirrored, digits), mixed(mirrored, keys_), power(base_, digits));
+    const std::size_t digits = length(reversed, base_);
+    return inside(image_of(reversed, digits), mixed(reversed, keys_), power(base_, digits));
 }
 
 void BaseOwen::fill_binary(std::uint64_t first, std::size_t count, double* out,

@@ -33,14 +33,17 @@ namespace stipple {
 /// The most digits of which every multiple of base^-K is found again from its rounded double.
 std::size_t digits_of(std::uint32_t base);
 
-/// The whole number whose mirrored digits are those of x in [0, 1]: of the nearest multiple of
+/// The whole number whose reversed digits are those of x in [0, 1]: of the nearest multiple of
 /// base^-K. So the radical inverse of q < base^K gives q.
-std::uint64_t mirrored_digits(double x, std::uint32_t base);
+std::uint64_t reversed_digits(double x, std::uint32_t base);
 
 class BaseShift {
   public:
     BaseShift(std::uint64_t seed, std::size_t coordinate, std::uint32_t base);
-    [[nodiscard]] double of(std::uint64_t mirrored) const;
+    [[nodiscard]] double of(std::uint64_t reversed) const;
+
+    /// What is added to each digit.
+    [[nodiscard]] std::span<const std::uint32_t> shift() const { return shift_; }
 
   private:
     std::uint32_t base_;
@@ -50,7 +53,7 @@ class BaseShift {
 class BaseMatrix {
   public:
     BaseMatrix(std::uint64_t seed, std::size_t coordinate, std::uint32_t base);
-    [[nodiscard]] double of(std::uint64_t mirrored) const;
+    [[nodiscard]] double of(std::uint64_t reversed) const;
 
     /// Digit `row` of the image of digit `column` being 1; column <= row < digits_of(base).
     [[nodiscard]] std::uint32_t entry(std::size_t row, std::size_t column) const {
@@ -69,8 +72,8 @@ class BaseOwen {
   public:
     BaseOwen(std::uint64_t seed, std::size_t coordinate, std::uint32_t base);
 
-    /// The image of the radical inverse of `mirrored`.
-    [[nodiscard]] double of(std::uint64_t mirrored) const;
+    /// The image of the radical inverse of `reversed`.
+    [[nodiscard]] double of(std::uint64_t reversed) const;
 
     /// out[j * stride] = of(first + j) for j < count, much faster.
     void fill(std::uint64_t first, std::size_t count, double* out, std::size_t stride) const;

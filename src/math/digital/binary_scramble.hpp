@@ -11,8 +11,7 @@
 // prefixes that share their first 5 k digits, for k = 0 to 10.
 //
 // Promise  each is a bijection on the first m digits for every m, and keeps the (t,m,s)-net
-// property
-//          in base 2. 53 digits are random, also those behind the last one that is set.
+//          property in base 2. 53 digits are random, also those behind the last one that is set.
 // Source   A. B. Owen, "Randomly permuted (t,m,s)-nets and (t,s)-sequences", in Monte Carlo and
 //          Quasi-Monte Carlo Methods in Scientific Computing (1995), 299-317,
 //          doi:10.1007/978-1-4612-2552-2_19;

@@ -11,14 +11,14 @@ namespace stipple {
 namespace {
 
 /// The digits of an index in reverse as a whole number, and the power of the base above it.
-struct Mirror {
+struct Reversed {
     Wide digits = 0;
     Wide power = 1;
 };
 
-Mirror mirror(std::uint64_t index, std::uint64_t base,
-              std::span<const std::uint32_t> permutation = {}) {
-    Mirror out;
+Reversed reversed(std::uint64_t index, std::uint64_t base,
+                  std::span<const std::uint32_t> permutation = {}) {
+    Reversed out;
     for (; index > 0; index /= base) {
         const std::uint64_t digit = index % base;
         out.digits = out.digits * base + (permutation.empty() ? digit : permutation[digit]);
@@ -29,7 +29,7 @@ Mirror mirror(std::uint64_t index, std::uint64_t base,
 
 /// Low digits behind high ones: numbers (low * high.power + high.digits) / (block * high.power).
 template <class Low>
-void join(const Low& low, const Mirror& high, std::uint64_t block, std::size_t count, double* out,
+void join(const Low& low, const Reversed& high, std::uint64_t block, std::size_t count, double* out,
           std::size_t stride) {
     const Wide denominator = high.power * block;
     if (denominator > exact_limit) {
@@ -49,7 +49,7 @@ void join(const Low& low, const Mirror& high, std::uint64_t block, std::size_t c
 }  // namespace
 
 double radical_inverse(std::uint64_t index, std::uint32_t base) {
-    const Mirror all = mirror(index, base);
+    const Reversed all = reversed(index, base);
     return ratio(all.digits, all.power);
 }
 
@@ -61,13 +61,13 @@ RadicalInverse::RadicalInverse(std::uint32_t base, std::vector<std::uint32_t> pe
     if (block_ == base && permutation_.empty()) return;
     for (std::uint64_t i = 0; i < block_; ++i) {
         // The digit above stands in for leading zeros.
-        const Mirror low = mirror(i + block_, base, permutation_);
+        const Reversed low = reversed(i + block_, base, permutation_);
         reversed_.push_back(static_cast<double>(static_cast<std::uint64_t>(low.digits / base)));
     }
 }
 
 double RadicalInverse::of(std::uint64_t index) const {
-    const Mirror all = mirror(index, base_, permutation_);
+    const Reversed all = reversed(index, base_, permutation_);
     return ratio(all.digits, all.power);
 }
 
@@ -76,7 +76,7 @@ void RadicalInverse::fill(std::uint64_t first, std::size_t count, double* out,
     while (count > 0) {
         const std::uint64_t start = first % block_;
         const auto run = std::min<std::size_t>(count, block_ - start);
-        const Mirror high = mirror(first / block_, base_, permutation_);
+        const Reversed high = reversed(first / block_, base_, permutation_);
         if (reversed_.empty()) {
             const auto low = [begin = static_cast<double>(start)](std::size_t j) {
                 return begin + static_cast<double>(static_cast<std::int32_t>(j));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Radical inverse of i in base b: the digits of i, mirrored at the point.
+// Radical inverse of i in base b: the digits of i, reversed behind the point.
 //
 //     phi_b(i) = sum_j a_j b^(-j-1) = m / b^k    where    i = sum_j a_j b^j,  0 <= a_j < b,
 //

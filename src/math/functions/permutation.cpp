@@ -5,7 +5,7 @@
 #include <bit>
 
 #include "core/wide.hpp"
-#include "math/functions/mixer.hpp"
+#include "math/functions/splitmix64.hpp"
 
 namespace stipple {
 namespace {
@@ -85,10 +85,10 @@ void images(const Cipher& cipher, std::uint64_t size, std::uint64_t first, std::
 }  // namespace
 
 Permutation::Permutation(std::uint64_t size, std::uint64_t key) : size_(size) {
-    Mixer mixer(key);
+    SplitMix64 stream(key);
     if (size <= small) {
         for (std::uint64_t i = 0; i < size; ++i) {
-            const std::uint64_t j = mixer.below(i + 1);
+            const std::uint64_t j = stream.below(i + 1);
             table_[i] = table_[j];
             table_[j] = static_cast<std::uint8_t>(i);
         }
@@ -96,8 +96,8 @@ Permutation::Permutation(std::uint64_t size, std::uint64_t key) : size_(size) {
     }
     cipher_.width = static_cast<int>(std::bit_width(size - 1));
     for (std::size_t t = 0; t < rounds; ++t) {
-        cipher_.flips[t] = mixer.next() >> (64 - cipher_.width);
-        cipher_.factors[t] = mixer.next() >> (64 - cipher_.width) | 1;
+        cipher_.flips[t] = stream.next() >> (64 - cipher_.width);
+        cipher_.factors[t] = stream.next() >> (64 - cipher_.width) | 1;
     }
 }
 

@@ -7,7 +7,7 @@
 
 #include "core/rng.hpp"
 
-namespace stipple::detail {
+namespace stipple {
 namespace {
 
 int bit_width(Wide x) {
@@ -18,7 +18,7 @@ int bit_width(Wide x) {
 
 }  // namespace
 
-double wide_ratio(Wide numerator, Wide denominator) {
+double detail::wide_ratio(Wide numerator, Wide denominator) {
     if (numerator == 0) return 0;
     // A quotient of 55 or 56 bits: two more than a double holds. The remainder joins as one sticky
     // bit below them, so that the conversion to double is the one and only rounding.
@@ -30,4 +30,18 @@ double wide_ratio(Wide numerator, Wide denominator) {
     return std::min(rounded, one_minus_ulp);
 }
 
-}  // namespace stipple::detail
+void fill_ratios(std::uint64_t first, std::uint64_t step, std::uint64_t whole, std::size_t count,
+                 double* x, std::size_t stride) {
+    if (whole > exact_limit) {
+        for (std::size_t j = 0; j < count; ++j) x[j * stride] = ratio(first + step * j, whole);
+        return;
+    }
+    // Every number here is whole and at most 2^53: only the division rounds.
+    const auto begin = static_cast<double>(first);
+    const auto ahead = static_cast<double>(step);
+    const auto parts = static_cast<double>(whole);
+    for (std::size_t j = 0; j < count; ++j)
+        x[j * stride] = (begin + ahead * static_cast<double>(static_cast<std::int64_t>(j))) / parts;
+}
+
+}  // namespace stipple

@@ -3,6 +3,7 @@
 // Fractions of whole numbers as doubles in [0, 1), correctly rounded.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "core/int128.hpp"
@@ -25,5 +26,9 @@ inline double ratio(Wide numerator, Wide denominator) {
     return static_cast<double>(static_cast<std::uint64_t>(numerator)) /
            static_cast<double>(static_cast<std::uint64_t>(denominator));
 }
+
+/// x[j * stride] = ratio(first + j step, whole) for j < count; all are below 1.
+void fill_ratios(std::uint64_t first, std::uint64_t step, std::uint64_t whole, std::size_t count,
+                 double* x, std::size_t stride);
 
 }  // namespace stipple

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/rng.hpp"
-#include "math/functions/mixer.hpp"
+#include "math/functions/splitmix64.hpp"
 #include "support/spacing.hpp"
 
 using namespace stipple;
@@ -132,12 +132,12 @@ TEST(BestCandidate, TakesTheBestOfAllCandidatesInFourDimensions) {
         const Rng rng(7);
         PointSet ours(n, 4);
         for (std::size_t i = 0; i < n; ++i) {
-            Mixer mixer(rng.bits(i));
+            SplitMix64 stream(rng.bits(i));
             double best = -1;
             for (std::size_t j = 0; j < std::max<std::size_t>(1, i * 3 / 2); ++j) {
                 PointSet tried(ours);
                 for (std::size_t k = 0; k < 4; ++k)
-                    tried[i][k] = space.box.low[k] + to_unit(mixer.next()) * space.box.extent(k);
+                    tried[i][k] = space.box.low[k] + to_unit(stream.next()) * space.box.extent(k);
                 const double nearest = i == 0 ? 0 : distance_to_earlier(tried, i, space);
                 if (nearest <= best) continue;
                 best = nearest;

@@ -172,6 +172,20 @@ TEST(DartThrowing, RelaxedRadiusFollowsADensity) {
     }
 }
 
+// In six dimensions more darts find a place than 0.8 to r^6: 475 points, of 420 bytes each.
+TEST(DartThrowing, MemoryIsThereForAllPointsOfARadius) {
+    const auto within = [](std::uint64_t bytes) {
+        return [bytes] {
+            const Settings settings = {{"radius", "0.35"}, {"misses", "20000"}};
+            const PointSet set =
+                make("dart-throwing", {.dimension = 6}, settings, {.max_memory = bytes});
+            EXPECT_LE(set.count() * 420, bytes);
+        };
+    };
+    EXPECT_EQ(error_of(within(190'000)).substr(0, 6), "limit:");
+    EXPECT_EQ(error_of(within(330'000)), "");
+}
+
 TEST(DartThrowing, RefusesWhatContradictsItselfOrFindsNoPlace) {
     const auto refusal = [](const Request& request, const Settings& settings) {
         return error_of([&] { make("dart-throwing", request, settings, {.max_memory = 1 << 26}); });

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/rng.hpp"
-#include "math/neighbors/gaussian_relaxation.hpp"
+#include "generators/blue_noise/gaussian_relaxation.hpp"
 
 using namespace stipple;
 

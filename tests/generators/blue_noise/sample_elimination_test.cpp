@@ -250,6 +250,46 @@ TEST(SampleElimination, ChoosesFromTheSpecifiedFile) {
     EXPECT_EQ(make(unit, points(300, 2), {{"from", file.path()}}), all);
 }
 
+// A table's density is no coordinate; the program's other formats hold the same points.
+TEST(SampleElimination, ReadsPointsInEveryFormat) {
+    const PointSet all = random_in(square, 40, 8);
+    std::string with_pdf = "x,y,pdf\n";
+    std::string json = R"({"format":"stipple.points","version":1,"points":[)";
+    for (std::size_t i = 0; i < all.count(); ++i) {
+        const std::string x = format_number(all[i][0]);
+        const std::string y = format_number(all[i][1]);
+        with_pdf += x + "," + y + ",2.5\n";
+        json += (i > 0 ? ",[" : "[") + x + "," + y + "]";
+    }
+    json += R"(],"dimension":2,"count":40})";
+    std::string header = "{'descr': '<f8', 'fortran_order': False, 'shape': (40, 2), }";
+    header.resize(117, ' ');
+    const std::string npy = std::string("\x93NUMPY\x01\x00\x76\x00", 10) + header + "\n" +
+                            std::string(reinterpret_cast<const char*>(all.flat().data()), 640);
+    const TemporaryFile plain(csv_of(all));
+    const PointSet expected = make(unit, {.count = 9}, {{"from", plain.path()}});
+    EXPECT_EQ(expected.dimension(), 2U);
+    for (const auto& [bytes, extension] :
+         {std::pair{with_pdf, ".csv"}, {json, ".json"}, {npy, ".npy"}}) {
+        const TemporaryFile file(bytes, extension);
+        EXPECT_EQ(make(unit, {.count = 9}, {{"from", file.path()}}), expected) << extension;
+    }
+}
+
+TEST(SampleElimination, RefusesSeveralSetsAndStandardInput) {
+    const TemporaryFile two("0.1 0.2\n0.3 0.4\n#\n0.5 0.6\n");
+    for (const char* generator : {unit, "lloyd"}) {
+        EXPECT_EQ(error_of([&] {
+                      make(generator, {}, {{"from", two.path()}});
+                  }),
+                  "input: " + two.path() + ": 2 sets of points; expected one");
+        EXPECT_EQ(error_of([&] {
+                      make(generator, {}, {{"from", "-"}});
+                  }),
+                  "usage: --from: standard input cannot be read again; give a file");
+    }
+}
+
 // 2000 points of the unit sphere to 200: r_max of the surface, not of the cube around it.
 TEST(SampleElimination, SpreadsPointsOfASurface) {
     const Rng rng(3);

@@ -13,7 +13,7 @@ using namespace stipple::testing;
 namespace {
 
 /// Oracle: Faure's recipe. Coordinate after coordinate, the digits are multiplied once more by
-/// Pascal's triangle of binomial coefficients, and mirrored at the point.
+/// Pascal's triangle of binomial coefficients, and reversed behind the point.
 std::vector<Fraction> by_recipe(std::uint64_t index, std::uint64_t base, std::size_t dimension) {
     std::vector<std::uint64_t> digits;
     for (; index > 0; index /= base) digits.push_back(index % base);

@@ -190,12 +190,10 @@ TEST(Sobol, SaysWhereARequestMissesTheNets) {
         make("sobol", points(count, 2, start), {}, run);
         return sentence;
     };
-    EXPECT_EQ(said(1000, 0),
-              "1000 points are no net, as 2^k points from a multiple of 2^k on are; 512 and 1024 "
-              "are the nearest such counts");
+    EXPECT_EQ(said(1000, 0), "1000 points do not form a net; take a power of two: 512 or 1024");
     EXPECT_EQ(said(1024, 1),
-              "1024 points from index 1 on are no net, as 2^k points from a multiple of 2^k on "
-              "are; 0 and 1024 are the nearest such starts");
+              "1024 points from index 1 on do not form a net; start at a multiple of 1024: 0 or "
+              "1024");
     // Nets, and pieces of sets that are made in several runs.
     for (const auto& [count, start] : {std::pair{1024, 0}, {1, 0}, {1, 5}, {512, 1536}, {1000, 24}})
         EXPECT_EQ(said(static_cast<std::uint64_t>(count), static_cast<std::uint64_t>(start)), "");
@@ -241,6 +239,6 @@ TEST(Sobol, SaysWhatIsWrongWithDirectionNumbers) {
 
 TEST(Sobol, RefusesDimensionsBeyondItsTable) {
     EXPECT_EQ(error_of([] { make("sobol", points(1, 3668)); }),
-              "usage: --dimension: 3668 is outside [1, 3667], what the table of sobol has | "
-              "--directions FILE brings more");
+              "usage: --dimension: 3668 is outside [1, 3667], what sobol can make | "
+              "--directions brings more");
 }

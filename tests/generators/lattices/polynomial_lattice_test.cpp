@@ -170,13 +170,6 @@ TEST(PolynomialLattice, ComponentByComponentIsTheBestOfEachComponent) {
     EXPECT_EQ(polynomial_components(67, rising, {}), by_trying_all(67, rising));
 }
 
-TEST(PolynomialLattice, ErrorIsThatOfThePoints) {
-    const std::vector<double> weights = {1, 0.5, 0.25};
-    const std::vector<std::uint64_t> vector = {1, 45, 27};
-    const PointSet set = make("polynomial-lattice", {.count = 64}, given(67, vector));
-    EXPECT_NEAR(squared_shift_error(67, vector, weights), error_of_points(set, weights), 1e-14);
-}
-
 // What the kernel stands for: the mean over all shifts s of the kernel of the Sobolev space,
 // B_1(y) B_1(z) + B_2(|y - z|) / 2 at y = s, z = s XOR x. For x of m digits, s XOR x - s is
 // constant on stretches of 2^-m, where Simpson's rule is exact.

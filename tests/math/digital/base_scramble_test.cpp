@@ -41,8 +41,8 @@ TEST(MirroredDigits, FindTheIndexOfARadicalInverse) {
         EXPECT_LE(most, std::uint64_t{1} << 50);
         for (std::uint64_t k = 0; k < 2000; ++k)
             for (const std::uint64_t q : {k, most - 1 - k, Rng(base).below(k, most)})
-                EXPECT_EQ(mirrored_digits(radical_inverse(q, base), base), q) << "base " << base;
-        EXPECT_EQ(mirrored_digits(1.0, base), most - 1);
+                EXPECT_EQ(reversed_digits(radical_inverse(q, base), base), q) << "base " << base;
+        EXPECT_EQ(reversed_digits(1.0, base), most - 1);
     }
 }
 

@@ -30,7 +30,28 @@
 namespace stipple {
 
 inline constexpr std::size_t relaxation_dimensions = 4;  ///< at most
-inline constexpr double largest_proportion = 1000;       ///< of the longest side to the shortest
+
+/// Sums over points run side by side in so many lanes, the same on every machine.
+inline constexpr std::size_t sum_lanes = 8;
+
+inline double sum_of_lanes(const double* parts) {
+    return ((parts[0] + parts[4]) + (parts[1] + parts[5])) +
+           ((parts[2] + parts[6]) + (parts[3] + parts[7]));
+}
+
+/// The steps above: s F + b (last step).
+class Descent {
+  public:
+    explicit Descent(std::size_t coordinates) : ways_(coordinates) {}
+
+    /// The next step of every coordinate, which the caller may change: the next but one goes on
+    /// from it.
+    std::span<double> step(std::span<const double> forces, double length);
+
+  private:
+    std::vector<double> ways_;
+    double k_ = 1;
+};
 
 /// Bytes that relax_gaussian needs besides the rows.
 double relaxation_bytes(std::uint64_t count, std::size_t dimension);
@@ -39,9 +60,5 @@ double relaxation_bytes(std::uint64_t count, std::size_t dimension);
 /// to `extents`, of the unit torus without any. @throws Error(cancelled)
 void relax_gaussian(std::span<double> rows, std::size_t dimension, std::uint64_t steps,
                     const RunContext& run, std::span<const double> extents = {});
-
-/// E of the rows.
-double gaussian_energy(std::span<const double> rows, std::size_t dimension, const RunContext& run,
-                       std::span<const double> extents = {});
 
 }  // namespace stipple

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "math/neighbors/gaussian_relaxation.hpp"
+#include "generators/blue_noise/gaussian_relaxation.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,8 +20,9 @@ std::vector<double> random_rows(std::size_t n, std::size_t d, std::uint64_t seed
 
 /// Oracle: the sum over images of one coordinate's factor, in units of the points' distance.
 double factor(double difference, double side) {
+    const int images = static_cast<int>(std::ceil(20 / side));
     double sum = 0;
-    for (int m = -20; m <= 20; ++m) {
+    for (int m = -images; m <= images; ++m) {
         const double t = (difference + m) * side;
         sum += std::exp(-t * t / 2);
     }
@@ -58,19 +59,6 @@ double energy(const std::vector<double>& rows, std::size_t d, std::vector<double
 
 }  // namespace
 
-TEST(GaussianRelaxation, EnergyIsWhatItsDefinitionSays) {
-    for (const std::size_t d : {1U, 2U, 3U, 4U})
-        for (const std::size_t n : {1U, 2U, 3U, 10U, 200U}) {
-            const auto rows = random_rows(n, d, n + d);
-            const double expected = energy(rows, d);
-            // What lies beyond 6 units: less than 4-D space beyond 6 sigma at one point a unit; by
-            // axes, less than a line.
-            const double part = d > 2 ? 1e-7 : 1e-5;
-            EXPECT_NEAR(gaussian_energy(rows, d, {}), expected, part * (1 + expected))
-                << n << " points in " << d << "-D";
-        }
-}
-
 TEST(GaussianRelaxation, TheFirstStepGoesDownTheGradient) {
     for (const std::size_t d : {1U, 2U, 3U, 4U}) {
         const std::size_t n = 60;
@@ -96,12 +84,12 @@ TEST(GaussianRelaxation, EnergyFallsTowardsThatOfAnEvenDensity) {
     for (const std::size_t d : {1U, 2U, 3U}) {
         const std::size_t n = 300;
         const double even = (std::pow(2 * M_PI, static_cast<double>(d) / 2) - 1) / 2;
-        double last = gaussian_energy(random_rows(n, d), d, {}) / n;
+        double last = energy(random_rows(n, d), d) / n;
         EXPECT_GT(last, even + 0.1);
         for (const std::uint64_t steps : {1, 5, 30, 100}) {
             auto rows = random_rows(n, d);
             relax_gaussian(rows, d, steps, {});
-            const double reached = gaussian_energy(rows, d, {}) / n;
+            const double reached = energy(rows, d) / n;
             EXPECT_LT(reached, last) << steps << " steps in " << d << "-D";
             last = reached;
         }
@@ -117,15 +105,13 @@ TEST(GaussianRelaxation, StaysTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(one, four);
 }
 
-TEST(GaussianRelaxation, EnergyAndStepsAreThoseOfABoxOfAnyProportions) {
+TEST(GaussianRelaxation, StepsAreThoseOfABoxOfAnyProportions) {
     for (const auto& extents : std::vector<std::vector<double>>{
              {2, 1}, {0.1, 0.3}, {1, 25}, {5, 1, 2}, {1, 1.5, 0.5, 1}, {7}}) {
         const std::size_t d = extents.size();
         const std::size_t n = d == 4 ? 12 : 60;
         const auto sides = sides_of(n, extents);
         const auto start = random_rows(n, d, 7);
-        const double expected = energy(start, d, extents);
-        EXPECT_NEAR(gaussian_energy(start, d, {}, extents), expected, 1e-5 * (1 + expected));
         auto moved = start;
         relax_gaussian(moved, d, 1, {}, extents);
         const double step = std::pow(2 * M_PI, 1 - static_cast<double>(d) / 2) / 4;

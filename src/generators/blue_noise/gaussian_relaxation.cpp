@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "math/neighbors/gaussian_relaxation.hpp"
+#include "generators/blue_noise/gaussian_relaxation.hpp"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,6 @@ namespace {
 
 constexpr double kernel_reach = 6;  // exp(-18) = 1.5e-8
 constexpr double cell_side = 1.75;  // about; the fastest
-constexpr std::size_t lanes = 8;    // sums run side by side, the same on every machine
 constexpr double nowhere = 1e6;
 
 /// count^(1/dimension) by Newton's method, from above.
@@ -55,11 +54,6 @@ struct Candidates {
     [[nodiscard]] std::size_t size() const { return places[0].size(); }
 };
 
-double sum_of(const double* parts) {
-    return ((parts[0] + parts[4]) + (parts[1] + parts[5])) +
-           ((parts[2] + parts[6]) + (parts[3] + parts[7]));
-}
-
 /// weights[j] += (x - places[j])^2
 STIPPLE_WIDE void add_squares(const double* places, double x, double* weights, std::size_t count) {
     for (std::size_t j = 0; j < count; ++j) {
@@ -68,24 +62,21 @@ STIPPLE_WIDE void add_squares(const double* places, double x, double* weights, s
     }
 }
 
-/// Squared distances become kernels; returns their sum.
-STIPPLE_WIDE double to_kernels(double* weights, std::size_t count) {
+/// Squared distances become kernels.
+STIPPLE_WIDE void to_kernels(double* weights, std::size_t count) {
     for (std::size_t j = 0; j < count; ++j) {
         const double kernel = exponential(-0.5 * weights[j]);
         weights[j] = weights[j] < kernel_reach * kernel_reach ? kernel : 0;
     }
-    double parts[lanes] = {};
-    for (std::size_t j = 0; j < count; j += lanes)
-        for (std::size_t l = 0; l < lanes; ++l) parts[l] += weights[j + l];
-    return sum_of(parts);
 }
 
 /// sum over j of (x - places[j]) weights[j]
 STIPPLE_WIDE double pull(const double* places, double x, const double* weights, std::size_t count) {
-    double parts[lanes] = {};
-    for (std::size_t j = 0; j < count; j += lanes)
-        for (std::size_t l = 0; l < lanes; ++l) parts[l] += (x - places[j + l]) * weights[j + l];
-    return sum_of(parts);
+    double parts[sum_lanes] = {};
+    for (std::size_t j = 0; j < count; j += sum_lanes)
+        for (std::size_t l = 0; l < sum_lanes; ++l)
+            parts[l] += (x - places[j + l]) * weights[j + l];
+    return sum_of_lanes(parts);
 }
 
 /// Adds, for the distances along one axis to all images of places, the kernels and the kernels
@@ -106,14 +97,14 @@ using Factors = std::array<const double*, relaxation_dimensions>;
 /// sum over j of the products of the j-th numbers
 STIPPLE_WIDE double sum_of_products(const Factors& factors, std::size_t dimension,
                                     std::size_t count) {
-    double parts[lanes] = {};
-    for (std::size_t j = 0; j < count; j += lanes)
-        for (std::size_t l = 0; l < lanes; ++l) {
+    double parts[sum_lanes] = {};
+    for (std::size_t j = 0; j < count; j += sum_lanes)
+        for (std::size_t l = 0; l < sum_lanes; ++l) {
             double product = factors[0][j + l];
             for (std::size_t k = 1; k < dimension; ++k) product *= factors[k][j + l];
             parts[l] += product;
         }
-    return sum_of(parts);
+    return sum_of_lanes(parts);
 }
 
 /// `x` moved by whole sides into [0, side), mostly one or none.
@@ -139,7 +130,7 @@ struct AxisSums {
 };
 
 /// What one thread needs to work on a cell.
-struct KernelDesk {
+struct Workspace {
     Candidates near;
     AxisSums sums;
 };
@@ -193,25 +184,22 @@ class Kernels {
         }
     }
 
-    /// Forces on the points of a cell; returns the sum of kernels over their pairs, each counted
-    /// from both sides.
-    double forces_in(std::size_t cell, KernelDesk& desk, std::span<double> forces) const {
-        if (starts_[cell] == starts_[cell + 1]) return 0;
-        if (by_axes_) return forces_by_axes(cell, desk.sums, forces);
-        Candidates& near = desk.near;
+    /// Works out the forces on the points of a cell.
+    void forces_in(std::size_t cell, Workspace& work, std::span<double> forces) const {
+        if (starts_[cell] == starts_[cell + 1]) return;
+        if (by_axes_) return forces_by_axes(cell, work.sums, forces);
+        Candidates& near = work.near;
         gather(cell, near);
         const std::size_t count = near.size();
-        double sum = 0;
         for (std::uint32_t s = starts_[cell]; s < starts_[cell + 1]; ++s) {
             std::fill_n(near.weights.data(), count, 0.0);
             for (std::size_t k = 0; k < d_; ++k)
                 add_squares(near.places[k].data(), by_cell_[k][s], near.weights.data(), count);
-            sum += to_kernels(near.weights.data(), count) - 1;  // its own is 1
+            to_kernels(near.weights.data(), count);
             for (std::size_t k = 0; k < d_; ++k)
                 forces[sorted_[s] * d_ + k] =
                     pull(near.places[k].data(), by_cell_[k][s], near.weights.data(), count);
         }
-        return sum;
     }
 
   private:
@@ -219,9 +207,8 @@ class Kernels {
 
     /// On a small torus of many images: the kernel of two points, over all of these, is the product
     /// of the sums along each axis.
-    double forces_by_axes(std::size_t cell, AxisSums& sums, std::span<double> forces) const {
-        const std::size_t count = (n_ + lanes - 1) / lanes * lanes;
-        double sum = 0;
+    void forces_by_axes(std::size_t cell, AxisSums& sums, std::span<double> forces) const {
+        const std::size_t count = (n_ + sum_lanes - 1) / sum_lanes * sum_lanes;
         for (std::uint32_t s = starts_[cell]; s < starts_[cell + 1]; ++s) {
             sums.clear(d_, count);
             Factors factors{};
@@ -231,14 +218,12 @@ class Kernels {
                            sums.kernels[k].data(), sums.pulls[k].data());
                 factors[k] = sums.kernels[k].data();
             }
-            sum += sum_of_products(factors, d_, count) - 1;  // its own is 1
             for (std::size_t k = 0; k < d_; ++k) {
                 Factors pulled = factors;
                 pulled[k] = sums.pulls[k].data();
                 forces[sorted_[s] * d_ + k] = sum_of_products(pulled, d_, count);
             }
         }
-        return sum;
     }
 
     /// Collects the points of all cells that come within reach of this one, on all images.
@@ -260,7 +245,7 @@ class Kernels {
             if (k >= d_) break;
             ++offset[k];
         }
-        while (near.size() % lanes != 0)
+        while (near.size() % sum_lanes != 0)
             for (std::size_t k = 0; k < d_; ++k) near.places[k].push_back(nowhere);
         if (near.weights.size() < near.size()) near.weights.resize(near.size());
     }
@@ -321,23 +306,18 @@ class Kernels {
     std::vector<std::uint32_t> starts_;
 };
 
-/// Forces on all points; returns E.
-double all_forces(Kernels& kernels, std::span<double> forces, const RunContext& run) {
+/// Forces on all points.
+void all_forces(Kernels& kernels, std::span<double> forces, const RunContext& run) {
     kernels.sort();
     constexpr std::uint64_t size = 64;  // cells
-    const std::uint64_t cells = kernels.cells();
-    std::vector<double> sums(block_count(cells, size));
     for_each_block(
-        run, cells, size,
+        run, kernels.cells(), size,
         [&](const Block& block) {
-            KernelDesk desk;
+            Workspace work;
             for (std::uint64_t c = block.first; c < block.last; ++c)
-                sums[block.index] += kernels.forces_in(c, desk, forces);
+                kernels.forces_in(c, work, forces);
         },
         true);
-    double total = 0;
-    for (const double sum : sums) total += sum;
-    return total / 2;
 }
 
 /// The run for one step.
@@ -347,6 +327,15 @@ RunContext for_step(const RunContext& run, std::size_t count, std::size_t dimens
 }
 
 }  // namespace
+
+std::span<double> Descent::step(std::span<const double> forces, double length) {
+    double along = 0;
+    for (std::size_t i = 0; i < ways_.size(); ++i) along += forces[i] * ways_[i];
+    k_ = along < 0 ? 1 : k_ + 1;
+    const double kept = k_ > 1 ? 1 - 3 / (k_ + 2) : 0;
+    for (std::size_t i = 0; i < ways_.size(); ++i) ways_[i] = length * forces[i] + kept * ways_[i];
+    return ways_;
+}
 
 double relaxation_bytes(std::uint64_t count, std::size_t dimension) {
     return static_cast<double>(count) * static_cast<double>(40 * dimension + 12);
@@ -362,30 +351,17 @@ void relax_gaussian(std::span<double> rows, std::size_t dimension, std::uint64_t
     const double length = stable[dimension - 1];
     const std::span<double> places = kernels.places();
     std::vector<double> forces(rows.size());
-    std::vector<double> speeds(rows.size());
-    double k = 1;
+    Descent descent(rows.size());
     for (std::uint64_t step = 0; step < steps; ++step) {
         run.tick(step, steps);
         all_forces(kernels, forces, part);
-        double along = 0;
-        for (std::size_t i = 0; i < speeds.size(); ++i) along += forces[i] * speeds[i];
-        k = along < 0 ? 1 : k + 1;
-        const double kept = k > 1 ? 1 - 3 / (k + 2) : 0;
-        for (std::size_t i = 0; i < speeds.size(); ++i) {
-            speeds[i] = length * forces[i] + kept * speeds[i];
-            places[i] = wrapped(places[i] + speeds[i], kernels.sides()[i % dimension]);
-        }
+        const auto ways = descent.step(forces, length);
+        for (std::size_t i = 0; i < ways.size(); ++i)
+            places[i] = wrapped(places[i] + ways[i], kernels.sides()[i % dimension]);
     }
     for (std::size_t i = 0; i < rows.size(); ++i)
         rows[i] = std::min(places[i] / kernels.sides()[i % dimension], one_minus_ulp);
     run.tick(1, 1);
-}
-
-double gaussian_energy(std::span<const double> rows, std::size_t dimension, const RunContext& run,
-                       std::span<const double> extents) {
-    Kernels kernels(rows, dimension, extents);
-    std::vector<double> forces(rows.size());
-    return all_forces(kernels, forces, for_step(run, rows.size() / dimension, dimension));
 }
 
 }  // namespace stipple

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "generators/lattices/component_search.hpp"
+
+#include <cmath>
+#include <mutex>
+#include <new>
+#include <numeric>
+
+namespace stipple {
+
+void search_tick(const RunContext& run, std::uint64_t done, std::uint64_t total) {
+    run.check_stop();
+    if (run.progress) run.progress(0.99 * static_cast<double>(done) / static_cast<double>(total));
+}
+
+CyclicCorrelation::CyclicCorrelation(const std::vector<int>& shape) {
+    for (const int order : shape) size_ *= static_cast<std::size_t>(order);
+    const auto last = static_cast<std::size_t>(shape.back());
+    halves_ = size_ / last * (last / 2 + 1);
+    values_ = fftw_reals(size_);
+    spectrum_ = fftw_reals(2 * halves_);
+    kernel_ = fftw_reals(2 * halves_);
+    const int rank = static_cast<int>(shape.size());
+    const std::lock_guard lock(fftw_planner());
+    forward_ = fftw_plan_dft_r2c(rank, shape.data(), values_.get(), as_fftw(spectrum_.get()),
+                                 FFTW_ESTIMATE);
+    backward_ = fftw_plan_dft_c2r(rank, shape.data(), as_fftw(spectrum_.get()), values_.get(),
+                                  FFTW_ESTIMATE);
+    if (forward_ == nullptr || backward_ == nullptr) throw std::bad_alloc();
+}
+
+CyclicCorrelation::~CyclicCorrelation() {
+    const std::lock_guard lock(fftw_planner());
+    fftw_destroy_plan(forward_);
+    fftw_destroy_plan(backward_);
+}
+
+void CyclicCorrelation::take_kernel() {
+    fftw_execute(forward_);
+    for (std::size_t k = 0; k < 2 * halves_; ++k)
+        kernel_[k] = spectrum_[k] / static_cast<double>(size_);
+}
+
+void CyclicCorrelation::correlate() {
+    fftw_execute(forward_);
+    for (std::size_t k = 0; k < halves_; ++k) {  // the conjugate, times the kernel's
+        const double re = spectrum_[2 * k];
+        const double im = spectrum_[2 * k + 1];
+        const double kernel_re = kernel_[2 * k];
+        const double kernel_im = kernel_[2 * k + 1];
+        spectrum_[2 * k] = re * kernel_re + im * kernel_im;
+        spectrum_[2 * k + 1] = re * kernel_im - im * kernel_re;
+    }
+    fftw_execute(backward_);
+}
+
+void Products::keep_in_range() {
+    double largest = 0;
+    for (const double p : p_) largest = std::max(largest, std::abs(p));
+    const int exponent = std::ilogb(largest);
+    if (largest == 0 || std::abs(exponent) < 64) return;
+    for (double& p : p_) p = std::ldexp(p, -exponent);
+}
+
+double Products::mean() const {
+    return std::accumulate(p_.begin(), p_.end(), 0.0) / static_cast<double>(p_.size());
+}
+
+double Products::rounding(double kernel_norm) const {
+    const double center = mean();
+    double square = 0;
+    for (const double p : p_) square += (p - center) * (p - center);
+    return 1e-13 * std::sqrt(square) * kernel_norm;
+}
+
+}  // namespace stipple

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+//
+// What the searches for a generating vector, component by component, have in common. With p, the
+// product of the components so far, the next component z has the least
+//
+//     E(z) = sum_a p_a kernel[a + b],    a and b exponents of the points' number and of z
+//
+// in a product of cyclic groups: a correlation, which Fourier transforms give for all z at once.
+// They round differently on different machines, so they only nominate: candidates that rounding may
+// have kept from being the best are compared by plain sums in a fixed order.
+#pragma once
+
+#include <fftw3.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/run_context.hpp"
+#include "math/fourier/fftw.hpp"
+
+namespace stipple {
+
+/// As run.tick, up to 0.99: the making of points, which comes after a search, takes the rest.
+void search_tick(const RunContext& run, std::uint64_t done, std::uint64_t total);
+
+/// Correlation with one kernel, by transforms in place.
+class CyclicCorrelation {
+  public:
+    /// @param shape orders of the groups; of a function's values those are neighbours whose
+    /// exponents differ in the last
+    explicit CyclicCorrelation(const std::vector<int>& shape);
+    CyclicCorrelation(const CyclicCorrelation&) = delete;
+    CyclicCorrelation& operator=(const CyclicCorrelation&) = delete;
+    ~CyclicCorrelation();
+
+    [[nodiscard]] std::span<double> values() { return {values_.get(), size_}; }
+    [[nodiscard]] std::span<const double> values() const { return {values_.get(), size_}; }
+
+    /// Makes the values the kernel.
+    void take_kernel();
+
+    /// values[b] = sum over a of values[a] kernel[a + b], but for rounding.
+    void correlate();
+
+  private:
+    std::size_t size_ = 1;
+    std::size_t halves_ = 1;  ///< complex numbers of a real function's spectrum
+    FftwReals values_;
+    FftwReals spectrum_;
+    FftwReals kernel_;
+    fftw_plan forward_ = nullptr;
+    fftw_plan backward_ = nullptr;
+};
+
+/// The products p of the components so far, up to a common factor, which changes no choice.
+class Products {
+  public:
+    explicit Products(std::size_t count) : p_(count, 1.0) {}
+
+    [[nodiscard]] std::span<double> all() { return p_; }
+    [[nodiscard]] std::span<const double> all() const { return p_; }
+
+    /// Takes a power of two out of the products before they overflow.
+    void keep_in_range();
+
+    [[nodiscard]] double mean() const;
+
+    /// More than transforms of p - mean, and sums of its products with the kernel, are wrong by:
+    /// they round relatively to the norms.
+    [[nodiscard]] double rounding(double kernel_norm) const;
+
+  private:
+    std::vector<double> p_;
+};
+
+/// The first component of those that are the best but for rounding.
+/// @param nearly E of the candidates 0 to end - 1, wrong by less than half the margin; infinite for
+/// what is none
+/// @param exact E by a plain sum, wrong by less than half the tie
+template <class Nearly, class Exact>
+std::uint64_t best_component(std::uint64_t end, const Nearly& nearly, double margin,
+                             const Exact& exact, double tie) {
+    constexpr std::size_t most_nominees = 64;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint64_t z = 0; z < end; ++z) least = std::min(least, nearly(z));
+    std::vector<std::uint64_t> nominees;
+    for (std::uint64_t z = 0; z < end && nominees.size() < most_nominees; ++z)
+        if (nearly(z) <= least + margin) nominees.push_back(z);
+    if (nominees.size() == 1) return nominees.front();
+    std::vector<double> errors;
+    for (const std::uint64_t z : nominees) errors.push_back(exact(z));
+    const double bar = std::ranges::min(errors) + tie;
+    const auto first = std::ranges::find_if(errors, [&](double error) { return error <= bar; });
+    return nominees[static_cast<std::size_t>(first - errors.begin())];
+}
+
+/// The vector that grows from 1, one component a weight.
+/// @param search has multiply_by(component, weight) and next()
+template <class Search>
+std::vector<std::uint64_t> grow_vector(Search&& search, std::span<const double> weights,
+                                       const RunContext& run) {
+    std::vector<std::uint64_t> vector{1};
+    for (std::size_t k = 1; k < weights.size(); ++k) {
+        search_tick(run, k, weights.size());
+        search.multiply_by(vector.back(), weights[k - 1]);
+        vector.push_back(search.next());
+    }
+    return vector;
+}
+
+}  // namespace stipple
