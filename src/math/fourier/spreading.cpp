@@ -201,17 +201,16 @@ std::size_t spreading_batch(const CellGrid& grid) {
     return cells / round_of_streams * round_of_streams;
 }
 
-Spreader::Spreader(const Interpolator& window, const CellGrid& grid, std::size_t together,
-                   bool weighted)
+Spreader::Spreader(const Interpolator& window, const CellGrid& grid, std::uint64_t count,
+                   std::size_t together, bool weighted)
     : table_(window),
       tiling_(std::make_unique<Tiling>(grid, table_, weighted)),
       dimension_(grid.dimension),
       width_(grid.dimension + (weighted ? 1 : 0)),
-      batch_(spreading_batch(grid)),
+      batch_(static_cast<std::size_t>(std::min<std::uint64_t>(
+          spreading_batch(grid), (count / round_of_streams + 1) * round_of_streams))),
       together_(together) {
     assert(grid.side % 2 == 0 && grid.side >= CellGrid::smallest_side && grid.side < 1U << 24);
-    for (std::size_t s = 0; s < streams; ++s)
-        points_.emplace_back(tiling_->count(), width_, batch_ / streams);
 }
 
 Spreader::~Spreader() = default;
@@ -250,6 +249,8 @@ void Spreader::finish(const RunContext& run) {
 /// Brings the points to their tiles, stream by stream; within a tile a stream's keep their order.
 void Spreader::sort(std::span<const double> rows, const RunContext& run) {
     const std::size_t end = waits_ + rows.size() / width_;
+    while (points_.size() < (end > stream_chunk ? streams : 1))
+        points_.emplace_back(tiling_->count(), width_, batch_ / streams);
     const auto sort_stream = [&](const Block& stream) {
         std::vector<std::uint32_t> tile_of(sorting_block);
         std::vector<double> places(sorting_block * width_);
@@ -267,7 +268,7 @@ void Spreader::sort(std::span<const double> rows, const RunContext& run) {
     };
     RunContext context = run;
     if (end - waits_ <= stream_chunk) context.threads = 1;
-    for_each_block(context, streams, 1, sort_stream, true);
+    for_each_block(context, points_.size(), 1, sort_stream, true);
 }
 
 /// Spreads block by block of bands across the last axis, which stay in the caches meanwhile: a
@@ -312,8 +313,8 @@ void Spreader::spread_colour(std::size_t colour, const RunContext& run) {
 
 template <class Visit>
 void Spreader::visit(std::size_t tile, Visit&& visit) const {
-    for (std::size_t s = 0; s < streams; ++s) {
-        if (s + 1 < streams) points_[s + 1].expect(tile);
+    for (std::size_t s = 0; s < points_.size(); ++s) {
+        if (s + 1 < points_.size()) points_[s + 1].expect(tile);
         points_[s].visit(tile, visit);
     }
 }
