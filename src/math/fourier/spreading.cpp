@@ -116,17 +116,6 @@ class Tiling {
             }
     }
 
-    /// Tells the processor that some rows of a tile, [first, last), are added to soon.
-    void fetch(const SpreadTile& tile, std::size_t first, std::size_t last) const {
-        const std::size_t x = wrapped(tile.start[0], 0);
-        for (std::size_t i = first; i < std::min(last, tile.reach[1] * tile.reach[2]); ++i) {
-            const double* row =
-                grid_.cells + line(tile, i % tile.reach[1], i / tile.reach[1]) * grid_.stride;
-            for (std::size_t at = x; at < std::min(x + tile.reach[0] + 7, grid_.side); at += 8)
-                __builtin_prefetch(row + at, 1, 2);
-        }
-    }
-
   private:
     /// The grid's line to which a line of the buffer is added.
     [[nodiscard]] std::size_t line(const SpreadTile& tile, std::size_t y, std::size_t z) const {
@@ -320,8 +309,7 @@ void Spreader::visit(std::size_t tile, Visit&& visit) const {
 }
 
 void Spreader::spread_tile(std::size_t number, TileSums& sums, const RunContext& run) const {
-    constexpr std::size_t rows_ahead = 4;  // too many at once would keep the points' own waiting
-    constexpr std::size_t few = 16;        // points that touch fewer cells than the tile has
+    constexpr std::size_t few = 16;  // points that touch fewer cells than the tile has
     std::size_t count = 0;
     for (const TilePoints& points : points_) count += points.count_in_block(number);
     if (count == 0) return;
@@ -331,12 +319,9 @@ void Spreader::spread_tile(std::size_t number, TileSums& sums, const RunContext&
                 spread_points(rows, dimension_, *tile, tiling_->place(*tile));
             });
     const SpreadTile tile = tiling_->describe(number);
-    std::size_t row = 0;
     sums.begin();
     visit(number, [&](std::span<const double> rows) {
         run.check_stop();
-        tiling_->fetch(tile, row, row + rows_ahead);
-        row += rows_ahead;
         sums.expect(rows.size() / width_);
         spread_points(rows, dimension_, tile, sums.points());
     });
