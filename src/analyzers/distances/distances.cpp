@@ -43,9 +43,26 @@ void require_squares(const Box& box, const char* too_wide) {
              widest + 1, format_number(box.low[widest]), format_number(box.high[widest]));
 }
 
+/// @throws Error(input) where a coordinate is not finite
+void require_finite(const PointSet& points) {
+    const auto flat = points.flat();
+    const auto bad = std::ranges::find_if_not(flat, [](double x) { return std::isfinite(x); });
+    if (bad == flat.end()) return;
+    const auto at = static_cast<std::size_t>(bad - flat.begin());
+    fail(ErrorKind::input, "x{} of point {} is {}, not a finite number",
+         at % points.dimension() + 1, at / points.dimension(), *bad);
+}
+
 void require_squares(const PointSet& points) {
+    require_finite(points);
     const std::vector<double> first(points[0].begin(), points[0].end());
     require_squares(bounding_box(points.flat(), {first, first}), "the points lie too far apart");
+}
+
+/// @throws Error(input) for points outside their domain, or for what is no place at all
+[[noreturn]] void refuse_places(const Outside& outside, const PointSet& points, const char* hint) {
+    require_finite(points);
+    refuse(outside, points, hint);
 }
 
 }  // namespace
@@ -73,8 +90,9 @@ Distances distances_of(const PointSet& points, const std::string& asked) {
         return distances;
     }
     if (distances.torus)
-        refuse(outside, points,
-               "--domain names what the points live on; --metric euclidean takes points anywhere");
+        refuse_places(
+            outside, points,
+            "--domain names what the points live on; --metric euclidean takes points anywhere");
     distances.box.reset();
     require_squares(points);
     return distances;
@@ -89,7 +107,7 @@ Distances distances_in_box(const PointSet& points, const std::string& asked, con
     }
     const Outside outside = outside_of(points);
     if (outside.count > 0)
-        refuse(outside, points, "--domain 'box:bounds=[lo..hi,...]' names another box");
+        refuse_places(outside, points, "--domain 'box:bounds=[lo..hi,...]' names another box");
     require_squares(*box, "the box that the points live on is too wide");
     return {.torus = asked != "euclidean", .box = box};
 }

@@ -6,11 +6,11 @@
 #include <limits>
 #include <numbers>
 
-#include "analyzers/distances/simplex_bound.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "math/functions/radix_sort.hpp"
+#include "math/neighbors/covering_bound.hpp"
 #include "math/neighbors/kd_tree.hpp"
 
 namespace stipple::analyzers {
@@ -58,6 +58,11 @@ struct Part {
     std::vector<double> place = {};
 };
 
+/// Of boxes about the origin, in units of the distances at hand, so that what is negligible can be
+/// said in numbers.
+using Bound = CoveringBound<0>;
+constexpr double bound_tolerance = 1e-13;
+
 class Search {
   public:
     Search(const PointSet& points, const Distances& distances, const BallSearch& search,
@@ -89,8 +94,8 @@ class Search {
             for_each_block(
                 run, size, 32,
                 [&](const Block& b) {
-                    Neighborhood near;
-                    for (std::uint64_t i = b.first; i < b.last; ++i) judge(round[i], near);
+                    Bound bound(points_.dimension(), bound_tolerance);
+                    for (std::uint64_t i = b.first; i < b.last; ++i) judge(round[i], bound);
                 },
                 true);
             finish(round);
@@ -119,18 +124,25 @@ class Search {
         return more ? best_.radius * (1 + search_.tolerance) : search_.enough;
     }
 
-    /// Offsets from the box's centre to the points near it, in the copies that are nearest.
-    void look_around(const Part& part, Neighborhood& near) const {
-        near.clear(box_.dimension());
-        for (const Neighbor& neighbor : tree_.nearest_several(part.center, neighbors_)) {
+    /// Takes the points near the box's centre, in the copies that are nearest. Returns the unit.
+    double look_around(const Part& part, Bound& bound) const {
+        const auto neighbors = tree_.nearest_several(part.center, neighbors_);
+        const double unit =
+            std::max({std::sqrt(neighbors.back().squared), std::ranges::max(part.half),
+                      std::numeric_limits<double>::min()});
+        bound.clear();
+        for (const Neighbor& neighbor : neighbors) {
             const auto p = points_[neighbor.index];
+            Bound::Point offset{};
             for (std::size_t k = 0; k < box_.dimension(); ++k) {
-                double offset = p[k] - part.center[k];
-                if (!sides_.empty() && offset > sides_[k] / 2) offset -= sides_[k];
-                if (!sides_.empty() && offset < -sides_[k] / 2) offset += sides_[k];
-                near.offsets.push_back(offset);
+                offset[k] = p[k] - part.center[k];
+                if (!sides_.empty() && offset[k] > sides_[k] / 2) offset[k] -= sides_[k];
+                if (!sides_.empty() && offset[k] < -sides_[k] / 2) offset[k] += sides_[k];
+                offset[k] /= unit;
             }
+            bound.add(offset);
         }
+        return unit;
     }
 
     void offer(Part& part, std::vector<double> place) const {
@@ -140,19 +152,21 @@ class Search {
         part.place = std::move(place);
     }
 
-    void judge(Part& part, Neighborhood& near) const {
+    void judge(Part& part, Bound& bound) const {
         double squared = 0;
         for (const double h : part.half) squared += h * h;
         if (std::sqrt(squared) > std::max(good_enough(), least_)) return;
-        look_around(part, near);
-        const SimplexBound found = bound_in_box(near, part.half);
+        const double unit = look_around(part, bound);
+        Bound::Point half{};
+        for (std::size_t k = 0; k < part.half.size(); ++k) half[k] = part.half[k] / unit;
         constexpr double rounding = 1 + 1e-14;
-        part.upper = std::sqrt(std::max(0.0, found.squared)) * rounding;
+        part.upper = std::sqrt(std::max(0.0, bound.squared(half))) * unit * rounding;
         offer(part, part.center);
         if (!(part.upper > std::max(part.lower, best_.radius))) return;
+        const Bound::Point off = bound.place(half);
         std::vector<double> place = part.center;
         for (std::size_t k = 0; k < place.size(); ++k)
-            place[k] = std::clamp(place[k] + found.place[k], box_.low[k], box_.high[k]);
+            place[k] = std::clamp(place[k] + off[k] * unit, box_.low[k], box_.high[k]);
         offer(part, std::move(place));
     }
 

@@ -46,9 +46,8 @@ double unit_length(const Box& box, double n) {
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
     const Distances distances = distances_of(points, options[metric]);
     require_places(points, "spanning-tree");
-    const std::vector<double> low = distances.torus ? distances.box->low : std::vector<double>{};
     const std::vector<double> edges =
-        minimum_spanning_tree(points.flat(), points.dimension(), low, distances.sides(), run);
+        minimum_spanning_tree(points.flat(), points.dimension(), distances.sides(), run);
     double total = 0;
     std::int64_t duplicates = 0;
     for (const double squared : edges) {

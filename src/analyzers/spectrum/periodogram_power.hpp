@@ -55,10 +55,8 @@ class StrengthSums {
     static constexpr std::uint64_t block = std::uint64_t{1} << 21;  ///< divides those of grids
 
     void close() {
-        const double size = std::abs(block_.sum);
-        sum_.add({&block_.sum, 1}, size, {});
-        const double square = block_.squares;
-        squares_.add({&block_.squares, 1}, square, {});
+        sum_.add({&block_.sum, 1}, std::abs(block_.sum), {});
+        squares_.add({&block_.squares, 1}, block_.squares, {});
         block_ = {};
         points_ = 0;
     }

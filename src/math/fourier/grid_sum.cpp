@@ -20,10 +20,12 @@ constexpr double coarse_magic = 0x1.8p52 * coarse_unit;
 constexpr double fine_magic = 0x1.8p52 * fine_unit;
 
 STIPPLE_WIDE
-void add_cells(const double* cells, std::size_t count, std::uint64_t* coarse, std::uint64_t* fine) {
+void add_cells(const double* cells, double factor, std::size_t count, std::uint64_t* coarse,
+               std::uint64_t* fine) {
     for (std::size_t i = 0; i < count; ++i) {
-        const double high = cells[i] + coarse_magic;
-        const double low = (cells[i] - (high - coarse_magic)) + fine_magic;
+        const double x = cells[i] * factor;
+        const double high = x + coarse_magic;
+        const double low = (x - (high - coarse_magic)) + fine_magic;
         coarse[i] +=
             std::bit_cast<std::uint64_t>(high) - std::bit_cast<std::uint64_t>(coarse_magic);
         fine[i] += std::bit_cast<std::uint64_t>(low) - std::bit_cast<std::uint64_t>(fine_magic);
@@ -32,18 +34,6 @@ void add_cells(const double* cells, std::size_t count, std::uint64_t* coarse, st
 
 double signed_of(std::uint64_t bits) {
     return static_cast<double>(static_cast<std::int64_t>(bits));
-}
-
-/// cells *= 2^exponent
-void scale(std::span<double> cells, int exponent, const RunContext& run) {
-    if (exponent == 0) return;
-    const double factor = std::ldexp(1.0, exponent);
-    for_each_block(
-        run, cells.size(), block,
-        [&](const Block& b) {
-            for (std::uint64_t i = b.first; i < b.last; ++i) cells[i] *= factor;
-        },
-        true);
 }
 
 /// The least multiple of 4 with size <= 2^exponent; of a sum of such grids one loses 2^-61 of its
@@ -58,24 +48,27 @@ int exponent_of(double size) {
 
 }  // namespace
 
-void GridSum::add(std::span<const double> cells, const RunContext& run) {
+void GridSum::add(std::span<const double> cells, int exponent, const RunContext& run) {
+    const double factor = std::ldexp(1.0, -exponent);
     coarse_.resize(cells.size());
     fine_.resize(cells.size());
     for_each_block(
         run, cells.size(), block,
         [&](const Block& b) {
-            add_cells(cells.data() + b.first, b.last - b.first, coarse_.data() + b.first,
+            add_cells(cells.data() + b.first, factor, b.last - b.first, coarse_.data() + b.first,
                       fine_.data() + b.first);
         },
         true);
 }
 
-void GridSum::copy_to(std::span<double> cells, const RunContext& run) const {
+void GridSum::copy_to(std::span<double> cells, int exponent, const RunContext& run) const {
+    const double factor = std::ldexp(1.0, exponent);
     for_each_block(
         run, cells.size(), block,
         [&](const Block& b) {
             for (std::uint64_t i = b.first; i < b.last; ++i)
-                cells[i] = signed_of(coarse_[i]) * coarse_unit + signed_of(fine_[i]) * fine_unit;
+                cells[i] = (signed_of(coarse_[i]) * coarse_unit + signed_of(fine_[i]) * fine_unit) *
+                           factor;
         },
         true);
 }
@@ -90,10 +83,9 @@ void GridSum::merge(Unpacker& from) {
     }
 }
 
-void ScaledGridSum::add(std::span<double> cells, double size, const RunContext& run) {
+void ScaledGridSum::add(std::span<const double> cells, double size, const RunContext& run) {
     const int exponent = exponent_of(size);
-    scale(cells, -exponent, run);
-    sums_[exponent].add(cells, run);
+    sums_[exponent].add(cells, exponent, run);
 }
 
 void ScaledGridSum::copy_to(std::span<double> cells, const RunContext& run) const {
@@ -102,8 +94,7 @@ void ScaledGridSum::copy_to(std::span<double> cells, const RunContext& run) cons
         const bool first = &sum == &sums_.begin()->second;
         if (!first) part.resize(cells.size());
         const std::span<double> here = first ? cells : std::span<double>(part);
-        sum.copy_to(here, run);
-        scale(here, exponent, run);
+        sum.copy_to(here, exponent, run);
         for (std::size_t i = 0; i < part.size(); ++i) cells[i] += part[i];
     }
 }

@@ -20,13 +20,11 @@ namespace stipple {
 
 class GridSum {
   public:
-    [[nodiscard]] bool empty() const { return coarse_.empty(); }
+    /// Grids of one number of cells, over 2^exponent.
+    void add(std::span<const double> cells, int exponent, const RunContext& run);
 
-    /// Grids of one size.
-    void add(std::span<const double> cells, const RunContext& run);
-
-    /// The sum, rounded.
-    void copy_to(std::span<double> cells, const RunContext& run) const;
+    /// The sum times 2^exponent, rounded.
+    void copy_to(std::span<double> cells, int exponent, const RunContext& run) const;
 
     void pack(Packer& to) const;
     void merge(Unpacker& from);
@@ -44,7 +42,7 @@ class ScaledGridSum {
 
     /// @param size that decides what the grid is added to: its numbers are below 2^29 times that.
     /// 1 for those that GridSum takes.
-    void add(std::span<double> cells, double size, const RunContext& run);
+    void add(std::span<const double> cells, double size, const RunContext& run);
 
     void copy_to(std::span<double> cells, const RunContext& run) const;
 

@@ -15,14 +15,8 @@ namespace stipple {
 namespace {
 
 /// Seconds, nearly, of one core.
-struct Cost {
-    double spreading;
-    double transforming;
-    [[nodiscard]] double total() const { return spreading + transforming; }
-};
-
-Cost cost_of(std::uint64_t count, std::size_t dimension, std::size_t side,
-             const Interpolator& window) {
+double cost_of(std::uint64_t count, std::size_t dimension, std::size_t side,
+               const Interpolator& window) {
     const auto width = static_cast<double>(window.width());
     // Vectors of four or of eight: the choice does not depend on the machine.
     const double vectors = std::ceil(width / 4) / 2 + std::ceil(width / 8);
@@ -33,8 +27,8 @@ Cost cost_of(std::uint64_t count, std::size_t dimension, std::size_t side,
     const double n = static_cast<double>(count);
     const double passes = std::ceil(n / std::clamp(cells, 1048576.0, 4194304.0));
     constexpr double touching = 5e-9;  // of fresh memory, a cell
-    return {.spreading = n * (8e-9 + adding + evaluating) + passes * cells * 4e-9,
-            .transforming = transform_seconds(dimension, side) + cells * touching};
+    const double spreading = n * (8e-9 + adding + evaluating) + passes * cells * 4e-9;
+    return spreading + transform_seconds(dimension, side) + cells * touching;
 }
 
 /// How many points of a tile are added up in a row, before the sums are folded.
@@ -98,7 +92,7 @@ Nufft::Nufft(std::uint64_t count, std::size_t dimension, std::size_t max_frequen
         if (transform_seconds(dimension, side) >= cheapest) break;
         const double band = static_cast<double>(frequency_) / static_cast<double>(side);
         const Interpolator window = interpolator_for(allowed, band);
-        const double cost = cost_of(likely, dimension, side, window).total();
+        const double cost = cost_of(likely, dimension, side, window);
         const Folding& folding = folding_for(window, dimension, allowed, count);
         const bool exact =
             window.error() <= allowed && keeps_digits(window, dimension, allowed, folding);
@@ -127,28 +121,6 @@ double Nufft::error(double count) const {
     return reserve * static_cast<double>(dimension_) * window_.error() * std::sqrt(count);
 }
 
-double Nufft::spreading_share() const {
-    const Cost cost = cost_of(count_, dimension_, side_, window_);
-    return cost.spreading / cost.total();
-}
-
-FourierSums Nufft::transform(std::span<const double> rows, const RunContext& run,
-                             Planning planning) const {
-    FourierSummation summation(*this);
-    const double spreading = spreading_share();
-    const RunContext part = run.stage(0, spreading);
-    RunContext quiet = run;
-    quiet.progress = {};
-    const std::size_t portion = spreading_batch({.dimension = dimension_, .side = side_}) *
-                                (dimension_ + (weighted_ ? 1 : 0));
-    for (std::size_t at = 0; at < rows.size(); at += portion) {
-        const auto some = rows.subspan(at, std::min(portion, rows.size() - at));
-        summation.add(some, quiet);
-        part.tick(at + some.size(), rows.size());
-    }
-    return summation.finish(planning, run.stage(spreading, 1));
-}
-
 FourierSummation::FourierSummation(const Nufft& nufft) : block_(block_of(nufft)) { begin(nufft); }
 
 FourierSummation::FourierSummation(const Nufft& first, const Nufft& later)
@@ -167,8 +139,8 @@ void FourierSummation::begin(const Nufft& nufft) {
              .side = nufft.side(),
              .stride = stride,
              .cells = cells_.get()};
-    spreader_ =
-        std::make_unique<Spreader>(nufft.window(), grid_, nufft.together(), nufft.weighted());
+    spreader_ = std::make_unique<Spreader>(nufft.window(), grid_, nufft.count(), nufft.together(),
+                                           nufft.weighted());
 }
 
 namespace {
@@ -368,13 +340,6 @@ void DirectSummation::add(std::span<const double> rows, const RunContext& run) {
             true);
         run.tick(std::min(at + portion, rows.size()), rows.size());
     }
-}
-
-FourierSums fourier_sums_directly(std::span<const double> rows, std::size_t dimension,
-                                  std::size_t max_frequency, const RunContext& run, bool weighted) {
-    DirectSummation sums(dimension, max_frequency, weighted);
-    sums.add(rows, run);
-    return sums.finish();
 }
 
 }  // namespace stipple

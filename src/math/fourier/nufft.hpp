@@ -53,6 +53,7 @@ class Nufft {
     /// Peak memory that the transform needs.
     [[nodiscard]] double bytes() const;
 
+    [[nodiscard]] std::uint64_t count() const { return count_; }
     [[nodiscard]] std::size_t dimension() const { return dimension_; }
     [[nodiscard]] std::size_t max_frequency() const { return frequency_; }
     [[nodiscard]] bool weighted() const { return weighted_; }
@@ -64,14 +65,6 @@ class Nufft {
 
     /// Bound of the error beside that of rounding, relative to sqrt(count), of so many points.
     [[nodiscard]] double error(double count) const;
-
-    /// Share of the time that spreading takes.
-    [[nodiscard]] double spreading_share() const;
-
-    /// @param rows points in [0, 1]^dimension, point after point.
-    /// @throws Error(cancelled)
-    [[nodiscard]] FourierSums transform(std::span<const double> rows, const RunContext& run,
-                                        Planning planning = Planning::estimated) const;
 
   private:
     std::uint64_t count_;
@@ -141,10 +134,6 @@ class DirectSummation {
     bool weighted_;
     FourierSums sums_;
 };
-
-FourierSums fourier_sums_directly(std::span<const double> rows, std::size_t dimension,
-                                  std::size_t max_frequency, const RunContext& run,
-                                  bool weighted = false);
 
 /// Error relative to sqrt(count) that float64 may leave when all points are in phase.
 double rounding_floor(std::size_t count);

@@ -116,17 +116,6 @@ class Tiling {
             }
     }
 
-    /// Tells the processor that some rows of a tile, [first, last), are added to soon.
-    void fetch(const SpreadTile& tile, std::size_t first, std::size_t last) const {
-        const std::size_t x = wrapped(tile.start[0], 0);
-        for (std::size_t i = first; i < std::min(last, tile.reach[1] * tile.reach[2]); ++i) {
-            const double* row =
-                grid_.cells + line(tile, i % tile.reach[1], i / tile.reach[1]) * grid_.stride;
-            for (std::size_t at = x; at < std::min(x + tile.reach[0] + 7, grid_.side); at += 8)
-                __builtin_prefetch(row + at, 1, 2);
-        }
-    }
-
   private:
     /// The grid's line to which a line of the buffer is added.
     [[nodiscard]] std::size_t line(const SpreadTile& tile, std::size_t y, std::size_t z) const {
@@ -201,17 +190,16 @@ std::size_t spreading_batch(const CellGrid& grid) {
     return cells / round_of_streams * round_of_streams;
 }
 
-Spreader::Spreader(const Interpolator& window, const CellGrid& grid, std::size_t together,
-                   bool weighted)
+Spreader::Spreader(const Interpolator& window, const CellGrid& grid, std::uint64_t count,
+                   std::size_t together, bool weighted)
     : table_(window),
       tiling_(std::make_unique<Tiling>(grid, table_, weighted)),
       dimension_(grid.dimension),
       width_(grid.dimension + (weighted ? 1 : 0)),
-      batch_(spreading_batch(grid)),
+      batch_(static_cast<std::size_t>(std::min<std::uint64_t>(
+          spreading_batch(grid), (count / round_of_streams + 1) * round_of_streams))),
       together_(together) {
     assert(grid.side % 2 == 0 && grid.side >= CellGrid::smallest_side && grid.side < 1U << 24);
-    for (std::size_t s = 0; s < streams; ++s)
-        points_.emplace_back(tiling_->count(), width_, batch_ / streams);
 }
 
 Spreader::~Spreader() = default;
@@ -250,6 +238,8 @@ void Spreader::finish(const RunContext& run) {
 /// Brings the points to their tiles, stream by stream; within a tile a stream's keep their order.
 void Spreader::sort(std::span<const double> rows, const RunContext& run) {
     const std::size_t end = waits_ + rows.size() / width_;
+    while (points_.size() < (end > stream_chunk ? streams : 1))
+        points_.emplace_back(tiling_->count(), width_, batch_ / streams);
     const auto sort_stream = [&](const Block& stream) {
         std::vector<std::uint32_t> tile_of(sorting_block);
         std::vector<double> places(sorting_block * width_);
@@ -267,7 +257,7 @@ void Spreader::sort(std::span<const double> rows, const RunContext& run) {
     };
     RunContext context = run;
     if (end - waits_ <= stream_chunk) context.threads = 1;
-    for_each_block(context, streams, 1, sort_stream, true);
+    for_each_block(context, points_.size(), 1, sort_stream, true);
 }
 
 /// Spreads block by block of bands across the last axis, which stay in the caches meanwhile: a
@@ -312,15 +302,14 @@ void Spreader::spread_colour(std::size_t colour, const RunContext& run) {
 
 template <class Visit>
 void Spreader::visit(std::size_t tile, Visit&& visit) const {
-    for (std::size_t s = 0; s < streams; ++s) {
-        if (s + 1 < streams) points_[s + 1].expect(tile);
+    for (std::size_t s = 0; s < points_.size(); ++s) {
+        if (s + 1 < points_.size()) points_[s + 1].expect(tile);
         points_[s].visit(tile, visit);
     }
 }
 
 void Spreader::spread_tile(std::size_t number, TileSums& sums, const RunContext& run) const {
-    constexpr std::size_t rows_ahead = 4;  // too many at once would keep the points' own waiting
-    constexpr std::size_t few = 16;        // points that touch fewer cells than the tile has
+    constexpr std::size_t few = 16;  // points that touch fewer cells than the tile has
     std::size_t count = 0;
     for (const TilePoints& points : points_) count += points.count_in_block(number);
     if (count == 0) return;
@@ -330,12 +319,9 @@ void Spreader::spread_tile(std::size_t number, TileSums& sums, const RunContext&
                 spread_points(rows, dimension_, *tile, tiling_->place(*tile));
             });
     const SpreadTile tile = tiling_->describe(number);
-    std::size_t row = 0;
     sums.begin();
     visit(number, [&](std::span<const double> rows) {
         run.check_stop();
-        tiling_->fetch(tile, row, row + rows_ahead);
-        row += rows_ahead;
         sums.expect(rows.size() / width_);
         spread_points(rows, dimension_, tile, sums.points());
     });

@@ -48,11 +48,12 @@ class TileSums;
 
 class Spreader {
   public:
+    /// @param count points that are expected; more may come.
     /// @param together points of a tile that are added up in a row, before the sums are folded to
     /// keep rounding errors small.
     /// @param weighted whether a row holds the point's strength behind its coordinates.
-    Spreader(const Interpolator& window, const CellGrid& grid, std::size_t together,
-             bool weighted = false);
+    Spreader(const Interpolator& window, const CellGrid& grid, std::uint64_t count,
+             std::size_t together, bool weighted = false);
     Spreader(const Spreader&) = delete;
     Spreader& operator=(const Spreader&) = delete;
     ~Spreader();
@@ -82,7 +83,7 @@ class Spreader {
     std::size_t batch_;               ///< points of a batch
     std::size_t together_;            ///< points of a tile that are added up in a row
     std::size_t waits_ = 0;           ///< points that are sorted, and not spread yet
-    std::vector<TilePoints> points_;  ///< of each stream
+    std::vector<TilePoints> points_;  ///< of each stream that has some
 };
 
 }  // namespace stipple

@@ -86,7 +86,6 @@ struct Columns {
     std::size_t width;
 };
 
-constexpr std::size_t ahead = 16;     // rows are pages apart, where no machine looks by itself
 constexpr std::size_t together = 16;  // columns share the cache lines that they are read from
 
 /// Some columns of a plane, gathered into lines.
@@ -98,7 +97,6 @@ class Gathered {
     void take(const std::complex<double>* from, std::size_t stride, std::size_t count) {
         const auto* rows = reinterpret_cast<const PairInMemory*>(from);
         auto* lines = reinterpret_cast<PairInMemory*>(lines_.get());
-        if (count == together) return copy<together>(rows, stride, lines);
         for (std::size_t i = 0; i < side_; ++i)
             for (std::size_t c = 0; c < count; ++c)
                 lines[c * spacing_ / 2 + i] = rows[i * stride + c];
@@ -117,24 +115,12 @@ class Gathered {
         for (std::size_t i = 0; i <= 2 * last; ++i) {
             const std::size_t at = i < last ? side_ + i - last : i - last;
             const double factor = factors[i < last ? last - i : i - last];
-            const PairInMemory* later = rows + std::min(i + ahead, 2 * last) * width;
-            for (std::size_t c = 0; c < count; c += 4) __builtin_prefetch(later + c, 1);
             for (std::size_t c = 0; c < count; ++c)
                 rows[i * width + c] = lines[c * spacing_ / 2 + at] * factor;
         }
     }
 
   private:
-    template <std::size_t Count>
-    void copy(const PairInMemory* rows, std::size_t stride, PairInMemory* lines) const {
-        for (std::size_t i = 0; i < side_; ++i) {
-            const PairInMemory* later = rows + std::min(i + ahead, side_ - 1) * stride;
-            for (std::size_t c = 0; c < Count; c += 4) __builtin_prefetch(later + c);
-            for (std::size_t c = 0; c < Count; ++c)
-                lines[c * spacing_ / 2 + i] = rows[i * stride + c];
-        }
-    }
-
     std::size_t side_;
     std::size_t spacing_;  ///< numbers from one line to the next
     FftwReals lines_;

@@ -89,16 +89,18 @@ STIPPLE_INLINE void by_axis(const double* points, std::size_t count, std::size_t
 
 /// Zeros before a window's values, where the values are shifted along a row.
 constexpr std::size_t margin = lanes;
-/// The width in whole vectors.
-constexpr std::size_t whole(std::size_t width) { return (width + lanes - 1) / lanes * lanes; }
 
-template <std::size_t Dimension, std::size_t Width>
+/// Windows of widths 4 Fours - 3 to 4 Fours are alike but for their number of rows.
+constexpr std::size_t vectors_of(std::size_t fours) { return (4 * fours + lanes - 1) / lanes; }
+
+template <std::size_t Dimension, std::size_t Fours>
 struct Chunk {
     alignas(64) Coordinates<Dimension> axes;
     alignas(64) Coordinates<Dimension> t;  ///< place in the table's piece
     alignas(64) std::array<std::array<std::int32_t, chunk>, Dimension> piece;
     alignas(64) std::array<std::int32_t, chunk> corner;  ///< of the window in the buffer
-    alignas(64) double values[chunk][Dimension][margin + whole(Width)];  ///< of the window, by axis
+    alignas(
+        64) double values[chunk][Dimension][margin + vectors_of(Fours) * lanes];  ///< of the window
 
     Chunk() {
         for (auto& point : values)
@@ -118,9 +120,9 @@ STIPPLE_INLINE V cell_of(const Words& word) {
     return (V)(word >> 52 | (Words)(zero + 0x1p52)) - 0x1p52;
 }
 
-template <std::size_t Dimension, std::size_t Width>
+template <std::size_t Dimension, std::size_t Fours>
 STIPPLE_INLINE void locate_all(std::size_t count, const SpreadTile& tile,
-                               Chunk<Dimension, Width>& work) {
+                               Chunk<Dimension, Fours>& work) {
     const V zero = {};
     const unsigned bits = tile.piece_bits;
     for (std::size_t i = 0; i < count; i += lanes) {
@@ -139,29 +141,25 @@ STIPPLE_INLINE void locate_all(std::size_t count, const SpreadTile& tile,
     }
 }
 
-/// Horner's rule for polynomials of the degree, beside each other; without a loop.
-template <std::size_t Width, std::size_t Degree, std::size_t Count>
-STIPPLE_INLINE void raise(double t, const double* rows, V (&sums)[Count]) {
-    if constexpr (Degree > 1) raise<Width, Degree - 1>(t, rows, sums);
-    for (std::size_t v = 0; v < Count; ++v)
-        sums[v] =
-            fused(sums[v], t, load<V>(rows + Degree * WeightTable::row_of(Width) + v * lanes));
-}
-
-/// The window's values at its grid points along each axis.
-template <std::size_t Dimension, std::size_t Width>
-STIPPLE_INLINE void evaluate_all(const double* table, std::size_t count,
-                                 Chunk<Dimension, Width>& work) {
-    constexpr std::size_t degree = WeightTable::degree_of(Width);
-    constexpr std::size_t size = (degree + 1) * WeightTable::row_of(Width);
-    constexpr std::size_t vectors = whole(Width) / lanes;
+/// The window's values at its grid points along each axis, by Horner's rule.
+template <std::size_t Dimension, std::size_t Fours>
+STIPPLE_INLINE void evaluate_all(const SpreadTile& tile, std::size_t count,
+                                 Chunk<Dimension, Fours>& work) {
+    constexpr std::size_t degree = WeightTable::degree_of(4 * Fours);
+    constexpr std::size_t row = WeightTable::row_of(4 * Fours);
+    constexpr std::size_t size = (degree + 1) * row;
+    constexpr std::size_t vectors = vectors_of(Fours);
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t k = 0; k < Dimension; ++k) {
-            const double* rows = table + static_cast<std::size_t>(work.piece[k][i]) * size;
+            const double* rows =
+                tile.coefficients + static_cast<std::size_t>(work.piece[k][i]) * size;
             double* values = work.values[i][k] + margin;
+            const double t = work.t[k][i];
             V sums[vectors];
             for (std::size_t v = 0; v < vectors; ++v) sums[v] = load<V>(rows + v * lanes);
-            raise<Width, degree>(work.t[k][i], rows, sums);
+            for (std::size_t term = 1; term <= degree; ++term)
+                for (std::size_t v = 0; v < vectors; ++v)
+                    sums[v] = fused(sums[v], t, load<V>(rows + term * row + v * lanes));
             for (std::size_t v = 0; v < vectors; ++v) store(sums[v], values + v * lanes);
         }
 }
@@ -175,39 +173,41 @@ STIPPLE_INLINE void add_row(double* row, double weight, const V (&values)[Count]
     }
 }
 
-/// The same for so many rows, without a loop.
-template <std::size_t Rows, std::size_t Count>
-STIPPLE_INLINE void add_rows(double* row, std::size_t extent, const double* weights, double factor,
-                             const V (&along)[Count]) {
-    add_row(row, weights[0] * factor, along);
-    if constexpr (Rows > 1) add_rows<Rows - 1>(row + extent, extent, weights + 1, factor, along);
+/// The same for a row a weight.
+template <std::size_t Count>
+STIPPLE_INLINE void add_rows(double* row, std::size_t extent, const double* weights,
+                             std::size_t rows, double factor, const V (&along)[Count]) {
+#pragma GCC unroll 4
+    for (std::size_t i = 0; i < rows; ++i) add_row(row + i * extent, weights[i] * factor, along);
 }
 
 /// Rows begin at a whole vector's place, so that no vector lies in two cache lines, as far as the
 /// window is narrower than its vectors.
-template <std::size_t Dimension, std::size_t Width>
-STIPPLE_INLINE void add_window(const double (&values)[Dimension][margin + whole(Width)],
-                               const SpreadTile& tile, double* begin) {
-    constexpr std::size_t count = whole(Width) / lanes;
+template <std::size_t Dimension, std::size_t Fours>
+STIPPLE_INLINE void add_window(
+    const double (&values)[Dimension][margin + vectors_of(Fours) * lanes], const SpreadTile& tile,
+    double* begin) {
+    constexpr std::size_t vectors = vectors_of(Fours);
     const std::size_t extent = tile.extent;  // what is stored might change the tile's, else
     const std::size_t plane = tile.plane;
+    const std::size_t width = tile.width;
     const std::size_t behind = reinterpret_cast<std::uintptr_t>(begin) / sizeof(double) % lanes;
-    const std::size_t back = tile.in_grid ? 0 : std::min(behind, whole(Width) - Width);
+    const std::size_t back = tile.in_grid ? 0 : std::min(behind, vectors * lanes - width);
     begin -= back;
-    V along[count];
-    for (std::size_t v = 0; v < count; ++v)
+    V along[vectors];
+    for (std::size_t v = 0; v < vectors; ++v)
         along[v] = load<V>(values[0] + margin - back + v * lanes);
     if constexpr (Dimension == 1) add_row(begin, 1, along);
-    if constexpr (Dimension == 2) add_rows<Width>(begin, extent, values[1] + margin, 1, along);
+    if constexpr (Dimension == 2) add_rows(begin, extent, values[1] + margin, width, 1, along);
     if constexpr (Dimension == 3)
-        for (std::size_t l = 0; l < Width; ++l)
-            add_rows<Width>(begin + l * plane, extent, values[1] + margin, values[2][margin + l],
-                            along);
+        for (std::size_t l = 0; l < width; ++l)
+            add_rows(begin + l * plane, extent, values[1] + margin, width, values[2][margin + l],
+                     along);
 }
 
-template <std::size_t Dimension, std::size_t Width>
+template <std::size_t Dimension, std::size_t Fours>
 void add_all(std::span<const double> rows, const SpreadTile& tile, double* buffer) {
-    thread_local Chunk<Dimension, Width> work;  // its zeros stay
+    thread_local Chunk<Dimension, Fours> work;  // its zeros stay
     const std::size_t numbers = tile.numbers;
     const std::size_t all = rows.size() / numbers;
     for (std::size_t first = 0; first < all; first += chunk) {
@@ -215,22 +215,23 @@ void add_all(std::span<const double> rows, const SpreadTile& tile, double* buffe
         const std::size_t count = std::min(chunk, all - first);
         by_axis<Dimension>(points, count, numbers, work.axes);
         locate_all(count, tile, work);
-        evaluate_all(tile.coefficients, count, work);
+        evaluate_all(tile, count, work);
         if (numbers > Dimension)
             for (std::size_t i = 0; i < count; ++i)
-                for (std::size_t j = 0; j < Width; ++j)
+                for (std::size_t j = 0; j < tile.width; ++j)
                     work.values[i][Dimension - 1][margin + j] *= points[i * numbers + Dimension];
         for (std::size_t i = 0; i < count; ++i)
-            add_window<Dimension, Width>(work.values[i], tile,
+            add_window<Dimension, Fours>(work.values[i], tile,
                                          buffer + static_cast<std::uint32_t>(work.corner[i]));
     }
 }
 
-template <std::size_t Dimension, std::size_t Width = Interpolator::max_width>
+template <std::size_t Dimension, std::size_t Fours = Interpolator::max_width / 4>
 void add_wide(std::span<const double> rows, const SpreadTile& tile, double* buffer) {
-    if constexpr (Width > Interpolator::min_width)
-        if (tile.width < Width) return add_wide<Dimension, Width - 1>(rows, tile, buffer);
-    add_all<Dimension, Width>(rows, tile, buffer);
+    if constexpr (Fours > 1)
+        if (tile.width <= 4 * (Fours - 1))
+            return add_wide<Dimension, Fours - 1>(rows, tile, buffer);
+    add_all<Dimension, Fours>(rows, tile, buffer);
 }
 
 void add_points(std::span<const double> rows, std::size_t dimension, const SpreadTile& tile,

@@ -10,11 +10,11 @@
 // its maximum in a corner. The best w is found by the simplex method, in a basis of D + 1 columns:
 // points, and the two signs of the last sum's terms.
 //
-// Shape    D directions, at least one point.
+// Shape    D directions, or with D = 0 as many as are told, up to 32; at least one point.
 // Cost     about 2 D steps of O(D^2 + points D).
 // Promise  never below the maximum but by rounding. Above it by the sum of h_k^2 at most (squared
-//          distances), and a thousandth: its excess falls with the square of the box's size, where
-//          the distance of one point to the farthest corner would be off by the size itself.
+//          distances), and the tolerance: its excess falls with the square of the box's size,
+//          where the distance of one point to the farthest corner would be off by the size itself.
 // Source   the bound is Lagrange's dual; G. B. Dantzig, "Linear Programming and Extensions", 1963
 //          (simplex method).
 #pragma once
@@ -29,8 +29,14 @@ namespace stipple {
 
 template <std::size_t D>
 class CoveringBound {
+    static constexpr std::size_t most = D > 0 ? D : 32;
+
   public:
-    using Point = std::array<double, D>;
+    using Point = std::array<double, most>;  ///< of which the first D count
+
+    /// @param tolerance of the squared distance, relative
+    explicit CoveringBound(std::size_t dimension = D, double tolerance = 1e-3)
+        : dimension_(dimension), tolerance_(tolerance) {}
 
     void clear() { points_.clear(); }
     [[nodiscard]] bool empty() const { return points_.empty(); }
@@ -38,75 +44,84 @@ class CoveringBound {
     /// A point, as seen from the centre of the box.
     void add(const Point& q) {
         double norm = 0;
-        for (const double x : q) norm += x * x;
+        for (std::size_t k = 0; k < d(); ++k) norm += q[k] * q[k];
         points_.push_back({q, norm});
     }
 
     /// The bound of the squared distance, for a box of these half sides.
     double squared(const Point& half) {
         begin(half);
-        for (std::size_t step = 0; step < 4 * (D + 1); ++step)
+        for (std::size_t step = 0; step < 20 * rows(); ++step)
             if (!improve(half)) break;
         return value(half);
+    }
+
+    /// The place of that box, seen from its centre, at which the last bound is reached but for the
+    /// sum of h_k^2.
+    [[nodiscard]] Point place(const Point& half) const {
+        Point place{};
+        for (std::size_t k = 0; k < d(); ++k)
+            place[k] = std::clamp(prices_[k] / 2, -half[k], half[k]);
+        return place;
     }
 
     /// Calls visit(q) for the points that the last bound rests on, D + 1 at most.
     template <class Visit>
     void visit_basis(const Visit& visit) const {
-        for (const std::size_t id : basis_)
-            if (id >= 2 * D) visit(points_[id - 2 * D].q);
+        for (std::size_t i = 0; i < rows(); ++i)
+            if (is_point(basis_[i])) visit(points_[basis_[i] - 2 * d()].q);
     }
 
   private:
-    static constexpr std::size_t rows = D + 1;
-    static constexpr double tolerance = 1e-3;  ///< of the squared distance
-
     struct Candidate {
         Point q;
         double norm;
     };
-    using Row = std::array<double, rows>;
+    using Row = std::array<double, most + 1>;
+
+    [[nodiscard]] std::size_t d() const { return D > 0 ? D : dimension_; }
+    [[nodiscard]] std::size_t rows() const { return d() + 1; }
 
     /// Columns below 2 D are slacks, +k and -k in turn; others are points.
+    [[nodiscard]] bool is_point(std::size_t id) const { return id >= 2 * d(); }
     static std::size_t slack(std::size_t k, bool negative) { return 2 * k + (negative ? 1 : 0); }
 
     /// All weight on the nearest point, and slacks that take up its coordinates.
     void begin(const Point& half) {
         const auto by_norm = [](const Candidate& a, const Candidate& b) { return a.norm < b.norm; };
         const auto nearest = std::ranges::min_element(points_, by_norm);
-        inverse_ = {};
-        prices_ = {};
-        for (std::size_t k = 0; k < D; ++k) {
+        for (std::size_t i = 0; i < rows(); ++i) std::fill_n(inverse_[i].begin(), rows(), 0.0);
+        for (std::size_t k = 0; k < d(); ++k) {
             const bool negative = nearest->q[k] < 0;
             const double sign = negative ? 1 : -1;
             basis_[k] = slack(k, negative);
             inverse_[k][k] = sign;
-            inverse_[k][D] = -sign * nearest->q[k];
+            inverse_[k][d()] = -sign * nearest->q[k];
             prices_[k] = 2 * half[k] * sign;
         }
-        basis_[D] = 2 * D + static_cast<std::size_t>(nearest - points_.begin());
-        inverse_[D][D] = 1;
-        prices_[D] = nearest->norm;
-        for (std::size_t k = 0; k < D; ++k) prices_[D] += 2 * half[k] * std::abs(nearest->q[k]);
+        basis_[d()] = 2 * d() + static_cast<std::size_t>(nearest - points_.begin());
+        inverse_[d()][d()] = 1;
+        prices_[d()] = nearest->norm;
+        for (std::size_t k = 0; k < d(); ++k) prices_[d()] += 2 * half[k] * std::abs(nearest->q[k]);
     }
 
     /// One step of the simplex method; whether there was one to take.
     bool improve(const Point& half) {
-        double least = -tolerance * prices_[D];
+        double least = -tolerance_ * prices_[d()];
         std::size_t entering = none;
         const auto offer = [&](double reduced, std::size_t column) {
             if (reduced >= least) return;
             least = reduced;
             entering = column;
         };
-        for (std::size_t k = 0; k < D; ++k) {
+        for (std::size_t k = 0; k < d(); ++k) {
             offer(2 * half[k] + prices_[k], slack(k, false));
             offer(2 * half[k] - prices_[k], slack(k, true));
         }
         for (std::size_t i = 0; i < points_.size(); ++i) {
-            double reduced = points_[i].norm - prices_[D];
-            for (std::size_t k = 0; k < D; ++k) reduced -= prices_[k] * points_[i].q[k];
-            offer(reduced, 2 * D + i);
+            double reduced = points_[i].norm - prices_[d()];
+            for (std::size_t k = 0; k < d(); ++k) reduced -= prices_[k] * points_[i].q[k];
+            offer(reduced, 2 * d() + i);
         }
         return entering != none && exchange(entering, least);
     }
@@ -116,20 +131,20 @@ class CoveringBound {
         const Row column = column_of(entering);
         std::size_t leaving = none;
         double shortest = 0;
-        for (std::size_t i = 0; i < rows; ++i) {
+        for (std::size_t i = 0; i < rows(); ++i) {
             if (!(column[i] > 1e-12)) continue;
-            const double ratio = inverse_[i][D] / column[i];
+            const double ratio = inverse_[i][d()] / column[i];
             if (leaving != none && ratio >= shortest) continue;
             leaving = i;
             shortest = ratio;
         }
         if (leaving == none) return false;
         Row& pivot = inverse_[leaving];
-        for (double& x : pivot) x /= column[leaving];
-        for (std::size_t i = 0; i < rows; ++i)
-            for (std::size_t k = 0; k < rows && i != leaving; ++k)
+        for (std::size_t k = 0; k < rows(); ++k) pivot[k] /= column[leaving];
+        for (std::size_t i = 0; i < rows(); ++i)
+            for (std::size_t k = 0; k < rows() && i != leaving; ++k)
                 inverse_[i][k] -= column[i] * pivot[k];
-        for (std::size_t k = 0; k < rows; ++k) prices_[k] += reduced * pivot[k];
+        for (std::size_t k = 0; k < rows(); ++k) prices_[k] += reduced * pivot[k];
         basis_[leaving] = entering;
         return true;
     }
@@ -137,14 +152,14 @@ class CoveringBound {
     /// A column in terms of the basis.
     [[nodiscard]] Row column_of(std::size_t id) const {
         Row column;
-        for (std::size_t i = 0; i < rows; ++i) {
-            if (id < 2 * D) {
+        for (std::size_t i = 0; i < rows(); ++i) {
+            if (!is_point(id)) {
                 column[i] = id % 2 == 1 ? inverse_[i][id / 2] : -inverse_[i][id / 2];
                 continue;
             }
-            column[i] = inverse_[i][D];
-            for (std::size_t k = 0; k < D; ++k)
-                column[i] += inverse_[i][k] * points_[id - 2 * D].q[k];
+            column[i] = inverse_[i][d()];
+            for (std::size_t k = 0; k < d(); ++k)
+                column[i] += inverse_[i][k] * points_[id - 2 * d()].q[k];
         }
         return column;
     }
@@ -154,26 +169,28 @@ class CoveringBound {
         double total = 0;
         double norms = 0;
         Point mean{};
-        for (std::size_t i = 0; i < rows; ++i) {
-            if (basis_[i] < 2 * D) continue;
-            const Candidate& point = points_[basis_[i] - 2 * D];
-            const double weight = std::max(0.0, inverse_[i][D]);
+        for (std::size_t i = 0; i < rows(); ++i) {
+            if (!is_point(basis_[i])) continue;
+            const Candidate& point = points_[basis_[i] - 2 * d()];
+            const double weight = std::max(0.0, inverse_[i][d()]);
             total += weight;
             norms += weight * point.norm;
-            for (std::size_t k = 0; k < D; ++k) mean[k] += weight * point.q[k];
+            for (std::size_t k = 0; k < d(); ++k) mean[k] += weight * point.q[k];
         }
         double squared = norms / total;
-        for (std::size_t k = 0; k < D; ++k)
+        for (std::size_t k = 0; k < d(); ++k)
             squared += half[k] * half[k] + 2 * half[k] * std::abs(mean[k]) / total;
         return squared;
     }
 
     static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
+    std::size_t dimension_;
+    double tolerance_;
     std::vector<Candidate> points_;
-    std::array<std::size_t, rows> basis_{};
-    std::array<Row, rows> inverse_{};  ///< of the basis; its last column is the basic solution
-    Row prices_{};                     ///< dual; the last is the bound
+    std::array<std::size_t, most + 1> basis_{};
+    std::array<Row, most + 1> inverse_{};  ///< of the basis; its last column is the basic solution
+    Row prices_{};                         ///< dual; the last is the bound
 };
 
 }  // namespace stipple

@@ -36,17 +36,6 @@ class Metric {
         });
     }
 
-    /// No point of the box is nearer to any point of the other.
-    [[nodiscard]] double between(const double* box, const double* other) const {
-        const std::size_t d = size();
-        return sum([&](std::size_t k) {
-            const double gap = std::max({box[k] - other[d + k], other[k] - box[d + k], 0.0});
-            if (!Torus) return gap;
-            const double far = std::max(other[d + k] - box[k], box[d + k] - other[k]);
-            return std::min(gap, sides_[k] - far);
-        });
-    }
-
     /// No point of the box is farther from p.
     [[nodiscard]] double farthest(const double* box, const double* p) const {
         return sum([&](std::size_t k) {
@@ -353,55 +342,6 @@ struct KdTree::Several {
     }
 };
 
-template <class Metric>
-struct KdTree::Within {
-    const KdTree& tree;
-    const Metric& metric;
-    const double* place;
-    double squared;
-    std::vector<Neighbor>& found;
-
-    [[nodiscard]] double bound(const double* box) const { return metric.nearest(box, place); }
-    [[nodiscard]] bool wants(const Neighbor& bound) const { return bound.squared <= squared; }
-    void visit(std::size_t leaf) {
-        const auto [first, last] = tree.range_of(leaf);
-        for (std::size_t i = first; i < last; ++i) {
-            const double distance = metric.distance(place, tree.row(i));
-            if (distance <= squared) found.push_back({distance, tree.indices_[i]});
-        }
-    }
-};
-
-/// The nearest of all points of a leaf at once: they share most of the way.
-template <class Metric>
-struct KdTree::NearestOfLeaf {
-    const KdTree& tree;
-    const Metric& metric;
-    std::size_t leaf;
-    std::array<Neighbor, leaf_size + 1> best = {};
-    Neighbor worst = {};  ///< of those
-
-    [[nodiscard]] double bound(const double* box) const {
-        return metric.between(box, tree.box_of(leaf));
-    }
-    [[nodiscard]] bool wants(const Neighbor& bound) const { return bound < worst; }
-    void visit(std::size_t other) {
-        const auto [first, last] = tree.range_of(leaf);
-        worst = {-1, 0};
-        for (std::size_t i = first; i < last; ++i) {
-            Nearest<Metric> one{tree, metric, tree.row(i), tree.indices_[i], best[i - first]};
-            if (one.wants({one.bound(tree.box_of(other)), tree.lowest_[other]})) one.visit(other);
-            best[i - first] = one.best;
-            if (worst < one.best) worst = one.best;
-        }
-    }
-    void find() {
-        best.fill({std::numeric_limits<double>::infinity(), none});
-        visit(leaf);
-        tree.search(*this);
-    }
-};
-
 Neighbor KdTree::nearest(std::span<const double> place, std::size_t except) const {
     return with_metric([&](const auto metric) {
         Nearest query{*this, metric, place.data(), except};
@@ -450,14 +390,6 @@ std::vector<Neighbor> KdTree::nearest_several(std::span<const double> place, std
     });
 }
 
-void KdTree::within(std::span<const double> place, double squared,
-                    std::vector<Neighbor>& found) const {
-    with_metric([&](const auto metric) {
-        Within query{*this, metric, place.data(), squared, found};
-        search(query);
-    });
-}
-
 template <class Metric>
 std::size_t KdTree::count_nearer(const Metric& metric, const double* place, double squared,
                                  std::size_t node) const {
@@ -480,27 +412,15 @@ std::size_t KdTree::count_nearer(std::span<const double> place, double squared) 
 }
 
 std::vector<Neighbor> KdTree::all_nearest(const RunContext& run) const {
-    constexpr std::size_t crowded = 4;  // so many dimensions that a leaf's points share no way
     std::vector<Neighbor> found(count());
-    if (found.empty()) return found;
-    const std::size_t block = dimension_ <= 4 ? 512 : dimension_ <= 8 ? 16 : 1;
-    const auto find_leaf = [&](const auto& metric, std::size_t leaf) {
-        const auto [first, last] = range_of(leaf);
-        if (dimension_ < crowded) {
-            NearestOfLeaf query{*this, metric, leaf};
-            query.find();
-            for (std::size_t i = first; i < last; ++i) found[indices_[i]] = query.best[i - first];
-            return;
-        }
-        for (std::size_t i = first; i < last; ++i) {
-            Nearest query{*this, metric, row(i), indices_[i]};
-            search(query);
-            found[indices_[i]] = query.best;
-        }
-    };
-    for_each_block(run, leaves_, block, [&](const Block& b) {
+    const std::size_t block = dimension_ <= 4 ? 4096 : dimension_ <= 8 ? 128 : 8;
+    for_each_block(run, count(), block, [&](const Block& b) {
         with_metric([&](const auto metric) {
-            for (std::size_t i = b.first; i < b.last; ++i) find_leaf(metric, leaves_ + i);
+            for (std::size_t i = b.first; i < b.last; ++i) {
+                Nearest query{*this, metric, row(i), indices_[i]};
+                search(query);
+                found[indices_[i]] = query.best;
+            }
         });
     });
     return found;

@@ -75,9 +75,6 @@ class KdTree {
                                                         std::size_t k,
                                                         std::size_t except = none) const;
 
-    /// Appends all points with distance^2 <= squared, in an order of the tree's own.
-    void within(std::span<const double> place, double squared, std::vector<Neighbor>& found) const;
-
     /// Number of points with distance^2 < squared; whole nodes are counted at once.
     [[nodiscard]] std::size_t count_nearer(std::span<const double> place, double squared) const;
 
@@ -137,10 +134,6 @@ class KdTree {
     struct NearestOfOthers;
     template <class Metric>
     struct Several;
-    template <class Metric>
-    struct Within;
-    template <class Metric>
-    struct NearestOfLeaf;
 
     std::size_t dimension_;
     std::vector<double> sides_;

@@ -8,10 +8,7 @@
 #include <numeric>
 
 #include "core/parallel.hpp"
-#include "math/functions/radix_sort.hpp"
-#include "math/neighbors/grid_nearest.hpp"
 #include "math/neighbors/kd_tree.hpp"
-#include "math/neighbors/planar_sites.hpp"
 
 namespace stipple {
 namespace {
@@ -52,82 +49,6 @@ double squared_between(const double* p, const double* q, std::size_t d,
     }
     return sum;
 }
-
-// ---------------------------------------------------------------- planar
-
-struct Edge {
-    double squared;
-    std::uint32_t from;
-    std::uint32_t to;
-};
-
-/// Whether the middle between a site and its neighbour is on the edge between them. Edges of the
-/// tree have it well inside: no other site is nearer to it than sqrt(3) times the half way.
-bool holds_middle(const CellCorner& from, const Vec2& to) {
-    const Vec2 along{to.x - from.at.x, to.y - from.at.y};
-    const Vec2 middle{from.neighbor.x / 2, from.neighbor.y / 2};
-    const auto ahead = [&](const Vec2& at) {
-        return (at.x - middle.x) * along.x + (at.y - middle.y) * along.y;
-    };
-    return ahead(from.at) < 0 && ahead(to) > 0;
-}
-
-/// Pairs of neighbouring places, i < j, that may be edges of the tree.
-std::vector<Edge> candidates_of(const PlanarSites& sites, std::span<const double> rows,
-                                const std::vector<double>& sides, const RunContext& run) {
-    constexpr std::uint64_t size = 4096;
-    const PlanarCells cells(sites, run);
-    std::vector<std::vector<Edge>> parts(block_count(sites.count(), size));
-    for_each_block(run, sites.count(), size, [&](const Block& b) {
-        VoronoiCell cell;
-        std::vector<Edge> part;
-        for (std::uint64_t i = b.first; i < b.last; ++i) {
-            if (i % 64 == 0) run.check_stop();
-            cells.cut(static_cast<std::size_t>(i), cell);
-            const auto corners = cell.corners();
-            for (std::size_t k = 0; k < corners.size(); ++k) {
-                const std::uint32_t j = corners[k].site;
-                const Vec2& next = corners[k + 1 < corners.size() ? k + 1 : 0].at;
-                if (j == CellCorner::wall || j <= i || !holds_middle(corners[k], next)) continue;
-                const double* p = rows.data() + 2 * std::size_t{sites.points[i]};
-                const double* q = rows.data() + 2 * std::size_t{sites.points[j]};
-                part.push_back({squared_between(p, q, 2, sides), static_cast<std::uint32_t>(i), j});
-            }
-        }
-        parts[b.index] = std::move(part);
-    });
-    std::vector<Edge> edges;
-    for (const auto& part : parts) edges.insert(edges.end(), part.begin(), part.end());
-    return edges;
-}
-
-std::vector<double> shortest_first(const std::vector<Edge>& edges, std::size_t places,
-                                   std::size_t points, const RunContext& run) {
-    std::vector<Placed> order(edges.size());
-    for (std::size_t e = 0; e < edges.size(); ++e)
-        order[e] = {edges[e].squared, static_cast<std::uint32_t>(e)};
-    radix_sort(order, run);
-    Parts parts(places);
-    std::vector<double> tree(points - places, 0.0);  // to the duplicates
-    tree.reserve(points - 1);
-    for (std::size_t e = 0; e < order.size() && tree.size() + 1 < points; ++e) {
-        if (e % 65536 == 0) run.check_stop();
-        const Edge& edge = edges[order[e].place];
-        if (parts.join(edge.from, edge.to)) tree.push_back(edge.squared);
-    }
-    return tree;
-}
-
-/// The points' own box, no thinner than a row of squares with the points in it would be.
-Box box_about(std::span<const double> rows) {
-    Box box = box_around(rows, 2);
-    const double least = std::max(box.extent(0), box.extent(1)) / static_cast<double>(rows.size());
-    for (std::size_t k = 0; k < 2; ++k)
-        if (box.extent(k) < least) box.high[k] = box.low[k] + least;
-    return box;
-}
-
-// ---------------------------------------------------------------- near
 
 /// Grows all parts at once. What is nearest to a point outside its part is kept for as long as it
 /// is outside: nearer ones cannot come.
@@ -269,28 +190,8 @@ std::vector<double> plain_spanning_tree(std::span<const double> rows, std::size_
     return tree;
 }
 
-std::vector<double> planar_spanning_tree(std::span<const double> rows,
-                                         const std::vector<double>& low,
-                                         const std::vector<double>& sides, const RunContext& run) {
-    const std::size_t n = rows.size() / 2;
-    if (n < 2) return {};
-    run.need_memory(150.0 * static_cast<double>(n), "the spanning tree");
-    Box box = box_about(rows);
-    if (!sides.empty()) box = {low, {low[0] + sides[0], low[1] + sides[1]}};
-    if (!(box.extent(0) > 0 && box.extent(1) > 0)) return near_spanning_tree(rows, 2, sides, run);
-    const PlanarSites sites = planar_sites(rows, box, !sides.empty(), run);
-    if (sites.company > crowded_cell) return near_spanning_tree(rows, 2, sides, run);
-    const auto edges = candidates_of(sites, rows, sides, run.stage(0, 0.8));
-    auto tree = shortest_first(edges, sites.count(), n, run);
-    run.tick(1, 1);
-    // Seen from a corner far away, cells may be too coarse to join all.
-    return tree.size() + 1 == n ? tree : near_spanning_tree(rows, 2, sides, run);
-}
-
 std::vector<double> minimum_spanning_tree(std::span<const double> rows, std::size_t dimension,
-                                          const std::vector<double>& low,
                                           const std::vector<double>& sides, const RunContext& run) {
-    if (dimension == 2) return planar_spanning_tree(rows, low, sides, run);
     if (dimension < many_dimensions) return near_spanning_tree(rows, dimension, sides, run);
     return plain_spanning_tree(rows, dimension, sides, run);
 }

@@ -160,12 +160,10 @@ void PeriodicVoronoi::start(Vec2 sides, bool torus, Vec2 at, std::uint32_t i, Vo
     const Vec2 low = torus ? Vec2{-a / 2, -b / 2} : Vec2{-at.x, -at.y};
     const Vec2 high = torus ? Vec2{a / 2, b / 2} : Vec2{a - at.x, b - at.y};
     const std::uint32_t beyond = torus ? i : CellCorner::wall;
-    const double across = torus ? a : 0;
-    const double up = torus ? b : 0;
-    cell.start({CellCorner{{low.x, low.y}, {0, -up}, beyond},
-                CellCorner{{high.x, low.y}, {across, 0}, beyond},
-                CellCorner{{high.x, high.y}, {0, up}, beyond},
-                CellCorner{{low.x, high.y}, {-across, 0}, beyond}});
+    cell.start({CellCorner{{low.x, low.y}, {0, 2 * low.y}, beyond},
+                CellCorner{{high.x, low.y}, {2 * high.x, 0}, beyond},
+                CellCorner{{high.x, high.y}, {0, 2 * high.y}, beyond},
+                CellCorner{{low.x, high.y}, {2 * low.x, 0}, beyond}});
 }
 
 double PeriodicVoronoi::squared_security(double squared_reach, double weight) const {
@@ -221,7 +219,7 @@ void PeriodicVoronoi::gather_ring(const Site& site, std::int64_t ring, double sq
     }
 }
 
-void PeriodicVoronoi::cut_by_candidates(std::uint32_t i, VoronoiCell& cell) const {
+void PeriodicVoronoi::cut_by_candidates(std::uint32_t i, VoronoiCell& cell, double needed) const {
     std::ranges::sort(cell.candidates_, {}, [](const auto& candidate) {
         const auto& [squared, seen, site] = candidate;
         return std::tuple(squared, site, seen.x, seen.y);
@@ -234,14 +232,14 @@ void PeriodicVoronoi::cut_by_candidates(std::uint32_t i, VoronoiCell& cell) cons
         const double lead = weights_.empty() ? 0 : weight - weights_[candidate.site];
         if (candidate.squared == 0 && lead == 0 && candidate.site < i) return cell.clear();
         cell.cut(candidate.seen, (candidate.squared + lead) / 2, candidate.site);
-        if (cell.empty()) return;
+        if (cell.empty() || cell.squared_reach() < needed) return;
         if (cell.squared_reach() == reach) continue;
         reach = cell.squared_reach();
         limit = squared_security(reach, weight);
     }
 }
 
-void PeriodicVoronoi::cut_cell(std::size_t i, VoronoiCell& cell) const {
+void PeriodicVoronoi::cut_cell(std::size_t i, VoronoiCell& cell, double needed) const {
     const Site& site = sites_[i];
     const auto own = static_cast<std::uint32_t>(i);
     start(sides_, torus_, site.at, own, cell);
@@ -250,7 +248,8 @@ void PeriodicVoronoi::cut_cell(std::size_t i, VoronoiCell& cell) const {
     // What lies beyond a block of rings is as far away as the site is from the block's rim.
     const double x = site.at.x - static_cast<double>(column_of(site.at.x)) * size_.x;
     const double y = site.at.y - static_cast<double>(row_of(site.at.y)) * size_.y;
-    for (std::int64_t ring = 0; ring <= rings && !cell.empty(); ++ring) {
+    for (std::int64_t ring = 0; ring <= rings; ++ring) {
+        if (cell.empty() || cell.squared_reach() < needed) return;
         const double limit = squared_security(cell.squared_reach(), weight);
         const auto before = static_cast<double>(ring - 1);
         const double rim = std::min(std::min(x, size_.x - x) + before * size_.x,
@@ -258,7 +257,7 @@ void PeriodicVoronoi::cut_cell(std::size_t i, VoronoiCell& cell) const {
         if (ring > 0 && rim * rim >= limit && rim > 0) break;
         cell.candidates_.clear();
         gather_ring(site, ring, limit, cell);
-        cut_by_candidates(own, cell);
+        cut_by_candidates(own, cell, needed);
     }
 }
 

@@ -44,8 +44,9 @@ struct Vec2 {
 struct CellCorner {
     static constexpr std::uint32_t wall = 0xffff'ffff;
 
-    Vec2 at;                    ///< seen from the cell's site
-    Vec2 neighbor;              ///< the site beyond the edge, seen from the cell's; 0, 0 for a wall
+    Vec2 at;        ///< seen from the cell's site
+    Vec2 neighbor;  ///< the site beyond the edge, seen from the cell's own, whose mirror
+                    ///< image stands beyond a wall
     std::uint32_t site = wall;  ///< its index: the cell's own where it is a copy
 };
 
@@ -122,8 +123,9 @@ class PeriodicVoronoi {
     /// Makes the cell what site i at `at` has before others cut it.
     static void start(Vec2 sides, bool torus, Vec2 at, std::uint32_t i, VoronoiCell& cell);
 
-    /// The cell of a site that is in its place. Several threads may ask at once.
-    void cut_cell(std::size_t i, VoronoiCell& cell) const;
+    /// The cell of a site that is in its place; one without a corner at a squared distance of
+    /// `needed` is not finished. Several threads may ask at once.
+    void cut_cell(std::size_t i, VoronoiCell& cell, double needed = 0) const;
 
     /// `at`, moved by whole sides into [0, side) on the torus, else to the nearest wall if outside.
     [[nodiscard]] Vec2 inside(Vec2 at) const;
@@ -146,7 +148,7 @@ class PeriodicVoronoi {
                      VoronoiCell& cell) const;
     void gather(const Site& site, std::int64_t column, std::int64_t row, double squared_limit,
                 VoronoiCell& cell) const;
-    void cut_by_candidates(std::uint32_t i, VoronoiCell& cell) const;
+    void cut_by_candidates(std::uint32_t i, VoronoiCell& cell, double needed) const;
 
     Vec2 sides_;
     bool torus_;

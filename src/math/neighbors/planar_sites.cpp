@@ -2,6 +2,7 @@
 #include "math/neighbors/planar_sites.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "math/neighbors/point_grid.hpp"
@@ -27,18 +28,6 @@ std::vector<double> seen_from_corner(std::span<const double> rows, const Box& bo
     return seen;
 }
 
-/// The places and, behind them in the same order, their copies in the eight rectangles around.
-std::vector<double> with_copies(const PlanarSites& sites) {
-    std::vector<double> rows = sites.rows;
-    rows.reserve(9 * sites.rows.size());
-    for (const int u : {-1, 0, 1})
-        for (const int v : {-1, 0, 1})
-            for (std::size_t i = 0; (u != 0 || v != 0) && i < sites.count(); ++i)
-                rows.insert(rows.end(),
-                            {sites.at(i).x + u * sites.sides.x, sites.at(i).y + v * sites.sides.y});
-    return rows;
-}
-
 /// Whether a place of the box may be nearer to a corner of the cell of `at` than that is.
 bool may_cut(const double* box, const Vec2& at, const VoronoiCell& cell) {
     constexpr double slack = 1 - 1e-9;
@@ -58,28 +47,37 @@ bool may_cut(const double* box, const Vec2& at, const VoronoiCell& cell) {
 PlanarCells::PlanarCells(const PlanarSites& sites, const RunContext& run) : sites_(sites) {
     if (sites.company <= crowded_cell)
         grid_.emplace(sites.sides, sites.torus, sites.rows);
-    else if (sites.torus)
-        tree_.emplace(with_copies(sites), 2, std::vector<double>{}, run);
     else
         tree_.emplace(sites.rows, 2, std::vector<double>{}, run);
 }
 
-void PlanarCells::cut(std::size_t i, VoronoiCell& cell) const {
-    if (grid_) return grid_->cut_cell(i, cell);
-    cut_by_tree(i, cell);
+void PlanarCells::cut(std::size_t i, VoronoiCell& cell, double needed) const {
+    if (grid_) return grid_->cut_cell(i, cell, needed);
+    cut_by_tree(i, cell, needed);
 }
 
-void PlanarCells::cut_by_tree(std::size_t i, VoronoiCell& cell) const {
+/// On the torus by the copies of all sites, too, which are the sites as seen from a copy of the
+/// cell's own.
+void PlanarCells::cut_by_tree(std::size_t i, VoronoiCell& cell, double needed) const {
+    const auto [width, height] = sites_.sides;
+    const std::array all{0.0, 0.0, width, height};
     const Vec2 at = sites_.at(i);
     PeriodicVoronoi::start(sites_.sides, sites_.torus, at, static_cast<std::uint32_t>(i), cell);
-    const auto enter = [&](const double* box) { return may_cut(box, at, cell); };
-    const auto visit = [&](std::size_t index, const double* row) {
-        if (index == i) return;
-        const Vec2 seen{row[0] - at.x, row[1] - at.y};
-        const double bound = (seen.x * seen.x + seen.y * seen.y) / 2;
-        cell.cut(seen, bound, static_cast<std::uint32_t>(index % sites_.count()));
-    };
-    tree_->walk(sites_.rows.data() + 2 * i, enter, visit);
+    constexpr std::array<int, 9> right = {0, 1, -1, 0, 0, 1, 1, -1, -1};
+    constexpr std::array<int, 9> up = {0, 0, 0, 1, -1, 1, -1, 1, -1};
+    for (std::size_t copy = 0; copy < (sites_.torus ? 9 : 1); ++copy) {
+        const Vec2 turn{right[copy] * width, up[copy] * height};
+        const std::array from{at.x - turn.x, at.y - turn.y};
+        const auto enter = [&](const double* box) {
+            return cell.squared_reach() >= needed && may_cut(box, {from[0], from[1]}, cell);
+        };
+        if (!enter(all.data())) continue;
+        tree_->walk(from.data(), enter, [&](std::size_t index, const double* row) {
+            const Vec2 seen{(row[0] - at.x) + turn.x, (row[1] - at.y) + turn.y};
+            const double bound = (seen.x * seen.x + seen.y * seen.y) / 2;
+            if (index != i) cell.cut(seen, bound, static_cast<std::uint32_t>(index));
+        });
+    }
 }
 
 PlanarSites planar_sites(std::span<const double> rows, const Box& box, bool torus,

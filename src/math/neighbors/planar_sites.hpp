@@ -9,8 +9,7 @@
 // Shape    1 <= n < 2^32 points of a rectangle of positive sides; those beyond count with its rim.
 // Cost     O(n), O(m log m) for m points crowded into one cell of the grid; 60 bytes a point. Cells
 //          by the tree O(log n) each, 4 us for 10^5, but O(k) for k points of one circle with none
-//          inside, of which each has to be looked at; 50 bytes a point for the tree, on the torus
-//          450.
+//          inside, of which each has to be looked at; 50 bytes a point for the tree.
 // Promise  which places there are, and their order, does not depend on the points' order.
 #pragma once
 
@@ -51,15 +50,16 @@ class PlanarCells {
     /// Keeps a reference to the sites. @throws Error(limit, cancelled)
     PlanarCells(const PlanarSites& sites, const RunContext& run);
 
+    /// The i-th cell; one without a corner at a squared distance of `needed` is not finished.
     /// Several threads may ask at once.
-    void cut(std::size_t i, VoronoiCell& cell) const;
+    void cut(std::size_t i, VoronoiCell& cell, double needed = 0) const;
 
   private:
-    void cut_by_tree(std::size_t i, VoronoiCell& cell) const;
+    void cut_by_tree(std::size_t i, VoronoiCell& cell, double needed) const;
 
     const PlanarSites& sites_;
     std::optional<PeriodicVoronoi> grid_;
-    std::optional<KdTree> tree_;  ///< of the places and, on the torus, their copies around
+    std::optional<KdTree> tree_;
 };
 
 }  // namespace stipple

@@ -178,6 +178,23 @@ TEST(NearestNeighbor, RefusesASinglePoint) {
     EXPECT_EQ(error_of([&] { analyze(unit, one); }), message);
 }
 
+TEST(NearestNeighbor, NamesWhatIsNoFiniteNumber) {
+    const double inf = std::numeric_limits<double>::infinity();
+    for (const char* analyzer : {"nearest-neighbor", "spanning-tree", "coverage"})
+        for (const char* metric : {"torus", "euclidean"}) {
+            const auto refusal = [&](double x) {
+                const PointSet set = points_of({{0.25, 0.5}, {0.5, x}, {0.75, 0.5}});
+                return error_of([&] { analyze(analyzer, set, {{"metric", metric}}); });
+            };
+            EXPECT_EQ(refusal(std::nan("")), "input: x2 of point 1 is nan, not a finite number");
+            EXPECT_EQ(refusal(-inf), "input: x2 of point 1 is -inf, not a finite number");
+        }
+    PointSet ball = points_of({{0, inf}, {0, 0}});
+    ball.domain = parse_domain("disk", 2);
+    EXPECT_EQ(error_of([&] { analyze(unit, ball); }),
+              "input: x2 of point 0 is inf, not a finite number");
+}
+
 // The square of 1e154 is 1e308, the sum of two of them is not; that of 2e200 is far beyond.
 TEST(NearestNeighbor, RefusesSquaresBeyondFloat64) {
     const PointSet far = points_of({{1e200, 1e-320}, {-1e200, 0.5}, {3, 3}});

@@ -10,8 +10,8 @@
 
 #include "analyzers/spectrum/periodogram_rings.hpp"
 #include "core/rng.hpp"
-#include "math/fourier/nufft.hpp"
 #include "pipeline/chain.hpp"
+#include "support/fourier.hpp"
 #include "support/units.hpp"
 
 using namespace stipple;
@@ -83,7 +83,7 @@ TEST(Periodogram, PointsInOnePlaceHaveTheirNumberAsPowerEverywhere) {
                  {0.3}, {0.3, 0.7}, {1, 0}, {one_minus_ulp, 1}, {0.1, 0.2, 0.9}}) {
             const std::size_t d = row.size();
             const FourierSums one = method == "direct" ? fourier_sums_directly(row, d, 9, {})
-                                                       : Nufft(1, d, 9, 1e-9).transform(row, {});
+                                                       : transform(Nufft(1, d, 9, 1e-9), row, {});
             for (const auto& sum : one.values) EXPECT_NEAR(std::norm(sum), 1, 1e-8);
             std::vector<std::string> said;
             RunContext run;

@@ -14,9 +14,11 @@
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "math/fourier/interpolator.hpp"
+#include "support/fourier.hpp"
 #include "support/temporary_file.hpp"
 
 using namespace stipple;
+using namespace stipple::testing;
 
 namespace {
 
@@ -121,7 +123,7 @@ TEST(Nufft, MeetsEveryToleranceForEverySet) {
                 const FourierSums truth = fourier_sums_directly(rows, d, last, {});
                 for (const double tolerance : {1e-1, 1e-3, 1e-6, 1e-9, 1e-11, 1e-13}) {
                     const Nufft nufft(n, d, last, tolerance);
-                    const double error = largest_difference(nufft.transform(rows, {}), truth) /
+                    const double error = largest_difference(transform(nufft, rows, {}), truth) /
                                          std::sqrt(static_cast<double>(n));
                     EXPECT_LE(error, std::max(tolerance, rounding_floor(n)))
                         << name << ", " << d << "-D, n = " << n << ", tolerance " << tolerance;
@@ -230,7 +232,7 @@ TEST(Nufft, MeetsTheToleranceWhereTheWindowIsWorst) {
     const std::vector<double> rows(184, one_minus_ulp);
     const FourierSums truth = fourier_sums_directly(rows, 1, 27, {});
     const Nufft nufft(184, 1, 27, 3.75e-6);
-    EXPECT_LE(largest_difference(nufft.transform(rows, {}), truth), 3.75e-6 * std::sqrt(184));
+    EXPECT_LE(largest_difference(transform(nufft, rows, {}), truth), 3.75e-6 * std::sqrt(184));
 }
 
 // A wrong tolerance must show: the coarsest window is not accidentally exact.
@@ -239,7 +241,7 @@ TEST(Nufft, ErrorFollowsTheTolerance) {
     Rng(3).fill(0, rows);
     const FourierSums truth = fourier_sums_directly(rows, 2, 20, {});
     const auto error = [&](double tolerance) {
-        return largest_difference(Nufft(500, 2, 20, tolerance).transform(rows, {}), truth);
+        return largest_difference(transform(Nufft(500, 2, 20, tolerance), rows, {}), truth);
     };
     EXPECT_GT(error(1e-1), 1e-5);
     EXPECT_GT(error(1e-6), 1e-10);
@@ -251,13 +253,13 @@ TEST(Nufft, SmallestAndLargeFrequencies) {
     Rng(8).fill(0, rows);
     for (const std::size_t last : {1U, 2U, 3U, 111U}) {
         const FourierSums truth = fourier_sums_directly(rows, 2, last, {});
-        const FourierSums sums = Nufft(50, 2, last, 1e-10).transform(rows, {});
+        const FourierSums sums = transform(Nufft(50, 2, last, 1e-10), rows, {});
         EXPECT_LE(largest_difference(sums, truth), 1e-10 * std::sqrt(50)) << last;
     }
     Numbers line(50);
     Rng(9).fill(0, line);
     const FourierSums truth = fourier_sums_directly(line, 1, 100'000, {});
-    const FourierSums sums = Nufft(50, 1, 100'000, 1e-11).transform(line, {});
+    const FourierSums sums = transform(Nufft(50, 1, 100'000, 1e-11), line, {});
     EXPECT_LE(largest_difference(sums, truth), 1e-11 * std::sqrt(50));
 }
 
@@ -271,9 +273,9 @@ TEST(Nufft, SameBitsForAnyNumberOfThreads) {
             if (clustered)
                 for (double& x : rows) x = 0.3 + 1e-3 * x;
             const Nufft nufft(n, d, d == 3 ? 12 : d == 2 ? 256 : 150, 1e-8);
-            const FourierSums one = nufft.transform(rows, {.threads = 1});
+            const FourierSums one = transform(nufft, rows, {.threads = 1});
             for (const unsigned threads : {2U, 7U})
-                EXPECT_EQ(nufft.transform(rows, {.threads = threads}).values, one.values)
+                EXPECT_EQ(transform(nufft, rows, {.threads = threads}).values, one.values)
                     << d << "-D, " << threads << " threads";
             Numbers few(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(200 * d));
             const FourierSums direct = fourier_sums_directly(few, d, 9, {.threads = 1});
@@ -284,7 +286,7 @@ TEST(Nufft, SameBitsForAnyNumberOfThreads) {
 TEST(Nufft, MirrorsHalfOfTheSums) {
     Numbers rows(2 * 30);
     Rng(4).fill(0, rows);
-    const FourierSums sums = Nufft(30, 2, 10, 1e-10).transform(rows, {});
+    const FourierSums sums = transform(Nufft(30, 2, 10, 1e-10), rows, {});
     for (std::int64_t f0 = -10; f0 <= 10; ++f0)
         for (std::int64_t f1 = -10; f1 <= 10; ++f1)
             EXPECT_NEAR(std::abs(sums.at({f0, f1, 0}) - by_definition(rows, 2, {f0, f1, 0})), 0,
@@ -303,13 +305,13 @@ TEST(Nufft, ProgressRisesToTheEndAndStopIsHeeded) {
         rising = rising && done >= last;
         last = done;
     };
-    (void)nufft.transform(rows, run);
+    (void)transform(nufft, rows, run);
     EXPECT_TRUE(rising);
     EXPECT_EQ(last, 1);
 
     std::stop_source source;
     source.request_stop();
-    EXPECT_THROW((void)nufft.transform(rows, {.stop = source.get_token()}), Error);
+    EXPECT_THROW((void)transform(nufft, rows, {.stop = source.get_token()}), Error);
     EXPECT_THROW((void)fourier_sums_directly(rows, 2, 20, {.stop = source.get_token()}), Error);
 }
 
@@ -319,7 +321,7 @@ TEST(Nufft, SameBitsHoweverThePointsArePortioned) {
     Numbers rows(n);
     Rng(7).fill(0, rows);
     const Nufft nufft(n, 1, 100, 1e-7);
-    const FourierSums whole = nufft.transform(rows, {});
+    const FourierSums whole = transform(nufft, rows, {});
     for (const std::size_t portion : {std::size_t{131'072}, std::size_t{1'048'575}}) {
         FourierSummation sum(nufft);
         for (std::size_t at = 0; at < n; at += portion)
@@ -385,7 +387,8 @@ TEST(Nufft, StrengthsMultiplyThePoints) {
         const FourierSums direct = fourier_sums_directly(once, d, last, {}, true);
         EXPECT_LE(largest_difference(direct, fourier_sums_directly(often, d, last, {})), 1e-11);
         const Nufft nufft(60, d, last, 1e-9, true);
-        EXPECT_LE(largest_difference(nufft.transform(once, {}), direct), 1e-9 * std::sqrt(squares));
+        EXPECT_LE(largest_difference(transform(nufft, once, {}), direct),
+                  1e-9 * std::sqrt(squares));
     }
 }
 
@@ -394,13 +397,13 @@ TEST(Nufft, MeasuredPlansStayWithinTheTolerance) {
     Numbers rows(2 * 300);
     Rng(13).fill(0, rows);
     const Nufft nufft(300, 2, 12, 1e-10);
-    const FourierSums guessed = nufft.transform(rows, {}, Planning::estimated);
-    const FourierSums measured = nufft.transform(rows, {}, Planning::measured);
+    const FourierSums guessed = transform(nufft, rows, {}, Planning::estimated);
+    const FourierSums measured = transform(nufft, rows, {}, Planning::measured);
     EXPECT_LE(largest_difference(guessed, measured), 1e-10 * std::sqrt(300));
 }
 
 TEST(Nufft, WisdomIsWrittenAndReadBack) {
-    const stipple::testing::TemporaryFile file("");
+    const TemporaryFile file("");
     std::filesystem::remove(file.path());
     read_wisdom(file.path());  // is not there: nothing to learn
     std::ofstream(file.path()) << wisdom_text();

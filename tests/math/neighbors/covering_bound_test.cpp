@@ -45,10 +45,25 @@ double farthest_place(const Points<D>& points, const std::array<double, D>& half
     return farthest;
 }
 
+/// The linear program's solution: |q|^2 - 2 q.y is as large at y for all points.
+template <std::size_t D>
+void expect_reached(const Points<D>& points, const std::array<double, D>& half,
+                    const CoveringBound<0>::Point& y, double bound) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& q : points) {
+        double value = 0;
+        for (std::size_t k = 0; k < D; ++k) value += q[k] * q[k] - 2 * q[k] * y[k];
+        least = std::min(least, value);
+    }
+    for (std::size_t k = 0; k < D; ++k) EXPECT_LE(std::abs(y[k]), half[k]);
+    EXPECT_NEAR(least, bound, 1e-9) << D << "-D";
+}
+
 /// The promise, for random points and boxes. The lattice misses at most half of a step's diagonal.
 template <std::size_t D>
 void expect_tight(std::size_t steps) {
     const Rng rng(D);
+    constexpr double fine = 1e-13;
     std::uint64_t i = 0;
     for (int trial = 0; trial < 60; ++trial) {
         Points<D> points(1 + trial % 12);
@@ -61,6 +76,18 @@ void expect_tight(std::size_t steps) {
             squares += h * h;
         }
         const double bound = bound_of<D>(points, half);
+        CoveringBound<0> any(D, fine);  // of a dimension that is told, and finer
+        CoveringBound<0>::Point sides{};
+        std::ranges::copy(half, sides.begin());
+        for (const auto& q : points) {
+            CoveringBound<0>::Point p{};
+            std::ranges::copy(q, p.begin());
+            any.add(p);
+        }
+        const double least = any.squared(sides);
+        EXPECT_LE(least, bound * (1 + 1e-12)) << D << "-D, trial " << trial;
+        EXPECT_GE(least, bound * (1 - 2e-3)) << D << "-D, trial " << trial;
+        expect_reached<D>(points, half, any.place(sides), least - squares);
         const double sampled = farthest_place<D>(points, half, steps);
         const double missed = std::sqrt(squares) / static_cast<double>(steps);
         const double farthest = std::sqrt(sampled) + missed;

@@ -65,14 +65,10 @@ TEST(MinimumSpanningTree, EveryWayFindsTheLengthsOfTheDefinition) {
                 for (const double levels : {0x1p40, 5.0}) {  // the latter with ties and duplicates
                     const Rows rows = random_rows(n, d, 10 * n + d, levels);
                     const Rows sides = torus ? Rows(d, 1.0) : Rows();
-                    const Rows low(d, 0.0);
                     const Rows oracle = by_definition(rows, d, sides);
                     ASSERT_EQ(near_spanning_tree(rows, d, sides, {}), oracle) << d << torus << n;
                     ASSERT_EQ(plain_spanning_tree(rows, d, sides, {}), oracle) << d << torus << n;
-                    if (d == 2) {
-                        ASSERT_EQ(planar_spanning_tree(rows, low, sides, {}), oracle) << torus << n;
-                    }
-                    ASSERT_EQ(minimum_spanning_tree(rows, d, low, sides, {}), oracle) << d;
+                    ASSERT_EQ(minimum_spanning_tree(rows, d, sides, {}), oracle) << d;
                 }
 }
 
@@ -90,8 +86,7 @@ TEST(MinimumSpanningTree, CrowdsAndLinesAreJoinedToo) {
         for (const bool torus : {true, false}) {
             if (at == 3 && torus) continue;
             const Rows sides = torus ? Rows(2, 1.0) : Rows();
-            EXPECT_EQ(planar_spanning_tree(rows[at], {0, 0}, sides, {}),
-                      by_definition(rows[at], 2, sides))
+            EXPECT_EQ(near_spanning_tree(rows[at], 2, sides, {}), by_definition(rows[at], 2, sides))
                 << at << torus;
         }
 }
@@ -103,7 +98,7 @@ TEST(MinimumSpanningTree, BothWaysAgreeOnManyPoints) {
         for (const bool torus : {true, false}) {
             const Rows sides = torus ? Rows(2, 1.0) : Rows();
             const Rows one = near_spanning_tree(rows, 2, sides, {.threads = 1});
-            EXPECT_EQ(planar_spanning_tree(rows, {0, 0}, sides, {}), one) << near << torus;
+            EXPECT_EQ(plain_spanning_tree(rows, 2, sides, {}), one) << near << torus;
             EXPECT_EQ(near_spanning_tree(rows, 2, sides, {.threads = 5}), one) << near << torus;
         }
     }
