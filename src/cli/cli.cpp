@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cstdlib>
 #include <exception>
 #include <new>
 
@@ -38,7 +36,7 @@ int exit_code(ErrorKind kind) {
 
 /// The verb's unit must be named; the hint lists what there is.
 void require_unit(const Arguments& arguments, const std::vector<Kind>& kinds) {
-    const auto& info = *std::ranges::find(verbs(), *arguments.verb, &VerbInfo::verb);
+    const VerbInfo& info = info_of(*arguments.verb);
     const auto kind = units_for(kinds, info.name);
     if (!kind || !arguments.unit.empty()) return;
     std::vector<std::string> names;
@@ -61,7 +59,7 @@ int dispatch(const Arguments& arguments, const std::vector<Kind>& kinds) {
     require_unit(arguments, kinds);
     if (arguments.verb == Verb::list) return list(arguments, kinds);
     if (arguments.verb == Verb::help) return help(arguments, kinds);
-    if (arguments.verb == Verb::completions) return completions(arguments, kinds);
+    if (arguments.verb == Verb::completions) return completions(arguments);
     Session session(arguments);
     switch (*arguments.verb) {
         case Verb::generate:
@@ -122,6 +120,10 @@ int run(int argc, char** argv) {
     catch_interrupts();
     try {
         const auto kinds = catalog();
+        if (argc > 1 && std::string_view(argv[1]) == "complete") {
+            write_text("-", complete({argv + 2, argv + argc}, kinds));
+            return 0;
+        }
         return dispatch(parse_arguments(argc, argv, kinds), kinds);
     } catch (const Error& e) {
         return report_error(e.what(), e.hint(), exit_code(e.kind()));
