@@ -53,7 +53,7 @@ void HelpPage::title(const std::string& name, int number, const std::string& sum
     }
     text_ +=
         fmt::format(".TH {} {} \"\" \"stipple {}\" \"stipple manual\"\n.SH NAME\n{} \\- {}\n",
-                    upper(escaped(name)), number, STIPPLE_VERSION, escaped(name), escaped(summary));
+                    escaped(upper(name)), number, STIPPLE_VERSION, escaped(name), escaped(summary));
     if (!usage.empty()) {
         section("Synopsis");
         lines(usage);
@@ -63,7 +63,7 @@ void HelpPage::title(const std::string& name, int number, const std::string& sum
 
 void HelpPage::section(const std::string& name) {
     text_ +=
-        for_man() ? fmt::format(".SH {}\n", upper(escaped(name))) : fmt::format("\n{}:\n", name);
+        for_man() ? fmt::format(".SH {}\n", escaped(upper(name))) : fmt::format("\n{}:\n", name);
 }
 
 void HelpPage::subsection(const std::string& name) {

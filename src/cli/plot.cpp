@@ -13,6 +13,7 @@
 #include "cli/bounds.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "core/npy_header.hpp"
 #include "core/text.hpp"
 #include "io/files.hpp"
 #include "io/provenance.hpp"
@@ -79,6 +80,7 @@ struct Loaded {
     PointSet points;
     std::string source;
     std::optional<std::size_t> number;  ///< in its file, of several
+    bool npy = false;                   ///< so that it may be a table that --grid saved
 };
 
 /// One call: what was read, and what is drawn of it.
@@ -152,8 +154,9 @@ class Plot {
             require_width(sets[i], input);
             if (const auto domain = arguments_.get("domain"))
                 sets[i].domain = parse_domain(*domain, sets[i].dimension());
-            sets_.push_back(
-                {std::move(sets[i]), input, sets.size() > 1 ? std::optional(i) : std::nullopt});
+            sets_.push_back({std::move(sets[i]), input,
+                             sets.size() > 1 ? std::optional(i) : std::nullopt,
+                             file.bytes().starts_with(npy_magic)});
         }
     }
 
@@ -244,7 +247,7 @@ class Plot {
     [[nodiscard]] std::optional<SpectralTable> saved_table() const {
         std::vector<const PointSet*> sets;
         for (const Loaded& set : sets_) {
-            if (set.source != sets_[0].source) return std::nullopt;
+            if (set.source != sets_[0].source || !set.npy) return std::nullopt;
             sets.push_back(&set.points);
         }
         return spectral_table(sets);

@@ -286,7 +286,7 @@ class Reporter {
         const RunContext run = session_.run().stage(at / all, (at + 1) / all);
         set.measures = measure_set(points, input, limits_, run);
         if (json_) return set;
-        set.figures = point_figures(points, set);
+        set.figures = point_figures(points, set, i);
         if (auto spectrum = spectrum_figure(set); !spectrum.empty())
             set.figures.push_back(std::move(spectrum));
         for (PageMeasure& measure : set.measures)
