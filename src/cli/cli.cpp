@@ -82,8 +82,9 @@ int dispatch(const Arguments& arguments, const std::vector<Kind>& kinds) {
 }
 
 /// One line, and the hint in a second sentence of it.
-int report_error(const std::string& what, const std::string& hint, int code) {
-    if (is_mute()) return code;
+int report_error(std::string_view verb, const std::string& what, const std::string& hint,
+                 int code) {
+    if (is_mute(verb)) return code;
     say(fmt::format("stipple: {}{}{}\n", what, hint.empty() ? "" : "; ", hint));
     return code;
 }
@@ -118,19 +119,20 @@ int list(const Arguments& arguments, const std::vector<Kind>& all) {
 
 int run(int argc, char** argv) {
     catch_interrupts();
+    const std::string_view verb = argc > 1 ? argv[1] : "";
     try {
         const auto kinds = catalog();
-        if (argc > 1 && std::string_view(argv[1]) == "complete") {
+        if (verb == "complete") {
             write_text("-", complete({argv + 2, argv + argc}, kinds));
             return 0;
         }
         return dispatch(parse_arguments(argc, argv, kinds), kinds);
     } catch (const Error& e) {
-        return report_error(e.what(), e.hint(), exit_code(e.kind()));
+        return report_error(verb, e.what(), e.hint(), exit_code(e.kind()));
     } catch (const std::bad_alloc&) {
-        return report_error("out of memory", "", exit_code(ErrorKind::limit));
+        return report_error(verb, "out of memory", "", exit_code(ErrorKind::limit));
     } catch (const std::exception& e) {
-        return report_error(fmt::format("internal error: {}", e.what()), "",
+        return report_error(verb, fmt::format("internal error: {}", e.what()), "",
                             exit_code(ErrorKind::io));
     }
 }
