@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: MIT
 """What the plotting scripts share: stipple's files in, pictures out, errors as the program does.
 
-    read_points(path)   -> [PointSet]  from CSV, TXT, JSON, JSONL, NPY
     read_reports(path)  -> [Report]    from `stipple analyze` as JSON (also many, end to end) or CSV
     canvas()            -> pyplot with the house style, no display needed
     run(main)           -> main() with exit codes 2 usage, 3 bad input, 4 cannot read or write
@@ -10,16 +9,14 @@ A path "-" is standard input. Needs NumPy, and matplotlib for canvas().
 """
 
 import argparse
-import array
 import csv
 import io
 import json
 import logging
 import os
-import re
 import sys
 import tempfile
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -120,95 +117,6 @@ def json_documents(text, name):
     return documents
 
 
-@dataclass
-class PointSet:
-    """One set of points, and what its file says about it."""
-
-    points: np.ndarray
-    source: str
-    meta: dict = field(default_factory=dict)
-    number: int = 0  # of this set in its file
-    sets: int = 1  # in its file
-
-    @property
-    def count(self):
-        return self.points.shape[0]
-
-    @property
-    def dimension(self):
-        return self.points.shape[1]
-
-
-def read_points(path):
-    """All point sets of a file."""
-    name, data = name_of(path), read_bytes(path)
-    start = data.lstrip(b"\xef\xbb\xbf \t\r\n")[:1]
-    if data.startswith(b"\x93NUMPY"):
-        arrays, meta = npy_sets(data, name), {}
-    elif start in (b"{", b"["):
-        arrays, meta = json_sets(json_documents(decode(data, name), name), name)
-    else:
-        arrays, meta = text_sets(decode(data, name), name)
-    if not arrays or any(len(points) == 0 for points in arrays):
-        raise input_error(f"{name}: holds no points")
-    for points in arrays:
-        if not np.isfinite(points).all():
-            row = int(np.argmin(np.isfinite(points).all(axis=1)))
-            raise input_error(f"{name}: point {row} has a coordinate that is not finite")
-    sets = len(arrays)
-    return [PointSet(points, path, meta, k, sets) for k, points in enumerate(arrays)]
-
-
-def read_npy(data, name):
-    """The array of numbers in the bytes of an npy file."""
-    try:
-        values = np.load(io.BytesIO(data), allow_pickle=False)
-    except (ValueError, EOFError, OSError, SyntaxError, OverflowError) as error:
-        raise input_error(f"{name}: is not a whole npy file ({error})") from None
-    if not isinstance(values, np.ndarray) or values.dtype.kind not in "fiu":
-        raise input_error(f"{name}: is not an npy array of real numbers")
-    return values.astype(float)
-
-
-def npy_sets(data, name):
-    """Sets from an array; a list of n numbers is n points on a line."""
-    values = read_npy(data, name)
-    values = values.reshape(-1, 1) if values.ndim == 1 else values
-    if values.ndim not in (2, 3) or 0 in values.shape:
-        shape = values.shape
-        raise input_error(f"{name}: has shape {shape}; expected (n, d) or (sets, n, d)")
-    return [values] if values.ndim == 2 else list(values)
-
-
-def json_sets(documents, name):
-    """Sets of points from a whole document or from JSON lines, and their provenance."""
-    first = documents[0]
-    head = first if isinstance(first, dict) else {}
-    if is_report(first):
-        raise input_error(f"{name}: is a report; expected points")
-    if len(documents) > 1:
-        sets = jsonl_sets(documents)
-    elif isinstance(first, list):
-        sets = first if nested(first, 3) else [first]
-    else:
-        sets = head["sets"] if "sets" in head else [head.get("points")]
-    if not isinstance(sets, list):
-        raise input_error(f"{name}: has \"sets\" that are no list")
-    columns = head.get("columns")
-    names = [str(word) for word in columns] if isinstance(columns, list) else []
-    tables = [json_rows(rows, name) for rows in sets]
-    meta = head.get("meta")
-    return (
-        [table[:, coordinates(names, table.shape[1])] for table in tables],
-        meta if isinstance(meta, dict) else {},
-    )
-
-
-def is_report(document):
-    first = document[0] if isinstance(document, list) and document else document
-    return isinstance(first, dict) and first.get("format") == "stipple.report"
-
-
 def nested(value, depth):
     """Whether it is a list of lists ..., so deep."""
     for _ in range(depth):
@@ -218,99 +126,12 @@ def nested(value, depth):
     return True
 
 
-def jsonl_sets(documents):
-    """Rows, of which an object before them starts a set."""
-    sets = [[]]
-    for document in documents:
-        if not isinstance(document, dict):
-            sets[-1].append(document)
-        elif sets[-1]:
-            sets.append([])
-    return sets
-
-
-def json_rows(rows, name):
-    if not isinstance(rows, list) or not rows:
-        raise input_error(f"{name}: holds no points")
-    width = len(rows[0]) if isinstance(rows[0], list) else 0
-    for i, row in enumerate(rows):
-        if not isinstance(row, list) or not row or len(row) != width:
-            raise input_error(f"{name}: point {i} is not a list of {width or 'some'} numbers")
-        if any(isinstance(x, bool) or not isinstance(x, (int, float)) for x in row):
-            raise input_error(f"{name}: point {i} holds something that is not a number")
-    try:
-        return np.array(rows, dtype=float)
-    except OverflowError:
-        raise input_error(f"{name}: holds a number beyond float64") from None
-
-
 def number(word):
     """A number, also an infinite one, or None."""
     try:
         return float(word) if "_" not in word else None
     except ValueError:
         return None
-
-
-def text_sets(text, name):
-    """Points from CSV, TSV or spaces; sets by a column `set` or by lines `#`."""
-    meta, header, rows, keys = {}, None, array.array("d"), []
-    width, separators = None, 0
-    for at, line in enumerate(text.splitlines(), 1):
-        line = line.strip()
-        if line.startswith("#"):
-            separators += line == "#" and bool(rows)
-            take_meta(line, meta)
-            continue
-        if not line:
-            continue
-        fields = [word.strip() for word in line.split(",")] if "," in line else line.split()
-        values = [number(word) for word in fields]
-        if width is None and all(value is None for value in values):
-            header, width = fields, len(fields)
-            continue
-        width = width or len(fields)
-        if len(fields) != width:
-            raise input_error(f"{name}:{at}: has {len(fields)} columns; expected {width}")
-        for column, value in enumerate(values, 1):
-            if value is None or not np.isfinite(value):
-                word = fields[column - 1][:40]
-                where = f"{name}:{at}: column {column}"
-                raise input_error(f"{where}, '{word}', is not a finite number")
-        rows.extend(values)
-        keys.append(separators)
-    if not rows:
-        return [], meta
-    table = np.frombuffer(rows, dtype=float).reshape(-1, width)
-    return split_sets(table, header or [], np.array(keys)), meta
-
-
-def take_meta(line, meta):
-    """Takes a line `# key: value` with a JSON value; other comments are no business of ours."""
-    key, colon, value = line.lstrip("# ").partition(":")
-    if not colon:
-        return
-    try:
-        meta[key.strip()] = json.loads(value)
-    except ValueError:
-        pass
-
-
-def split_sets(table, header, keys):
-    """Coordinates alone, cut into sets."""
-    names = [word.strip('"').lower() for word in header]
-    if "set" in names:
-        keys = table[:, names.index("set")]
-    starts = np.flatnonzero(np.diff(keys)) + 1
-    return np.split(table[:, coordinates(names, table.shape[1])], starts)
-
-
-def coordinates(names, width):
-    """Which columns are coordinates: those so named, else all but a set's number and densities."""
-    named = [k for k, word in enumerate(names) if re.fullmatch(r"[xyz]|x\d+", word)]
-    if named and max(named) < width:
-        return named
-    return [k for k in range(width) if names[k : k + 1] not in (["set"], ["pdf"], ["weight"])]
 
 
 # ---------------------------------------------------------------- reports

@@ -1,20 +1,27 @@
 # What belongs to the program besides itself, in the places where systems look for it, and packages:
-# `cpack --config build/release/CPackConfig.cmake` makes a .deb and a .tar.gz. Manual pages and
-# completions are the program's own words, so that they cannot differ from it.
+# `cpack --config build/release/CPackConfig.cmake` makes a .deb and a .tar.gz. The program itself
+# writes its manual pages and completions when it is installed.
 set(words ${PROJECT_BINARY_DIR}/words)
 find_program(STIPPLE_GZIP gzip REQUIRED)
-add_custom_command(TARGET stipple POST_BUILD
-  COMMAND ${CMAKE_COMMAND} -E rm -rf ${words}
-  COMMAND ${CMAKE_COMMAND} -E make_directory ${words}/man1 ${words}/man7
-  COMMAND stipple help --man -o ${words}
-  COMMAND sh -c "${STIPPLE_GZIP} -9n ${words}/*.1 ${words}/*.7"
-  COMMAND sh -c "mv ${words}/*.1.gz ${words}/man1 && mv ${words}/*.7.gz ${words}/man7"
-  COMMAND stipple completions bash > ${words}/stipple
-  COMMAND stipple completions zsh > ${words}/_stipple
-  COMMAND stipple completions fish > ${words}/stipple.fish
-  COMMAND ${STIPPLE_GZIP} -9nc ${PROJECT_SOURCE_DIR}/CHANGELOG.md > ${words}/changelog.gz
-  COMMENT "Writing manual pages and completions" VERBATIM)
-
+install(CODE "
+  set(words ${words})
+  file(REMOVE_RECURSE \${words})
+  file(MAKE_DIRECTORY \${words}/man1 \${words}/man7)
+  function(run)
+    execute_process(COMMAND \${ARGN} COMMAND_ERROR_IS_FATAL ANY)
+  endfunction()
+  run($<TARGET_FILE:stipple> help --man -o \${words})
+  file(GLOB pages \${words}/*.1 \${words}/*.7)
+  run(${STIPPLE_GZIP} -9n \${pages})
+  foreach(section 1 7)
+    file(GLOB pages \${words}/*.\${section}.gz)
+    file(COPY \${pages} DESTINATION \${words}/man\${section})
+  endforeach()
+  run($<TARGET_FILE:stipple> completions bash OUTPUT_FILE \${words}/stipple)
+  run($<TARGET_FILE:stipple> completions zsh OUTPUT_FILE \${words}/_stipple)
+  run($<TARGET_FILE:stipple> completions fish OUTPUT_FILE \${words}/stipple.fish)
+  run(${STIPPLE_GZIP} -9nc ${PROJECT_SOURCE_DIR}/CHANGELOG.md OUTPUT_FILE \${words}/changelog.gz)
+")
 install(DIRECTORY ${words}/man1 ${words}/man7 DESTINATION ${CMAKE_INSTALL_MANDIR})
 install(FILES ${words}/stipple DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 foreach(folder site-functions vendor-completions)  # the second is Debian's

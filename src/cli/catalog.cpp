@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "analyzers/analyzer.hpp"
 #include "core/error.hpp"
@@ -31,6 +32,10 @@ std::string seed_use(const Generator& unit) {
     return unit.traits.seeded ? "uses the seed when scrambled" : "does not use the seed";
 }
 
+std::shared_ptr<const Json> shared(Json json) {
+    return std::make_shared<const Json>(std::move(json));
+}
+
 /// What the records of all kinds have, as far as this one has it.
 template <class Unit>
 UnitInfo base_info(const Unit& unit) {
@@ -45,12 +50,12 @@ UnitInfo base_info(const Unit& unit) {
 UnitInfo info(const Generator& unit) {
     const auto& t = unit.traits;
     UnitInfo out = base_info(unit);
-    out.traits = {{"min_dimension", t.min_dimension},
-                  {"max_dimension", t.max_dimension},
-                  {"sequence", t.sequence},
-                  {"prefix", t.prefix},
-                  {"seeded", t.seeded},
-                  {"max_index", t.max_index}};
+    out.traits = shared({{"min_dimension", t.min_dimension},
+                         {"max_dimension", t.max_dimension},
+                         {"sequence", t.sequence},
+                         {"prefix", t.prefix},
+                         {"seeded", t.seeded},
+                         {"max_index", t.max_index}});
     out.remarks = {dimensions(t.min_dimension, t.max_dimension) +
                        (t.more_dimensions.empty() ? "" : ", more with --" + t.more_dimensions),
                    t.sequence ? "streams in constant memory" : "made as a whole, in memory",
@@ -62,7 +67,7 @@ UnitInfo info(const Generator& unit) {
 
 UnitInfo info(const Scramble& unit) {
     UnitInfo out = base_info(unit);
-    out.traits = {{"min_dimension", 1}, {"max_dimension", any_dimension}, {"seeded", true}};
+    out.traits = shared({{"min_dimension", 1}, {"max_dimension", any_dimension}, {"seeded", true}});
     out.remarks = {"any dimension", "uses the seed"};
     return out;
 }
@@ -70,7 +75,7 @@ UnitInfo info(const Scramble& unit) {
 UnitInfo info(const Warp& unit) {
     const auto& t = unit.traits;
     UnitInfo out = base_info(unit);
-    out.traits = {{"invertible", t.invertible}, {"drops", t.drops}, {"biased", t.biased}};
+    out.traits = shared({{"invertible", t.invertible}, {"drops", t.drops}, {"biased", t.biased}});
     out.remarks = {t.invertible ? "has an inverse" : "has no inverse"};
     if (t.drops) out.remarks.emplace_back("can drop points");
     if (t.biased) out.remarks.emplace_back("can be biased, on purpose");
@@ -80,10 +85,10 @@ UnitInfo info(const Warp& unit) {
 UnitInfo info(const Analyzer& unit) {
     const auto& t = unit.traits;
     UnitInfo out = base_info(unit);
-    out.traits = {{"min_dimension", t.min_dimension},
-                  {"max_dimension", t.max_dimension},
-                  {"unit_cube", t.unit_cube},
-                  {"boxed", t.boxed}};
+    out.traits = shared({{"min_dimension", t.min_dimension},
+                         {"max_dimension", t.max_dimension},
+                         {"unit_cube", t.unit_cube},
+                         {"boxed", t.boxed}});
     out.remarks = {dimensions(t.min_dimension, t.max_dimension),
                    t.unit_cube ? "takes points of the closed unit cube"
                    : t.boxed   ? "takes points of the unit cube or a box"
@@ -95,13 +100,13 @@ UnitInfo info(const Analyzer& unit) {
 UnitInfo info(const Format& unit) {
     UnitInfo out = base_info(unit);
     const bool reads = static_cast<bool>(unit.read);
-    out.traits = {{"extensions", unit.extensions},
-                  {"reads", reads},
-                  {"writes", unit.rows != nullptr},
-                  {"binary", unit.traits.binary},
-                  {"equal_sets", unit.traits.equal_sets},
-                  {"min_dimension", unit.traits.min_dimension},
-                  {"max_dimension", unit.traits.max_dimension}};
+    out.traits = shared({{"extensions", unit.extensions},
+                         {"reads", reads},
+                         {"writes", unit.rows != nullptr},
+                         {"binary", unit.traits.binary},
+                         {"equal_sets", unit.traits.equal_sets},
+                         {"min_dimension", unit.traits.min_dimension},
+                         {"max_dimension", unit.traits.max_dimension}});
     out.remarks = {reads ? "read and write" : "write only",
                    unit.extensions.empty() ? "by name" : join(unit.extensions, " ")};
     return out;
@@ -130,7 +135,7 @@ Json option_json(const Option& option) {
 
 Json unit_json(const UnitInfo& unit, std::string_view kind) {
     Json out = {{"name", unit.name},     {"aliases", unit.aliases}, {"summary", unit.summary},
-                {"source", unit.source}, {"traits", unit.traits},   {"options", Json::array()}};
+                {"source", unit.source}, {"traits", *unit.traits},  {"options", Json::array()}};
     if (!unit.strata.empty()) out["strata"] = unit.strata;
     if (unit.stream_version > 0) out["stream_version"] = unit.stream_version;
     for (const Option& option : unit.options) out["options"].push_back(option_json(option));

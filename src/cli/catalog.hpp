@@ -3,13 +3,14 @@
 // All units of all kinds in one shape, for `list`, help and README's tables.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "core/json.hpp"
 #include "core/options.hpp"
 
 namespace stipple::cli {
@@ -21,7 +22,7 @@ struct UnitInfo {
     std::string strata = {};           ///< of warps: what becomes of the unit coordinates
     std::uint64_t stream_version = 0;  ///< of units that make or move points; else 0
     std::vector<std::string> aliases = {};
-    nlohmann::ordered_json traits = {};
+    std::shared_ptr<const Json> traits = {};
     std::vector<std::string> remarks = {};  ///< the traits in words
     std::vector<Option> options = {};
     std::vector<std::pair<std::string, std::string>> results = {};  ///< key, help; of analyzers

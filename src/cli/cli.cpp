@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cstdlib>
 #include <exception>
 #include <new>
 
@@ -38,7 +36,7 @@ int exit_code(ErrorKind kind) {
 
 /// The verb's unit must be named; the hint lists what there is.
 void require_unit(const Arguments& arguments, const std::vector<Kind>& kinds) {
-    const auto& info = *std::ranges::find(verbs(), *arguments.verb, &VerbInfo::verb);
+    const VerbInfo& info = info_of(*arguments.verb);
     const auto kind = units_for(kinds, info.name);
     if (!kind || !arguments.unit.empty()) return;
     std::vector<std::string> names;
@@ -61,7 +59,7 @@ int dispatch(const Arguments& arguments, const std::vector<Kind>& kinds) {
     require_unit(arguments, kinds);
     if (arguments.verb == Verb::list) return list(arguments, kinds);
     if (arguments.verb == Verb::help) return help(arguments, kinds);
-    if (arguments.verb == Verb::completions) return completions(arguments, kinds);
+    if (arguments.verb == Verb::completions) return completions(arguments);
     Session session(arguments);
     switch (*arguments.verb) {
         case Verb::generate:
@@ -84,8 +82,9 @@ int dispatch(const Arguments& arguments, const std::vector<Kind>& kinds) {
 }
 
 /// One line, and the hint in a second sentence of it.
-int report_error(const std::string& what, const std::string& hint, int code) {
-    if (is_mute()) return code;
+int report_error(std::string_view verb, const std::string& what, const std::string& hint,
+                 int code) {
+    if (is_mute(verb)) return code;
     say(fmt::format("stipple: {}{}{}\n", what, hint.empty() ? "" : "; ", hint));
     return code;
 }
@@ -120,15 +119,20 @@ int list(const Arguments& arguments, const std::vector<Kind>& all) {
 
 int run(int argc, char** argv) {
     catch_interrupts();
+    const std::string_view verb = argc > 1 ? argv[1] : "";
     try {
         const auto kinds = catalog();
+        if (verb == "complete") {
+            write_text("-", complete({argv + 2, argv + argc}, kinds));
+            return 0;
+        }
         return dispatch(parse_arguments(argc, argv, kinds), kinds);
     } catch (const Error& e) {
-        return report_error(e.what(), e.hint(), exit_code(e.kind()));
+        return report_error(verb, e.what(), e.hint(), exit_code(e.kind()));
     } catch (const std::bad_alloc&) {
-        return report_error("out of memory", "", exit_code(ErrorKind::limit));
+        return report_error(verb, "out of memory", "", exit_code(ErrorKind::limit));
     } catch (const std::exception& e) {
-        return report_error(fmt::format("internal error: {}", e.what()), "",
+        return report_error(verb, fmt::format("internal error: {}", e.what()), "",
                             exit_code(ErrorKind::io));
     }
 }

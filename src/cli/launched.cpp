@@ -27,7 +27,10 @@ std::uint64_t launched_ranks() {
                                    environment({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}).value_or(1));
 }
 
-bool is_mute() { return environment({"OMPI_COMM_WORLD_RANK", "PMI_RANK"}).value_or(0) != 0; }
+bool is_mute(std::string_view verb) {
+    return (verb == "analyze" || verb == "study") && launched_ranks() > 1 &&
+           environment({"OMPI_COMM_WORLD_RANK", "PMI_RANK"}).value_or(0) != 0;
+}
 
 std::unique_ptr<Ranks> launched(std::string_view verb, const RunContext& run) {
     const std::uint64_t ranks = launched_ranks();

@@ -14,8 +14,9 @@ namespace stipple::cli {
 /// Processes that an MPI launcher started, 1 if none did.
 std::uint64_t launched_ranks();
 
-/// Whether another of them speaks for all.
-bool is_mute();
+/// Whether another of them reports errors for all: where a launcher started several processes for
+/// this verb. Verbs that ranks do not share speak for themselves, wherever they run.
+bool is_mute(std::string_view verb);
 
 /// Joins the others. @throws Error(usage) where there are others and the build has no MPI
 std::unique_ptr<Ranks> launched(std::string_view verb, const RunContext& run);

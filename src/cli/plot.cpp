@@ -13,6 +13,7 @@
 #include "cli/bounds.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "core/npy_header.hpp"
 #include "core/text.hpp"
 #include "io/files.hpp"
 #include "io/provenance.hpp"
@@ -35,18 +36,8 @@ enum class Medium { svg, png, text };
 
 constexpr std::size_t most_sets = 7;  ///< of points, in one picture: as many as there are colours
 
-const std::vector<std::string>& chart_kinds() {
-    static const std::vector<std::string> kinds = {"points",           "density",     "histogram",
-                                                   "distances",        "spectrum",    "radial",
-                                                   "pair-correlation", "differential"};
-    return kinds;
-}
-
 Medium medium_named(const std::string& name) {
-    if (name == "svg") return Medium::svg;
-    if (name == "png") return Medium::png;
-    if (name == "text") return Medium::text;
-    fail(ErrorKind::usage, "--format: '{}' is not one of svg, png, text", name);
+    return name == "svg" ? Medium::svg : name == "png" ? Medium::png : Medium::text;
 }
 
 Medium medium_of(const Arguments& arguments, const std::string& path) {
@@ -81,10 +72,7 @@ TextRoom terminal_room() {
 
 std::optional<bool> scale_of(const Arguments& arguments, const char* name) {
     const auto text = arguments.get(name);
-    if (!text) return std::nullopt;
-    if (*text != "linear" && *text != "log")
-        fail(ErrorKind::usage, "--{}: '{}' is not one of linear, log", name, *text);
-    return *text == "log";
+    return text ? std::optional(*text == "log") : std::nullopt;
 }
 
 /// A set of points with the file that it is from.
@@ -92,6 +80,7 @@ struct Loaded {
     PointSet points;
     std::string source;
     std::optional<std::size_t> number;  ///< in its file, of several
+    bool npy = false;                   ///< so that it may be a table that --grid saved
 };
 
 /// One call: what was read, and what is drawn of it.
@@ -103,9 +92,6 @@ class Plot {
           path_(output_of(arguments)),
           medium_(medium_of(arguments, path_)),
           chart_(arguments.get("chart").value_or("")) {
-        if (!chart_.empty() && std::ranges::find(chart_kinds(), chart_) == chart_kinds().end())
-            fail(ErrorKind::usage, "--chart: '{}' is not one of {}", chart_,
-                 join(chart_kinds(), ", "));
         take_style();
     }
 
@@ -124,10 +110,7 @@ class Plot {
 
   private:
     void take_style() {
-        const std::string theme = arguments_.get("theme").value_or("light");
-        if (theme != "light" && theme != "dark")
-            fail(ErrorKind::usage, "--theme: '{}' is not one of light, dark", theme);
-        style_.theme = theme == "dark" ? &dark_theme : &light_theme;
+        style_.theme = arguments_.get("theme") == "dark" ? &dark_theme : &light_theme;
         style_.title = arguments_.get("title");
         style_.log_x = scale_of(arguments_, "x-scale");
         style_.log_y = scale_of(arguments_, "y-scale");
@@ -171,8 +154,9 @@ class Plot {
             require_width(sets[i], input);
             if (const auto domain = arguments_.get("domain"))
                 sets[i].domain = parse_domain(*domain, sets[i].dimension());
-            sets_.push_back(
-                {std::move(sets[i]), input, sets.size() > 1 ? std::optional(i) : std::nullopt});
+            sets_.push_back({std::move(sets[i]), input,
+                             sets.size() > 1 ? std::optional(i) : std::nullopt,
+                             file.bytes().starts_with(npy_magic)});
         }
     }
 
@@ -263,7 +247,7 @@ class Plot {
     [[nodiscard]] std::optional<SpectralTable> saved_table() const {
         std::vector<const PointSet*> sets;
         for (const Loaded& set : sets_) {
-            if (set.source != sets_[0].source) return std::nullopt;
+            if (set.source != sets_[0].source || !set.npy) return std::nullopt;
             sets.push_back(&set.points);
         }
         return spectral_table(sets);

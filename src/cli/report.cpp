@@ -91,7 +91,7 @@ class Reporter {
         if (!json_ && path_ == "-" && isatty(STDOUT_FILENO) == 1)
             fail_with_hint(ErrorKind::usage, "name a file with -o, or pipe it on",
                            "a page is not for terminals");
-        if (const auto work = arguments.integer("max-work", 1, std::uint64_t{1} << 60))
+        if (const auto work = arguments.integer("max-work"))
             limits_.work = static_cast<std::int64_t>(*work);
         for (const auto& text : arguments.all("fail-on")) conditions_.push_back(condition_of(text));
     }
@@ -286,7 +286,7 @@ class Reporter {
         const RunContext run = session_.run().stage(at / all, (at + 1) / all);
         set.measures = measure_set(points, input, limits_, run);
         if (json_) return set;
-        set.figures = point_figures(points, set);
+        set.figures = point_figures(points, set, i);
         if (auto spectrum = spectrum_figure(set); !spectrum.empty())
             set.figures.push_back(std::move(spectrum));
         for (PageMeasure& measure : set.measures)

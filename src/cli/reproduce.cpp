@@ -478,7 +478,7 @@ class Reproducer {
         };
         Target target{.format = original_.format, .meta = true};
         target.single = says("property float ");
-        const auto digits = recipe_.typed.integer("precision", 0, 1000);
+        const auto digits = recipe_.typed.integer("precision");
         if (says("format ascii") && digits) target.precision = static_cast<int>(*digits);
         target.columns = {.pdf = says(" pdf\n"), .weight = says(" weight\n")};
         if (!says("property int set")) recipe_.job.sets = 1;

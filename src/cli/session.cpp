@@ -75,8 +75,6 @@ std::uint64_t memory_limit(const Arguments& arguments) {
 
 ProgressBar::Mode progress_mode(const Arguments& arguments) {
     const std::string text = arguments.get("progress").value_or("auto");
-    if (text != "auto" && text != "always" && text != "never")
-        fail(ErrorKind::usage, "--progress: '{}' is not one of auto, always, never", text);
     if (arguments.has("quiet") || text == "never") return ProgressBar::Mode::never;
     return text == "always" ? ProgressBar::Mode::always : ProgressBar::Mode::automatic;
 }
@@ -122,7 +120,7 @@ void ProgressBar::clear() {
 
 Session::Session(const Arguments& arguments)
     : quiet_(arguments.has("quiet")), bar_(progress_mode(arguments)) {
-    run_.threads = static_cast<unsigned>(arguments.integer("threads", 0, 4096).value_or(0));
+    run_.threads = static_cast<unsigned>(arguments.integer("threads").value_or(0));
     run_.max_memory = memory_limit(arguments);
     run_.stop = interrupts().get_token();
     run_.seconds = [start = std::chrono::steady_clock::now()] {

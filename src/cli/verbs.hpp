@@ -22,7 +22,11 @@ int study(const Arguments& arguments, Session& session);
 int list(const Arguments& arguments, const std::vector<Kind>& kinds);
 int reproduce(const Arguments& arguments, const std::vector<Kind>& kinds, Session& session);
 int help(const Arguments& arguments, const std::vector<Kind>& kinds);
-int completions(const Arguments& arguments, const std::vector<Kind>& kinds);
+int completions(const Arguments& arguments);
+
+/// What may stand for the last of the words, and why, a candidate a line; "@files" where a file's
+/// name may. For the scripts of `completions`.
+std::string complete(std::vector<std::string> words, const std::vector<Kind>& kinds);
 
 /// What `generate` was asked to make.
 Production production_of(const Arguments& arguments, Session& session);

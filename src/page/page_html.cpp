@@ -9,6 +9,7 @@
 #include "core/options.hpp"
 #include "core/text.hpp"
 #include "page/page_charts.hpp"
+#include "page/page_figures.hpp"
 #include "plot/html_text.hpp"
 
 namespace stipple {
@@ -214,7 +215,7 @@ std::string provenance_of(const PageSet& set) {
     if (!set.command.empty())
         out += fmt::format("<pre>{}</pre>\n", html_text(set.command));
     else if (from.generator.empty())
-        out += "<p class=\"note\">The file does not tell how its points were made.</p>\n";
+        out += "<p class=\"note\">The file does not say how its points were made.</p>\n";
     return out;
 }
 
@@ -245,11 +246,20 @@ std::string navigation(std::span<const PageSet> sets) {
     return out + "</nav>\n";
 }
 
-/// What the boxes of the navigation hide.
-std::string hiding_rules(std::size_t sets) {
+/// The colours of the sets, and what the boxes of the navigation hide.
+std::string rules_of_sets(std::size_t sets) {
     std::string out;
-    for (std::size_t i = 0; i < sets; ++i)
-        out += fmt::format(".hide-{0} [data-set=\"{0}\"]{{display:none}}\n", i);
+    for (std::size_t i = 0; i < sets; ++i) {
+        const auto hex = [i](bool dark) {
+            const Colour c = page_theme(dark).series_colour(i);
+            return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue);
+        };
+        out += fmt::format(
+            ":root{{--c{0}:{1}}}@media screen and "
+            "(prefers-color-scheme:dark){{:root{{--c{0}:{2}}}}}"
+            "\n.hide-{0} [data-set=\"{0}\"]{{display:none}}\n",
+            i, hex(false), hex(true));
+    }
     return out;
 }
 
@@ -273,7 +283,7 @@ std::string head_of(const Page& page) {
         "<meta name=\"generator\" content=\"stipple {}\">\n<title>{}</title>\n<style>{}{}</style>\n"
         "</head>\n",
         html_text(page.version), html_text(page.title), page_style(),
-        hiding_rules(page.sets.size()));
+        rules_of_sets(page.sets.size()));
 }
 
 }  // namespace

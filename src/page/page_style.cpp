@@ -11,17 +11,12 @@ const char* page_style() {
 :root{color-scheme:light dark;--ground:#fff;--card:#fafafa;--ink:#1b1d21;--muted:#5d636d;
 --line:#d5d8dd;--shade:#00000060;
 --grid:#e9ebee;--band:#e4e6ea;--best:#e8f2ea;--star:#b3261e;--empty:#1a6b3c;--extreme:#6a3fa0;
---periodic:#8a5a00;
---c0:#0072b2;--c1:#d55e00;--c2:#00895f;--c3:#b0508a;--c4:#b07d00;--c5:#2f9fd0;--c6:#3c3c3c;
---c7:#7a4fc0;
---c8:#a03030;--c9:#5f7f1f;--c10:#0f8f8f;--c11:#8f6f5f}
-@media screen and (prefers-color-scheme:dark){:root{--ground:#15171b;--card:#1b1e23;
+--periodic:#8a5a00}
+@media screen and (prefers-color-scheme:dark){:root{--ground:#16181c;--card:#1b1e23;
 --ink:#e8eaed;--muted:#a3a9b3;
 --line:#3a3f47;--shade:#ffffff60;--grid:#2a2e35;--band:#2f343c;--best:#1d3527;--star:#ff8a80;--empty:#6fcf97;
 --extreme:#c3a2f5;
---periodic:#e0b050;--c0:#56b4e9;--c1:#f08030;--c2:#1abc90;--c3:#de96be;--c4:#f0be3c;
---c5:#8fd0f5;--c6:#d0d0d0;
---c7:#b69af0;--c8:#f08a8a;--c9:#a9c95a;--c10:#4fd0d0;--c11:#cdb0a0}}
+--periodic:#e0b050}}
 *{box-sizing:border-box}
 html{-webkit-text-size-adjust:100%}
 body{margin:0 auto;padding:0 1.25rem 4rem;max-width:76rem;background:var(--ground);
@@ -69,20 +64,11 @@ gap:1.25rem 2.5rem;align-items:start}
 .figures .wide{grid-column:1/-1}
 figure{margin:.5rem 0;position:relative;min-width:0}
 figcaption{font-size:.825rem;margin-top:.2rem}
-svg{display:block;width:100%;height:auto}
+svg{display:block;width:100%;height:auto;
+font-family:Helvetica,Arial,"Liberation Sans","DejaVu Sans",sans-serif}
 .picture svg{max-width:32rem}
-svg text{fill:var(--muted);font-size:11px;font-family:inherit}
-.chart svg text{font-size:12px}
-.dots{stroke:var(--ink);stroke-linecap:round;fill:none}
-.ticks{stroke:var(--ink);stroke-width:.6;fill:none;opacity:.7}
-.frame,.guide,.grid{fill:none;stroke:var(--line);stroke-width:1}
-.guide{stroke:var(--muted);stroke-dasharray:5 4}
-.grid{stroke:var(--grid)}
-.band{fill:var(--band);stroke:none}
-.curve{fill:none;stroke-width:1.6;stroke-linejoin:round}
 .rule{stroke:var(--muted);stroke-width:1;visibility:hidden}
-.box{fill:var(--b);fill-opacity:.1;stroke:var(--b);stroke-width:1.6}
-.open{stroke-dasharray:6 4}
+.box path{stroke:var(--b)}.box [fill-opacity]{fill:var(--b);stroke:none}
 .star{--b:var(--star)}.empty{--b:var(--empty)}.extreme{--b:var(--extreme)}.periodic{
 --b:var(--periodic)}
 .boxes{list-style:none;margin:.4rem 0 0;padding:0;font-size:.85rem}
@@ -90,13 +76,8 @@ svg text{fill:var(--muted);font-size:11px;font-family:inherit}
 .boxes input{margin:0 .3rem 0 0;vertical-align:-.1em}
 .key{display:inline-block;width:1.1em;height:.75em;border:2px solid var(--b);margin-right:.3em}
 .key.open{border-style:dashed}
-.spectrum{image-rendering:pixelated}
-.pairs{display:grid;gap:.4rem;
-grid-template-columns:repeat(auto-fill,minmax(min(45%,11rem),1fr))}
-.pairs svg text{font-size:13px}
-@media screen and (prefers-color-scheme:dark){.density{filter:invert(1)}svg.points{
-isolation:isolate}.density{mix-blend-mode:screen}
-.spectrum{filter:brightness(.92)}}
+@media screen and (prefers-color-scheme:dark){svg{isolation:isolate}
+.inverted{filter:invert(1) hue-rotate(180deg);mix-blend-mode:screen}}
 .tip{position:absolute;z-index:2;pointer-events:none;padding:.35rem .6rem;
 border:1px solid var(--line);border-radius:.3rem;
 background:var(--ground);font-size:.8rem;line-height:1.4;font-variant-numeric:tabular-nums;
@@ -124,7 +105,7 @@ th,td{padding-right:.7rem}table{font-size:.85rem}#comparison th:first-child{max-
 white-space:normal}
 td.number,th.number{padding-right:.25rem;padding-left:.25rem;white-space:normal}
 thead th.number{min-width:0}
-.chart svg text{font-size:17px}.points text{font-size:13px}}
+.chart svg text{font-size:15px}}
 @media print{:root{color-scheme:light;--ground:#fff;--ink:#000;--muted:#444;--line:#bbb;
 --grid:#ddd;--band:#e4e4e4}
 body{max-width:none;padding:0;font-size:9.5pt}nav{position:static;margin:0;padding:.3rem 0;
@@ -132,7 +113,7 @@ max-height:none}nav input,.boxes input{display:none}
 figure,.measure,tr,.verdicts{break-inside:avoid}h2,h3{break-after:avoid}
 section.set{break-before:page}.scroll{overflow:visible;background:none}
 .swatch,.key,td.best{print-color-adjust:exact;-webkit-print-color-adjust:exact}
-.boxes li:has(input:not(:checked)){display:none}.chart svg text{font-size:17px}
+.boxes li:has(input:not(:checked)){display:none}
 .figures{grid-template-columns:1fr 1fr}.picture svg{max-width:100%}#comparison{
 font-size:8pt}
 th,td{white-space:normal;padding-right:.5rem}}
@@ -148,8 +129,8 @@ const char* page_script() {
     box.addEventListener('change', () => body.classList.toggle('hide-' + box.value, !box.checked));
   }
   const show = (figure, box) => {
-    for (const rect of figure.querySelectorAll('rect.box.' + box.dataset.box)) {
-      rect.style.display = box.checked ? '' : 'none';
+    for (const group of figure.querySelectorAll('g.box.' + box.dataset.box)) {
+      group.style.display = box.checked ? '' : 'none';
     }
   };
   for (const figure of document.querySelectorAll('figure')) {
@@ -181,7 +162,10 @@ const char* page_script() {
     const data = JSON.parse(figure.querySelector('script').textContent);
     const svg = figure.querySelector('svg');
     const tip = figure.querySelector('.tip');
-    const rule = figure.querySelector('.rule');
+    const rule = document.createElementNS(svg.namespaceURI, 'path');
+    rule.setAttribute('class', 'rule');
+    rule.setAttribute('d', 'M0 ' + data.top + 'V' + data.bottom);
+    svg.append(rule);
     const hide = () => { tip.hidden = true; rule.style.visibility = 'hidden'; };
     const move = event => {
       const box = svg.getBoundingClientRect();

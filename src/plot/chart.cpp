@@ -115,10 +115,14 @@ Axis y_axis(const ChartPanel& panel, const PictureStyle& style) {
     return axis;
 }
 
-Dash dash_of(std::size_t series) {
-    constexpr std::size_t colours = std::tuple_size_v<decltype(Theme::series)>;
-    const std::size_t turn = series / colours % 3;
+Dash dash_of(std::size_t series, const Theme& theme) {
+    const std::size_t turn = series / theme.series.size() % 3;
     return turn == 0 ? Dash::none : turn == 1 ? Dash::dashed : Dash::dotted;
+}
+
+/// Which of the theme's colours a curve has.
+std::size_t colour_of(const ChartPanel& panel, std::size_t series) {
+    return panel.series[series].set.value_or(series);
 }
 
 std::vector<LegendEntry> legend_of(const ChartPanel& panel, bool sets_named, const Theme& theme) {
@@ -128,8 +132,8 @@ std::vector<LegendEntry> legend_of(const ChartPanel& panel, bool sets_named, con
     for (std::size_t i = 0; named && i < panel.series.size(); ++i)
         entries.push_back({.kind = LegendEntry::Kind::line,
                            .name = panel.series[i].name,
-                           .colour = theme.series_colour(i),
-                           .dash = dash_of(i)});
+                           .colour = theme.series_colour(colour_of(panel, i)),
+                           .dash = dash_of(colour_of(panel, i), theme)});
     for (std::size_t i = 0; named && i < panel.bars.size(); ++i)
         entries.push_back({.kind = LegendEntry::Kind::line,
                            .name = panel.bars[i].name,
@@ -151,16 +155,16 @@ std::vector<LegendEntry> legend_of(const ChartPanel& panel, bool sets_named, con
 
 /// Spots so near to each other that nobody sees them apart are left out: of each column of half a
 /// unit the first, the lowest, the highest and the last remain.
-std::vector<Spot> thinned(const std::vector<Spot>& spots) {
+std::vector<Position> thinned(const std::vector<Position>& spots) {
     if (spots.size() < 4000) return spots;
-    std::vector<Spot> out;
+    std::vector<Position> out;
     for (std::size_t i = 0; i < spots.size();) {
         std::size_t end = i;
         while (end < spots.size() && std::abs(spots[end].x - spots[i].x) < 0.5) ++end;
         const auto first = spots.begin() + static_cast<std::ptrdiff_t>(i);
         const auto last = spots.begin() + static_cast<std::ptrdiff_t>(end);
         const auto [low, high] = std::minmax_element(
-            first, last, [](const Spot& a, const Spot& b) { return a.y < b.y; });
+            first, last, [](const Position& a, const Position& b) { return a.y < b.y; });
         auto kept = std::vector{first, low, high, last - 1};
         std::ranges::sort(kept);
         const auto repeated = std::ranges::unique(kept);
@@ -172,9 +176,9 @@ std::vector<Spot> thinned(const std::vector<Spot>& spots) {
 }
 
 /// Pieces of a curve between its gaps.
-std::vector<std::vector<Spot>> pieces(const Panel& panel, const std::vector<double>& x,
-                                      const std::vector<double>& y) {
-    std::vector<std::vector<Spot>> found(1);
+std::vector<std::vector<Position>> pieces(const Panel& panel, const std::vector<double>& x,
+                                          const std::vector<double>& y) {
+    std::vector<std::vector<Position>> found(1);
     for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i) {
         if (std::isfinite(x[i]) && std::isfinite(y[i]))
             found.back().push_back(panel.at(x[i], y[i]));
@@ -189,7 +193,7 @@ void draw_band(Drawing& drawing, const Panel& panel, const std::vector<double>& 
                const std::vector<double>& low, const std::vector<double>& high, Colour colour,
                double opacity) {
     Patch patch{.spots = {}, .colour = colour, .opacity = opacity};
-    std::vector<Spot> back;
+    std::vector<Position> back;
     const std::size_t size = std::min({x.size(), low.size(), high.size()});
     for (std::size_t i = 0; i < size; ++i) {
         if (!std::isfinite(low[i]) || !std::isfinite(high[i])) continue;
@@ -262,11 +266,22 @@ void draw_rug(Drawing& drawing, const Panel& panel, const std::vector<double>& v
     }
 }
 
+/// Draws all curves, each in the group of its set.
+template <class Draw>
+void for_each_series(Drawing& drawing, const ChartPanel& content, const Draw& draw) {
+    for (std::size_t i = 0; i < content.series.size(); ++i) {
+        const Series& series = content.series[i];
+        if (series.set) drawing.add(SvgGroup{fmt::format("data-set=\"{}\"", *series.set)});
+        draw(series, colour_of(content, i));
+        if (series.set) drawing.add(SvgGroup{});
+    }
+}
+
 void draw_panel(Drawing& drawing, const ChartPanel& content, const Panel& panel,
                 const Theme& theme) {
     panel.draw_grid(drawing, theme);
     const Area& f = panel.frame();
-    drawing.add(Window{.area = {f.left, f.top - 3, f.width + 3, f.height + 3}});
+    drawing.add(ClipWindow{.area = {f.left, f.top - 3, f.width + 3, f.height + 3}});
     for (const Background& band : content.backgrounds)
         draw_band(drawing, panel, band.x, band.low, band.high, theme.band, 1);
     const bool several = content.bars.size() > 1;
@@ -274,20 +289,22 @@ void draw_panel(Drawing& drawing, const ChartPanel& content, const Panel& panel,
         draw_bars(drawing, panel, content.bars[i], theme.series_colour(i));
     for (std::size_t i = 0; several && i < content.bars.size(); ++i)
         draw_steps(drawing, panel, content.bars[i], theme.series_colour(i));
-    for (std::size_t i = 0; i < content.series.size(); ++i)
-        draw_band(drawing, panel, content.series[i].x, content.series[i].low,
-                  content.series[i].high, theme.series_colour(i), 0.25);
+    for_each_series(drawing, content, [&](const Series& series, std::size_t colour) {
+        draw_band(drawing, panel, series.x, series.low, series.high, theme.series_colour(colour),
+                  0.25);
+    });
     for (const Guide& guide : content.guides) draw_guide(drawing, panel, guide, theme.guide);
     draw_rug(drawing, panel, content.rug, theme.ink);
-    for (std::size_t i = 0; i < content.series.size(); ++i)
-        draw_series(drawing, panel, content.series[i], theme.series_colour(i), dash_of(i));
-    drawing.add(Window{.area = {}, .open = true});
+    for_each_series(drawing, content, [&](const Series& series, std::size_t colour) {
+        draw_series(drawing, panel, series, theme.series_colour(colour), dash_of(colour, theme));
+    });
+    drawing.add(ClipWindow{.area = {}, .open = true});
     panel.draw_axes(drawing, theme, false);
 }
 
 /// Where an entry of a legend stands, left to right in rows.
-std::vector<Spot> legend_places(const std::vector<LegendEntry>& entries, double width) {
-    std::vector<Spot> places;
+std::vector<Position> legend_places(const std::vector<LegendEntry>& entries, double width) {
+    std::vector<Position> places;
     double x = 0;
     double y = 0;
     for (const LegendEntry& entry : entries) {
@@ -309,7 +326,7 @@ double legend_height(const std::vector<LegendEntry>& entries, double width) {
     return entries.empty() ? 0 : legend_places(entries, width).back().y + legend_row + 5;
 }
 
-void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Spot top_left,
+void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Position top_left,
                  double width, const Theme& theme) {
     using Kind = LegendEntry::Kind;
     const auto places = legend_places(entries, width);
@@ -364,7 +381,7 @@ std::pair<Axis, Axis> chart_axes(const Chart& chart, std::size_t panel, const Pi
     return axes;
 }
 
-Drawing draw_chart(const Chart& chart, const PictureStyle& style) {
+Drawing draw_chart(const Chart& chart, const PictureStyle& style, std::vector<Area>* frames) {
     const Theme& theme = *style.theme;
     const auto more_panels = static_cast<double>(chart.panels.size() - 1);
     Drawing drawing{.width = style.width > 0 ? style.width : 720,
@@ -400,6 +417,7 @@ Drawing draw_chart(const Chart& chart, const PictureStyle& style) {
         Axis across = x;
         across.numbers = i + 1 == chart.panels.size();
         const Area frame{left, y, width, std::floor(unit * panel.share)};
+        if (frames != nullptr) frames->push_back(frame);
         draw_panel(drawing, panel, Panel(frame, across, y_axis(panel, style)), theme);
         y = frame.bottom() + panel_gap;
     }

@@ -17,7 +17,7 @@ namespace stipple {
 /// Space between a picture's edge and what is drawn, in units of a drawing.
 constexpr double picture_margin = 14;
 
-/// How a picture is to look. Sizes in units of a drawing; 0: as suits the picture.
+/// How a picture looks. Sizes in units of a drawing; 0: automatic.
 struct PictureStyle {
     const Theme* theme = &light_theme;
     double width = 0;
@@ -36,6 +36,8 @@ struct Series {
     std::vector<double> high = {};
     bool marks = false;  ///< a disk at each value
     bool line = true;
+    std::size_t measurement = 0;          ///< that it is of, where it is of one
+    std::optional<std::size_t> set = {};  ///< gives its colour, and its group in a page
 };
 
 /// What lies behind the curves: what chance allows.
@@ -86,8 +88,10 @@ struct Chart {
     std::vector<ChartPanel> panels = {};
 };
 
+/// @param frames if not null, gets where the panels are
 /// @throws Error(usage) where the height asked for leaves no room.
-Drawing draw_chart(const Chart& chart, const PictureStyle& style);
+Drawing draw_chart(const Chart& chart, const PictureStyle& style,
+                   std::vector<Area>* frames = nullptr);
 
 /// The axes of a panel, as they are drawn.
 std::pair<Axis, Axis> chart_axes(const Chart& chart, std::size_t panel, const PictureStyle& style);
@@ -107,7 +111,7 @@ struct LegendEntry {
 
 /// Height of a legend in rows as wide as `width`.
 double legend_height(const std::vector<LegendEntry>& entries, double width);
-void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Spot top_left,
+void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Position top_left,
                  double width, const Theme& theme);
 
 /// A histogram in so many bins of one width, over [low, high]; heights are shares over the width.

@@ -28,10 +28,10 @@ class Tracer {
                 inside_.push_back(inside(node(i, j)) ? 1 : 0);
     }
 
-    std::vector<std::vector<Spot>> trace() {
+    std::vector<std::vector<Position>> trace() {
         for (std::size_t j = 0; j < cells_a_side; ++j)
             for (std::size_t i = 0; i < cells_a_side; ++i) cross_cell(i, j);
-        std::vector<std::vector<Spot>> lines;
+        std::vector<std::vector<Position>> lines;
         while (!next_.empty()) lines.push_back(follow());
         return lines;
     }
@@ -45,12 +45,12 @@ class Tracer {
         auto operator<=>(const Edge&) const = default;
     };
 
-    [[nodiscard]] bool inside(Spot p) const {
+    [[nodiscard]] bool inside(Position p) const {
         const std::array<double, 2> point = {p.x, p.y};
         return domain_.contains(point);
     }
 
-    [[nodiscard]] Spot node(std::size_t i, std::size_t j) const {
+    [[nodiscard]] Position node(std::size_t i, std::size_t j) const {
         const auto along = [&](std::size_t k, std::size_t at) {
             return box_.low[k] + box_.extent(k) * static_cast<double>(at) / cells_a_side;
         };
@@ -62,17 +62,18 @@ class Tracer {
     }
 
     /// Where the rim is between two spots of which the first is inside.
-    [[nodiscard]] Spot rim_between(Spot in, Spot out) const {
+    [[nodiscard]] Position rim_between(Position in, Position out) const {
         for (int halving = 0; halving < 30; ++halving) {
-            const Spot middle{(in.x + out.x) / 2, (in.y + out.y) / 2};
+            const Position middle{(in.x + out.x) / 2, (in.y + out.y) / 2};
             (inside(middle) ? in : out) = middle;
         }
         return in;
     }
 
-    [[nodiscard]] Spot rim_on(const Edge& edge) const {
-        const Spot a = node(edge.i, edge.j);
-        const Spot b = edge.direction == 0 ? node(edge.i + 1, edge.j) : node(edge.i, edge.j + 1);
+    [[nodiscard]] Position rim_on(const Edge& edge) const {
+        const Position a = node(edge.i, edge.j);
+        const Position b =
+            edge.direction == 0 ? node(edge.i + 1, edge.j) : node(edge.i, edge.j + 1);
         return inside_at(edge.i, edge.j) ? rim_between(a, b) : rim_between(b, a);
     }
 
@@ -106,8 +107,8 @@ class Tracer {
         for (const Way& way : ways[corners]) next_.emplace(sides[way.from], sides[way.to]);
     }
 
-    std::vector<Spot> follow() {
-        std::vector<Spot> line;
+    std::vector<Position> follow() {
+        std::vector<Position> line;
         Edge at = next_.begin()->first;
         line.push_back(rim_on(at));
         for (auto step = next_.find(at); step != next_.end(); step = next_.find(at)) {
@@ -120,11 +121,11 @@ class Tracer {
 
     /// Adds the way from the line's end to `to`, halving it where the rim is beside it: round a
     /// corner, along a bend.
-    void refine(std::vector<Spot>& line, Spot to, int depth) const {
-        const Spot from = line.back();
-        const Spot middle{(from.x + to.x) / 2, (from.y + to.y) / 2};
+    void refine(std::vector<Position>& line, Position to, int depth) const {
+        const Position from = line.back();
+        const Position middle{(from.x + to.x) / 2, (from.y + to.y) / 2};
         const double reach = std::hypot(to.x - from.x, to.y - from.y);
-        const std::optional<Spot> rim = depth > 0 ? rim_beside(middle, from, to) : std::nullopt;
+        const std::optional<Position> rim = depth > 0 ? rim_beside(middle, from, to) : std::nullopt;
         const bool beside = rim && std::hypot(rim->x - middle.x, rim->y - middle.y) > fineness_ &&
                             reach > fineness_;
         if (beside) {
@@ -136,10 +137,11 @@ class Tracer {
     }
 
     /// The rim at right angles to a piece, as far from its middle as the piece is long, at most.
-    [[nodiscard]] std::optional<Spot> rim_beside(Spot middle, Spot from, Spot to) const {
+    [[nodiscard]] std::optional<Position> rim_beside(Position middle, Position from,
+                                                     Position to) const {
         const bool middle_inside = inside(middle);
         const double turn = middle_inside ? 1 : -1;  // the inside is on the left
-        const Spot far{middle.x + turn * (to.y - from.y), middle.y - turn * (to.x - from.x)};
+        const Position far{middle.x + turn * (to.y - from.y), middle.y - turn * (to.x - from.x)};
         if (inside(far) == middle_inside) return std::nullopt;
         return middle_inside ? rim_between(middle, far) : rim_between(far, middle);
     }
@@ -153,7 +155,7 @@ class Tracer {
 
 }  // namespace
 
-std::vector<std::vector<Spot>> outline_of(const Domain& domain) {
+std::vector<std::vector<Position>> outline_of(const Domain& domain) {
     if (domain.dimension() != 2) return {};
     const Box box = domain.bounding_box();
     for (std::size_t k = 0; k < 2; ++k)

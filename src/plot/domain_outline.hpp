@@ -18,6 +18,6 @@ namespace stipple {
 
 /// Lines along the rim, in the domain's coordinates; none where the domain has no inside (a circle)
 /// or no end.
-std::vector<std::vector<Spot>> outline_of(const Domain& domain);
+std::vector<std::vector<Position>> outline_of(const Domain& domain);
 
 }  // namespace stipple

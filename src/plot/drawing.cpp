@@ -12,7 +12,7 @@ Colour mixed(Colour a, Colour b, double share) {
     return {mix(a.red, b.red), mix(a.green, b.green), mix(a.blue, b.blue)};
 }
 
-void Drawing::line(Spot from, Spot to, Colour colour, double width_of_line) {
+void Drawing::line(Position from, Position to, Colour colour, double width_of_line) {
     add(Line{.spots = {from, to}, .colour = colour, .width = width_of_line, .crisp = true});
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A picture as a list of shapes, in units of which one is a pixel on a plain screen; x to the
-// right, y downward. What draws it is svg_bytes, for pages and print, or png_bytes_of, pixel by
-// pixel.
+// right, y downward. It is written as SVG (svg_bytes, svg_element) or as pixels (png_bytes_of).
 //
 // Promise the same drawing gives the same bytes.
 #pragma once
@@ -25,10 +24,10 @@ struct Colour {
 /// a + share (b - a).
 Colour mixed(Colour a, Colour b, double share);
 
-struct Spot {
+struct Position {
     double x = 0;
     double y = 0;
-    bool operator==(const Spot&) const = default;
+    bool operator==(const Position&) const = default;
 };
 
 /// An upright rectangle.
@@ -46,7 +45,7 @@ enum class Dash { none, dashed, dotted };
 
 /// A line through spots; crisp: of whole pixels, for lines along the axes.
 struct Line {
-    std::vector<Spot> spots;
+    std::vector<Position> spots;
     Colour colour = {};
     double width = 1;
     Dash dash = Dash::none;
@@ -55,14 +54,14 @@ struct Line {
 
 /// The inside of a closed line.
 struct Patch {
-    std::vector<Spot> spots;
+    std::vector<Position> spots;
     Colour colour = {};
     double opacity = 1;
 };
 
 /// Disks of one size.
 struct Disks {
-    std::vector<Spot> centres;
+    std::vector<Position> centres;
     double radius = 1;
     Colour colour = {};
     double opacity = 1;
@@ -73,7 +72,7 @@ enum class Anchor { start, middle, end };
 /// A line of text; `at` is on its base line. Upward: read from below, for the axis on the left.
 struct Label {
     std::string text;
-    Spot at;
+    Position at;
     double size = 12;
     Colour colour = {};
     Anchor anchor = Anchor::start;
@@ -82,7 +81,7 @@ struct Label {
 };
 
 /// Pixels, row after row from the top, stretched to an area; each stays a sharp square.
-struct Raster {
+struct PixelImage {
     Area area;
     std::size_t columns = 0;
     std::size_t rows = 0;
@@ -90,12 +89,17 @@ struct Raster {
 };
 
 /// What follows is seen inside of the area only, up to the next one; without an area: everywhere.
-struct Window {
+struct ClipWindow {
     Area area;
     bool open = false;  ///< everywhere
 };
 
-using Shape = std::variant<Line, Patch, Disks, Label, Raster, Window>;
+/// What follows is one group of a page's SVG, up to the next one; of files it changes nothing.
+struct SvgGroup {
+    std::string attributes;  ///< of its element: class="box star"; empty: no group
+};
+
+using Shape = std::variant<Line, Patch, Disks, Label, PixelImage, ClipWindow, SvgGroup>;
 
 struct Drawing {
     double width = 0;
@@ -109,7 +113,7 @@ struct Drawing {
     void add(S shape) {
         shapes.emplace_back(std::in_place_type<S>, std::move(shape));
     }
-    void line(Spot from, Spot to, Colour colour, double width_of_line = 1);
+    void line(Position from, Position to, Colour colour, double width_of_line = 1);
     void rectangle(const Area& area, Colour colour);
 };
 
@@ -119,8 +123,9 @@ using PictureNotes = std::vector<std::pair<std::string, std::string>>;
 /// As SVG 1.1; text is text. One unit is `scale` pixels.
 std::string svg_bytes(const Drawing& drawing, double scale, const PictureNotes& notes = {});
 
-/// The same as an `svg` element without the XML head, to stand in a page.
-std::string svg_element(const Drawing& drawing, double scale, const PictureNotes& notes = {});
+/// As an element of a page, in the colours of the first where the page is light, of the second
+/// where it is dark; the label says in words what is drawn. Both have the same shapes.
+std::string svg_element(const Drawing& light, const Drawing& dark, const std::string& label);
 
 /// As PNG, one unit `scale` pixels. @throws Error(limit) for one that is too large.
 std::string png_bytes_of(const Drawing& drawing, double scale, const PictureNotes& notes = {});

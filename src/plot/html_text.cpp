@@ -4,36 +4,28 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "core/text.hpp"
 #include "plot/letters.hpp"
 
 namespace stipple {
 
+std::string xml_text(std::string_view text) {
+    std::string out = clean_text(text);
+    replace_all(out, "&", "&amp;");
+    replace_all(out, "<", "&lt;");
+    replace_all(out, ">", "&gt;");
+    return out;
+}
+
 std::string html_text(std::string_view text) {
-    std::string out;
-    for (const char c : clean_text(text)) {
-        if (c == '<')
-            out += "&lt;";
-        else if (c == '>')
-            out += "&gt;";
-        else if (c == '&')
-            out += "&amp;";
-        else if (c == '"')
-            out += "&quot;";
-        else
-            out += c;
-    }
+    std::string out = xml_text(text);
+    replace_all(out, "\"", "&quot;");
     return out;
 }
 
 std::string html_json(std::string_view json) {
-    std::string out;
-    out.reserve(json.size());
-    for (const char c : json) {
-        if (c == '<')
-            out += "\\u003c";
-        else
-            out += c;
-    }
+    std::string out(json);
+    replace_all(out, "<", "\\u003c");
     return out;
 }
 

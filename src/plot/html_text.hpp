@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Text and bytes as they stand in a page of HTML.
+// Text and bytes as they stand in HTML and SVG.
 #pragma once
 
 #include <string>
@@ -8,7 +8,10 @@
 
 namespace stipple {
 
-/// Text between tags or in an attribute's double quotes: UTF-8 without control letters.
+/// Text between tags: UTF-8 without control characters.
+std::string xml_text(std::string_view text);
+
+/// The same, also for an attribute in double quotes.
 std::string html_text(std::string_view text);
 
 /// JSON as it may stand within a script element, which a "</script" in a string would end.

@@ -209,10 +209,10 @@ class Pen {
   public:
     explicit Pen(std::string_view path) : at_(path.data()), end_(at_ + path.size()) {}
 
-    std::vector<std::vector<Spot>> draw() {
+    std::vector<std::vector<Position>> draw() {
         while (at_ != end_) {
             const char command = *at_++;
-            const Spot spot = read_spot();
+            const Position spot = read_spot();
             if (command == 'M') strokes_.emplace_back();
             if (command == 'Q')
                 turn(spot, read_spot());
@@ -230,16 +230,16 @@ class Pen {
         return value;
     }
 
-    Spot read_spot() {
+    Position read_spot() {
         const double x = read();
         return {x, read()};
     }
 
     /// A rational curve of weight sqrt(1/2): a quarter of a circle or an ellipse where the tangents
     /// are at right angles.
-    void turn(Spot corner, Spot end) {
+    void turn(Position corner, Position end) {
         constexpr int steps = 8;
-        const Spot start = strokes_.back().back();
+        const Position start = strokes_.back().back();
         for (int i = 1; i <= steps; ++i) {
             const double t = static_cast<double>(i) / steps;
             const double a = (1 - t) * (1 - t);
@@ -253,7 +253,7 @@ class Pen {
 
     const char* at_;
     const char* end_;
-    std::vector<std::vector<Spot>> strokes_;
+    std::vector<std::vector<Position>> strokes_;
 };
 
 /// Bytes that follow the first one of a letter in UTF-8, or nothing for what begins none.
@@ -329,12 +329,13 @@ double advance_of(char32_t letter) {
     return size * em_units * plain_glyph(plain.value_or(letter)).advance / 1000;
 }
 
-std::vector<std::vector<Spot>> strokes_of(char32_t letter) {
+std::vector<std::vector<Position>> strokes_of(char32_t letter) {
     const auto plain = lowered(letter);
     auto strokes = Pen(plain_glyph(plain.value_or(letter)).path).draw();
     if (!plain) return strokes;
     for (auto& stroke : strokes)
-        for (Spot& spot : stroke) spot = {spot.x * raised_size, spot.y * raised_size + raised_by};
+        for (Position& spot : stroke)
+            spot = {spot.x * raised_size, spot.y * raised_size + raised_by};
     return strokes;
 }
 

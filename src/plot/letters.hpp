@@ -29,7 +29,7 @@ std::string clean_text(std::string_view text);
 double advance_of(char32_t letter);
 
 /// The letter's strokes; a box for one that is not known.
-std::vector<std::vector<Spot>> strokes_of(char32_t letter);
+std::vector<std::vector<Position>> strokes_of(char32_t letter);
 
 /// Width of a line of text of that size.
 double text_width(std::string_view text, double size);

@@ -40,7 +40,9 @@ class Panel {
     [[nodiscard]] const Area& frame() const { return frame_; }
     [[nodiscard]] double x(double value) const;
     [[nodiscard]] double y(double value) const;
-    [[nodiscard]] Spot at(double x_value, double y_value) const { return {x(x_value), y(y_value)}; }
+    [[nodiscard]] Position at(double x_value, double y_value) const {
+        return {x(x_value), y(y_value)};
+    }
 
     /// Faint lines behind the data.
     void draw_grid(Drawing& drawing, const Theme& theme) const;

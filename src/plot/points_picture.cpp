@@ -65,11 +65,11 @@ double share_of_box(const PointSet& set) {
 }
 
 /// Puts a point of a set at its place in the drawing.
-using Place = std::function<Spot(std::span<const double>)>;
+using Place = std::function<Position(std::span<const double>)>;
 
 /// How many points there are in the squares of a raster.
 struct Tally {
-    Raster raster;
+    PixelImage raster;
     std::vector<std::uint64_t> counts;
 
     [[nodiscard]] double largest() const {
@@ -92,8 +92,8 @@ class Cloud {
         : picture_(picture), theme_(*style.theme), run_(run) {}
 
     [[nodiscard]] bool as_disks() const {
-        return picture_.marking == Marking::disks ||
-               (picture_.marking == Marking::automatic && points_of(picture_) <= most_disks);
+        return picture_.marking == Marking::disks || (picture_.marking == Marking::automatic &&
+                                                      points_of(picture_) <= picture_.most_disks);
     }
 
     /// Whether a frame of a size shows counts: where single points would fill most of it.
@@ -124,7 +124,7 @@ class Cloud {
 
     /// A pixel for each point, half a unit wide.
     void specks(Drawing& drawing, const Area& area, const Place& place) const {
-        Raster raster = empty_raster(area, 0.5);
+        PixelImage raster = empty_raster(area, 0.5);
         for (std::size_t s = 0; s < picture_.sets.size(); ++s)
             for_each_bin(*picture_.sets[s], raster, place,
                          [&](std::size_t bin) { raster.pixels[bin] = theme_.series_colour(s); });
@@ -164,17 +164,17 @@ class Cloud {
     }
 
   private:
-    [[nodiscard]] Raster empty_raster(const Area& area, double side) const {
-        Raster raster{.area = area,
-                      .columns = static_cast<std::size_t>(std::ceil(area.width / side)),
-                      .rows = static_cast<std::size_t>(std::ceil(area.height / side)),
-                      .pixels = {}};
+    [[nodiscard]] PixelImage empty_raster(const Area& area, double side) const {
+        PixelImage raster{.area = area,
+                          .columns = static_cast<std::size_t>(std::ceil(area.width / side)),
+                          .rows = static_cast<std::size_t>(std::ceil(area.height / side)),
+                          .pixels = {}};
         raster.pixels.assign(raster.columns * raster.rows, theme_.ground);
         return raster;
     }
 
     template <class Visit>
-    void for_each_bin(const PointSet& set, const Raster& raster, const Place& place,
+    void for_each_bin(const PointSet& set, const PixelImage& raster, const Place& place,
                       const Visit& visit) const {
         constexpr std::size_t patience = 65536;
         const Area& a = raster.area;
@@ -182,7 +182,7 @@ class Cloud {
         const auto rows = static_cast<double>(raster.rows);
         for (std::size_t i = 0; i < set.count(); ++i) {
             if (i % patience == 0) run_.tick(i, set.count());
-            const Spot spot = place(set[i]);
+            const Position spot = place(set[i]);
             const double x = (spot.x - a.left) / a.width * columns;
             const double y = (spot.y - a.top) / a.height * rows;
             if (!(x >= 0 && x <= columns && y >= 0 && y <= rows)) continue;
@@ -233,8 +233,28 @@ void draw_rim(Drawing& drawing, const PointsPicture& picture, const Panel& panel
     if (is_box(first)) return;
     for (const auto& line : outline_of(*first.domain)) {
         Line rim{.spots = {}, .colour = theme.frame, .width = 1};
-        for (const Spot& spot : line) rim.spots.push_back(panel.at(spot.x, spot.y));
+        for (const Position& spot : line) rim.spots.push_back(panel.at(spot.x, spot.y));
         drawing.add(std::move(rim));
+    }
+}
+
+/// The boxes as they lie in the plane of two coordinates.
+void draw_boxes(Drawing& drawing, const PointsPicture& picture, const Panel& panel, std::size_t i,
+                std::size_t j) {
+    for (const MarkedBox& box : picture.boxes) {
+        drawing.add(SvgGroup{box.attributes});
+        for (const auto& [x0, x1] : box.ranges[i])
+            for (const auto& [y0, y1] : box.ranges[j]) {
+                std::vector<Position> corners = {panel.at(x0, y0), panel.at(x1, y0),
+                                                 panel.at(x1, y1), panel.at(x0, y1)};
+                drawing.add(Patch{.spots = corners, .colour = box.colour, .opacity = 0.1});
+                corners.push_back(corners[0]);
+                drawing.add(Line{.spots = std::move(corners),
+                                 .colour = box.colour,
+                                 .width = 1.6,
+                                 .dash = box.closed ? Dash::none : Dash::dashed});
+            }
+        drawing.add(SvgGroup{});
     }
 }
 
@@ -280,6 +300,7 @@ Drawing draw_plane(const PointsPicture& picture, const PictureStyle& style, cons
     panel.draw_axes(drawing, theme, true);
     draw_rim(drawing, picture, panel, theme);
     if (cloud.as_disks()) cloud.disks(drawing, frame, place);
+    draw_boxes(drawing, picture, panel, 0, 1);
     return std::move(page.drawing);
 }
 
@@ -298,11 +319,11 @@ struct Scene {
     double left = 0;
     double top = 0;
 
-    [[nodiscard]] Spot at(std::span<const double> point) const {
+    [[nodiscard]] Position at(std::span<const double> point) const {
         const Seen seen = seen_at(box, point);
         return {left + scale * seen.right, top - scale * seen.up};
     }
-    [[nodiscard]] Spot at(double a, double b, double c) const {
+    [[nodiscard]] Position at(double a, double b, double c) const {
         const auto point = corner(box, a, b, c);
         return at(point);
     }
@@ -348,7 +369,7 @@ void draw_edges(Drawing& drawing, const Scene& scene, const Theme& theme, bool f
 
 /// Names, and the numbers at the ends, of the three edges that are free to the outside.
 void draw_ends(Drawing& drawing, const Scene& scene, const Theme& theme) {
-    const auto put = [&](Spot at, double dx, double dy, const std::string& text, Anchor anchor,
+    const auto put = [&](Position at, double dx, double dy, const std::string& text, Anchor anchor,
                          bool name) {
         drawing.add(Label{.text = text,
                           .at = {at.x + dx, at.y + dy},
@@ -459,7 +480,7 @@ class PairSheet {
           page_(picture, style, 800),
           box_(shown_box(picture.sets)),
           names_(coordinate_names(picture.sets[0]->dimension())),
-          shown_(std::min(box_.dimension(), most_pair_coordinates)) {
+          shown_(std::min(box_.dimension(), picture.most_coordinates)) {
         if (!frame_is_rim(picture)) widen(box_, 0.03);
         const auto columns = static_cast<double>(shown_ - 1);
         double room = 0;
@@ -535,6 +556,7 @@ class PairSheet {
         if (!dense && !cloud_.as_disks()) cloud_.specks(page_.drawing, frame, place(here, i, j));
         here.draw_axes(page_.drawing, theme_, true);
         if (cloud_.as_disks()) cloud_.disks(page_.drawing, frame, place(here, i, j));
+        draw_boxes(page_.drawing, picture_, here, i, j);
     }
 
     const PointsPicture& picture_;
@@ -640,8 +662,12 @@ Drawing draw_points(const PointsPicture& picture, const PictureStyle& style,
         case 3:
             return draw_space(picture, style, run);
         default:
-            return PairSheet(picture, style, run).draw();
+            return draw_pairs(picture, style, run);
     }
+}
+
+Drawing draw_pairs(const PointsPicture& picture, const PictureStyle& style, const RunContext& run) {
+    return PairSheet(picture, style, run).draw();
 }
 
 }  // namespace stipple

@@ -7,9 +7,8 @@
 //     d = 3   the same from a fixed place, in a box; what is far is paler and smaller
 //     d > 3   every pair of the first 8 coordinates in a panel of its own
 //
-// What are more disks than eyes tell apart are pixels: one for each point, until (at some 300 000
-// in one frame) they would fill it, then their density. Several sets lie over each other, in
-// colours.
+// Too many disks to tell apart become pixels: one for each point, until (at some 300 000 in one
+// frame) they would fill it; then a density. Several sets are drawn over each other, in colours.
 #pragma once
 
 #include <span>
@@ -23,11 +22,19 @@
 namespace stipple {
 
 inline constexpr std::size_t most_pair_coordinates = 8;
-inline constexpr std::size_t most_disks = 20'000;  ///< above, points are pixels
 inline constexpr double density_share = 0.75;  ///< of points to a frame's area, for their density
 
 /// How points are marked.
 enum class Marking { automatic, disks, density };
+
+/// A box of the points' space that is drawn over them: along each axis the ranges that it takes,
+/// several where it goes on from one end of a periodic axis to the other.
+struct MarkedBox {
+    std::string attributes;  ///< of its group in a page
+    std::vector<std::vector<std::pair<double, double>>> ranges;
+    Colour colour = {};
+    bool closed = true;  ///< drawn with a solid line; else dashed
+};
 
 struct PointsPicture {
     std::vector<const PointSet*> sets;  ///< of one dimension, none empty
@@ -35,6 +42,9 @@ struct PointsPicture {
     std::string title;
     std::string subtitle = {};
     Marking marking = Marking::automatic;
+    std::vector<MarkedBox> boxes = {};
+    std::size_t most_disks = 20'000;                       ///< above, points are pixels
+    std::size_t most_coordinates = most_pair_coordinates;  ///< of which pairs are drawn
 };
 
 /// The box that a picture of the sets shows: their domain's and all points. Points that are told to
@@ -51,6 +61,9 @@ struct Seen {
 Seen seen_at(const Box& box, std::span<const double> point);
 
 Drawing draw_points(const PointsPicture& picture, const PictureStyle& style, const RunContext& run);
+
+/// Every pair of the first coordinates in a panel of its own, of two or more.
+Drawing draw_pairs(const PointsPicture& picture, const PictureStyle& style, const RunContext& run);
 
 /// The histogram of each coordinate in a panel of its own, at most 6 of them.
 Chart histogram_chart(const PointsPicture& picture);

@@ -38,7 +38,7 @@ constexpr double most_pixels = 2.5e8;
 /// A number of a pixel, far outside of every picture at most.
 int pixel(double x) { return static_cast<int>(std::clamp(x, -1e6, 1e6)); }
 
-double squared_distance(Spot p, Spot a, Spot b) {
+double squared_distance(Position p, Position a, Position b) {
     const double dx = b.x - a.x;
     const double dy = b.y - a.y;
     const double length = dx * dx + dy * dy;
@@ -50,13 +50,14 @@ double squared_distance(Spot p, Spot a, Spot b) {
 }
 
 /// The strokes of a dashed line; the pattern in units of its drawing.
-std::vector<std::vector<Spot>> dashes_of(const std::vector<Spot>& spots, double on, double off) {
-    std::vector<std::vector<Spot>> dashes;
+std::vector<std::vector<Position>> dashes_of(const std::vector<Position>& spots, double on,
+                                             double off) {
+    std::vector<std::vector<Position>> dashes;
     double left = on;
     bool drawn = true;
     dashes.push_back({spots[0]});
     for (std::size_t i = 1; i < spots.size(); ++i) {
-        Spot at = spots[i - 1];
+        Position at = spots[i - 1];
         double length = std::hypot(spots[i].x - at.x, spots[i].y - at.y);
         while (length > left) {
             const double share = left / length;
@@ -103,15 +104,16 @@ class Painter {
     }
 
     void operator()(const Patch& patch) {
-        std::vector<Spot> spots;
-        for (const Spot& spot : patch.spots) spots.push_back({spot.x * scale_, spot.y * scale_});
+        std::vector<Position> spots;
+        for (const Position& spot : patch.spots)
+            spots.push_back({spot.x * scale_, spot.y * scale_});
         fill(spots);
         mix(patch.colour, patch.opacity);
     }
 
     void operator()(const Disks& disks) {
         const double radius = disks.radius * scale_;
-        for (const Spot& centre : disks.centres) {
+        for (const Position& centre : disks.centres) {
             stroke({centre, centre}, 2 * radius);
             mix(disks.colour, disks.opacity);
         }
@@ -124,11 +126,11 @@ class Painter {
         const double pen = (label.bold ? 3.3 : 2.3) * unit * scale_;
         for (const char32_t letter : letters_of(label.text)) {
             for (auto& points : strokes_of(letter)) {
-                for (Spot& spot : points) {
+                for (Position& spot : points) {
                     const double right = x + spot.x * unit;
                     const double down = -spot.y * unit;
-                    spot = label.upward ? Spot{label.at.x + down, label.at.y - right}
-                                        : Spot{label.at.x + right, label.at.y + down};
+                    spot = label.upward ? Position{label.at.x + down, label.at.y - right}
+                                        : Position{label.at.x + right, label.at.y + down};
                 }
                 stroke(points, pen);
             }
@@ -137,7 +139,7 @@ class Painter {
         mix(label.colour, 1);
     }
 
-    void operator()(const Raster& raster) {
+    void operator()(const PixelImage& raster) {
         const Area& a = raster.area;
         const double left = std::round(a.left * scale_);
         const double top = std::round(a.top * scale_);
@@ -153,7 +155,9 @@ class Painter {
                     mean_colour(raster, (x - left) * step_x, (y - top) * step_y, step_x, step_y);
     }
 
-    void operator()(const Window& window) {
+    void operator()(const SvgGroup&) {}
+
+    void operator()(const ClipWindow& window) {
         window_ = {0, 0, width_, height_};
         if (window.open) return;
         const Area& a = window.area;
@@ -185,8 +189,8 @@ class Painter {
     /// A line along an axis, of whole pixels.
     void crisp(const Line& line) {
         const double wide = std::max(1.0, std::round(line.width * scale_));
-        const Spot a{line.spots[0].x * scale_, line.spots[0].y * scale_};
-        const Spot b{line.spots[1].x * scale_, line.spots[1].y * scale_};
+        const Position a{line.spots[0].x * scale_, line.spots[0].y * scale_};
+        const Position b{line.spots[1].x * scale_, line.spots[1].y * scale_};
         const bool across = a.y == b.y;
         const double at = std::floor((across ? a.y : a.x) + 0.5 * (scale_ - wide));
         const double from = std::floor(across ? std::min(a.x, b.x) : std::min(a.y, b.y));
@@ -199,14 +203,14 @@ class Painter {
     }
 
     /// Marks what a pen of `wide` pixels covers on its way through spots of the drawing.
-    void stroke(const std::vector<Spot>& spots, double wide) {
+    void stroke(const std::vector<Position>& spots, double wide) {
         if (spots.size() == 1) stroke_piece(spots[0], spots[0], wide);
         for (std::size_t i = 1; i < spots.size(); ++i) stroke_piece(spots[i - 1], spots[i], wide);
     }
 
-    void stroke_piece(Spot from, Spot to, double wide) {
-        const Spot a{from.x * scale_, from.y * scale_};
-        const Spot b{to.x * scale_, to.y * scale_};
+    void stroke_piece(Position from, Position to, double wide) {
+        const Position a{from.x * scale_, from.y * scale_};
+        const Position b{to.x * scale_, to.y * scale_};
         const double reach = wide / 2 + 0.5;
         // A pen thinner than a pixel marks that share of it.
         const double most = std::min(1.0, wide);
@@ -228,11 +232,11 @@ class Painter {
 
     /// Marks the inside of a closed line of spots in pixels; what is inside an even number of times
     /// is outside.
-    void fill(const std::vector<Spot>& spots) {
+    void fill(const std::vector<Position>& spots) {
         constexpr int rows_in_pixel = 4;
         double top = std::numeric_limits<double>::infinity();
         double bottom = -top;
-        for (const Spot& spot : spots) {
+        for (const Position& spot : spots) {
             top = std::min(top, spot.y);
             bottom = std::max(bottom, spot.y);
         }
@@ -243,8 +247,8 @@ class Painter {
             const double y = (row + 0.5) / rows_in_pixel;
             crossings.clear();
             for (std::size_t i = 0; i < spots.size(); ++i) {
-                const Spot a = spots[i];
-                const Spot b = spots[(i + 1) % spots.size()];
+                const Position a = spots[i];
+                const Position b = spots[(i + 1) % spots.size()];
                 if ((a.y <= y) != (b.y <= y))
                     crossings.push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
             }
@@ -288,7 +292,7 @@ class Painter {
     }
 
     /// The mean over pixels of the raster from (x, y) on, at least the one that it is in.
-    static Colour mean_colour(const Raster& raster, double x, double y, double step_x,
+    static Colour mean_colour(const PixelImage& raster, double x, double y, double step_x,
                               double step_y) {
         // The middle of what is shown decides where a pixel of the raster is larger.
         const auto range = [](double from, double step, std::size_t size) {

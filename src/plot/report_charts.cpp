@@ -76,6 +76,7 @@ std::vector<Series> series_of(Measurements ms, const std::string& group, const s
         const auto ys = curve_at(ms[i].results, group + y);
         if (!xs || !ys || xs->empty() || xs->size() != ys->size()) continue;
         Series series{.name = names[i], .x = *xs, .y = *ys};
+        series.measurement = i;
         add_band(series, ms[i], group, y);
         found.push_back(std::move(series));
     }

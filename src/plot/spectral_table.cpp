@@ -9,6 +9,16 @@ namespace {
 
 constexpr std::size_t least_side = 9;  ///< smaller tables may be points
 
+/// Whether the middle number can be the power at frequency zero, (sum of w)^2 / (sum of w^2), which
+/// is at least 1 and no less than any other power; a set of one point has the power 1 everywhere.
+bool is_power(std::span<const double> v) {
+    constexpr double rounding = 1e-6;
+    const double centre = v[v.size() / 2];
+    const auto [low, high] = std::ranges::minmax(v);
+    if (centre < 1 - rounding || high > centre * (1 + rounding)) return false;
+    return centre > 1 + rounding || low > 1 - rounding;
+}
+
 bool is_side(std::size_t side) { return side % 2 == 1 && side >= least_side; }
 
 /// Whether the numbers are those of a table about its middle.
@@ -46,24 +56,32 @@ Grid grid_of(const PointSet& table, std::size_t rows) {
 }  // namespace
 
 bool looks_like_power(const Grid& grid) {
-    return grid.rows == grid.columns && is_side(grid.rows) && is_symmetric(grid.values);
+    return grid.rows == grid.columns && is_side(grid.rows) && is_symmetric(grid.values) &&
+           is_power(grid.values);
+}
+
+bool looks_like_differences(const Grid& grid) {
+    return grid.rows == grid.columns && is_side(grid.rows) && is_symmetric(grid.values) &&
+           grid.values[grid.values.size() / 2] == 0 && std::ranges::max(grid.values) > 0;
 }
 
 std::optional<SpectralTable> spectral_table(std::span<const PointSet* const> sets) {
     const PointSet& first = *sets[0];
     if (!first.provenance.generator.empty()) return std::nullopt;
     if (sets.size() > 1) {
-        if (!is_cube(sets)) return std::nullopt;
+        if (!is_cube(sets) || !is_power(sets[sets.size() / 2]->flat())) return std::nullopt;
         return SpectralTable{.dimension = 3,
                              .values = grid_of(*sets[sets.size() / 2], sets.size())};
     }
     if (first.dimension() == 1) {
-        if (!is_side(first.count()) || !is_symmetric(first.flat())) return std::nullopt;
+        const auto values = first.flat();
+        if (!is_side(first.count()) || !is_symmetric(values) || !is_power(values))
+            return std::nullopt;
         return SpectralTable{.dimension = 1, .values = grid_of(first, 1)};
     }
     Grid grid = grid_of(first, first.count());
-    if (!looks_like_power(grid)) return std::nullopt;
-    const bool differences = grid.values[grid.values.size() / 2] == 0;
+    const bool differences = looks_like_differences(grid);
+    if (!differences && !looks_like_power(grid)) return std::nullopt;
     return SpectralTable{.differences = differences, .values = std::move(grid)};
 }
 

@@ -6,19 +6,18 @@
 
 #include "core/error.hpp"
 #include "plot/colour_bar.hpp"
+#include "report/grid_files.hpp"
 
 namespace stipple {
 namespace {
 
-double share(double power) { return power < 1e300 ? power / (1 + power) : 1; }
-
 Colour grey(double power) {
-    const auto level = static_cast<std::uint8_t>(std::lround(255 * share(power)));
+    const auto level = static_cast<std::uint8_t>(std::lround(255 * shade_of_power(power)));
     return {level, level, level};
 }
 
-Raster picture_of(const Grid& power, const Area& area) {
-    Raster raster{.area = area, .columns = power.columns, .rows = power.rows, .pixels = {}};
+PixelImage picture_of(const Grid& power, const Area& area) {
+    PixelImage raster{.area = area, .columns = power.columns, .rows = power.rows, .pixels = {}};
     raster.pixels.reserve(power.values.size());
     for (std::size_t row = power.rows; row-- > 0;)
         for (std::size_t column = 0; column < power.columns; ++column) {

@@ -11,6 +11,7 @@
 #include "plot/dot_matrix.hpp"
 #include "plot/letters.hpp"
 #include "plot/ticks.hpp"
+#include "report/grid_files.hpp"
 
 namespace stipple {
 namespace {
@@ -151,7 +152,7 @@ std::string spectrum_as_text(const Grid& power, const std::string& title, const 
                 for (std::size_t column = left; column < right; ++column) {
                     const double p = power.values[row * power.columns + column];
                     const bool centre = row == power.rows / 2 && column == power.columns / 2;
-                    sum += centre ? 0 : p < 1e300 ? p / (1 + p) : 1;
+                    sum += centre ? 0 : shade_of_power(p);
                     ++cells;
                 }
             text += shades[static_cast<std::size_t>(std::clamp(5 * sum / cells, 0.0, 4.0))];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Quick looks in letters: points, the curves of a chart, a spectrum.
+// Pictures as text for terminals: points, the curves of a chart, a spectrum.
 #pragma once
 
 #include <string>

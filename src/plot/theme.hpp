@@ -4,8 +4,7 @@
 // tell apart, in an order that differs in lightness as well, for print in grey.
 #pragma once
 
-#include <array>
-#include <string_view>
+#include <span>
 
 #include "plot/drawing.hpp"
 
@@ -19,10 +18,17 @@ struct Theme {
     Colour grid;   ///< lines behind the data
     Colour band;   ///< what chance allows
     Colour guide;  ///< lines to compare with
-    std::array<Colour, 7> series;
+    std::span<const Colour> series;
 
     [[nodiscard]] Colour series_colour(std::size_t i) const { return series[i % series.size()]; }
 };
+
+inline constexpr Colour light_series[] = {{0, 114, 178},   {213, 94, 0},  {0, 158, 115},
+                                          {204, 121, 167}, {230, 159, 0}, {86, 180, 233},
+                                          {0, 0, 0}};
+inline constexpr Colour dark_series[] = {{86, 180, 233},  {240, 128, 48}, {26, 188, 144},
+                                         {222, 150, 190}, {240, 190, 60}, {110, 140, 255},
+                                         {245, 245, 245}};
 
 inline constexpr Theme light_theme{.ground = {255, 255, 255},
                                    .ink = {26, 26, 26},
@@ -31,13 +37,7 @@ inline constexpr Theme light_theme{.ground = {255, 255, 255},
                                    .grid = {230, 230, 230},
                                    .band = {222, 222, 222},
                                    .guide = {107, 107, 107},
-                                   .series = {{{0, 114, 178},
-                                               {213, 94, 0},
-                                               {0, 158, 115},
-                                               {204, 121, 167},
-                                               {230, 159, 0},
-                                               {86, 180, 233},
-                                               {0, 0, 0}}}};
+                                   .series = light_series};
 
 inline constexpr Theme dark_theme{.ground = {22, 24, 28},
                                   .ink = {236, 236, 236},
@@ -46,12 +46,6 @@ inline constexpr Theme dark_theme{.ground = {22, 24, 28},
                                   .grid = {48, 51, 57},
                                   .band = {58, 62, 69},
                                   .guide = {150, 154, 162},
-                                  .series = {{{86, 180, 233},
-                                              {240, 128, 48},
-                                              {26, 188, 144},
-                                              {222, 150, 190},
-                                              {240, 190, 60},
-                                              {110, 140, 255},
-                                              {245, 245, 245}}}};
+                                  .series = dark_series};
 
 }  // namespace stipple

@@ -22,7 +22,7 @@ double grey(double power, const std::string& scale) {
     if (scale == "linear") return std::min(power / 2, 1.0);
     if (scale == "log")
         return power > 0 ? std::clamp((10 * std::log10(power) + 20) / 40, 0.0, 1.0) : 0;
-    return power / (1 + power);
+    return shade_of_power(power);
 }
 
 std::string formula(const std::string& scale) {
@@ -63,6 +63,8 @@ std::string description(const Grid& power, const PowerPicture& picture, double w
 }
 
 }  // namespace
+
+double shade_of_power(double power) { return power < 1e300 ? power / (1 + power) : 1; }
 
 std::string npy_bytes(const Grid& power) {
     const std::size_t side = power.columns;

@@ -36,4 +36,7 @@ struct PowerPicture {
 /// there.
 std::string png_bytes(const Grid& power, const PowerPicture& picture = {});
 
+/// P / (1 + P), the shade of a power on the scale "ratio"; 1 where it is infinite.
+double shade_of_power(double power);
+
 }  // namespace stipple

@@ -32,6 +32,16 @@ std::string npy_header() {
 
 }  // namespace
 
+// Variables of a launcher are inherited by everything that it starts.
+TEST(BadInput, IsReportedByEveryVerbThatRanksDoNotShare) {
+    const Sandbox box;
+    const std::string ranks = "OMPI_COMM_WORLD_SIZE=4 OMPI_COMM_WORLD_RANK=1 PMI_RANK=1 stipple ";
+    for (const std::string command : {"generate nonsense", "plot missing.csv", "list nonsense"})
+        EXPECT_THAT(box.shell(ranks + command).err, HasSubstr("stipple: ")) << command;
+    EXPECT_THAT(box.shell("OMPI_COMM_WORLD_RANK=1 stipple analyze nonsense").err,
+                HasSubstr("nonsense"));
+}
+
 // A full, a closed and a deaf standard error.
 TEST(BadInput, ExitCodesHoldWhereNobodyHearsTheMessage) {
     const Sandbox box;

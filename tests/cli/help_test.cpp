@@ -43,9 +43,8 @@ TEST(Help, NoUnitOptionHidesACommonOne) {
             if (kind.verb != verb.name) continue;
             std::set<std::string> common;
             for (const CommonOption& option : common_options()) {
-                const std::string names = option.names;
-                if ((option.verbs & static_cast<unsigned>(verb.verb)) == 0) continue;
-                EXPECT_TRUE(common.insert(names.substr(names.rfind("--") + 2)).second) << names;
+                if (!takes(option, verb.verb)) continue;
+                EXPECT_TRUE(common.insert(option.option.name).second) << option.names;
             }
             for (const UnitInfo& unit : kind.units)
                 for (const auto& option : unit.options)

@@ -8,6 +8,7 @@
 
 using namespace stipple::testing;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 namespace {
 
@@ -142,6 +143,26 @@ TEST(Plot, DrawsTheTableThatGridSaves) {
     EXPECT_THAT(xml(box, "g3.svg", "text"), HasSubstr("plane fz = 0"));
     EXPECT_THAT(xml(box, "g1.svg", "text"), HasSubstr("white noise"));
     EXPECT_THAT(xml(box, "d.svg", "text"), HasSubstr("Δx (pixels)"));
+}
+
+// A table is a NPY file that --grid may have saved; text is points, however symmetric.
+TEST(Plot, DrawsEqualAndMirroredPointsAsPoints) {
+    const Sandbox box;
+    box.write("equal.csv", "1\n1\n1\n1\n1\n1\n1\n1\n1\n");
+    box.write("mirrored.csv", "1\n2\n3\n4\n5\n4\n3\n2\n1\n");
+    std::string rows;
+    for (int i = 0; i < 9; ++i) {
+        for (int j = 0; j < 9; ++j) rows += std::string(j > 0 ? "," : "") + (i == j ? "1" : "0");
+        rows += '\n';
+    }
+    box.write("identity.csv", rows);
+    for (const std::string name : {"equal", "mirrored", "identity"}) {
+        EXPECT_EQ(box.run({"plot", name + ".csv", "-o", name + ".svg"}).code, 0);
+        EXPECT_THAT(xml(box, name + ".svg", "text"), Not(HasSubstr("frequency"))) << name;
+    }
+    EXPECT_EQ(
+        box.shell("stipple convert identity.csv -o i.npy && stipple plot i.npy -o i.svg").code, 0);
+    EXPECT_THAT(xml(box, "i.svg", "text"), Not(HasSubstr("frequency")));
 }
 
 TEST(Plot, DrawsInLetters) {

@@ -49,147 +49,6 @@ std::string texts(const std::string& svg) {
 
 }  // namespace
 
-TEST(PlotPoints, DrawsEveryFormatFromAFileAndAPipe) {
-    const Sandbox box;
-    for (const std::string format : {"csv", "txt", "json", "jsonl", "npy"}) {
-        const std::string make = "stipple generate random -n 200 -m 2 -f " + format;
-        expect_quiet(run(box, make + " | plot_points.py --set 1 --title '' -o piped.png"));
-        expect_quiet(run(box, make + " -o p." + format + " && plot_points.py p." + format +
-                                  " --set 1 --title ''"));
-        expect_picture(box, "p.png");
-        EXPECT_EQ(box.read("p.png"), box.read("piped.png")) << format;
-        box.write("first.png", format == "csv" ? box.read("p.png") : box.read("first.png"));
-        EXPECT_EQ(box.read("p.png"), box.read("first.png")) << format;
-    }
-}
-
-TEST(PlotPoints, WritesPngSvgAndPdfTheSameEveryTime) {
-    const Sandbox box;
-    const std::string make = "stipple generate random -n 500 -s 7 -w disk --meta";
-    expect_quiet(run(box, make + " -o disk.csv"));
-    for (const std::string extension : {".png", ".svg", ".pdf"}) {
-        expect_quiet(run(box, "plot_points.py disk.csv -o a" + extension));
-        expect_quiet(run(box, make + " | plot_points.py - -o b" + extension));
-        expect_picture(box, "a" + extension);
-        EXPECT_EQ(box.read("a" + extension), box.read("b" + extension));
-    }
-    EXPECT_THAT(texts(box.read("a.svg")), HasSubstr("random, n = 500, seed 7, warped by disk\n"));
-    expect_quiet(run(box, "plot_points.py disk.csv -o - > c.png"));
-    EXPECT_EQ(box.read("a.png"), box.read("c.png"));
-}
-
-TEST(PlotPoints, TakesDimensionsAxesDomainsAndADensityColumn) {
-    const Sandbox box;
-    for (const std::string d : {"1", "3", "6"})
-        expect_quiet(run(box, "stipple generate halton -d " + d + " -n 100 -f json -o p" + d +
-                                  ".json && plot_points.py p" + d + ".json"));
-    expect_quiet(run(box, "plot_points.py p6.json --axes 6,2 -o p.svg"));
-    expect_quiet(run(box, "plot_points.py p6.json --axes 1,4,5 --domain none -o p.svg"));
-    for (const std::string warp : {"triangle", "disk:radius=2,center=[3,1]"})
-        expect_quiet(run(box, "stipple generate halton -n 100 --meta -w '" + warp +
-                                  "' | plot_points.py -o p.svg"));
-    expect_quiet(run(box,
-                     "stipple generate halton -n 90 -d 5 -w disk@4,5 --meta | plot_points.py "
-                     "--axes 5,4 -o p.svg"));
-    for (const std::string format : {"csv", "json"}) {
-        for (const std::string column : {"pdf", "weight"}) {
-            expect_quiet(run(box, "stipple generate halton -n 9 -w disk --with-" + column + " -f " +
-                                      format + " | plot_points.py -o p.svg"));
-            EXPECT_THAT(texts(box.read("p.svg")), Not(HasSubstr("z\n"))) << column;
-        }
-    }
-    expect_quiet(run(box, "plot_points.py -o p.svg", "u,v,weight\n0.1,0.2,3\n0.3,0.4,5\n"));
-    EXPECT_THAT(texts(box.read("p.svg")), Not(HasSubstr("z\n"))) << "a weight among other names";
-}
-
-TEST(PlotPoints, RefusesBadInputInOneLine) {
-    const Sandbox box;
-    const auto refuse = [&](int code, const std::string& bytes, const std::string& words,
-                            const std::string& more = "") {
-        box.write("p.csv", bytes);
-        expect_refusal(run(box, "plot_points.py p.csv " + more), code, words, "plot_points.py");
-        EXPECT_FALSE(box.exists("p.png"));
-    };
-    refuse(3, "", "p.csv: holds no points");
-    refuse(3, "# only\n", "p.csv: holds no points");
-    refuse(3, "x,y\n0.1,0.2\n0.3\n", "p.csv:3: has 1 columns; expected 2");
-    refuse(3, "0.1,0.2\n0.3,nan\n", "p.csv:2: column 2, 'nan', is not a finite number");
-    refuse(3, "0.1,1e999\n", "p.csv:1: column 2");
-    refuse(3, "0.1 0.2\nhello 0.4\n", "p.csv:2: column 1, 'hello'");
-    refuse(3, "0.1,0.2\n0.3,\n", "p.csv:2: column 2");
-    refuse(3, std::string("\0\1\2\3", 4), "binary");
-    refuse(3, "{\"format\":\"stipple.points\",\"points\":[[0.1,0.2],[0", "p.csv:1:");
-    refuse(3, "{\"points\":[[0.1,NaN]]}", "NaN");
-    refuse(3, "{\"points\":[[0.1,0.2],[0.1]]}", "point 1");
-    refuse(3, "{\"format\":\"stipple.report\"}", "is a report");
-    refuse(3, "\x93NUMPY\x01", "npy");
-    refuse(2, "0.1,0.2\n", "--axes", "--axes 1,3");
-    refuse(2, "0.1,0.2\n", "--axes", "--axes x");
-    refuse(2, "0.1,0.2\n", "--set", "--set 1");
-    refuse(2, "0.1,0.2\n", ".png, .svg or .pdf", "-o p.gif");
-    refuse(2, "0.1,0.2\n", "--colour", "--colour red");
-    refuse(4, "0.1,0.2\n", "none/p.svg: No such file", "-o none/p.svg");
-    EXPECT_EQ(box.files(), std::vector<std::string>{"p.csv"});
-    expect_refusal(run(box, "plot_points.py none.csv"), 4, "none.csv: No such", "plot_points.py");
-    expect_refusal(run(box, "plot_points.py ."), 4, "directory", "plot_points.py");
-    expect_refusal(run(box, "plot_points.py", "0.1,0.2\n"), 2, "-o", "plot_points.py");
-    expect_refusal(run(box, "ln -s /dev/full f.png; plot_points.py p.csv -o f.png"), 4,
-                   "No space left", "plot_points.py");
-}
-
-TEST(PlotSpectrum, DrawsReportsFromAFileAndAPipe) {
-    const Sandbox box;
-    const std::string make = "stipple generate jittered -n 400 -m 10 -o j.csv";
-    const std::string judge =
-        " && stipple analyze periodogram j.csv --average --max-frequency 40 --grid g.npy -o s";
-    expect_quiet(run(box, make + judge + ".json" + judge + ".csv"));
-    expect_quiet(run(box, "plot_spectrum.py s.json"));
-    expect_picture(box, "s.png");
-    for (const std::string extension : {".png", ".svg", ".pdf"}) {
-        expect_quiet(run(box, "cat s.json | plot_spectrum.py --grid g.npy -o a" + extension));
-        expect_picture(box, "a" + extension);
-    }
-    const std::string words = texts(box.read("a.svg"));
-    EXPECT_THAT(words, HasSubstr("Power spectrum of j.csv, n = 400, mean of 10 sets\n"));
-    EXPECT_THAT(words, HasSubstr("white noise: \u221210 dB\n"));
-    EXPECT_THAT(words, HasSubstr("standard error"));
-    // A table does not say of how many sets it is the mean.
-    expect_quiet(run(box, "plot_spectrum.py s.csv --sets 10 -o c.svg"));
-    EXPECT_THAT(texts(box.read("c.svg")), HasSubstr("white noise: \u221210 dB\n"));
-}
-
-// f and -f have the same power, so that there is no anisotropy on a line.
-TEST(PlotSpectrum, HasOnePanelForPointsOnALine) {
-    const Sandbox box;
-    expect_quiet(run(box,
-                     "stipple generate jittered -n 64 -d 1 | stipple analyze periodogram "
-                     "--max-frequency 40 -o s.json && plot_spectrum.py s.json -o s.svg"));
-    const std::string words = texts(box.read("s.svg"));
-    EXPECT_THAT(words, HasSubstr("radial power"));
-    EXPECT_THAT(words, HasSubstr("frequency |f|"));
-    EXPECT_EQ(words.find("anisotropy"), std::string::npos);
-}
-
-TEST(PlotSpectrum, RefusesBadInputInOneLine) {
-    const Sandbox box;
-    const std::string make = "stipple generate random -n 50 -m 2 -o p.csv && stipple analyze ";
-    expect_quiet(run(box, make + "star-discrepancy p.csv -o star.json && stipple analyze "
-                                 "periodogram p.csv --max-frequency 9 -o two.json"));
-    const auto refuse = [&](int code, const std::string& words, const std::string& line) {
-        expect_refusal(run(box, "plot_spectrum.py " + line), code, words, "plot_spectrum.py");
-    };
-    refuse(3, "holds 2 reports", "two.json");
-    refuse(3, "expected a report of periodogram", "star.json --set 0");
-    refuse(3, "is not a report", "p.csv");
-    refuse(2, "--set: 2", "two.json --set 2");
-    refuse(2, "--sets: 0", "two.json --set 0 --sets 0");
-    refuse(3, "p.csv: is not a whole npy file", "two.json --set 0 --grid p.csv");
-    refuse(4, "none.npy", "two.json --set 0 --grid none.npy");
-    refuse(4, "none.json", "none.json");
-    EXPECT_EQ(box.files(), (std::vector<std::string>{"p.csv", "star.json", "two.json"}));
-    expect_quiet(run(box, "plot_spectrum.py two.json --set 1"));
-}
-
 TEST(PlotDiscrepancy, DrawsACurveForEachGenerator) {
     const Sandbox box;
     expect_quiet(run(box,
@@ -337,36 +196,10 @@ TEST(PublishedTable, HasOursBesideTheirs) {
     EXPECT_EQ(run(box, table + "stipple nobody").code, 1);
 }
 
-TEST(PlotPairCorrelation, DrawsACurveForEachReport) {
-    const Sandbox box;
-    expect_quiet(run(box,
-                     "stipple generate jittered -n 400 -m 3 -o j.csv && stipple analyze "
-                     "pair-correlation j.csv --average -o j.json && stipple generate random -n 400 "
-                     "| stipple analyze pair-correlation -o r.csv && "
-                     "plot_pair_correlation.py j.json r.csv -o a.svg && "
-                     "plot_pair_correlation.py --max-distance 0.1 -o b.png < j.json"));
-    expect_picture(box, "a.svg");
-    expect_picture(box, "b.png");
-    const std::string words = texts(box.read("a.svg"));
-    EXPECT_THAT(words, HasSubstr("j.csv, mean of 3 sets\n"));
-    EXPECT_THAT(words, HasSubstr("independent points\n"));
-    const auto refuse = [&](const std::string& line, const std::string& words_of_it) {
-        expect_refusal(run(box, "plot_pair_correlation.py " + line), 2, words_of_it,
-                       "plot_pair_correlation.py");
-    };
-    refuse("j.json --max-distance -1 -o c.png", "--max-distance: -1.0 is not above 0");
-    refuse("j.json -o c.gif", ".png, .svg or .pdf");
-    expect_quiet(run(box, "stipple analyze periodogram j.csv --average -o p.json"));
-    expect_refusal(run(box, "plot_pair_correlation.py p.json"), 3,
-                   "p.json: is of periodogram; expected a report of pair-correlation",
-                   "plot_pair_correlation.py");
-}
-
 TEST(Scripts, ExplainThemselves) {
     const Sandbox box;
     for (const char* name :
-         {"plot_points.py", "plot_spectrum.py", "plot_discrepancy.py", "plot_convergence.py",
-          "overview.py", "plot_blue_noise.py", "plot_pair_correlation.py"}) {
+         {"plot_discrepancy.py", "plot_convergence.py", "overview.py", "plot_blue_noise.py"}) {
         const Outcome outcome = run(box, std::string(name) + " --help");
         expect_quiet(outcome);
         EXPECT_THAT(outcome.out, HasSubstr("usage: " + std::string(name)));
@@ -374,8 +207,7 @@ TEST(Scripts, ExplainThemselves) {
     }
     // Importing draws nothing and reads nothing.
     expect_quiet(run(box, "PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=" STIPPLE_SOURCE_DIR
-                          "/scripts /usr/bin/python3 -c 'import plot_points, plot_spectrum, "
-                          "plot_discrepancy, plot_convergence, overview, plot_blue_noise, "
-                          "plot_pair_correlation'"));
+                          "/scripts /usr/bin/python3 -c 'import plot_discrepancy, "
+                          "plot_convergence, overview, plot_blue_noise'"));
     EXPECT_EQ(box.files(), std::vector<std::string>{});
 }

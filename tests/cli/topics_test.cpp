@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "cli/arguments.hpp"
-#include "cli/topics.hpp"
+#include "cli/guide.hpp"
 #include "support/program.hpp"
 
 using namespace stipple::testing;
@@ -60,9 +60,9 @@ TEST(Topics, AreListedAndFound) {
 // Every exit code that the program knows stands in the topic, in the help and in the contract.
 TEST(Topics, NameAllExitCodes) {
     const Sandbox box;
-    std::string text = good(box.run({"help", "exit-codes"}));
-    text.insert(0, 1, '\n');
-    for (const char* code : {"\n0  ", "\n1  ", "\n2  ", "\n3  ", "\n4  ", "\n5  ", "\n130  "})
+    const std::string text = good(box.run({"help", "exit-codes"}));
+    for (const char* code : {"\n    0  ", "\n    1  ", "\n    2  ", "\n    3  ", "\n    4  ",
+                             "\n    5  ", "\n    130  "})
         EXPECT_THAT(text, HasSubstr(code));
 }
 

@@ -385,7 +385,7 @@ TEST(Chart, LongCurvesKeepTheirExtremes) {
         if (line->spots.size() > longest->spots.size()) longest = line;
     EXPECT_LT(longest->spots.size(), 8000U);
     std::vector<double> heights;
-    for (const Spot& spot : longest->spots) heights.push_back(spot.y);
+    for (const Position& spot : longest->spots) heights.push_back(spot.y);
     std::ranges::sort(heights);  // upward is less
     EXPECT_NEAR(heights.back() - heights[0], 5 * (heights.back() - heights[1]), 1e-6);
 }
@@ -401,7 +401,7 @@ TEST(Chart, HistogramsIntegrateToOne) {
 TEST(SpectrumPicture, IsGreyByShareWithTheLastRowOnTop) {
     Grid power{.rows = 3, .columns = 3, .values = {0, 1, 3, 1, 9, 1, 3, 1, 0}};
     const Drawing drawing = draw_spectrum(power, "t", "", {});
-    const Raster& raster = *shapes_of<Raster>(drawing).at(0);
+    const PixelImage& raster = *shapes_of<PixelImage>(drawing).at(0);
     EXPECT_EQ(raster.pixels[0].red, 191);  // 3 / 4 of 255, up and to the left
     EXPECT_EQ(raster.pixels[1].red, 128);
     EXPECT_EQ(raster.pixels[2].red, 0);
@@ -421,10 +421,10 @@ TEST(ReportCharts, MarksAtTheEndsAreWithinTheFrame) {
         ASSERT_TRUE(chart.panels.at(0).series.at(0).marks);
         const Drawing drawing = draw_chart(chart, style);
         const auto disks = shapes_of<Disks>(drawing);
-        const auto windows = shapes_of<Window>(drawing);
+        const auto windows = shapes_of<ClipWindow>(drawing);
         ASSERT_FALSE(disks.empty());
         const Area& frame = windows.at(0)->area;
-        for (const Spot& spot : disks[0]->centres) {
+        for (const Position& spot : disks[0]->centres) {
             EXPECT_GE(spot.x - disks[0]->radius, frame.left) << log;
             EXPECT_LE(spot.x + disks[0]->radius, frame.right()) << log;
         }

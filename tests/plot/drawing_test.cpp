@@ -84,11 +84,11 @@ TEST(PngDrawing, ShapesCoverTheirArea) {
 
 TEST(PngDrawing, NothingIsDrawnOutsideOfAWindow) {
     Drawing drawing = page(40, 40);
-    drawing.add(Window{.area = {10, 10, 5, 5}});
+    drawing.add(ClipWindow{.area = {10, 10, 5, 5}});
     drawing.rectangle({0, 0, 40, 40}, black);
     drawing.add(Disks{.centres = {{30, 30}}, .radius = 5, .colour = black});
     EXPECT_EQ(ink(pixels(drawing)), 25);
-    drawing.add(Window{.area = {}, .open = true});
+    drawing.add(ClipWindow{.area = {}, .open = true});
     drawing.rectangle({30, 30, 2, 2}, black);
     EXPECT_EQ(ink(pixels(drawing)), 29);
 }
@@ -105,7 +105,7 @@ TEST(PngDrawing, TakesShapesOutsideOfThePicture) {
 
 TEST(PngDrawing, RastersAreSharpWhenLargerAndMeansWhenSmaller) {
     Drawing drawing = page(8, 8);
-    drawing.add(Raster{
+    drawing.add(PixelImage{
         .area = {0, 0, 8, 8}, .columns = 2, .rows = 2, .pixels = {black, white, white, black}});
     const PngPicture picture = pixels(drawing);
     EXPECT_EQ(ink(picture), 32);
@@ -113,7 +113,7 @@ TEST(PngDrawing, RastersAreSharpWhenLargerAndMeansWhenSmaller) {
     EXPECT_EQ(grey_at(picture, 4, 3), 1);
 
     drawing = page(1, 1);
-    drawing.add(Raster{
+    drawing.add(PixelImage{
         .area = {0, 0, 1, 1}, .columns = 2, .rows = 2, .pixels = {black, white, white, white}});
     EXPECT_NEAR(pixels(drawing).grey[0], 191 / 255.0, 1e-9);
 }
@@ -135,7 +135,9 @@ TEST(SvgDrawing, TextIsTextAndEscaped) {
     EXPECT_THAT(svg, HasSubstr(">a&lt;b &amp; \"c\" \xEF\xBF\xBD 10⁻³</text>"));
     EXPECT_THAT(svg, HasSubstr("<title>a &lt;b&gt; &amp; c</title>"));
     EXPECT_TRUE(svg.starts_with("<?xml"));
-    EXPECT_TRUE(svg_element(drawing, 1).starts_with("<svg"));
+    EXPECT_TRUE(svg_element(drawing, drawing, "a \"b\"").starts_with("<svg"));
+    EXPECT_THAT(svg_element(drawing, drawing, "a \"b\""),
+                HasSubstr("aria-label=\"a &quot;b&quot;\""));
 }
 
 TEST(SvgDrawing, HairlinesRunAlongTheMiddleOfPixels) {
@@ -153,7 +155,7 @@ TEST(Letters, EveryPrintableLetterHasStrokesWithinItsBox) {
         const bool unknown = strokes == strokes_of(U'\uFFFD');
         EXPECT_FALSE(unknown) << static_cast<int>(letter);
         for (const auto& stroke : strokes)
-            for (const Spot& spot : stroke) {
+            for (const Position& spot : stroke) {
                 EXPECT_TRUE(spot.x >= 0 && spot.x <= advance_of(letter) + 0.1)
                     << static_cast<int>(letter) << " " << spot.x;
                 EXPECT_TRUE(spot.y >= -6 && spot.y <= 21) << static_cast<int>(letter);
@@ -170,7 +172,7 @@ TEST(Letters, EveryPrintableLetterHasStrokesWithinItsBox) {
 // A quarter of a circle: the pen stays at its distance from the middle.
 TEST(Letters, CurvesAreEllipses) {
     const auto strokes = strokes_of(U'o');
-    for (const Spot& spot : strokes[0]) {
+    for (const Position& spot : strokes[0]) {
         const double x = spot.x < 7.8 ? (spot.x - 7.8) / 5.8 : (spot.x - 7.8) / 5.7;
         const double y = spot.y < 7.2 ? (spot.y - 7.2) / 6.2 : (spot.y - 7.2) / 6.3;
         EXPECT_NEAR(x * x + y * y, 1, 1e-9);
@@ -272,9 +274,9 @@ TEST(Ticks, NeverOverlap) {
 
 TEST(Panel, PutsTheEndsOfItsAxesAtTheFramesCorners) {
     const Panel linear({10, 20, 100, 50}, {.low = -1, .high = 3}, {.low = 0, .high = 8});
-    EXPECT_EQ(linear.at(-1, 0), (Spot{10, 70}));
-    EXPECT_EQ(linear.at(3, 8), (Spot{110, 20}));
-    EXPECT_EQ(linear.at(1, 4), (Spot{60, 45}));
+    EXPECT_EQ(linear.at(-1, 0), (Position{10, 70}));
+    EXPECT_EQ(linear.at(3, 8), (Position{110, 20}));
+    EXPECT_EQ(linear.at(1, 4), (Position{60, 45}));
     const Panel log({0, 0, 100, 100}, {.low = 1, .high = 100, .log = true},
                     {.low = 0.01, .high = 1, .log = true});
     EXPECT_NEAR(log.x(10), 50, 1e-9);

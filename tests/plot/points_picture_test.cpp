@@ -37,20 +37,20 @@ std::vector<const S*> shapes_of(const Drawing& drawing) {
     return found;
 }
 
-std::vector<Spot> marks_of(const Drawing& drawing) {
-    std::vector<Spot> all;
+std::vector<Position> marks_of(const Drawing& drawing) {
+    std::vector<Position> all;
     for (const Disks* disks : shapes_of<Disks>(drawing))
         all.insert(all.end(), disks->centres.begin(), disks->centres.end());
     return all;
 }
 
 /// Area that closed lines go round.
-double area_of(const std::vector<std::vector<Spot>>& lines) {
+double area_of(const std::vector<std::vector<Position>>& lines) {
     double sum = 0;
     for (const auto& line : lines)
         for (std::size_t i = 0; i < line.size(); ++i) {
-            const Spot a = line[i];
-            const Spot b = line[(i + 1) % line.size()];
+            const Position a = line[i];
+            const Position b = line[(i + 1) % line.size()];
             sum += (a.x * b.y - b.x * a.y) / 2;
         }
     return sum;
@@ -80,7 +80,7 @@ TEST(PointsPicture, DrawsDegenerateSets) {
             const Drawing drawing =
                 draw_points(picture_of({&points}), {.width = width, .height = width}, {});
             EXPECT_GT(drawing.height, 0);
-            for (const Spot& mark : marks_of(drawing))
+            for (const Position& mark : marks_of(drawing))
                 EXPECT_TRUE(std::isfinite(mark.x) && std::isfinite(mark.y));
             EXPECT_FALSE(svg_bytes(drawing, 1).find("nan") != std::string::npos);
             EXPECT_FALSE(svg_bytes(drawing, 1).find("inf") != std::string::npos);
@@ -119,11 +119,11 @@ TEST(PointsPicture, ManyPointsAreADensityThatCountsThemAll) {
     const PointSet points = make("random", {400'000, 2});
     const Drawing drawing = draw_points(picture_of({&points}), {}, {});
     EXPECT_TRUE(marks_of(drawing).empty());
-    EXPECT_EQ(shapes_of<Raster>(drawing).size(), 2U);  // and the bar of colours
+    EXPECT_EQ(shapes_of<PixelImage>(drawing).size(), 2U);  // and the bar of colours
     EXPECT_LT(svg_bytes(drawing, 1).size(), 400'000U);
     const PointSet fewer = make("random", {50'000, 2});
     const Drawing specks = draw_points(picture_of({&fewer}), {}, {});
-    const Raster& raster = *shapes_of<Raster>(specks).at(0);
+    const PixelImage& raster = *shapes_of<PixelImage>(specks).at(0);
     std::size_t dark = 0;
     for (const Colour& pixel : raster.pixels) dark += pixel != light_theme.ground ? 1 : 0;
     EXPECT_GT(dark, 45'000U);  // some share a pixel
@@ -162,7 +162,7 @@ TEST(PointsPicture, PairsOfManyPointsAreDensitiesInOneScale) {
         for (std::size_t k = 0; k < 2; ++k) points.flat()[4 * i + k] *= 0.25;
     const Drawing drawing = draw_points(picture_of({&points}), {}, {});
     EXPECT_TRUE(marks_of(drawing).empty());
-    const auto rasters = shapes_of<Raster>(drawing);
+    const auto rasters = shapes_of<PixelImage>(drawing);
     ASSERT_EQ(rasters.size(), 7U);  // six pairs and the bar of colours
     const auto darkest = [&](std::size_t panel) {
         int least = 255;
@@ -222,7 +222,8 @@ TEST(DomainOutline, GoesRoundTheDomainsArea) {
 TEST(DomainOutline, HasCorners) {
     double nearest = 1;
     for (const auto& line : outline_of(*parse_domain("triangle:vertices=[0,0 1,0 0,1]", 2)))
-        for (const Spot& spot : line) nearest = std::min(nearest, std::hypot(spot.x - 1, spot.y));
+        for (const Position& spot : line)
+            nearest = std::min(nearest, std::hypot(spot.x - 1, spot.y));
     EXPECT_LT(nearest, 1e-3);
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "support/units.hpp"
 
@@ -32,6 +33,8 @@ std::optional<SpectralTable> found(const PointSet& set) {
 
 TEST(SpectralTable, KnowsATableOfPowerFromPoints) {
     Grid power{.rows = 9, .columns = 9, .values = std::vector<double>(81, 1.0)};
+    EXPECT_TRUE(looks_like_power(power));  // of one point
+    power.values[40] = 4;
     EXPECT_TRUE(looks_like_power(power));
     power.values[3] = 2;
     EXPECT_FALSE(looks_like_power(power));
@@ -41,6 +44,20 @@ TEST(SpectralTable, KnowsATableOfPowerFromPoints) {
     EXPECT_FALSE(looks_like_power(power));
     EXPECT_FALSE(looks_like_power({.rows = 3, .columns = 3, .values = std::vector<double>(9)}));
     EXPECT_FALSE(looks_like_power({.rows = 9, .columns = 8, .values = std::vector<double>(72)}));
+}
+
+// The power at frequency zero is the number of points: at least 1, and the largest.
+TEST(SpectralTable, IsNotMadeOfEqualOrMirroredPoints) {
+    PointSet equal(11, 1);
+    for (double& x : equal.flat()) x = 0.25;
+    EXPECT_FALSE(found(equal));
+    PointSet mirrored(11, 1);
+    for (std::size_t i = 0; i < 11; ++i) mirrored[i][0] = std::abs(static_cast<double>(i) - 5);
+    EXPECT_FALSE(found(mirrored));
+    PointSet identity(9, 9);
+    for (std::size_t i = 0; i < 9; ++i) identity[i][i] = 1;
+    EXPECT_FALSE(found(identity));
+    EXPECT_FALSE(found(PointSet(9, 9)));
 }
 
 TEST(SpectralTable, IsOfTheDimensionOfItsShape) {
