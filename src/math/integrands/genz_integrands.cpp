@@ -40,7 +40,7 @@ namespace stipple {
 namespace {
 
 constexpr Param<std::int64_t> peak_seed{
-    .name = "peak_seed", .fallback = 1, .low = 0, .help = "Draws where it peaks and how steeply"};
+    .name = "seed", .fallback = 1, .low = 0, .help = "Draws where it peaks and how steeply"};
 
 Param<double> difficulty(double fallback) {
     return {.name = "difficulty",

@@ -28,7 +28,7 @@ namespace stipple {
 namespace {
 
 constexpr Param<std::int64_t> placing_seed{
-    .name = "placing_seed", .fallback = 1, .low = 0, .help = "Draws where things stand"};
+    .name = "seed", .fallback = 1, .low = 0, .help = "Draws where things stand"};
 
 DrawStream draws(const Values& values, std::uint64_t what) {
     constexpr std::uint64_t stream = 0x706c616e6500;  // "plane"
