@@ -8,14 +8,9 @@
 //         std::array<double, d> inverse(std::span<const double> point) const;   // if there is one
 //         bool keeps(const std::array<double, d>& xi) const;                    // if it drops some
 //         double density(std::span<const double> point) const;                  // if it is biased
-//         std::array<double, s> start(const std::array<double, d>& xi) const;  // if in two steps
-//         std::array<double, m> finish(const std::array<double, d>& xi,
-//                                      const std::array<double, s>& start) const;
-//         using Beat = std::uint32_t;   // if two chains side by side do better than four: pace.hpp
 //     };
 //
-// A long forward() is quicker as finish(xi, start(xi)), each in a loop of its own: processors look
-// some hundred steps ahead, and then see the next points, too.
+// Of several methods for one domain, those that make the domain's own density need no density().
 #pragma once
 
 #include <algorithm>
@@ -25,7 +20,6 @@
 #include "core/error.hpp"
 #include "core/wide.hpp"
 #include "warps/inside.hpp"
-#include "warps/pace.hpp"
 #include "warps/warp.hpp"
 
 namespace stipple::warps {
@@ -50,11 +44,6 @@ concept DropsPoints = requires {
     &Method::keeps;
 };
 
-template <class Method>
-concept HasStart = requires {
-    &Method::start;
-};
-
 /// Row i of rows of d numbers.
 template <std::size_t d>
 std::array<double, d> row_of(std::span<const double> rows, std::size_t i) {
@@ -63,52 +52,8 @@ std::array<double, d> row_of(std::span<const double> rows, std::size_t i) {
     return row;
 }
 
-namespace detail {
-
-template <class Start, class Method, class Xi>
-constexpr std::size_t start_size(Start (Method::*)(Xi) const) {
-    return std::tuple_size_v<Start>;
-}
-
-template <std::size_t size>
-struct Columns {
-    std::array<std::array<double, paced>, size> column;
-
-    void put(std::size_t i, const std::array<double, size>& numbers) {
-        for (std::size_t k = 0; k < size; ++k) column[k][i] = numbers[k];
-    }
-    std::array<double, size> get(std::size_t i) const {
-        std::array<double, size> numbers;
-        for (std::size_t k = 0; k < size; ++k) numbers[k] = column[k][i];
-        return numbers;
-    }
-};
-
-struct NoColumns {};
-
-template <class Method>
-struct BeatOf {
-    using type = std::uint16_t;
-};
-template <class Method>
-requires requires { typename Method::Beat; }
-struct BeatOf<Method> {
-    using type = typename Method::Beat;
-};
-
-template <class Method>
-auto start_columns() {
-    if constexpr (HasStart<Method>)
-        return Columns<start_size(&Method::start)>();
-    else
-        return NoColumns();
-}
-
-}  // namespace detail
-
-/// What start() gives for the points of one loop.
-template <class Method>
-using StartColumns = decltype(detail::start_columns<Method>());
+/// Points that go through one loop.
+inline constexpr std::size_t rows_at_once = 128;
 
 // The method is taken by value: what is written to the image cannot change it, so that its
 // constants stay in registers. All calls are inlined, since one that is not keeps the loop from
@@ -119,29 +64,13 @@ STIPPLE_WIDE [[gnu::flatten]] void map_rows(const Method method, std::span<const
                                             std::span<double> image) {
     constexpr std::size_t d = ArityOf<Method>::cube;
     constexpr std::size_t m = ArityOf<Method>::image;
-    std::array<std::array<double, paced>, m> columns;
-    [[maybe_unused]] StartColumns<Method> starts;
-    Pace<typename detail::BeatOf<Method>::type> pace;
-    for (std::size_t first = 0; first < cube.size() / d; first += paced) {
-        const std::size_t size = std::min(paced, cube.size() / d - first);
-        if constexpr (HasStart<Method>) {
-            for (std::size_t i = 0; i < size; ++i) {
-                starts.put(i, method.start(row_of<d>(cube, first + i)));
-                pace.mark(i);
-            }
-            pace.end();
-        }
+    std::array<std::array<double, rows_at_once>, m> columns;
+    for (std::size_t first = 0; first < cube.size() / d; first += rows_at_once) {
+        const std::size_t size = std::min(rows_at_once, cube.size() / d - first);
         for (std::size_t i = 0; i < size; ++i) {
-            const std::array<double, d> xi = row_of<d>(cube, first + i);
-            std::array<double, m> point;
-            if constexpr (HasStart<Method>)
-                point = method.finish(xi, starts.get(i));
-            else
-                point = method.forward(xi);
+            const std::array<double, m> point = method.forward(row_of<d>(cube, first + i));
             for (std::size_t k = 0; k < m; ++k) columns[k][i] = point[k];
-            pace.mark(i);
         }
-        pace.end();
         for (std::size_t i = 0; i < size; ++i)
             for (std::size_t k = 0; k < m; ++k) image[m * (first + i) + k] = columns[k][i];
     }

@@ -53,8 +53,9 @@ class Mapping {
 
 struct WarpTraits {
     bool invertible = true;
-    bool drops = false;   ///< with some options, some points have no image
-    bool biased = false;  ///< with some options, deliberately wrong; the option's help says which
+    bool drops = false;     ///< with some options, some points have no image
+    bool biased = false;    ///< with some options, deliberately wrong; the option's help says which
+    bool discrete = false;  ///< points are outcomes, each with a probability, and have no density
 };
 
 struct Warp {

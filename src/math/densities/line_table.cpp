@@ -8,6 +8,7 @@
 #include <queue>
 
 #include "core/error.hpp"
+#include "core/wide.hpp"
 #include "math/densities/expression.hpp"
 
 namespace stipple {
@@ -98,12 +99,12 @@ class LineTabulator {
             }
         }
         places_.resize(std::max<std::size_t>(16, fewest_probes / pieces.size()));
-        for (const Sampled& piece : pieces) scout(piece);
+        for (const Sampled& piece : pieces) add_probed(piece);
     }
 
     /// Adds a piece after a look at many places of it; cut at all of them if f is not there what
     /// the quarters lead to expect, for else something narrow would be missed.
-    void scout(const Sampled& piece) {
+    void add_probed(const Sampled& piece) {
         const std::size_t cuts = places_.size();
         const auto part = [&](std::size_t i) {
             return static_cast<double>(i + 1) / static_cast<double>(cuts + 1);
@@ -243,11 +244,6 @@ std::vector<LinePiece> tabulate_line(const std::string& what, const BlockFunctio
     return LineTabulator(what, f, run).tabulate(range, tolerance);
 }
 
-double width_share(double a, double b, double r) {
-    const double slowness = a + std::sqrt((1 - r) * (a * a) + r * (b * b));
-    return slowness > 0 ? std::min(r * (a + b) / slowness, 1.0) : 0;  // all at 0 for a = r = 0
-}
-
 double mass_share(double a, double b, double t) {
     return a + b > 0 ? std::min(t * (2 * a + (b - a) * t) / (a + b), 1.0) : 0;
 }
@@ -260,12 +256,16 @@ LineTable::LineTable(std::vector<LinePiece> pieces) : pieces_(std::move(pieces))
         // To a largest density of 1, whose square is finite.
         piece.f_low /= top;
         piece.f_high /= top;
-        sums_.push_back(sum += 0.5 * (piece.f_low + piece.f_high) * (piece.x_high - piece.x_low));
+        const double before = sum;
+        const double width = piece.x_high - piece.x_low;
+        sums_.push_back(sum += 0.5 * (piece.f_low + piece.f_high) * width);
+        rows_.push_back({before, sum - before, piece.f_low, piece.f_high, piece.x_low, width,
+                         std::nextafter(piece.x_high, piece.x_low)});
     }
     most_ = std::nextafter(sum, 0.0);
-    buckets_ = Buckets(sum, sums_.size());
-    guide_.resize(sums_.size() + 1);
-    fill_guide(sums_, guide_);
+    guide_.resize(2 * sums_.size() + 1);
+    few_ = fill_guide(sums_, guide_);
+    buckets_ = Buckets(sum, guide_.size() - 1);
 }
 
 std::size_t LineTable::piece_of(double x) const {
@@ -273,19 +273,72 @@ std::size_t LineTable::piece_of(double x) const {
     return above == pieces_.begin() ? 0 : static_cast<std::size_t>(above - pieces_.begin()) - 1;
 }
 
-double LineTable::place(double u) const {
-    const double wanted = std::min(u * sums_.back(), most_);
-    const std::size_t bucket = buckets_.of(wanted);
-    const std::size_t i = first_above(sums_, guide_[bucket], guide_[bucket + 1], wanted);
-    const double before = i == 0 ? 0 : sums_[i - 1];
-    const LinePiece& piece = pieces_[i];
-    const double t =
-        width_share(piece.f_low, piece.f_high, (wanted - before) / (sums_[i] - before));
-    const double x = piece.x_low + t * (piece.x_high - piece.x_low);
-    return x < piece.x_high ? x : std::nextafter(piece.x_high, piece.x_low);
+double LineTable::density(double x) const {
+    const LinePiece& piece = pieces_[piece_of(x)];
+    return density_in(piece, (x - piece.x_low) / (piece.x_high - piece.x_low));
 }
 
-double LineTable::find(double x) const {
+std::vector<std::pair<double, double>> LineTable::positive_intervals() const {
+    std::vector<std::pair<double, double>> found;
+    for (const LinePiece& piece : pieces_) {
+        if (!(piece.f_low + piece.f_high > 0)) continue;
+        if (!found.empty() && found.back().second == piece.x_low)
+            found.back().second = piece.x_high;
+        else
+            found.emplace_back(piece.x_low, piece.x_high);
+    }
+    return found;
+}
+
+double LineTable::quantile(double u) const {
+    quantiles({&u, 1});
+    return u;
+}
+
+namespace {
+
+constexpr std::size_t batch_size = 128;
+
+/// The pieces of some numbers in columns, so that the loop over them is widened.
+struct Batch {
+    using Column = std::array<double, batch_size>;
+    Column wanted, before, mass, f_low, f_high, x_low, width, last;
+};
+
+STIPPLE_WIDE [[gnu::flatten]] void invert(const Batch& of, double* x, std::size_t size) {
+    for (std::size_t i = 0; i < size; ++i) {
+        const double share = (of.wanted[i] - of.before[i]) / of.mass[i];
+        const double t = width_share(of.f_low[i], of.f_high[i], share);
+        x[i] = std::min(of.x_low[i] + t * of.width[i], of.last[i]);
+    }
+}
+
+}  // namespace
+
+// In two loops, since the search is not widened, and processors see several searches at a time.
+void LineTable::quantiles(std::span<double> shares) const {
+    Batch batch;
+    for (std::size_t first = 0; first < shares.size(); first += batch_size) {
+        const std::size_t size = std::min(batch_size, shares.size() - first);
+        for (std::size_t i = 0; i < size; ++i) {
+            const double wanted = std::min(shares[first + i] * sums_.back(), most_);
+            const std::size_t bucket = buckets_.of(wanted);
+            const Row& row =
+                rows_[first_above(sums_, guide_[bucket], guide_[bucket + 1], wanted, few_)];
+            batch.wanted[i] = wanted;
+            batch.before[i] = row.before;
+            batch.mass[i] = row.mass;
+            batch.f_low[i] = row.f_low;
+            batch.f_high[i] = row.f_high;
+            batch.x_low[i] = row.x_low;
+            batch.width[i] = row.width;
+            batch.last[i] = row.last;
+        }
+        invert(batch, shares.data() + first, size);
+    }
+}
+
+double LineTable::fraction(double x) const {
     const std::size_t i = piece_of(x);
     const LinePiece& piece = pieces_[i];
     const double before = i == 0 ? 0 : sums_[i - 1];

@@ -7,7 +7,9 @@
 // which bounds what any probability is off by. The table itself is inverted exactly: in a piece
 // with ends a and b, the share r of its mass lies below the share
 //
-//     t = r (a + b) / (a + sqrt((1 - r) a^2 + r b^2))    of its width.
+//     t = r (a + b) / (a + sqrt((1 - r) a^2 + r b^2))    of its width,
+//
+// which solves a quadratic equation without a difference.
 //
 // Shape   any f that is finite and not negative, not 0 everywhere; jumps and corners where they
 //         are, faster where they are named.
@@ -18,10 +20,13 @@
 //         at a break may not be seen.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/domain.hpp"
@@ -59,33 +64,64 @@ void require_density(const std::string& what, std::span<const double> place, dou
 
 /// The share of a piece's width below which the share r of its mass lies, for densities a and b at
 /// its ends.
-double width_share(double a, double b, double r);
+inline double width_share(double a, double b, double r) {
+    const double slowness = a + std::sqrt((1 - r) * (a * a) + r * (b * b));
+    return slowness > 0 ? std::min(r * (a + b) / slowness, 1.0) : 0;  // all at 0 for a = r = 0
+}
 
 /// The way back.
 double mass_share(double a, double b, double t);
 
+/// The density is constant or changes linearly on each piece, and may jump between them.
 class LineTable {
   public:
     /// Pieces side by side, not all without mass.
     explicit LineTable(std::vector<LinePiece> pieces);
+
+    /// Density at x, over the mass: at a seam, that of the piece which begins there.
+    [[nodiscard]] double density(double x) const;
+
+    /// The same at the fraction t of a piece's width.
+    [[nodiscard]] double density_in(const LinePiece& piece, double t) const {
+        return ((1 - t) * piece.f_low + t * piece.f_high) / sums_.back();
+    }
+
+    /// The intervals on which the density is not 0, side by side.
+    [[nodiscard]] std::vector<std::pair<double, double>> positive_intervals() const;
 
     [[nodiscard]] const std::vector<LinePiece>& pieces() const { return pieces_; }
 
     /// Piece that holds a place of the closed range.
     [[nodiscard]] std::size_t piece_of(double x) const;
 
-    /// Where the share u in [0, 1] of the mass lies below.
-    [[nodiscard]] double place(double u) const;
+    /// The number below which the share u in [0, 1] of the mass lies; never the end of a piece.
+    [[nodiscard]] double quantile(double u) const;
+
+    /// The same for many shares, in place.
+    void quantiles(std::span<double> shares) const;
 
     /// The share of the mass below x.
-    [[nodiscard]] double find(double x) const;
+    [[nodiscard]] double fraction(double x) const;
 
   private:
+    /// What a quantile is worked out from: one line of the caches.
+    struct alignas(64) Row {
+        double before;  ///< mass below the piece, and of it
+        double mass;
+        double f_low;
+        double f_high;
+        double x_low;
+        double width;
+        double last;  ///< the largest number in the piece
+    };
+
     std::vector<LinePiece> pieces_;
     std::vector<double> sums_;  ///< of the pieces' masses, up to each
     double most_ = 0;           ///< the largest number below the last sum
+    std::vector<Row> rows_;
     Buckets buckets_;
     std::vector<std::uint32_t> guide_;
+    std::size_t few_ = few_sums;  ///< that a bucket of the sums has at most, if it is few
 };
 
 }  // namespace stipple

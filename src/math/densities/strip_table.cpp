@@ -144,14 +144,14 @@ class StripTabulator {
             for (const std::size_t k : which) line[k] = values_[i++];
     }
 
-    /// Where a scout of an axis is.
-    [[nodiscard]] double post(std::size_t axis, std::size_t i) const {
+    /// Coordinate of a probe along an axis: they stand on a grid all over the box.
+    [[nodiscard]] double probe_at(std::size_t axis, std::size_t i) const {
         const double part = (static_cast<double>(i) + 0.5) / double{probes_a_side};
         return box_.low[axis] + part * box_.extent(axis);
     }
 
-    /// The first scout of an axis at a place or beyond.
-    [[nodiscard]] std::size_t first_from(std::size_t axis, double place) const {
+    /// The first probe along an axis at a place or beyond.
+    [[nodiscard]] std::size_t first_probe_from(std::size_t axis, double place) const {
         const double at =
             (place - box_.low[axis]) / box_.extent(axis) * double{probes_a_side} - 0.5;
         return static_cast<std::size_t>(std::clamp(std::ceil(at), 0.0, double{probes_a_side}));
@@ -163,32 +163,32 @@ class StripTabulator {
             run_.check_stop();
             points_.clear();
             for (std::size_t j = 0; j < probes_a_side; ++j) {
-                points_.push_back(post(0, i));
-                points_.push_back(post(1, j));
+                points_.push_back(probe_at(0, i));
+                points_.push_back(probe_at(1, j));
             }
             look();
             seen_.insert(seen_.end(), values_.begin(), values_.end());
         }
     }
 
-    /// Notes the largest difference between a patch and what else is known of f there, if its own
-    /// samples do not lead to expect it.
-    void hear(const SampledStrip& strip, SampledPatch& patch) const {
-        const double worst = std::max(from_probes(strip, patch), from_elder(strip, patch));
+    /// Notes the largest error of a patch at places besides its own samples, if these do not lead
+    /// to expect it.
+    void note_hidden_error(const SampledStrip& strip, SampledPatch& patch) const {
+        const double worst = std::max(probe_error(strip, patch), parent_error(strip, patch));
         constexpr double rounding = 1e-12;
         const double expected = 2 * (patch.bend() + patch.slope()) + rounding * patch.top();
         if (worst > expected) patch.hidden = worst;
     }
 
     /// Largest difference between the patch's table and what the probes saw.
-    [[nodiscard]] double from_probes(const SampledStrip& strip, const SampledPatch& patch) const {
+    [[nodiscard]] double probe_error(const SampledStrip& strip, const SampledPatch& patch) const {
         double worst = 0;
-        const std::size_t last_x = first_from(0, strip.high);
-        const std::size_t last_y = first_from(1, patch.high);
-        for (std::size_t i = first_from(0, strip.low); i < last_x; ++i) {
-            const double s = (post(0, i) - strip.low) / strip.width();
-            for (std::size_t j = first_from(1, patch.low); j < last_y; ++j) {
-                const double t = (post(1, j) - patch.low) / (patch.high - patch.low);
+        const std::size_t last_x = first_probe_from(0, strip.high);
+        const std::size_t last_y = first_probe_from(1, patch.high);
+        for (std::size_t i = first_probe_from(0, strip.low); i < last_x; ++i) {
+            const double s = (probe_at(0, i) - strip.low) / strip.width();
+            for (std::size_t j = first_probe_from(1, patch.low); j < last_y; ++j) {
+                const double t = (probe_at(1, j) - patch.low) / (patch.high - patch.low);
                 worst =
                     std::max(worst, std::abs(seen_[i * probes_a_side + j] - patch.bilinear(s, t)));
             }
@@ -196,14 +196,14 @@ class StripTabulator {
         return worst;
     }
 
-    /// The same for what the whole strip's samples show on the sides of its half.
-    [[nodiscard]] double from_elder(const SampledStrip& strip, const SampledPatch& patch) const {
-        if (elder_ == nullptr) return 0;
-        const std::size_t left = strip.low == elder_->low ? 0 : 1;  // line
+    /// The same for the samples of the parent strip on the sides of its half.
+    [[nodiscard]] double parent_error(const SampledStrip& strip, const SampledPatch& patch) const {
+        if (parent_ == nullptr) return 0;
+        const std::size_t left = strip.low == parent_->low ? 0 : 1;  // line
         const auto behind =
-            std::ranges::upper_bound(elder_->patches, patch.low, {}, &SampledPatch::high);
+            std::ranges::upper_bound(parent_->patches, patch.low, {}, &SampledPatch::high);
         double worst = 0;
-        for (auto p = behind; p != elder_->patches.end() && p->low < patch.high; ++p)
+        for (auto p = behind; p != parent_->patches.end() && p->low < patch.high; ++p)
             for (std::size_t k = 0; k < 5; ++k) {
                 const double y = p->at(0.25 * static_cast<double>(k));
                 if (!(y >= patch.low && y <= patch.high)) continue;
@@ -223,7 +223,7 @@ class StripTabulator {
             };
             SampledPatch patch{.low = y(j), .high = y(j + 1), .f = {}};
             sample(strip, patch, {0, 1, 2, 3, 4});
-            hear(strip, patch);
+            note_hidden_error(strip, patch);
             strip.patches.push_back(patch);
         }
         refine(strip);
@@ -287,8 +287,8 @@ class StripTabulator {
         }
         sample(strip, lower, {1, 3});
         sample(strip, upper, {1, 3});
-        hear(strip, lower);
-        hear(strip, upper);
+        note_hidden_error(strip, lower);
+        note_hidden_error(strip, upper);
         strip.patches[j] = lower;
         strip.patches.push_back(upper);
         account(j, 1);
@@ -306,10 +306,10 @@ class StripTabulator {
         error_ -= strip.error;
         mass_ -= strip.mass;
         count_ -= strip.patches.size();
-        elder_ = &strip;
+        parent_ = &strip;
         insert(made(strip.low, middle), index);
         insert(made(middle, strip.high), strips_.size());
-        elder_ = nullptr;
+        parent_ = nullptr;
         if (strips_.size() % 1024 == 0) sum_anew();
     }
 
@@ -354,8 +354,8 @@ class StripTabulator {
     std::priority_queue<std::pair<double, std::size_t>> worst_;
     std::vector<double> points_;
     std::vector<double> values_;
-    std::vector<double> seen_;             ///< by the probes
-    const SampledStrip* elder_ = nullptr;  ///< whose half is made
+    std::vector<double> seen_;              ///< by the probes
+    const SampledStrip* parent_ = nullptr;  ///< the strip whose half is made
     std::size_t count_ = 0;
     double error_ = 0;
     double mass_ = 0;
@@ -395,7 +395,7 @@ StripTable::StripTable(const std::vector<Strip>& strips) {
     fill_guide(sums_, guide_);
 }
 
-std::array<double, 2> StripTable::place(double u, double v) const {
+std::array<double, 2> StripTable::quantile(double u, double v) const {
     const double wanted = std::min(u * sums_.back(), most_);
     const std::size_t bucket = buckets_.of(wanted);
     const std::size_t i = first_above(sums_, guide_[bucket], guide_[bucket + 1], wanted);
@@ -431,7 +431,7 @@ std::array<double, 2> StripTable::place(double u, double v) const {
             within(shape.y_low, shape.y_high, shape.y_low + part * (shape.y_high - shape.y_low))};
 }
 
-std::array<double, 2> StripTable::find(double x, double y) const {
+std::array<double, 2> StripTable::fraction(double x, double y) const {
     const auto columns = std::span(columns_).first(columns_.size() - 1);
     const auto next = std::ranges::upper_bound(columns, x, {}, &Column::x_low);
     const auto i =

@@ -55,8 +55,8 @@ class StripTable {
   public:
     explicit StripTable(const std::vector<Strip>& strips);
 
-    [[nodiscard]] std::array<double, 2> place(double u, double v) const;
-    [[nodiscard]] std::array<double, 2> find(double x, double y) const;
+    [[nodiscard]] std::array<double, 2> quantile(double u, double v) const;
+    [[nodiscard]] std::array<double, 2> fraction(double x, double y) const;
 
     [[nodiscard]] std::size_t patches() const { return patches_.size(); }
 

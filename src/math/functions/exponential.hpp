@@ -3,8 +3,7 @@
 // exp(x) by additions, multiplications and the bits of a double: the mathematics library's own
 // differs between machines.
 //
-//     x = k ln 2 + r,  |r| <= ln 2 / 2,    exp(x) = 2^k (1 + r + r^2 q(r)),    q by Taylor's
-//     series.
+//     x = k ln 2 + r,  |r| <= ln 2 / 2,    exp(x) = 2^k (1 + r + r^2 q(r)),    q by Taylor's series.
 //
 // Shape   x <= 709; exp(x) is exactly 0 below -708.
 // Cost    no branch and no table, so that compilers vectorise loops of it.

@@ -11,39 +11,16 @@
 // Cost    no branch and no table, so that compilers vectorise loops of it.
 // Promise within 1 unit in the last place, log_1p also near 0; log(1) = 0 = log_1p(0); the same
 //         bits on every machine with IEEE 754 arithmetic, compiled without contraction into fused
-//         multiply-adds. logarithm_parts is log(x) to 63 bits, as a sum of two doubles.
+//         multiply-adds. logarithm_parts is log(x) to 63 bits.
 // Source  The form with f - f^2/2 is that of FDLIBM's e_log.c (Sun Microsystems, 1993).
 #pragma once
 
 #include <bit>
 #include <cstdint>
 
+#include "math/functions/double_double.hpp"
+
 namespace stipple {
-
-/// A number as the unevaluated sum of a double and a small rest.
-struct TwoPart {
-    double high;
-    double low;
-};
-
-/// a * b without rounding, unless it under- or overflows.
-inline TwoPart exact_product(double a, double b) {
-    constexpr std::uint64_t upper = ~0x7ffffffULL;  // 26 bits: products of two are exact
-    const auto a_high = std::bit_cast<double>(std::bit_cast<std::uint64_t>(a) & upper);
-    const auto b_high = std::bit_cast<double>(std::bit_cast<std::uint64_t>(b) & upper);
-    const double a_low = a - a_high;
-    const double b_low = b - b_high;
-    const double product = a * b;
-    const double rest =
-        ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low;
-    return {product, rest};
-}
-
-/// a + b as the nearest double and what it lacks; |a| >= |b| or a = 0.
-inline TwoPart exact_sum(double a, double b) {
-    const double sum = a + b;
-    return {sum, b - (sum - a)};
-}
 
 namespace detail {
 
@@ -103,14 +80,14 @@ inline Fraction fraction_of(double x) {
 }
 
 /// log(x) for finite x > 0, off by at most 2^-63 of itself.
-[[gnu::always_inline]] inline TwoPart logarithm_parts(double x) {
+[[gnu::always_inline]] inline DoubleDouble logarithm_parts(double x) {
     const auto [k, f] = detail::fraction_of(x);
     const double below = 2 + f;
     const double below_rest = f - (below - 2);
     const double s = f / below;
-    const auto [back, back_rest] = exact_product(s, below);
+    const auto [back, back_rest] = split_product(s, below);
     const double s_rest = (((f - back) - back_rest) - s * below_rest) / below;
-    const auto [z, z_rest] = exact_product(s, s);
+    const auto [z, z_rest] = split_product(s, s);
 
     double r = 2 / 23.0;  // z (2/5 + (2/7) z + ...) needs no second part
     r = r * z + 2 / 21.0;
@@ -125,18 +102,18 @@ inline Fraction fraction_of(double x) {
 
     constexpr double third = 2 / 3.0;
     constexpr double third_rest = 0x1.5555555555555p-55;  // 2/3 - third
-    const auto [factor, lost] = exact_sum(third, z * r);
+    const auto [factor, lost] = ordered_sum(third, z * r);
     const double factor_rest = lost + (third_rest + z_rest * r);
 
-    const auto [cube, cube_lost] = exact_product(s, z);
+    const auto [cube, cube_lost] = split_product(s, z);
     const double cube_rest = cube_lost + (s * (z_rest + 2 * s * s_rest) + s_rest * z);
-    const auto [c, c_lost] = exact_product(cube, factor);
+    const auto [c, c_lost] = split_product(cube, factor);
     const double c_rest = c_lost + (cube_rest * factor + cube * factor_rest);
 
-    const auto [first, first_rest] = exact_sum(2 * s, c);
-    const auto [all, all_rest] = exact_sum(k * detail::log_2_head, first);
+    const auto [first, first_rest] = ordered_sum(2 * s, c);
+    const auto [all, all_rest] = ordered_sum(k * detail::log_2_head, first);
     const double rest = all_rest + (first_rest + ((k * detail::log_2_tail + 2 * s_rest) + c_rest));
-    return exact_sum(all, rest);
+    return ordered_sum(all, rest);
 }
 
 }  // namespace stipple

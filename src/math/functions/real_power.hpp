@@ -27,7 +27,7 @@ namespace stipple {
     constexpr double large = 0x1p63;  // beyond, x = 1 alone has a finite power that is not 0
     const double bounded = y > large ? large : (y < -large ? -large : y);
     const auto [high, low] = logarithm_parts(x > 0 ? x : 0x1p-1022);
-    const auto [exponent, rest] = exact_product(high, bounded);
+    const auto [exponent, rest] = split_product(high, bounded);
     const double inside = exponent < most ? exponent : most;
     const double power = exponential(inside);
     const double result = power + power * (rest + low * bounded);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Directions about the z axis by their drop below the pole and their longitude:
+// Directions about the z axis by the cosine of their angle from it and their longitude, the angle
+// from x towards y in turns. In place of the cosine, 1 - cos and 1 + cos: each keeps the digits
+// near its own pole that the cosine has lost there.
 //
-//     drop = 1 - cos(angle from z),    longitude = angle from x towards y, in turns.
+// A part of the sphere has the area of its rectangle of cosines and longitudes, times 2 pi
+// (Archimedes).
 //
-// A part of the sphere has the area of its rectangle of drops and longitudes, times 2 pi
-// (Archimedes). The drop keeps the digits near the pole that z has lost there.
-//
-// Promise drop and 2 - drop come back within a few units in their last places.
+// Promise 1 - cos and 1 + cos come back within a few units in their last places.
 #pragma once
 
 #include <cmath>
@@ -17,26 +17,31 @@
 
 namespace stipple {
 
-/// The unit vector of a drop and of what is left of 2, the rise from the other pole; each keeps the
-/// digits near its own pole. Longitude in [0, 1].
-inline Vector3 at_pole(double drop, double rise, double longitude) {
-    const double r = std::sqrt(drop * rise);
+/// The unit vector with this 1 - cos and 1 + cos, which sum to 2; longitude in [0, 1].
+inline Vector3 polar_direction(double one_minus_cos, double one_plus_cos, double longitude) {
+    const double r = std::sqrt(one_minus_cos * one_plus_cos);
     const auto [c, s] = cos_sin_turns(longitude);
-    return {r * c, r * s, 0.5 * (rise - drop)};
+    return {r * c, r * s, 0.5 * (one_plus_cos - one_minus_cos)};
 }
 
-/// The drop of a vector from the pole that is nearer; of any length but 0, for which it is 1.
-inline double least_drop(const Vector3& v) {
+/// 1 - |cos| of a vector of any length but 0, for which it is 1.
+inline double one_minus_abs_cos(const Vector3& v) {
     const double rr = v[0] * v[0] + v[1] * v[1];
     const double size = std::sqrt(rr + v[2] * v[2]);
     const double whole = size * (size + std::abs(v[2]));
     return whole > 0 ? rr / whole : 1;
 }
 
-/// The drop of a vector of any length.
-inline double drop_of(const Vector3& v) {
-    const double least = least_drop(v);
+/// 1 - cos of a vector of any length.
+inline double one_minus_cos(const Vector3& v) {
+    const double least = one_minus_abs_cos(v);
     return v[2] >= 0 ? least : 2 - least;
+}
+
+/// 1 + cos of a vector of any length.
+inline double one_plus_cos(const Vector3& v) {
+    const double least = one_minus_abs_cos(v);
+    return v[2] >= 0 ? 2 - least : least;
 }
 
 }  // namespace stipple

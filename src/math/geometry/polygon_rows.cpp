@@ -116,7 +116,9 @@ PolygonRows::PolygonRows(const std::vector<Ring>& rings, const RunContext& run) 
     measure_rings(rings);
     cut_slabs(run);
     measure_slabs();
-    fill_guide();
+    guide_.resize(std::max<std::size_t>(64, 4 * slabs_.size()) + 1);
+    fill_guide(sums_, guide_);
+    buckets_ = Buckets(area_, guide_.size() - 1);
 }
 
 void PolygonRows::measure_rings(const std::vector<Ring>& rings) {
@@ -179,6 +181,7 @@ void PolygonRows::measure_slabs() {
         slab.area = 0.5 * (slab.width_bottom + slab.width_top) * slab.height();
         slab.area_below = area_;
         area_ += slab.area;
+        sums_.push_back(area_);
         if (!(slab.area > 0)) continue;
         const double widest = std::max(slab.width_bottom, slab.width_top);
         slab.share_bottom = slab.width_bottom / widest;
@@ -189,18 +192,6 @@ void PolygonRows::measure_slabs() {
     for (std::size_t j = slabs_.size(); j-- > 0;) {
         slabs_[j].area_above = above;
         above += slabs_[j].area;
-    }
-}
-
-void PolygonRows::fill_guide() {
-    const std::size_t shares = std::max<std::size_t>(64, 4 * slabs_.size());
-    shares_ = static_cast<double>(shares);
-    guide_.resize(shares + 1);  // the last one is for u = 1
-    std::size_t j = 0;
-    for (std::size_t k = 0; k < guide_.size(); ++k) {
-        const double below = static_cast<double>(k) / shares_ * area_;
-        while (j < last_filled_ && slabs_[j].area_below + slabs_[j].area <= below) ++j;
-        guide_[k] = static_cast<std::uint32_t>(j);
     }
 }
 
@@ -273,11 +264,9 @@ void PolygonRows::forward_all(std::span<const double> cube, std::span<double> im
 
 /// The slab of the row that has the share u of the area below it.
 std::size_t PolygonRows::slab_at(double u) const {
-    const double below = u * area_;
-    std::size_t j = guide_[static_cast<std::size_t>(static_cast<std::int64_t>(u * shares_))];
-    while (j > 0 && slabs_[j].area_below > below) --j;  // rounding took the share too high
-    while (j < last_filled_ && slabs_[j].area_below + slabs_[j].area <= below) ++j;
-    return j;
+    const double below = std::min(u * area_, std::nextafter(area_, 0.0));
+    const std::size_t bucket = buckets_.of(below);
+    return first_above(sums_, guide_[bucket], guide_[bucket + 1], below);
 }
 
 /// The place in a row, the length `way` from its left end on.

@@ -28,6 +28,7 @@
 
 #include "core/domain.hpp"
 #include "core/run_context.hpp"
+#include "math/densities/guide_table.hpp"
 #include "math/geometry/plane_point.hpp"
 #include "math/geometry/polygon_contact.hpp"
 
@@ -100,7 +101,6 @@ class PolygonRows {
     void measure_rings(const std::vector<Ring>& rings);
     void cut_slabs(const RunContext& run);
     void measure_slabs();
-    void fill_guide();
     [[nodiscard]] std::span<const Part> parts_of(const Slab& slab) const {
         return std::span(parts_).subspan(slab.first, slab.last - slab.first);
     }
@@ -114,8 +114,9 @@ class PolygonRows {
     std::vector<std::pair<PlanePoint, PlanePoint>> rim_;  ///< all edges
     std::vector<Slab> slabs_;
     std::vector<Part> parts_;
-    std::vector<std::uint32_t> guide_;  ///< the slab of the first row of each share of the area
-    double shares_ = 0;
+    std::vector<double> sums_;  ///< of the slabs' areas
+    Buckets buckets_;
+    std::vector<std::uint32_t> guide_;
     std::size_t last_filled_ = 0;  ///< the topmost slab that has an area
     Box box_;
     double area_ = 0;

@@ -5,8 +5,8 @@
 // Promise no vector but what is written: plain + - * / and square roots, the same bits on every
 //         machine with IEEE 754 arithmetic.
 // Source  T. Duff, J. Burgess, P. Christensen, C. Hery, A. Kensler, M. Liani, R. Villemin,
-// "Building
-//         an orthonormal basis, revisited", J. Computer Graphics Techniques 6(1) (2017) 1-8.
+//         "Building an orthonormal basis, revisited", J. Computer Graphics Techniques 6(1) (2017)
+//         1-8.
 #pragma once
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "math/densities/smooth_quadrature.hpp"
+#include "math/densities/quadrature.hpp"
 
 namespace stipple {
 namespace {
@@ -47,10 +47,10 @@ std::vector<double> ends_of(std::vector<double> cuts, double low, double high) {
     return cuts;
 }
 
-std::vector<double> height_cuts(const Zone& zone, const Rims& rims) {
+std::vector<double> height_cuts(const Zone& zone, const Discontinuities& discontinuities) {
     std::vector<double> cuts;
-    for (std::size_t i = 0; i < rims.circles.size(); ++i) {
-        const SphereCircle& circle = rims.circles[i];
+    for (std::size_t i = 0; i < discontinuities.circles.size(); ++i) {
+        const SphereCircle& circle = discontinuities.circles[i];
         const auto& [n, h] = circle;
         const double across = std::sqrt(n[0] * n[0] + n[1] * n[1]);
         const double reach = across * std::sqrt(std::max(0.0, 1 - h * h));
@@ -58,16 +58,16 @@ std::vector<double> height_cuts(const Zone& zone, const Rims& rims) {
         cuts.push_back(h * n[2] + reach);
         add_meridian(circle, zone.turn_low, cuts);
         add_meridian(circle, zone.turn_high, cuts);
-        for (std::size_t j = 0; j < i; ++j) add_corners(circle, rims.circles[j], cuts);
+        for (std::size_t j = 0; j < i; ++j) add_corners(circle, discontinuities.circles[j], cuts);
     }
     return ends_of(std::move(cuts), zone.z_low, zone.z_high);
 }
 
 /// Longitudes, in turns, at which circles are at this height.
-std::vector<double> turn_cuts(double z, const Zone& zone, const Rims& rims) {
+std::vector<double> turn_cuts(double z, const Zone& zone, const Discontinuities& discontinuities) {
     std::vector<double> cuts;
     const double r = std::sqrt((1 - z) * (1 + z));
-    for (const auto& [n, h] : rims.circles) {
+    for (const auto& [n, h] : discontinuities.circles) {
         const double across = r * std::sqrt(n[0] * n[0] + n[1] * n[1]);
         const double cosine = (h - n[2] * z) / across;
         if (!(std::abs(cosine) < 1)) continue;
@@ -80,17 +80,18 @@ std::vector<double> turn_cuts(double z, const Zone& zone, const Rims& rims) {
 }
 
 /// Over the longitudes of one height.
-Estimate integrate_row(const SphereDensity& f, double z, const Zone& zone, const Rims& rims) {
+Estimate integrate_row(const SphereDensity& f, double z, const Zone& zone,
+                       const Discontinuities& discontinuities) {
     const double r = std::sqrt((1 - z) * (1 + z));
     const auto at = [&](double turn) {
         return f({r * std::cos(full_turn * turn), r * std::sin(full_turn * turn), z});
     };
     Estimate sum;
-    const auto turns = turn_cuts(z, zone, rims);
+    const auto turns = turn_cuts(z, zone, discontinuities);
     for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
         const double width = turns[i + 1] - turns[i];
         if (!(width > 0)) continue;
-        if (rims.level) {
+        if (discontinuities.level) {
             sum.value += full_turn * width * at(turns[i] + 0.5 * width);
             continue;
         }
@@ -103,18 +104,19 @@ Estimate integrate_row(const SphereDensity& f, double z, const Zone& zone, const
 
 }  // namespace
 
-Estimate integrate_zone(const SphereDensity& f, const Zone& zone, const Rims& rims) {
+Estimate integrate_zone(const SphereDensity& f, const Zone& zone,
+                        const Discontinuities& discontinuities) {
     Estimate total;
-    if (rims.level && rims.circles.empty()) {
+    if (discontinuities.level && discontinuities.circles.empty()) {
         const double z = zone.z_low + 0.5 * (zone.z_high - zone.z_low);
-        total.value = (zone.z_high - zone.z_low) * integrate_row(f, z, zone, rims).value;
+        total.value = (zone.z_high - zone.z_low) * integrate_row(f, z, zone, discontinuities).value;
         return total;
     }
     double inner = 0;
-    const auto heights = height_cuts(zone, rims);
+    const auto heights = height_cuts(zone, discontinuities);
     for (std::size_t i = 0; i + 1 < heights.size(); ++i) {
         const auto slice = [&](double z) {
-            const Estimate row = integrate_row(f, z, zone, rims);
+            const Estimate row = integrate_row(f, z, zone, discontinuities);
             inner = std::max(inner, row.error);
             return row.value;
         };

@@ -7,7 +7,7 @@
 //                                                      a side of the zone or another circle,
 //                                                      and in phi where a circle is at that z
 //
-// Between the cuts all is smooth but for square roots at the ends (smooth_quadrature.hpp).
+// Between the cuts all is smooth but for square roots at the ends (integrate_smooth).
 //
 // Cost    31 values of f or more for each piece of z where f is level, else as many for each of
 //         phi.
@@ -29,7 +29,7 @@ struct SphereCircle {
 };
 
 /// The circles at which a density on the sphere jumps, bends or is steep.
-struct Rims {
+struct Discontinuities {
     std::vector<SphereCircle> circles;
     bool level = true;  ///< constant between circles
 };
@@ -44,17 +44,18 @@ struct Zone {
 
 using SphereDensity = std::function<double(const Vector3&)>;
 
-Estimate integrate_zone(const SphereDensity& f, const Zone& zone, const Rims& rims);
+Estimate integrate_zone(const SphereDensity& f, const Zone& zone,
+                        const Discontinuities& discontinuities);
 
 /// What a domain of directions also is that knows where its density is not smooth.
-class Rimmed {
+class Discontinuous {
   public:
-    Rimmed() = default;
-    Rimmed(const Rimmed&) = delete;
-    Rimmed& operator=(const Rimmed&) = delete;
-    virtual ~Rimmed() = default;
+    Discontinuous() = default;
+    Discontinuous(const Discontinuous&) = delete;
+    Discontinuous& operator=(const Discontinuous&) = delete;
+    virtual ~Discontinuous() = default;
 
-    [[nodiscard]] virtual Rims rims() const = 0;
+    [[nodiscard]] virtual Discontinuities discontinuities() const = 0;
 };
 
 }  // namespace stipple

@@ -4,9 +4,8 @@
 //
 //     smooth-gaussian  exp(-|x - 1/2|^2 / (2 width^2)), all coordinates 1/2 in the middle
 //     zone-plate       (1 + cos(k (x^2 + y^2))) / 2
-//     owen             the sum over all sets u of `order` axes of prod_{j in u} sqrt(12) (x_j -
-//     1/2),
-//                      divided by the root of their number: integral 0, variance 1, and all of it
+//     owen             the sum over all sets u of `order` axes of
+//                      prod_{j in u} sqrt(12) (x_j - 1/2), divided by the root of their number: integral 0, variance 1, and all of it
 //                      in interactions of exactly so many coordinates
 //     sobol-g          prod (|4 x_j - 2| + a_j) / (1 + a_j), integral 1; a_j = j - 1, else given,
 //                      the last one for all axes beyond
@@ -15,7 +14,7 @@
 //     measure          1: its integral is the domain's length, area, volume or solid angle
 //
 // Promise integrals within 1e-15 relative or a few rounding errors. That of the zone plate is
-//         (1 + Re (int_0^1 e^(i k x^2) dx)^2) / 2, by Gauss and Legendre's rule of 30 points on
+//         (1 + Re (int_0^1 e^(i k x^2) dx)^2) / 2, by the Gauss-Kronrod rule of 31 points on
 //         pieces over which the phase turns by at most 4: within 1e-15.
 // Source  A. B. Owen, "The dimension distribution and quadrature test functions", Statistica Sinica
 //         13 (2003) 1-17 (functions whose interactions have a chosen order). A. Saltelli,
@@ -26,12 +25,12 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <complex>
 #include <numbers>
 
 #include "core/error.hpp"
+#include "math/densities/quadrature.hpp"
 
 namespace stipple {
 namespace {
@@ -70,9 +69,10 @@ std::complex<double> fresnel(double k) {
     const auto pieces = static_cast<int>(std::ceil(k / 2)) + 1;
     std::complex<double> sum = 0;
     for (int j = 0; j < pieces; ++j) {
-        const auto piece = [&](const auto& f) {
-            return boost::math::quadrature::gauss<double, 30>::integrate(
-                f, static_cast<double>(j) / pieces, static_cast<double>(j + 1) / pieces);
+        const auto piece = [&](const std::function<double(double)>& f) {
+            return gauss_kronrod_31(f, static_cast<double>(j) / pieces,
+                                    static_cast<double>(j + 1) / pieces)
+                .value;
         };
         sum += std::complex<double>(piece([k](double x) { return std::cos(k * x * x); }),
                                     piece([k](double x) { return std::sin(k * x * x); }));

@@ -24,7 +24,7 @@
 #include <numbers>
 
 #include "core/box_mass.hpp"
-#include "math/densities/smooth_quadrature.hpp"
+#include "math/densities/quadrature.hpp"
 #include "math/functions/roots.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "math/geometry/planar_area.hpp"
@@ -46,7 +46,7 @@ const Schema& schema() {
 /// The shares of the volume within, above and before a point of the unit ball.
 std::array<double, 3> shares(const Vector3& v) {
     const double r = length(v);
-    return {std::min(r * r * r, 1.0), 0.5 * drop_of(v), turns_of(v[0], v[1])};
+    return {std::min(r * r * r, 1.0), 0.5 * one_minus_cos(v), turns_of(v[0], v[1])};
 }
 
 class BallDomain final : public Domain, public Weighable {
@@ -125,7 +125,8 @@ struct ByVolume {
     Sphere sphere;
 
     Vector3 forward(const Vector3& xi) const {
-        return sphere.place(times(at_pole(2 * xi[1], 2 * (1 - xi[1]), xi[2]), cube_root(xi[0])));
+        return sphere.place(
+            times(polar_direction(2 * xi[1], 2 * (1 - xi[1]), xi[2]), cube_root(xi[0])));
     }
     std::array<double, 3> inverse(std::span<const double> point) const {
         return shares(sphere.unit(point));

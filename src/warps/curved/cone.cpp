@@ -44,26 +44,27 @@ const Schema& schema() {
     return options;
 }
 
-/// A part of the sphere about a pole; drop and rise are 1 - cos and 1 + cos of the angle to its
-/// rim.
+/// The part of the sphere within an angle of an axis.
 struct Cap {
     Frame frame;
     CosSin rim;   ///< of the angle from the axis to the rim
     CosSin half;  ///< of half of it
 
-    double drop() const { return rim.cos > 0.5 ? 2 * half.sin * half.sin : 1 - rim.cos; }
-    double rise() const { return rim.cos < -0.5 ? 2 * half.cos * half.cos : 1 + rim.cos; }
+    /// Of the angle from the axis to the rim.
+    double rim_minus() const { return rim.cos > 0.5 ? 2 * half.sin * half.sin : 1 - rim.cos; }
+    double rim_plus() const { return rim.cos < -0.5 ? 2 * half.cos * half.cos : 1 + rim.cos; }
 
     /// The share of the solid angle within, and the longitude.
     std::array<double, 2> shares(std::span<const double> point) const {
         const Vector3 v = frame.in(vector_of(point));
-        const double least = least_drop(v);
-        const double share = v[2] >= 0 ? least / drop() : 1 - (least - rise()) / drop();
+        const double least = one_minus_abs_cos(v);
+        const double share =
+            v[2] >= 0 ? least / rim_minus() : 1 - (least - rim_plus()) / rim_minus();
         return {share, turns_of(v[0], v[1])};
     }
 };
 
-class ConeDomain final : public Domain, public Rimmed {
+class ConeDomain final : public Domain, public Discontinuous {
   public:
     ConeDomain(const Cap& cap, std::string spec)
         : cap_(cap),
@@ -73,7 +74,7 @@ class ConeDomain final : public Domain, public Rimmed {
     std::string spec() const override { return spec_; }
     std::size_t dimension() const override { return 3; }
     std::size_t cube_dimension() const override { return 2; }
-    double measure() const override { return 2 * std::numbers::pi * cap_.drop(); }
+    double measure() const override { return 2 * std::numbers::pi * cap_.rim_minus(); }
 
     /// Up to 8 epsilon beyond the rim, and as much longer or shorter than 1: the rounding of a
     /// direction that was made. Thin cones about z: 8 epsilon of the rim's distance from the axis.
@@ -104,10 +105,12 @@ class ConeDomain final : public Domain, public Rimmed {
         cube[0] = std::clamp(within, 0.0, 1.0);
         cube[1] = longitude;
     }
-    Rims rims() const override { return {.circles = {{cap_.frame.z, cap_.rim.cos}}}; }
+    Discontinuities discontinuities() const override {
+        return {.circles = {{cap_.frame.z, cap_.rim.cos}}};
+    }
     std::optional<Moments> moments() const override {
-        // By the drop v = 1 - z, which is uniform up to that of the rim: thin cones keep digits.
-        const double v = cap_.drop();
+        // By v = 1 - z, which is uniform up to that of the rim: thin cones keep digits.
+        const double v = cap_.rim_minus();
         const AxialMoments round{.along = {1 - 0.5 * v, v * v / 12, 0},
                                  .across = v * (0.5 - v / 6),
                                  .across_along = v * v * (v / 24 - 1 / 12.0)};
@@ -129,9 +132,9 @@ struct ByHeight {
     Cap cap;
 
     Vector3 forward(const std::array<double, 2>& xi) const {
-        const double drop = cap.drop() * xi[0];
-        const double rise = cap.rise() + cap.drop() * (1 - xi[0]);
-        return cap.frame.out(at_pole(drop, rise, xi[1]));
+        const double below = cap.rim_minus() * xi[0];  // 1 - cos
+        const double above = cap.rim_plus() + cap.rim_minus() * (1 - xi[0]);
+        return cap.frame.out(polar_direction(below, above, xi[1]));
     }
     std::array<double, 2> inverse(std::span<const double> point) const { return cap.shares(point); }
 };

@@ -78,7 +78,7 @@ struct Law {
     double share(const Vector3& v) const {
         const double rr = v[0] * v[0] + v[1] * v[1];
         const double zz = v[2] * v[2];
-        if (power == 0) return drop_of(v);
+        if (power == 0) return one_minus_cos(v);
         if (power == 1) return rr < zz ? rr / (rr + zz) : 1 - zz / (rr + zz);
         if (!(v[2] > 0)) return 1;
         const double log = rr < zz ? 0.5 * log_1p(0 - rr / (rr + zz)) : logarithm(v[2]);
@@ -86,7 +86,7 @@ struct Law {
     }
 };
 
-class HemisphereDomain final : public Domain, public Rimmed {
+class HemisphereDomain final : public Domain, public Discontinuous {
   public:
     HemisphereDomain(const Frame& frame, const Law& law, std::string spec)
         : frame_(frame), law_(law), spec_(std::move(spec)) {}
@@ -119,7 +119,9 @@ class HemisphereDomain final : public Domain, public Rimmed {
         cube[0] = std::clamp(law_.share(v), 0.0, 1.0);
         cube[1] = turns_of(v[0], v[1]);
     }
-    Rims rims() const override { return {.circles = {{frame_.z, 0}}, .level = law_.power == 0}; }
+    Discontinuities discontinuities() const override {
+        return {.circles = {{frame_.z, 0}}, .level = law_.power == 0};
+    }
     std::optional<Moments> moments() const override {
         // The height is z = u^(1/p) with p = k + 1: Beta(p, 1).
         const double p = law_.power + 1;
@@ -155,7 +157,7 @@ struct Polar {
 
 struct Uniform : Polar {
     Vector3 forward(const std::array<double, 2>& xi) const {
-        return frame.out(at_pole(xi[0], 1 + (1 - xi[0]), xi[1]));
+        return frame.out(polar_direction(xi[0], 1 + (1 - xi[0]), xi[1]));
     }
 };
 

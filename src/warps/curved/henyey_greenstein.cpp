@@ -61,7 +61,7 @@ struct Phase {
         const double square = g > 0 ? (1 - g) * (1 - g) + 2 * g * v : (1 + g) * (1 + g) - 2 * g * c;
         return std::sqrt(square);
     }
-    double share(double v, double c) const {
+    double fraction(double v, double c) const {
         const double t = distance(v, c);
         const double near = (1 + g) * v / (t * (t + (1 - g)));
         const double far = (1 - g) * c / (t * (t + (1 + g)));

@@ -4,9 +4,10 @@
 // probability of the cone about the axis that the direction is on the rim of, and theta its angle,
 //
 //     struct Lobe {
-//         Tilt forward(double u) const;           // cosine and sine of theta
-//         double share(double v, double c) const; // u, from v = 1 - cos theta and c = 1 + cos
-//         theta double density(double v, double c) const;   // by solid angle
+//         Tilt forward(double u) const;                // cosine and sine of theta
+//         double fraction(double v, double c) const;   // u, from v = 1 - cos theta and
+//                                                      // c = 1 + cos theta
+//         double density(double v, double c) const;    // by solid angle
 //         AxialMoments moments() const;
 //     };
 //
@@ -21,6 +22,7 @@
 
 #include "math/functions/trigonometry.hpp"
 #include "math/geometry/law_moments.hpp"
+#include "math/geometry/polar_direction.hpp"
 #include "math/geometry/vector3.hpp"
 #include "math/geometry/zone_integral.hpp"
 #include "warps/row_mapping.hpp"
@@ -33,22 +35,8 @@ struct Tilt {
     double sin;
 };
 
-/// 1 - cos and 1 + cos of the angle between the z axis and a vector that is not null.
-struct Versines {
-    double v;
-    double c;
-};
-
-inline Versines versines_of(const Vector3& local) {
-    const double rr = local[0] * local[0] + local[1] * local[1];
-    const double size = std::sqrt(rr + local[2] * local[2]);
-    const double large = 1 + std::abs(local[2]) / size;
-    const double small = rr / (size * size) / large;
-    return local[2] >= 0 ? Versines{small, large} : Versines{large, small};
-}
-
 template <class Lobe>
-class LobeDomain final : public Domain, public Rimmed {
+class LobeDomain final : public Domain, public Discontinuous {
   public:
     LobeDomain(const Lobe& lobe, const Frame& frame, std::string spec)
         : lobe_(lobe), frame_(frame), spec_(std::move(spec)) {}
@@ -66,19 +54,19 @@ class LobeDomain final : public Domain, public Rimmed {
     Box bounding_box() const override { return {{-1, -1, -1}, {1, 1, 1}}; }
     double density(std::span<const double> point) const override {
         if (!contains(point)) return 0;
-        const auto [v, c] = versines_of(frame_.in({point[0], point[1], point[2]}));
-        return lobe_.density(v, c);
+        const Vector3 local = frame_.in({point[0], point[1], point[2]});
+        return lobe_.density(one_minus_cos(local), one_plus_cos(local));
     }
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         const Vector3 local = frame_.in({point[0], point[1], point[2]});
-        const auto [v, c] = versines_of(local);
-        cube[0] = std::clamp(lobe_.share(v, c), 0.0, 1.0);
+        const double u = lobe_.fraction(one_minus_cos(local), one_plus_cos(local));
+        cube[0] = std::clamp(u, 0.0, 1.0);
         cube[1] = turns_of(local[0], local[1]);
     }
     /// No edges, but where nearly all or nearly nothing is nearer to the axis: peaks are not
     /// missed.
-    Rims rims() const override {
-        Rims found{.circles = {}, .level = false};
+    Discontinuities discontinuities() const override {
+        Discontinuities found{.circles = {}, .level = false};
         for (const double u : {0.01, 0.5, 0.99, 1 - 1e-6, 1 - 1e-12})
             found.circles.push_back({frame_.z, lobe_.forward(u).cos});
         return found;
@@ -109,8 +97,8 @@ struct ByLobe {
     }
     std::array<double, 2> inverse(std::span<const double> point) const {
         const Vector3 local = frame.in({point[0], point[1], point[2]});
-        const auto [v, c] = versines_of(local);
-        return {lobe.share(v, c), turns_of(local[0], local[1])};
+        return {lobe.fraction(one_minus_cos(local), one_plus_cos(local)),
+                turns_of(local[0], local[1])};
     }
 };
 

@@ -27,6 +27,9 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/rng.hpp"
+#include "math/densities/guide_table.hpp"
+#include "math/functions/running_sums.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "media/triangle_mesh.hpp"
 #include "warps/curved/placement.hpp"
@@ -63,82 +66,52 @@ std::size_t size_of(Gives gives) {
     return gives == Gives::position ? 3 : (gives == Gives::normal ? 6 : 7);
 }
 
-/// A sum to twice the working precision.
-struct LongSum {
-    double high = 0;
-    double low = 0;
-
-    void add(double x) {
-        const double sum = high + x;
-        const double part = sum - high;
-        low += (high - (sum - part)) + (x - part);
-        high = sum;
-    }
-};
-
 /// The triangles' shares of the area, end to end.
 class Shares {
   public:
     Shares(const TriangleMesh& mesh, const std::string& name, const RunContext& run) {
-        std::vector<LongSum> sums(1);
+        std::vector<double> areas;
         for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
             if (i % 65536 == 0) run.check_stop();
             const auto [a, b, c] = mesh.corners(i);
-            LongSum sum = sums.back();
-            sum.add(0.5 * length(cross(minus(b, a), minus(c, a))));
-            sums.push_back(sum);
+            areas.push_back(0.5 * length(cross(minus(b, a), minus(c, a))));
         }
-        area_ = sums.back().high + sums.back().low;
+        ends_ = running_sums(areas);
+        area_ = ends_.back();
         if (!(area_ > 0)) fail(ErrorKind::input, "{}: the mesh has no area", name);
-        for (const LongSum& sum : sums) ends_.push_back((sum.high + sum.low) / area_);
-        lay_guide();
+        for (double& end : ends_) end /= area_;
+        guide_.resize(ends_.size() + 1);
+        fill_guide(ends_, guide_);
+        buckets_ = Buckets(1, guide_.size() - 1);
     }
 
     double area() const { return area_; }
 
     /// The share up to the part t of a triangle, never that of the next one.
     double up_to(std::size_t i, double t) const {
-        const double share = ends_[i] + t * width(i);
-        return i == last_ ? std::min(share, 1.0) : std::min(share, std::nextafter(ends_[i + 1], 0));
+        const double share = begin(i) + t * width(i);
+        return ends_[i] == 1 ? std::min(share, 1.0) : std::min(share, std::nextafter(ends_[i], 0));
     }
 
     /// The part of a triangle before a share that it holds.
     double part(std::size_t i, double share) const {
-        return std::min((share - ends_[i]) / width(i), 1.0);
+        return std::min((share - begin(i)) / width(i), 1.0);
     }
 
     /// The triangle that holds this share; the last with an area for 1.
     std::size_t at(double share) const {
-        auto slot = static_cast<std::size_t>(share * static_cast<double>(guide_.size() - 2));
-        while (ends_[guide_[slot]] > share) --slot;  // rounded up
-        const auto first = ends_.begin() + static_cast<std::ptrdiff_t>(guide_[slot]);
-        const auto last = ends_.begin() + static_cast<std::ptrdiff_t>(guide_[slot + 1]) + 1;
-        const auto above = std::upper_bound(first, last, share);
-        auto i = static_cast<std::size_t>(above - ends_.begin()) - 1;
-        while (i < last_ && ends_[i + 1] <= share) ++i;  // rounded down
-        return std::min(i, last_);
+        const double inside = std::min(share, one_minus_ulp);
+        const std::size_t bucket = buckets_.of(inside);
+        return first_above(ends_, guide_[bucket], guide_[bucket + 1], inside);
     }
 
   private:
-    double width(std::size_t i) const { return ends_[i + 1] - ends_[i]; }
+    double begin(std::size_t i) const { return i == 0 ? 0 : ends_[i - 1]; }
+    double width(std::size_t i) const { return ends_[i] - begin(i); }
 
-    /// guide_[k] is the triangle that holds k / (slots): where a search begins and ends.
-    void lay_guide() {
-        const std::size_t count = ends_.size() - 1;
-        std::size_t i = 0;
-        for (std::size_t k = 0; k <= count; ++k) {
-            const double share = static_cast<double>(k) / static_cast<double>(count);
-            while (i + 1 < count && ends_[i + 1] <= share) ++i;
-            guide_.push_back(i);
-        }
-        guide_.push_back(count - 1);
-        last_ = count - 1;
-        while (!(width(last_) > 0)) --last_;
-    }
-
-    std::vector<double> ends_;  ///< S_i
-    std::vector<std::size_t> guide_;
-    std::size_t last_ = 0;
+    std::vector<double> ends_;  ///< S_1, S_2, ...; the last is 1
+    std::vector<std::uint32_t> guide_;
+    Buckets buckets_;
     double area_ = 0;
 };
 

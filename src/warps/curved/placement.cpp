@@ -21,26 +21,10 @@ Vector3 center_of(const Values& options, double reach) {
     return at;
 }
 
-void refuse_far(double x, double reach) {
-    if (x + reach == x || x - reach == x)
-        fail(ErrorKind::usage, "--{}: {} is so far that a radius of {} is lost in rounding",
-             center.name, x, reach);
-}
-
 Frame frame_of(const Values& options) {
     const Vector3 along = vector_of(axis, options[axis]);
     if (largest(along) == 0) fail(ErrorKind::usage, "--{}: 0,0,0 has no direction", axis.name);
     return frame_about(normalized(along));
-}
-
-std::string domain_spec(std::string_view name, const Values& options, const Schema& schema,
-                        std::initializer_list<std::string_view> which) {
-    Values law = schema.defaults();
-    for (const std::string_view option : which) {
-        const auto& item = options.find(option);
-        law.put(option, item.value, item.given);
-    }
-    return format_spec(name, law, schema);
 }
 
 Box Sphere::bounding_box() const {

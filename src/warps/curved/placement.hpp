@@ -3,15 +3,13 @@
 // Where shapes stand in space: options that several warps share, with their checks.
 #pragma once
 
-#include <initializer_list>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/domain.hpp"
 #include "core/options.hpp"
 #include "math/geometry/vector3.hpp"
+#include "warps/common_options.hpp"
 
 namespace stipple::warps {
 
@@ -27,18 +25,11 @@ constexpr Param<Numbers> axis{
 /// the shape is lost in rounding.
 Vector3 center_of(const Values& options, double reach);
 
-/// @throws Error(usage) when a centre's coordinate is so far that the shape is lost in rounding.
-void refuse_far(double x, double reach);
-
 /// The frame about --axis. @throws Error(usage): not three numbers, or null.
 Frame frame_of(const Values& options);
 
 /// Three numbers of an option. @throws Error(usage) naming it.
 Vector3 vector_of(const Param<Numbers>& option, const std::vector<double>& numbers);
-
-/// The spec of a domain that these options alone decide on; all else is how points are made.
-std::string domain_spec(std::string_view name, const Values& options, const Schema& schema,
-                        std::initializer_list<std::string_view> which);
 
 /// A sphere or ball of this radius about a centre.
 struct Sphere {

@@ -75,7 +75,7 @@ class SphereDomain final : public Domain {
     Box bounding_box() const override { return sphere_.bounding_box(); }
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         const Vector3 v = sphere_.unit(point);
-        cube[0] = 0.5 * drop_of(v);
+        cube[0] = 0.5 * one_minus_cos(v);
         cube[1] = turns_of(v[0], v[1]);
     }
     std::optional<Moments> moments() const override {
@@ -95,11 +95,11 @@ struct ByHeight {
     Sphere sphere;
 
     Vector3 forward(const std::array<double, 2>& xi) const {
-        return sphere.place(at_pole(2 * xi[0], 2 * (1 - xi[0]), xi[1]));
+        return sphere.place(polar_direction(2 * xi[0], 2 * (1 - xi[0]), xi[1]));
     }
     std::array<double, 2> inverse(std::span<const double> point) const {
         const Vector3 v = sphere.unit(point);
-        return {0.5 * drop_of(v), turns_of(v[0], v[1])};
+        return {0.5 * one_minus_cos(v), turns_of(v[0], v[1])};
     }
 };
 

@@ -81,8 +81,6 @@ struct Rectangle {
 
 class Urena {
   public:
-    using Beat = std::uint32_t;  ///< for the pace of loops
-
     explicit Urena(const Rectangle& rectangle) : seen_(rectangle) {
         // Turned so that the digits are kept: mostly x <= 0 and y >= 0.
         if (seen_.x0 + seen_.x1 > 0) {
@@ -116,10 +114,7 @@ class Urena {
                  low_.sin * high_.cos + low_.cos * high_.sin};
     }
 
-    Vector3 forward(const std::array<double, 2>& xi) const { return finish(xi, start(xi)); }
-
-    /// Sine and cosine of phi.
-    std::array<double, 2> start(const std::array<double, 2>& xi) const {
+    Vector3 forward(const std::array<double, 2>& xi) const {
         const double u = from_x_ + sign_x_ * xi[0];
         const CosSin h_itself = cos_sin_turns(before_ + half_ * u);
         const CosSin g_itself = cos_sin_turns(behind_ + half_ * (1 - u));
@@ -130,13 +125,11 @@ class Urena {
             h.sin * g.sin * sine_of_sum(h, g, low_, high_) * sine_of_sum(g, h, low_, high_);
         const double across = 2 * std::sqrt(std::max(root, 0.0));
         const double scale = 1 / std::sqrt(along * along + across * across);
-        return {along * scale, across * scale};
-    }
-    Vector3 finish(const std::array<double, 2>& xi, const std::array<double, 2>& start) const {
+        const double sin_phi = along * scale;
+        const double cos_phi = across * scale;
         const double v = from_y_ + sign_y_ * xi[1];
-        const auto [sin_phi, cos_phi] = start;
-        const Rises from = rises(seen_.y0, cos_phi);
-        const Rises to = rises(seen_.y1, cos_phi);
+        const Gaps from = gaps(seen_.y0, cos_phi);
+        const Gaps to = gaps(seen_.y1, cos_phi);
         const double below = (1 - v) * from.below + v * to.below;
         const double above = (1 - v) * from.above + v * to.above;
         const double cos_up = std::sqrt(below * above);
@@ -152,8 +145,8 @@ class Urena {
         const double cos_phi = z / std::sqrt(rr);
         const double u = (half_up_to(seen_.z * (x / z)) - before_) / half_;
         const double least = rr / (size * (size + std::abs(y)));
-        const Rises from = rises(seen_.y0, cos_phi);
-        const double range = from.below - rises(seen_.y1, cos_phi).below;
+        const Gaps from = gaps(seen_.y0, cos_phi);
+        const double range = from.below - gaps(seen_.y1, cos_phi).below;
         const double v = (y > 0 ? from.below - least : least - from.above) / range;
         return {from_x_ + sign_x_ * u, from_y_ + sign_y_ * v};
     }
@@ -191,13 +184,13 @@ class Urena {
     }
 
     /// 1 - h(y) and 1 + h(y), for the sine h of an elevation.
-    struct Rises {
+    struct Gaps {
         double below;
         double above;
     };
 
     /// At x = z tan(phi).
-    Rises rises(double y, double cos_phi) const {
+    Gaps gaps(double y, double cos_phi) const {
         const double up = y * cos_phi;
         const double size = std::sqrt(up * up + seen_.z * seen_.z);
         const double least = seen_.z * seen_.z / (size * (size + std::abs(up)));
@@ -220,7 +213,7 @@ class Urena {
     CosSin both_{};  ///< of their sum
 };
 
-class RectangleDomain final : public Domain, public Rimmed {
+class RectangleDomain final : public Domain, public Discontinuous {
   public:
     RectangleDomain(const Rectangle& rectangle, std::string spec)
         : polygon_(rectangle.corners()), cells_(rectangle.transposed()), spec_(std::move(spec)) {}
@@ -244,7 +237,7 @@ class RectangleDomain final : public Domain, public Rimmed {
         cube[0] = std::clamp(u, 0.0, 1.0);
         cube[1] = std::clamp(v, 0.0, 1.0);
     }
-    Rims rims() const override { return {.circles = polygon_.edges()}; }
+    Discontinuities discontinuities() const override { return {.circles = polygon_.edges()}; }
     std::optional<Moments> moments() const override {
         return polygon_.moments(cells_.solid_angle());
     }

@@ -114,7 +114,7 @@ class Arvo {
 
 using Corners = std::array<Vector3, 3>;
 
-class TriangleDomain final : public Domain, public Rimmed {
+class TriangleDomain final : public Domain, public Discontinuous {
   public:
     TriangleDomain(const Corners& v, std::string spec)
         : polygon_({v[0], v[1], v[2]}),
@@ -147,7 +147,7 @@ class TriangleDomain final : public Domain, public Rimmed {
         cube[0] = std::clamp(u, 0.0, 1.0);
         cube[1] = std::clamp(v, 0.0, 1.0);
     }
-    Rims rims() const override { return {.circles = polygon_.edges()}; }
+    Discontinuities discontinuities() const override { return {.circles = polygon_.edges()}; }
     std::optional<Moments> moments() const override { return polygon_.moments(area_); }
     std::vector<std::string> cube_axes() const override {
         return {"share of the area next to bc", "share on the way from c"};

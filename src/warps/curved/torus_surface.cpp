@@ -205,12 +205,9 @@ struct ByArea {
     Torus torus;
 
     static double mean_anomaly(double xi0) { return two_pi * (xi0 > 0.5 ? xi0 - 0.5 : 0.5 - xi0); }
-    Vector3 forward(const std::array<double, 2>& xi) const { return finish(xi, start(xi)); }
-    std::array<double, 1> start(const std::array<double, 2>& xi) const {
-        return {torus.first_angle(mean_anomaly(xi[0]))};
-    }
-    Vector3 finish(const std::array<double, 2>& xi, const std::array<double, 1>& start) const {
-        const auto [c, s] = torus.half_angle(mean_anomaly(xi[0]), start[0]);
+    Vector3 forward(const std::array<double, 2>& xi) const {
+        const double mean = mean_anomaly(xi[0]);
+        const auto [c, s] = torus.half_angle(mean, torus.first_angle(mean));
         const auto [cos_around, sin_around] = cos_sin_turns(xi[1]);
         const double distance = (torus.major - torus.minor) + 2 * torus.minor * s * s;
         const double z = torus.minor * (2 * s * c);

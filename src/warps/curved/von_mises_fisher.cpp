@@ -66,21 +66,21 @@ class Fisher {
         const double small = u < 1 ? size : last_;
         return {near ? 1 - small : small - 1, std::sqrt(small * (2 - small))};
     }
-    double share(double v, double c) const {
-        if (v < c || far_factor_ == 0) return std::expm1(-kappa_ * v) / near_factor_;
-        return 1 - std::expm1(kappa_ * c) / far_factor_;
+    double fraction(double v, double c) const {
+        if (v < c || far_factor_ == 0) return exp_minus_1(-kappa_ * v) / near_factor_;
+        return 1 - exp_minus_1(kappa_ * c) / far_factor_;
     }
     double density(double v, double /*c*/) const {
         constexpr double around = 2 * std::numbers::pi;
-        return kappa_ * std::exp(-kappa_ * v) / (around * -near_factor_);
+        return kappa_ * stipple::exponential(-kappa_ * v) / (around * -near_factor_);
     }
 
     /// Along the axis, the cumulants are the derivatives of log(sinh kappa / kappa).
     AxialMoments moments() const {
         if (kappa_ < 1) return series_moments();
         const double k = kappa_;
-        const double coth = 1 / std::tanh(k);
-        const double csch = 2 * std::exp(-k) / -std::expm1(-2 * k);
+        const double coth = (2 + near_factor_) / -near_factor_;
+        const double csch = 2 * stipple::exponential(-k) / -near_factor_;
         const double mean = coth - 1 / k;
         const double variance = 1 / (k * k) - csch * csch;
         return {.along = {mean, variance, 2 * (coth * csch * csch - 1 / (k * k * k))},
@@ -105,7 +105,7 @@ class Fisher {
     double near_factor_ = -1;  ///< expm1(-2 kappa)
     double far_factor_ = 0;    ///< expm1(2 kappa), where it is used
     double turn_ = 0.5;        ///< the xi of 90 degrees; 2: always near
-    double last_ = 2;          ///< drop below the nearer pole of xi = 1
+    double last_ = 2;          ///< 1 - cos of xi = 1
 };
 
 std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,

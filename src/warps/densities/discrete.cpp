@@ -21,11 +21,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/error.hpp"
 #include "core/rng.hpp"
 #include "math/densities/guide_table.hpp"
 #include "math/functions/running_sums.hpp"
-#include "warps/curved/placement.hpp"
-#include "warps/densities/per_coordinate.hpp"
+#include "warps/common_options.hpp"
+#include "warps/densities/line_domain.hpp"
 
 namespace stipple::warps::discrete {
 namespace {
@@ -77,34 +78,34 @@ struct Outcomes {
 using OutcomesPtr = std::shared_ptr<const Outcomes>;
 
 /// What does not depend on how outcomes are drawn.
-struct Drawn {
+struct Drawn : LineDistribution {
     OutcomesPtr of;
 
-    bool operator==(const Drawn&) const = default;
-
-    double inverse(double x) const {
+    double inverse(double x) const override {
         const std::size_t i = of->find(x);
         return 0.5 * ((i > 0 ? of->sums[i - 1] : 0) + of->sums[i]);
     }
     /// Outcomes have equal cells in the cube.
-    double place(double x) const {
+    bool even() const override { return false; }
+    double cube_coordinate(double x) const override {
         return (static_cast<double>(of->find(x)) + 0.5) / static_cast<double>(of->count());
     }
-    double density(double x) const {
+    double density(double x) const override {
         const std::size_t i = of->find(x);
         return i < of->count() ? of->probability[i] : 0;
     }
-    bool contains(double x) const { return of->find(x) < of->count(); }
-    double measure() const { return static_cast<double>(of->count()); }
+    bool contains(double x) const override { return of->find(x) < of->count(); }
+    double measure() const override { return static_cast<double>(of->count()); }
     /// Outcomes that can come.
-    double positive_measure() const {
-        return static_cast<double>(
-            std::ranges::count_if(of->probability, [](double p) { return p > 0; }));
+    Positive positive() const override {
+        return {{}, static_cast<double>(std::ranges::count_if(of->probability, [](double p) {
+                    return p > 0;
+                }))};
     }
-    std::pair<double, double> range() const {
+    std::pair<double, double> range() const override {
         return {of->value[of->order.front()], of->value[of->order.back()]};
     }
-    LineMoments moments() const {
+    LineMoments moments() const override {
         LineMoments m;
         for (std::size_t i = 0; i < of->count(); ++i) m.mean += of->probability[i] * of->value[i];
         for (std::size_t i = 0; i < of->count(); ++i) {
@@ -114,8 +115,8 @@ struct Drawn {
         }
         return m;
     }
-    /// Probability of the outcomes whose places are in [low, high).
-    double mass(double low, double high) const {
+    /// Probability of the outcomes whose cube coordinates are in [low, high).
+    double probability(double low, double high) const override {
         double sum = 0;
         for (std::size_t i = 0; i < of->count(); ++i) {
             const double at = (static_cast<double>(i) + 0.5) / static_cast<double>(of->count());
@@ -125,9 +126,7 @@ struct Drawn {
     }
 };
 
-struct ByInversion : Drawn {
-    bool operator==(const ByInversion&) const = default;
-
+struct ByInversion final : Drawn {
     double forward(double u) const {
         const double inside = std::min(u, one_minus_ulp);
         const std::size_t b = Buckets(1, of->starts.size() - 1).of(inside);
@@ -135,9 +134,7 @@ struct ByInversion : Drawn {
     }
 };
 
-struct ByAlias : Drawn {
-    bool operator==(const ByAlias&) const = default;
-
+struct ByAlias final : Drawn {
     double forward(double u) const {
         const double at = u * static_cast<double>(of->count());
         const std::size_t i = std::min(static_cast<std::size_t>(at), of->count() - 1);
@@ -231,13 +228,10 @@ std::unique_ptr<Mapping> mapping_by(const Values& options, std::size_t given,
                                     std::string no_way_back) {
     Law law;
     law.of = outcomes_of(options);
-    return std::make_unique<LineMapping<Law>>(
-        std::make_shared<LineDomain<Law>>(
-            std::vector<Law>(given, law),
-            domain_spec("discrete", options, schema(),
-                        {probabilities.name, outcomes.name, normalize.name}),
-            "outcome, (i + 1/2) / m"),
-        std::move(no_way_back));
+    return line_mapping(std::vector{law}, given,
+                        domain_spec("discrete", options, schema(),
+                                    {probabilities.name, outcomes.name, normalize.name}),
+                        "outcome, (i + 1/2) / m", std::move(no_way_back));
 }
 
 std::unique_ptr<Mapping> make(const Values& options, std::size_t given, const RunContext& /*run*/) {
@@ -255,7 +249,7 @@ Warp unit() {
             .strata =
                 "inversion: outcomes lie side by side in their order, xi as it is; alias: strata "
                 "are kept only within a slot",
-            .traits = {},
+            .traits = {.discrete = true},
             .options = schema(),
             .make = make};
 }

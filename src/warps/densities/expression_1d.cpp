@@ -15,11 +15,8 @@
 //         its integral by Boole's rule on the pieces. Forward and back is xi0 within 1e-15 times
 //         the ratio of largest and mean density; no point where f is 0 beside a jump.
 
-#include <array>
-#include <boost/math/quadrature/gauss.hpp>
-#include <boost/math/quadrature/gauss_kronrod.hpp>
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/box_mass.hpp"
@@ -28,6 +25,7 @@
 #include "core/support.hpp"
 #include "math/densities/expression.hpp"
 #include "math/densities/line_table.hpp"
+#include "math/densities/quadrature.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "warps/warp.hpp"
 
@@ -103,7 +101,7 @@ class FormulaDomain final : public Domain, public Gapped, public Weighable {
 
     /// By the table: cells of nearly equal mass, whose true one probability() gives.
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
-        cube[0] = table_.find(point[0]);
+        cube[0] = table_.fraction(point[0]);
     }
     bool even() const override { return false; }
     Estimate probability(const Box& cell) const override {
@@ -114,18 +112,18 @@ class FormulaDomain final : public Domain, public Gapped, public Weighable {
     Estimate box_mass(const Box& box) const override { return box_mass_by_axes(*this, box); }
     std::vector<std::string> cube_axes() const override { return {"share of the mass below x"}; }
 
-    /// By Gauss's rule on each piece of the table, as exact as the integral of f.
+    /// By a rule on each piece of the table, as exact as the integral of f.
     std::optional<Moments> moments() const override {
-        using Rule = boost::math::quadrature::gauss<double, 7>;
         const double middle = low_ + 0.5 * (high_ - low_);
         const auto expect = [&](double about, int power) {
             double sum = 0;
             for (const LinePiece& piece : table_.pieces())
-                sum += Rule::integrate(
-                    [&](double x) {
-                        return f_.at({&x, 1}) * std::pow(x - about, power);
-                    },
-                    piece.x_low, piece.x_high);
+                sum += gauss_kronrod_15(
+                           [&](double x) {
+                               return f_.at({&x, 1}) * std::pow(x - about, power);
+                           },
+                           piece.x_low, piece.x_high)
+                           .value;
             return sum / total_.value;
         };
         const double mean = middle + expect(middle, 1);
@@ -154,25 +152,21 @@ class FormulaDomain final : public Domain, public Gapped, public Weighable {
     const LineTable& table() const { return table_; }
 
   private:
-    [[nodiscard]] Estimate integral(double a, double b) const {
-        if (!(a < b)) return {0, 0};
-        double error = 0;
-        const double value = boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
-            [this](double x) {
-                return f_.at({&x, 1});
-            },
-            a, b, 0, 0, &error);
-        return {value, error};
-    }
-
     [[nodiscard]] double edge(double share) const {
-        return share <= 0 ? low_ : (share >= 1 ? high_ : table_.place(share));
+        return share <= 0 ? low_ : (share >= 1 ? high_ : table_.quantile(share));
     }
 
     [[nodiscard]] double mass_below(double x) const {
         if (x >= high_) return total_.value;
         const std::size_t i = table_.piece_of(x);
-        return before_[i] + integral(table_.pieces()[i].x_low, x).value;
+        const double from = table_.pieces()[i].x_low;
+        if (!(from < x)) return before_[i];
+        return before_[i] + gauss_kronrod_15(
+                                [this](double at) {
+                                    return f_.at({&at, 1});
+                                },
+                                from, x)
+                                .value;
     }
 
     Values options_;
@@ -193,7 +187,8 @@ class Formula final : public Mapping {
 
     void forward(std::span<const double> cube, std::span<double> image,
                  std::span<std::uint8_t> /*keep*/) const override {
-        for (std::size_t i = 0; i < cube.size(); ++i) image[i] = line_->table().place(cube[i]);
+        std::ranges::copy(cube, image.begin());
+        line_->table().quantiles(image);
     }
 
     void inverse(std::span<const double> image, std::span<double> cube) const override {
@@ -201,7 +196,7 @@ class Formula final : public Mapping {
             if (!line_->contains(image.subspan(i, 1)))
                 fail(ErrorKind::input, "the point {} is outside the range of {}", image[i],
                      line_->spec());
-            cube[i] = line_->table().find(image[i]);
+            cube[i] = line_->table().fraction(image[i]);
         }
     }
 

@@ -65,7 +65,7 @@ class Formula final : public Mapping {
     void forward(std::span<const double> cube, std::span<double> image,
                  std::span<std::uint8_t> /*keep*/) const override {
         for (std::size_t i = 0; i + 1 < cube.size(); i += 2) {
-            const auto [x, y] = table_.place(cube[i], cube[i + 1]);
+            const auto [x, y] = table_.quantile(cube[i], cube[i + 1]);
             image[i] = x;
             image[i + 1] = y;
         }
@@ -74,7 +74,7 @@ class Formula final : public Mapping {
     void inverse(std::span<const double> image, std::span<double> cube) const override {
         for (std::size_t i = 0; i + 1 < image.size(); i += 2) {
             box_->require(image.subspan(i, 2));
-            const auto [u, v] = table_.find(image[i], image[i + 1]);
+            const auto [u, v] = table_.fraction(image[i], image[i + 1]);
             cube[i] = u;
             cube[i + 1] = v;
         }

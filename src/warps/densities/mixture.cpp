@@ -233,7 +233,7 @@ std::string space_of(const Component& part, const Warp& warp) {
     if (part.mapping->drops())
         fail(ErrorKind::usage, "--components: {} drops points, which would change the weights",
              part.spec);
-    if (warp.name == "discrete" || (!full && !gives_directions(*part.mapping)))
+    if (warp.traits.discrete || (!full && !gives_directions(*part.mapping)))
         fail(ErrorKind::usage,
              "--components: {} gives neither directions nor points that fill a space", part.spec);
     if (full) return fmt::format("points that fill {} dimension{}", m, m == 1 ? "" : "s");

@@ -9,6 +9,7 @@
 #include "core/box_mass.hpp"
 #include "core/error.hpp"
 #include "core/support.hpp"
+#include "math/functions/normal_distribution.hpp"
 #include "math/functions/normal_quantile.hpp"
 #include "math/functions/trigonometry.hpp"
 #include "math/geometry/law_moments.hpp"
@@ -78,7 +79,7 @@ class MixtureDomain final : public Domain, public Gapped, public Weighable {
         }
         for (std::size_t k = 0; k < cube.size(); ++k) {
             const double z = (point[k] - middle(k)) / scale(k);
-            cube[k] = 0.5 * std::erfc(-z / std::numbers::sqrt2);
+            cube[k] = normal_distribution(z);
         }
     }
     bool even() const override { return false; }
@@ -157,13 +158,13 @@ class MixtureDomain final : public Domain, public Gapped, public Weighable {
         return sum;
     }
 
-    /// Of directions; parts without rims have zones for cells themselves.
+    /// Of directions; parts without discontinuities have zones for cells themselves.
     static Estimate zone_mass(const Domain& part, const Box& cell) {
-        const auto* rimmed = dynamic_cast<const Rimmed*>(&part);
-        if (!rimmed) return part.probability(cell);
+        const auto* discontinuous = dynamic_cast<const Discontinuous*>(&part);
+        if (!discontinuous) return part.probability(cell);
         const Zone zone{1 - 2 * cell.high[0], 1 - 2 * cell.low[0], cell.low[1], cell.high[1]};
         return integrate_zone([&](const Vector3& v) { return part.density(v); }, zone,
-                              rimmed->rims());
+                              discontinuous->discontinuities());
     }
 
     std::vector<DomainPtr> parts_;

@@ -21,21 +21,23 @@
 //         probability in the same order.
 // Cost    O(1) a coordinate; on one core about 1 ns for k = 1, 4 for k = 2, 5 for others.
 // Promise x in [a, b]. Forward and back again is the same xi within 1e-14 (1 + |k| / 10), times
-//         1 + |log(b / a)| where the range does not contain 0, and max(|a|, |b|) / (b - a). The
-//         same bits on every machine.
+//         1 + |log(b / a)| where the range does not contain 0, and max(|a|, |b|) / (b - a). Both
+//         ways and the density give the same bits on every machine.
 
 #include <array>
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "core/error.hpp"
+#include "math/densities/quadrature.hpp"
+#include "math/functions/exponential.hpp"
 #include "math/functions/logarithm.hpp"
 #include "math/functions/real_power.hpp"
 #include "math/functions/roots.hpp"
 #include "math/geometry/law_moments.hpp"
-#include "warps/curved/placement.hpp"
-#include "warps/densities/per_coordinate.hpp"
+#include "warps/common_options.hpp"
+#include "warps/densities/line_domain.hpp"
 
 namespace stipple::warps::power {
 namespace {
@@ -75,58 +77,60 @@ double rooted(double y, double inverse_p) {
     return y > 0 ? root_of_y : 0;
 }
 
-/// What the laws have in common: the interval, its exponent, and the density.
 struct Interval {
     double a;
     double b;
     double p;     ///< k + 1
     double size;  ///< the larger of |a| and |b|
-    double unit;  ///< the end where |x|^p is larger, from which densities are measured
-    double peak;  ///< density at |x| = unit
+};
 
-    bool operator==(const Interval&) const = default;
+/// What the distributions have in common: all but their ways forward and back.
+struct PowerLaw : LineDistribution, Interval {
+    explicit PowerLaw(const Interval& interval) : Interval(interval), unit(size) {}
 
-    bool contains(double x) const { return x >= a && x <= b; }
-    double measure() const { return b - a; }
-    std::pair<double, double> range() const { return {a, b}; }
-    double density(double x) const {
-        return contains(x) ? peak * std::pow(std::abs(x) / unit, p - 1) : 0;
+    double unit;      ///< the end where |x|^p is larger, from which densities are measured
+    double peak = 0;  ///< density at |x| = unit
+
+    bool contains(double x) const override { return x >= a && x <= b; }
+    double measure() const override { return b - a; }
+    std::pair<double, double> range() const override { return {a, b}; }
+    double density(double x) const override {
+        return contains(x) ? peak * real_power(std::abs(x) / unit, p - 1) : 0;
     }
-    LineMoments moments() const;
+    LineMoments moments() const override;
 
   private:
     /// E (x / unit)^n times a constant, of an interval on one side of 0; `other` is the end that is
     /// not 1.
     static double one_sided_sum(double s, double other) {
         if (other == 0) return 1 / s;
-        return std::abs(s == 0 ? std::log(other) : std::expm1(s * std::log(other)) / s);
+        const double log = logarithm(other);
+        return std::abs(s == 0 ? log : exp_minus_1(s * log) / s);
     }
     double two_sided_sum(double s, double sign) const {
-        return (std::pow(b / size, s) + sign * std::pow(-a / size, s)) / s;
+        return (real_power(b / size, s) + sign * real_power(-a / size, s)) / s;
     }
     LineMoments narrow_moments() const;
 };
 
-/// By Gauss's rule, where the ends are so near each other that powers would lose digits.
-LineMoments Interval::narrow_moments() const {
-    using Rule = boost::math::quadrature::gauss<double, 15>;
+/// By quadrature, where the ends are so near each other that powers would lose digits.
+LineMoments PowerLaw::narrow_moments() const {
     const double middle = 0.5 * (a + b);
     const auto sum = [&](int n, double about) {
-        return Rule::integrate(
-            [&](double x) {
-                return std::pow(x - about, n) * std::pow(std::abs(x / middle), p - 1);
-            },
-            a, b);
+        const auto integrand = [&](double x) {
+            return std::pow(x - about, n) * real_power(std::abs(x / middle), p - 1);
+        };
+        return gauss_kronrod_31(integrand, a, b).value;
     };
     const double mass = sum(0, 0);
     const double mean = middle + sum(1, middle) / mass;
     return {mean, sum(2, mean) / mass, sum(3, mean) / mass};
 }
 
-LineMoments Interval::moments() const {
+LineMoments PowerLaw::moments() const {
     const bool around_0 = a < 0 && b > 0;
     const double near = std::min(std::abs(a), std::abs(b));
-    if (!around_0 && near > 0.5 * size && std::abs(p) * std::log(size / near) < 1)
+    if (!around_0 && near > 0.5 * size && std::abs(p) * logarithm(size / near) < 1)
         return narrow_moments();
     const double heavier = around_0 || p > 0 ? size : near;  // the end where the density is larger
     const double other = (p > 0 ? near : size) / heavier;
@@ -144,7 +148,9 @@ LineMoments Interval::moments() const {
 
 /// An interval on one side of 0, measured from its heavier end.
 template <Root root>
-struct OneSided : Interval {
+struct OneSided final : PowerLaw {
+    using PowerLaw::PowerLaw;
+
     static constexpr bool narrow = root == Root::logarithm;  ///< r > 1/2
 
     double heavy = 1;        ///< size of the end with the larger |x|^p
@@ -157,8 +163,6 @@ struct OneSided : Interval {
     double log_ratio = 0;  ///< log(o / e)
     double less = 0;       ///< expm1(p log(o / e)) = r - 1
 
-    bool operator==(const OneSided&) const = default;
-
     double forward(double u) const {
         const double w = w_at_0 + slope * u;  // 1 - u or u, without a branch
         const double rest = (1 - w_at_0) - slope * u;
@@ -170,50 +174,46 @@ struct OneSided : Interval {
         const double placed = sign * (heavy * x);
         return std::max(a, std::min(placed, b));
     }
-    double inverse(double x) const {
+    double inverse(double x) const override {
         const double size_here = std::abs(x) / heavy;
-        const double from = narrow ? std::log(size_here) : 0;
-        const double w = p == 0 ? from / log_ratio : std::expm1(p * from) / less;
-        const double rest = narrow ? 1 - w : (std::pow(size_here, p) - r) / -less;
+        const double from = narrow ? logarithm(size_here) : 0;
+        const double w = p == 0 ? from / log_ratio : exp_minus_1(p * from) / less;
+        const double rest = narrow ? 1 - w : (real_power(size_here, p) - r) / -less;
         return heavy_last ? rest : 1 - rest;
     }
-    double place(double x) const { return inverse(x); }
 };
 
 /// An interval around 0, where k is even and p odd.
 template <Root root>
-struct TwoSided : Interval {
+struct TwoSided final : PowerLaw {
+    using PowerLaw::PowerLaw;
+
     double low = 0;   ///< (a / size)^p
     double high = 0;  ///< (b / size)^p
     double inverse_p = 1;
-
-    bool operator==(const TwoSided&) const = default;
 
     double forward(double u) const {
         const double y = low + u * (high - low);  // 2 xi - 1 exactly, for [-1, 1]
         const double x = size * std::copysign(rooted<root>(std::abs(y), inverse_p), y) + 0.0;
         return std::max(a, std::min(x, b));
     }
-    double inverse(double x) const {
-        const double y = std::copysign(std::pow(std::abs(x) / size, p), x);
+    double inverse(double x) const override {
+        const double y = std::copysign(real_power(std::abs(x) / size, p), x);
         return (y - low) / (high - low);
     }
-    double place(double x) const { return inverse(x); }
 };
 
 template <class Law>
 std::unique_ptr<Mapping> mapping_by(const Law& law, std::size_t given, const Values& options) {
-    return std::make_unique<LineMapping<Law>>(std::make_shared<LineDomain<Law>>(
-        std::vector<Law>(given, law),
-        domain_spec("power", options, schema(), {exponent.name, range.name}),
-        "probability below x"));
+    return line_mapping(std::vector{law}, given,
+                        domain_spec("power", options, schema(), {exponent.name, range.name}),
+                        "probability below x");
 }
 
 template <Root root>
 std::unique_ptr<Mapping> one_sided(const Interval& interval, std::size_t given,
                                    const Values& options) {
-    OneSided<root> law;
-    static_cast<Interval&>(law) = interval;
+    OneSided<root> law(interval);
     const bool mirrored = interval.b <= 0;
     const double from = std::abs(mirrored ? interval.b : interval.a);
     const double to = std::abs(mirrored ? interval.a : interval.b);
@@ -241,8 +241,7 @@ std::unique_ptr<Mapping> one_sided(const Interval& interval, std::size_t given,
 template <Root root>
 std::unique_ptr<Mapping> two_sided(const Interval& interval, std::size_t given,
                                    const Values& options) {
-    TwoSided<root> law;
-    static_cast<Interval&>(law) = interval;
+    TwoSided<root> law(interval);
     law.low = -real_power(-interval.a / interval.size, interval.p);
     law.high = real_power(interval.b / interval.size, interval.p);
     law.inverse_p = 1 / interval.p;
@@ -254,10 +253,11 @@ template <Root root>
 std::unique_ptr<Mapping> mapping_of(const Interval& interval, std::size_t given,
                                     const Values& options) {
     if (interval.a < 0 && interval.b > 0) return two_sided<root>(interval, given, options);
-    const double ends = std::abs(std::log(std::abs(interval.a / interval.b)));
-    return std::abs(interval.p) * ends < std::numbers::ln2
-               ? one_sided<Root::logarithm>(interval, given, options)
-               : one_sided<root>(interval, given, options);
+    const double small = std::min(std::abs(interval.a), std::abs(interval.b));
+    const bool narrow =
+        small > 0 && std::abs(interval.p) * logarithm(interval.size / small) < std::numbers::ln2;
+    return narrow ? one_sided<Root::logarithm>(interval, given, options)
+                  : one_sided<root>(interval, given, options);
 }
 
 /// A range from 0 on needs numbers for all but a share of 1e-14 of its mass: x^-0.99 has a good
@@ -301,7 +301,7 @@ Interval interval_of(const Values& options) {
              "--exponent: x^{} is not positive on [{}, {}]; an even exponent is needed below 0", k,
              a, b);
     if (a == 0 || b == 0) require_numbers_near_0(k, size);
-    return {.a = a, .b = b, .p = k + 1, .size = size, .unit = size, .peak = 0};
+    return {.a = a, .b = b, .p = k + 1, .size = size};
 }
 
 std::unique_ptr<Mapping> make(const Values& options, std::size_t given, const RunContext& /*run*/) {

@@ -1,37 +1,30 @@
 // SPDX-License-Identifier: MIT
 //
 // Unit cube onto an interval, each coordinate by itself, with a density given by a table of rows
-// x_i, f_i, by exact inversion in each piece [x_i, x_i+1] of mass M_i:
+// x_i, f_i, by exact inversion (math/densities/line_table.hpp):
 //
-//     linear    the density is straight between rows: M_i = (f_i + f_i+1) h_i / 2
+//     linear    the density is straight between rows
 //     constant  the density is f_i from x_i on up to x_i+1; the last f is not used
 //
-// The piece is the first whose running mass is above xi times the total. With w the share of its
-// mass below x and t = (x - x_i) / h_i,
-//
-//     t = w (f_i + f_i+1) / (f_i + sqrt((1 - w) f_i^2 + w f_i+1^2)),      constant: t = w,
-//
-// the solution of a quadratic without a difference. Densities may have any scale: they are divided
-// by their integral.
+// Densities may have any scale: they are divided by their integral.
 //
 // Shape   any number of coordinates by the same law; 2 rows or more, x rising. Where linear, two
 //         rows may have the same x: a jump.
 // Strata  xi is the probability below x, taken as it is, not as 1 - xi; strata become intervals of
 //         equal probability in the same order.
 // Cost    O(1) a coordinate expected, by a guide table; about 5 ns on one core.
-// Promise x in [first, last], never inside a piece of mass 0. Forward and back again is the same xi
+// Promise x in [first, last], the last only for xi = 1; never inside a piece of mass 0. Forward and back again is the same xi
 //         within 1e-14, times max|x| / h of the piece. The same bits on every machine.
 
+#include <array>
 #include <cmath>
-#include <limits>
+#include <cstdint>
 
-#include "core/rng.hpp"
+#include "core/error.hpp"
 #include "core/spec.hpp"
-#include "math/densities/guide_table.hpp"
-#include "math/functions/running_sums.hpp"
+#include "math/densities/line_table.hpp"
 #include "media/points_file.hpp"
-#include "warps/curved/placement.hpp"
-#include "warps/densities/per_coordinate.hpp"
+#include "warps/densities/line_domain.hpp"
 
 namespace stipple::warps::table_1d {
 namespace {
@@ -56,108 +49,58 @@ const Schema& schema() {
     return options;
 }
 
-/// A straight piece: one line of the caches.
-struct alignas(64) Piece {
-    double before = 0;  ///< mass before it, over the total
-    double after = 0;   ///< and with it; of the last piece, 1
-    double from = 0;    ///< density at its ends
-    double to = 0;
-    double begin = 0;
-    double end = 0;
+struct Tabulated final : LineDistribution {
+    explicit Tabulated(std::shared_ptr<const LineTable> pieces) : table(std::move(pieces)) {}
 
-    /// At t of the way, before it is divided by the total.
-    [[nodiscard]] double density(double t) const { return (1 - t) * from + t * to; }
-};
+    std::shared_ptr<const LineTable> table;
 
-struct Pieces {
-    std::vector<Piece> list;
-    std::vector<double> sums;  ///< masses up to each piece's end, over the total; the last is 1
-    std::vector<std::uint32_t> starts;
-    std::size_t few = few_sums;  ///< that a bucket of the sums has at most, if it is few
-    Buckets buckets;
-    double total = 0;
-};
-
-struct Tabulated {
-    std::shared_ptr<const Pieces> of;
-
-    bool operator==(const Tabulated&) const = default;
-
-    /// The numbers of the piece that u falls in.
-    std::array<double, 6> start(double u) const {
-        const double inside = std::min(u, one_minus_ulp);
-        const std::size_t b = of->buckets.of(inside);
-        const Piece& p =
-            of->list[first_above(of->sums, of->starts[b], of->starts[b + 1], inside, of->few)];
-        return {p.before, p.after, p.from, p.to, p.begin, p.end};
+    /// 1 itself is the upper end.
+    void forward_all(std::span<double> numbers) const {
+        std::array<std::uint8_t, 256> is_one;
+        for (std::size_t first = 0; first < numbers.size(); first += is_one.size()) {
+            const auto some =
+                numbers.subspan(first, std::min(is_one.size(), numbers.size() - first));
+            for (std::size_t i = 0; i < some.size(); ++i) is_one[i] = some[i] >= 1;
+            table->quantiles(some);
+            for (std::size_t i = 0; i < some.size(); ++i)
+                if (is_one[i] != 0) some[i] = table->pieces().back().x_high;
+        }
     }
-    double finish(double u, const std::array<double, 6>& piece) const {
-        const auto [before, after, f, g, begin, end] = piece;
-        const double w = std::min((u - before) / (after - before), 1.0);
-        const double below = f + std::sqrt((1 - w) * f * f + w * g * g);
-        const double t = below > 0 ? w * (f + g) / below : 0;
-        return std::min(begin + t * (end - begin), end);
+    double inverse(double x) const override { return table->fraction(x); }
+    double density(double x) const override { return contains(x) ? table->density(x) : 0; }
+    bool contains(double x) const override { return x >= range().first && x <= range().second; }
+    double measure() const override { return range().second - range().first; }
+    std::pair<double, double> range() const override {
+        return {table->pieces().front().x_low, table->pieces().back().x_high};
     }
-
-    /// The piece that x is in; at a seam the one that begins there, if it has a width.
-    const Piece& piece(double x) const {
-        const auto after =
-            std::ranges::upper_bound(of->list.begin() + 1, of->list.end(), x, {}, &Piece::begin);
-        return *(after - 1);
-    }
-    double inverse(double x) const {
-        const auto& [before, after, f, g, begin, end] = piece(x);
-        const double t = end > begin ? (x - begin) / (end - begin) : 0;
-        const double w = f + g > 0 ? t * (f + f + t * (g - f)) / (f + g) : 0;
-        return before + w * (after - before);
-    }
-    double place(double x) const { return inverse(x); }
-    double density(double x) const {
-        if (!contains(x)) return 0;
-        const Piece& p = piece(x);
-        const double h = p.end - p.begin;
-        return p.density(h > 0 ? (x - p.begin) / h : 0) / of->total;
-    }
-    bool contains(double x) const { return x >= range().first && x <= range().second; }
-    double measure() const { return range().second - range().first; }
-    LineMoments moments() const {
-        LineMoments m{.mean = sum_over([](double x) { return x; })};
+    LineMoments moments() const override {
+        LineMoments m{.mean = expectation([](double x) { return x; })};
         const double c = m.mean;
-        m.variance = sum_over([c](double x) { return (x - c) * (x - c); });
-        m.third = sum_over([c](double x) { return (x - c) * (x - c) * (x - c); });
+        m.variance = expectation([c](double x) { return (x - c) * (x - c); });
+        m.third = expectation([c](double x) { return (x - c) * (x - c) * (x - c); });
         return m;
     }
+    Positive positive() const override {
+        Positive found{table->positive_intervals(), 0};
+        for (const auto& [low, high] : found.intervals) found.length += high - low;
+        return found;
+    }
 
+  private:
     /// E f, exact for polynomials of degree 4, by Gauss's rule of 3 points on each piece.
     template <class F>
-    double sum_over(const F& f) const {
-        constexpr double places[] = {0.1127016653792583, 0.5, 0.8872983346207417};
+    double expectation(const F& f) const {
+        constexpr double nodes[] = {0.1127016653792583, 0.5, 0.8872983346207417};
         constexpr double weights[] = {5 / 18.0, 8 / 18.0, 5 / 18.0};
         double sum = 0;
-        for (const Piece& p : of->list) {
-            const double h = p.end - p.begin;
+        for (const LinePiece& p : table->pieces()) {
+            const double width = p.x_high - p.x_low;
             for (std::size_t k = 0; k < 3; ++k) {
-                const double t = places[k];
-                sum += weights[k] * h * p.density(t) / of->total * f(p.begin + t * h);
+                const double x = p.x_low + nodes[k] * width;
+                sum += weights[k] * width * table->density_in(p, nodes[k]) * f(x);
             }
         }
         return sum;
-    }
-    std::pair<double, double> range() const {
-        return {of->list.front().begin, of->list.back().end};
-    }
-
-    /// Neighbouring pieces where the density is not 0, as one.
-    std::vector<std::pair<double, double>> parts() const {
-        std::vector<std::pair<double, double>> found;
-        for (const Piece& p : of->list) {
-            if (!(p.from + p.to > 0) || !(p.begin < p.end)) continue;
-            if (!found.empty() && found.back().second == p.begin)
-                found.back().second = p.end;
-            else
-                found.emplace_back(p.begin, p.end);
-        }
-        return found;
     }
 };
 
@@ -196,43 +139,32 @@ void check_rows(const Table& table, bool linear, ErrorKind kind, const std::stri
     }
 }
 
-std::shared_ptr<const Pieces> pieces_of(const Values& options, const RunContext& run) {
+std::shared_ptr<const LineTable> table_from(const Values& options, const RunContext& run) {
     const std::string name = options.given(file) ? options[file] : "--rows";
     const auto kind = options.given(file) ? ErrorKind::input : ErrorKind::usage;
     const bool linear = std::string(options[interpolation]) == "linear";
-    const Table table = table_of(options, name, run);
-    check_rows(table, linear, kind, name);
-
-    auto of = std::make_shared<Pieces>();
-    std::vector<double> masses;
-    for (std::size_t i = 0; i + 1 < table.size(); ++i) {
-        const Piece p{.from = table[i][1],
-                      .to = table[linear ? i + 1 : i][1],
-                      .begin = table[i][0] + 0.0,  // -0 would show in points
-                      .end = table[i + 1][0] + 0.0};
-        of->list.push_back(p);
-        masses.push_back(0.5 * (p.from + p.to) * (p.end - p.begin));
+    const Table rows_given = table_of(options, name, run);
+    check_rows(rows_given, linear, kind, name);
+    std::vector<LinePiece> pieces;
+    double mass = 0;
+    for (std::size_t i = 0; i + 1 < rows_given.size(); ++i) {
+        const auto& row = rows_given[i];
+        const auto& next = rows_given[i + 1];
+        if (!(row[0] < next[0])) continue;        // a jump
+        pieces.push_back({.x_low = row[0] + 0.0,  // -0 would show in points
+                          .x_high = next[0] + 0.0,
+                          .f_low = row[1],
+                          .f_high = linear ? next[1] : row[1]});
+        mass += 0.5 * (pieces.back().f_low + pieces.back().f_high) * (next[0] - row[0]);
     }
-    of->sums = running_sums(masses);
-    of->total = of->sums.back();
-    if (!(of->total > 1e-290 && of->total < 1e290))
-        fail(kind, "{}: the density's integral is {}; it must be in [1e-290, 1e290]", name,
-             of->total);
-    double before = 0;
-    for (std::size_t i = 0; i < of->sums.size(); ++i) {
-        of->list[i].before = std::exchange(before, of->sums[i] /= of->total);
-        of->list[i].after = before;
-    }
-    of->starts.resize(2 * of->sums.size() + 1);
-    of->few = fill_guide(of->sums, of->starts);
-    of->buckets = Buckets(1, of->starts.size() - 1);
-    return of;
+    if (!(mass > 1e-290 && mass < 1e290))
+        fail(kind, "{}: the density's integral is {}; it must be in [1e-290, 1e290]", name, mass);
+    return std::make_shared<LineTable>(std::move(pieces));
 }
 
 std::unique_ptr<Mapping> make(const Values& options, std::size_t given, const RunContext& run) {
-    return std::make_unique<LineMapping<Tabulated>>(std::make_shared<LineDomain<Tabulated>>(
-        std::vector<Tabulated>(given, Tabulated{pieces_of(options, run)}),
-        format_spec("table-1d", options, schema()), "probability below x"));
+    return line_mapping(std::vector{Tabulated(table_from(options, run))}, given,
+                        format_spec("table-1d", options, schema()), "probability below x");
 }
 
 }  // namespace
@@ -244,6 +176,7 @@ Warp unit() {
             .strata = "xi is the probability below x, as it is: xi = 0 is the lower end",
             .traits = {},
             .options = schema(),
+            .stream_version = 2,
             .make = make};
 }
 

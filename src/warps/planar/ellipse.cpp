@@ -118,9 +118,9 @@ std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
         format_spec("ellipse", shape, schema()), polar, at);
     if (options[method] == "concentric") {
         const Ellipse<ConcentricDisk> concentric{polar.a, polar.b};
-        return std::make_unique<PlacedMapping<Ellipse<ConcentricDisk>>>(domain, concentric, at);
+        return row_mapping(domain, PlacedMethod<Ellipse<ConcentricDisk>>{concentric, at});
     }
-    return std::make_unique<PlacedMapping<Ellipse<PolarDisk>>>(domain, polar, at);
+    return row_mapping(domain, PlacedMethod<Ellipse<PolarDisk>>{polar, at});
 }
 
 }  // namespace
@@ -135,6 +135,7 @@ Warp unit() {
                 "become ellipses",
             .traits = {},
             .options = schema(),
+            .stream_version = 2,
             .make = make};
 }
 

@@ -19,11 +19,9 @@
 
 #include "core/error.hpp"
 #include "core/spec.hpp"
-#include "core/wide.hpp"
 #include "math/geometry/edge_frame.hpp"
-#include "warps/inside.hpp"
 #include "warps/planar/area_share.hpp"
-#include "warps/warp.hpp"
+#include "warps/row_mapping.hpp"
 
 namespace stipple::warps::parallelogram {
 namespace {
@@ -142,6 +140,7 @@ class ParallelogramDomain final : public Domain, public Weighable {
 
     const Vector3& start() const { return corner_; }
     const std::array<Vector3, 2>& sides() const { return edges_; }
+    const EdgeFrame& frame() const { return frame_; }
 
   private:
     std::string spec_;
@@ -152,45 +151,30 @@ class ParallelogramDomain final : public Domain, public Weighable {
 };
 
 template <std::size_t d>
-STIPPLE_WIDE void map_rows(std::span<const double> cube, std::span<double> image,
-                           const Vector3& start, const std::array<Vector3, 2>& sides) {
-    const Vector3 c = start;
-    const auto [a, b] = sides;
-    for (std::size_t i = 0; i < cube.size() / 2; ++i)
+struct OnParallelogram {
+    Vector3 start;
+    std::array<Vector3, 2> sides;
+    EdgeFrame frame;
+
+    std::array<double, d> forward(const std::array<double, 2>& xi) const {
+        std::array<double, d> point;
         for (std::size_t k = 0; k < d; ++k)
-            image[d * i + k] = c[k] + (cube[2 * i] * a[k] + cube[2 * i + 1] * b[k]);
-}
-
-class Parallelogram final : public Mapping {
-  public:
-    explicit Parallelogram(const Values& options)
-        : domain_(std::make_shared<ParallelogramDomain>(options)) {}
-
-    DomainPtr domain() const override { return domain_; }
-    std::size_t cube_dimension() const override { return 2; }
-
-    void forward(std::span<const double> cube, std::span<double> image,
-                 std::span<std::uint8_t> /*keep*/) const override {
-        if (domain_->dimension() == 2)
-            map_rows<2>(cube, image, domain_->start(), domain_->sides());
-        else
-            map_rows<3>(cube, image, domain_->start(), domain_->sides());
+            point[k] = start[k] + (xi[0] * sides[0][k] + xi[1] * sides[1][k]);
+        return point;
     }
-
-    void inverse(std::span<const double> image, std::span<double> cube) const override {
-        const std::size_t d = domain_->dimension();
-        expect_inside(*domain_, image);
-        for (std::size_t i = 0; i < image.size() / d; ++i)
-            domain_->to_cube(image.subspan(i * d, d), cube.subspan(2 * i, 2));
+    std::array<double, 2> inverse(std::span<const double> point) const {
+        const auto [s, t] = frame.coordinates(space_point(point));
+        return {s, t};
     }
-
-  private:
-    std::shared_ptr<const ParallelogramDomain> domain_;
 };
 
 std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
                               const RunContext& /*run*/) {
-    return std::make_unique<Parallelogram>(options);
+    const auto shape = std::make_shared<ParallelogramDomain>(options);
+    if (shape->dimension() == 2)
+        return row_mapping(shape,
+                           OnParallelogram<2>{shape->start(), shape->sides(), shape->frame()});
+    return row_mapping(shape, OnParallelogram<3>{shape->start(), shape->sides(), shape->frame()});
 }
 
 }  // namespace

@@ -11,9 +11,8 @@
 //     double area() const                              in its own frame
 //     double area_in(const Polygon& window) const      what it shares with a convex one
 //     double beyond(double x, double y) const          distance from it, at most 0 inside
-//     std::vector<PlanePoint> hull() const             points whose box is the shape's, once
-//     turned;
-//                                                      `turn` is given in turns
+//     std::vector<PlanePoint> hull(double turn) const  points whose box is the shape's, once it is
+//                                                      turned by so many turns
 //     PlaneMoments moments() const                     of its uniform law, in its own frame
 //     std::vector<std::string> axes() const            what its coordinates u and v mean
 //
@@ -22,6 +21,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -30,13 +30,11 @@
 #include <vector>
 
 #include "core/options.hpp"
-#include "core/wide.hpp"
 #include "math/functions/trigonometry.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "math/geometry/plane_point.hpp"
-#include "warps/inside.hpp"
 #include "warps/planar/area_share.hpp"
-#include "warps/warp.hpp"
+#include "warps/row_mapping.hpp"
 
 namespace stipple::warps {
 
@@ -129,63 +127,28 @@ class PlacedDomain final : public Domain, public Weighable {
     double slack_;
 };
 
+/// The unit square onto a shape that is put at a place.
 template <class Shape>
-STIPPLE_WIDE void map_placed(const Shape& shape, const Placement& at, std::span<const double> cube,
-                             std::span<double> image) {
-    const Placement place = at;
-    const Shape form = shape;
-    for (std::size_t i = 0; i + 1 < cube.size(); i += 2) {
-        const auto [x, y] = place.to_world(form.forward(cube[i], cube[i + 1]));
-        image[i] = x;
-        image[i + 1] = y;
+struct PlacedMethod {
+    Shape shape;
+    Placement at;
+
+    std::array<double, 2> forward(const std::array<double, 2>& xi) const {
+        const auto [x, y] = at.to_world(shape.forward(xi[0], xi[1]));
+        return {x, y};
     }
-}
-
-template <class Shape>
-STIPPLE_WIDE void unmap_placed(const Shape& shape, const Placement& at,
-                               std::span<const double> image, std::span<double> cube) {
-    const Placement place = at;
-    const Shape form = shape;
-    for (std::size_t i = 0; i + 1 < image.size(); i += 2) {
-        const auto [x, y] = place.to_frame(image[i], image[i + 1]);
-        const auto [u, v] = form.inverse(x, y);
-        cube[i] = std::max(0.0, std::min(u, 1.0));
-        cube[i + 1] = std::max(0.0, std::min(v, 1.0));
+    std::array<double, 2> inverse(std::span<const double> point) const {
+        const auto [x, y] = at.to_frame(point[0], point[1]);
+        const auto [u, v] = shape.inverse(x, y);
+        return {u, v};
     }
-}
-
-/// The unit square onto a shape that is put at a place; the domain may be the same shape by another
-/// map.
-template <class Shape>
-class PlacedMapping final : public Mapping {
-  public:
-    PlacedMapping(DomainPtr domain, Shape shape, const Placement& at)
-        : domain_(std::move(domain)), shape_(std::move(shape)), at_(at) {}
-
-    DomainPtr domain() const override { return domain_; }
-    std::size_t cube_dimension() const override { return 2; }
-
-    void forward(std::span<const double> cube, std::span<double> image,
-                 std::span<std::uint8_t> /*keep*/) const override {
-        map_placed(shape_, at_, cube, image);
-    }
-
-    void inverse(std::span<const double> image, std::span<double> cube) const override {
-        expect_inside(*domain_, image);
-        unmap_placed(shape_, at_, image, cube);
-    }
-
-  private:
-    DomainPtr domain_;
-    Shape shape_;
-    Placement at_;
 };
 
 /// The mapping onto a shape whose own coordinates are the domain's.
 template <class Shape>
 std::unique_ptr<Mapping> placed(std::string spec, const Shape& shape, const Placement& at) {
-    auto domain = std::make_shared<PlacedDomain<Shape>>(std::move(spec), shape, at);
-    return std::make_unique<PlacedMapping<Shape>>(std::move(domain), shape, at);
+    return row_mapping(std::make_shared<PlacedDomain<Shape>>(std::move(spec), shape, at),
+                       PlacedMethod<Shape>{shape, at});
 }
 
 }  // namespace stipple::warps

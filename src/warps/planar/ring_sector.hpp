@@ -37,11 +37,13 @@ struct RingSector {
     }
 
     [[nodiscard]] PlanePoint inverse(double x, double y) const {
-        const double r = std::sqrt(x * x + y * y);
+        const double square = x * x + y * y;
+        const double r = std::sqrt(square);
         const double angle = turns_of(x, y);
         // Rounding may turn a point of the first side backwards, to nearly a whole turn.
         const double wrapped = 0.5 * (1 + width) < angle;
-        return {(r - inner) * (r + inner) / spread, (angle - wrapped) / width};
+        const double share = inner > 0 ? (r - inner) * (r + inner) / spread : square;
+        return {share, (angle - wrapped) / width};
     }
 
     [[nodiscard]] double area() const;

@@ -92,6 +92,7 @@ Warp unit() {
                 "two angles, both as they are",
             .traits = {},
             .options = schema(),
+            .stream_version = 2,
             .make = make};
 }
 

@@ -34,13 +34,11 @@
 
 #include "core/error.hpp"
 #include "core/spec.hpp"
-#include "core/wide.hpp"
 #include "math/geometry/edge_frame.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "math/geometry/plane_point.hpp"
-#include "warps/inside.hpp"
 #include "warps/planar/area_share.hpp"
-#include "warps/warp.hpp"
+#include "warps/row_mapping.hpp"
 
 namespace stipple::warps::triangle {
 namespace {
@@ -148,6 +146,7 @@ class TriangleDomain final : public Domain, public Weighable {
     }
 
     const std::array<Vector3, 3>& corners() const { return vertices_; }
+    const EdgeFrame& frame() const { return frame_; }
 
   private:
     Table corners_;
@@ -181,53 +180,36 @@ struct LowDistortion {
 };
 
 template <class Method, std::size_t d>
-STIPPLE_WIDE void map_rows(std::span<const double> cube, std::span<double> image,
-                           const std::array<Vector3, 3>& vertex) {
-    const auto [v0, v1, v2] = vertex;
-    for (std::size_t i = 0; i < cube.size() / 2; ++i) {
-        const auto [l0, l1, l2] = Method::forward(cube[2 * i], cube[2 * i + 1]);
-        for (std::size_t k = 0; k < d; ++k) image[d * i + k] = l0 * v0[k] + l1 * v1[k] + l2 * v2[k];
+struct OnTriangle {
+    std::array<Vector3, 3> vertex;
+    EdgeFrame frame;
+
+    std::array<double, d> forward(const std::array<double, 2>& xi) const {
+        const auto [l0, l1, l2] = Method::forward(xi[0], xi[1]);
+        std::array<double, d> point;
+        for (std::size_t k = 0; k < d; ++k)
+            point[k] = l0 * vertex[0][k] + l1 * vertex[1][k] + l2 * vertex[2][k];
+        return point;
     }
-}
+    std::array<double, 2> inverse(std::span<const double> point) const {
+        const auto [l1, l2] = frame.coordinates(space_point(point));
+        const auto [u, v] = Method::inverse(std::max(l1, 0.0), std::max(l2, 0.0));
+        return {u, v};
+    }
+};
 
 template <class Method>
-class Triangle final : public Mapping {
-  public:
-    explicit Triangle(const Table& corners)
-        : triangle_(std::make_shared<TriangleDomain>(corners)) {}
-
-    DomainPtr domain() const override { return triangle_; }
-    std::size_t cube_dimension() const override { return 2; }
-
-    void forward(std::span<const double> cube, std::span<double> image,
-                 std::span<std::uint8_t> /*keep*/) const override {
-        if (triangle_->dimension() == 2)
-            map_rows<Method, 2>(cube, image, triangle_->corners());
-        else
-            map_rows<Method, 3>(cube, image, triangle_->corners());
-    }
-
-    void inverse(std::span<const double> image, std::span<double> cube) const override {
-        const std::size_t d = triangle_->dimension();
-        expect_inside(*triangle_, image);
-        for (std::size_t i = 0; i < image.size() / d; ++i) {
-            const auto weights = triangle_->barycentrics(image.subspan(i * d, d));
-            const auto [u, v] =
-                Method::inverse(std::max(weights.l1, 0.0), std::max(weights.l2, 0.0));
-            cube[2 * i] = std::min(u, 1.0);
-            cube[2 * i + 1] = std::min(v, 1.0);
-        }
-    }
-
-  private:
-    std::shared_ptr<const TriangleDomain> triangle_;
-};
+std::unique_ptr<Mapping> mapping_by(const Table& corners) {
+    const auto triangle = std::make_shared<TriangleDomain>(corners);
+    if (triangle->dimension() == 2)
+        return row_mapping(triangle, OnTriangle<Method, 2>{triangle->corners(), triangle->frame()});
+    return row_mapping(triangle, OnTriangle<Method, 3>{triangle->corners(), triangle->frame()});
+}
 
 std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
                               const RunContext& /*run*/) {
-    if (options[method] == "low-distortion")
-        return std::make_unique<Triangle<LowDistortion>>(options[vertices]);
-    return std::make_unique<Triangle<Roots>>(options[vertices]);
+    if (options[method] == "low-distortion") return mapping_by<LowDistortion>(options[vertices]);
+    return mapping_by<Roots>(options[vertices]);
 }
 
 }  // namespace

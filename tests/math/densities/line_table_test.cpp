@@ -36,18 +36,18 @@ TEST(LineTable, InvertsLinearPieces) {
     const LineTable rising({{0, 1, 0, 5, {}}});
     const LineTable falling({{0, 1, 2, 0, {}}});
     for (const double u : {0.0, 1e-300, 1e-20, 0.25, 0.5, 0.81, one_minus_ulp}) {
-        EXPECT_DOUBLE_EQ(rising.place(u), std::sqrt(u)) << u;
-        EXPECT_NEAR(falling.place(u), 1 - std::sqrt(1 - u), 2e-16) << u;
-        EXPECT_NEAR(rising.find(rising.place(u)), u, 3e-16);
+        EXPECT_DOUBLE_EQ(rising.quantile(u), std::sqrt(u)) << u;
+        EXPECT_NEAR(falling.quantile(u), 1 - std::sqrt(1 - u), 2e-16) << u;
+        EXPECT_NEAR(rising.fraction(rising.quantile(u)), u, 3e-16);
     }
     const LineTable steps({{0, 1, 1, 1, {}}, {1, 2, 0, 0, {}}, {2, 3, 3, 3, {}}});
-    EXPECT_EQ(steps.place(0.125), 0.5);
-    EXPECT_EQ(steps.place(0.25), 2);
-    EXPECT_EQ(steps.place(0.625), 2.5);
-    EXPECT_LT(steps.place(1), 3);
-    EXPECT_EQ(steps.find(1.5), 0.25);
-    EXPECT_EQ(steps.find(3), 1);
-    EXPECT_EQ(LineTable({{0, 1, 1e-300, 1e-300, {}}}).place(0.25), 0.25);
+    EXPECT_EQ(steps.quantile(0.125), 0.5);
+    EXPECT_EQ(steps.quantile(0.25), 2);
+    EXPECT_EQ(steps.quantile(0.625), 2.5);
+    EXPECT_LT(steps.quantile(1), 3);
+    EXPECT_EQ(steps.fraction(1.5), 0.25);
+    EXPECT_EQ(steps.fraction(3), 1);
+    EXPECT_EQ(LineTable({{0, 1, 1e-300, 1e-300, {}}}).quantile(0.25), 0.25);
 }
 
 // The tolerance bounds the area between the curves, also across a jump and beside a root.
@@ -83,7 +83,7 @@ TEST(TabulateLine, SeesWhatIsNarrow) {
         const double center = 0.01 + 0.98 * rng.uniform(i);
         const LineTable table(
             tabulated([&](double x) { return std::abs(x - center) < half ? 1 : 0.001; }));
-        const double mass = table.find(center + half) - table.find(center - half);
+        const double mass = table.fraction(center + half) - table.fraction(center - half);
         EXPECT_NEAR(mass, 2 * half / (2 * half + 0.001 * (1 - 2 * half)), 2e-6) << center;
     }
 }
@@ -98,9 +98,9 @@ TEST(TabulateLine, TakesAJumpAtABreakExactly) {
 TEST(TabulateLine, PutsNoMassBeyondAJumpToZero) {
     for (const double edge : {0.3, 1 / 3.0, 0.987654321}) {
         const LineTable table(tabulated([&](double x) { return x < edge ? 1 : 0; }, {}, 1e-6));
-        for (std::uint64_t i = 0; i < 1000; ++i) EXPECT_LT(table.place(Rng(1).uniform(i)), edge);
-        EXPECT_LT(table.place(one_minus_ulp), edge);
-        EXPECT_GT(table.place(one_minus_ulp), edge - 1e-5);
+        for (std::uint64_t i = 0; i < 1000; ++i) EXPECT_LT(table.quantile(Rng(1).uniform(i)), edge);
+        EXPECT_LT(table.quantile(one_minus_ulp), edge);
+        EXPECT_GT(table.quantile(one_minus_ulp), edge - 1e-5);
     }
 }
 

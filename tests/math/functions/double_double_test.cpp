@@ -5,6 +5,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 
 #include "core/rng.hpp"
+#include "math/functions/logarithm.hpp"
 
 namespace stipple {
 namespace {
@@ -25,6 +26,24 @@ TEST(DoubleDouble, SumsAndProductsOfDoublesAreExact) {
     const DoubleDouble product = exact_product(0.1, 0.3);
     EXPECT_EQ(exact(product), Rational(0.1) * Rational(0.3));
     EXPECT_NE(product.low, 0);
+}
+
+TEST(DoubleDouble, TheShorterWaysAreExactToo) {
+    const Rng rng(4);
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+        const double a = rng.uniform(2 * i) - 0.5;
+        const double b = rng.uniform(2 * i + 1) * 1e9;
+        ASSERT_EQ(exact(split_product(a, b)), Rational(a) * Rational(b));
+        ASSERT_EQ(split_product(a, b).high, a * b);
+        ASSERT_EQ(exact(ordered_sum(b, a)), Rational(a) + Rational(b));
+    }
+}
+
+// One name, one meaning: an inline function defined twice is whichever the linker meets first.
+TEST(DoubleDouble, SumsInAnyOrderAreExact) {
+    const double small = 0x1p-60;
+    EXPECT_EQ(exact(exact_sum(small, 1.0)), Rational(small) + 1);
+    EXPECT_EQ(logarithm_parts(1 + 0x1p-40).low != 0, true);
 }
 
 TEST(DoubleDouble, CarriesAHundredBits) {

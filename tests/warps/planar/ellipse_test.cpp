@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/functions/trigonometry.hpp"
 #include "support/planar.hpp"
 
 using namespace stipple;
@@ -94,4 +95,19 @@ TEST(Ellipse, RefusesWhatIsNoEllipse) {
     EXPECT_EQ(error("ellipse:center=[0,1e30]"),
               "usage: --center: 1e+30 is so far that a semi-axis of 0.5 is lost in rounding");
     EXPECT_NE(error("ellipse:method=naive"), "");
+}
+
+// GCC 12 makes fused multiply-adds of a c - b s beside a s + b c, though it is told not to, so that
+// points would differ between processors. Here the formula is worked out one point at a time.
+TEST(Ellipse, IsTurnedByPlainMultiplicationsAndAdditions) {
+    const PointSet cube = make("random", points(1000, 2));
+    const PointSet level = warped(*mapping("ellipse"), cube);
+    const PointSet turned = warped(*mapping("ellipse:rotation=30"), cube);
+    const auto [c, s] = cos_sin_turns(30 / 360.0);
+    for (std::size_t i = 0; i < cube.count(); ++i) {
+        const double x = level[i][0];
+        const double y = level[i][1];
+        ASSERT_EQ(turned[i][0], c * x - s * y) << i;
+        ASSERT_EQ(turned[i][1], s * x + c * y) << i;
+    }
 }

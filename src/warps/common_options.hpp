@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+//
+// What warps of all kinds do with their options.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/options.hpp"
+
+namespace stipple::warps {
+
+/// @throws Error(usage) when a centre's coordinate is so far that the shape is lost in rounding.
+void refuse_far(double x, double reach);
+
+/// A number for each of d coordinates, of an option that has one for all or one for each.
+/// @throws Error(usage)
+std::vector<double> one_for_each(const Param<Numbers>& option, std::vector<double> numbers,
+                                 std::size_t d);
+
+/// The spec of a domain that these options alone decide on; all else is how points are made.
+std::string domain_spec(std::string_view name, const Values& options, const Schema& schema,
+                        std::initializer_list<std::string_view> which);
+
+}  // namespace stipple::warps

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+//
+// Unit cube onto a box with the tent density: the triangle filter of image reconstruction, in each
+// coordinate by itself:
+//
+//     p(x) = (1 - |x - c| / r) / r,  |x - c| <= r
+//     x = c + r (2 xi - 1) / (1 + sqrt(2 min(xi, 1 - xi)))
+//
+// which is the inverse of the distribution function, c - r + r sqrt(2 xi) up to the middle and its
+// mirror image behind, without the cancellation beside the middle. Back: with y = |x - c| / r,
+// xi = (1 - y)^2 / 2 on the left of c and 1 minus it on the right.
+//
+// Shape   as many coordinates as there are unit coordinates.
+// Strata  xi is taken as it is, not as 1 - xi: small xi is on the left. Strata become boxes, wide
+//         near the rim.
+// Cost    O(1) a coordinate; about 2 ns forward, 4 ns back on one core.
+// Promise the density above, 0 at the rim, where xi = 0 and 1 are. Points lie in the closed box up
+//         to 8 epsilon (r + |c|). Forward and back again is the same point, and for c = 0 the same
+//         xi, within 1e-14. The same bits on every machine.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "core/spec.hpp"
+#include "warps/common_options.hpp"
+#include "warps/densities/line_domain.hpp"
+
+namespace stipple::warps::tent {
+namespace {
+
+constexpr Param<Numbers> radius{
+    {.name = "radius",
+     .fallback = "1",
+     .help = "Half the width of the tent, above 0: one for all coordinates, or one for each"}};
+
+constexpr Param<Numbers> center{
+    {.name = "center",
+     .fallback = "0",
+     .help = "Where the tent is highest: one number for all coordinates, or one for each"}};
+
+const Schema& schema() {
+    static const Schema options(radius, center);
+    return options;
+}
+
+struct Tent final : LineDistribution {
+    Tent(double half_width, double middle) : r(half_width), c(middle) {}
+
+    double r;
+    double c;
+
+    double forward(double u) const {
+        const double rest = u < 0.5 ? u : 1 - u;
+        return c + r * ((2 * u - 1) / (1 + std::sqrt(2 * rest)));
+    }
+    double inverse(double x) const override {
+        const double off = (x - c) / r;
+        const double left = std::max(0.0, 1 - std::abs(off));
+        const double share = 0.5 * left * left;
+        return off < 0 ? share : 1 - share;
+    }
+    double density(double x) const override {
+        return contains(x) ? std::max(0.0, 1 - std::abs(x - c) / r) / r : 0;
+    }
+
+    /// Up to 8 epsilon (r + |c|) beyond the rim: the rounding of a point that was made.
+    bool contains(double x) const override {
+        constexpr double slack = 8 * std::numeric_limits<double>::epsilon();
+        return std::abs(x - c) <= r + slack * (r + std::abs(c));
+    }
+    double measure() const override { return 2 * r; }
+    std::pair<double, double> range() const override { return {c - r, c + r}; }
+    LineMoments moments() const override { return {c, r * r / 6, 0}; }
+};
+
+std::unique_ptr<Mapping> make(const Values& options, std::size_t given, const RunContext&) {
+    const auto radii = one_for_each(radius, options[radius], given);
+    const auto centers = one_for_each(center, options[center], given);
+    const bool same = options[radius].size() == 1 && options[center].size() == 1;
+    std::vector<Tent> axes;
+    for (std::size_t k = 0; k < (same ? 1 : given); ++k) {
+        const double r = radii[k];
+        const double c = centers[k] + 0.0;  // -0 would show in points
+        if (!(r >= 1e-150 && r <= 1e150))
+            fail(ErrorKind::usage, "--radius: {} is outside [1e-150, 1e+150]", r);
+        if (!(r > 64 * std::numeric_limits<double>::epsilon() * std::abs(c)))
+            fail(ErrorKind::usage, "--center: {} is so far that a radius of {} is lost in rounding",
+                 c, r);
+        axes.emplace_back(r, c);
+    }
+    return line_mapping(std::move(axes), given, format_spec("tent", options, schema()),
+                        "share of the tent left");
+}
+
+}  // namespace
+
+Warp unit() {
+    return {.name = "tent",
+            .summary = "Box with the tent density, the triangle filter, in any dimension",
+            .source = "the inverse of the distribution function of the triangle density",
+            .strata = "each xi is the share of the tent on the left, as it is; strata become boxes",
+            .traits = {},
+            .options = schema(),
+            .aliases = {"triangle-filter"},
+            .make = make};
+}
+
+}  // namespace stipple::warps::tent

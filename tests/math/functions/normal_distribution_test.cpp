@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "math/functions/normal_distribution.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/rng.hpp"
+#include "math/functions/normal_quantile.hpp"
+#include "support/ulps.hpp"
+
+using namespace stipple;
+using stipple::testing::ulps;
+
+// The C library's long double erfc is the oracle: of another precision, and of another source.
+TEST(NormalDistribution, IsWithinEightUnitsInTheLastPlace) {
+    const Rng rng(1);
+    double worst = 0;
+    for (std::uint64_t i = 0; i < 40'000; ++i) {
+        const double u = rng.uniform(i);
+        for (const double z : {-u, u, -7 * u, 7 * u, -37.5 * u, -1e-9 * u, -0.66 - 0.01 * u}) {
+            const long double right = std::erfc(-static_cast<long double>(z) / std::sqrt(2.0L)) / 2;
+            worst = std::max(worst, ulps(normal_distribution(z), right));
+        }
+    }
+    EXPECT_LE(worst, 8);
+    EXPECT_GT(worst, 0.5);  // no rounding is perfect: the oracle is not the same code
+}
+
+// Printed in every table: Phi(1), Phi(-1.96), Phi(-3), Phi(-6).
+TEST(NormalDistribution, GivesPrintedValues) {
+    EXPECT_DOUBLE_EQ(normal_distribution(1), 0.84134474606854294859);
+    EXPECT_DOUBLE_EQ(normal_distribution(-1.96), 0.02499789514822044);
+    EXPECT_DOUBLE_EQ(normal_distribution(-3), 0.00134989803163009452665);
+    EXPECT_NEAR(normal_distribution(-6) / 9.8658764503769814070e-10, 1, 1e-15);
+}
+
+TEST(NormalDistribution, KnowsItsEndsAndItsMiddle) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(normal_distribution(0), 0.5);
+    EXPECT_EQ(normal_distribution(-infinity), 0);
+    EXPECT_EQ(normal_distribution(infinity), 1);
+    EXPECT_EQ(normal_distribution(-1e300), 0);
+    EXPECT_EQ(normal_distribution(1e300), 1);
+    EXPECT_GT(normal_distribution(-37.5), 0);
+}
+
+TEST(NormalDistribution, RisesAndIsTheQuantilesInverse) {
+    double before = 0;
+    for (double z = -38; z < 9; z += 0x1p-9) {
+        const double p = normal_distribution(z);
+        EXPECT_GE(p, before) << z;
+        before = p;
+    }
+    for (const double p : {1e-300, 1e-20, 0.01, 0.25, 0.5, 0.7, 0.999})
+        EXPECT_NEAR(normal_distribution(normal_quantile(p)) / p, 1, 1e-12) << p;
+}
