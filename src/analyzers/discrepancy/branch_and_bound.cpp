@@ -167,8 +167,9 @@ class Search {
             tasks.push_back({pop(), known_.worst, target, 0});
         const std::uint64_t left = limits_.work - std::min(known_.work, limits_.work);
         const std::uint64_t share = left / tasks.size();
-        const std::uint64_t budget = std::max(std::uint64_t{1} << 22, 16 * size);
-        for (Task& task : tasks) task.budget = to_the_end ? share : std::min(budget, share);
+        const std::uint64_t budget =
+            (to_the_end ? 64 : 1) * std::max(std::uint64_t{1} << 22, 16 * size);
+        for (Task& task : tasks) task.budget = std::min(budget, share);
         return tasks;
     }
 

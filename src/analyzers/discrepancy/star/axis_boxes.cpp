@@ -18,6 +18,12 @@ struct AxisBox {
     }
 };
 
+/// The worst ones of an axis.
+struct Worst {
+    AxisBox open;
+    AxisBox closed;
+};
+
 /// The points that are in no open one-axis box, as they have a coordinate 1.
 std::vector<bool> points_at_one(const BoxGrid& grid) {
     std::vector<bool> at_one(grid.count);
@@ -27,31 +33,35 @@ std::vector<bool> points_at_one(const BoxGrid& grid) {
     return at_one;
 }
 
+Worst worst_of_axis(const BoxGrid& grid, std::size_t k, const std::vector<bool>& at_one) {
+    const auto n = static_cast<double>(grid.count);
+    const auto points = points_at(grid, k);
+    std::vector<std::uint32_t> inside(points.size());
+    for (std::size_t i = 0; i < grid.count; ++i)
+        if (!at_one[i]) ++inside[grid.ranks[k][i]];
+    Worst worst;
+    std::uint64_t below = 0;
+    std::uint64_t within = 0;
+    for (std::uint32_t a = 0; a < points.size(); ++a) {
+        const double x = grid.values[k][a];
+        worst.open.take({x - static_cast<double>(below) / n, a, below});
+        below += inside[a];
+        within += points[a];
+        worst.closed.take({static_cast<double>(within) / n - x, a, within});
+    }
+    return worst;
+}
+
 }  // namespace
 
 void offer_axis_boxes(const BoxGrid& grid, WorstBox& worst) {
-    const auto n = static_cast<double>(grid.count);
     const auto at_one = points_at_one(grid);
     std::vector<std::uint32_t> corner;
     for (const auto& values : grid.values)
         corner.push_back(static_cast<std::uint32_t>(values.size() - 1));
     for (std::size_t k = 0; k < grid.dimension(); ++k) {
         const std::uint32_t whole = corner[k];
-        const auto points = points_at(grid, k);
-        std::vector<std::uint32_t> inside(points.size());
-        for (std::size_t i = 0; i < grid.count; ++i)
-            if (!at_one[i]) ++inside[grid.ranks[k][i]];
-        AxisBox open;
-        AxisBox closed;
-        std::uint64_t below = 0;
-        std::uint64_t within = 0;
-        for (std::uint32_t a = 0; a <= whole; ++a) {
-            const double x = grid.values[k][a];
-            open.take({x - static_cast<double>(below) / n, a, below});
-            below += inside[a];
-            within += points[a];
-            closed.take({static_cast<double>(within) / n - x, a, within});
-        }
+        const auto [open, closed] = worst_of_axis(grid, k, at_one);
         corner[k] = open.rank;
         worst.offer(Side::open, corner, open.points);
         corner[k] = closed.rank;
@@ -61,21 +71,15 @@ void offer_axis_boxes(const BoxGrid& grid, WorstBox& worst) {
 }
 
 double axis_bound(const BoxGrid& grid, double times) {
-    const auto n = static_cast<double>(grid.count);
     const auto d = static_cast<double>(grid.dimension());
+    const std::vector<bool> none(grid.count);
     double most = 0;
     double all = 0;
     for (std::size_t k = 0; k < grid.dimension(); ++k) {
-        const auto points = points_at(grid, k);
-        double below = 0;
-        double worst = 0;
-        for (std::size_t a = 0; a < points.size(); ++a) {
-            worst = std::max(worst, grid.values[k][a] - below / n);
-            below += points[a];
-            worst = std::max(worst, below / n - grid.values[k][a]);
-        }
-        most = std::max(most, times * worst);
-        all += times * worst;
+        const auto [open, closed] = worst_of_axis(grid, k, none);
+        const double worst = times * std::max(open.value, closed.value);
+        most = std::max(most, worst);
+        all += worst;
     }
     constexpr double rounding = 0x1p-46;
     if (d == 1) return most + rounding;
