@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "warps/common_options.hpp"
 
+#include <cmath>
+
 #include "core/error.hpp"
 #include "core/spec.hpp"
+#include "math/functions/running_sums.hpp"
 
 namespace stipple::warps {
 
@@ -19,6 +22,28 @@ std::vector<double> one_for_each(const Param<Numbers>& option, std::vector<doubl
         fail(ErrorKind::usage, "--{}: {} numbers for {} coordinates; one for all, or one for each",
              option.name, numbers.size(), d);
     return numbers;
+}
+
+std::vector<double> checked_weights(const Param<Numbers>& option, std::vector<double> weights,
+                                    bool normalize) {
+    for (const double w : weights)
+        if (!(w >= 0 && w <= 1e300))
+            fail(ErrorKind::usage, "--{}: {} is outside [0, 1]", option.name, w);
+    const double sum = running_sums(weights).back();
+    if (!normalize && !(std::abs(sum - 1) <= 1e-12))
+        fail_with_hint(ErrorKind::usage, "--normalize divides them by their sum",
+                       "--{}: their sum is {:.15g}; 1 is needed", option.name, sum);
+    if (!(sum > 0 && std::isfinite(sum)))
+        fail(ErrorKind::usage, "--{}: their sum is {}; it cannot be divided by", option.name, sum);
+    for (double& w : weights) w /= sum;
+    return weights;
+}
+
+std::vector<double> sums_to_1(const std::vector<double>& weights) {
+    std::vector<double> sums = running_sums(weights);
+    const double total = sums.back();
+    for (double& sum : sums) sum = sum == total ? 1 : sum;
+    return sums;
 }
 
 std::string domain_spec(std::string_view name, const Values& options, const Schema& schema,

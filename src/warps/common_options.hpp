@@ -20,6 +20,14 @@ void refuse_far(double x, double reach);
 std::vector<double> one_for_each(const Param<Numbers>& option, std::vector<double> numbers,
                                  std::size_t d);
 
+/// Numbers >= 0 that sum to 1 within 1e-12, or to anything where `normalize`, divided by their sum.
+/// @throws Error(usage)
+std::vector<double> checked_weights(const Param<Numbers>& option, std::vector<double> weights,
+                                    bool normalize);
+
+/// Running sums of such weights, the last of them 1.
+std::vector<double> sums_to_1(const std::vector<double>& weights);
+
 /// The spec of a domain that these options alone decide on; all else is how points are made.
 std::string domain_spec(std::string_view name, const Values& options, const Schema& schema,
                         std::initializer_list<std::string_view> which);

@@ -5,7 +5,9 @@
 //
 //     struct Method {
 //         std::array<double, m> forward(const std::array<double, d>& xi) const;
-//         std::array<double, d> inverse(std::span<const double> point) const;   // if there is one
+//         std::array<double, d> inverse(std::span<const double> point) const;   // if it is not the
+//                                                                               // domain's to_cube
+//         static constexpr const char* no_way_back;                             // if there is none
 //         bool keeps(const std::array<double, d>& xi) const;                    // if it drops some
 //         double density(std::span<const double> point) const;                  // if it is biased
 //     };
@@ -106,8 +108,12 @@ class RowMapping final : public Mapping {
                 const std::array<double, d> xi = method_.inverse(point);
                 for (std::size_t k = 0; k < d; ++k) cube[d * i + k] = std::clamp(xi[k], 0.0, 1.0);
             }
-        } else {
+        } else if constexpr (requires { Method::no_way_back; }) {
             fail(ErrorKind::usage, "--inverse: {}", Method::no_way_back);
+        } else {
+            expect_inside(*domain_, image);
+            for (std::size_t i = 0; i < image.size() / m; ++i)
+                domain_->to_cube(image.subspan(m * i, m), cube.subspan(d * i, d));
         }
     }
 

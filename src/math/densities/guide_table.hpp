@@ -21,6 +21,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
+#include <vector>
 
 namespace stipple {
 
@@ -72,5 +74,41 @@ inline std::size_t first_above(std::span<const double> sums, std::size_t low, st
     const auto to = sums.begin() + static_cast<std::ptrdiff_t>(std::min(high, last));
     return static_cast<std::size_t>(std::upper_bound(from, to, w) - sums.begin());
 }
+
+/// Rising sums with their guide.
+class GuideTable {
+  public:
+    GuideTable() = default;
+    /// Sums >= 0, none below the one before, the last above 0.
+    GuideTable(std::vector<double> sums, std::size_t buckets)
+        : sums_(std::move(sums)),
+          most_(std::nextafter(sums_.back(), 0.0)),
+          buckets_(sums_.back(), buckets),
+          starts_(buckets + 1) {
+        few_ = fill_guide(sums_, starts_);
+    }
+
+    [[nodiscard]] std::size_t size() const { return sums_.size(); }
+    [[nodiscard]] double total() const { return sums_.back(); }
+
+    /// Where the interval i begins and ends.
+    [[nodiscard]] double begin(std::size_t i) const { return i == 0 ? 0 : sums_[i - 1]; }
+    [[nodiscard]] double end(std::size_t i) const { return sums_[i]; }
+    [[nodiscard]] double width(std::size_t i) const { return sums_[i] - begin(i); }
+
+    /// The interval that holds w >= 0; from the total on, the last that is not empty.
+    [[nodiscard]] std::size_t at(double w) const {
+        const double inside = std::min(w, most_);
+        const std::size_t bucket = buckets_.of(inside);
+        return first_above(sums_, starts_[bucket], starts_[bucket + 1], inside, few_);
+    }
+
+  private:
+    std::vector<double> sums_;
+    double most_ = 0;  ///< the largest number below the total
+    Buckets buckets_;
+    std::vector<std::uint32_t> starts_;
+    std::size_t few_ = few_sums;  ///< that a bucket has at most, if it is few
+};
 
 }  // namespace stipple

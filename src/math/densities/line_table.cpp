@@ -251,6 +251,7 @@ double mass_share(double a, double b, double t) {
 LineTable::LineTable(std::vector<LinePiece> pieces) : pieces_(std::move(pieces)) {
     double top = 0;
     for (const LinePiece& piece : pieces_) top = std::max({top, piece.f_low, piece.f_high});
+    std::vector<double> sums;
     double sum = 0;
     for (LinePiece& piece : pieces_) {
         // To a largest density of 1, whose square is finite.
@@ -258,14 +259,11 @@ LineTable::LineTable(std::vector<LinePiece> pieces) : pieces_(std::move(pieces))
         piece.f_high /= top;
         const double before = sum;
         const double width = piece.x_high - piece.x_low;
-        sums_.push_back(sum += 0.5 * (piece.f_low + piece.f_high) * width);
+        sums.push_back(sum += 0.5 * (piece.f_low + piece.f_high) * width);
         rows_.push_back({before, sum - before, piece.f_low, piece.f_high, piece.x_low, width,
                          std::nextafter(piece.x_high, piece.x_low)});
     }
-    most_ = std::nextafter(sum, 0.0);
-    guide_.resize(2 * sums_.size() + 1);
-    few_ = fill_guide(sums_, guide_);
-    buckets_ = Buckets(sum, guide_.size() - 1);
+    masses_ = GuideTable(std::move(sums), 2 * pieces_.size());
 }
 
 std::size_t LineTable::piece_of(double x) const {
@@ -321,10 +319,8 @@ void LineTable::quantiles(std::span<double> shares) const {
     for (std::size_t first = 0; first < shares.size(); first += batch_size) {
         const std::size_t size = std::min(batch_size, shares.size() - first);
         for (std::size_t i = 0; i < size; ++i) {
-            const double wanted = std::min(shares[first + i] * sums_.back(), most_);
-            const std::size_t bucket = buckets_.of(wanted);
-            const Row& row =
-                rows_[first_above(sums_, guide_[bucket], guide_[bucket + 1], wanted, few_)];
+            const double wanted = shares[first + i] * masses_.total();
+            const Row& row = rows_[masses_.at(wanted)];
             batch.wanted[i] = wanted;
             batch.before[i] = row.before;
             batch.mass[i] = row.mass;
@@ -341,10 +337,9 @@ void LineTable::quantiles(std::span<double> shares) const {
 double LineTable::fraction(double x) const {
     const std::size_t i = piece_of(x);
     const LinePiece& piece = pieces_[i];
-    const double before = i == 0 ? 0 : sums_[i - 1];
     const double t = std::clamp((x - piece.x_low) / (piece.x_high - piece.x_low), 0.0, 1.0);
     const double share = mass_share(piece.f_low, piece.f_high, t);
-    return std::min((before + share * (sums_[i] - before)) / sums_.back(), 1.0);
+    return std::min((masses_.begin(i) + share * masses_.width(i)) / masses_.total(), 1.0);
 }
 
 }  // namespace stipple

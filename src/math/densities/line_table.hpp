@@ -83,7 +83,7 @@ class LineTable {
 
     /// The same at the fraction t of a piece's width.
     [[nodiscard]] double density_in(const LinePiece& piece, double t) const {
-        return ((1 - t) * piece.f_low + t * piece.f_high) / sums_.back();
+        return ((1 - t) * piece.f_low + t * piece.f_high) / masses_.total();
     }
 
     /// The intervals on which the density is not 0, side by side.
@@ -116,12 +116,8 @@ class LineTable {
     };
 
     std::vector<LinePiece> pieces_;
-    std::vector<double> sums_;  ///< of the pieces' masses, up to each
-    double most_ = 0;           ///< the largest number below the last sum
     std::vector<Row> rows_;
-    Buckets buckets_;
-    std::vector<std::uint32_t> guide_;
-    std::size_t few_ = few_sums;  ///< that a bucket of the sums has at most, if it is few
+    GuideTable masses_;  ///< of the pieces, side by side
 };
 
 }  // namespace stipple

@@ -373,6 +373,7 @@ StripTable::StripTable(const std::vector<Strip>& strips) {
     for (const Strip& strip : strips)
         for (const StripPatch& patch : strip.patches)
             top = std::max({top, patch.left[0], patch.left[1], patch.right[0], patch.right[1]});
+    std::vector<double> sums;
     double sum = 0;
     for (const Strip& strip : strips) {
         Column column{strip.x_low, strip.x_high, patches_.size(), 0, 0};
@@ -385,24 +386,19 @@ StripTable::StripTable(const std::vector<Strip>& strips) {
             column.right += height * (shape.right[0] + shape.right[1]);
             patches_.push_back({shape, column.left, column.right});
         }
-        sums_.push_back(sum += 0.5 * (column.left + column.right) * (column.x_high - column.x_low));
+        sums.push_back(sum += 0.5 * (column.left + column.right) * (column.x_high - column.x_low));
         columns_.push_back(column);
     }
     columns_.push_back({0, 0, patches_.size(), 0, 0});
-    most_ = std::nextafter(sum, 0.0);
-    buckets_ = Buckets(sum, sums_.size());
-    guide_.resize(sums_.size() + 1);
-    fill_guide(sums_, guide_);
+    masses_ = GuideTable(std::move(sums), strips.size());
 }
 
 std::array<double, 2> StripTable::quantile(double u, double v) const {
-    const double wanted = std::min(u * sums_.back(), most_);
-    const std::size_t bucket = buckets_.of(wanted);
-    const std::size_t i = first_above(sums_, guide_[bucket], guide_[bucket + 1], wanted);
-    const double before = i == 0 ? 0 : sums_[i - 1];
+    const double wanted = u * masses_.total();
+    const std::size_t i = masses_.at(wanted);
     const Column& column = columns_[i];
     const double share = width_share(column.left, column.right,
-                                     std::min((wanted - before) / (sums_[i] - before), 1.0));
+                                     std::min((wanted - masses_.begin(i)) / masses_.width(i), 1.0));
     const double x =
         within(column.x_low, column.x_high, column.x_low + share * (column.x_high - column.x_low));
     // The place that x has, rounded as it is, so that the way back is the same.
@@ -437,10 +433,9 @@ std::array<double, 2> StripTable::fraction(double x, double y) const {
     const auto i =
         static_cast<std::size_t>(std::max<std::ptrdiff_t>(next - columns.begin(), 1) - 1);
     const Column& column = columns_[i];
-    const double before = i == 0 ? 0 : sums_[i - 1];
     const double width = std::clamp((x - column.x_low) / (column.x_high - column.x_low), 0.0, 1.0);
-    const double u = (before + mass_share(column.left, column.right, width) * (sums_[i] - before)) /
-                     sums_.back();
+    const double part = mass_share(column.left, column.right, width);
+    const double u = (masses_.begin(i) + part * masses_.width(i)) / masses_.total();
     const double t = column.side(width);
 
     const auto patches = patches_of(i);

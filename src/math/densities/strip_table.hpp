@@ -89,10 +89,7 @@ class StripTable {
 
     std::vector<Column> columns_;  ///< and one more, for its `first`
     std::vector<Patch> patches_;
-    std::vector<double> sums_;  ///< of the strips' masses
-    double most_ = 0;
-    Buckets buckets_;
-    std::vector<std::uint32_t> guide_;
+    GuideTable masses_;  ///< of the strips, side by side
 };
 
 }  // namespace stipple

@@ -116,9 +116,6 @@ PolygonRows::PolygonRows(const std::vector<Ring>& rings, const RunContext& run) 
     measure_rings(rings);
     cut_slabs(run);
     measure_slabs();
-    guide_.resize(std::max<std::size_t>(64, 4 * slabs_.size()) + 1);
-    fill_guide(sums_, guide_);
-    buckets_ = Buckets(area_, guide_.size() - 1);
 }
 
 void PolygonRows::measure_rings(const std::vector<Ring>& rings) {
@@ -172,6 +169,7 @@ void PolygonRows::cut_slabs(const RunContext& run) {
 }
 
 void PolygonRows::measure_slabs() {
+    std::vector<double> sums;
     for (std::size_t j = 0; j < slabs_.size(); ++j) {
         Slab& slab = slabs_[j];
         for (const Part& part : parts_of(slab)) {
@@ -181,13 +179,14 @@ void PolygonRows::measure_slabs() {
         slab.area = 0.5 * (slab.width_bottom + slab.width_top) * slab.height();
         slab.area_below = area_;
         area_ += slab.area;
-        sums_.push_back(area_);
+        sums.push_back(area_);
         if (!(slab.area > 0)) continue;
         const double widest = std::max(slab.width_bottom, slab.width_top);
         slab.share_bottom = slab.width_bottom / widest;
         slab.share_top = slab.width_top / widest;
         last_filled_ = j;
     }
+    areas_ = GuideTable(std::move(sums), std::max<std::size_t>(64, 4 * slabs_.size()));
     double above = 0;
     for (std::size_t j = slabs_.size(); j-- > 0;) {
         slabs_[j].area_above = above;
@@ -242,7 +241,7 @@ void PolygonRows::forward_all(std::span<const double> cube, std::span<double> im
         const double* in = cube.data() + 2 * first;
         double* out = image.data() + 2 * first;
         for (std::size_t i = 0; i < size; ++i) {
-            batch.slab[i] = static_cast<std::uint32_t>(slab_at(in[2 * i]));
+            batch.slab[i] = static_cast<std::uint32_t>(areas_.at(in[2 * i] * area_));
             const Slab& slab = slabs_[batch.slab[i]];
             const bool up = in[2 * i] < 0.5;
             batch.bottom[i] = slab.bottom;
@@ -260,13 +259,6 @@ void PolygonRows::forward_all(std::span<const double> cube, std::span<double> im
             out[2 * i + 1] = batch.y[i];
         }
     }
-}
-
-/// The slab of the row that has the share u of the area below it.
-std::size_t PolygonRows::slab_at(double u) const {
-    const double below = std::min(u * area_, std::nextafter(area_, 0.0));
-    const std::size_t bucket = buckets_.of(below);
-    return first_above(sums_, guide_[bucket], guide_[bucket + 1], below);
 }
 
 /// The place in a row, the length `way` from its left end on.

@@ -104,7 +104,6 @@ class PolygonRows {
     [[nodiscard]] std::span<const Part> parts_of(const Slab& slab) const {
         return std::span(parts_).subspan(slab.first, slab.last - slab.first);
     }
-    [[nodiscard]] std::size_t slab_at(double u) const;
     [[nodiscard]] double along_row(const Slab& slab, double t, double way) const;
     [[nodiscard]] double place_in_row(const Slab& slab, double t, double x) const;
     [[nodiscard]] double gap(const Slab& slab, PlanePoint p) const;
@@ -114,9 +113,7 @@ class PolygonRows {
     std::vector<std::pair<PlanePoint, PlanePoint>> rim_;  ///< all edges
     std::vector<Slab> slabs_;
     std::vector<Part> parts_;
-    std::vector<double> sums_;  ///< of the slabs' areas
-    Buckets buckets_;
-    std::vector<std::uint32_t> guide_;
+    GuideTable areas_;             ///< of the slabs, from the lowest on
     std::size_t last_filled_ = 0;  ///< the topmost slab that has an area
     Box box_;
     double area_ = 0;

@@ -5,9 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "math/integrands/genz_integrands.hpp"
-#include "math/integrands/planar_integrands.hpp"
-#include "math/integrands/smooth_integrands.hpp"
+#include "math/integrands/families.hpp"
 
 namespace stipple {
 namespace {

@@ -14,7 +14,7 @@
 // Shape   2 coordinates; values 0 and 1.
 // Promise areas to a few rounding errors.
 
-#include "math/integrands/planar_integrands.hpp"
+#include "math/integrands/families.hpp"
 
 #include <algorithm>
 #include <array>
@@ -23,6 +23,7 @@
 
 #include "math/functions/draws.hpp"
 #include "math/geometry/planar_area.hpp"
+#include "math/geometry/vector3.hpp"
 
 namespace stipple {
 namespace {
@@ -63,25 +64,19 @@ Integrand half_plane(std::size_t, const Values& values) {
 
 // ---------------------------------------------------------------- soft shadow
 
-using Vector = std::array<double, 3>;
-
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vector sum(const Vector& a, double s, const Vector& b, double t, const Vector& c) {
+Vector3 sum(const Vector3& a, double s, const Vector3& b, double t, const Vector3& c) {
     return {a[0] + s * b[0] + t * c[0], a[1] + s * b[1] + t * c[1], a[2] + s * b[2] + t * c[2]};
 }
 
 /// A parallelogram, and the coordinates in it of where a ray from the origin meets its plane.
 struct Parallelogram {
-    Vector corner, side, other;
+    Vector3 corner, side, other;
 
     /// Coordinates (s, t) and how far along `ray` it is met; at infinity or never: not finite.
-    [[nodiscard]] Vector met_by(const Vector& ray) const {
-        const Vector normal = cross(side, other);
+    [[nodiscard]] Vector3 met_by(const Vector3& ray) const {
+        const Vector3 normal = cross(side, other);
         const double far = dot(normal, corner) / dot(normal, ray);
-        const Vector at = sum({far * ray[0], far * ray[1], far * ray[2]}, -1, corner, 0, corner);
+        const Vector3 at = sum({far * ray[0], far * ray[1], far * ray[2]}, -1, corner, 0, corner);
         const double area = dot(normal, normal);
         return {dot(cross(at, other), normal) / area, dot(cross(side, at), normal) / area, far};
     }
@@ -92,7 +87,7 @@ struct Scene {
     Parallelogram card;
 
     [[nodiscard]] bool sees(double x, double y) const {
-        const Vector to = sum(light.corner, x, light.side, y, light.other);
+        const Vector3 to = sum(light.corner, x, light.side, y, light.other);
         const auto [s, t, far] = card.met_by(to);
         return !(s >= 0 && s <= 1 && t >= 0 && t <= 1 && far > 0 && far < 1);
     }
@@ -102,7 +97,7 @@ struct Scene {
         Polygon shadow;
         constexpr PlanePair corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
         for (const auto& [s, t] : corners) {
-            const Vector at = light.met_by(sum(card.corner, s, card.side, t, card.other));
+            const Vector3 at = light.met_by(sum(card.corner, s, card.side, t, card.other));
             shadow.push_back({at[0], at[1]});
         }
         return 1 - shared_area(shadow, unit_square());
@@ -118,9 +113,9 @@ Scene draw_scene(DrawStream& numbers) {
     const auto [c, s] = direction(numbers);
     const double length = about(0.6, 0.3);
     const double width = about(0.4, 0.2);
-    const Vector middle{about(0, 0.4), about(0, 0.4), about(1, 0.3)};
-    const Vector side{c * length, s * length, about(0, 0.1)};
-    const Vector other{-s * width, c * width, about(0, 0.1)};
+    const Vector3 middle{about(0, 0.4), about(0, 0.4), about(1, 0.3)};
+    const Vector3 side{c * length, s * length, about(0, 0.1)};
+    const Vector3 other{-s * width, c * width, about(0, 0.1)};
     scene.card = {sum(middle, -0.5, side, -0.5, other), side, other};
     return scene;
 }

@@ -21,7 +21,7 @@
 //         I. M. Sobol', Reliability Engineering and System Safety 50 (1995) 225-239 (g-function).
 //         P. Moon, D. E. Spencer, Illuminating Engineering 37 (1942) 707-726 (overcast sky).
 
-#include "math/integrands/smooth_integrands.hpp"
+#include "math/integrands/families.hpp"
 
 #include <algorithm>
 #include <array>

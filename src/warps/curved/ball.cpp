@@ -128,9 +128,6 @@ struct ByVolume {
         return sphere.place(
             times(polar_direction(2 * xi[1], 2 * (1 - xi[1]), xi[2]), cube_root(xi[0])));
     }
-    std::array<double, 3> inverse(std::span<const double> point) const {
-        return shares(sphere.unit(point));
-    }
 };
 
 std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,

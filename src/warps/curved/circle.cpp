@@ -110,10 +110,6 @@ struct ByAngle {
         const auto [c, s] = cos_sin_turns(xi[0]);
         return ring.place(c, s);
     }
-    std::array<double, 1> inverse(std::span<const double> point) const {
-        const auto [x, y] = ring.unit(point);
-        return {turns_of(x, y)};
-    }
 };
 
 struct BySquare {

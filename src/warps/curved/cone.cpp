@@ -136,7 +136,6 @@ struct ByHeight {
         const double above = cap.rim_plus() + cap.rim_minus() * (1 - xi[0]);
         return cap.frame.out(polar_direction(below, above, xi[1]));
     }
-    std::array<double, 2> inverse(std::span<const double> point) const { return cap.shares(point); }
 };
 
 std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,

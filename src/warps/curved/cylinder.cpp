@@ -149,9 +149,6 @@ struct Side {
     Vector3 forward(const std::array<double, 2>& xi) const {
         return shape.place({shape.radius, shape.height * (xi[0] - 0.5), xi[1]});
     }
-    std::array<double, 2> inverse(std::span<const double> point) const {
-        return shape.shares(point);
-    }
 };
 
 struct Whole {
@@ -166,9 +163,6 @@ struct Whole {
         const double ratio = std::sqrt(std::min(end / cap, 1.0));
         const double z = std::max(0.0, std::min((below - cap) / side, 1.0)) - 0.5;
         return shape.place({shape.radius * ratio, shape.height * z, xi[1]});
-    }
-    std::array<double, 2> inverse(std::span<const double> point) const {
-        return shape.shares(point);
     }
 };
 

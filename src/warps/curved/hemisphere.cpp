@@ -67,7 +67,7 @@ const Schema& schema() {
 
 /// The law of the angle from the axis: cos^k theta, with the share of the directions that are
 /// nearer to the axis. Directions are in the frame of the axis.
-struct Law {
+struct CosineLaw {
     double power;
 
     double density(const Vector3& v) const {
@@ -88,7 +88,7 @@ struct Law {
 
 class HemisphereDomain final : public Domain, public Discontinuous {
   public:
-    HemisphereDomain(const Frame& frame, const Law& law, std::string spec)
+    HemisphereDomain(const Frame& frame, const CosineLaw& law, std::string spec)
         : frame_(frame), law_(law), spec_(std::move(spec)) {}
 
     std::string spec() const override { return spec_; }
@@ -140,38 +140,34 @@ class HemisphereDomain final : public Domain, public Discontinuous {
     static constexpr double slack = 8 * std::numeric_limits<double>::epsilon();
 
     Frame frame_;
-    Law law_;
+    CosineLaw law_;
     std::string spec_;
 };
 
-/// What all methods but concentric share: the way back.
-struct Polar {
+struct Uniform {
     Frame frame;
-    Law law;
 
-    std::array<double, 2> inverse(std::span<const double> point) const {
-        const Vector3 v = frame.in(vector_of(point));
-        return {law.share(v), turns_of(v[0], v[1])};
-    }
-};
-
-struct Uniform : Polar {
     Vector3 forward(const std::array<double, 2>& xi) const {
         return frame.out(polar_direction(xi[0], 1 + (1 - xi[0]), xi[1]));
     }
 };
 
-struct Cosine : Polar {
+struct Cosine {
+    Frame frame;
+
     Vector3 forward(const std::array<double, 2>& xi) const {
         const auto [x, y] = PolarDisk::forward(xi[0], xi[1]);
         return frame.out({x, y, std::sqrt(1 - xi[0])});
     }
 };
 
-struct CosinePower : Polar {
+struct CosinePower {
+    Frame frame;
+    double power;
+
     Vector3 forward(const std::array<double, 2>& xi) const {
         const double u = std::min(xi[0], one_minus_ulp);
-        const double log = log_1p(0 - u) / (law.power + 1);  // of cos theta
+        const double log = log_1p(0 - u) / (power + 1);  // of cos theta
         const double less = xi[0] < 1 ? exp_minus_1(log) : -1;
         const double z = 1 + less;
         const double r = std::sqrt(0 - less * (1 + z));
@@ -213,15 +209,15 @@ std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
     const Frame frame = frame_of(options);
     const std::string how = options[method];
     const bool powered = how == "cosine-power";
-    const Law law{powered ? options[exponent] : (how == "cosine" ? 1.0 : 0.0)};
+    const CosineLaw law{powered ? options[exponent] : (how == "cosine" ? 1.0 : 0.0)};
     std::string spec =
         powered
             ? domain_spec("hemisphere", options, schema(), {method.name, exponent.name, axis.name})
             : domain_spec("hemisphere", options, schema(), {method.name, axis.name});
     const auto domain = std::make_shared<HemisphereDomain>(frame, law, std::move(spec));
-    if (powered) return row_mapping(domain, CosinePower{{frame, law}});
-    if (how == "uniform") return row_mapping(domain, Uniform{{frame, law}});
-    if (options[disk_map] == "polar") return row_mapping(domain, Cosine{{frame, law}});
+    if (powered) return row_mapping(domain, CosinePower{frame, law.power});
+    if (how == "uniform") return row_mapping(domain, Uniform{frame});
+    if (options[disk_map] == "polar") return row_mapping(domain, Cosine{frame});
     return row_mapping(domain, CosineConcentric{frame});
 }
 

@@ -95,11 +95,6 @@ struct ByLobe {
         const auto [x, y] = cos_sin_turns(xi[1]);
         return frame.out({sine * x, sine * y, cosine});
     }
-    std::array<double, 2> inverse(std::span<const double> point) const {
-        const Vector3 local = frame.in({point[0], point[1], point[2]});
-        return {lobe.fraction(one_minus_cos(local), one_plus_cos(local)),
-                turns_of(local[0], local[1])};
-    }
 };
 
 template <class Lobe>

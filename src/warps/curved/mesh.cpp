@@ -27,7 +27,6 @@
 #include <optional>
 
 #include "core/error.hpp"
-#include "core/rng.hpp"
 #include "math/densities/guide_table.hpp"
 #include "math/functions/running_sums.hpp"
 #include "math/geometry/law_moments.hpp"
@@ -76,42 +75,33 @@ class Shares {
             const auto [a, b, c] = mesh.corners(i);
             areas.push_back(0.5 * length(cross(minus(b, a), minus(c, a))));
         }
-        ends_ = running_sums(areas);
-        area_ = ends_.back();
+        std::vector<double> ends = running_sums(areas);
+        area_ = ends.back();
         if (!(area_ > 0)) fail(ErrorKind::input, "{}: the mesh has no area", name);
-        for (double& end : ends_) end /= area_;
-        guide_.resize(ends_.size() + 1);
-        fill_guide(ends_, guide_);
-        buckets_ = Buckets(1, guide_.size() - 1);
+        for (double& end : ends) end /= area_;
+        const std::size_t count = ends.size();
+        shares_ = GuideTable(std::move(ends), count);
     }
 
     double area() const { return area_; }
 
     /// The share up to the part t of a triangle, never that of the next one.
     double up_to(std::size_t i, double t) const {
-        const double share = begin(i) + t * width(i);
-        return ends_[i] == 1 ? std::min(share, 1.0) : std::min(share, std::nextafter(ends_[i], 0));
+        const double share = shares_.begin(i) + t * shares_.width(i);
+        const double end = shares_.end(i);
+        return std::min(share, end == 1 ? 1 : std::nextafter(end, 0));
     }
 
     /// The part of a triangle before a share that it holds.
     double part(std::size_t i, double share) const {
-        return std::min((share - begin(i)) / width(i), 1.0);
+        return std::min((share - shares_.begin(i)) / shares_.width(i), 1.0);
     }
 
     /// The triangle that holds this share; the last with an area for 1.
-    std::size_t at(double share) const {
-        const double inside = std::min(share, one_minus_ulp);
-        const std::size_t bucket = buckets_.of(inside);
-        return first_above(ends_, guide_[bucket], guide_[bucket + 1], inside);
-    }
+    std::size_t at(double share) const { return shares_.at(share); }
 
   private:
-    double begin(std::size_t i) const { return i == 0 ? 0 : ends_[i - 1]; }
-    double width(std::size_t i) const { return ends_[i] - begin(i); }
-
-    std::vector<double> ends_;  ///< S_1, S_2, ...; the last is 1
-    std::vector<std::uint32_t> guide_;
-    Buckets buckets_;
+    GuideTable shares_;
     double area_ = 0;
 };
 

@@ -97,10 +97,6 @@ struct ByHeight {
     Vector3 forward(const std::array<double, 2>& xi) const {
         return sphere.place(polar_direction(2 * xi[0], 2 * (1 - xi[0]), xi[1]));
     }
-    std::array<double, 2> inverse(std::span<const double> point) const {
-        const Vector3 v = sphere.unit(point);
-        return {0.5 * one_minus_cos(v), turns_of(v[0], v[1])};
-    }
 };
 
 struct ByLatitude {

@@ -214,9 +214,6 @@ struct ByArea {
         return plus(torus.center, torus.frame.out({distance * cos_around, distance * sin_around,
                                                    xi[0] > 0.5 ? 0 - z : z}));
     }
-    std::array<double, 2> inverse(std::span<const double> point) const {
-        return torus.shares(point);
-    }
 };
 
 std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,

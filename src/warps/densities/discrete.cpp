@@ -22,9 +22,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
-#include "core/rng.hpp"
 #include "math/densities/guide_table.hpp"
-#include "math/functions/running_sums.hpp"
 #include "warps/common_options.hpp"
 #include "warps/densities/line_domain.hpp"
 
@@ -59,10 +57,9 @@ const Schema& schema() {
 struct Outcomes {
     std::vector<double> probability;
     std::vector<double> value;
-    std::vector<double> sums;        ///< of probabilities, the last is 1
+    GuideTable sums;                 ///< of probabilities, the last is 1
     std::vector<std::size_t> order;  ///< of outcomes by value
-    std::vector<std::uint32_t> starts;
-    std::vector<double> share;  ///< q of each slot
+    std::vector<double> share;       ///< q of each slot
     std::vector<std::uint32_t> alias;
 
     std::size_t count() const { return value.size(); }
@@ -83,7 +80,7 @@ struct Drawn : LineDistribution {
 
     double inverse(double x) const override {
         const std::size_t i = of->find(x);
-        return 0.5 * ((i > 0 ? of->sums[i - 1] : 0) + of->sums[i]);
+        return 0.5 * (of->sums.begin(i) + of->sums.end(i));
     }
     /// Outcomes have equal cells in the cube.
     bool even() const override { return false; }
@@ -127,11 +124,7 @@ struct Drawn : LineDistribution {
 };
 
 struct ByInversion final : Drawn {
-    double forward(double u) const {
-        const double inside = std::min(u, one_minus_ulp);
-        const std::size_t b = Buckets(1, of->starts.size() - 1).of(inside);
-        return of->value[first_above(of->sums, of->starts[b], of->starts[b + 1], inside)];
-    }
+    double forward(double u) const { return of->value[of->sums.at(u)]; }
 };
 
 struct ByAlias final : Drawn {
@@ -173,22 +166,11 @@ void fill_slots(Outcomes& of) {
     }
 }
 
-/// The probabilities, checked; divided by their sum, which is 1 up to rounding.
 std::vector<double> probabilities_of(const Values& options) {
-    std::vector<double> p = options[probabilities];
+    const std::vector<double> p = options[probabilities];
     if (p.size() > (std::size_t{1} << 24))
         fail(ErrorKind::usage, "--probabilities: {} outcomes are more than {}", p.size(), 1 << 24);
-    for (const double x : p)
-        if (!(x >= 0 && x <= 1e300))
-            fail(ErrorKind::usage, "--probabilities: {} is outside [0, 1]", x);
-    const double sum = running_sums(p).back();
-    if (!options[normalize] && !(std::abs(sum - 1) <= 1e-12))
-        fail_with_hint(ErrorKind::usage, "--normalize divides them by their sum",
-                       "--probabilities: their sum is {:.15g}; 1 is needed", sum);
-    if (!(sum > 0 && std::isfinite(sum)))
-        fail(ErrorKind::usage, "--probabilities: their sum is {}; it cannot be divided by", sum);
-    for (double& x : p) x /= sum;
-    return p;
+    return checked_weights(probabilities, p, options[normalize]);
 }
 
 std::vector<double> values_of(const Values& options, std::size_t m) {
@@ -214,11 +196,7 @@ OutcomesPtr outcomes_of(const Values& options) {
     for (std::size_t i = 1; i < of->count(); ++i)
         if (of->value[of->order[i]] == of->value[of->order[i - 1]])
             fail(ErrorKind::usage, "--values: {} stands twice", of->value[of->order[i]]);
-    of->sums = running_sums(of->probability);
-    const double total = of->sums.back();
-    for (double& sum : of->sums) sum = sum == total ? 1 : sum;
-    of->starts.resize(2 * of->count() + 1);
-    fill_guide(of->sums, of->starts);
+    of->sums = GuideTable(sums_to_1(of->probability), 2 * of->count());
     fill_slots(*of);
     return of;
 }

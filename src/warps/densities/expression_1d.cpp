@@ -27,7 +27,7 @@
 #include "math/densities/line_table.hpp"
 #include "math/densities/quadrature.hpp"
 #include "math/geometry/law_moments.hpp"
-#include "warps/warp.hpp"
+#include "warps/domain_mapping.hpp"
 
 namespace stipple::warps::expression_1d {
 namespace {
@@ -149,7 +149,10 @@ class FormulaDomain final : public Domain, public Gapped, public Weighable {
 
     bool shows_gaps() const override { return true; }
 
-    const LineTable& table() const { return table_; }
+    void from_cube(std::span<const double> cube, std::span<double> image) const {
+        std::ranges::copy(cube, image.begin());
+        table_.quantiles(image);
+    }
 
   private:
     [[nodiscard]] double edge(double share) const {
@@ -178,32 +181,6 @@ class FormulaDomain final : public Domain, public Gapped, public Weighable {
     Estimate total_ = {};
 };
 
-class Formula final : public Mapping {
-  public:
-    explicit Formula(std::shared_ptr<const FormulaDomain> domain) : line_(std::move(domain)) {}
-
-    DomainPtr domain() const override { return line_; }
-    std::size_t cube_dimension() const override { return 1; }
-
-    void forward(std::span<const double> cube, std::span<double> image,
-                 std::span<std::uint8_t> /*keep*/) const override {
-        std::ranges::copy(cube, image.begin());
-        line_->table().quantiles(image);
-    }
-
-    void inverse(std::span<const double> image, std::span<double> cube) const override {
-        for (std::size_t i = 0; i < image.size(); ++i) {
-            if (!line_->contains(image.subspan(i, 1)))
-                fail(ErrorKind::input, "the point {} is outside the range of {}", image[i],
-                     line_->spec());
-            cube[i] = line_->table().fraction(image[i]);
-        }
-    }
-
-  private:
-    std::shared_ptr<const FormulaDomain> line_;
-};
-
 std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/, const RunContext& run) {
     if (!options.given(density))
         fail(ErrorKind::usage, "--density: give a formula in x, such as 'exp(-x)'");
@@ -211,7 +188,7 @@ std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/, cons
     Expression f(density.name, options[density], 1);
     Values plain = options;  // without blanks: the spec is one word
     plain.put(density.name, f.text());
-    return std::make_unique<Formula>(
+    return std::make_unique<DomainMapping<FormulaDomain>>(
         std::make_shared<FormulaDomain>(std::move(plain), ends, std::move(f), run));
 }
 

@@ -24,6 +24,7 @@
 #include "core/spec.hpp"
 #include "math/densities/strip_table.hpp"
 #include "warps/densities/formula_box.hpp"
+#include "warps/inside.hpp"
 #include "warps/warp.hpp"
 
 namespace stipple::warps::expression_2d {
@@ -72,8 +73,8 @@ class Formula final : public Mapping {
     }
 
     void inverse(std::span<const double> image, std::span<double> cube) const override {
+        expect_inside(*box_, image);
         for (std::size_t i = 0; i + 1 < image.size(); i += 2) {
-            box_->require(image.subspan(i, 2));
             const auto [u, v] = table_.fraction(image[i], image[i + 1]);
             cube[i] = u;
             cube[i + 1] = v;

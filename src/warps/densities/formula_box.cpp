@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "warps/densities/formula_box.hpp"
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -161,12 +159,6 @@ std::vector<std::string> FormulaBox::cube_axes() const {
     std::vector<std::string> names;
     for (std::size_t k = 0; k < dimension(); ++k) names.push_back(fmt::format("x{}", k + 1));
     return names;
-}
-
-void FormulaBox::require(std::span<const double> point) const {
-    if (!contains(point))
-        fail(ErrorKind::input, "the point ({}) is outside the box of {}", fmt::join(point, ", "),
-             spec_);
 }
 
 Box formula_bounds(const std::string& text, std::size_t most) {

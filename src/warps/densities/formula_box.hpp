@@ -47,9 +47,6 @@ class FormulaBox final : public Domain, public Gapped, public Weighable {
     /// @throws Error(usage) where the formula is no density in the box
     Estimate integral() const;
 
-    /// Throws unless the point is in the box. @throws Error(input)
-    void require(std::span<const double> point) const;
-
   private:
     std::string spec_;
     Expression f_;

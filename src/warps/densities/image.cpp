@@ -20,8 +20,6 @@
 //         doi:10.1145/226150.226151. Guide tables: H.-C. Chen, Y. Asau, AIIE Trans. 6(2) (1974)
 //         163-166, doi:10.1080/05695557408974949.
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 
 #include "core/box_mass.hpp"
@@ -30,7 +28,7 @@
 #include "core/support.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "media/density_map.hpp"
-#include "warps/warp.hpp"
+#include "warps/domain_mapping.hpp"
 
 namespace stipple::warps::image {
 namespace {
@@ -111,43 +109,20 @@ class ImageDomain final : public Domain, public Gapped, public Weighable {
 
     bool shows_gaps() const override { return true; }
 
-    const DensityMap& map() const { return map_; }
+    void from_cube(std::span<const double> cube, std::span<double> image) const {
+        map_.place_all(cube, image);
+    }
 
   private:
     Values options_;
     DensityMap map_;
 };
 
-class Image final : public Mapping {
-  public:
-    explicit Image(std::shared_ptr<const ImageDomain> domain) : image_(std::move(domain)) {}
-
-    DomainPtr domain() const override { return image_; }
-    std::size_t cube_dimension() const override { return 2; }
-
-    void forward(std::span<const double> cube, std::span<double> image,
-                 std::span<std::uint8_t> /*keep*/) const override {
-        image_->map().place_all(cube, image);
-    }
-
-    void inverse(std::span<const double> image, std::span<double> cube) const override {
-        for (std::size_t i = 0; i + 1 < image.size(); i += 2) {
-            const auto point = image.subspan(i, 2);
-            if (!image_->contains(point))
-                fail(ErrorKind::input, "the point ({}) is outside the unit square of {}",
-                     fmt::join(point, ", "), image_->spec());
-            image_->to_cube(point, cube.subspan(i, 2));
-        }
-    }
-
-  private:
-    std::shared_ptr<const ImageDomain> image_;
-};
-
 std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/, const RunContext& run) {
     if (!options.given(file))
         fail(ErrorKind::usage, "--file: name a picture (PNG, PFM) or an array (NPY)");
-    return std::make_unique<Image>(std::make_shared<ImageDomain>(options, run));
+    return std::make_unique<DomainMapping<ImageDomain>>(
+        std::make_shared<ImageDomain>(options, run));
 }
 
 }  // namespace

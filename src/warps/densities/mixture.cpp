@@ -31,7 +31,7 @@
 #include "core/rng.hpp"
 #include "core/spec.hpp"
 #include "core/text.hpp"
-#include "math/functions/running_sums.hpp"
+#include "warps/common_options.hpp"
 #include "warps/densities/mixture_domain.hpp"
 #include "warps/warp.hpp"
 
@@ -252,20 +252,12 @@ Component component_of(const std::string& text, std::size_t given, const RunCont
 }
 
 std::unique_ptr<Mapping> make(const Values& options, std::size_t given, const RunContext& run) {
-    std::vector<double> shares = options[weights];
+    const std::vector<double> given_weights = options[weights];
     const auto texts = parts_of(options[components]);
-    if (shares.size() != texts.size())
+    if (given_weights.size() != texts.size())
         fail(ErrorKind::usage, "--weights: {} given for {} component{}; one for each is needed",
-             shares.size(), texts.size(), texts.size() == 1 ? "" : "s");
-    for (const double w : shares)
-        if (!(w >= 0 && w <= 1e300)) fail(ErrorKind::usage, "--weights: {} is outside [0, 1]", w);
-    const double sum = running_sums(shares).back();
-    if (!options[normalize] && !(std::abs(sum - 1) <= 1e-12))
-        fail_with_hint(ErrorKind::usage, "--normalize divides them by their sum",
-                       "--weights: their sum is {:.15g}; 1 is needed", sum);
-    if (!(sum > 0 && std::isfinite(sum)))
-        fail(ErrorKind::usage, "--weights: their sum is {}; it cannot be divided by", sum);
-    for (double& w : shares) w /= sum;
+             given_weights.size(), texts.size(), texts.size() == 1 ? "" : "s");
+    const auto shares = checked_weights(weights, given_weights, options[normalize]);
 
     std::vector<Component> parts;
     std::string first;
@@ -282,10 +274,7 @@ std::unique_ptr<Mapping> make(const Values& options, std::size_t given, const Ru
                  texts[0], first, parts[0].mapping->cube_dimension(), texts[i], space,
                  parts[i].mapping->cube_dimension());
     }
-    std::vector<double> sums = running_sums(shares);
-    const double total = sums.back();
-    for (double& s : sums) s = s == total ? 1 : s;
-    return std::make_unique<Mixture>(std::move(parts), std::move(sums),
+    return std::make_unique<Mixture>(std::move(parts), sums_to_1(shares),
                                      format_spec("mixture", options, schema()));
 }
 

@@ -84,6 +84,15 @@ struct Interval {
     double size;  ///< the larger of |a| and |b|
 };
 
+/// y^p for y in [0, 1], likewise.
+template <Root root>
+double powered(double y, double p) {
+    if constexpr (root == Root::none) return y;
+    if constexpr (root == Root::square) return y * y;
+    if constexpr (root == Root::cube) return y * y * y;
+    return y > 0 ? stipple::exponential(logarithm(y) * p) : 0;
+}
+
 /// What the distributions have in common: all but their ways forward and back.
 struct PowerLaw : LineDistribution, Interval {
     explicit PowerLaw(const Interval& interval) : Interval(interval), unit(size) {}
@@ -178,7 +187,7 @@ struct OneSided final : PowerLaw {
         const double size_here = std::abs(x) / heavy;
         const double from = narrow ? logarithm(size_here) : 0;
         const double w = p == 0 ? from / log_ratio : exp_minus_1(p * from) / less;
-        const double rest = narrow ? 1 - w : (real_power(size_here, p) - r) / -less;
+        const double rest = narrow ? 1 - w : (powered<root>(size_here, p) - r) / -less;
         return heavy_last ? rest : 1 - rest;
     }
 };
@@ -198,7 +207,7 @@ struct TwoSided final : PowerLaw {
         return std::max(a, std::min(x, b));
     }
     double inverse(double x) const override {
-        const double y = std::copysign(real_power(std::abs(x) / size, p), x);
+        const double y = std::copysign(powered<root>(std::abs(x) / size, p), x);
         return (y - low) / (high - low);
     }
 };

@@ -140,7 +140,6 @@ class ParallelogramDomain final : public Domain, public Weighable {
 
     const Vector3& start() const { return corner_; }
     const std::array<Vector3, 2>& sides() const { return edges_; }
-    const EdgeFrame& frame() const { return frame_; }
 
   private:
     std::string spec_;
@@ -154,7 +153,6 @@ template <std::size_t d>
 struct OnParallelogram {
     Vector3 start;
     std::array<Vector3, 2> sides;
-    EdgeFrame frame;
 
     std::array<double, d> forward(const std::array<double, 2>& xi) const {
         std::array<double, d> point;
@@ -162,19 +160,14 @@ struct OnParallelogram {
             point[k] = start[k] + (xi[0] * sides[0][k] + xi[1] * sides[1][k]);
         return point;
     }
-    std::array<double, 2> inverse(std::span<const double> point) const {
-        const auto [s, t] = frame.coordinates(space_point(point));
-        return {s, t};
-    }
 };
 
 std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
                               const RunContext& /*run*/) {
     const auto shape = std::make_shared<ParallelogramDomain>(options);
     if (shape->dimension() == 2)
-        return row_mapping(shape,
-                           OnParallelogram<2>{shape->start(), shape->sides(), shape->frame()});
-    return row_mapping(shape, OnParallelogram<3>{shape->start(), shape->sides(), shape->frame()});
+        return row_mapping(shape, OnParallelogram<2>{shape->start(), shape->sides()});
+    return row_mapping(shape, OnParallelogram<3>{shape->start(), shape->sides()});
 }
 
 }  // namespace

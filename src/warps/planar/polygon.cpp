@@ -33,9 +33,8 @@
 #include "core/text.hpp"
 #include "math/geometry/polygon_rows.hpp"
 #include "media/points_file.hpp"
-#include "warps/inside.hpp"
+#include "warps/domain_mapping.hpp"
 #include "warps/planar/area_share.hpp"
-#include "warps/warp.hpp"
 
 namespace stipple::warps::polygon {
 namespace {
@@ -166,7 +165,7 @@ class PolygonDomain final : public Domain, public Weighable {
         cube[1] = v;
     }
     Estimate box_mass(const Box& box) const override {
-        return area_share(box, *this, [&](const stipple::Polygon& window) {
+        return area_share(box, *this, [&](const Polygon& window) {
             return rows_.area_in({{window[0][0], window[0][1]}, {window[2][0], window[2][1]}});
         });
     }
@@ -175,33 +174,13 @@ class PolygonDomain final : public Domain, public Weighable {
         return {"area fraction below", "place along the row"};
     }
 
-    const PolygonRows& rows() const { return rows_; }
+    void from_cube(std::span<const double> cube, std::span<double> image) const {
+        rows_.forward_all(cube, image);
+    }
 
   private:
     std::string spec_;
     PolygonRows rows_;
-};
-
-class Polygon final : public Mapping {
-  public:
-    explicit Polygon(std::shared_ptr<const PolygonDomain> domain) : domain_(std::move(domain)) {}
-
-    DomainPtr domain() const override { return domain_; }
-    std::size_t cube_dimension() const override { return 2; }
-
-    void forward(std::span<const double> cube, std::span<double> image,
-                 std::span<std::uint8_t> /*keep*/) const override {
-        domain_->rows().forward_all(cube, image);
-    }
-
-    void inverse(std::span<const double> image, std::span<double> cube) const override {
-        expect_inside(*domain_, image);
-        for (std::size_t i = 0; i + 1 < image.size(); i += 2)
-            domain_->to_cube(image.subspan(i, 2), cube.subspan(i, 2));
-    }
-
-  private:
-    std::shared_ptr<const PolygonDomain> domain_;
 };
 
 std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/, const RunContext& run) {
@@ -214,7 +193,7 @@ std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/, cons
     const double extent = std::max(rows.box().extent(0), rows.box().extent(1));
     if (!(extent > 1e-140 && rows.area() > 4 * rows.slack() * extent))
         source.refuse("the polygon has no area, or one that is lost in rounding");
-    return std::make_unique<Polygon>(std::make_shared<PolygonDomain>(
+    return std::make_unique<DomainMapping<PolygonDomain>>(std::make_shared<PolygonDomain>(
         format_spec("polygon", options, schema()), std::move(rows)));
 }
 

@@ -120,5 +120,5 @@ TEST(Expression1d, RefusesBadOptions) {
     EXPECT_EQ(error_of([] { mapping("expression-1d:density=x,breaks=2"); }),
               "usage: --breaks: 2 is not between 0 and 1");
     EXPECT_EQ(error_of([] { inverse_of(*mapping("expression-1d:density=x"), {1.5}); }),
-              "input: the point 1.5 is outside the range of expression-1d:density=x");
+              "input: the point (1.5) is outside the domain expression-1d:density=x");
 }

@@ -174,5 +174,5 @@ TEST(Expression2d, RefusesBadOptions) {
     EXPECT_EQ(error_of([] {
                   inverse_of(*mapping("expression-2d:density=x"), {1.5, 0});
               }),
-              "input: the point (1.5, 0) is outside the box of expression-2d:density=x");
+              "input: the point (1.5, 0) is outside the domain expression-2d:density=x");
 }

@@ -156,11 +156,10 @@ TEST(Image, RefusesWhatIsNoPictureAndPointsOutside) {
     EXPECT_EQ(error_of([] { mapping("image:file=/nowhere.png"); }),
               "io: /nowhere.png: no such file");
     const auto file = array_of(2, 1, {1, 3});
-    EXPECT_EQ(
-        error_of([&] {
-            inverse_of(*image_of(file), {0.5, 1.5});
-        }),
-        "input: the point (0.5, 1.5) is outside the unit square of image:file=" + file.path());
+    EXPECT_EQ(error_of([&] {
+                  inverse_of(*image_of(file), {0.5, 1.5});
+              }),
+              "input: the point (0.5, 1.5) is outside the domain image:file=" + file.path());
     EXPECT_EQ(error_of([&] {
                   const Warp& warp = find_warp("image");
                   const Spec spec = parse_spec("image:file=" + file.path());
