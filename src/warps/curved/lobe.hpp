@@ -19,6 +19,7 @@
 #include <string>
 #include <utility>
 
+#include "core/directional.hpp"
 #include "math/functions/trigonometry.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "math/geometry/vector3.hpp"
@@ -48,7 +49,7 @@ inline Versines versines_of(const Vector3& local) {
 }
 
 template <class Lobe>
-class LobeDomain final : public Domain, public Rimmed {
+class LobeDomain final : public Domain, public Rimmed, public Directional {
   public:
     LobeDomain(const Lobe& lobe, const Frame& frame, std::string spec)
         : lobe_(lobe), frame_(frame), spec_(std::move(spec)) {}
@@ -86,6 +87,8 @@ class LobeDomain final : public Domain, public Rimmed {
     std::optional<Moments> moments() const override {
         return axial_moments(lobe_.moments(), frame_);
     }
+    Vector3 axis() const override { return frame_.z; }
+    bool is_hemisphere() const override { return false; }
     std::vector<std::string> cube_axes() const override {
         return {"probability of the cone about the axis", "longitude in turns"};
     }
