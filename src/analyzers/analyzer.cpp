@@ -2,6 +2,7 @@
 #include "analyzers/analyzer.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -10,12 +11,12 @@ namespace stipple {
 
 const ResultKey* find_result(const Analyzer& analyzer, std::string_view key) {
     const auto names = split(key, '.');
-    const auto alike = [](std::string_view part, std::string_view name) {
+    const auto fits = [](std::string_view part, std::string_view name) {
         const bool any = std::ranges::all_of(part, [](char c) { return c >= 'A' && c <= 'Z'; });
         return any || part == name;
     };
     const auto it = std::ranges::find_if(analyzer.results, [&](const ResultKey& result) {
-        return std::ranges::equal(split(result.key, '.'), names, alike);
+        return std::ranges::equal(split(result.key, '.'), names, fits);
     });
     return it == analyzer.results.end() ? nullptr : &*it;
 }
@@ -28,6 +29,12 @@ void check_dimension(const Analyzer& analyzer, std::size_t dimension) {
              traits.min_dimension, dimension);
     fail(ErrorKind::input, "{} takes points of dimension {} to {}; these have {}", analyzer.name,
          traits.min_dimension, traits.max_dimension, dimension);
+}
+
+bool alike(std::span<const Report> sets, std::string_view key) {
+    const double first = sets[0].number(key);
+    return std::ranges::all_of(
+        sets, [&](const Report& set) { return std::abs(set.number(key) - first) <= 1e-9 * first; });
 }
 
 std::uint64_t batch_grain(const Arrival& arrival, const Values& /*options*/) {

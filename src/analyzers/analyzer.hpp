@@ -41,7 +41,7 @@ inline constexpr std::string_view true_or_false = "true|false";
 /// What is known of a set before its points come.
 struct Arrival {
     DomainPtr domain;
-    std::optional<std::uint64_t> count = {};  ///< points, where somebody told
+    std::optional<std::uint64_t> count = {};  ///< points, where they are announced
     bool weighted = false;                    ///< rows hold a strength behind the coordinates
 
     [[nodiscard]] std::size_t dimension() const { return domain->dimension(); }
@@ -49,7 +49,7 @@ struct Arrival {
 };
 
 /// Measures a set that comes in pieces, without keeping it. What it reports must not depend on
-/// whether the count was told before.
+/// whether the count was announced.
 class Accumulator {
   public:
     Accumulator() = default;
@@ -65,7 +65,7 @@ class Accumulator {
     virtual Report report(const RunContext& run) = 0;
 };
 
-/// Measures a part of a set whose count was told, and takes in what others found of other parts.
+/// Measures a part of a set whose count was announced, and takes in what others found of other parts.
 class SharedAccumulator : public Accumulator {
   public:
     /// Called before any points come, where others take those before: the first here is point
@@ -144,6 +144,9 @@ const ResultKey* find_result(const Analyzer& analyzer, std::string_view key);
 
 /// @throws Error(input) when the points' dimension is not one that the analyzer takes.
 void check_dimension(const Analyzer& analyzer, std::size_t dimension);
+
+/// Whether all sets that are to be averaged have the same number under a key, but for rounding.
+bool alike(std::span<const Report> sets, std::string_view key);
 
 namespace analyzers {
 /// All analyzers, in alphabetical order.

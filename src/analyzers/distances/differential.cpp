@@ -20,8 +20,7 @@
 //         from -r to r, x to the right and y upward: row = y.
 // Units   distances in sqrt(V / n), the mean distance.
 // Cost    O(n + pairs within the square's corners): 10^6 points to 5 mean distances, 5e7 pairs,
-// take
-//         2 s on one core.
+//         take 2 s on one core.
 // Promise every pair counts twice, once on either side of 0: the image is its own mirror image
 //         exactly. Never depends on the number of threads.
 // Beware  what is on a rim of pixels counts with one of them: a lattice has its peaks in pixels.
@@ -34,6 +33,7 @@
 
 #include "analyzers/analyzer.hpp"
 #include "analyzers/distances/distances.hpp"
+#include "analyzers/rings.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
@@ -66,8 +66,6 @@ constexpr Param<Path> image_file{
     {.name = "image",
      .help = "Draws it to this .png file, grey = density / (1 + density), 1 middle grey"}};
 
-constexpr double lowest_db = -100;
-
 struct Plan {
     Distances distances;
     std::size_t pixels;
@@ -87,7 +85,7 @@ Plan plan_for(const PointSet& points, const Values& options) {
              plan.pixels);
     const Box& box = *plan.distances.box;
     plan.unit = std::sqrt(box.extent(0) * box.extent(1) / static_cast<double>(points.count()));
-    const double half = std::min(box.extent(0), box.extent(1)) / 2;
+    const double half = shortest_side(box) / 2;
     if (!options.given(max_distance)) {
         plan.reach = std::min(5 * plan.unit, half);
         return plan;
@@ -124,15 +122,14 @@ class DifferenceCounter {
         const std::uint64_t n = points_.count();
         const std::uint64_t size = std::max<std::uint64_t>(1024, n / most_blocks(plan_.pixels) + 1);
         std::vector<Counts> parts(block_count(n, size));
+        const double reach = plan_.reach * std::numbers::sqrt2;
         for_each_block(run_, n, size, [&](const Block& b) {
             Counts counts(plan_.pixels * plan_.pixels);
-            std::size_t looked = 0;
-            for (auto s = static_cast<std::size_t>(b.first); s < b.last; ++s) {
-                looked += add_later(s, counts);
-                if (looked < between_looks) continue;
-                run_.check_stop();
-                looked = 0;
-            }
+            points_.visit_pairs(b.first, b.last, reach, run_,
+                                [&](std::size_t s, std::size_t first, std::size_t last) {
+                                    for (std::size_t t = first; t < last; ++t)
+                                        add(points_[s], points_[t], counts);
+                                });
             parts[b.index] = std::move(counts);
         });
         Counts all(plan_.pixels * plan_.pixels);
@@ -142,31 +139,11 @@ class DifferenceCounter {
     }
 
   private:
-    static constexpr std::size_t between_looks = std::size_t{1} << 20;
-
-    /// The differences to the points behind s, both ways; returns how many it looked at.
-    std::size_t add_later(std::size_t s, Counts& counts) const {
-        const double* p = points_[s];
-        const double scale = 1 / plan_.side();
-        const double half = static_cast<double>(plan_.pixels) / 2;
-        std::size_t looked = 0;
-        points_.frame().visit(
-            p, plan_.reach * std::numbers::sqrt2, [&](std::size_t first, std::size_t last) {
-                const std::size_t from = std::max<std::size_t>(points_.start(first), s + 1);
-                for (std::size_t t = from; t < points_.start(last); ++t) {
-                    const double* q = points_[t];
-                    const double column = across(q[0] - p[0], 0) * scale + half;
-                    const double row = across(q[1] - p[1], 1) * scale + half;
-                    add(column, row, counts);
-                }
-                looked += points_.start(last) > from ? points_.start(last) - from : 0;
-                return true;
-            });
-        return looked + 1;
-    }
-
-    void add(double column, double row, Counts& counts) const {
+    /// Both ways.
+    void add(const double* p, const double* q, Counts& counts) const {
         const auto size = static_cast<double>(plan_.pixels);
+        const double column = across(q[0] - p[0], 0) * scale_ + size / 2;
+        const double row = across(q[1] - p[1], 1) * scale_ + size / 2;
         if (!(column >= 0 && column < size && row >= 0 && row < size)) return;
         const std::size_t at =
             static_cast<std::size_t>(row) * plan_.pixels + static_cast<std::size_t>(column);
@@ -182,6 +159,7 @@ class DifferenceCounter {
 
     const Plan& plan_;
     const RunContext& run_;
+    double scale_ = 1 / plan_.side();  ///< pixels a unit
     std::array<double, 2> sides_;
     SortedPoints<2> points_;
 };
@@ -247,9 +225,7 @@ void summarize(Report& report, const Grid& grid, double pixel) {
         anisotropy[k] += (value - density[k]) * (value - density[k]);
     });
     for (std::size_t k = 0; k < rings; ++k) {
-        const double ratio =
-            anisotropy[k] / static_cast<double>(cells[k]) / (density[k] * density[k]);
-        anisotropy[k] = ratio > 1e-10 ? 10 * std::log10(ratio) : lowest_db;  // also 0 / 0
+        anisotropy[k] = anisotropy_db(anisotropy[k] / static_cast<double>(cells[k]), density[k]);
     }
     Report radial;
     radial.add("distance", std::move(distance), "sqrt(V / n)");

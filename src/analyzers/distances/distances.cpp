@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analyzers/uniformity/outside.hpp"
+#include "analyzers/outside.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "math/neighbors/grid_nearest.hpp"
@@ -112,6 +112,18 @@ Distances distances_in_box(const PointSet& points, const std::string& asked, con
     return {.torus = asked != "euclidean", .box = box};
 }
 
+double volume_of(const Box& box) {
+    double volume = 1;
+    for (std::size_t k = 0; k < box.dimension(); ++k) volume *= box.extent(k);
+    return volume;
+}
+
+double shortest_side(const Box& box) {
+    double shortest = box.extent(0);
+    for (std::size_t k = 1; k < box.dimension(); ++k) shortest = std::min(shortest, box.extent(k));
+    return shortest;
+}
+
 void require_places(const PointSet& points, const char* analyzer) {
     if (points.count() < 2)
         fail(ErrorKind::input, "{} needs at least two points; this is one", analyzer);
@@ -121,18 +133,12 @@ void require_places(const PointSet& points, const char* analyzer) {
          points.count());
 }
 
-bool alike(std::span<const Report> sets, std::string_view key) {
-    const double first = sets[0].number(key);
-    return std::ranges::all_of(
-        sets, [&](const Report& set) { return std::abs(set.number(key) - first) <= 1e-9 * first; });
-}
-
 std::vector<Neighbor> nearest_neighbors(const PointSet& points, const Distances& distances,
                                         const RunContext& run) {
     if (points.count() == 1) {
         run.tick(1, 1);
         if (!distances.torus) return {{std::numeric_limits<double>::infinity(), KdTree::none}};
-        const double side = std::ranges::min(distances.sides());
+        const double side = shortest_side(*distances.box);
         return {{side * side, 0}};
     }
     run.need_memory(

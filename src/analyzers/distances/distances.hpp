@@ -45,11 +45,11 @@ Distances distances_of(const PointSet& points, const std::string& asked);
 /// The same for measures that need to know the box. @throws Error(input) as well without one
 Distances distances_in_box(const PointSet& points, const std::string& asked, const char* analyzer);
 
+double volume_of(const Box& box);
+double shortest_side(const Box& box);
+
 /// @throws Error(input) unless there are points at two places at least
 void require_places(const PointSet& points, const char* analyzer);
-
-/// Whether all sets that are to be averaged have the same number under a key, but for rounding.
-bool alike(std::span<const Report> sets, std::string_view key);
 
 /// Every point's nearest other one. A single point is its own neighbour on the torus, across the
 /// shortest side; elsewhere it has none, at an infinite distance. @throws Error(limit, cancelled)

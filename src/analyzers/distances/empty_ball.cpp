@@ -75,11 +75,9 @@ class Search {
           tree_(points.flat(), points.dimension(), sides_, run.stage(0, 0.05)),
           neighbors_(std::min(points.count(), 4 * (points.dimension() + 1))) {
         const auto d = static_cast<double>(points.dimension());
-        double volume = 1;
-        for (std::size_t k = 0; k < box_.dimension(); ++k) volume *= box_.extent(k);
         const double ball = std::pow(std::numbers::pi, d / 2) / std::tgamma(d / 2 + 1);
         // Balls of this radius just have the volume; no box that is larger can be done.
-        least_ = std::pow(volume / ball / static_cast<double>(points.count()), 1 / d);
+        least_ = std::pow(volume_of(box_) / ball / static_cast<double>(points.count()), 1 / d);
     }
 
     EmptyBall find() {

@@ -125,20 +125,12 @@ struct Plan {
     }
 };
 
-double box_volume(const Box& box) {
-    double volume = 1;
-    for (std::size_t k = 0; k < box.dimension(); ++k) volume *= box.extent(k);
-    return volume;
-}
-
 Plan plan_for(const PointSet& points, const Box& box, const Values& options) {
-    const double share = box_volume(box) / static_cast<double>(points.count());
+    const double share = volume_of(box) / static_cast<double>(points.count());
     Plan plan{.unit = std::pow(share, 1 / static_cast<double>(box.dimension())),
               .width = 0,
               .halves = {}};
-    double shortest = box.extent(0);
-    for (std::size_t k = 1; k < box.dimension(); ++k) shortest = std::min(shortest, box.extent(k));
-    const double side = shortest / plan.unit;
+    const double side = shortest_side(box) / plan.unit;
     const double most = options.given(max_radius) ? options[max_radius] : std::min(10.0, side / 8);
     const double least = options.given(min_radius) ? options[min_radius] : std::min(1.0, most / 2);
     if (!(most <= side / 4 * (1 + 1e-9)))
@@ -247,7 +239,7 @@ Curves by_pairs(const PointSet& points, const Plan& plan, const Distances& dista
     const PairCounts counts =
         count_pairs(points, distances, plan.width, plan.halves.back(), true, run.stage(0, 0.98));
     const Ball ball{points.dimension()};
-    const double volume = box_volume(*distances.box);
+    const double volume = volume_of(*distances.box);
     Curves curves;
     for (std::size_t i = 0; i < plan.halves.size(); ++i) {
         run.check_stop();
@@ -269,7 +261,7 @@ Curves by_windows(const PointSet& points, const Plan& plan, const Box& box, std:
     Curves curves;
     for (std::size_t i = 0; i < radii.size(); ++i)
         add(curves, radii[i] / plan.unit, found.mean[i], found.variance[i],
-            ball.volume(radii[i]) / box_volume(box));
+            ball.volume(radii[i]) / volume_of(box));
     return curves;
 }
 

@@ -45,9 +45,8 @@ constexpr std::array<double, 8> packing = {4, 12, 32, 64, 128, 192, 256, 256};
 /// Smallest distance of the densest known packing of n points in the box.
 double packing_distance(const Box& box, double n) {
     const std::size_t d = box.dimension();
-    double volume = 1;
-    for (std::size_t k = 0; k < d; ++k) volume *= box.extent(k);
-    return 2 * std::pow(volume / (n * std::sqrt(packing[d - 1])), 1 / static_cast<double>(d));
+    return 2 *
+           std::pow(volume_of(box) / (n * std::sqrt(packing[d - 1])), 1 / static_cast<double>(d));
 }
 
 /// Sums over points, added up block by block.

@@ -79,7 +79,7 @@ constexpr Param<bool> normalize{
     .name = "normalize-distance",
     .help = "Gives distances, and takes --max-distance, in units of (V / n)^(1/d)"};
 
-/// What is asked of a set: `bins` of `width`, and distances told in `unit`.
+/// What is asked of a set: `bins` of `width`, and distances given in `unit`.
 struct Plan {
     Distances distances;
     std::size_t bins;
@@ -97,9 +97,7 @@ double mean_distance(const Box& box, double n) {
 }
 
 double default_reach(const Distances& distances, double mean) {
-    double shortest = distances.box->extent(0);
-    for (std::size_t k = 1; k < distances.box->dimension(); ++k)
-        shortest = std::min(shortest, distances.box->extent(k));
+    const double shortest = shortest_side(*distances.box);
     return std::min(5 * mean, distances.torus ? shortest / 2 : shortest);
 }
 

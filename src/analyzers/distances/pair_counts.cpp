@@ -12,11 +12,8 @@
 namespace stipple::analyzers {
 namespace {
 
-/// Candidates whose distances are worked out together.
-constexpr std::size_t together = 256;
-
-/// A stop is looked for after so many candidates.
-constexpr std::size_t between_looks = std::size_t{1} << 22;
+/// Candidates whose distances are worked out at a time.
+constexpr std::size_t batch_size = 256;
 
 /// The points cell by cell, a coordinate behind the other.
 template <std::size_t D>
@@ -92,30 +89,34 @@ class PairCounter {
 
     PairCounter(const PointSet& points, const Distances& distances, double width, std::size_t bins,
                 bool with_offsets, const RunContext& run)
-        : frame_(*distances.box, distances.torus,
-                 cell_side(*distances.box, points.count(), width * static_cast<double>(bins)),
-                 static_cast<double>(points.count()) + 64),
+        : points_(GridFrame<D>(
+                      *distances.box, distances.torus,
+                      cell_side(*distances.box, points.count(), width * static_cast<double>(bins)),
+                      static_cast<double>(points.count()) + 64),
+                  points.flat(), run),
           scale_(1 / width),
           bins_(bins),
           with_offsets_(with_offsets),
           run_(run) {
-        for (std::size_t k = 0; k < D; ++k)
-            sides_[k] = distances.torus ? frame_.side(k) : std::numeric_limits<double>::infinity();
-        sort(points.flat());
+        for (std::size_t k = 0; k < D; ++k) {
+            sides_[k] =
+                distances.torus ? points_.frame().side(k) : std::numeric_limits<double>::infinity();
+            columns_[k].resize(points_.count());
+            for (std::size_t s = 0; s < points_.count(); ++s) columns_[k][s] = points_[s][k];
+        }
     }
 
     PairCounts count() const {
         constexpr std::uint64_t size = 8192;
-        std::vector<Tally> parts(block_count(columns_[0].size(), size));
-        for_each_block(run_, columns_[0].size(), size, [&](const Block& b) {
+        const double reach = static_cast<double>(bins_) / scale_;
+        std::vector<Tally> parts(block_count(points_.count(), size));
+        for_each_block(run_, points_.count(), size, [&](const Block& b) {
             Tally tally(bins_, with_offsets_);
-            std::size_t looked = 0;
-            for (std::uint64_t s = b.first; s < b.last; ++s) {
-                looked += visit_later(static_cast<std::size_t>(s), tally);
-                if (looked < between_looks) continue;
-                run_.check_stop();
-                looked = 0;
-            }
+            points_.visit_pairs(b.first, b.last, reach, run_,
+                                [&](std::size_t s, std::size_t first, std::size_t last) {
+                                    for (std::size_t t = first; t < last; t += batch_size)
+                                        measure(s, t, std::min(last - t, batch_size), tally);
+                                });
             parts[b.index] = std::move(tally);
         });
         return sum(parts);
@@ -130,38 +131,12 @@ class PairCounter {
         return std::max(some, reach / 5);
     }
 
-    void sort(std::span<const double> rows) {
-        const SortedPoints<D> sorted(frame_, rows, run_);
-        starts_.resize(frame_.size() + 1);
-        for (auto& column : columns_) column.resize(sorted.count());
-        for (std::size_t s = 0; s < sorted.count(); ++s)
-            for (std::size_t k = 0; k < D; ++k) columns_[k][s] = sorted[s][k];
-        for (std::size_t c = 0; c <= frame_.size(); ++c) starts_[c] = sorted.start(c);
-    }
-
-    /// Counts the pairs of point s and those behind it; returns how many it looked at.
-    std::size_t visit_later(std::size_t s, Tally& tally) const {
+    /// Counts the pairs of point s and some points from `from` on.
+    void measure(std::size_t s, std::size_t from, std::size_t size, Tally& tally) const {
         Point p;
         for (std::size_t k = 0; k < D; ++k) p[k] = columns_[k][s];
-        std::size_t looked = 0;
-        const double reach = static_cast<double>(bins_) / scale_;
-        frame_.visit(p.data(), reach, [&](std::size_t first, std::size_t last) {
-            std::size_t from = std::max<std::size_t>(starts_[first], s + 1);
-            const std::size_t end = starts_[last];
-            while (from < end) {
-                const std::size_t size = std::min(end - from, together);
-                measure(p, from, size, tally);
-                from += size;
-                looked += size;
-            }
-            return true;
-        });
-        return looked;
-    }
-
-    void measure(const Point& p, std::size_t from, std::size_t size, Tally& tally) const {
-        std::array<double, together> places;
-        std::array<std::int32_t, together> bins;
+        std::array<double, batch_size> places;
+        std::array<std::int32_t, batch_size> bins;
         std::array<const double*, D> columns;
         for (std::size_t k = 0; k < D; ++k) columns[k] = columns_[k].data() + from;
         const auto last = static_cast<double>(bins_);
@@ -193,14 +168,13 @@ class PairCounter {
         return all;
     }
 
-    GridFrame<D> frame_;
+    SortedPoints<D> points_;
     Point sides_{};  ///< to wrap around; infinite where distances are straight
     double scale_;
     std::size_t bins_;
     bool with_offsets_;
     const RunContext& run_;
     Columns<D> columns_;
-    std::vector<std::uint32_t> starts_;
 };
 
 }  // namespace

@@ -63,7 +63,7 @@ constexpr Param<Choice> expect{
     .help = "Fail (exit code 1) when the set is not spaced or not maximal"};
 
 /// What the points were made with, as their provenance tells; nothing when it does not.
-std::optional<std::string> told(const PointSet& points, std::string_view option) {
+std::optional<std::string> option_of(const PointSet& points, std::string_view option) {
     if (!points.provenance.warps.empty()) return std::nullopt;
     for (const auto& [name, text] : points.provenance.options)
         if (name == option) return text;
@@ -71,14 +71,14 @@ std::optional<std::string> told(const PointSet& points, std::string_view option)
 }
 
 std::string metric_of(const PointSet& points, const Values& options) {
-    if (!options.given(metric) && told(points, "bounded") == "true") return "euclidean";
+    if (!options.given(metric) && option_of(points, "bounded") == "true") return "euclidean";
     return options[metric];
 }
 
 /// @throws Error(input) for sets that one radius all over the box is not meant for
 void require_one_radius(const PointSet& points) {
     for (const char* option : {"density", "radius-map", "mask"})
-        if (const auto file = told(points, option); file && !file->empty())
+        if (const auto file = option_of(points, option); file && !file->empty())
             fail_with_hint(ErrorKind::input, "--radius R verifies one radius all the same",
                            "the points were made with --{}: {}", option,
                            std::string_view(option) == "mask" ? "a part of the box is left out"
@@ -89,7 +89,7 @@ void require_one_radius(const PointSet& points) {
 double radius_of(const PointSet& points, const Values& options, double squared) {
     if (options.given(radius)) return options[radius];
     require_one_radius(points);
-    if (const auto text = told(points, "radius"))
+    if (const auto text = option_of(points, "radius"))
         if (const auto number = parse_number(*text); number && *number > 0) return *number;
     if (!std::isfinite(squared))
         fail(ErrorKind::usage, "--radius: a single point tells no radius; give one");
@@ -131,7 +131,7 @@ Report::Integers first_conflict(const PointSet& points, const Distances& distanc
     return {};
 }
 
-/// What an expectation that does not hold is told with.
+/// What an expectation that does not hold is option_of with.
 std::string complaint(double r, const Conflicts& conflicts, const EmptyBall& ball, bool maximal) {
     std::vector<std::string> reasons;
     if (conflicts.count > 0)

@@ -45,7 +45,6 @@
 //         sampling) and 17 (error estimates by replication).
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -54,7 +53,7 @@
 #include "analyzers/analyzer.hpp"
 #include "analyzers/integration/region_view.hpp"
 #include "analyzers/integration/tally.hpp"
-#include "analyzers/uniformity/outside.hpp"
+#include "analyzers/outside.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/spec.hpp"
@@ -62,6 +61,7 @@
 #include "core/text.hpp"
 #include "math/densities/expression.hpp"
 #include "math/densities/quadrature.hpp"
+#include "math/functions/distributions.hpp"
 #include "math/integrands/integrand.hpp"
 
 namespace stipple::analyzers::integration {
@@ -511,8 +511,7 @@ void replicate(Report& mean, const std::string& name, std::span<const Report> se
         squares.add(error * error);
     }
     const double spread = estimates.standard_error();
-    const boost::math::students_t student(estimates.count() - 1);
-    const double reach = spread * boost::math::quantile(boost::math::complement(student, 0.025));
+    const double reach = spread * student_quantile(0.025, estimates.count() - 1);
     const double middle = estimates.mean();
     mean.add("standard_error", spread);
     mean.add("interval_low", middle - reach).add("interval_high", middle + reach);

@@ -5,8 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/spec.hpp"
-#include "core/text.hpp"
+#include "core/directional.hpp"
 
 namespace stipple::analyzers {
 namespace {
@@ -24,20 +23,6 @@ std::optional<Box> filled_box(const Domain& domain) {
     return box;
 }
 
-/// The axis that a hemisphere's spec names, or z.
-Vector axis_of(const std::string& text) {
-    Vector axis{0, 0, 1};
-    for (const auto& [option, value] : parse_spec(text).settings) {
-        if (option != "axis") continue;
-        const auto parts = split(value, ',');
-        for (std::size_t k = 0; k < 3 && k < parts.size(); ++k)
-            axis[k] = parse_number(parts[k]).value_or(0);
-    }
-    const double length = std::hypot(axis[0], axis[1], axis[2]);
-    for (double& x : axis) x /= length;
-    return axis;
-}
-
 /// Three axes at right angles, the last one given.
 std::array<Vector, 3> axes_about(const Vector& z) {
     const bool near_x = std::abs(z[0]) > 0.5;
@@ -51,20 +36,13 @@ std::array<Vector, 3> axes_about(const Vector& z) {
         x, {z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0]}, z};
 }
 
-/// Laws of unit vectors whose cube is a share from the axis on and a longitude.
-bool on_the_sphere(std::string_view name) {
-    return name == "henyey-greenstein" || name == "von-mises-fisher";
-}
-
 }  // namespace
 
 RegionView::RegionView(const Domain& domain, const Support& support)
     : domain_(domain), finite_(support.finite), box_(filled_box(domain)) {
-    const std::string spec = domain.spec();
-    const std::string name = spec.substr(0, spec.find(':'));
-    if (domain.dimension() != 3) return;
-    if (name == "hemisphere") axes_ = axes_about(axis_of(spec));
-    if (on_the_sphere(name)) pole_ = axes_about(axis_of(spec));
+    const auto* directions = dynamic_cast<const Directional*>(&domain);
+    if (!directions) return;
+    (directions->is_hemisphere() ? axes_ : pole_) = axes_about(directions->axis());
 }
 
 bool RegionView::has(Region region) const {

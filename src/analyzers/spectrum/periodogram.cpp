@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Periodogram of n points with strengths s_j (1, if not told): their power at integer frequency
+// Periodogram of n points with strengths s_j (1 unless given): their power at integer frequency
 // vectors f,
 //
 //     P(f) = | sum_j s_j exp(-2 pi i f.x_j) |^2 / sum_j s_j^2,        f in {-F..F}^d,
@@ -54,10 +54,9 @@
 #include <optional>
 
 #include "analyzers/analyzer.hpp"
-#include "analyzers/distances/distances.hpp"
+#include "analyzers/outside.hpp"
+#include "analyzers/rings.hpp"
 #include "analyzers/spectrum/periodogram_power.hpp"
-#include "analyzers/spectrum/periodogram_rings.hpp"
-#include "analyzers/uniformity/outside.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
@@ -148,7 +147,7 @@ constexpr Param<std::int64_t> slice{
 
 constexpr double floor_of_floats = 1e-13;
 constexpr std::uint64_t few_points = std::uint64_t{1} << 16;  // quickly copied
-constexpr std::uint64_t kept_points = std::uint64_t{1} << 20;
+constexpr std::uint64_t buffered_points = std::uint64_t{1} << 20;
 constexpr std::uint64_t most_points = std::uint64_t{1} << 30;  // that larger sets are planned for
 
 std::size_t default_frequency(std::uint64_t count, std::size_t dimension) {
@@ -222,10 +221,10 @@ class Summation final : public SharedAccumulator {
                  "periodogram takes points of the unit cube or a box; these live on {}", spec);
         check_options();
         if (options.given(wisdom)) read_wisdom(options[wisdom]);
-        told_ = arrival.count.value_or(0);
-        if (told_ <= few_points) kept_.reserve(told_ * numbers_);
-        const std::uint64_t known = std::max<std::uint64_t>(told_, 1);
-        if (told_ > kept_points || fourier_sums_size(d_, frequency_for(known)) > 1e6)
+        announced_ = arrival.count.value_or(0);
+        if (announced_ <= few_points) buffer_.reserve(announced_ * numbers_);
+        const std::uint64_t known = std::max<std::uint64_t>(announced_, 1);
+        if (announced_ > buffered_points || fourier_sums_size(d_, frequency_for(known)) > 1e6)
             need_memory(known, run);
     }
 
@@ -235,11 +234,14 @@ class Summation final : public SharedAccumulator {
         n_ += points.size() / numbers_;
         if (outside_.count > 0) return;
         const bool began = nufft_ || direct_;
-        if (!began && n_ <= kept_points && told_ <= few_points) {
-            kept_.insert(kept_.end(), points.begin(), points.end());
+        if (!began && n_ <= buffered_points && announced_ <= few_points) {
+            buffer_.insert(buffer_.end(), points.begin(), points.end());
             return;
         }
-        if (!began) begin(told_ > few_points && told_ <= kept_points ? told_ : most_points, run);
+        if (!began)
+            begin(
+                announced_ > few_points && announced_ <= buffered_points ? announced_ : most_points,
+                run);
         take(points, run);
     }
 
@@ -313,12 +315,12 @@ class Summation final : public SharedAccumulator {
     void need_memory(std::uint64_t count, const RunContext& run) const {
         const std::size_t frequency = frequency_for(count);
         const double sums = 16 * fourier_sums_size(d_, frequency);
-        const std::uint64_t planned = count > kept_points ? most_points : count;
+        const std::uint64_t planned = count > buffered_points ? most_points : count;
         const double transform =
             options_[method] == "direct"
                 ? sums
                 : Nufft(planned, d_, frequency, options_[tolerance], numbers_ > d_).bytes();
-        const double kept = 8 * static_cast<double>(std::min(count, kept_points) * numbers_);
+        const double kept = 8 * static_cast<double>(std::min(count, buffered_points) * numbers_);
         run.need_memory(std::max(transform + kept, 2 * sums),
                         fmt::format("--max-frequency {}", frequency));
     }
@@ -401,7 +403,7 @@ class Summation final : public SharedAccumulator {
         frequency_ = frequency_for(count);
         const bool weighted = numbers_ > d_;
         const double sums = 16 * fourier_sums_size(d_, frequency_);
-        const double kept = 8 * static_cast<double>(kept_.size());
+        const double kept = 8 * static_cast<double>(buffer_.size());
         const std::string cause = fmt::format("--max-frequency {}", frequency_);
         if (options_[method] == "direct") {
             run.need_memory(sums + kept, cause);
@@ -412,16 +414,16 @@ class Summation final : public SharedAccumulator {
             sum_ = count == most_points ? open_summation(run, cause)
                                         : std::make_unique<FourierSummation>(*nufft_);
         }
-        take(kept_, run);
-        kept_ = {};
+        take(buffer_, run);
+        buffer_ = {};
     }
 
-    /// Of a large set, of whose number nothing may depend on whether it was told.
+    /// Of a large set; its sums must not depend on whether its size was announced.
     [[nodiscard]] std::unique_ptr<FourierSummation> open_summation(const RunContext& run,
                                                                    const std::string& cause) const {
         const std::uint64_t block = FourierSummation::block_of(*nufft_);
         // What is summed over blocks takes twice the grid, and what the first came to is kept.
-        if (told_ == 0 || told_ > block)
+        if (announced_ == 0 || announced_ > block)
             run.need_memory(nufft_->bytes() +
                                 16 * std::pow(static_cast<double>(nufft_->side()), d_) +
                                 16 * fourier_sums_size(d_, frequency_),
@@ -474,9 +476,9 @@ class Summation final : public SharedAccumulator {
     std::uint64_t at_ = 0;  ///< index of the first point that comes
     std::size_t frequency_ = 0;
     std::uint64_t n_ = 0;
-    std::uint64_t told_ = 0;     ///< points that were announced; 0: nobody knows
-    std::uint64_t planned_ = 0;  ///< points for which the transform was chosen
-    std::vector<double> kept_;
+    std::uint64_t announced_ = 0;  ///< number of points; 0: unknown
+    std::uint64_t planned_ = 0;    ///< points for which the transform was chosen
+    std::vector<double> buffer_;
     std::vector<double> first_;  ///< point of the set
     bool all_equal_ = true;
     StrengthSums strengths_;
@@ -490,7 +492,7 @@ class Summation final : public SharedAccumulator {
 std::uint64_t grain(const Arrival& arrival, const Values& options) {
     if (options[method] == "direct")
         fail(ErrorKind::usage, "periodogram: ranks share --method nufft; start one process");
-    if (arrival.count.value_or(0) <= kept_points) return kept_points;
+    if (arrival.count.value_or(0) <= buffered_points) return buffered_points;
     const std::size_t d = arrival.dimension();
     const std::size_t frequency = options.given(max_frequency)
                                       ? static_cast<std::size_t>(options[max_frequency])

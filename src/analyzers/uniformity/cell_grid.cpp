@@ -7,23 +7,17 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "math/functions/primes.hpp"
 
 namespace stipple::analyzers {
 namespace {
 
-bool is_odd_prime(std::size_t m) {
-    if (m < 3 || m % 2 == 0) return false;
-    for (std::size_t q = 3; q * q <= m; q += 2)
-        if (m % q == 0) return false;
-    return true;
-}
-
 /// The odd prime nearest to x by ratio, and not above `cap`, which is at least 3.
 std::size_t odd_prime_near(double x, std::size_t cap) {
     auto below = std::min(cap, std::max<std::size_t>(3, static_cast<std::size_t>(x)));
-    while (!is_odd_prime(below)) --below;
+    while (!is_prime(below)) --below;
     auto above = below + 1;
-    while (!is_odd_prime(above)) ++above;
+    while (!is_prime(above)) ++above;
     const bool nearer = static_cast<double>(above) / x < x / static_cast<double>(below);
     return nearer && above <= cap ? above : below;
 }

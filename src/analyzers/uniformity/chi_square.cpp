@@ -62,8 +62,8 @@
 #include <optional>
 
 #include "analyzers/analyzer.hpp"
+#include "analyzers/outside.hpp"
 #include "analyzers/uniformity/cell_grid.hpp"
-#include "analyzers/uniformity/outside.hpp"
 #include "analyzers/uniformity/pearson.hpp"
 #include "analyzers/uniformity/verdict.hpp"
 #include "core/error.hpp"
@@ -196,13 +196,13 @@ struct Judged {
 };
 
 template <class F>
-Judged judge(double statistic, double doubt, const F& tails) {
+Judged judge(double statistic, double error, const F& tails) {
     return {.found = tails(statistic),
-            .least = tails(std::max(statistic - doubt, 0.0)),
-            .greatest = tails(statistic + doubt)};
+            .least = tails(std::max(statistic - error, 0.0)),
+            .greatest = tails(statistic + error)};
 }
 
-double together(const Tails& plain, const Tails* second) {
+double p_value_of(const Tails& plain, const Tails* second) {
     const double p = plain.two_sided();
     return second ? sidak(std::min(p, second->two_sided()), 2) : p;
 }
@@ -210,9 +210,9 @@ double together(const Tails& plain, const Tails* second) {
 /// Of one grid or two.
 std::string verdict_on(const Tails& plain, const Tails* second, double level) {
     const auto clumped = [&](const Tails& tails) {
-        return tails.upper < tails.lower && together(tails, second ? &tails : nullptr) < level;
+        return tails.upper < tails.lower && p_value_of(tails, second ? &tails : nullptr) < level;
     };
-    if (together(plain, second) >= level) return "uniform";
+    if (p_value_of(plain, second) >= level) return "uniform";
     return clumped(plain) || (second && clumped(*second)) ? "non-uniform" : "stratified";
 }
 
@@ -226,7 +226,7 @@ void conclude(Report& report, const Judged& plain, const std::optional<Judged>& 
     report.add("p_value", plain.found.two_sided())
         .add("p_upper", plain.found.upper)
         .add("p_lower", plain.found.lower);
-    const double p = together(plain.found, of_second(&Judged::found));
+    const double p = p_value_of(plain.found, of_second(&Judged::found));
     if (second) report.add("combined_p_value", p);
     const double level = options[level_option];
     const auto verdict = verdict_on(plain.found, of_second(&Judged::found), level);
@@ -244,7 +244,7 @@ void conclude(Report& report, const Judged& plain, const std::optional<Judged>& 
 Judged judge(const Fit& fit) {
     const Tails never{.upper = 0, .lower = 1};
     if (fit.impossible > 0) return {never, never, never};
-    return judge(fit.statistic, fit.doubt, [&](double x) { return count_tails(x, fit); });
+    return judge(fit.statistic, fit.statistic_error, [&](double x) { return count_tails(x, fit); });
 }
 
 Report shifted_report(const Fit& fit) {
@@ -256,7 +256,7 @@ Report shifted_report(const Fit& fit) {
         .add("p_lower", tails.lower);
     return report.add("pooled_cells", fit.pooled)
         .add("impossible_points", fit.impossible)
-        .add("statistic_error", fit.doubt);
+        .add("statistic_error", fit.statistic_error);
 }
 
 /// Counts points in cells as they come.
@@ -323,12 +323,12 @@ class Counter final : public SharedAccumulator {
         const std::size_t d = domain_->dimension();
         std::vector<double> cube(axes_);
         std::vector<double> cubes;
-        Outside lost;
+        Outside outside;
         std::uint64_t in_gaps = 0;
         for (std::size_t i = 0; i < rows.size(); i += d) {
             const auto point = rows.subspan(i, d);
             if (!domain_->contains(point)) {
-                lost.add(first + i / d, point);
+                outside.add(first + i / d, point);
                 continue;
             }
             in_gaps += gaps_.hold(point);
@@ -336,7 +336,7 @@ class Counter final : public SharedAccumulator {
             cubes.insert(cubes.end(), cube.begin(), cube.begin() + kept_axes());
         }
         const std::lock_guard lock(adding_);
-        outside_.add(lost);
+        outside_.add(outside);
         in_gaps_ += in_gaps;
         const auto width = static_cast<std::size_t>(kept_axes());
         for (Tally& tally : tallies_) tally.add(cubes, width);
@@ -372,7 +372,7 @@ class Counter final : public SharedAccumulator {
             other = fit(tally, true, run);
             second = judge(*other);
         }
-        report.add("mass_error", plain.mass_error).add("statistic_error", plain.doubt);
+        report.add("mass_error", plain.mass_error).add("statistic_error", plain.statistic_error);
         conclude(report, judge(plain), second, options_);
         report.add("cells", cell_count(tally.grid())).add("pooled_cells", plain.pooled);
         report.add("smallest_detectable_effect",
@@ -427,12 +427,12 @@ Judged summed(const Report& mean, std::span<const Report> sets, const std::strin
 /// What a set's own report says of it.
 Judged judged_set(const Report& set, const std::string& prefix) {
     const Tails found{set.number(prefix + "p_upper"), set.number(prefix + "p_lower")};
-    const double doubt = set.number(prefix + "statistic_error");
-    if (doubt == 0 || set.number(prefix + "impossible_points") > 0) return {found, found, found};
+    const double error = set.number(prefix + "statistic_error");
+    if (error == 0 || set.number(prefix + "impossible_points") > 0) return {found, found, found};
     const double freedom = set.number(prefix + "degrees_of_freedom");
     const double statistic = set.number(prefix + "statistic");
     const double counts = found.lower - chi_square_tails(statistic, freedom).lower;
-    Judged judged = judge(statistic, doubt, [&](double x) {
+    Judged judged = judge(statistic, error, [&](double x) {
         Tails tails = chi_square_tails(x, freedom);
         tails.lower += counts;
         return tails;
@@ -454,19 +454,19 @@ Judged combined(std::span<const Report> sets, const std::string& prefix, const s
 
 void combine(Report& mean, std::span<const Report> sets, const Values& options) {
     const std::string how = options[combination];
-    const auto together = [&](const std::string& prefix) {
+    const auto over_sets = [&](const std::string& prefix) {
         return how == "sum" ? summed(mean, sets, prefix) : combined(sets, prefix, how);
     };
     std::optional<Judged> second;
     if (auto* item = mean.find("shifted")) {
-        second = together("shifted.");
+        second = over_sets("shifted.");
         std::get<Report>(*item)
             .add("p_value", second->found.two_sided())
             .add("p_upper", second->found.upper)
             .add("p_lower", second->found.lower);
     }
     mean.forget_unmet();
-    conclude(mean, together(""), second, options);
+    conclude(mean, over_sets(""), second, options);
 }
 
 std::vector<ResultKey> results() {

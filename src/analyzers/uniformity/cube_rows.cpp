@@ -31,17 +31,17 @@ std::vector<double> cube_rows(const Domain& domain, std::span<const double> rows
     for_each_block(
         run, rows.size() / d, std::max<std::size_t>(1, 16384 / d),
         [&](const Block& block) {
-            Outside lost;
+            Outside found;
             for (std::uint64_t i = block.first; i < block.last; ++i) {
                 const auto point = rows.subspan(i * d, d);
                 if (domain.contains(point))
                     domain.to_cube(point, std::span(cubes).subspan(i * axes, axes));
                 else
-                    lost.add(first + i, point);
+                    found.add(first + i, point);
             }
-            if (lost.count == 0) return;
+            if (found.count == 0) return;
             const std::lock_guard lock(adding);
-            outside.add(lost);
+            outside.add(found);
         },
         true);
     return cubes;

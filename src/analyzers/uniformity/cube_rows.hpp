@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "analyzers/uniformity/outside.hpp"
+#include "analyzers/outside.hpp"
 #include "core/domain.hpp"
 #include "core/report.hpp"
 #include "core/run_context.hpp"

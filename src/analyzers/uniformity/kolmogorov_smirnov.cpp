@@ -126,7 +126,7 @@ class Collector final : public SharedAccumulator {
         if (counts_.empty() && n_ > most_) count_from_now(run);
         if (!counts_.empty()) return count(cubes, run);
         need_memory_for(n_, run);
-        kept_.insert(kept_.end(), cubes.begin(), cubes.end());
+        buffer_.insert(buffer_.end(), cubes.begin(), cubes.end());
     }
 
     Report report(const RunContext& run) override {
@@ -156,7 +156,7 @@ class Collector final : public SharedAccumulator {
         Packer packer;
         packer.put(n_);
         outside_.pack(packer);
-        packer.put_all(kept_).put_all(counts_);
+        packer.put_all(buffer_).put_all(counts_);
         return packer.take();
     }
 
@@ -165,7 +165,7 @@ class Collector final : public SharedAccumulator {
         n_ += from.take<std::uint64_t>();
         outside_.add(Outside::unpacked(from));
         const auto kept = from.take_all<double>();
-        kept_.insert(kept_.end(), kept.begin(), kept.end());
+        buffer_.insert(buffer_.end(), kept.begin(), kept.end());
         const auto counts = from.take_all<std::uint64_t>();
         for (std::size_t i = 0; i < counts.size(); ++i) counts_[i] += counts[i];
     }
@@ -180,8 +180,8 @@ class Collector final : public SharedAccumulator {
     void count_from_now(const RunContext& run) {
         run.need_memory(8.0 * static_cast<double>(axes_ * cells_), "the cells of all axes");
         counts_.resize(axes_ * cells_);
-        count(kept_, run);
-        kept_ = {};
+        count(buffer_, run);
+        buffer_ = {};
     }
 
     /// Every axis on a thread: its counts are its own.
@@ -204,7 +204,7 @@ class Collector final : public SharedAccumulator {
             return distance_of(std::span(counts_).subspan(axis * cells_, cells_),
                                static_cast<double>(n_));
         for (std::uint64_t i = 0; i < n_; ++i)
-            sorted[i] = {kept_[i * axes_ + axis] + 0.0, 0};  // no -0
+            sorted[i] = {buffer_[i * axes_ + axis] + 0.0, 0};  // no -0
         radix_sort(sorted, run);
         return {.statistic = statistic_of(sorted)};
     }
@@ -217,7 +217,7 @@ class Collector final : public SharedAccumulator {
     std::uint64_t first_ = 0;
     std::uint64_t n_ = 0;
     Outside outside_;
-    std::vector<double> kept_;           ///< coordinates of the cube, point after point
+    std::vector<double> buffer_;         ///< coordinates of the cube, point after point
     std::vector<std::uint64_t> counts_;  ///< of each cell, axis after axis; empty: points are kept
 };
 

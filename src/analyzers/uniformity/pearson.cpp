@@ -2,9 +2,6 @@
 #include "analyzers/uniformity/pearson.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/non_central_chi_squared.hpp>
-#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -12,13 +9,10 @@
 #include "analyzers/uniformity/cell_grid.hpp"
 #include "core/error.hpp"
 #include "core/int128.hpp"
+#include "math/functions/distributions.hpp"
 
 namespace stipple::analyzers {
 namespace {
-
-using Quiet = boost::math::policies::policy<
-    boost::math::policies::evaluation_error<boost::math::policies::ignore_error>,
-    boost::math::policies::underflow_error<boost::math::policies::ignore_error>>;
 
 /// Equal cells to a group so that its expectation is at least 5. @throws Error(input) if fewer than
 /// two groups come of it.
@@ -53,9 +47,9 @@ double log_excess(double n) {
 }
 
 /// q_1, q_2, ... of groups that expect this, the least first: all, or those above 1e-30.
-class Likeliest {
+class ModalProbabilities {
   public:
-    explicit Likeliest(std::uint64_t n) : whole_(static_cast<double>(n)), rest_(whole_) {}
+    explicit ModalProbabilities(std::uint64_t n) : whole_(static_cast<double>(n)), rest_(whole_) {}
 
     /// Not for the last group, whose count is what the others leave.
     void add(double expected) {
@@ -124,7 +118,7 @@ std::vector<Group> pool(const std::vector<Group>& cells, std::uint64_t n) {
 }
 
 /// The most by which the statistic may be off, for what is expected is known within errors.
-double doubt_of(double statistic, const std::vector<Group>& groups) {
+double statistic_error_of(double statistic, const std::vector<Group>& groups) {
     double square = 0;
     double ratio = 0;
     for (const Group& group : groups) {
@@ -146,7 +140,7 @@ Fit fit_equal(std::span<const std::uint64_t> counts, std::uint64_t n, const RunC
     const std::uint64_t total = counts.size();
     const std::uint64_t size = group_size(n, total);
     Fit found{.groups = total / size, .pooled = size > 1 ? total : 0};
-    Likeliest likeliest(n);
+    ModalProbabilities modal_probabilities(n);
     for (std::uint64_t g = 0; g < found.groups; ++g) {
         if (g % 65536 == 0) run.check_stop();
         const std::uint64_t first = g * size;
@@ -160,9 +154,9 @@ Fit fit_equal(std::span<const std::uint64_t> counts, std::uint64_t n, const RunC
                                 (static_cast<double>(last - first) / static_cast<double>(total));
         const double off = scaled / static_cast<double>(total);
         found.statistic += off * off / expected;
-        if (g + 1 < found.groups) likeliest.add(expected);
+        if (g + 1 < found.groups) modal_probabilities.add(expected);
     }
-    found.likeliest = likeliest.take();
+    found.modal_probabilities = modal_probabilities.take();
     if (total % size == 0) found.most_even = most_even_chance(n, found.groups);
     return found;
 }
@@ -182,15 +176,15 @@ Fit fit_masses(std::span<const std::uint64_t> counts, std::span<const Estimate> 
     run.check_stop();
     const auto groups = pool(cells, n);
     found.groups = groups.size();
-    Likeliest likeliest(n);
+    ModalProbabilities modal_probabilities(n);
     for (const Group& group : groups) {
         const double off = static_cast<double>(group.observed) - group.expected;
         found.statistic += off * off / group.expected;
         if (group.cells > 1) found.pooled += group.cells;
-        if (&group != &groups.back()) likeliest.add(group.expected);
+        if (&group != &groups.back()) modal_probabilities.add(group.expected);
     }
-    found.likeliest = likeliest.take();
-    found.doubt = doubt_of(found.statistic, groups);
+    found.modal_probabilities = modal_probabilities.take();
+    found.statistic_error = statistic_error_of(found.statistic, groups);
     return found;
 }
 
@@ -198,19 +192,20 @@ double Tails::two_sided() const { return std::min(1.0, 2 * std::min(upper, lower
 
 Tails chi_square_tails(double statistic, double freedom) {
     if (std::isinf(statistic)) return {.upper = 0, .lower = 1};
-    return {.upper = boost::math::gamma_q(freedom / 2, statistic / 2, Quiet()),
-            .lower = boost::math::gamma_p(freedom / 2, statistic / 2, Quiet())};
+    return {.upper = chi_square_above(statistic, freedom),
+            .lower = chi_square_below(statistic, freedom)};
 }
 
 Tails count_tails(double statistic, const Fit& fit) {
     Tails tails = chi_square_tails(statistic, fit.freedom());
     const auto all = static_cast<std::size_t>(fit.groups - 1);
     double mixed = 0;
-    for (std::size_t s = 1; s <= fit.likeliest.size(); ++s) {
+    for (std::size_t s = 1; s <= fit.modal_probabilities.size(); ++s) {
         const auto others = static_cast<double>(all - s);
-        mixed += fit.likeliest[s - 1] * (s < all ? chi_square_tails(statistic, others).lower : 1);
+        mixed += fit.modal_probabilities[s - 1] *
+                 (s < all ? chi_square_tails(statistic, others).lower : 1);
     }
-    const double whole = fit.likeliest.size() == all ? fit.likeliest.back() : 0;
+    const double whole = fit.modal_probabilities.size() == all ? fit.modal_probabilities.back() : 0;
     tails.lower =
         std::min(1.0, std::max({tails.lower + tails.upper * whole, mixed, fit.most_even}));
     return tails;
@@ -241,11 +236,7 @@ Tails fisher(std::span<const Tails> tests) {
 }
 
 double detectable_noncentrality(double freedom, double level) {
-    using namespace boost::math;
-    const chi_squared_distribution<double, Quiet> null(freedom);
-    const double critical = quantile(complement(null, level / 2));
-    return non_central_chi_squared_distribution<double, Quiet>::find_non_centrality(freedom,
-                                                                                    critical, 0.1);
+    return noncentrality_for(freedom, level / 2, 0.1);
 }
 
 }  // namespace stipple::analyzers

@@ -18,7 +18,7 @@
 //
 // Counts are whole, so that few groups leave few values to X^2, and a value as small as any has a
 // chance that chi-square, being continuous, takes for next to nothing. Let q_s be the chance of the
-// likeliest counts in the s groups that expect the least, and F_f the chi-square distribution
+// most probable counts in the s groups that expect the least, and F_f the chi-square distribution
 // function (F_0 = 1). Taking these s groups as they are and the others as a continuum gives
 // q_s F_(f-s), and a ball holds about as many lattice points as its volume and those of its
 // sections make together, so that
@@ -44,12 +44,12 @@ namespace stipple::analyzers {
 struct Fit {
     double statistic = 0;
     std::uint64_t groups = 0;
-    std::uint64_t pooled = 0;            ///< cells that were put together with others
-    std::uint64_t impossible = 0;        ///< points in cells of probability 0
-    double mass_error = 0;               ///< sum over the cells' probabilities
-    double doubt = 0;                    ///< most by which it may be off the right statistic
-    double most_even = 0;                ///< chance of the least statistic there is; 0: not known
-    std::vector<double> likeliest = {};  ///< q_1, q_2, ... as far as they matter
+    std::uint64_t pooled = 0;      ///< cells that were put together with others
+    std::uint64_t impossible = 0;  ///< points in cells of probability 0
+    double mass_error = 0;         ///< sum over the cells' probabilities
+    double statistic_error = 0;    ///< most by which it may be off the right statistic
+    double most_even = 0;          ///< chance of the least statistic there is; 0: not known
+    std::vector<double> modal_probabilities = {};  ///< q_1, q_2, ... as far as they matter
 
     [[nodiscard]] double freedom() const { return static_cast<double>(groups - 1); }
 };

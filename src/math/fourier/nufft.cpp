@@ -33,7 +33,7 @@ double cost_of(std::uint64_t count, std::size_t dimension, std::size_t side,
 
 /// How many points of a tile are added up in a row, before the sums are folded.
 struct Folding {
-    std::size_t together;
+    std::size_t fold_after;
     double rounding;  ///< of sums over points in one place, a point, which are largest; by trying
 };
 constexpr Folding rare{2048, 2e-14};
@@ -101,7 +101,7 @@ Nufft::Nufft(std::uint64_t count, std::size_t dimension, std::size_t max_frequen
         cheapest = cost;
         side_ = side;
         window_ = window;
-        together_ = folding.together;
+        fold_after_ = folding.fold_after;
     }
 }
 
@@ -139,7 +139,7 @@ void FourierSummation::begin(const Nufft& nufft) {
              .side = nufft.side(),
              .stride = stride,
              .cells = cells_.get()};
-    spreader_ = std::make_unique<Spreader>(nufft.window(), grid_, nufft.count(), nufft.together(),
+    spreader_ = std::make_unique<Spreader>(nufft.window(), grid_, nufft.count(), nufft.fold_after(),
                                            nufft.weighted());
 }
 

@@ -4,13 +4,13 @@
 //
 //     S(f) = sum_j exp(-2 pi i f.x_j),    |f_k| <= F,    x_j in [0, 1]^d,  d = 1, 2, 3,
 //
+// or, with strengths s_j, sum_j s_j exp(-2 pi i f.x_j),
+//
 // by a non-uniform fast Fourier transform: the points are spread over a grid of M > 2F + 1 cells a
 // side with the weights of an interpolator, the real grid is transformed, and the result divided by
 // its scaling factors. Grid and interpolator are the cheapest that meet the tolerance.
 //
 // Shape   f_0 = 0..F, the fastest index; f_1, f_2 = -F..F. The other half is S(-f) = conj S(f).
-// or, with strengths s_j, sum_j s_j exp(-2 pi i f.x_j).
-//
 // Cost    O(n w^d + M^d log M) time for windows w <= 16 cells wide; memory: bytes(), however many
 //         points come.
 // Promise |error| <= max(tolerance, floor) sqrt(n) at every f, for every set: the weights' error is
@@ -61,7 +61,7 @@ class Nufft {
     [[nodiscard]] const Interpolator& window() const { return window_; }
 
     /// Points of a tile of the grid that are added up in a row (math/fourier/spreading.hpp).
-    [[nodiscard]] std::size_t together() const { return together_; }
+    [[nodiscard]] std::size_t fold_after() const { return fold_after_; }
 
     /// Bound of the error beside that of rounding, relative to sqrt(count), of so many points.
     [[nodiscard]] double error(double count) const;
@@ -73,7 +73,7 @@ class Nufft {
     bool weighted_;
     std::size_t side_ = 0;
     Interpolator window_;
-    std::size_t together_ = 1;
+    std::size_t fold_after_ = 1;
 };
 
 /// A transform whose points come in portions. They are spread over a grid for every block of them,

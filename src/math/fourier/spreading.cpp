@@ -32,7 +32,7 @@ constexpr std::size_t sorting_block = std::size_t{1} << 12;  // points that the 
 }  // namespace
 
 /// The grid cut into an even number of tiles along each axis.
-class Tiling {
+class Spreader::Tiling {
   public:
     Tiling(const CellGrid& grid, const WeightTable& window, bool weighted) : grid_(grid) {
         const std::size_t smallest =
@@ -140,7 +140,7 @@ class Tiling {
 };
 
 /// Two buffers of a tile: what some points add to it, and their sums.
-class TileSums {
+class Spreader::TileSums {
   public:
     /// @param most points that are added up in a row
     TileSums(std::size_t cells, std::size_t most) : cells_(cells), most_(most), room_(2 * cells) {}
@@ -191,14 +191,14 @@ std::size_t spreading_batch(const CellGrid& grid) {
 }
 
 Spreader::Spreader(const Interpolator& window, const CellGrid& grid, std::uint64_t count,
-                   std::size_t together, bool weighted)
+                   std::size_t fold_after, bool weighted)
     : table_(window),
       tiling_(std::make_unique<Tiling>(grid, table_, weighted)),
       dimension_(grid.dimension),
       width_(grid.dimension + (weighted ? 1 : 0)),
       batch_(static_cast<std::size_t>(std::min<std::uint64_t>(
           spreading_batch(grid), (count / round_of_streams + 1) * round_of_streams))),
-      together_(together) {
+      fold_after_(fold_after) {
     assert(grid.side % 2 == 0 && grid.side >= CellGrid::smallest_side && grid.side < 1U << 24);
 }
 
@@ -265,7 +265,7 @@ void Spreader::sort(std::span<const double> rows, const RunContext& run) {
 void Spreader::spread_bands(std::size_t block, const RunContext& run) {
     const std::size_t pairs = tiling_->pairs();
     const auto inside = [&](const Block& b) {
-        TileSums sums(tiling_->buffer_size(), together_);
+        TileSums sums(tiling_->buffer_size(), fold_after_);
         for (std::size_t i = b.first; i < b.last; ++i) {
             spread_band(2 * i, sums, run);
             if (i > b.first) spread_band(2 * i - 1, sums, run);
@@ -273,7 +273,7 @@ void Spreader::spread_bands(std::size_t block, const RunContext& run) {
     };
     for_each_block(run, pairs, block, inside, true);
     const auto between = [&](const Block& b) {
-        TileSums sums(tiling_->buffer_size(), together_);
+        TileSums sums(tiling_->buffer_size(), fold_after_);
         spread_band(2 * std::min((b.index + 1) * block, pairs) - 1, sums, run);
     };
     for_each_block(run, block_count(pairs, block), 1, between, true);
@@ -293,7 +293,7 @@ void Spreader::spread_colour(std::size_t colour, const RunContext& run) {
     // Enough blocks for all threads, but none with less work than handing it over is.
     const std::size_t block = std::max(1 + tiles / 128, 1024 * tiling_->count() / (waits_ + 1));
     const auto spread = [&](const Block& b) {
-        TileSums sums(tiling_->buffer_size(), together_);
+        TileSums sums(tiling_->buffer_size(), fold_after_);
         for (std::size_t i = b.first; i < b.last; ++i)
             spread_tile(tiling_->tile(colour, i), sums, run);
     };

@@ -43,17 +43,14 @@ struct CellGrid {
 /// Points that are sorted at a time: about as many as cells, but at least 2^20 and at most 2^22.
 std::size_t spreading_batch(const CellGrid& grid);
 
-class Tiling;
-class TileSums;
-
 class Spreader {
   public:
     /// @param count points that are expected; more may come.
-    /// @param together points of a tile that are added up in a row, before the sums are folded to
+    /// @param fold_after points of a tile that are added up in a row, before the sums are folded to
     /// keep rounding errors small.
     /// @param weighted whether a row holds the point's strength behind its coordinates.
     Spreader(const Interpolator& window, const CellGrid& grid, std::uint64_t count,
-             std::size_t together, bool weighted = false);
+             std::size_t fold_after, bool weighted = false);
     Spreader(const Spreader&) = delete;
     Spreader& operator=(const Spreader&) = delete;
     ~Spreader();
@@ -68,6 +65,9 @@ class Spreader {
     static double bytes(double count, const CellGrid& grid, bool weighted);
 
   private:
+    class Tiling;
+    class TileSums;
+
     void sort(std::span<const double> rows, const RunContext& run);
     void spread_bands(std::size_t block, const RunContext& run);
     void spread_band(std::size_t band, TileSums& sums, const RunContext& run) const;
@@ -81,7 +81,7 @@ class Spreader {
     std::size_t dimension_;
     std::size_t width_;               ///< numbers of a row
     std::size_t batch_;               ///< points of a batch
-    std::size_t together_;            ///< points of a tile that are added up in a row
+    std::size_t fold_after_;          ///< points of a tile that are added up in a row
     std::size_t waits_ = 0;           ///< points that are sorted, and not spread yet
     std::vector<TilePoints> points_;  ///< of each stream that has some
 };

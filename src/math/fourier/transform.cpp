@@ -86,13 +86,13 @@ struct Columns {
     std::size_t width;
 };
 
-constexpr std::size_t together = 16;  // columns share the cache lines that they are read from
+constexpr std::size_t batch_size = 16;  // columns that share the cache lines they are read from
 
 /// Some columns of a plane, gathered into lines.
 class Gathered {
   public:
     explicit Gathered(std::size_t side)
-        : side_(side), spacing_(stride_of(2 * side)), lines_(fftw_reals(together * spacing_)) {}
+        : side_(side), spacing_(stride_of(2 * side)), lines_(fftw_reals(batch_size * spacing_)) {}
 
     void take(const std::complex<double>* from, std::size_t stride, std::size_t count) {
         const auto* rows = reinterpret_cast<const PairInMemory*>(from);
@@ -132,16 +132,16 @@ std::vector<std::complex<double>> transform_columns(const Columns& in,
                                                     Planning planning, const RunContext& run) {
     const LineTransform line(LineTransform::Kind::complex, in.side, planning);
     const std::size_t span = 2 * factors.size() - 1;
-    const std::size_t groups = (in.width + together - 1) / together;
+    const std::size_t groups = (in.width + batch_size - 1) / batch_size;
     std::vector<std::complex<double>> out;
     fill_with_zeros(out, in.planes * span * in.width);
-    const std::size_t size = std::max<std::size_t>(1, lines_at_a_time(in.side) / together);
+    const std::size_t size = std::max<std::size_t>(1, lines_at_a_time(in.side) / batch_size);
     for_each_block(run, in.planes * groups, size, [&](const Block& b) {
         Gathered lines(in.side);
         for (std::size_t i = b.first; i < b.last; ++i) {
             const std::size_t plane = i / groups;
-            const std::size_t first = i % groups * together;
-            const std::size_t count = std::min(together, in.width - first);
+            const std::size_t first = i % groups * batch_size;
+            const std::size_t count = std::min(batch_size, in.width - first);
             lines.take(in.values + plane * in.side * in.stride + first, in.stride, count);
             lines.transform(line, count);
             lines.give(factors, out.data() + plane * span * in.width + first, in.width, count);

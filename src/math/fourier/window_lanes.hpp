@@ -64,6 +64,18 @@ STIPPLE_INLINE void locate(const V& x, const SpreadTile& tile, V& first, V& betw
     if (tile.lead == 0) first -= first >= tile.side ? zero + tile.side : zero;
 }
 
+/// Numbers First, First + 2, ... of two vectors.
+template <std::size_t First, std::size_t... L>
+STIPPLE_INLINE V every_second(const V& a, const V& b, std::index_sequence<L...> /*lanes*/) {
+    return __builtin_shufflevector(a, b, (First + 2 * L)...);
+}
+
+/// Numbers First, First + 1, ... of two vectors in turn.
+template <std::size_t First, std::size_t... L>
+STIPPLE_INLINE V in_turn(const V& a, const V& b, std::index_sequence<L...> /*lanes*/) {
+    return __builtin_shufflevector(a, b, (First + L / 2 + L % 2 * lanes)...);
+}
+
 /// Coordinates of up to so many points, axis after axis; the surplus is 0.
 template <std::size_t Dimension>
 using Coordinates = std::array<std::array<double, chunk>, Dimension>;
@@ -74,13 +86,10 @@ STIPPLE_INLINE void by_axis(const double* points, std::size_t count, std::size_t
     std::size_t i = 0;
     if constexpr (Dimension == 2)
         for (; numbers == 2 && i + lanes <= count; i += lanes) {
-            using Order [[gnu::vector_size(8 * lanes)]] = std::int64_t;
-            Order even;
-            for (std::size_t l = 0; l < lanes; ++l) even[l] = static_cast<std::int64_t>(2 * l);
             const V a = load<V>(points + 2 * i);
             const V b = load<V>(points + 2 * i + lanes);
-            store(__builtin_shuffle(a, b, even), &axes[0][i]);
-            store(__builtin_shuffle(a, b, even + 1), &axes[1][i]);
+            store(every_second<0>(a, b, std::make_index_sequence<lanes>()), &axes[0][i]);
+            store(every_second<1>(a, b, std::make_index_sequence<lanes>()), &axes[1][i]);
         }
     for (; i < (count + lanes - 1) / lanes * lanes; ++i)
         for (std::size_t k = 0; k < Dimension; ++k)
@@ -248,14 +257,10 @@ STIPPLE_INLINE void by_point(const Coordinates<Dimension>& axes, const double* p
     std::size_t i = 0;
     if constexpr (Dimension == 2)
         for (; numbers == 2 && i + lanes <= count; i += lanes) {
-            using Order [[gnu::vector_size(8 * lanes)]] = std::int64_t;
-            Order paired;
-            for (std::size_t l = 0; l < lanes; ++l)
-                paired[l] = static_cast<std::int64_t>(l / 2 + l % 2 * lanes);
             const V a = load<V>(&axes[0][i]);
             const V b = load<V>(&axes[1][i]);
-            store(__builtin_shuffle(a, b, paired), out + 2 * i);
-            store(__builtin_shuffle(a, b, paired + lanes / 2), out + 2 * i + lanes);
+            store(in_turn<0>(a, b, std::make_index_sequence<lanes>()), out + 2 * i);
+            store(in_turn<lanes / 2>(a, b, std::make_index_sequence<lanes>()), out + 2 * i + lanes);
         }
     for (; i < count; ++i) {
         for (std::size_t k = 0; k < Dimension; ++k) out[i * numbers + k] = axes[k][i];

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 // The vectors never leave a function that is not inlined.
 
@@ -44,9 +45,9 @@ struct Work {
     void (*find)(std::span<const double>, std::size_t, const SpreadTile&, std::uint32_t*, double*);
 };
 
-Work work_of(Vectors widest) {
-    static const Vectors here = widest_vectors();
+Work work_of([[maybe_unused]] Vectors widest) {
 #ifdef STIPPLE_PICKS_VECTORS
+    static const Vectors here = widest_vectors();
     if (std::min(widest, here) == Vectors::eights) return {eights::add_points, eights::find};
     if (std::min(widest, here) == Vectors::fours) return {fours::add_points, fours::find};
 #endif

@@ -51,7 +51,7 @@ std::optional<std::vector<Neighbor>> find_all(std::span<const double> rows, cons
     const double side = side_of_cells(box, n / points_in_cell);
     if (!(side > 0 && side < std::numeric_limits<double>::infinity())) return std::nullopt;
     const SortedPoints<D> points(GridFrame<D>(box, torus, side, n), rows, run);
-    if (points.mean_company() > crowded) return std::nullopt;
+    if (points.mean_occupancy() > crowded) return std::nullopt;
     std::vector<Neighbor> found(points.count());
     const double guess = 0.75 * side;
     for_each_block(run, points.count(), 4096, [&](const Block& b) {

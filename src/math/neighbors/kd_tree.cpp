@@ -304,7 +304,7 @@ struct KdTree::NearestOfOthers {
     void visit(std::size_t leaf) {
         const auto [first, last] = tree.range_of(leaf);
         for (std::size_t i = first; i < last; ++i) {
-            if (groups.places[i] == own) continue;
+            if (groups.points[i] == own) continue;
             const Neighbor point{metric.distance(place, tree.row(i)), tree.indices_[i]};
             if (point < best) best = point;
         }
@@ -359,19 +359,19 @@ void KdTree::spread(Groups& groups) const {
             continue;
         }
         const auto [first, last] = range_of(node);
-        groups.nodes[node] = groups.places[first];
+        groups.nodes[node] = groups.points[first];
         for (std::size_t i = first + 1; i < last; ++i)
-            if (groups.places[i] != groups.places[first]) groups.nodes[node] = Groups::mixed;
+            if (groups.points[i] != groups.points[first]) groups.nodes[node] = Groups::mixed;
     }
 }
 
-Neighbor KdTree::nearest_of_others(std::size_t place, const Groups& groups, double squared) const {
+Neighbor KdTree::nearest_of_others(std::size_t rank, const Groups& groups, double squared) const {
     return with_metric([&](const auto metric) {
         NearestOfOthers query{*this,
                               metric,
                               groups,
-                              row(place),
-                              groups.places[place],
+                              row(rank),
+                              groups.points[rank],
                               {std::min(squared, std::numeric_limits<double>::max()), none}};
         search(query);
         return query.best;

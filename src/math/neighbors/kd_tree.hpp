@@ -60,11 +60,11 @@ class KdTree {
     [[nodiscard]] std::size_t dimension() const { return dimension_; }
     [[nodiscard]] bool torus() const { return !sides_.empty(); }
 
-    /// The points again, and which they are, in an order in which neighbours are near.
-    [[nodiscard]] const double* row(std::size_t place) const {
-        return rows_.data() + place * dimension_;
+    /// The points again, and which they are, by rank: an order in which neighbours are near.
+    [[nodiscard]] const double* row(std::size_t rank) const {
+        return rows_.data() + rank * dimension_;
     }
-    [[nodiscard]] std::size_t index(std::size_t place) const { return indices_[place]; }
+    [[nodiscard]] std::size_t index(std::size_t rank) const { return indices_[rank]; }
 
     /// The point nearest to the place, other than point `except`; index `none` and an infinite
     /// distance if there is no point.
@@ -78,20 +78,19 @@ class KdTree {
     /// Number of points with distance^2 < squared; whole nodes are counted at once.
     [[nodiscard]] std::size_t count_nearer(std::span<const double> place, double squared) const;
 
-    /// Groups of points, one number a place; of a node it is the group of all its points, or
-    /// `mixed`.
+    /// Groups of points, by their ranks; of a node it is the group of all its points, or `mixed`.
     struct Groups {
         static constexpr std::uint32_t mixed = 0xffff'ffff;
-        std::vector<std::uint32_t> places;
+        std::vector<std::uint32_t> points;
         std::vector<std::uint32_t> nodes;
     };
 
-    /// Works out the nodes' groups from those of the places.
+    /// Works out the nodes' groups from those of the points.
     void spread(Groups& groups) const;
 
-    /// The point nearest to the one at `place` of all those of other groups that have distance^2 <=
-    /// squared; index `none` if there is none.
-    [[nodiscard]] Neighbor nearest_of_others(std::size_t place, const Groups& groups,
+    /// The point nearest to the one of that rank of all those of other groups that have distance^2
+    /// <= squared; index `none` if there is none.
+    [[nodiscard]] Neighbor nearest_of_others(std::size_t rank, const Groups& groups,
                                              double squared) const;
 
     /// Every point's nearest other one, in parallel.
@@ -113,8 +112,8 @@ class KdTree {
     /// leaves are leaves_ to 2 leaves_ - 1.
     [[nodiscard]] Range range_of(std::size_t node) const {
         const auto level = static_cast<unsigned>(std::bit_width(node)) - 1;
-        const std::size_t place = node - (std::size_t{1} << level);
-        return {count() * place >> level, count() * (place + 1) >> level};
+        const std::size_t nth = node - (std::size_t{1} << level);
+        return {count() * nth >> level, count() * (nth + 1) >> level};
     }
     [[nodiscard]] const double* box_of(std::size_t node) const {
         return boxes_.data() + node * 2 * dimension_;

@@ -61,7 +61,7 @@ class Growth {
           nearest_(tree.count(), Neighbor{0, KdTree::none}),
           best_(tree.count()),
           bounds_(tree.count()) {
-        groups_.places.resize(tree.count());
+        groups_.points.resize(tree.count());
     }
 
     std::vector<double> edges() {
@@ -87,22 +87,22 @@ class Growth {
         auto operator<=>(const Candidate&) const = default;
     };
 
-    [[nodiscard]] std::uint32_t own(std::size_t place) const {
-        return static_cast<std::uint32_t>(tree_.index(place));
+    [[nodiscard]] std::uint32_t own(std::size_t rank) const {
+        return static_cast<std::uint32_t>(tree_.index(rank));
     }
 
     void name_parts() {
-        for (std::size_t s = 0; s < tree_.count(); ++s) groups_.places[s] = parts_.root(own(s));
+        for (std::size_t s = 0; s < tree_.count(); ++s) groups_.points[s] = parts_.root(own(s));
         tree_.spread(groups_);
         for (auto& bound : bounds_) bound.store(infinity, std::memory_order_relaxed);
         for (std::size_t s = 0; s < tree_.count(); ++s) {
             Neighbor& nearest = nearest_[s];
             if (nearest.index == KdTree::none) continue;
             const auto index = static_cast<std::uint32_t>(nearest.index);
-            if (parts_.root(index) == groups_.places[s])
+            if (parts_.root(index) == groups_.points[s])
                 nearest.index = KdTree::none;  // its distance stays as a bound
             else
-                lower(groups_.places[s], nearest.squared);
+                lower(groups_.points[s], nearest.squared);
         }
     }
 
@@ -122,10 +122,10 @@ class Growth {
                     if (s % 64 == 0) run_.check_stop();
                     Neighbor& nearest = nearest_[s];
                     if (nearest.index != KdTree::none) continue;
-                    const double bound = bounds_[groups_.places[s]].load(std::memory_order_relaxed);
+                    const double bound = bounds_[groups_.points[s]].load(std::memory_order_relaxed);
                     if (nearest.squared > bound) continue;
                     nearest = tree_.nearest_of_others(s, groups_, bound);
-                    if (nearest.index != KdTree::none) lower(groups_.places[s], nearest.squared);
+                    if (nearest.index != KdTree::none) lower(groups_.points[s], nearest.squared);
                 }
             },
             true);
@@ -138,7 +138,7 @@ class Growth {
             const auto other = static_cast<std::uint32_t>(nearest_[s].index);
             const Candidate edge{nearest_[s].squared, std::min(own(s), other),
                                  std::max(own(s), other)};
-            best_[groups_.places[s]] = std::min(best_[groups_.places[s]], edge);
+            best_[groups_.points[s]] = std::min(best_[groups_.points[s]], edge);
         }
     }
 
@@ -152,7 +152,7 @@ class Growth {
     const RunContext& run_;
     Parts parts_;
     KdTree::Groups groups_;
-    std::vector<Neighbor> nearest_;  ///< of each place; without an index none is nearer
+    std::vector<Neighbor> nearest_;  ///< of each rank; without an index none is nearer
     std::vector<Candidate> best_;    ///< of each part, by its root
     std::vector<std::atomic<double>> bounds_;
 };

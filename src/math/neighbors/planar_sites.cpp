@@ -45,7 +45,7 @@ bool may_cut(const double* box, const Vec2& at, const VoronoiCell& cell) {
 }  // namespace
 
 PlanarCells::PlanarCells(const PlanarSites& sites, const RunContext& run) : sites_(sites) {
-    if (sites.company <= crowded_cell)
+    if (sites.occupancy <= crowded_cell)
         grid_.emplace(sites.sides, sites.torus, sites.rows);
     else
         tree_.emplace(sites.rows, 2, std::vector<double>{}, run);
@@ -87,7 +87,7 @@ PlanarSites planar_sites(std::span<const double> rows, const Box& box, bool toru
     const GridFrame<2> frame({{0, 0}, {sites.sides.x, sites.sides.y}}, torus,
                              std::sqrt(2 * sites.sides.x * sites.sides.y / n), n + 64);
     const SortedPoints<2> sorted(frame, seen_from_corner(rows, box, torus), run);
-    sites.company = sorted.mean_company();
+    sites.occupancy = sorted.mean_occupancy();
     sites.rows.reserve(rows.size());
     sites.points.reserve(sorted.count());
     std::vector<Place> cell;

@@ -34,7 +34,7 @@ struct PlanarSites {
     bool torus;                           ///< opposite sides of the rectangle are one
     std::vector<double> rows = {};        ///< x and y of each place, seen from the low corner
     std::vector<std::uint32_t> points{};  ///< of lowest index at each place
-    double company = 0;                   ///< points in a point's cell of a grid with 2 on average
+    double occupancy = 0;                 ///< points in a point's cell of a grid with 2 on average
 
     [[nodiscard]] std::size_t count() const { return points.size(); }
     [[nodiscard]] Vec2 at(std::size_t i) const { return {rows[2 * i], rows[2 * i + 1]}; }

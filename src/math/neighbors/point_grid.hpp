@@ -8,14 +8,11 @@
 //     SortedPoints   points that are all there, stored cell by cell
 //     GrowingPoints  points that come one by one; the cells shrink as they become many
 //
-// Shape    D directions; any box, flat ones too; points beyond the faces count with the outer
-// cells. Cost     visiting a ball: the cells that it meets, and their points. SortedPoints: 8 D + 4
-// bytes a
-//          point, 4 a cell. GrowingPoints: 8 D + 4 bytes a point, 4 a cell, at most 2 cells a
-//          point.
+// Shape    D directions; any box, flat ones too; points beyond the faces count with the outer cells.
+// Cost     visiting a ball: the cells that it meets, and their points. SortedPoints: 8 D + 4 bytes a
+//          point, 4 a cell. GrowingPoints: 8 D + 4 bytes a point, 4 a cell, at most 2 cells a point.
 // Promise  exact to the last pair: a point is visited once if its distance^2, as float64 computes
-// it
-//          by the formula above, is at most radius * radius, and not otherwise; for radii of any
+//          it by the formula above, is at most radius * radius, and not otherwise; for radii of any
 //          size. Always in the same order.
 #pragma once
 
@@ -194,8 +191,29 @@ class SortedPoints {
     /// The first point of cell c, or of those behind it; count() behind the last cell.
     [[nodiscard]] std::uint32_t start(std::size_t c) const { return starts_[c]; }
 
+    /// Calls visit(s, first, last) for stretches of points behind s that hold all those within the
+    /// radius of s, for each s in [from, to): every pair once, from its lower end.
+    template <class Visit>
+    void visit_pairs(std::size_t from, std::size_t to, double radius, const RunContext& run,
+                     const Visit& visit) const {
+        constexpr std::size_t between_looks = std::size_t{1} << 21;  // pairs
+        std::size_t looked = 0;
+        for (std::size_t s = from; s < to; ++s) {
+            frame_.visit((*this)[s], radius, [&](std::size_t first, std::size_t last) {
+                const std::size_t begin = std::max<std::size_t>(starts_[first], s + 1);
+                if (begin >= starts_[last]) return true;
+                visit(s, begin, std::size_t{starts_[last]});
+                looked += starts_[last] - begin;
+                return true;
+            });
+            if (++looked < between_looks) continue;
+            run.check_stop();
+            looked = 0;
+        }
+    }
+
     /// Mean number of points in a point's cell, itself included.
-    [[nodiscard]] double mean_company() const {
+    [[nodiscard]] double mean_occupancy() const {
         double squares = 0;
         for (std::size_t c = 0; c + 1 < starts_.size(); ++c) {
             const double points = starts_[c + 1] - starts_[c];

@@ -2,10 +2,9 @@
 //
 // The order in which void-and-cluster fills the cells of a W x H torus. The energy of a cell is
 //
-//     E(c) = sum over filled cells f of  exp(-|c - f|^2 / (2 sigma^2)),    toroidal, sigma = 1.5
-//     cells.
+//     E(c) = sum over filled cells f of  exp(-|c - f|^2 / (2 sigma^2)),
 //
-// Cells may be wider than high, or higher than wide: lengths are in units of the root of a cell's
+// by toroidal distances in cells, sigma = 1.5. Cells may be wider than high, or higher than wide: lengths are in units of the root of a cell's
 // area then.
 //
 // A random tenth of the cells is filled, and its fullest cell ("tightest cluster") moves to the

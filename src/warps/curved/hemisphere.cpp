@@ -27,6 +27,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/directional.hpp"
 #include "math/functions/exponential.hpp"
 #include "math/functions/logarithm.hpp"
 #include "math/functions/real_power.hpp"
@@ -86,7 +87,7 @@ struct CosineLaw {
     }
 };
 
-class HemisphereDomain final : public Domain, public Discontinuous {
+class HemisphereDomain final : public Domain, public Discontinuous, public Directional {
   public:
     HemisphereDomain(const Frame& frame, const CosineLaw& law, std::string spec)
         : frame_(frame), law_(law), spec_(std::move(spec)) {}
@@ -132,6 +133,8 @@ class HemisphereDomain final : public Domain, public Discontinuous {
                                  .across_along = -p / all};
         return axial_moments(round, frame_);
     }
+    Vector3 axis() const override { return frame_.z; }
+    bool is_hemisphere() const override { return true; }
     std::vector<std::string> cube_axes() const override {
         return {"share of the directions nearer to the axis", "longitude in turns"};
     }

@@ -20,6 +20,7 @@
 #include <string>
 #include <utility>
 
+#include "core/directional.hpp"
 #include "math/functions/trigonometry.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "math/geometry/polar_direction.hpp"
@@ -36,7 +37,7 @@ struct Tilt {
 };
 
 template <class Lobe>
-class LobeDomain final : public Domain, public Discontinuous {
+class LobeDomain final : public Domain, public Discontinuous, public Directional {
   public:
     LobeDomain(const Lobe& lobe, const Frame& frame, std::string spec)
         : lobe_(lobe), frame_(frame), spec_(std::move(spec)) {}
@@ -74,6 +75,8 @@ class LobeDomain final : public Domain, public Discontinuous {
     std::optional<Moments> moments() const override {
         return axial_moments(lobe_.moments(), frame_);
     }
+    Vector3 axis() const override { return frame_.z; }
+    bool is_hemisphere() const override { return false; }
     std::vector<std::string> cube_axes() const override {
         return {"probability of the cone about the axis", "longitude in turns"};
     }

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "analyzers/spectrum/periodogram_rings.hpp"
+#include "analyzers/rings.hpp"
 #include "core/rng.hpp"
 #include "pipeline/chain.hpp"
 #include "support/fourier.hpp"

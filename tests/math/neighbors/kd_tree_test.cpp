@@ -132,8 +132,8 @@ TEST(KdTree, IsTheSameForAnyNumberOfThreads) {
     const auto build = [&](unsigned threads) {
         const KdTree tree(rows, 2, {1, 1}, {.threads = threads});
         auto found = tree.all_nearest({.threads = threads});
-        for (std::size_t place = 0; place < tree.count(); ++place)  // the order of the leaves
-            found.push_back({tree.row(place)[0], tree.index(place)});
+        for (std::size_t rank = 0; rank < tree.count(); ++rank)
+            found.push_back({tree.row(rank)[0], tree.index(rank)});
         return found;
     };
     EXPECT_EQ(build(1), build(5));

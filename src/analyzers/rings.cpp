@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "analyzers/spectrum/periodogram_rings.hpp"
+#include "analyzers/rings.hpp"
 
 #include <algorithm>
 #include <cmath>

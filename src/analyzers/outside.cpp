@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "analyzers/uniformity/outside.hpp"
+#include "analyzers/outside.hpp"
 
 #include <fmt/ranges.h>
 

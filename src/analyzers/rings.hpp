@@ -23,8 +23,8 @@ struct Rings {
 /// @param power at the frequencies -F..F of each axis, one row for each (f_2, f_1).
 Rings rings_of(const Grid& power, const RunContext& run);
 
-/// Of a ring in dB, no less than -100; that, too, where its power is no more than `least`.
-double anisotropy_db(double variance, double mean, double least);
+/// Of a ring in dB, no less than -100; that, too, where its mean is no more than `least`.
+double anisotropy_db(double variance, double mean, double least = 0);
 
 /// Half the radius up to which the mean power of all frequencies is 0.1 at most, the largest one.
 /// @param rings those of the power.

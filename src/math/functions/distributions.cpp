@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "math/functions/distributions.hpp"
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/non_central_chi_squared.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <boost/math/special_functions/gamma.hpp>
+
+namespace stipple {
+namespace {
+
+using Quiet = boost::math::policies::policy<
+    boost::math::policies::evaluation_error<boost::math::policies::ignore_error>,
+    boost::math::policies::underflow_error<boost::math::policies::ignore_error>>;
+
+}  // namespace
+
+double chi_square_below(double statistic, double freedom) {
+    return boost::math::gamma_p(freedom / 2, statistic / 2, Quiet());
+}
+
+double chi_square_above(double statistic, double freedom) {
+    return boost::math::gamma_q(freedom / 2, statistic / 2, Quiet());
+}
+
+double noncentrality_for(double freedom, double level, double miss) {
+    using namespace boost::math;
+    const chi_squared_distribution<double, Quiet> null(freedom);
+    const double critical = quantile(complement(null, level));
+    return non_central_chi_squared_distribution<double, Quiet>::find_non_centrality(freedom,
+                                                                                    critical, miss);
+}
+
+double student_quantile(double above, double freedom) {
+    const boost::math::students_t student(freedom);
+    return boost::math::quantile(boost::math::complement(student, above));
+}
+
+}  // namespace stipple

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "math/functions/distributions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+using namespace stipple;
+
+// With two degrees of freedom chi-square is exponential, with one the square of a normal number.
+TEST(Distributions, ChiSquareInClosedForm) {
+    for (const double x : {0.1, 1.0, 7.0, 300.0}) {
+        EXPECT_NEAR(chi_square_above(x, 2), std::exp(-x / 2), 1e-14 * std::exp(-x / 2));
+        EXPECT_NEAR(chi_square_below(x, 2), -std::expm1(-x / 2), 1e-15);
+        EXPECT_NEAR(chi_square_above(x, 1), std::erfc(std::sqrt(x / 2)),
+                    1e-13 * std::erfc(std::sqrt(x / 2)));
+    }
+}
+
+// With one degree of freedom Student's t is Cauchy's, with two x / sqrt(2 + x^2) = 1 - 2 above.
+TEST(Distributions, StudentInClosedForm) {
+    for (const double above : {0.3, 0.025, 1e-4}) {
+        EXPECT_NEAR(student_quantile(above, 1) * std::tan(std::numbers::pi * above), 1, 1e-12);
+        const double share = 1 - 2 * above;
+        const double wanted = share * std::sqrt(2 / (1 - share * share));
+        EXPECT_NEAR(student_quantile(above, 2) / wanted, 1, 1e-11);
+    }
+}
+
+// (Z + m)^2 is above q^2 with probability P(Z > q - m) + P(Z < -q - m).
+TEST(Distributions, NoncentralityHasThePower) {
+    for (const double level : {0.05, 0.0005}) {
+        const double m = std::sqrt(noncentrality_for(1, level, 0.1));
+        double q = 1;
+        while (std::erfc(q / std::numbers::sqrt2) > level) q += 1e-5;
+        const double power =
+            (std::erfc((q - m) / std::numbers::sqrt2) + std::erfc((q + m) / std::numbers::sqrt2)) /
+            2;
+        EXPECT_NEAR(power, 0.9, 1e-5);
+    }
+}
