@@ -16,7 +16,7 @@
 //
 // Shape   d = 1, ..., 32; distances are those in the box of --bounds, across its faces too (torus)
 //         or not.
-// Cost    10^5 points in 2-D take 1.5e10 instructions and 0.2 GB, most of the time waiting for
+// Cost    10^5 points in 2-D take 6 s on one core and 0.14 GB, most of the time waiting for
 //         memory; slowly more a point with their number and with c, and some ten times as much in
 //         3-D. c n^3 steps in more dimensions.
 // Promise the law of the points is exactly that of Mitchell's method with all m candidates made.
