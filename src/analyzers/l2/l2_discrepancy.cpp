@@ -123,12 +123,13 @@ void warn_of_pairs(std::size_t n, std::size_t d, l2::Kind which, const RunContex
 /// Of squares off by `error`, or by what is too small for a double.
 Report off_by(const l2::Square& square, l2::Kind which, const char* method, const RunContext& run) {
     constexpr double few_digits = 1e-9;
-    const double off = square.error + std::numeric_limits<double>::min();
-    const double error = error_of_root(square.squared, off);
+    constexpr double smallest = std::numeric_limits<double>::min();
+    const double error = error_of_root(square.squared, square.error + smallest);
     if (error > few_digits * std::sqrt(std::max(square.squared, 0.0)))
-        run.tell(
-            fmt::format("l2-discrepancy: nearly all digits of {} cancel; it is off by up to {:.2g}",
-                        l2::record_of(which).name, error));
+        run.tell(fmt::format(
+            "l2-discrepancy: {} of {} {}; its value is off by up to {:.2g}",
+            square.error < smallest ? "the square" : "nearly all digits", l2::record_of(which).name,
+            square.error < smallest ? "is below the smallest double" : "cancel", error));
     return result_of(square.squared, method).add("error", error);
 }
 

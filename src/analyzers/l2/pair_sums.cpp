@@ -408,6 +408,30 @@ BlockTable table_of(PairForm form, const Numbers& numbers, const Scaling& scalin
     return table;
 }
 
+/// What the axes' factors give together.
+struct AxisProducts {
+    Quad total = 1;  ///< mean of the products of means
+    Quad scale = 1;  ///< over which the sum over pairs is taken
+    Quad most = 1;   ///< more than any product
+    double cancellation = 0;
+    bool may_vanish = false;
+};
+
+AxisProducts products_of(const Axes& axes, const Scaling& scaling) {
+    AxisProducts of;
+    for (std::size_t j = 0, f = 0; j < axes.places.size(); ++j) {
+        const FactorForm& axis = axes.forms[j];
+        of.total *= axes.terms[j].total;
+        of.most *= axis.scale() * axis.most();
+        of.scale *= axis.scale();
+        for (const std::size_t end = f + axis.factors(); f < end; ++f)
+            of.scale = ldexp(of.scale, scaling.exponents[f]);
+        of.cancellation += axis.cancellation();
+        of.may_vanish = of.may_vanish || axis.may_vanish();
+    }
+    return of;
+}
+
 void require_finite(double squared, Kind kind, std::size_t dimension) {
     if (std::isfinite(squared)) return;
     fail_with_hint(ErrorKind::limit, "--kind chooses others",
@@ -439,32 +463,18 @@ Square pair_square(const PointSet& points, Kind kind, const AxisWeights& weights
                                       Halving(points, axes, kind == Kind::centered).order());
     const DoubleDouble sum = sum_over_pairs(table, widest, run);
 
-    Quad total = 1;
-    Quad scale = 1;
-    Quad most = 1;
-    double cancellation = 0;
-    bool may_vanish = false;
-    for (std::size_t j = 0, f = 0; j < axes.places.size(); ++j) {
-        const FactorForm& axis = axes.forms[j];
-        total *= axes.terms[j].total;
-        most *= axis.scale() * axis.most();
-        scale *= axis.scale();
-        for (const std::size_t end = f + axis.factors(); f < end; ++f)
-            scale = ldexp(scale, scaling.exponents[f]);
-        cancellation += axis.cancellation();
-        may_vanish = may_vanish || axis.may_vanish();
-    }
+    const AxisProducts of = products_of(axes, scaling);
     const Quad n = points.count();
-    const Quad pairs = scale * (Quad(sum.high) + sum.low) / (n * n);
-    const Quad squared = total - 2 * numbers.means + pairs;
+    const Quad pairs = of.scale * (Quad(sum.high) + sum.low) / (n * n);
+    const Quad squared = of.total - 2 * numbers.means + pairs;
     require_finite(static_cast<double>(squared), kind, points.dimension());
     // What is lost below the smallest double may grow again with the factors that follow.
     const auto chain = static_cast<double>(numbers.factors + 8);
     const double growth = table.any_order() ? scaling.any_order : scaling.growth;
-    const double relative = 0x1p-80 + 0x1p-98 * chain * chain + 0x1p-102 * cancellation;
-    const Quad error = relative * (may_vanish ? most : pairs) +
-                       scale * chain * std::exp2(growth - 1070) +
-                       0x1p-88 * (total + numbers.means) + 0x1p-53 * abs(squared);
+    const double relative = 0x1p-80 + 0x1p-98 * chain * chain + 0x1p-102 * of.cancellation;
+    const Quad error = relative * (of.may_vanish ? of.most : pairs) +
+                       of.scale * chain * std::exp2(growth - 1070) +
+                       0x1p-88 * (of.total + numbers.means) + 0x1p-53 * abs(squared);
     return {static_cast<double>(squared), static_cast<double>(error)};
 }
 

@@ -659,7 +659,8 @@ TEST(L2Discrepancy, OfDividedSetsIsThatOfAllPairs) {
                 const double divided =
                     analyzers::l2::divide_square(set, kind, {}, {.threads = 1}).squared;
                 const auto pairs = analyzers::l2::pair_square(set, kind, {}, {});
-                EXPECT_NEAR(divided, pairs.squared, pairs.error + 0x1p-52 * divided) << name_of(kind) << ", d = " << d;
+                EXPECT_NEAR(divided, pairs.squared, pairs.error + 0x1p-52 * divided)
+                    << name_of(kind) << ", d = " << d;
                 EXPECT_EQ(divided,
                           analyzers::l2::divide_square(set, kind, {}, {.threads = 3}).squared);
             }
