@@ -23,6 +23,7 @@
 //         components' (mixture_domain.hpp). There is no way back: a point may come from several
 //         components. The same bits on every machine, where the components have them.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
