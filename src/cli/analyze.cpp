@@ -42,10 +42,11 @@ Check check_of(const std::string& text, const Analyzer& analyzer) {
     if (find_result(analyzer, "valid")) return {.key = "valid", .op = "==", .value = "true"};
     std::vector<std::string> keys;
     for (const ResultKey& result : analyzer.results) keys.push_back(result.key);
-    fail_with_hint(ErrorKind::usage, "its results are " + join(keys, ", "),
-                   "--check: {} does not tell whether a set is valid; expected KEY<VALUE, with <, "
-                   "<=, >, >=, == or !=",
-                   analyzer.name);
+    fail_with_hint(
+        ErrorKind::usage, "its results are " + join(keys, ", "),
+        "--check: {} has no result that says whether a set is valid; expected KEY<VALUE, with <, "
+        "<=, >, >=, == or !=",
+        analyzer.name);
 }
 
 /// @throws Error(usage) for a domain that the analyzer would not heed.
@@ -252,7 +253,7 @@ class Analysis {
             if (!interrupted()) in_blocks ? add_stream(input) : add_sets(input);
     }
 
-    /// Sets that are not in files.
+    /// Generated sets.
     GeneratedSets generated_sets() {
         for (const char* name : {"bounds", "rescale", "domain", "column", "from", "dtype"})
             if (arguments_.has(name))
@@ -342,7 +343,7 @@ class Analysis {
         }
     }
 
-    /// What is wrong with an input is said when the sets before it have been measured.
+    /// Errors of an input are reported after the sets before it have been measured.
     template <class Work>
     void before_errors(const Work& work) {
         try {
@@ -353,7 +354,7 @@ class Analysis {
         }
     }
 
-    /// What is wrong with a set's points is said with the file that they are from.
+    /// Errors in a set's points name the file that they are from.
     template <class Work>
     static void naming(const std::string& input, const Work& work) {
         try {

@@ -96,7 +96,7 @@ void take_spec(const Spec& spec, const UnitInfo& unit, Arguments& arguments) {
     }
 }
 
-/// What stands before a verb, or in place of one.
+/// Words in place of a verb.
 Arguments parse_without_verb(const std::vector<std::string>& words) {
     Arguments arguments;
     if (words.empty()) return arguments;

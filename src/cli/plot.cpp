@@ -60,7 +60,7 @@ Medium medium_of(const Arguments& arguments, const std::string& path) {
                    "--output: {} has no extension of a picture; expected .svg, .png or .txt", path);
 }
 
-/// Letters of the terminal; what a terminal does not tell is as usual.
+/// Size of the terminal in characters; defaults where it is unknown.
 TextRoom terminal_room() {
     TextRoom room;
     winsize size{};
@@ -160,7 +160,7 @@ class Plot {
         }
     }
 
-    /// Does work on an input; what is wrong with the input is said with a hint of the picture's.
+    /// Works on an input, and adds a hint to its errors.
     template <class Work>
     static std::invoke_result_t<Work> explained(const Work& work, const std::string& input,
                                                 const std::string& hint) {

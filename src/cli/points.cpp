@@ -163,7 +163,7 @@ namespace {
 /// How an input is to be read.
 struct Reading {
     ReadOptions options;
-    const Format* format = nullptr;  ///< as named; else its name or its bytes tell
+    const Format* format = nullptr;  ///< as named; else by its name or its bytes
 };
 
 Reading reading_of(const std::string& path, const Arguments& arguments) {

@@ -117,7 +117,7 @@ class Reporter {
   private:
     // ---------------------------------------------------------------- what is reported on
 
-    /// A page is no place for the points that it is about.
+    /// A page must not overwrite the points that it is about.
     void keep_inputs() const {
         std::error_code none;
         for (const std::string& input : arguments_.inputs)

@@ -62,8 +62,8 @@ struct Original {
     std::string path;  ///< where it can be opened more than once
     Provenance meta = {};
     const Format* format = nullptr;         ///< where its name and bytes leave it open
-    std::optional<std::size_t> width = {};  ///< numbers of a point, where the bytes do not tell
-    std::size_t sets = 0;                   ///< in the file; 0: its bytes tell
+    std::optional<std::size_t> width = {};  ///< numbers of a point, where the bytes leave it open
+    std::size_t sets = 0;                   ///< in the file; 0: as its bytes say
     std::string picture = {};               ///< option of the generator that made it, if it is one
     bool drawn = false;                     ///< svg or ply, which are not read
     std::string plotted = {};               ///< command that drew it, if it is a picture of points
@@ -91,7 +91,7 @@ bool file_there(const std::string& path) {
 [[noreturn]] void refuse_without_provenance(const Original& original) {
     fail_with_hint(ErrorKind::input,
                    "json and jsonl always hold it; generate --meta puts it into other formats",
-                   "{}: it does not tell how its points were made", original.name);
+                   "{}: it does not say how its points were made", original.name);
 }
 
 /// A picture by `stipple plot`, with what it tells of the set that it shows. False: no such
@@ -101,8 +101,7 @@ bool take_plot(Original& original, std::string_view picture) {
     if (!note.is_object() || note.contains("format") || !note.contains("command")) return false;
     original.plotted = note["command"].get<std::string>();
     if (!note.contains("meta"))
-        fail(ErrorKind::input,
-             "{}: a picture drawn by '{}', of no single set that tells how it was made",
+        fail(ErrorKind::input, "{}: a picture drawn by '{}', of no single set with provenance",
              original.name, original.plotted);
     original.meta = io::provenance_from(note["meta"]);
     return true;
@@ -489,10 +488,10 @@ class Reproducer {
         const auto line = 1 + std::count(found.begin(), f, '\n');
         const auto byte = static_cast<std::size_t>(f - found.begin());
         const bool binary = ply && !says("format ascii") && byte > header.size();
-        return {.sentence = fmt::format("{} {}, less what it tells of its provenance",
-                                        binary ? "byte" : "line",
-                                        binary ? byte : static_cast<std::size_t>(line)),
-                .details = {{"byte", byte}}};
+        return {
+            .sentence = fmt::format("{} {}, apart from its provenance", binary ? "byte" : "line",
+                                    binary ? byte : static_cast<std::size_t>(line)),
+            .details = {{"byte", byte}}};
     }
 
     /// A picture that was made with the points, pixel by pixel.

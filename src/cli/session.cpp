@@ -36,7 +36,7 @@ std::sig_atomic_t milliseconds() {
         (now.tv_sec * 1000 + now.tv_nsec / 1'000'000) % 1'000'000'000 + 1);
 }
 
-/// Lock-free as far as it goes: nobody registers callbacks at this stop source. A later second
+/// Lock-free, since nothing registers callbacks at this stop source. A later second
 /// signal is final; one that comes at once is the first, sent to the process and its group.
 extern "C" void on_interrupt(int signal) {
     constexpr std::sig_atomic_t at_once = 200;

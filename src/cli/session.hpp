@@ -54,7 +54,7 @@ class Session {
     ProgressBar bar_;
 };
 
-/// Text on stderr; where nobody listens to it (closed, full), that is no error.
+/// Text on stderr; a closed or full stderr is no error.
 void say(const std::string& text);
 
 /// From now on Ctrl-C and SIGTERM stop a Session's run; a second one ends the program at once.

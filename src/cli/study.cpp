@@ -149,7 +149,7 @@ std::string long_time(double seconds) {
     return fmt::format("{:.0f} years", seconds / 31'557'600);
 }
 
-/// What failed, as far as a sentence can tell.
+/// Failed measurements, summarised in a sentence.
 class Failures {
   public:
     void add(const StudyRow& row) {
@@ -259,7 +259,7 @@ class Study {
         }
     }
 
-    /// Nobody means to start a study of months.
+    /// A study of months is probably a mistake.
     void refuse_too_much() const {
         if (arguments_.has("yes") || sweep_.units() <= most_units) return;
         const StudyRow row = row_of(sweep_, sweep_.unit(0));

@@ -31,7 +31,7 @@ std::string complete(std::vector<std::string> words, const std::vector<Kind>& ki
 /// What `generate` was asked to make.
 Production production_of(const Arguments& arguments, Session& session);
 
-/// --seed, or one that is drawn and told, at most `largest`. @throws Error(usage)
+/// --seed, or one that is drawn and reported, at most `largest`. @throws Error(usage)
 std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session& session);
 
 /// Where points go, as -o, -f, --dtype, --precision, --meta and --no-header say.

@@ -45,7 +45,7 @@ void refuse_without_points(const std::string& name, std::string_view front) {
                "'stipple generate' with a row's generator, its options, count, dimension, warps "
                "and seed makes the points of that row again");
     if (is("stipple.meta"))
-        refuse("it tells how the points in the file beside it were made",
+        refuse("it says how the points in the file beside it were made",
                "reproduce takes the file of points");
     if (has("<!DOCTYPE html") || has("<html")) refuse("an HTML page, which holds no points", {});
 }

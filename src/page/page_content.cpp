@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "plot/report_charts.hpp"
 #include "plot/ticks.hpp"
 
 namespace stipple {
@@ -39,14 +40,6 @@ constexpr std::array keys = {
     PageKey{"chi-square.p_value", "χ² p-value", "Uniformity", Better::neither, true},
     PageKey{"kolmogorov-smirnov.combined_p_value", "Kolmogorov–Smirnov p-value", "Uniformity",
             Better::neither, true}};
-
-std::optional<double> number_at(const Report& report, std::string_view key) {
-    const Report::Item* item = report.find(key);
-    if (item == nullptr) return std::nullopt;
-    if (const auto* number = std::get_if<double>(item)) return *number;
-    if (const auto* whole = std::get_if<std::int64_t>(item)) return static_cast<double>(*whole);
-    return std::nullopt;
-}
 
 std::string word_at(const Report& report, std::string_view key) {
     const Report::Item* item = report.find(key);

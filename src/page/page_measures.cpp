@@ -84,7 +84,7 @@ PageMeasure described(const Planned& plan, const PageInput& input, std::int64_t 
     return measure;
 }
 
-/// A set as analyzers of the unit cube take it, where its domain is a box that can be told them.
+/// A set mapped to the unit cube, where its domain is a box.
 struct Cubed {
     std::optional<PointSet> points;
     std::string bounds;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The looks of a report page, and the little that moves on it. Without the script the page says
-// the same; it adds values under the pointer.
+// Style sheet and script of a report page. The page is complete without the script, which adds
+// values under the pointer and switches.
 #include "page/page_html.hpp"
 
 namespace stipple {

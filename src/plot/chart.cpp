@@ -92,7 +92,7 @@ Axis y_axis(const ChartPanel& panel, const PictureStyle& style) {
         span.take(series.high);
     }
     for (const Bars& bars : panel.bars) span.take(bars.heights);
-    // Guides that are far off say so by not being there.
+    // Guides far outside the data are not shown.
     const double reach = span.high - span.low;
     for (const Guide& guide : panel.guides)
         for (const double y : guide.y) {
@@ -153,7 +153,7 @@ std::vector<LegendEntry> legend_of(const ChartPanel& panel, bool sets_named, con
     return entries;
 }
 
-/// Spots so near to each other that nobody sees them apart are left out: of each column of half a
+/// Positions too close to be distinguished are left out: of each column of half a
 /// unit the first, the lowest, the highest and the last remain.
 std::vector<Position> thinned(const std::vector<Position>& spots) {
     if (spots.size() < 4000) return spots;
@@ -215,7 +215,7 @@ void draw_guide(Drawing& drawing, const Panel& panel, const Guide& guide, Colour
     drawing.add(std::move(line));
 }
 
-/// The bars' upper rim, where several histograms lie over each other.
+/// The bars' outline, where several histograms lie over each other.
 void draw_steps(Drawing& drawing, const Panel& panel, const Bars& bars, Colour colour) {
     const double ground = panel.frame().bottom();
     Line rim{.spots = {{panel.x(bars.edges[0]), ground}}, .colour = colour, .width = 1.6};

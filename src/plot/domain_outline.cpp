@@ -15,7 +15,7 @@ constexpr std::size_t cells_a_side = 200;  ///< of the grid, along each side
 class Tracer {
   public:
     explicit Tracer(const Domain& domain) : domain_(domain), box_(domain.bounding_box()) {
-        // A little beyond the box, so that the rim is inside of the grid, and never through the
+        // A little beyond the box, so that the boundary is inside of the grid, and never through the
         // corners of what is aligned with it.
         for (std::size_t k = 0; k < 2; ++k) {
             const double more = 0.0137 * box_.extent(k);
@@ -61,8 +61,8 @@ class Tracer {
         return inside_[j * (cells_a_side + 1) + i] != 0;
     }
 
-    /// Where the rim is between two spots of which the first is inside.
-    [[nodiscard]] Position rim_between(Position in, Position out) const {
+    /// Where the boundary lies between two positions of which the first is inside.
+    [[nodiscard]] Position boundary_between(Position in, Position out) const {
         for (int halving = 0; halving < 30; ++halving) {
             const Position middle{(in.x + out.x) / 2, (in.y + out.y) / 2};
             (inside(middle) ? in : out) = middle;
@@ -70,14 +70,14 @@ class Tracer {
         return in;
     }
 
-    [[nodiscard]] Position rim_on(const Edge& edge) const {
+    [[nodiscard]] Position boundary_on(const Edge& edge) const {
         const Position a = node(edge.i, edge.j);
         const Position b =
             edge.direction == 0 ? node(edge.i + 1, edge.j) : node(edge.i, edge.j + 1);
-        return inside_at(edge.i, edge.j) ? rim_between(a, b) : rim_between(b, a);
+        return inside_at(edge.i, edge.j) ? boundary_between(a, b) : boundary_between(b, a);
     }
 
-    /// Notes how the rim goes through a cell, with the inside on its left: from which side to which
+    /// Notes how the boundary crosses a cell, with the inside on its left: from which side to which
     /// other one (0 bottom, 1 right, 2 top, 3 left), by the corners that are inside.
     void cross_cell(std::size_t i, std::size_t j) {
         struct Way {
@@ -110,22 +110,23 @@ class Tracer {
     std::vector<Position> follow() {
         std::vector<Position> line;
         Edge at = next_.begin()->first;
-        line.push_back(rim_on(at));
+        line.push_back(boundary_on(at));
         for (auto step = next_.find(at); step != next_.end(); step = next_.find(at)) {
             at = step->second;
             next_.erase(step);
-            refine(line, rim_on(at), 8);
+            refine(line, boundary_on(at), 8);
         }
         return line;
     }
 
-    /// Adds the way from the line's end to `to`, halving it where the rim is beside it: round a
+    /// Adds the way from the line's end to `to`, halving it where the boundary is beside it: round a
     /// corner, along a bend.
     void refine(std::vector<Position>& line, Position to, int depth) const {
         const Position from = line.back();
         const Position middle{(from.x + to.x) / 2, (from.y + to.y) / 2};
         const double reach = std::hypot(to.x - from.x, to.y - from.y);
-        const std::optional<Position> rim = depth > 0 ? rim_beside(middle, from, to) : std::nullopt;
+        const std::optional<Position> rim =
+            depth > 0 ? boundary_beside(middle, from, to) : std::nullopt;
         const bool beside = rim && std::hypot(rim->x - middle.x, rim->y - middle.y) > fineness_ &&
                             reach > fineness_;
         if (beside) {
@@ -136,14 +137,14 @@ class Tracer {
         }
     }
 
-    /// The rim at right angles to a piece, as far from its middle as the piece is long, at most.
-    [[nodiscard]] std::optional<Position> rim_beside(Position middle, Position from,
-                                                     Position to) const {
+    /// The boundary at right angles to a piece, as far from its middle as the piece is long, at most.
+    [[nodiscard]] std::optional<Position> boundary_beside(Position middle, Position from,
+                                                          Position to) const {
         const bool middle_inside = inside(middle);
         const double turn = middle_inside ? 1 : -1;  // the inside is on the left
         const Position far{middle.x + turn * (to.y - from.y), middle.y - turn * (to.x - from.x)};
         if (inside(far) == middle_inside) return std::nullopt;
-        return middle_inside ? rim_between(middle, far) : rim_between(far, middle);
+        return middle_inside ? boundary_between(middle, far) : boundary_between(far, middle);
     }
 
     const Domain& domain_;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// The rim of a domain of the plane, found by asking what is inside.
+// The outline of a planar domain, traced with its membership test.
 //
 // Shape   any domain of two coordinates.
-// Cost    some 60 000 questions.
+// Cost    about 60 000 membership tests.
 // Beware  parts and holes narrower than 1/200 of the box may be missed.
 // Source  marching squares: W. E. Lorensen, H. E. Cline, SIGGRAPH Comput. Graph. 21 (1987) 163-169,
 //         doi:10.1145/37402.37422, in two dimensions.
@@ -16,7 +16,7 @@
 
 namespace stipple {
 
-/// Lines along the rim, in the domain's coordinates; none where the domain has no inside (a circle)
+/// Lines along the boundary, in the domain's coordinates; none where the domain has no inside (a circle)
 /// or no end.
 std::vector<std::vector<Position>> outline_of(const Domain& domain);
 

@@ -24,7 +24,7 @@ std::size_t points_of(const PointsPicture& picture) {
     return sum;
 }
 
-/// Whether the frame of the picture is the domain's rim.
+/// Whether the frame of the picture is the domain's outline.
 bool is_box(const PointSet& set) {
     const std::string spec = set.domain->spec();
     return spec.starts_with("unit-cube") || spec.starts_with("box");
@@ -36,7 +36,7 @@ bool all_inside(const PointSet& set) {
     return true;
 }
 
-/// Whether nobody but the reader said that the points live on the unit cube, and they do not.
+/// Whether the unit cube is only the default domain of points that lie outside it.
 bool without_domain(const PointSet& set) {
     return set.domain->spec().starts_with("unit-cube") && !all_inside(set);
 }
@@ -51,7 +51,7 @@ void widen(Box& box, double share) {
     }
 }
 
-bool frame_is_rim(const PointsPicture& picture) {
+bool frame_is_outline(const PointsPicture& picture) {
     return std::ranges::all_of(
         picture.sets, [](const PointSet* set) { return is_box(*set) && !without_domain(*set); });
 }
@@ -227,8 +227,8 @@ struct Page {
 
 // ---------------------------------------------------------------- two coordinates
 
-void draw_rim(Drawing& drawing, const PointsPicture& picture, const Panel& panel,
-              const Theme& theme) {
+void draw_outline(Drawing& drawing, const PointsPicture& picture, const Panel& panel,
+                  const Theme& theme) {
     const PointSet& first = *picture.sets[0];
     if (is_box(first)) return;
     for (const auto& line : outline_of(*first.domain)) {
@@ -274,7 +274,7 @@ Drawing draw_plane(const PointsPicture& picture, const PictureStyle& style, cons
     const Cloud cloud(picture, style, run);
     Page page(picture, style, 640);
     Box box = shown_box(picture.sets);
-    if (!frame_is_rim(picture)) widen(box, 0.03);
+    if (!frame_is_outline(picture)) widen(box, 0.03);
     const Axis x{.low = box.low[0], .high = box.high[0], .name = "x"};
     const Axis y{.low = box.low[1], .high = box.high[1], .name = "y"};
     const double left = std::ceil(picture_margin / 2 + Panel::room_left(y, 500));
@@ -298,7 +298,7 @@ Drawing draw_plane(const PointsPicture& picture, const PictureStyle& style, cons
         cloud.specks(drawing, frame, place);
     }
     panel.draw_axes(drawing, theme, true);
-    draw_rim(drawing, picture, panel, theme);
+    draw_outline(drawing, picture, panel, theme);
     if (cloud.as_disks()) cloud.disks(drawing, frame, place);
     draw_boxes(drawing, picture, panel, 0, 1);
     return std::move(page.drawing);
@@ -481,7 +481,7 @@ class PairSheet {
           box_(shown_box(picture.sets)),
           names_(coordinate_names(picture.sets[0]->dimension())),
           shown_(std::min(box_.dimension(), picture.most_coordinates)) {
-        if (!frame_is_rim(picture)) widen(box_, 0.03);
+        if (!frame_is_outline(picture)) widen(box_, 0.03);
         const auto columns = static_cast<double>(shown_ - 1);
         double room = 0;
         for (std::size_t j = 1; j < shown_; ++j)
@@ -513,7 +513,7 @@ class PairSheet {
   private:
     static constexpr double gap = 10;
 
-    /// Numbers and names stand at the sheet's rim only.
+    /// Numbers and names stand at the sheet's edge only.
     [[nodiscard]] Panel panel(std::size_t i, std::size_t j) const {
         const Area frame{left_ + static_cast<double>(i) * (side_ + gap),
                          page_.top + 4 + static_cast<double>(j - 1) * (side_ + gap), side_, side_};
@@ -593,7 +593,7 @@ ChartPanel histogram_panel(const PointsPicture& picture, const Box& box, std::si
             histogram_of(coordinate(set, k), box.low[k], box.high[k], bins_of(set.count())));
         panel.bars.back().name = picture.names[s];
     }
-    if (frame_is_rim(picture))
+    if (frame_is_outline(picture))
         panel.guides.push_back({.name = "uniform", .x = {}, .y = {1 / box.extent(k)}});
     if (picture.sets.size() == 1 && picture.sets[0]->count() <= 2000)
         panel.rug = coordinate(*picture.sets[0], k);

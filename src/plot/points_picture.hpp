@@ -3,8 +3,8 @@
 // Pictures of points.
 //
 //     d = 1   histogram, with a mark for each point below
-//     d = 2   a disk for each point, lengths along x and y alike, and the rim of their domain
-//     d = 3   the same from a fixed place, in a box; what is far is paler and smaller
+//     d = 2   a disk for each point, lengths along x and y alike, and the outline of their domain
+//     d = 3   the same from a fixed place, in a box; distant points are paler and smaller
 //     d > 3   every pair of the first 8 coordinates in a panel of its own
 //
 // Too many disks to tell apart become pixels: one for each point, until (at some 300 000 in one
@@ -47,8 +47,8 @@ struct PointsPicture {
     std::size_t most_coordinates = most_pair_coordinates;  ///< of which pairs are drawn
 };
 
-/// The box that a picture of the sets shows: their domain's and all points. Points that are told to
-/// live on the unit cube, and do not, are shown for themselves.
+/// The box that a picture of the sets shows: their domain's and all points. Where points are outside
+/// the unit cube that is their default domain, the box is that of the points.
 Box shown_box(std::span<const PointSet* const> sets);
 
 /// Where a point of three coordinates is seen, in units of the box's longest side; `depth` is

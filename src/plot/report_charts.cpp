@@ -33,14 +33,6 @@ std::optional<Curve> curve_at(const Report& report, std::string_view key) {
     return std::nullopt;
 }
 
-std::optional<double> number_at(const Report& report, std::string_view key) {
-    const Report::Item* item = report.find(key);
-    if (item == nullptr) return std::nullopt;
-    if (const auto* number = std::get_if<double>(item)) return *number;
-    if (const auto* whole = std::get_if<std::int64_t>(item)) return static_cast<double>(*whole);
-    return std::nullopt;
-}
-
 Curve plus(const Curve& a, const Curve& b, double sign) {
     Curve sum = a;
     for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) sum[i] += sign * b[i];
@@ -178,7 +170,7 @@ std::string summary_of_spectrum(Measurements ms) {
     return text;
 }
 
-/// An option of the analyzer; empty where the report does not tell.
+/// An option of the analyzer; empty where the report does not have it.
 std::string option_of(const Measurement& m, std::string_view name) {
     const auto at = std::ranges::find(m.options, name, &std::pair<std::string, std::string>::first);
     return at == m.options.end() ? "" : at->second;
@@ -598,6 +590,14 @@ Chart any_chart(Measurements ms, const std::string& key) {
 }
 
 }  // namespace
+
+std::optional<double> number_at(const Report& report, std::string_view key) {
+    const Report::Item* item = report.find(key);
+    if (item == nullptr) return std::nullopt;
+    if (const auto* number = std::get_if<double>(item)) return *number;
+    if (const auto* whole = std::get_if<std::int64_t>(item)) return static_cast<double>(*whole);
+    return std::nullopt;
+}
 
 std::pair<double, double> white_noise_band(double cells, double sets) {
     const double spread = 2 / (9 * std::max(1.0, cells * sets));

@@ -15,8 +15,10 @@
 //         doi:10.1073/pnas.17.12.684: half of a ring's frequencies are free (P(-f) = P(f)).
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "plot/chart.hpp"
 #include "report/document.hpp"
@@ -27,6 +29,9 @@ namespace stipple {
 /// @throws Error(input) for reports of different analyzers, or with nothing to draw: says what
 /// there is; Error(usage) for a key that is none.
 Chart chart_of(std::span<const Measurement> measurements, const std::string& key = {});
+
+/// The number under a key of a report; nothing where there is none.
+std::optional<double> number_at(const Report& report, std::string_view key);
 
 /// "halton.csv", "halton.csv, set 3", "mean of 10 sets of halton.csv"
 std::string name_of_input(const Measurement& measurement);

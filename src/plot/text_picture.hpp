@@ -11,7 +11,7 @@
 
 namespace stipple {
 
-/// Letters that there is room for. Both at least 1; what is too small is made as large as needed.
+/// Characters that there is room for. Both at least 1; what is too small is made as large as needed.
 struct TextRoom {
     std::size_t columns = 80;
     std::size_t rows = 24;

@@ -54,7 +54,7 @@ std::pair<double, double> multiples(double low, double high, double step) {
     return {std::ceil(low / step - slack), std::floor(high / step + slack)};
 }
 
-/// Which of some whole numbers are told.
+/// Which of some whole numbers are labelled.
 struct Numbered {
     double from;
     double stride;
@@ -144,7 +144,7 @@ Ticks linear_ticks(double low, double high, std::size_t most, bool whole) {
         step = next(step);
         std::tie(first, last) = multiples(low, high, step.value());
     }
-    // One number tells nothing: some of those of the finer step.
+    // A single number shows no scale: take some of the finer step.
     if (first >= last && !(whole && step.value() <= 1)) {
         step = previous(step);
         std::tie(first, last) = multiples(low, high, step.value());

@@ -118,8 +118,9 @@ TEST(Check, WithoutAConditionIsRefusedWhereNothingTellsWhetherASetIsValid) {
         const Outcome outcome = sets.box.run(words);
         EXPECT_EQ(outcome.code, 2);
         EXPECT_EQ(outcome.out, "");
-        EXPECT_THAT(outcome.err, HasSubstr("--check: star-discrepancy does not tell whether a set "
-                                           "is valid; expected KEY<VALUE"));
+        EXPECT_THAT(outcome.err,
+                    HasSubstr("--check: star-discrepancy has no result that says whether a set "
+                              "is valid; expected KEY<VALUE"));
         EXPECT_THAT(outcome.err, HasSubstr("its results are value, "));
     }
     EXPECT_EQ(sets.verify({"good.csv", "--check", "valid<"}).code, 2);

@@ -267,7 +267,7 @@ TEST(Reproduce, RefusesWhatTellsNothing) {
         "stipple generate random -n 10 -o a.bin && stipple generate random -n 5 --seed 3 -m 2 -o "
         "c.json"));
     for (const char* file : {"a.csv", "a.npy", "a.svg", "a.bin"})
-        EXPECT_THAT(refusal(box, file), HasSubstr("it does not tell how its points were made; json "
+        EXPECT_THAT(refusal(box, file), HasSubstr("it does not say how its points were made; json "
                                                   "and jsonl always hold it; generate --meta"));
     EXPECT_THAT(refusal(box, "r.json"), HasSubstr("r.json: it holds results of analyze"));
     EXPECT_THAT(refusal(box, "missing.json", 4), HasSubstr("missing.json"));
@@ -317,8 +317,8 @@ TEST(Reproduce, MakesThePointsOfAPictureAgain) {
         EXPECT_EQ(box.run({"reproduce", "p." + format, "-o", format + ".csv"}).code, 0);
         EXPECT_EQ(box.read(format + ".csv"), good(box.run({"convert", "p.json", "-f", "csv"})));
         EXPECT_THAT(refusal(box, "bare." + format),
-                    HasSubstr("drawn by 'stipple plot bare.csv', of no single set that tells how "
-                              "it was made"));
+                    HasSubstr("drawn by 'stipple plot bare.csv', of no single set with "
+                              "provenance"));
     }
 }
 

@@ -545,7 +545,7 @@ TEST(Study, BadInputIsOneLineThatHelps) {
          "stipple: --dimension: '1..6' does not say which numbers between; 1..6*2 goes by a "
          "factor, 1..6+1 by a step, 2^4..2^16 by powers\n"},
         {"--generators random --analyze moments -f json",
-         "stipple: --format: 'json' is not one of csv, jsonl\n"},
+         "stipple: --format: 'json' is not one of csv, jsonl; did you mean 'jsonl'?\n"},
         {"--generators random --analyze moments -o study.json",
          "stipple: --output: a study's table is .csv or .jsonl; 'study.json' is neither; --format "
          "csv or jsonl says what it is to hold\n"},
