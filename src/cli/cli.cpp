@@ -84,10 +84,8 @@ int dispatch(const Arguments& arguments, const std::vector<Kind>& kinds) {
 }
 
 /// One line, and the hint in a second sentence of it.
-int report_error(const std::string& what, const std::string& hint, int code) {
-    if (is_mute()) return code;
+void say_error(const std::string& what, const std::string& hint) {
     say(fmt::format("stipple: {}{}{}\n", what, hint.empty() ? "" : "; ", hint));
-    return code;
 }
 
 }  // namespace
@@ -120,16 +118,19 @@ int list(const Arguments& arguments, const std::vector<Kind>& all) {
 
 int run(int argc, char** argv) {
     catch_interrupts();
+    const auto refuse = [&](const std::string& what, const std::string& hint, ErrorKind kind) {
+        if (!is_mute({argv, static_cast<std::size_t>(argc)})) say_error(what, hint);
+        return exit_code(kind);
+    };
     try {
         const auto kinds = catalog();
         return dispatch(parse_arguments(argc, argv, kinds), kinds);
     } catch (const Error& e) {
-        return report_error(e.what(), e.hint(), exit_code(e.kind()));
+        return refuse(e.what(), e.hint(), e.kind());
     } catch (const std::bad_alloc&) {
-        return report_error("out of memory", "", exit_code(ErrorKind::limit));
+        return refuse("out of memory", "", ErrorKind::limit);
     } catch (const std::exception& e) {
-        return report_error(fmt::format("internal error: {}", e.what()), "",
-                            exit_code(ErrorKind::io));
+        return refuse(fmt::format("internal error: {}", e.what()), "", ErrorKind::io);
     }
 }
 

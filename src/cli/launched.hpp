@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
 
 #include "pipeline/ranks.hpp"
@@ -14,10 +15,12 @@ namespace stipple::cli {
 /// Processes that an MPI launcher started, 1 if none did.
 std::uint64_t launched_ranks();
 
-/// Whether another of them speaks for all.
-bool is_mute();
+/// Whether another of them speaks for all: in verbs that they share.
+/// @param arguments the words of the command line
+bool is_mute(std::span<char*> arguments);
 
-/// Joins the others. @throws Error(usage) where there are others and the build has no MPI
+/// Joins the others. @throws Error(usage) where there are others and MPI does not find them, or the
+/// build has none
 std::unique_ptr<Ranks> launched(std::string_view verb, const RunContext& run);
 
 }  // namespace stipple::cli
