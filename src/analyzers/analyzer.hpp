@@ -119,6 +119,9 @@ struct Analyzer {
     std::function<std::unique_ptr<Accumulator>(const Arrival&, const Values&, const RunContext&)>
         accumulate = {};
 
+    /// Seconds on one core for a set of n points, within a factor of ten; empty: 5e-7 n d.
+    double (*cost)(double n, double d) = nullptr;
+
     /// How several processes share the work on one set; empty: they do not.
     Sharing sharing = {};
 

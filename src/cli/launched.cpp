@@ -23,23 +23,32 @@ std::optional<std::uint64_t> environment(std::initializer_list<const char*> name
 }  // namespace
 
 std::uint64_t launched_ranks() {
-    return std::max<std::uint64_t>(1,
-                                   environment({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}).value_or(1));
+    auto ranks = environment({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"});
+    // Slurm's own launcher with PMIx names the number of processes nowhere else.
+    if (!ranks) ranks = environment({"SLURM_STEP_NUM_TASKS"});
+    return std::max<std::uint64_t>(1, ranks.value_or(1));
 }
 
 bool is_mute(std::string_view verb) {
-    return (verb == "analyze" || verb == "study") && launched_ranks() > 1 &&
-           environment({"OMPI_COMM_WORLD_RANK", "PMI_RANK"}).value_or(0) != 0;
+    if ((verb != "analyze" && verb != "study") || launched_ranks() == 1) return false;
+    auto rank = environment({"OMPI_COMM_WORLD_RANK", "PMI_RANK"});
+    if (!rank) rank = environment({"PMIX_RANK", "SLURM_PROCID"});
+    return rank.value_or(0) != 0;
 }
 
 std::unique_ptr<Ranks> launched(std::string_view verb, const RunContext& run) {
-    const std::uint64_t ranks = launched_ranks();
-    if (ranks == 1) return std::make_unique<Ranks>();
+    const std::uint64_t started = launched_ranks();
+    if (started == 1) return std::make_unique<Ranks>();
     if (!has_mpi())
         fail_with_hint(ErrorKind::usage, "build with -DSTIPPLE_MPI=ON, or start one process",
                        "{}: an MPI launcher started {} processes, and this build has no MPI", verb,
-                       ranks);
-    return join_ranks(run.stop);
+                       started);
+    auto ranks = join_ranks(run.stop);
+    if (ranks->size() == 1)
+        fail_with_hint(ErrorKind::usage, "start them by mpirun, or by srun --mpi=pmix",
+                       "{}: a launcher started {} processes, which do not find each other by MPI",
+                       verb, started);
+    return ranks;
 }
 
 }  // namespace stipple::cli

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string_view>
 
 #include "pipeline/ranks.hpp"
@@ -18,7 +19,8 @@ std::uint64_t launched_ranks();
 /// this verb. Verbs that ranks do not share speak for themselves, wherever they run.
 bool is_mute(std::string_view verb);
 
-/// Joins the others. @throws Error(usage) where there are others and the build has no MPI
+/// Joins the others. @throws Error(usage) where there are others and MPI does not find them, or the
+/// build has none
 std::unique_ptr<Ranks> launched(std::string_view verb, const RunContext& run);
 
 }  // namespace stipple::cli

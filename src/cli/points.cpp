@@ -13,7 +13,7 @@
 #include "io/files.hpp"
 #include "io/source_text.hpp"
 #include "pipeline/chain.hpp"
-#include "pipeline/delivery.hpp"
+#include "pipeline/set_writer.hpp"
 #include "pipeline/pipeline.hpp"
 
 namespace stipple::cli {

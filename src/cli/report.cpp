@@ -189,7 +189,7 @@ class Reporter {
         next.points = generated.made(0, session_.run());
         next.set.source = text;
         next.set.command = fmt::format("stipple generate {}{}", shell_word(text), of_generated());
-        next.set.provenance = provenance_of(generator, values, next.points, request);
+        next.set.provenance = next.points.provenance;
         next.set.provenance.command = next.set.command;
         next.input.words = fmt::format("--generate {}{}", shell_word(text), of_generated());
         add(std::move(next));
@@ -203,28 +203,6 @@ class Reporter {
                 words += fmt::format(" --{} {}", name, shell_word(text));
         if (arguments_.has("seed")) words += fmt::format(" --seed {}", seed_);
         return words;
-    }
-
-    [[nodiscard]] Provenance provenance_of(const Generator& generator, const Values& values,
-                                           const PointSet& points, const Request& request) const {
-        Provenance from{.version = STIPPLE_VERSION,
-                        .generator = generator.name,
-                        .options = {},
-                        .seed = request.seed,
-                        .count = points.count(),
-                        .dimension = points.dimension(),
-                        .start = request.start,
-                        .warps = arguments_.all("warp"),
-                        .domain = points.domain->spec(),
-                        .bounds = {},
-                        .shard = {},
-                        .command = {}};
-        for (const Option& option : generator.options.options()) {
-            const auto& item = values.find(option.name);
-            if (!option.optional || item.given)
-                from.options.emplace_back(option.name, format_value(item.value));
-        }
-        return from;
     }
 
     void add(Waiting next) {

@@ -58,8 +58,9 @@ std::vector<std::string> shell_words(std::string_view command) {
 
 /// A file whose provenance is known.
 struct Original {
-    std::string name;  ///< for messages
-    std::string path;  ///< where it can be opened more than once
+    std::string name;                       ///< for messages
+    std::string path;                       ///< where it can be opened more than once
+    std::shared_ptr<std::FILE> spool = {};  ///< that it is, where it came from a pipe
     Provenance meta = {};
     const Format* format = nullptr;         ///< where its name and bytes leave it open
     std::optional<std::size_t> width = {};  ///< numbers of a point, where the bytes leave it open
@@ -69,17 +70,20 @@ struct Original {
     std::string plotted = {};               ///< command that drew it, if it is a picture of points
 };
 
-/// A pipe's bytes in a file of no name, which goes with the process.
-std::string spooled(const std::string& pipe, const RunContext& run) {
+/// A pipe's bytes in a file of no name, which goes when it is closed.
+std::shared_ptr<std::FILE> spooled(const std::string& pipe, const RunContext& run) {
     const io::Input input(pipe, run);
-    std::FILE* const file = std::tmpfile();  // open until the end
+    const auto close = [](std::FILE* open) {
+        if (open != nullptr) std::fclose(open);
+    };
+    std::shared_ptr<std::FILE> file(std::tmpfile(), close);
     const auto bytes = input.bytes();
-    if (file == nullptr || std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size() ||
-        std::fflush(file) != 0)
+    if (file == nullptr || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size() ||
+        std::fflush(file.get()) != 0)
         fail(ErrorKind::io, "{}: no room for its bytes in the folder of temporary files",
              io::source_name(pipe));
-    std::rewind(file);
-    return fmt::format("/dev/fd/{}", fileno(file));
+    std::rewind(file.get());
+    return file;
 }
 
 bool file_there(const std::string& path) {
@@ -149,7 +153,11 @@ Original read_original(const std::string& input, const RunContext& run) {
     const bool pipe = input == "-" || (std::filesystem::exists(input, ignored) &&
                                        !std::filesystem::is_regular_file(input, ignored) &&
                                        !std::filesystem::is_directory(input, ignored));
-    Original original{.name = io::source_name(input), .path = pipe ? spooled(input, run) : input};
+    Original original{.name = io::source_name(input), .path = input};
+    if (pipe) {
+        original.spool = spooled(input, run);
+        original.path = fmt::format("/dev/fd/{}", fileno(original.spool.get()));
+    }
     const io::Feed feed(original.path, run);
     refuse_without_points(original.name, feed.front());
     const bool carried = take_carried(original, feed.front(), run);

@@ -15,13 +15,14 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/files.hpp"
+#include "io/source_text.hpp"
 #include "pipeline/ranks.hpp"
 #include "study/spec_list.hpp"
 #include "study/study_config.hpp"
 #include "study/study_file.hpp"
 #include "study/study_run.hpp"
 #include "study/study_summary.hpp"
-#include "study/work_cost.hpp"
+#include "study/work_queue.hpp"
 
 namespace stipple::cli {
 namespace {
@@ -36,26 +37,28 @@ Arguments with_config(const Arguments& typed, std::uint64_t ranks, const RunCont
     if (*path == "-" && ranks > 1)
         fail(ErrorKind::usage, "--config: the ranks have no standard input; name a file");
     const io::Input input(*path, run);
-    for (auto& [name, text] : parse_study_config(input.bytes(), *path == "-" ? "stdin" : *path))
-        if (!typed.has(name)) {
-            // One spec a setting: here it must not be taken apart.
-            const bool specs = name == "generators" || name == "analyze";
-            all.common.emplace_back(name, specs ? text + ";" : text);
-        }
+    for (auto& setting : parse_study_config(input.bytes(), io::source_name(*path)))
+        if (!typed.has(setting.first)) all.common.push_back(std::move(setting));
     check_choices(all);
     return all;
 }
 
+/// What the command line refuses, said of the key of the configuration that it stands under.
+[[noreturn]] void refuse_setting(const Error& e, const Arguments& typed) {
+    const std::string_view what = e.what();
+    const auto end = what.find(": ");
+    const auto path = typed.get("config");
+    if (!path || !what.starts_with("--") || end == std::string_view::npos ||
+        typed.has(what.substr(2, end - 2)))
+        throw e;
+    throw Error(ErrorKind::input, fmt::format("{}: $.{}", io::source_name(*path), what.substr(2)),
+                e.hint());
+}
+
 std::vector<std::string> specs_of(const Arguments& arguments, const std::string& name) {
     std::vector<std::string> specs;
-    for (const auto& text : arguments.all(name)) {
-        const bool one = text.ends_with(';');  // of a configuration
-        if (one) {
-            specs.push_back(text.substr(0, text.size() - 1));
-            continue;
-        }
+    for (const auto& text : arguments.all(name))
         for (auto& spec : split_specs(text, "--" + name)) specs.push_back(std::move(spec));
-    }
     if (specs.empty())
         fail_with_hint(ErrorKind::usage,
                        "'stipple study --help' has examples; --config FILE names a study in a file",
@@ -304,7 +307,13 @@ int study(const Arguments& arguments, Session& session) {
              arguments.inputs.front());
     const Arguments all = with_config(arguments, launched_ranks(), session.run());
     const auto ranks = launched("study", session.run());
-    return Study(all, session, *ranks).go();
+    std::optional<Study> study;
+    try {
+        study.emplace(all, session, *ranks);
+    } catch (const Error& e) {
+        refuse_setting(e, arguments);
+    }
+    return study->go();
 }
 
 }  // namespace stipple::cli

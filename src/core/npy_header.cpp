@@ -128,4 +128,19 @@ std::size_t npy_numbers(const NpyHeader& header, std::size_t bytes) {
     return wanted / header.type.size;
 }
 
+std::string npy_head(std::span<const std::uint64_t> shape, bool single) {
+    std::vector<std::string> extents;
+    for (const std::uint64_t extent : shape) extents.push_back(std::to_string(extent));
+    if (shape.size() == 1) extents.emplace_back();  // a comma tells a tuple of one
+    std::string header = fmt::format("{{'descr': '<f{}', 'fortran_order': False, 'shape': ({}), }}",
+                                     single ? 4 : 8, trim(join(extents, ", ")));
+    const std::size_t before = npy_magic.size() + 4;  // with the version and the length
+    header.append((64 - (before + header.size() + 1) % 64) % 64, ' ');
+    header += '\n';
+    std::string bytes(npy_magic);
+    bytes.append({'\1', '\0', static_cast<char>(header.size() % 256),
+                  static_cast<char>(header.size() / 256)});
+    return bytes + header;
+}
+
 }  // namespace stipple

@@ -9,6 +9,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -43,5 +45,9 @@ NpyHeader read_npy_header(std::string_view bytes, const std::string& source);
 /// How many numbers the shape has. @throws Error(input) unless a file of `bytes` bytes holds just
 /// these.
 std::size_t npy_numbers(const NpyHeader& header, std::size_t bytes);
+
+/// The front of a file of an array, its numbers point after point: version 1, and blanks up to a
+/// multiple of 64 bytes.
+std::string npy_head(std::span<const std::uint64_t> shape, bool single);
 
 }  // namespace stipple

@@ -58,12 +58,11 @@ class PointSet {
     PointSet(std::size_t count, std::size_t dimension)
         : PointSet(std::vector<double>(count * dimension), dimension) {}
 
-    /// Takes rows of `dimension` numbers.
+    /// Takes rows of `dimension` numbers. @throws Error(usage) where these do not come out even
     PointSet(std::vector<double> rows, std::size_t dimension)
         : PointSet(Rows(std::move(rows)), dimension) {}
 
-    PointSet(Rows rows, std::size_t dimension)
-        : domain(unit_cube(dimension)), rows_(std::move(rows)), dimension_(dimension) {}
+    PointSet(Rows rows, std::size_t dimension);
 
     [[nodiscard]] std::size_t count() const { return dimension_ ? flat().size() / dimension_ : 0; }
     [[nodiscard]] std::size_t dimension() const { return dimension_; }

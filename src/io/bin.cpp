@@ -26,6 +26,14 @@ std::size_t width_of(const ReadOptions& options) {
     return *options.dimension;
 }
 
+std::unique_ptr<PointStream> stream(std::unique_ptr<Feed>& feed, const ReadOptions& options,
+                                    const RunContext& /*run*/) {
+    const RawShape shape{.width = width_of(options), .type = {.size = options.single ? 4U : 8U}};
+    ReadOptions inner = options;
+    inner.dimension.reset();  // told the width of a row, not what picking leaves
+    return stream_raw(std::move(feed), shape, inner);
+}
+
 std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
                            const RunContext& run) {
     const std::string source = source_name(options.source);
@@ -37,21 +45,8 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
              "{}: byte {}: the last point is cut off; expected whole points, {} float{} each",
              source, bytes.size(), width, 8 * size);
     run.need_memory(static_cast<double>(bytes.size() / size) * 8, "reading " + source);
-    std::vector<double> table(bytes.size() / size);
-    take_raw(bytes, {.size = size}, table);
-    check_finite(table, {.source = source, .row = width, .size = size});
-    ReadOptions inner = options;
-    inner.dimension.reset();  // told the width of a row, not what picking leaves
-    const Columns columns = choose_columns({}, width, inner, source);
-    return cut_sets(keep_coordinates(std::move(table), columns), columns.dimension, {0}, {});
-}
-
-std::unique_ptr<PointStream> stream(std::unique_ptr<Feed>& feed, const ReadOptions& options,
-                                    const RunContext& /*run*/) {
-    const RawShape shape{.width = width_of(options), .type = {.size = options.single ? 4U : 8U}};
-    ReadOptions inner = options;
-    inner.dimension.reset();  // told the width of a row, not what picking leaves
-    return stream_raw(std::move(feed), shape, inner);
+    auto feed = std::make_unique<Feed>(bytes);
+    return stream(feed, options, run)->read_all(run);
 }
 
 }  // namespace

@@ -10,40 +10,19 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdlib>
-#include <cstring>
 #include <system_error>
 
 #include "core/error.hpp"
 #include "core/file_bytes.hpp"
 #include "core/text.hpp"
-#include "io/point_stream.hpp"
+#include "io/feed.hpp"
 #include "io/source_text.hpp"
 
 namespace stipple::io {
 namespace {
 
-/// A descriptor that is closed in the end.
-struct Closing {
-    int descriptor;
-    ~Closing() {
-        if (descriptor > STDERR_FILENO) ::close(descriptor);
-    }
-};
-
 [[noreturn]] void refuse(const std::string& name, int error) {
     fail(ErrorKind::io, "{}: {}", name, file_trouble(error));
-}
-
-/// Waits until bytes (or their end) are there.
-void wait_for_bytes(int descriptor, const RunContext& run) {
-    constexpr int patience = 50;  // milliseconds between two looks at the stop token
-    pollfd waiting{.fd = descriptor, .events = POLLIN, .revents = 0};
-    for (int ready = 0; ready == 0;) {
-        run.check_stop();
-        ready = ::poll(&waiting, 1, patience);
-        if (ready < 0 && errno == EINTR) ready = 0;
-    }
 }
 
 /// /dev/fd/3 -> 3; else nothing.
@@ -73,19 +52,6 @@ std::string folder_of(const std::string& path) {
     return slash == std::string::npos ? "." : path.substr(0, std::max<std::size_t>(slash, 1));
 }
 
-/// Opens a file for reading, or takes standard input for "-". @throws Error(io)
-int open_to_read(const std::string& path, struct stat& status) {
-    // Without O_NONBLOCK, opening a named pipe would wait where nobody can stop it.
-    const int descriptor =
-        path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    if (descriptor < 0 || ::fstat(descriptor, &status) != 0) refuse(source_name(path), errno);
-    if (S_ISDIR(status.st_mode)) {
-        const Closing file{descriptor};
-        refuse(source_name(path), EISDIR);
-    }
-    return descriptor;
-}
-
 }  // namespace
 
 const Format& format_for(const std::string& path, std::string_view bytes) {
@@ -99,125 +65,28 @@ const Format& format_for(const std::string& path, std::string_view bytes) {
     return *named;
 }
 
-Feed::Feed(const std::string& path, RunContext run)
-    : name_(source_name(path)), run_(std::move(run)) {
-    struct stat status {};
-    descriptor_ = open_to_read(path, status);
-#ifdef F_SETPIPE_SZ
-    // Large enough for a writer's whole block, so that both sides work at the same time.
-    if (S_ISFIFO(status.st_mode)) ::fcntl(descriptor_, F_SETPIPE_SZ, 1 << 20);
-#endif
-    front_.resize(front_size);
-    try {
-        front_.resize(fetch(front_));
-    } catch (...) {
-        const Closing file{descriptor_};
-        throw;
-    }
-}
-
-Feed::~Feed() { const Closing file{descriptor_}; }
-
-std::size_t Feed::fetch(std::span<char> bytes) {
-    std::size_t done = 0;
-    while (done < bytes.size()) {
-        wait_for_bytes(descriptor_, run_);
-        const auto got = ::read(descriptor_, bytes.data() + done, bytes.size() - done);
-        if (got == 0) break;
-        if (got > 0)
-            done += static_cast<std::size_t>(got);
-        else if (errno != EINTR && errno != EAGAIN)
-            refuse(name_, errno);
-    }
-    return done;
-}
-
-std::size_t Feed::read(std::span<char> bytes) {
-    const std::size_t held = std::min(front_.size() - taken_, bytes.size());
-    std::copy_n(front_.begin() + static_cast<std::ptrdiff_t>(taken_), held, bytes.begin());
-    taken_ += held;
-    return held == bytes.size() ? held : held + fetch(bytes.subspan(held));
-}
-
-std::optional<std::uint64_t> Feed::skip(std::uint64_t count) {
-    struct stat status {};
-    if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
-    const auto ahead = std::min<std::uint64_t>(count, front_.size() - taken_);
-    const auto at = ::lseek(descriptor_, 0, SEEK_CUR);
-    if (at < 0) return std::nullopt;
-    const auto left = static_cast<std::uint64_t>(std::max<off_t>(0, status.st_size - at));
-    const auto behind = std::min(count - ahead, left);
-    if (behind > 0 && ::lseek(descriptor_, static_cast<off_t>(behind), SEEK_CUR) < 0)
-        return std::nullopt;
-    taken_ += static_cast<std::size_t>(ahead);
-    return ahead + behind;
-}
-
-std::string Feed::read_all() {
-    std::string bytes = front_.substr(taken_);
-    if (ends_in_front()) return bytes;
-    for (;;) {
-        const std::size_t before = bytes.size();
-        run_.need_memory(2 * static_cast<double>(before), "the bytes of " + name_);
-        bytes.resize(before + std::max(before, front_size));
-        const std::size_t got = fetch(std::span(bytes).subspan(before));
-        const bool end = got < bytes.size() - before;
-        bytes.resize(before + got);
-        if (end) return bytes;
-    }
-}
-
 Input::Input(const std::string& path, const RunContext& run) {
-    const std::string name = source_name(path);
     struct stat status {};
-    const Closing file{open_to_read(path, status)};
-    if (S_ISREG(status.st_mode) && status.st_size > 0 &&
-        ::lseek(file.descriptor, 0, SEEK_CUR) == 0) {
-        size_ = static_cast<std::size_t>(status.st_size);
-        void* const data =
-            ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE | MAP_POPULATE, file.descriptor, 0);
-        mapped_ = data != MAP_FAILED;
-        if (mapped_) {
-            data_ = static_cast<char*>(data);
+    if (path != "-" && ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) &&
+        status.st_size > 0) {
+        const auto size = static_cast<std::size_t>(status.st_size);
+        const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+        if (descriptor < 0) refuse(path, errno);
+        const void* const data =
+            ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, descriptor, 0);
+        ::close(descriptor);
+        if (data != MAP_FAILED) {
+            bytes_ = {static_cast<const char*>(data), size};
             return;
         }
-        size_ = 0;
     }
-    try {
-        read_all(file.descriptor, name, run);
-    } catch (...) {
-        std::free(data_);
-        throw;
-    }
-}
-
-void Input::read_all(int descriptor, const std::string& name, const RunContext& run) {
-    constexpr std::size_t first_room = std::size_t{1} << 16;
-    std::size_t room = 0;
-    for (;;) {
-        if (size_ == room) {
-            room = std::max(first_room, 2 * room);
-            run.need_memory(static_cast<double>(room), "the bytes of " + name);
-            // Unlike a string, this grows large blocks without a copy.
-            auto* const more = static_cast<char*>(std::realloc(data_, room));
-            if (more == nullptr) fail(ErrorKind::limit, "{}: no memory for its bytes", name);
-            data_ = more;
-        }
-        wait_for_bytes(descriptor, run);
-        const auto got = ::read(descriptor, data_ + size_, room - size_);
-        if (got == 0) return;
-        if (got > 0)
-            size_ += static_cast<std::size_t>(got);
-        else if (errno != EINTR && errno != EAGAIN)
-            refuse(name, errno);
-    }
+    held_ = Feed(path, run).read_all();
+    bytes_ = held_;
 }
 
 Input::~Input() {
-    if (mapped_)
-        ::munmap(data_, size_);
-    else
-        std::free(data_);
+    if (!bytes_.empty() && bytes_.data() != held_.data())
+        ::munmap(const_cast<char*>(bytes_.data()), bytes_.size());
 }
 
 Output::Output(std::string path, std::stop_token stop)

@@ -20,18 +20,9 @@ namespace stipple::io::npy {
 namespace {
 
 void head(const Layout& layout, std::string& out) {
-    std::string header = fmt::format(
-        "{{'descr': '<f{}', 'fortran_order': False, 'shape': ({}{}, {}), }}", layout.single ? 4 : 8,
-        layout.many_sets() ? fmt::format("{}, ", layout.counts.size()) : std::string(),
-        layout.counts.at(0), layout.width());
-    constexpr std::size_t before = 10;
-    const std::size_t used = before + header.size() + 1;
-    header.append((64 - used % 64) % 64, ' ');
-    header += '\n';
-    out += npy_magic;
-    out.append({'\1', '\0', static_cast<char>(header.size() % 256),
-                static_cast<char>(header.size() / 256)});
-    out += header;
+    std::vector<std::uint64_t> shape = {layout.counts.at(0), layout.width()};
+    if (layout.many_sets()) shape.insert(shape.begin(), layout.counts.size());
+    out += npy_head(shape, layout.single);
 }
 
 void rows(const Layout& layout, std::size_t, std::uint64_t, std::span<const double> numbers,
@@ -50,33 +41,37 @@ std::vector<double> rows_first(const std::vector<double>& stored, std::size_t se
     return table;
 }
 
-std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
-                           const RunContext& run) {
-    const std::string source = source_name(options.source);
-    const NpyHeader header = read_npy_header(bytes, source);
+/// @throws Error(input) where the array is not one of points
+RawShape shape_of(const NpyHeader& header) {
     const std::size_t rank = header.shape.size();
     if (rank == 0 || rank > 3)
         header.refuse(fmt::format("an array of shape {}; expected (n,), (n, d) or (sets, n, d)",
                                   header.shown_shape));
     if (header.empty())
         header.refuse(fmt::format("an array of shape {} holds no points", header.shown_shape));
-    const std::size_t size = npy_numbers(header, bytes.size());
-    const std::string_view data = bytes.substr(header.size);
-    const std::size_t sets = rank == 3 ? header.shape[0] : 1;
-    const std::size_t width = rank == 1 ? 1 : header.shape.back();
-    const std::size_t n = size / sets / width;
+    return {.sets = rank == 3 ? header.shape[0] : 1,
+            .count = header.shape[rank == 3 ? 1 : 0],
+            .width = rank == 1 ? 1 : header.shape.back(),
+            .type = header.type,
+            .offset = header.size};
+}
 
+std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
+                           const RunContext& run) {
+    const std::string source = source_name(options.source);
+    const NpyHeader header = read_npy_header(bytes, source);
+    const RawShape shape = shape_of(header);
+    const std::size_t size = npy_numbers(header, bytes.size());
     run.need_memory(static_cast<double>(size) * 8, "reading " + source);
-    const Columns columns = choose_columns({}, width, options, source);
+    if (!header.columns_first)
+        return stream_raw(std::make_unique<Feed>(bytes), shape, options)->read_all(run);
+    const Columns columns = choose_columns({}, shape.width, options, source);
     std::vector<double> table(size);
-    take_raw(data, header.type, table);
-    check_finite(table, {.source = source,
-                         .row = header.columns_first ? 0 : width,
-                         .size = header.type.size,
-                         .offset = header.size});
-    if (header.columns_first) table = rows_first(table, sets, n, width);
-    std::vector<std::uint64_t> starts(sets);
-    for (std::size_t r = 0; r < sets; ++r) starts[r] = r * n;
+    take_raw(bytes.substr(header.size), header.type, table);
+    check_finite(table, {.source = source, .size = header.type.size, .offset = header.size});
+    table = rows_first(table, shape.sets, *shape.count, shape.width);
+    std::vector<std::uint64_t> starts(shape.sets);
+    for (std::size_t r = 0; r < shape.sets; ++r) starts[r] = r * *shape.count;
     return cut_sets(keep_coordinates(std::move(table), columns), columns.dimension, starts, {});
 }
 
@@ -85,15 +80,9 @@ std::unique_ptr<PointStream> stream(std::unique_ptr<Feed>& feed, const ReadOptio
                                     const RunContext& run) {
     const std::string source = source_name(options.source);
     const NpyHeader header = read_npy_header(feed->front(), source);
-    const std::size_t rank = header.shape.size();
-    if (rank == 0 || rank > 3 || header.empty() || header.columns_first) return nullptr;
-    run.need_memory(64 * static_cast<double>(header.shape.back()), "a row of " + source);
-    const bool many = rank == 3;
-    const RawShape shape{.sets = many ? header.shape[0] : 1,
-                         .count = header.shape[many ? 1 : 0],
-                         .width = rank == 1 ? 1 : header.shape.back(),
-                         .type = header.type,
-                         .offset = header.size};
+    if (header.columns_first) return nullptr;
+    const RawShape shape = shape_of(header);
+    run.need_memory(64 * static_cast<double>(shape.width), "a row of " + source);
     return stream_raw(std::move(feed), shape, options);
 }
 

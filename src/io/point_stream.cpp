@@ -294,13 +294,17 @@ std::vector<PointSet> PointStream::read_all(const RunContext& run) {
     const std::size_t d = dimension();
     const std::size_t step = std::max<std::size_t>(1, (std::size_t{1} << 18) / d) * d;
     while (next_set()) {
+        const std::uint64_t all = d * count().value_or(std::uint64_t{1} << 56);
         std::vector<double> rows;
-        for (std::size_t got = step; got == step;) {
+        if (count()) rows.reserve(static_cast<std::size_t>(std::min(all, std::uint64_t{1} << 28)));
+        while (rows.size() < all) {
             const std::size_t before = rows.size();
-            run.need_memory(8 * static_cast<double>(before + step), "the points");
-            rows.resize(before + step);
-            got = d * read(std::span(rows).subspan(before));
+            const auto more = static_cast<std::size_t>(std::min<std::uint64_t>(step, all - before));
+            run.need_memory(8 * static_cast<double>(before + more), "the points");
+            rows.resize(before + more);
+            const std::size_t got = d * read(std::span(rows).subspan(before));
             rows.resize(before + got);
+            if (got < more) break;
         }
         sets.emplace_back(std::move(rows), d);
         sets.back().provenance = provenance();

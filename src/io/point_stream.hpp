@@ -16,48 +16,10 @@
 #include "core/point_set.hpp"
 #include "core/raw_numbers.hpp"
 #include "core/run_context.hpp"
+#include "io/feed.hpp"
 #include "io/format.hpp"
 
 namespace stipple::io {
-
-/// The bytes of a file or of standard input, in order. The first of them can be looked at before
-/// they are read.
-class Feed {
-  public:
-    static constexpr std::size_t front_size = std::size_t{1} << 22;
-
-    /// Waits for the front's bytes as long as nobody asks to stop.
-    /// @throws Error(io): missing, a directory, unreadable; Error(cancelled).
-    Feed(const std::string& path, RunContext run);
-    Feed(const Feed&) = delete;
-    Feed& operator=(const Feed&) = delete;
-    ~Feed();
-
-    /// The first front_size bytes, or all where there are fewer.
-    [[nodiscard]] std::string_view front() const { return front_; }
-
-    /// Whether the front is all there is.
-    [[nodiscard]] bool ends_in_front() const { return front_.size() < front_size; }
-
-    /// Takes the next bytes, from the front on; fewer than asked for only at the end.
-    std::size_t read(std::span<char> bytes);
-
-    /// Goes past the next bytes, as many as there are up to `count`, and says how many these were;
-    /// nothing where they can only be read.
-    std::optional<std::uint64_t> skip(std::uint64_t count);
-
-    /// Takes all bytes. @throws Error(limit)
-    std::string read_all();
-
-  private:
-    std::size_t fetch(std::span<char> bytes);
-
-    std::string name_;
-    RunContext run_;
-    int descriptor_ = -1;
-    std::string front_;
-    std::size_t taken_ = 0;  ///< bytes of the front that were read
-};
 
 /// Sets of points, one after the other.
 class PointStream {

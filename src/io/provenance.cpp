@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <nlohmann/json.hpp>
 
@@ -32,63 +31,56 @@ std::string untyped(const Json& value) {
     return value.dump();
 }
 
-void take(const Json& meta, const char* key, std::string& text) {
-    if (const auto it = meta.find(key); it != meta.end() && it->is_string())
-        text = it->get<std::string>();
+using Pairs = std::vector<std::pair<std::string, std::string>>;
+
+void take(const Json& value, std::string& text) {
+    if (value.is_string()) text = value.get<std::string>();
 }
 
 template <class Whole>
-void take_whole(const Json& meta, const char* key, Whole& number) {
-    if (const auto it = meta.find(key); it != meta.end() && it->is_number_unsigned())
-        number = it->get<Whole>();
+void take_whole(const Json& value, Whole& number) {
+    if (value.is_number_unsigned()) number = value.get<Whole>();
 }
 
-void take_all(const Json& meta, Provenance& provenance) {
-    take(meta, "version", provenance.version);
-    take(meta, "generator", provenance.generator);
-    if (const auto it = meta.find("options"); it != meta.end() && it->is_object()) {
-        provenance.options.clear();
-        for (const auto& [name, value] : it->items())
-            if (value.is_primitive()) provenance.options.emplace_back(name, untyped(value));
+void take(const Json& value, Pairs& pairs) {
+    if (!value.is_object()) return;
+    pairs.clear();
+    for (const auto& [name, text] : value.items())
+        if (text.is_primitive()) pairs.emplace_back(name, untyped(text));
+}
+
+/// Takes the value of one key. False: there is no such key.
+bool take(std::string_view key, const Json& value, Provenance& to) {
+    if (key == "tool") return true;
+    if (key == "version") return take(value, to.version), true;
+    if (key == "generator") return take(value, to.generator), true;
+    if (key == "options") return take(value, to.options), true;
+    if (key == "seed") return take_whole(value, to.seed), true;
+    if (key == "count") return take_whole(value, to.count), true;
+    if (key == "dimension") return take_whole(value, to.dimension), true;
+    if (key == "start") return take_whole(value, to.start), true;
+    if (key == "domain") return take(value, to.domain), true;
+    if (key == "bounds") return take(value, to.bounds), true;
+    if (key == "shard") return take(value, to.shard), true;
+    if (key == "command") return take(value, to.command), true;
+    if (key == "inputs") return take(value, to.inputs), true;
+    if (key == "dtype") return to.single = value == "f32", true;
+    if (key == "efficiency" && value.is_number()) to.efficiency = value.get<double>();
+    if (key == "precision" && value.is_number_integer())
+        to.precision =
+            static_cast<int>(std::clamp<std::int64_t>(value.get<std::int64_t>(), 0, 1000));
+    if (key == "warps" && value.is_array()) {
+        to.warps.clear();
+        for (const Json& warp : value)
+            if (warp.is_string()) to.warps.push_back(warp.get<std::string>());
     }
-    take_whole(meta, "seed", provenance.seed);
-    take_whole(meta, "count", provenance.count);
-    take_whole(meta, "dimension", provenance.dimension);
-    take_whole(meta, "start", provenance.start);
-    if (const auto it = meta.find("warps"); it != meta.end() && it->is_array()) {
-        provenance.warps.clear();
-        for (const auto& warp : *it)
-            if (warp.is_string()) provenance.warps.push_back(warp.get<std::string>());
-    }
-    take(meta, "domain", provenance.domain);
-    take(meta, "bounds", provenance.bounds);
-    take(meta, "shard", provenance.shard);
-    if (const auto it = meta.find("efficiency"); it != meta.end() && it->is_number())
-        provenance.efficiency = it->get<double>();
-    take(meta, "command", provenance.command);
-    if (const auto it = meta.find("precision"); it != meta.end() && it->is_number_integer())
-        provenance.precision =
-            static_cast<int>(std::clamp<std::int64_t>(it->get<std::int64_t>(), 0, 1000));
-    if (const auto it = meta.find("dtype"); it != meta.end()) provenance.single = *it == "f32";
-    if (const auto it = meta.find("inputs"); it != meta.end() && it->is_object()) {
-        provenance.inputs.clear();
-        for (const auto& [file, bytes] : it->items())
-            if (bytes.is_string()) provenance.inputs.emplace_back(file, bytes.get<std::string>());
-    }
-    if (const auto it = meta.find("stream_versions"); it != meta.end() && it->is_object()) {
-        provenance.stream_versions.clear();
-        for (const auto& [unit, version] : it->items())
+    if (key == "stream_versions" && value.is_object()) {
+        to.stream_versions.clear();
+        for (const auto& [unit, version] : value.items())
             if (version.is_number_unsigned())
-                provenance.stream_versions.emplace_back(unit, version.get<std::uint64_t>());
+                to.stream_versions.emplace_back(unit, version.get<std::uint64_t>());
     }
-}
-
-bool is_known(std::string_view key) {
-    constexpr std::array keys{"tool",   "version",         "generator",  "options",   "seed",
-                              "count",  "dimension",       "start",      "warps",     "domain",
-                              "bounds", "shard",           "efficiency", "precision", "dtype",
-                              "inputs", "stream_versions", "command"};
-    return std::ranges::find(keys, key) != keys.end();
+    return key == "efficiency" || key == "precision" || key == "warps" || key == "stream_versions";
 }
 
 }  // namespace
@@ -118,7 +110,8 @@ Json to_json(const Provenance& provenance) {
 
 Provenance provenance_from(const Json& meta) {
     Provenance provenance;
-    if (meta.is_object()) take_all(meta, provenance);
+    if (meta.is_object())
+        for (const auto& [key, value] : meta.items()) take(key, value, provenance);
     return provenance;
 }
 
@@ -134,11 +127,9 @@ std::string to_comment_lines(const Provenance& provenance) {
 
 bool take_comment_line(std::string_view line, Provenance& provenance) {
     const auto colon = line.find(": ");
-    if (colon == std::string_view::npos || !is_known(line.substr(0, colon))) return false;
+    if (colon == std::string_view::npos) return false;
     const Json value = Json::parse(line.substr(colon + 2), nullptr, false);
-    if (value.is_discarded()) return false;
-    take_all(Json{{std::string(line.substr(0, colon)), value}}, provenance);
-    return true;
+    return !value.is_discarded() && take(line.substr(0, colon), value, provenance);
 }
 
 }  // namespace stipple::io

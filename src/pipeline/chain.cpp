@@ -13,7 +13,7 @@
 #include "core/parallel.hpp"
 #include "core/rng.hpp"
 #include "core/text.hpp"
-#include "pipeline/pipeline.hpp"
+#include "pipeline/units.hpp"
 
 namespace stipple {
 namespace {
@@ -122,6 +122,14 @@ const Warp& warp_of_domain(const std::string& name) {
         ErrorKind::usage,
         range ? fmt::format("a box is written box:bounds=[{}]", name) : suggest(name, names),
         "unknown domain '{}'", name);
+}
+
+/// @throws Error(input)
+void require_in_cube(std::span<const double> rows) {
+    for (const double x : rows)
+        if (!(x >= 0 && x <= 1))
+            fail(ErrorKind::input,
+                 "a coordinate is {}; a warp takes points of the unit cube, in [0, 1]", x);
 }
 
 std::vector<std::size_t> all_of(std::size_t dimension) {
@@ -274,12 +282,14 @@ bool WarpChain::drops() const {
         steps_, [](const Step& step) { return step.mapping && step.mapping->drops(); });
 }
 
-std::vector<double> WarpChain::forward(std::vector<double> rows, std::uint64_t first) const {
+std::vector<double> WarpChain::forward(std::vector<double> rows, std::uint64_t first,
+                                       bool checked) const {
     for (const Step& step : steps_) {
         if (!step.mapping && !step.randomization) continue;
         const std::size_t count = rows.size() / step.width_in;
         const bool whole = step.coordinates == all_of(step.width_in);
         auto part = whole ? std::move(rows) : gather(rows, step.width_in, step.coordinates);
+        if (checked) require_in_cube(part);
         const bool drops = step.mapping && step.mapping->drops();
         std::vector<std::uint8_t> keep(drops ? count : 0, 1);
         if (step.mapping) {
@@ -316,14 +326,20 @@ std::vector<double> WarpChain::inverse(std::vector<double> rows) const {
 
 PointSet WarpChain::image(const PointSet& points, const RunContext& run,
                           std::uint64_t start) const {
+    if (points.dimension() != dimension_in_)
+        fail(ErrorKind::input, "the points have {} coordinates; the warps take {}",
+             points.dimension(), dimension_in_);
     PointSet image = by_blocks(points, dimension_out_, run, [&](auto rows, std::uint64_t first) {
-        return forward(std::move(rows), start + first);
+        return forward(std::move(rows), start + first, true);
     });
     image.domain = domain_;
     return image;
 }
 
 PointSet WarpChain::preimage(const PointSet& points, const RunContext& run) const {
+    if (points.dimension() != dimension_out_)
+        fail(ErrorKind::input, "the points have {} coordinates; the warps give {}",
+             points.dimension(), dimension_out_);
     PointSet before = by_blocks(points, dimension_in_, run,
                                 [&](auto rows, std::uint64_t) { return inverse(std::move(rows)); });
     before.domain = domain_before(points.domain, run);
@@ -340,6 +356,28 @@ std::vector<double> WarpChain::density(std::span<const double> rows) const {
             density[i] *= step.mapping ? step.mapping->density(point) : step.domain->density(point);
         }
     return density;
+}
+
+PointSet image_of(const PointSet& points, const WarpChain& chain, const RunContext& run,
+                  std::uint64_t start) {
+    PointSet image = chain.image(points, run, start);
+    tell_kept(points.count(), image.count(), chain, run);
+    image.provenance.efficiency *=
+        static_cast<double>(image.count()) / static_cast<double>(points.count());
+    return image;
+}
+
+void tell_kept(std::uint64_t count, std::uint64_t kept, const WarpChain& chain,
+               const RunContext& run) {
+    if (chain.drops() && kept < count)
+        run.tell(
+            fmt::format("kept {} of {} points (efficiency {:.3g}): the others have no image "
+                        "under {}",
+                        kept, count, static_cast<double>(kept) / static_cast<double>(count),
+                        join(chain.specs(), ", ")));
+    if (kept == 0)
+        fail(ErrorKind::input, "none of {} points has an image under {}", count,
+             join(chain.specs(), ", "));
 }
 
 std::vector<std::string> files_of(const Schema& schema, const Values& values,

@@ -61,14 +61,17 @@ class WarpChain {
     /// Images of rows first, first + 1, ... of the set; with drops(), fewer rows may come out than
     /// went in.
     [[nodiscard]] std::vector<double> forward(std::vector<double> rows,
-                                              std::uint64_t first = 0) const;
+                                              std::uint64_t first = 0) const {
+        return forward(std::move(rows), first, false);
+    }
 
     /// Back to the unit cube, below 1. @throws Error(usage) where a warp has no inverse,
     /// Error(input) for points off the domain.
     [[nodiscard]] std::vector<double> inverse(std::vector<double> rows) const;
 
     /// Images of all points, on all threads; the first one has the index `start`. They are on
-    /// domain(), and keep the provenance. @throws Error(cancelled), Error(limit)
+    /// domain(), and keep the provenance. @throws Error(input) for points of another dimension, and
+    /// for coordinates outside the closed unit cube that are taken; Error(cancelled), Error(limit)
     [[nodiscard]] PointSet image(const PointSet& points, const RunContext& run,
                                  std::uint64_t start = 0) const;
 
@@ -94,6 +97,8 @@ class WarpChain {
         std::size_t width_out = 0;                  ///< and after
     };
 
+    [[nodiscard]] std::vector<double> forward(std::vector<double> rows, std::uint64_t first,
+                                              bool checked) const;
     void add(const Spec& spec, const ChainSet& set, const RunContext& run);
     void add_scramble(const Scramble& scramble, const Spec& spec, const ChainSet& set);
     void add_warp(const Warp& warp, const Spec& spec, const RunContext& run);
@@ -113,6 +118,17 @@ class WarpChain {
     std::size_t dimension_out_;
     DomainPtr domain_;
 };
+
+/// The image of a set whose first point has the index `start`. Tells the user how many points have
+/// none, and multiplies the efficiency by the share of the others.
+/// @throws Error(input) where no point has an image
+PointSet image_of(const PointSet& points, const WarpChain& chain, const RunContext& run,
+                  std::uint64_t start = 0);
+
+/// Tells the user how many of `count` points were kept by a chain that may drop some.
+/// @throws Error(input) when none was
+void tell_kept(std::uint64_t count, std::uint64_t kept, const WarpChain& chain,
+               const RunContext& run);
 
 /// Files that options name, for reading; in order.
 std::vector<std::string> files_of(const Schema& schema, const Values& values,

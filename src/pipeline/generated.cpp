@@ -8,6 +8,54 @@
 #include "core/parallel.hpp"
 
 namespace stipple {
+namespace {
+
+/// Points of a sequence, block by block on all threads.
+PointSet fill_all(Sequence& sequence, const Plan& plan, std::uint64_t start,
+                  const RunContext& run) {
+    run.need_memory(static_cast<double>(plan.count) * static_cast<double>(plan.dimension) * 8,
+                    "the point set");
+    PointSet points(Rows::unwritten(plan.count * plan.dimension), plan.dimension);
+    walk_to(sequence, start, plan.dimension, run);
+    RunContext lane = run;
+    if (!sequence.random_access()) lane.threads = 1;
+    const std::size_t block = std::max<std::size_t>(1, 8192 / plan.dimension);
+    for_each_block(lane, plan.count, block, [&](const Block& b) {
+        sequence.fill(start + b.first, points.flat().subspan(b.first * plan.dimension,
+                                                             (b.last - b.first) * plan.dimension));
+    });
+    return points;
+}
+
+void tell_notes(const Generator& generator, const Request& request, const Values& options,
+                const RunContext& run) {
+    if (!generator.notes) return;
+    for (const auto& note :
+         generator.notes(request, plan_for(generator, request, options), options))
+        run.tell(note);
+}
+
+}  // namespace
+
+void walk_to(Sequence& sequence, std::uint64_t start, std::size_t dimension,
+             const RunContext& run) {
+    if (sequence.random_access()) return;
+    const std::uint64_t step = 1 + 1'000'000 / dimension;
+    std::vector<double> row(dimension);
+    for (std::uint64_t i = step; i < start; i += step) {
+        run.check_stop();
+        sequence.fill(i, row);
+    }
+}
+
+PointSet make_points(const Generator& generator, const Request& request, const Values& options,
+                     const RunContext& run) {
+    const Plan plan = plan_for(generator, request, options);
+    if (!generator.traits.sequence) return generator.set(plan, options, run);
+    const RunContext steady = run.rising();
+    return fill_all(*generator.sequence(plan, options, steady), plan, request.start, steady);
+}
+
 GeneratedSets::GeneratedSets(const Generator& generator, Values options, Request request,
                              std::uint64_t sets, std::vector<Spec> warps, const RunContext& run)
     : generator_(generator),
@@ -16,7 +64,15 @@ GeneratedSets::GeneratedSets(const Generator& generator, Values options, Request
       sets_(sets),
       warps_(std::move(warps)),
       plan_(plan_for(generator, request_, options_)),
-      chain_(std::make_shared<WarpChain>(warps_, plan_.dimension, ChainSet{}, run)) {
+      chain_(std::make_shared<WarpChain>(warps_, plan_.dimension, ChainSet{}, run)),
+      domain_(request_.bounds ? box_domain(*request_.bounds) : chain_->domain()) {
+    auto files = files_of(generator_.options, options_, generator_.writes);
+    files.insert(files.end(), chain_->files().begin(), chain_->files().end());
+    inputs_ = fingerprints(files);
+    if (!generator_.traits.boxed) bounds_ = request_.bounds;
+    if (request_.bounds && !chain_->empty())
+        fail(ErrorKind::usage,
+             "--bounds and --warp: a warp takes points of the unit cube, which a box is not");
     if (sets_ - 1 > ~plan_.seed)
         fail(ErrorKind::usage, "--seed: {} and {} sets go beyond the 64 bits of a seed", plan_.seed,
              sets_);
@@ -39,17 +95,21 @@ std::shared_ptr<const WarpChain> GeneratedSets::chain_for(std::uint64_t set,
         ChainSet{.seed = plan_.seed + set, .count = request_.start + plan_.count}, run);
 }
 
-NextRows GeneratedSets::stream(std::uint64_t set, const RunContext& run, std::uint64_t from) const {
+std::unique_ptr<Sequence> GeneratedSets::sequence(std::uint64_t set, const RunContext& run) const {
     Plan plan = plan_;
     plan.seed += set;
-    const std::shared_ptr<Sequence> sequence = generator_.sequence(plan, options_, run);
-    walk_to(*sequence, request_.start + from, plan.dimension, run);
+    return generator_.sequence(plan, options_, run);
+}
+
+NextRows GeneratedSets::stream(std::uint64_t set, const RunContext& run, std::uint64_t from) const {
+    const std::shared_ptr<Sequence> points = sequence(set, run);
+    walk_to(*points, request_.start + from, plan_.dimension, run);
     RunContext lane = run;
     lane.progress = {};
-    if (!sequence->random_access()) lane.threads = 1;
+    if (!points->random_access()) lane.threads = 1;
     const auto at = std::make_shared<std::uint64_t>(from);
     return [=, chain = chain_for(set, run), start = request_.start,
-            count = plan.count](std::span<double> rows) {
+            count = plan_.count](std::span<double> rows) {
         const std::size_t in = chain->dimension_in();
         const std::size_t out = chain->dimension_out();
         const std::uint64_t first = start + *at;
@@ -58,9 +118,9 @@ NextRows GeneratedSets::stream(std::uint64_t set, const RunContext& run, std::ui
         const std::size_t block = std::max<std::size_t>(1, 8192 / in);
         for_each_block(lane, some, block, [&](const Block& b) {
             const auto place = rows.subspan(b.first * out, (b.last - b.first) * out);
-            if (chain->empty()) return sequence->fill(first + b.first, place);
+            if (chain->empty()) return points->fill(first + b.first, place);
             std::vector<double> raw((b.last - b.first) * in);
-            sequence->fill(first + b.first, raw);
+            points->fill(first + b.first, raw);
             std::ranges::copy(chain->forward(std::move(raw), first + b.first), place.begin());
         });
         *at += some;
@@ -72,15 +132,47 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
     Request request = request_;
     request.seed += set;
     PointSet points = make_points(generator_, request, options_, run);
+    auto worked_out = std::move(points.provenance.options);
+    auto side_files = std::move(points.side_files);
+    double efficiency = 1;
+    if (bounds_) scale_into(*bounds_, points.flat());
     if (!chain_->empty()) {
-        RunContext silent = run;
-        silent.progress = {};
-        points = chain_for(set, run)->image(points, silent, request_.start);
-        points.provenance = {};  // that of points of the cube
+        points = image_of(points, *chain_for(set, run), run.stage(1, 1), request_.start);
+        efficiency = points.provenance.efficiency;
     }
-    points.domain = chain_->domain();
-    points.provenance.generator = generator_.name;
+    points.domain = domain_;
+    points.provenance = provenance(set, points.count());
+    points.provenance.efficiency = efficiency;
+    if (!worked_out.empty()) points.provenance.options = std::move(worked_out);
+    points.side_files = std::move(side_files);
     return points;
+}
+
+Provenance GeneratedSets::provenance(std::uint64_t set, std::uint64_t count) const {
+    Provenance meta{.version = STIPPLE_VERSION,
+                    .generator = generator_.name,
+                    .options = {},
+                    .seed = plan_.seed + set,
+                    .count = count,
+                    .dimension = dimension(),
+                    .start = request_.start,
+                    .warps = chain_->specs(),
+                    .domain = domain_->spec(),
+                    .bounds = {},
+                    .shard = {},
+                    .command = {}};
+    for (const Option& option : generator_.options.options()) {
+        const auto& item = options_.find(option.name);
+        if (!option.optional || item.given)
+            meta.options.emplace_back(option.name, format_value(item.value));
+    }
+    if (request_.bounds) meta.bounds = format_box(*request_.bounds);
+    meta.inputs = inputs_;
+    if (generator_.stream_version > 1)
+        meta.stream_versions.emplace_back(generator_.name, generator_.stream_version);
+    const auto& later = chain_->stream_versions();
+    meta.stream_versions.insert(meta.stream_versions.end(), later.begin(), later.end());
+    return meta;
 }
 
 }  // namespace stipple

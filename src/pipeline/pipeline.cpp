@@ -5,64 +5,10 @@
 #include <future>
 
 #include "core/error.hpp"
-#include "core/parallel.hpp"
 #include "core/text.hpp"
 
 namespace stipple {
 namespace {
-
-/// Whether a unit is called so, by its own name or another.
-template <class Unit>
-bool is_called(const Unit& unit, std::string_view name) {
-    if constexpr (requires { unit.aliases; })
-        if (std::ranges::find(unit.aliases, name) != unit.aliases.end()) return true;
-    return unit.name == name;
-}
-
-template <class Unit>
-const Unit* try_unit(const std::vector<Unit>& units, std::string_view name) {
-    const auto it =
-        std::ranges::find_if(units, [&](const Unit& unit) { return is_called(unit, name); });
-    return it == units.end() ? nullptr : &*it;
-}
-
-template <class Unit>
-const Unit& find_unit(std::string_view kind, const std::vector<Unit>& units,
-                      std::string_view name) {
-    if (const Unit* unit = try_unit(units, name)) return *unit;
-    std::vector<std::string> names;
-    for (const Unit& unit : units) {
-        names.push_back(unit.name);
-        if constexpr (requires { unit.aliases; })
-            names.insert(names.end(), unit.aliases.begin(), unit.aliases.end());
-    }
-    if constexpr (std::is_same_v<Unit, Warp>)
-        for (const Scramble& scramble : scrambles::all()) names.push_back(scramble.name);
-    fail_with_hint(ErrorKind::usage, suggest(name, names), "unknown {} '{}'", kind, name);
-}
-
-Values values_of(const Schema& schema, const Settings& settings) {
-    Values values = schema.defaults();
-    for (const auto& [name, text] : settings) schema.set(values, name, text);
-    return values;
-}
-
-/// Points of a sequence, block by block on all threads.
-PointSet fill_all(Sequence& sequence, const Plan& plan, std::uint64_t start,
-                  const RunContext& run) {
-    run.need_memory(static_cast<double>(plan.count) * static_cast<double>(plan.dimension) * 8,
-                    "the point set");
-    PointSet points(Rows::unwritten(plan.count * plan.dimension), plan.dimension);
-    walk_to(sequence, start, plan.dimension, run);
-    RunContext lane = run;
-    if (!sequence.random_access()) lane.threads = 1;
-    const std::size_t block = std::max<std::size_t>(1, 8192 / plan.dimension);
-    for_each_block(lane, plan.count, block, [&](const Block& b) {
-        sequence.fill(start + b.first, points.flat().subspan(b.first * plan.dimension,
-                                                             (b.last - b.first) * plan.dimension));
-    });
-    return points;
-}
 
 /// A set in memory, given to an accumulator in batches.
 Report accumulated(const Analyzer& analyzer, const PointSet& points, const Values& options,
@@ -86,27 +32,33 @@ Report accumulated(const Analyzer& analyzer, const PointSet& points, const Value
 Found analyze(const Analyzer& analyzer, const Arrival& arrival, std::size_t dimension,
               const NextRows& next, const Values& options, const RunContext& run) {
     const auto measure = accumulator_for(analyzer, arrival, dimension, options, run);
+    const std::uint64_t count =
+        add_all(*measure, next, arrival.width(), dimension, arrival.count, run);
+    if (count == 0)
+        fail(ErrorKind::input, "{} needs at least one point; the set is empty", analyzer.name);
     RunContext quiet = run;
     quiet.progress = {};
-    const std::size_t width = arrival.width();
+    return {.report = measure->report(quiet), .count = count};
+}
+
+std::uint64_t add_all(Accumulator& measure, const NextRows& next, std::size_t width,
+                      std::size_t dimension, std::optional<std::uint64_t> expected,
+                      const RunContext& run) {
+    RunContext quiet = run;
+    quiet.progress = {};
     std::vector<double> rows(arrival_batch(dimension) * width);
     std::vector<double> ahead(rows.size());
     const auto policy = run.thread_count() > 1 ? std::launch::async : std::launch::deferred;
-    Found found;
-    std::size_t count = next(rows);
-    while (count > 0) {
+    std::uint64_t done = 0;
+    for (std::size_t count = next(rows); count > 0; rows.swap(ahead)) {
         run.check_stop();
         auto fetched = std::async(policy, [&] { return next(ahead); });
-        measure->add(std::span(rows).first(count * width), quiet);
-        found.count += count;
-        if (arrival.count) run.tick(found.count, *arrival.count);
+        measure.add(std::span(rows).first(count * width), quiet);
+        done += count;
+        if (expected) run.tick(done, *expected);
         count = fetched.get();
-        rows.swap(ahead);
     }
-    if (found.count == 0)
-        fail(ErrorKind::input, "{} needs at least one point; the set is empty", analyzer.name);
-    found.report = measure->report(quiet);
-    return found;
+    return done;
 }
 
 std::unique_ptr<Accumulator> accumulator_for(const Analyzer& analyzer, const Arrival& arrival,
@@ -119,46 +71,9 @@ std::unique_ptr<Accumulator> accumulator_for(const Analyzer& analyzer, const Arr
     return analyzer.accumulate(arrival, options, run);
 }
 
-const Generator& find_generator(std::string_view name) {
-    return find_unit("generator", generators::all(), name);
-}
-const Warp& find_warp(std::string_view name) { return find_unit("warp", warps::all(), name); }
-const Scramble* scramble_named(std::string_view name) { return try_unit(scrambles::all(), name); }
-const Analyzer& find_analyzer(std::string_view name) {
-    return find_unit("analyzer", analyzers::all(), name);
-}
-
-void walk_to(Sequence& sequence, std::uint64_t start, std::size_t dimension,
-             const RunContext& run) {
-    if (sequence.random_access()) return;
-    const std::uint64_t step = 1 + 1'000'000 / dimension;
-    std::vector<double> row(dimension);
-    for (std::uint64_t i = step; i < start; i += step) {
-        run.check_stop();
-        sequence.fill(i, row);
-    }
-}
-
-void tell_notes(const Generator& generator, const Request& request, const Values& options,
-                const RunContext& run) {
-    if (!generator.notes) return;
-    for (const auto& note :
-         generator.notes(request, plan_for(generator, request, options), options))
-        run.tell(note);
-}
-
-PointSet make_points(const Generator& generator, const Request& request, const Values& options,
-                     const RunContext& run) {
-    const Plan plan = plan_for(generator, request, options);
-    if (!generator.traits.sequence) return generator.set(plan, options, run);
-    const RunContext steady = run.rising();
-    return fill_all(*generator.sequence(plan, options, steady), plan, request.start, steady);
-}
-
 PointSet generate(const Generator& generator, const Request& request, const Values& options,
                   const RunContext& run) {
-    tell_notes(generator, request, options, run);
-    return make_points(generator, request, options, run);
+    return GeneratedSets(generator, options, request, 1, {}, run).made(0, run);
 }
 
 PointSet generate(std::string_view name, const Request& request, const Settings& settings,
@@ -187,6 +102,11 @@ Report analyze(const Analyzer& analyzer, const PointSet& points, const Values& o
     if (points.count() == 0)
         fail(ErrorKind::input, "{} needs at least one point; the set is empty", analyzer.name);
     check_dimension(analyzer, points.dimension());
+    if (!points.domain) {
+        PointSet on_cube = points;
+        on_cube.domain = unit_cube(points.dimension());
+        return analyze(analyzer, on_cube, options, run);
+    }
     if (analyzer.traits.unit_cube) require_unit_cube(points);
     return analyzer.accumulate ? accumulated(analyzer, points, options, run)
                                : analyzer.analyze(points, options, run);

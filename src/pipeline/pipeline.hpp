@@ -1,50 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// Units by name, and the line they stand on: make points, warp them, measure them. What the command
-// line does with files, another program does with these.
+// Make points and measure them: what the command line does with files, another program does with
+// these.
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <span>
-#include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
-#include "analyzers/analyzer.hpp"
-#include "generators/generator.hpp"
-#include "io/format.hpp"
-#include "scrambles/scramble.hpp"
-#include "warps/warp.hpp"
+#include "pipeline/generated.hpp"
+#include "pipeline/units.hpp"
 
 namespace stipple {
 
-/// The unit of that name. @throws Error(usage) naming the nearest one.
-const Generator& find_generator(std::string_view name);
-const Warp& find_warp(std::string_view name);  ///< suggests scrambles, too
-const Analyzer& find_analyzer(std::string_view name);
-
-/// The scramble of that name or alias; nullptr if there is none.
-const Scramble* scramble_named(std::string_view name);
-
-/// Options as text: {{"base", "3"}}.
-using Settings = std::vector<std::pair<std::string, std::string>>;
-
-/// Takes a sequential engine to point `start`, in steps between which it may be told to stop; a
-/// sequence with random access needs no walk.
-void walk_to(Sequence& sequence, std::uint64_t start, std::size_t dimension, const RunContext& run);
-
-/// Tells the user what the generator has to say about the request.
-void tell_notes(const Generator& generator, const Request& request, const Values& options,
-                const RunContext& run);
-
-/// All points of a request, in memory, without notes. The seed is the request's.
-PointSet make_points(const Generator& generator, const Request& request, const Values& options,
-                     const RunContext& run);
-
-/// The same, with notes.
+/// All points of a request, in memory, with their provenance.
 PointSet generate(const Generator& generator, const Request& request, const Values& options,
                   const RunContext& run);
 PointSet generate(std::string_view generator, const Request& request, const Settings& settings = {},
@@ -65,8 +35,12 @@ void require_unit_cube(const PointSet& points);
 Report analyze(const Analyzer& analyzer, const PointSet& points, const Values& options,
                const RunContext& run);
 
-/// Gives a set's next points, as many as fit; fewer only at its end.
-using NextRows = std::function<std::size_t(std::span<double> rows)>;
+/// Gives all that comes to an accumulator, the next block being fetched while one is looked at.
+/// Returns how many points these were.
+/// @param width numbers of a row @param expected points, for the progress
+std::uint64_t add_all(Accumulator& measure, const NextRows& next, std::size_t width,
+                      std::size_t dimension, std::optional<std::uint64_t> expected,
+                      const RunContext& run);
 
 /// What was found of points that came in blocks, and how many they were.
 struct Found {
@@ -75,7 +49,7 @@ struct Found {
 };
 
 /// Measures a set that comes in blocks, by an analyzer that has `accumulate`: the same result as
-/// for the set in memory. The next block is fetched while one is looked at.
+/// for the set in memory.
 /// @throws Error(input)
 Found analyze(const Analyzer& analyzer, const Arrival& arrival, std::size_t dimension,
               const NextRows& next, const Values& options, const RunContext& run);

@@ -2,7 +2,6 @@
 #include "pipeline/produce.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <memory>
 #include <numeric>
 
@@ -13,8 +12,8 @@
 #include "io/carried_meta.hpp"
 #include "media/png_picture.hpp"
 #include "pipeline/chain.hpp"
-#include "pipeline/delivery.hpp"
-#include "pipeline/pipeline.hpp"
+#include "pipeline/generated.hpp"
+#include "pipeline/units.hpp"
 
 namespace stipple {
 namespace {
@@ -29,17 +28,6 @@ Source source_of(const PointSet& points) {
                     std::ranges::copy(points.flat().subspan(first * d, rows.size()), rows.begin());
                 },
             .chain = std::make_shared<WarpChain>(std::span<const Spec>(), d)};
-}
-
-/// The image of a set whose first point has the index `start`; tells the user how many points have
-/// none.
-PointSet image_of(const PointSet& points, const WarpChain& chain, bool inverse, std::uint64_t start,
-                  const RunContext& run) {
-    PointSet image = inverse ? chain.preimage(points, run) : chain.image(points, run, start);
-    tell_kept(points.count(), image.count(), chain, run);
-    image.provenance.efficiency *=
-        static_cast<double>(image.count()) / static_cast<double>(points.count());
-    return image;
 }
 
 /// @throws Error(limit) when sets that are held together, of so many numbers, do not fit.
@@ -63,13 +51,13 @@ Provenance common_provenance(const std::vector<PointSet>& sets) {
 }
 
 /// Writes sets as they are; `chain` is what gave them, for their density.
-void ship_images(const std::vector<PointSet>& images, const WarpChain& chain, std::size_t first_set,
-                 const Target& target, const RunContext& run,
-                 std::optional<std::uint64_t> first_seed = {}) {
+void write_images(const std::vector<PointSet>& images, const WarpChain& chain,
+                  std::size_t first_set, const Target& target, const RunContext& run,
+                  std::optional<std::uint64_t> first_seed = {}) {
     const std::size_t d = images.front().dimension();
     const bool together = !file_per_set(target.path);
     const Provenance common = common_provenance(images);
-    Shipment shipment{
+    SetsToWrite job{
         .sets = images.size(),
         .first_set = first_set,
         .source = [&](std::size_t set, const RunContext&) { return source_of(images[set]); },
@@ -84,19 +72,19 @@ void ship_images(const std::vector<PointSet>& images, const WarpChain& chain, st
         },
         .counts = {},
         .dimension = d,
-        .route = {}};
-    for (const PointSet& set : images) shipment.counts.push_back(set.count());
+        .steps = {}};
+    for (const PointSet& set : images) job.counts.push_back(set.count());
     PointSet wide;
     if (target.columns.any())
-        shipment.source = [&](std::size_t set, const RunContext&) {
+        job.source = [&](std::size_t set, const RunContext&) {
             // Without warps, what the points are on is the unit cube, or what it was scaled to.
             const double volume = chain.empty() ? images[set].domain->measure() : 1;
-            const Route route{.columns = target.columns, .volume = volume};
-            wide = PointSet(with_columns(images[set].flat(), chain, route),
+            const RowSteps steps{.columns = target.columns, .volume = volume};
+            wide = PointSet(with_columns(images[set].flat(), chain, steps),
                             d + target.columns.names().size());
             return source_of(wide);
         };
-    ship(shipment, target, run);
+    write_files(job, target, run);
 }
 
 /// Writes down that the set went through a warp. What was cut in writing was so before it.
@@ -132,12 +120,6 @@ std::size_t dimension_before(const Spec& spec, std::size_t after, const RunConte
         fail(ErrorKind::input, "the inverse of {} takes points of {} numbers; these have {}",
              spec.name, gives, after);
     return after - gives + mapping->cube_dimension();
-}
-
-void refuse_inverse_density(bool inverse, const Target& target) {
-    if (inverse && target.columns.any())
-        fail(ErrorKind::usage, "--with-{}: the inverse gives points of the unit cube, density 1",
-             target.columns.names().front());
 }
 
 /// The coordinates that a unit takes, of rows of d: no others need be in the unit cube.
@@ -211,6 +193,41 @@ void refuse_second_set(io::PointStream& stream) {
                    "a second set begins in a text that is too large to be read as a whole");
 }
 
+/// A warp, or the way back through it, for points on a domain.
+struct Warping {
+    Warping(const Spec& spec, bool back, const DomainPtr& on, const Target& target,
+            const RunContext& run)
+        : inverse(back), taken(spec, on->dimension()) {
+        const std::size_t d = on->dimension();
+        if (!inverse) before = warped_factors(on, taken.coordinates(), run);
+        chain = std::make_shared<WarpChain>(std::span(&spec, 1),
+                                            inverse ? dimension_before(spec, d, run) : d,
+                                            ChainSet{}, run, before);
+        if (inverse && target.columns.any())
+            fail(ErrorKind::usage,
+                 "--with-{}: the inverse gives points of the unit cube, density 1",
+                 target.columns.names().front());
+        inputs = fingerprints(chain->files());
+    }
+
+    bool inverse;
+    Taken taken;
+    std::vector<Factor> before;  ///< what the points are on besides the unit cube
+    std::shared_ptr<const WarpChain> chain;
+    std::vector<std::pair<std::string, std::string>> inputs = {};
+};
+
+/// The image of a set, as its provenance tells it.
+PointSet warped(const PointSet& set, const Warping& warping, const RunContext& run) {
+    const auto& [inverse, taken, before, chain, inputs] = warping;
+    if (!inverse) taken.require_in_cube(set);
+    const bool said = inverse || others_in_cube(set, taken, before);
+    PointSet image = inverse ? chain->preimage(set, run) : image_of(set, *chain, run);
+    record_warp(image, *chain, inverse, inputs);
+    if (!said) image.provenance.domain.clear();
+    return image;
+}
+
 /// Everything about a production that is the same for all its sets.
 class Producer {
   public:
@@ -219,20 +236,21 @@ class Producer {
           generator_(*job.generator),
           target_(target),
           run_(run),
-          plan_(plan_for(generator_, job.request, job.options)),
-          chain_(std::make_shared<WarpChain>(job.warps, plan_.dimension, ChainSet{}, run)) {
-        auto files = files_of(generator_.options, job.options, generator_.writes);
-        std::ranges::copy(chain_->files(), std::back_inserter(files));
-        inputs_ = fingerprints(files);
-        if (!generator_.traits.boxed) bounds_ = job.request.bounds;
-        check();
+          sets_(generator_, job.options, job.request, job.sets, job.warps,
+                job.shard.index == 0 ? run : silent(run)) {
+        if (job_.shard.of > 1 && job_.sets > 1)
+            fail(ErrorKind::usage, "--shard and --sets: parts are of one set; choose it by --seed");
+        check_columns();
+        check_side_files();
     }
 
     void go() {
-        if (generator_.traits.sequence && !chain_->drops()) return stream();
+        if (sets_.streamed()) return stream();
         const std::size_t batch = file_per_set(target_.path) ? 1 : job_.sets;
-        if (!chain_->drops())
-            need_memory_for(batch, plan_.count / job_.shard.of * chain_->dimension_out(), run_);
+        const WarpChain& chain = sets_.chain();
+        if (!chain.drops())
+            need_memory_for(batch, sets_.plan().count / job_.shard.of * chain.dimension_out(),
+                            run_);
         for (std::size_t first = 0; first < job_.sets; first += batch) {
             std::vector<PointSet> images;
             for (std::size_t set = first; set < first + batch; ++set) {
@@ -240,26 +258,14 @@ class Producer {
                 // Only now is it known how many points fit, or have images.
                 if (set == first) need_memory_for(batch, images[0].flat().size(), run_);
             }
-            ship_images(images, *chain_, first, target_, lane(run_, first, job_.sets));
+            write_images(images, chain, first, target_, part_of_run(run_, first, job_.sets));
         }
     }
 
   private:
-    void check() const {
-        if (job_.shard.of > 1 && job_.sets > 1)
-            fail(ErrorKind::usage, "--shard and --sets: parts are of one set; choose it by --seed");
-        if (job_.request.bounds && !chain_->empty())
-            fail(ErrorKind::usage,
-                 "--bounds and --warp: a warp takes points of the unit cube, which a box is not");
-        if (job_.sets - 1 > ~plan_.seed)
-            fail(ErrorKind::usage, "--seed: {} and {} sets go beyond the 64 bits of a seed",
-                 plan_.seed, job_.sets);
-        if (job_.sets > 1 && !uses_seed(generator_, job_.options) && !chain_->seeded())
-            run_.tell(fmt::format("{} does not use the seed: all {} sets are the same",
-                                  generator_.name, job_.sets));
-        check_columns();
-        check_side_files();
-        if (job_.shard.index == 0) tell_notes(generator_, job_.request, job_.options, run_);
+    static RunContext silent(RunContext run) {
+        run.warn = {};
+        return run;
     }
 
     /// Columns of densities must be right.
@@ -274,6 +280,7 @@ class Producer {
 
     /// Side files must not replace each other, nor the points.
     void check_side_files() const {
+        const std::uint64_t seed = sets_.plan().seed;
         for (const std::string& option : generator_.writes) {
             const auto& item = job_.options.find(option);
             if (!item.given) continue;
@@ -281,23 +288,10 @@ class Producer {
             if (job_.sets > 1 && !file_per_set(path))
                 fail(ErrorKind::usage, "--{}: {} sets need a name with {{set}} or {{seed}}", option,
                      job_.sets);
-            if (path_of_set(path, 0, plan_.seed) == path_of_set(target_.path, 0, plan_.seed))
+            if (path_of_set(path, 0, seed) == path_of_set(target_.path, 0, seed))
                 fail(ErrorKind::usage, "--{}: '{}' is where the points go; name another file",
                      option, path);
         }
-    }
-
-    /// The warps with the random choices of one set.
-    [[nodiscard]] std::shared_ptr<const WarpChain> chain_for(std::size_t set) const {
-        if (!chain_->seeded()) return chain_;
-        return std::make_shared<WarpChain>(
-            job_.warps, plan_.dimension,
-            ChainSet{.seed = plan_.seed + set, .count = job_.request.start + plan_.count}, run_);
-    }
-
-    /// What the points are on in the end.
-    [[nodiscard]] DomainPtr domain() const {
-        return job_.request.bounds ? box_domain(*job_.request.bounds) : chain_->domain();
     }
 
     /// The shard's rows [first, last) of `count`.
@@ -314,68 +308,55 @@ class Producer {
     }
 
     void stream() {
-        const auto [first, last] = part(plan_.count);
-        const std::uint64_t from = first;
+        const auto [first, last] = part(sets_.plan().count);
+        const std::uint64_t start = job_.request.start + first;
         const std::uint64_t count = last - first;
+        const std::size_t d = sets_.plan().dimension;
         const bool seeded = uses_seed(generator_, job_.options);
         std::shared_ptr<Sequence> sequence;
         const auto source = [&](std::size_t set, const RunContext& run) {
-            Plan plan = plan_;
-            plan.seed += set;
-            if (seeded || !sequence) sequence = generator_.sequence(plan, job_.options, run);
-            const std::uint64_t start = job_.request.start + from;
-            walk_to(*sequence, start, plan.dimension, run);
+            if (seeded || !sequence) sequence = sets_.sequence(set, run);
+            walk_to(*sequence, start, d, run);
             return Source{.count = count,
-                          .dimension = plan.dimension,
+                          .dimension = d,
                           .fill = [sequence = sequence, start](
                                       std::uint64_t at,
                                       std::span<double> rows) { sequence->fill(start + at, rows); },
                           .in_order = !sequence->random_access(),
-                          .chain = chain_for(set),
+                          .chain = sets_.chain_for(set, run_),
                           .first = start};
         };
-        const auto meta = [&](std::size_t set) { return provenance(set, count); };
-        ship({.sets = job_.sets,
-              .source = source,
-              .provenance = meta,
-              .extent = [this](std::size_t) { return domain()->bounding_box(); },
-              .counts = std::vector<std::uint64_t>(job_.sets, count),
-              .dimension = chain_->dimension_out(),
-              .route = {.bounds = bounds_,
-                        .columns = target_.columns,
-                        .volume = chain_->empty() ? domain()->measure() : 1,
-                        .starts = true}},
-             target_, run_);
+        write_files(
+            {.sets = job_.sets,
+             .source = source,
+             .provenance = [&](std::size_t set) { return signed_by(sets_.provenance(set, count)); },
+             .extent = [this](std::size_t) { return sets_.domain()->bounding_box(); },
+             .counts = std::vector<std::uint64_t>(job_.sets, count),
+             .dimension = sets_.dimension(),
+             .steps = {.bounds = sets_.bounds(),
+                       .columns = target_.columns,
+                       .volume = sets_.chain().empty() ? sets_.domain()->measure() : 1,
+                       .starts = true}},
+            target_, run_);
     }
 
     /// One set, made, warped and cut in memory.
     [[nodiscard]] PointSet made(std::size_t set) const {
-        const RunContext part_of_run = lane(run_, set, job_.sets);
-        Request request = job_.request;
-        request.seed += set;
-        PointSet points = make_points(generator_, request, job_.options, part_of_run);
-        auto options = std::move(points.provenance.options);
-        auto side_files = std::move(points.side_files);
-        double efficiency = 1;
-        for (SideFile& file : side_files)
-            file.path = path_of_set(std::move(file.path), set, plan_.seed + set);
-        if (bounds_) scale_into(*bounds_, points.flat());
-        if (!chain_->empty()) {
-            points = image_of(points, *chain_for(set), false, job_.request.start,
-                              part_of_run.stage(1, 1));
-            efficiency = points.provenance.efficiency;
-        }
+        PointSet points = sets_.made(set, part_of_run(run_, set, job_.sets));
         const auto [first, last] = part(points.count());
         if (job_.shard.of > 1) {
             const std::size_t d = points.dimension();
             const auto rows = points.flat().subspan(first * d, (last - first) * d);
-            points = PointSet(std::vector<double>(rows.begin(), rows.end()), d);
+            PointSet shard(std::vector<double>(rows.begin(), rows.end()), d);
+            shard.domain = std::move(points.domain);
+            shard.provenance = std::move(points.provenance);
+            shard.side_files = std::move(points.side_files);
+            points = std::move(shard);
         }
-        points.domain = domain();
-        points.provenance = provenance(set, points.count());
-        points.provenance.efficiency = efficiency;
-        if (!options.empty()) points.provenance.options = std::move(options);
-        points.side_files = std::move(side_files);
+        points.provenance.count = points.count();
+        points.provenance = signed_by(std::move(points.provenance));
+        for (SideFile& file : points.side_files)
+            file.path = path_of_set(std::move(file.path), set, points.provenance.seed);
         sign_pictures(points);
         return points;
     }
@@ -390,31 +371,10 @@ class Producer {
         }
     }
 
-    [[nodiscard]] Provenance provenance(std::size_t set, std::uint64_t count) const {
-        Provenance meta{.version = STIPPLE_VERSION,
-                        .generator = generator_.name,
-                        .options = {},
-                        .seed = plan_.seed + set,
-                        .count = count,
-                        .dimension = chain_->dimension_out(),
-                        .start = job_.request.start,
-                        .warps = chain_->specs(),
-                        .domain = domain()->spec(),
-                        .bounds = {},
-                        .shard = {},
-                        .command = job_.command};
-        for (const Option& option : generator_.options.options()) {
-            const auto& item = job_.options.find(option.name);
-            if (!option.optional || item.given)
-                meta.options.emplace_back(option.name, format_value(item.value));
-        }
-        if (job_.request.bounds) meta.bounds = format_box(*job_.request.bounds);
+    /// The provenance with what the command adds to that of a set.
+    [[nodiscard]] Provenance signed_by(Provenance meta) const {
+        meta.command = job_.command;
         if (job_.shard.of > 1) meta.shard = fmt::format("{}/{}", job_.shard.index, job_.shard.of);
-        meta.inputs = inputs_;
-        if (generator_.stream_version > 1)
-            meta.stream_versions.emplace_back(generator_.name, generator_.stream_version);
-        const auto& later = chain_->stream_versions();
-        meta.stream_versions.insert(meta.stream_versions.end(), later.begin(), later.end());
         return meta;
     }
 
@@ -422,10 +382,7 @@ class Producer {
     const Generator& generator_;
     const Target& target_;
     const RunContext& run_;
-    Plan plan_;
-    std::shared_ptr<const WarpChain> chain_;
-    std::optional<Box> bounds_;
-    std::vector<std::pair<std::string, std::string>> inputs_;
+    GeneratedSets sets_;
 };
 
 }  // namespace
@@ -435,27 +392,23 @@ void produce(const Production& production, const Target& target, const RunContex
 }
 
 void write_sets(std::vector<PointSet> sets, const Target& target, const RunContext& run) {
-    ship_images(sets, WarpChain({}, sets.front().dimension()), 0, target, run);
+    if (sets.empty()) fail(ErrorKind::input, "there are no points to write");
+    const std::size_t d = sets.front().dimension();
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+        if (sets[i].count() == 0) fail(ErrorKind::input, "set {} has no points to write", i);
+        if (sets[i].dimension() != d)
+            fail(ErrorKind::input, "set {} has points of {} coordinates; those before have {}", i,
+                 sets[i].dimension(), d);
+        if (!sets[i].domain) sets[i].domain = unit_cube(d);
+    }
+    write_images(sets, WarpChain({}, d), 0, target, run);
 }
 
 void write_warped(std::vector<PointSet> sets, const Spec& warp, bool inverse, const Target& target,
                   const RunContext& run) {
-    const std::size_t d = sets.front().dimension();
-    const Taken taken(warp, d);
-    std::vector<Factor> before;
-    if (!inverse) before = warped_factors(sets.front().domain, taken.coordinates(), run);
-    const WarpChain chain({&warp, 1}, inverse ? dimension_before(warp, d, run) : d, {}, run,
-                          before);
-    refuse_inverse_density(inverse, target);
-    const auto inputs = fingerprints(chain.files());
-    for (PointSet& set : sets) {
-        if (!inverse) taken.require_in_cube(set);
-        const bool said = inverse || others_in_cube(set, taken, before);
-        set = image_of(set, chain, inverse, 0, run);
-        record_warp(set, chain, inverse, inputs);
-        if (!said) set.provenance.domain.clear();
-    }
-    ship_images(sets, chain, 0, target, run);
+    const Warping warping(warp, inverse, sets.front().domain, target, run);
+    for (PointSet& set : sets) set = warped(set, warping, run);
+    write_images(sets, *warping.chain, 0, target, run);
 }
 
 bool can_stream(const io::PointStream& stream, const Target& target) {
@@ -467,12 +420,8 @@ bool can_stream(const io::PointStream& stream, const Target& target) {
 void write_warped(io::PointStream& stream, const DomainPtr& on, const Spec& warp, bool inverse,
                   const Target& target, const RunContext& run) {
     const std::size_t d = stream.dimension();
-    const Taken taken(warp, d);
-    std::vector<Factor> before;
-    if (!inverse) before = warped_factors(on, taken.coordinates(), run);
-    const auto chain = std::make_shared<WarpChain>(
-        std::span(&warp, 1), inverse ? dimension_before(warp, d, run) : d, ChainSet{}, run, before);
-    refuse_inverse_density(inverse, target);
+    const Warping warping(warp, inverse, on, target, run);
+    const auto& chain = warping.chain;
     const std::size_t sets = stream.sets().value_or(1);
     const auto source = [&](std::size_t /*set*/, const RunContext&) {
         stream.next_set();
@@ -480,10 +429,11 @@ void write_warped(io::PointStream& stream, const DomainPtr& on, const Spec& warp
         return Source{.dimension = d,
                       .fill = {},
                       .read =
-                          [&stream, &taken, inverse, d, at](std::span<double> rows) {
+                          [&stream, &warping, d, at](std::span<double> rows) {
                               const std::size_t count = stream.read(rows);
                               if (count == 0) refuse_second_set(stream);
-                              if (!inverse) taken.require_in_cube(rows.first(count * d), *at);
+                              if (!warping.inverse)
+                                  warping.taken.require_in_cube(rows.first(count * d), *at);
                               *at += count;
                               return count;
                           },
@@ -491,14 +441,15 @@ void write_warped(io::PointStream& stream, const DomainPtr& on, const Spec& warp
     };
     const std::size_t wide = inverse ? chain->dimension_in() : chain->dimension_out();
     const DomainPtr domain = inverse ? chain->domain_before(on, run) : chain->domain();
-    ship({.sets = sets,
-          .source = source,
-          .provenance = [&](std::size_t) { return stream.provenance(); },
-          .extent = [&](std::size_t) { return domain->bounding_box(); },
-          .counts = std::vector<std::uint64_t>(sets, 0),
-          .dimension = wide,
-          .route = {.bounds = {}, .columns = target.columns, .volume = 1, .inverse = inverse}},
-         target, run);
+    write_files(
+        {.sets = sets,
+         .source = source,
+         .provenance = [&](std::size_t) { return stream.provenance(); },
+         .extent = [&](std::size_t) { return domain->bounding_box(); },
+         .counts = std::vector<std::uint64_t>(sets, 0),
+         .dimension = wide,
+         .steps = {.bounds = {}, .columns = target.columns, .volume = 1, .inverse = inverse}},
+        target, run);
 }
 
 void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, std::uint64_t seed,
@@ -519,13 +470,13 @@ void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, st
             Spec spec = scramble;
             spec.settings.emplace_back(scramble_seed.name, std::to_string(seed + images.size()));
             const WarpChain chain({&spec, 1}, set.dimension(), {.count = set.count()}, run, before);
-            images.push_back(image_of(set, chain, false, 0, run));
+            images.push_back(image_of(set, chain, run));
             record_warp(images.back(), chain, false, fingerprints(chain.files()));
             if (!said) images.back().provenance.domain.clear();
         }
     }
     const WarpChain nothing({}, images.front().dimension());
-    ship_images(images, nothing, 0, target, run, seed);
+    write_images(images, nothing, 0, target, run, seed);
 }
 
 }  // namespace stipple

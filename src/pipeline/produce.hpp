@@ -5,16 +5,14 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/spec.hpp"
 #include "generators/generator.hpp"
-#include "io/format.hpp"
 #include "io/point_stream.hpp"
+#include "pipeline/set_writer.hpp"
 
 namespace stipple {
 
@@ -27,28 +25,6 @@ struct Shard {
 /// Steps of a provenance's warps that are none: numbers cut toward zero when they were written.
 inline constexpr std::string_view cut_to_single = "cut:dtype=f32";
 inline constexpr std::string_view cut_to_digits = "cut:precision=";
-
-/// Columns that are written behind the coordinates.
-struct Columns {
-    bool pdf = false;     ///< the density of each point
-    bool weight = false;  ///< 1 / density: the mean of f times weight estimates the integral of f
-
-    [[nodiscard]] bool any() const { return pdf || weight; }
-    [[nodiscard]] std::vector<std::string> names() const;
-};
-
-/// Where points go, and how they are written.
-struct Target {
-    std::string path = "-";  ///< may hold {set} and {seed}: a file for each set
-    const Format* format = nullptr;
-    bool header = true;
-    bool meta = false;
-    bool single = false;
-    std::optional<int> precision = {};
-    Columns columns = {};
-    /// Takes the bytes in place of a file; false: it wants no more.
-    std::function<bool(std::string_view bytes)> sink = {};
-};
 
 /// Sets to make.
 struct Production {
@@ -65,7 +41,8 @@ struct Production {
 /// @throws Error; nothing is left at the target then.
 void produce(const Production& production, const Target& target, const RunContext& run);
 
-/// Writes sets that are there already.
+/// Writes sets that are there already. @throws Error(input) where there are none, where one has no
+/// points, or where they differ in dimension
 void write_sets(std::vector<PointSet> sets, const Target& target, const RunContext& run);
 
 /// Writes the images of sets under a warp or, with `inverse`, what it makes them from.

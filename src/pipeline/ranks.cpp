@@ -43,7 +43,7 @@ class MpiRanks : public Ranks {
     MpiRanks& operator=(const MpiRanks&) = delete;
     ~MpiRanks() override {
         if (stop_.stop_requested()) return;
-        for (Letter& letter : letters_) MPI_Wait(&letter.request, MPI_STATUS_IGNORE);
+        for (Outgoing& message : outgoing_) MPI_Wait(&message.request, MPI_STATUS_IGNORE);
         MPI_Finalize();
     }
 
@@ -52,16 +52,16 @@ class MpiRanks : public Ranks {
     [[nodiscard]] int on_machine() const override { return on_machine_; }
 
     void send(int to, std::string bytes) override {
-        Letter& letter = letters_.emplace_back();
-        letter.bytes = std::move(bytes);
-        MPI_Isend(letter.bytes.data(), static_cast<int>(letter.bytes.size()), MPI_BYTE, to, 0,
-                  MPI_COMM_WORLD, &letter.request);
+        Outgoing& message = outgoing_.emplace_back();
+        message.bytes = std::move(bytes);
+        MPI_Isend(message.bytes.data(), static_cast<int>(message.bytes.size()), MPI_BYTE, to, 0,
+                  MPI_COMM_WORLD, &message.request);
     }
 
     std::optional<Message> poll() override {
-        std::erase_if(letters_, [](Letter& letter) {
+        std::erase_if(outgoing_, [](Outgoing& message) {
             int sent = 0;
-            MPI_Test(&letter.request, &sent, MPI_STATUS_IGNORE);
+            MPI_Test(&message.request, &sent, MPI_STATUS_IGNORE);
             return sent != 0;
         });
         int arrived = 0;
@@ -106,11 +106,11 @@ class MpiRanks : public Ranks {
     void give(int to, const std::string& bytes) override {
         const std::uint64_t size = bytes.size();
         MPI_Request request = MPI_REQUEST_NULL;
-        MPI_Isend(&size, 1, MPI_UINT64_T, to, parcel, MPI_COMM_WORLD, &request);
+        MPI_Isend(&size, 1, MPI_UINT64_T, to, data_tag, MPI_COMM_WORLD, &request);
         wait(request);
         for (std::uint64_t at = 0; at < size; at += most_bytes) {
             const auto some = static_cast<int>(std::min(size - at, most_bytes));
-            MPI_Isend(bytes.data() + at, some, MPI_BYTE, to, parcel, MPI_COMM_WORLD, &request);
+            MPI_Isend(bytes.data() + at, some, MPI_BYTE, to, data_tag, MPI_COMM_WORLD, &request);
             wait(request);
         }
     }
@@ -118,12 +118,12 @@ class MpiRanks : public Ranks {
     std::string take(int from) override {
         std::uint64_t size = 0;
         MPI_Request request = MPI_REQUEST_NULL;
-        MPI_Irecv(&size, 1, MPI_UINT64_T, from, parcel, MPI_COMM_WORLD, &request);
+        MPI_Irecv(&size, 1, MPI_UINT64_T, from, data_tag, MPI_COMM_WORLD, &request);
         wait(request);
         std::string bytes(size, '\0');
         for (std::uint64_t at = 0; at < size; at += most_bytes) {
             const auto some = static_cast<int>(std::min(size - at, most_bytes));
-            MPI_Irecv(bytes.data() + at, some, MPI_BYTE, from, parcel, MPI_COMM_WORLD, &request);
+            MPI_Irecv(bytes.data() + at, some, MPI_BYTE, from, data_tag, MPI_COMM_WORLD, &request);
             wait(request);
         }
         return bytes;
@@ -131,7 +131,7 @@ class MpiRanks : public Ranks {
 
   private:
     static constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30;  // of an int
-    static constexpr int parcel = 1;                                     // tag; 0: the post
+    static constexpr int data_tag = 1;  // messages of send() have 0
 
     /// Until it is done; others may need the core that would watch it.
     static void wait(MPI_Request& request) {
@@ -148,7 +148,7 @@ class MpiRanks : public Ranks {
     }
 
     /// A message on its way.
-    struct Letter {
+    struct Outgoing {
         std::string bytes;
         MPI_Request request = MPI_REQUEST_NULL;
     };
@@ -157,7 +157,7 @@ class MpiRanks : public Ranks {
     int rank_ = 0;
     int size_ = 1;
     int on_machine_ = 1;
-    std::list<Letter> letters_;
+    std::list<Outgoing> outgoing_;
 };
 
 }  // namespace

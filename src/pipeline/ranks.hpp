@@ -24,7 +24,7 @@ class Ranks : public Peers {
     /// Ranks on this machine, with this one.
     [[nodiscard]] virtual int on_machine() const { return 1; }
 
-    /// Gives the message, of less than 2^31 bytes, to the post; it waits for nobody.
+    /// Gives the message, of less than 2^31 bytes without waiting.
     virtual void send(int /*to*/, std::string /*bytes*/) {}
     /// The next message that came, if any.
     virtual std::optional<Message> poll() { return std::nullopt; }

@@ -2,8 +2,8 @@
 #include "pipeline/shared_analysis.hpp"
 
 #include <algorithm>
-#include <future>
 #include <new>
+#include <stdexcept>
 #include <utility>
 
 #include "core/error.hpp"
@@ -70,45 +70,29 @@ class Share {
         const std::uint64_t grain = analyzer_.sharing.grain(arrival, options_);
         const Stretch mine = stretch_of(set_.count, grain, ranks_);
         if (mine.first == mine.last && ranks_.rank() > 0) return;
-        auto made = accumulator_for(analyzer_, arrival, set_.dimension, options_, run_);
-        measure_.reset(&dynamic_cast<SharedAccumulator&>(*made.release()));
+        const std::shared_ptr<Accumulator> made =
+            accumulator_for(analyzer_, arrival, set_.dimension, options_, run_);
+        measure_ = std::dynamic_pointer_cast<SharedAccumulator>(made);
+        if (!measure_) throw std::logic_error(analyzer_.name + " takes no parts of a set");
         if (mine.first > 0) {
             std::vector<double> head(batch() * width());
             head.resize(set_.from(0)(head) * width());
             measure_->begin_at(mine.first, head);
         }
-        add(mine, set_.from(mine.first));
+        const auto next = [from = set_.from(mine.first), left = mine.last - mine.first,
+                           width = width()](std::span<double> rows) mutable {
+            const auto some =
+                static_cast<std::size_t>(std::min<std::uint64_t>(left, rows.size() / width));
+            if (some > 0 && from(rows.first(some * width)) < some)
+                fail(ErrorKind::input, "the input became shorter while it was read");
+            left -= some;
+            return some;
+        };
+        add_all(*measure_, next, width(), set_.dimension, mine.last - mine.first, run_);
     }
 
     [[nodiscard]] std::size_t batch() const { return arrival_batch(set_.dimension); }
     [[nodiscard]] std::size_t width() const { return set_.dimension + (set_.weighted ? 1 : 0); }
-
-    /// The next batch is fetched while one is looked at.
-    void add(const Stretch& mine, const NextRows& next) {
-        RunContext quiet = run_;
-        quiet.progress = {};
-        std::uint64_t asked = mine.first;
-        const auto fetch = [&](std::vector<double>& rows) {
-            const auto wanted =
-                static_cast<std::size_t>(std::min<std::uint64_t>(batch(), mine.last - asked));
-            asked += wanted;
-            rows.resize(wanted * width());
-            if (wanted > 0 && next(rows) < wanted)
-                fail(ErrorKind::input, "the input became shorter while it was read");
-        };
-        const auto policy = run_.thread_count() > 1 ? std::launch::async : std::launch::deferred;
-        std::vector<double> rows;
-        std::vector<double> ahead;
-        fetch(rows);
-        for (std::uint64_t done = mine.first; !rows.empty(); rows.swap(ahead)) {
-            run_.check_stop();
-            auto fetched = std::async(policy, [&] { fetch(ahead); });
-            measure_->add(rows, quiet);
-            done += rows.size() / width();
-            run_.tick(done - mine.first, mine.last - mine.first);
-            fetched.get();
-        }
-    }
 
     /// Ranks whose number has `step` as its lowest bit give what they know to those `step` before.
     void merge() {
@@ -128,7 +112,7 @@ class Share {
     const Values& options_;
     Ranks& ranks_;
     RunContext run_;
-    std::unique_ptr<SharedAccumulator> measure_;
+    std::shared_ptr<SharedAccumulator> measure_;
 };
 
 }  // namespace

@@ -2,8 +2,8 @@
 //
 // The mean of reports, in constant memory.
 //
-//     mean_k = mean_{k-1} + (x_k - mean_{k-1}) / k,    error = sqrt(sum of squared deviations / (k
-//     (k - 1)))
+//     mean_k = mean_{k-1} + (x_k - mean_{k-1}) / k,
+//     error = sqrt(sum of squared deviations / (k (k - 1)))
 //
 // Numbers, curves and grids are averaged; a word or a flag stays where all reports agree on it;
 // what they disagree on (or lists of different lengths) is left out. Whether the mean meets what

@@ -3,12 +3,9 @@
 // Two or more lists of equal length in one group of a report are curves, columns of a table with a
 // row for each entry, if they are longer than the points have coordinates, or if one of them holds
 // whole numbers. All other lists (a corner, a grid's extents, a mean for each axis) are numbers of
-// their own: columns KEY.0, KEY.1... Tables
-// of different groups or lengths follow each other and are empty where another's rows are, as after
-// pandas.concat; what is no curve is repeated on every row.
-
-#include "report/csv_table.hpp"
-
+// their own: columns KEY.0, KEY.1... Tables of different groups or lengths follow each other and
+// are empty where another's rows are, as after pandas.concat; what is no curve is repeated on every
+// row.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,6 +15,8 @@
 #include <vector>
 
 #include "core/text.hpp"
+#include "report/document.hpp"
+#include "report/table_line.hpp"
 
 namespace stipple {
 namespace {
@@ -141,26 +140,19 @@ ValueRows rows_of(const Measurement& m) {
     return rows;
 }
 
-std::string quoted(const std::string& text) {
-    if (text.find_first_of(",\"\n") == std::string::npos) return text;
-    std::string out = "\"";
-    for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return out + "\"";
-}
-
 void write_row(const std::map<std::string, std::string>& cells,
                const std::vector<std::string>& columns, std::string& text) {
     for (std::size_t i = 0; i < columns.size(); ++i) {
         const auto cell = cells.find(columns[i]);
         if (i > 0) text += ',';
-        if (cell != cells.end()) text += quoted(cell->second);
+        if (cell != cells.end()) text += csv_field(cell->second);
     }
     text += '\n';
 }
 
 }  // namespace
 
-std::string csv_table(std::span<const Measurement> measurements) {
+std::string to_csv(std::span<const Measurement> measurements) {
     if (measurements.empty()) return {};
     std::vector<ValueRows> all;
     Columns columns;

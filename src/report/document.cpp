@@ -11,7 +11,6 @@
 #include "core/json.hpp"
 #include "core/options.hpp"
 #include "core/text.hpp"
-#include "report/csv_table.hpp"
 
 namespace stipple {
 namespace {
@@ -138,7 +137,5 @@ std::string to_text(std::span<const Measurement> measurements) {
     for (const Measurement& m : measurements) text += to_text(m);
     return text;
 }
-
-std::string to_csv(std::span<const Measurement> measurements) { return csv_table(measurements); }
 
 }  // namespace stipple

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/npy_header.hpp"
 #include "core/text.hpp"
 #include "media/png_picture.hpp"
 
@@ -40,11 +41,6 @@ std::size_t first_row(const Grid& power, const PowerPicture& picture) {
     return static_cast<std::size_t>(picture.slice + last) * power.columns;
 }
 
-void append_little_endian(std::string& out, double value) {
-    auto bits = std::bit_cast<std::uint64_t>(value);
-    for (int i = 0; i < 8; ++i, bits >>= 8) out.push_back(static_cast<char>(bits & 255));
-}
-
 /// What the pixels are, for the file's text.
 std::string description(const Grid& power, const PowerPicture& picture, double white) {
     const auto last = static_cast<std::int64_t>(power.columns / 2);
@@ -67,21 +63,15 @@ std::string description(const Grid& power, const PowerPicture& picture, double w
 double shade_of_power(double power) { return power < 1e300 ? power / (1 + power) : 1; }
 
 std::string npy_bytes(const Grid& power) {
-    const std::size_t side = power.columns;
-    const std::string shape = power.rows == 1             ? fmt::format("{},", side)
-                              : power.rows == side * side ? fmt::format("{0}, {0}, {0}", side)
-                                                          : fmt::format("{}, {}", power.rows, side);
-    std::string header =
-        fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}), }}", shape);
-    // Magic, version and length are 10 bytes; the numbers begin at a multiple of 64.
-    header.append((64 - (10 + header.size() + 1) % 64) % 64, ' ');
-    header += '\n';
-    std::string bytes("\x93NUMPY\x01\x00", 8);
-    bytes.push_back(static_cast<char>(header.size() & 255));
-    bytes.push_back(static_cast<char>(header.size() >> 8));
-    bytes += header;
-    bytes.reserve(bytes.size() + 8 * power.values.size());
-    for (const double value : power.values) append_little_endian(bytes, value);
+    const std::uint64_t side = power.columns;
+    std::vector<std::uint64_t> shape = {power.rows, side};
+    if (power.rows == 1)
+        shape = {side};
+    else if (power.rows == side * side)
+        shape = {side, side, side};
+    std::string bytes = npy_head(shape, false);
+    static_assert(std::endian::native == std::endian::little);
+    bytes.append(reinterpret_cast<const char*>(power.values.data()), 8 * power.values.size());
     return bytes;
 }
 

@@ -10,8 +10,7 @@
 //     Holm: the i-th smallest of m p-values (from 0) times m - i, never falling, at most 1
 //
 // Promise  the bootstrap is a function of the numbers, their order and the seed alone.
-// Beware   where neither sample varies there is nothing to estimate an error by: the test says p =
-// 1
+// Beware   where neither sample varies there is nothing to estimate an error by: the test says p = 1
 //          if the means are the same, else 0. What has no value (an error of one number) is a NaN.
 // Source   B. L. Welch, Biometrika 34 (1947) 28-35, doi:10.1093/biomet/34.1-2.28; S. Holm,
 //          Scandinavian Journal of Statistics 6 (1979) 65-70; B. Efron, Annals of Statistics 7

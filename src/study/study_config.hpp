@@ -18,8 +18,8 @@ namespace stipple {
 /// A setting of the study: option, text. Lists of units come as one setting for each.
 using StudySettings = std::vector<std::pair<std::string, std::string>>;
 
-/// The settings in a configuration. @throws Error(input) naming `source` and the place in it, such
-/// as $.generators[1].options.scramble
+/// The settings in a configuration, as texts that the command line checks. @throws Error(input)
+/// naming `source` and the place in it, such as $.generators[1].options.scramble
 StudySettings parse_study_config(std::string_view json, const std::string& source);
 
 /// All keys that a configuration may have.

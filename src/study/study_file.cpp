@@ -15,6 +15,7 @@
 #include "core/error.hpp"
 #include "core/file_bytes.hpp"
 #include "core/json.hpp"
+#include "core/text.hpp"
 
 namespace stipple {
 namespace {
@@ -63,27 +64,13 @@ void cut_to(int descriptor, std::uint64_t size, const std::string& path) {
     if (::ftruncate(descriptor, static_cast<off_t>(size)) != 0) refuse(path);
 }
 
-/// Lines of a text, each with its end.
-std::vector<std::string> lines_in(std::string_view text) {
-    std::vector<std::string> lines;
-    while (!text.empty()) {
-        const auto end = std::min(text.find('\n'), text.size() - 1) + 1;
-        lines.emplace_back(text.substr(0, end));
-        text.remove_prefix(end);
-    }
-    return lines;
-}
-
 /// The whole line that comes next; false at the end and where it has no end.
 bool whole_line(std::istream& in, std::string& line) { return std::getline(in, line) && !in.eof(); }
 
-/// A line without what was measured by the clock.
-std::string timeless(const StudyTable& table, const std::string& line) {
-    auto row = table.parse(std::string_view(line).substr(0, line.size() - 1));
-    if (!row) return line;
-    row->generate_seconds.reset();
-    row->seconds.reset();
-    return table.line(*row);
+std::vector<std::string> keys_of(const std::vector<StudyRow>& rows) {
+    std::vector<std::string> keys;
+    for (const StudyRow& row : rows) keys.push_back(row.key);
+    return keys;
 }
 
 }  // namespace
@@ -151,36 +138,31 @@ void StudyFile::open_file(Start start, const RunContext& run) {
     }
     if (unfinished) read_journal();
     read_rows(run);
-    if (!unfinished && is_complete()) {
-        partial_.clear();
-        done_.add({0, next_ = sweep_.units()});
-        return;
-    }
+    if (next_ == sweep_.units()) return;
     if (!unfinished) begin_journal();
     write_waiting();
 }
 
-void StudyFile::begin_journal() {
-    const std::string name = journal_of(path_);
-    journal_ = opened(name, O_RDWR | O_CREAT | O_APPEND);
+void StudyFile::open_journal() {
+    journal_ = opened(journal_of(path_), O_RDWR | O_CREAT | O_APPEND);
     if (::flock(journal_, LOCK_EX | LOCK_NB) != 0)
         fail(ErrorKind::io, "{}: another study is writing to it", path_);
+}
+
+void StudyFile::begin_journal() {
+    if (journal_ < 0) open_journal();
     Json settings = Json::object();
     for (const auto& [key, value] : sweep_.settings()) settings[key] = value;
-    const std::string head = Json{{"format", journal_format},
-                                  {"version", 1},
-                                  {"study", sweep_.fingerprint()},
-                                  {"settings", settings}}
-                                 .dump() +
-                             "\n";
-    cut_to(journal_, 0, name);
-    write_all(journal_, head, name);
+    const std::string head =
+        fmt::format("{{\"format\":\"{}\",\"version\":2,\"study\":\"{}\",\"settings\":{}}}\n",
+                    journal_format, sweep_.fingerprint(), settings.dump());
+    cut_to(journal_, 0, journal_of(path_));
+    write_all(journal_, head, journal_of(path_));
     journal_size_ = head.size();
 }
 
-void StudyFile::refuse_other(const std::string& found_settings) const {
+void StudyFile::refuse_other(const Json& found) const {
     std::string differs;
-    const Json found = Json::parse(found_settings, nullptr, false);
     for (const auto& [name, value] : sweep_.settings()) {
         if (!found.is_object() || !found.contains(name) || found[name] == value) continue;
         differs = fmt::format(": it has {} '{}', this one '{}'", name,
@@ -192,107 +174,98 @@ void StudyFile::refuse_other(const std::string& found_settings) const {
 }
 
 void StudyFile::read_journal() {
-    const std::string name = journal_of(path_);
-    std::ifstream in(name, std::ios::binary);
+    open_journal();
+    std::ifstream in(journal_of(path_), std::ios::binary);
     std::string line;
     const Json head = whole_line(in, line) ? Json::parse(line, nullptr, false) : Json();
-    if (!head.is_object() || head.value("format", "") != journal_format) return begin_journal();
-    if (head.value("study", "") != sweep_.fingerprint()) refuse_other(head["settings"].dump());
-    journal_ = opened(name, O_RDWR | O_APPEND);
-    if (::flock(journal_, LOCK_EX | LOCK_NB) != 0)
-        fail(ErrorKind::io, "{}: another study is writing to it", path_);
+    if (!head.is_object() || !head.contains("study") || !head.contains("settings") ||
+        !line.starts_with(fmt::format("{{\"format\":\"{}\",\"version\":2,", journal_format)))
+        return begin_journal();
+    if (head["study"] != sweep_.fingerprint()) refuse_other(head["settings"]);
     journal_size_ = line.size() + 1;
-    while (read_entry(in, journal_size_)) {
+    while (read_entry(in)) {
     }
-    cut_to(journal_, journal_size_, name);
+    cut_to(journal_, journal_size_, journal_of(path_));
 }
 
-bool StudyFile::read_entry(std::istream& in, std::uint64_t offset) {
+bool StudyFile::read_entry(std::istream& in) {
     std::string line;
     if (!whole_line(in, line)) return false;
-    const Json entry = Json::parse(line, nullptr, false);
-    if (!entry.is_object() || !entry.contains("first") || !entry.contains("bytes")) return false;
-    Waiting waiting{.bytes = entry["bytes"].get<std::vector<std::size_t>>(),
-                    .offset = offset + line.size() + 1};
-    const auto size = std::accumulate(waiting.bytes.begin(), waiting.bytes.end(), std::size_t{0});
-    std::string text(size, '\0');
-    in.read(text.data(), static_cast<std::streamsize>(size));
-    if (static_cast<std::size_t>(in.gcount()) < size) return false;
-    const auto first = entry["first"].get<std::uint64_t>();
-    done_.add({first, first + waiting.bytes.size()});
-    waiting_.emplace(first, std::move(waiting));
-    journal_size_ = offset + line.size() + 1 + size;
+    std::vector<std::uint64_t> numbers;
+    for (const auto word : split(line, ' ')) numbers.push_back(parse_unsigned(word).value_or(0));
+    if (numbers.empty()) return false;
+    Waiting waiting{.bytes = {numbers.begin() + 1, numbers.end()},
+                    .offset = journal_size_ + line.size() + 1};
+    const std::uint64_t size = waiting.size();
+    in.ignore(static_cast<std::streamsize>(size));
+    if (static_cast<std::uint64_t>(in.gcount()) < size) return false;
+    journal_size_ = waiting.offset + size;
+    done_.add({numbers[0], numbers[0] + waiting.bytes.size()});
+    waiting_.emplace(numbers[0], std::move(waiting));
     return true;
+}
+
+bool StudyFile::is_of(const StudyRow& row, std::uint64_t unit) const {
+    return unit < sweep_.units() && belongs(row, row_of(sweep_, sweep_.unit(unit)));
 }
 
 void StudyFile::read_rows(const RunContext& run) {
     std::ifstream in(path_, std::ios::binary);
     std::string line;
-    std::uint64_t whole = 0;
     std::uint64_t number = 0;
-    keys_before_.resize(sweep_.measures().size());
-    if (table_.style() == StudyTable::Style::csv) {
+    std::uint64_t end = 0;       // of the rows read so far
+    std::uint64_t whole = 0;     // of those of whole units
+    std::vector<StudyRow> rows;  // of the unit next_
+    std::vector<std::vector<std::string>> keys(sweep_.measures().size());  // of the unit before
+    const auto take_unit = [&] {
+        for (const StudyRow& row : rows) listener_(row);
+        keys[sweep_.unit(next_++).measure] = keys_of(std::exchange(rows, {}));
+        whole = end;
+    };
+    if (table_.style() == TableStyle::csv) {
         whole_line(in, line);
+        if (line + "\n" != table_.head()) refuse_other({});
         ++number;
-        whole = line.size() + 1;
-        if (line + "\n" != table_.head()) refuse_other("{}");
+        whole = end = line.size() + 1;
     }
     while (whole_line(in, line)) {
         run.check_stop();
         ++number;
         const auto row = table_.parse(line);
         if (!row) fail(ErrorKind::input, "{}:{}: is no row of a study", path_, number);
-        if (row->study != sweep_.fingerprint()) refuse_other("{}");
-        if (!take_row(*row, number)) {
-            partial_.clear();
-            keys_before_[sweep_.unit(next_ - 1).measure] = std::exchange(keys_, {});
+        if (row->study != sweep_.fingerprint()) refuse_other({});
+        if (!is_of(*row, next_)) {
+            if (rows.empty() || !is_of(*row, next_ + 1))
+                fail(ErrorKind::input,
+                     "{}:{}: this row is not where the study has it; it was moved or rows are "
+                     "missing",
+                     path_, number);
+            take_unit();
         }
-        partial_.push_back(line + "\n");
-        keys_.push_back(row->key);
-        listener_(*row);
-        whole += line.size() + 1;
+        rows.push_back(*row);
+        end += line.size() + 1;
     }
-    if (!line.empty()) keys_.clear();  // a row was torn
+    // How many rows the last unit has, those of a unit before it tell: else it is done again.
+    const bool finished = journal_ < 0 && line.empty() && next_ + 1 == sweep_.units();
+    if (finished && !rows.empty() && keys_of(rows) == keys[sweep_.unit(next_).measure]) take_unit();
     cut_to(output_, whole, path_);
     done_.add({0, next_});
 }
 
-/// Whether a file without a journal has all rows: the last unit's results are those of a unit
-/// before it. How many a unit has is not known before it is done.
-bool StudyFile::is_complete() const {
-    const auto last = sweep_.unit(sweep_.units() - 1).measure;
-    return next_ + 1 == sweep_.units() && !keys_.empty() && keys_ == keys_before_[last];
-}
-
-/// Counts a row of the file. True: it is of the same unit as the row before.
-bool StudyFile::take_row(const StudyRow& row, std::uint64_t line) {
-    if (next_ < sweep_.units() && belongs(row, row_of(sweep_, sweep_.unit(next_)))) return true;
-    const bool following = !partial_.empty() && next_ + 1 < sweep_.units() &&
-                           belongs(row, row_of(sweep_, sweep_.unit(next_ + 1)));
-    if (!following)
-        fail(ErrorKind::input,
-             "{}:{}: this row is not where the study has it; it was moved or rows are missing",
-             path_, line);
-    ++next_;
-    return false;
-}
-
 bool StudyFile::put(const Segment& segment) {
     Waiting waiting;
-    std::string text;
+    std::string head = std::to_string(segment.units.first);
     for (const auto& lines : segment.lines) {
         waiting.bytes.push_back(lines.size());
-        text += lines;
+        waiting.text += lines;
+        head += fmt::format(" {}", lines.size());
     }
-    const bool early = segment.units.first > next_;
-    if (early && journal_ >= 0) {
-        const std::string head =
-            Json{{"first", segment.units.first}, {"bytes", waiting.bytes}}.dump() + "\n";
-        write_all(journal_, head + text, journal_of(path_));
+    if (segment.units.first > next_ && journal_ >= 0) {
+        head += '\n';
+        write_all(journal_, head + waiting.text, journal_of(path_));
         waiting.offset = journal_size_ + head.size();
-        journal_size_ += head.size() + text.size();
-    } else {
-        waiting.text = std::move(text);
+        journal_size_ = waiting.offset + waiting.size();
+        waiting.text.clear();
     }
     dirty_ = true;
     waiting_.emplace(segment.units.first, std::move(waiting));
@@ -303,46 +276,31 @@ bool StudyFile::write_waiting() {
     while (!waiting_.empty() && waiting_.begin()->first <= next_) {
         const auto [first, waiting] = *waiting_.begin();
         waiting_.erase(waiting_.begin());
-        if (!write_units(first, waiting)) return false;
+        const std::uint64_t known = next_ - first;  // units that the table has
+        if (known >= waiting.bytes.size()) continue;
+        const std::string text = text_of(waiting).substr(waiting.size(known));
+        next_ = first + waiting.bytes.size();
+        for (const auto line : split(std::string_view(text).substr(0, text.size() - 1), '\n'))
+            if (const auto row = table_.parse(line)) listener_(*row);
+        if (!write_all(output_, text, path_)) return false;
     }
     return true;
 }
 
-bool StudyFile::write_units(std::uint64_t first, const Waiting& waiting) {
-    if (first + waiting.bytes.size() <= next_) return true;  // the file had them already
-    std::string text = waiting.text;
-    if (text.empty()) {
-        text.resize(std::accumulate(waiting.bytes.begin(), waiting.bytes.end(), std::size_t{0}));
-        const auto got =
-            ::pread(journal_, text.data(), text.size(), static_cast<off_t>(waiting.offset));
-        if (got < 0) refuse(journal_of(path_));
-        if (got != static_cast<ssize_t>(text.size()))
-            fail(ErrorKind::io, "{}: was cut off by another program", journal_of(path_));
-    }
-    const auto known = static_cast<std::ptrdiff_t>(next_ - first);
-    text.erase(
-        0, std::accumulate(waiting.bytes.begin(), waiting.bytes.begin() + known, std::size_t{0}));
-    text = without_known_rows(text);
-    for (const auto& line : lines_in(text))
-        if (const auto row = table_.parse(std::string_view(line).substr(0, line.size() - 1)))
-            listener_(*row);
-    next_ = first + waiting.bytes.size();
-    return write_all(output_, text, path_);
+std::string StudyFile::text_of(const Waiting& waiting) const {
+    if (!waiting.text.empty()) return waiting.text;
+    std::string text(waiting.size(), '\0');
+    const auto got =
+        ::pread(journal_, text.data(), text.size(), static_cast<off_t>(waiting.offset));
+    if (got < 0) refuse(journal_of(path_));
+    if (got != static_cast<ssize_t>(text.size()))
+        fail(ErrorKind::io, "{}: was cut off by another program", journal_of(path_));
+    return text;
 }
 
-/// The lines of units from next_ on, less those that are in the file already.
-std::string StudyFile::without_known_rows(const std::string& lines) {
-    std::size_t at = 0;
-    for (const auto& known : std::exchange(partial_, {})) {
-        const auto end = std::min(lines.find('\n', at), lines.size() - 1) + 1;
-        if (timeless(table_, lines.substr(at, end - at)) != timeless(table_, known))
-            fail(ErrorKind::input,
-                 "{}: --resume: a row there is not what this program makes; it was changed, or "
-                 "made by another program",
-                 path_);
-        at = end;
-    }
-    return lines.substr(at);
+std::uint64_t StudyFile::Waiting::size(std::size_t units) const {
+    const auto end = bytes.begin() + static_cast<std::ptrdiff_t>(std::min(units, bytes.size()));
+    return std::accumulate(bytes.begin(), end, std::uint64_t{0});
 }
 
 bool StudyFile::finish(const std::string& more) {

@@ -3,18 +3,17 @@
 // The output of a study: rows in the order of the units, whatever order they are done in, and
 // nothing of what is done lost when the program ends in the middle.
 //
-// Units that are next in order are written to the file at once. Those that come early wait in a
+// Units that are next in order are written to the table at once. Those that come early wait in a
 // journal beside it, FILE.journal, which is there as long as the study is not finished:
 //
-//     {"format": "stipple.study-journal", "version": 1, "study": ..., "settings": {...}}
-//     {"first": UNIT, "bytes": [OF EACH UNIT...]}
+//     {"format":"stipple.study-journal","version":2,"study":...,"settings":{...}}
+//     FIRST-UNIT BYTES-OF-ITS-LINES BYTES-OF-THE-NEXT-UNIT'S...
 //     the lines of these units
 //     ...
 //
-// A file that was cut short by a crash is cut back to its last whole line, and the journal to its
-// last whole entry. The last unit that the file has rows of may lack some: it is done again, and
-// only the rows that are not there are added. A file without a journal that has rows of the very
-// last unit is a finished one, if these are of the same results as those of the measure before.
+// After a crash the journal is cut back to its last whole entry, and the table to the last unit
+// that another one follows: its last unit may lack rows, and is done again. A table without a
+// journal is finished when its last unit has the results of the unit before it of the same measure.
 //
 // Beware   standard output, pipes and devices have no journal: rows wait in memory.
 #pragma once
@@ -26,6 +25,7 @@
 #include <string>
 #include <vector>
 
+#include "core/json.hpp"
 #include "study/study_table.hpp"
 #include "study/sweep.hpp"
 #include "study/unit_runner.hpp"
@@ -58,7 +58,7 @@ class StudyFile {
     [[nodiscard]] bool has_journal() const { return journal_ >= 0; }
 
     /// Takes units that were done. False: the pipe was closed, and nobody wants more.
-    /// @throws Error(io), Error(input): rows of the file are not what this program makes
+    /// @throws Error(io)
     bool put(const Segment& segment);
 
     /// Adds text behind the rows, once all units are there, and takes the journal away.
@@ -70,23 +70,25 @@ class StudyFile {
   private:
     /// Units that wait for their turn.
     struct Waiting {
-        std::vector<std::size_t> bytes;  ///< of each unit
-        std::uint64_t offset = 0;        ///< in the journal
-        std::string text = {};           ///< where there is none
+        std::vector<std::uint64_t> bytes = {};  ///< of each unit
+        std::uint64_t offset = 0;               ///< in the journal
+        std::string text = {};                  ///< where there is none
+
+        /// Bytes of the first units.
+        [[nodiscard]] std::uint64_t size(std::size_t units = ~std::size_t{0}) const;
     };
 
     void open_stream();
     void open_file(Start start, const RunContext& run);
+    void open_journal();
     void begin_journal();
-    void read_rows(const RunContext& run);
-    bool is_complete() const;
-    bool take_row(const StudyRow& row, std::uint64_t line);
     void read_journal();
-    bool read_entry(std::istream& in, std::uint64_t offset);
-    [[noreturn]] void refuse_other(const std::string& found_settings) const;
+    bool read_entry(std::istream& in);
+    void read_rows(const RunContext& run);
+    [[nodiscard]] bool is_of(const StudyRow& row, std::uint64_t unit) const;
+    [[noreturn]] void refuse_other(const Json& found) const;
     bool write_waiting();
-    bool write_units(std::uint64_t first, const Waiting& waiting);
-    std::string without_known_rows(const std::string& lines);
+    [[nodiscard]] std::string text_of(const Waiting& waiting) const;
 
     std::string path_;
     const Sweep& sweep_;
@@ -99,10 +101,7 @@ class StudyFile {
     bool stream_ = false;
     std::uint64_t journal_size_ = 0;
     UnitSet done_;
-    std::uint64_t next_ = 0;                             ///< unit whose rows come next
-    std::vector<std::string> partial_;                   ///< lines of it that are there already
-    std::vector<std::string> keys_;                      ///< of the results in them
-    std::vector<std::vector<std::string>> keys_before_;  ///< of each measure's unit before
+    std::uint64_t next_ = 0;  ///< unit whose rows come next
     std::map<std::uint64_t, Waiting> waiting_;
 };
 

@@ -7,12 +7,10 @@
 #include <deque>
 #include <exception>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "core/error.hpp"
-#include "core/json.hpp"
-#include "study/work_cost.hpp"
+#include "core/packed.hpp"
 #include "study/work_queue.hpp"
 
 namespace stipple {
@@ -30,49 +28,27 @@ constexpr char halt_message = 'H';     // stop at once
 
 constexpr auto short_pause = std::chrono::milliseconds(1);
 
-std::string packed(char kind, const Json& content) {
-    std::string bytes(1, kind);
-    Json::to_cbor(content, nlohmann::detail::output_adapter<char>(bytes));
-    return bytes;
+std::string packed(const Work& ranges) { return Packer().put(work_message).put_all(ranges).take(); }
+
+std::string packed(const Work& ranges, const WorkDone& done, const std::string& error) {
+    Packer to;
+    to.put(done_message).put_all(error).put_all(ranges).put_all(done.too_large).put(done.seconds);
+    for (const Segment& segment : done.segments) {
+        to.put(segment.units);
+        for (const std::string& lines : segment.lines) to.put_all(lines);
+    }
+    return to.take();
 }
 
-Json unpacked(const Message& message) {
-    return Json::from_cbor(message.bytes.begin() + 1, message.bytes.end());
-}
-
-Json json_of(const Work& ranges) {
-    Json list = Json::array();
-    for (const auto& [first, last] : ranges) list.push_back({first, last});
-    return list;
-}
-
-Work ranges_from(const Json& list) {
-    Work ranges;
-    for (const Json& range : list)
-        ranges.push_back({range[0].get<std::uint64_t>(), range[1].get<std::uint64_t>()});
-    return ranges;
-}
-
-Json json_of(const Work& ranges, const WorkDone& result, const std::string& error) {
-    Json segments = Json::array();
-    for (const Segment& segment : result.segments)
-        segments.push_back({segment.units.first, segment.units.last, segment.lines});
-    return {{"ranges", json_of(ranges)},
-            {"segments", segments},
-            {"hungry", json_of(result.hungry)},
-            {"seconds", result.seconds},
-            {"error", error}};
-}
-
-WorkDone result_from(const Json& json) {
-    WorkDone result;
-    for (const Json& segment : json["segments"])
-        result.segments.push_back(
-            {{segment[0].get<std::uint64_t>(), segment[1].get<std::uint64_t>()},
-             segment[2].get<std::vector<std::string>>()});
-    result.hungry = ranges_from(json["hungry"]);
-    result.seconds = json["seconds"].get<std::vector<double>>();
-    return result;
+WorkDone unpacked(Unpacker& from) {
+    WorkDone done{.too_large = from.take_all<UnitRange>(), .seconds = from.take<double>()};
+    while (!from.empty()) {
+        Segment segment{.units = from.take<UnitRange>()};
+        for (auto unit = segment.units.first; unit < segment.units.last; ++unit)
+            segment.lines.push_back(from.take_text());
+        done.segments.push_back(std::move(segment));
+    }
+    return done;
 }
 
 /// A run with the share of memory and threads that one of several workers has.
@@ -86,17 +62,17 @@ RunContext share_of(const RunContext& run, std::uint64_t workers, unsigned threa
 }
 
 /// Rank 0: the work that there is, and what came back of it.
-class Office {
+class Leader {
   public:
-    Office(const Sweep& sweep, const StudyTable& table, StudyFile& file, Ranks& ranks,
+    Leader(const Sweep& sweep, const StudyTable& table, StudyFile& file, Ranks& ranks,
            const RunContext& run)
         : file_(file),
           ranks_(ranks),
           run_(run),
           threads_(threads_of(ranks, run)),
-          hands_(threads_ * static_cast<std::size_t>(ranks.size())),
+          workers_(threads_ * static_cast<std::size_t>(ranks.size())),
           runner_(sweep, table, run.max_memory),
-          queue_(sweep, file.done(), hands_),
+          queue_(sweep, file.done(), workers_),
           left_(sweep),
           units_(sweep.units()),
           started_(run.seconds ? run.seconds() : 0) {
@@ -104,9 +80,9 @@ class Office {
     }
 
     bool go() {
-        std::vector<std::jthread> crew;
+        std::vector<std::jthread> threads;
         busy_ = threads_;
-        for (unsigned i = 0; i < threads_; ++i) crew.emplace_back([this] { work_on(); });
+        for (unsigned i = 0; i < threads_; ++i) threads.emplace_back([this] { work_on(); });
         int others = ranks_.size() - 1;
         while (busy_ > 0 || others > 0) {
             if (halted_ && !told_) tell_others_to_halt();
@@ -114,9 +90,9 @@ class Office {
             keep_safe();
             show_progress();
         }
-        crew.clear();
+        threads.clear();
         if (error_) std::rethrow_exception(error_);
-        if (alive_) feed_the_hungry();
+        if (alive_) do_the_large_alone();
         run_.check_stop();
         if (alive_ && file_.units_written() != units_)
             fail(ErrorKind::io, "internal error: {} of {} parts of the study are missing",
@@ -159,7 +135,7 @@ class Office {
         const std::lock_guard lock(mutex_);
         --running_;
         left_.finish(ranges, result.seconds);
-        hungry_.insert(hungry_.end(), result.hungry.begin(), result.hungry.end());
+        too_large_.insert(too_large_.end(), result.too_large.begin(), result.too_large.end());
         for (const Segment& segment : result.segments) alive_ = alive_ && file_.put(segment);
         if (!alive_) stop_all();
     }
@@ -180,22 +156,22 @@ class Office {
         for (int other = 1; other < ranks_.size(); ++other) ranks_.send(other, {halt_message});
     }
 
-    /// Answers the others. False: nobody said anything.
+    /// Answers the others. False: no message came.
     bool serve(int& others) {
         const auto message = ranks_.poll();
         if (!message) return false;
         if (message->bytes[0] == bye_message) --others;
         if (message->bytes[0] == ask_message) {
             const auto ranges = next();
-            ranks_.send(message->from, ranges ? packed(work_message, json_of(*ranges))
-                                              : std::string(1, nothing_message));
+            ranks_.send(message->from, ranges ? packed(*ranges) : std::string(1, nothing_message));
         }
         if (message->bytes[0] != done_message) return true;
         try {
-            const Json json = unpacked(*message);
-            if (const auto error = json["error"].get<std::string>(); !error.empty())
+            Unpacker from(std::string_view(message->bytes).substr(1));
+            if (const auto error = from.take_text(); !error.empty())
                 fail(ErrorKind::io, "rank {}: {}", message->from, error);
-            take(ranges_from(json["ranges"]), result_from(json));
+            const auto ranges = from.take_all<UnitRange>();
+            take(ranges, unpacked(from));
         } catch (...) {
             give_up(std::current_exception());
         }
@@ -223,14 +199,14 @@ class Office {
         if (!run_.progress || !run_.seconds) return;
         const std::lock_guard lock(mutex_);
         const double spent = run_.seconds() - started_;
-        const double left = left_.seconds() / static_cast<double>(hands_);
+        const double left = left_.seconds() / static_cast<double>(workers_);
         if (spent > 0) run_.progress(std::min(0.999, spent / (spent + left)));
     }
 
     /// What needs more memory than a share is done alone, one after the other.
-    void feed_the_hungry() {
+    void do_the_large_alone() {
         RunContext alone = share_of(run_, 1, threads_of(ranks_, run_));
-        for (const UnitRange& range : hungry_)
+        for (const UnitRange& range : too_large_)
             for (const Segment& segment : runner_.run({range}, alone).segments)
                 if (alive_) alive_ = file_.put(segment);
     }
@@ -239,12 +215,12 @@ class Office {
     Ranks& ranks_;
     const RunContext& run_;
     unsigned threads_;
-    std::size_t hands_;
+    std::size_t workers_;
     UnitRunner runner_;
     std::mutex mutex_;  // of all below
     WorkQueue queue_;
     WorkLeft left_;
-    Work hungry_;
+    Work too_large_;
     std::uint64_t running_ = 0;
     std::exception_ptr error_;
     bool alive_ = true;
@@ -257,25 +233,25 @@ class Office {
     double synced_ = 0;  ///< when rows were put on the disk last
 };
 
-/// Another rank: threads that work, and one that speaks with rank 0.
-class Workshop {
+/// Another rank: threads that work, and one that exchanges messages with rank 0.
+class Worker {
   public:
-    Workshop(const Sweep& sweep, const StudyTable& table, Ranks& ranks, const RunContext& run)
+    Worker(const Sweep& sweep, const StudyTable& table, Ranks& ranks, const RunContext& run)
         : ranks_(ranks),
           run_(run),
           threads_(threads_of(ranks, run)),
           runner_(sweep, table, run.max_memory) {}
 
     void go() {
-        std::vector<std::jthread> crew;
-        for (unsigned i = 0; i < threads_; ++i) crew.emplace_back([this] { work_on(); });
+        std::vector<std::jthread> threads;
+        for (unsigned i = 0; i < threads_; ++i) threads.emplace_back([this] { work_on(); });
         for (unsigned i = 0; i < threads_; ++i) ranks_.send(0, {ask_message});
         while (open_ > 0 || !outbox_empty()) {
             if (run_.stop.stop_requested()) stop_.request_stop();
             const bool heard = listen();
             if (!post() && !heard) std::this_thread::sleep_for(short_pause);
         }
-        crew.clear();
+        threads.clear();
         ranks_.send(0, {bye_message});
         run_.check_stop();
     }
@@ -290,7 +266,8 @@ class Workshop {
         const auto message = ranks_.poll();
         if (!message) return false;
         if (message->bytes[0] == halt_message) stop_.request_stop();
-        if (message->bytes[0] == work_message) put(ranges_from(unpacked(*message)));
+        if (message->bytes[0] == work_message)
+            put(Unpacker(std::string_view(message->bytes).substr(1)).take_all<UnitRange>());
         if (message->bytes[0] == nothing_message) put({});
         return true;
     }
@@ -305,16 +282,16 @@ class Workshop {
 
     /// Sends what was done, and asks for as much again.
     bool post() {
-        std::deque<std::string> letters;
+        std::deque<std::string> messages;
         {
             const std::lock_guard lock(mutex_);
-            letters.swap(outbox_);
+            messages.swap(outbox_);
         }
-        for (auto& letter : letters) {
-            ranks_.send(0, std::move(letter));
+        for (auto& message : messages) {
+            ranks_.send(0, std::move(message));
             ranks_.send(0, {ask_message});
         }
-        return !letters.empty();
+        return !messages.empty();
     }
 
     Work wait_for_work() {
@@ -339,7 +316,7 @@ class Workshop {
                 error = e.what();
             }
             const std::lock_guard lock(mutex_);
-            outbox_.push_back(packed(done_message, json_of(ranges, result, error)));
+            outbox_.push_back(packed(ranges, result, error));
         }
         --open_;
     }
@@ -360,12 +337,12 @@ class Workshop {
 
 bool run_study(const Sweep& sweep, const StudyTable& table, StudyFile& file, Ranks& ranks,
                const RunContext& run) {
-    return Office(sweep, table, file, ranks, run).go();
+    return Leader(sweep, table, file, ranks, run).go();
 }
 
 void work_for_study(const Sweep& sweep, const StudyTable& table, Ranks& ranks,
                     const RunContext& run) {
-    Workshop(sweep, table, ranks, run).go();
+    Worker(sweep, table, ranks, run).go();
 }
 
 void dismiss(Ranks& ranks) {

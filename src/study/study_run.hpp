@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A study done by many hands: threads of this process, and other ranks with theirs. Each takes the
-// next piece of work when it is done with the last; rank 0 writes what comes back.
+// A study on all threads of this process and of the other MPI ranks. Each takes the next piece of
+// work when it is done with the last; rank 0 writes the results.
 //
 // Cost     between ranks, for each piece of work (a second of it, as a rule): 30 bytes to ask and
 //          to answer, and its rows, 150 to 250 bytes each. Rank 0 keeps 8 bytes for each unit that

@@ -1,26 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "study/study_summary.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
-#include <optional>
 
-#include "core/json.hpp"
 #include "core/text.hpp"
 #include "study/statistics.hpp"
 
 namespace stipple {
 namespace {
-
-/// A cell of a table: a word, or the text of a number.
-struct TableCell {
-    const char* name;
-    std::string text;
-    bool number = false;
-};
 
 TableCell word(const char* name, std::string text) { return {name, std::move(text)}; }
 TableCell whole(const char* name, std::uint64_t value) {
@@ -30,29 +18,29 @@ TableCell real(const char* name, double value) {
     return {name, std::isnan(value) ? "" : format_number(value), true};
 }
 
-std::string json_cell(const TableCell& cell) {
-    const bool finite = cell.text.empty() || cell.text.find("inf") == std::string::npos;
-    if (cell.number && cell.text.empty()) return "null";
-    if (cell.number && finite) return cell.text;
-    return Json(cell.text).dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
-/// A line of the table; in CSV, with the names before the first one.
-std::string line_of(StudyTable::Style style, const std::vector<TableCell>& cells, bool first) {
-    std::string names;
-    std::string line;
-    for (const TableCell& cell : cells) {
-        if (&cell != &cells.front()) {
-            names += ',';
-            line += ',';
-        }
-        names += cell.name;
-        line += style == StudyTable::Style::csv
-                    ? csv_field(cell.text)
-                    : fmt::format("\"{}\":{}", cell.name, json_cell(cell));
-    }
-    if (style == StudyTable::Style::jsonl) return fmt::format("{{{}}}\n", line);
-    return first ? fmt::format("{}\n{}\n", names, line) : line + "\n";
+std::vector<TableCell> mean_cells(const StudyRow& row, const SampleSummary& s,
+                                  std::uint64_t failures, double confidence, const Interval& t,
+                                  const Interval& boot) {
+    return {word("table", "mean"),
+            word("generator", row.generator),
+            whole("dimension", row.dimension),
+            word("warps", row.warps),
+            whole("count", row.count),
+            word("measure", row.measure),
+            word("domain", row.domain),
+            word("key", row.key),
+            whole("sets", s.count),
+            whole("failed", failures),
+            real("mean", s.mean),
+            real("standard_error", s.standard_error),
+            real("median", s.median),
+            real("standard_deviation", s.deviation),
+            real("confidence", confidence),
+            real("t_low", t.low),
+            real("t_high", t.high),
+            real("bootstrap_low", boot.low),
+            real("bootstrap_high", boot.high),
+            word("study", row.study)};
 }
 
 /// Values of the seeds that both samples have.
@@ -111,31 +99,12 @@ std::string StudySummary::means(StudyTable::Style style, const SummaryOptions& o
     const auto add = [&](const StudyRow& row, std::span<const double> values,
                          std::uint64_t stream) {
         const SampleSummary s = summarize(values);
-        const Interval t = t_interval(s, options.confidence);
-        const Interval boot = bootstrap_interval(values, options.confidence, options.resamples,
-                                                 options.seed, stream, run);
-        text += line_of(style,
-                        {word("table", "mean"),
-                         word("generator", row.generator),
-                         whole("dimension", row.dimension),
-                         word("warps", row.warps),
-                         whole("count", row.count),
-                         word("measure", row.measure),
-                         word("domain", row.domain),
-                         word("key", row.key),
-                         whole("sets", s.count),
-                         whole("failed", failures_of(row)),
-                         real("mean", s.mean),
-                         real("standard_error", s.standard_error),
-                         real("median", s.median),
-                         real("standard_deviation", s.deviation),
-                         real("confidence", options.confidence),
-                         real("t_low", t.low),
-                         real("t_high", t.high),
-                         real("bootstrap_low", boot.low),
-                         real("bootstrap_high", boot.high),
-                         word("study", row.study)},
-                        text.empty());
+        const auto boot = bootstrap_interval(values, options.confidence, options.resamples,
+                                             options.seed, stream, run);
+        const auto cells = mean_cells(row, s, failures_of(row), options.confidence,
+                                      t_interval(s, options.confidence), boot);
+        if (text.empty()) text = table_head(style, cells);
+        text += table_line(style, cells);
     };
     for (std::size_t i = 0; i < samples_.size(); ++i) add(samples_[i].row, samples_[i].values, i);
     for (const auto& [cell, failed] : failed_)
@@ -165,31 +134,36 @@ std::vector<StudySummary::Pair> StudySummary::pairs_of(const Topic& topic, bool 
 
 std::string StudySummary::comparisons(StudyTable::Style style, const SummaryOptions& options,
                                       const RunContext& run) const {
-    const auto line = [&](const Pair& pair, bool first) {
+    const auto cells_of_pair = [&](const Pair& pair) -> std::vector<TableCell> {
         const auto& [a, b, sets_a, sets_b, test, p_holm] = pair;
         const StudyRow& row = a->row;
-        return line_of(
-            style,
-            {word("table", "comparison"), whole("dimension", row.dimension),
-             word("warps", row.warps), whole("count", row.count), word("measure", row.measure),
-             word("key", row.key), word("generator_a", row.generator),
-             word("generator_b", b->row.generator),
-             word("method", options.paired ? "paired" : "welch"), whole("sets_a", sets_a),
-             whole("sets_b", sets_b), real("difference", test.difference),
-             real("standard_error", test.standard_error), real("t", test.t),
-             real("degrees_of_freedom", test.degrees), real("p_value", test.p_value),
-             real("p_holm", p_holm), word("study", row.study)},
-            first);
+        return {word("table", "comparison"),
+                whole("dimension", row.dimension),
+                word("warps", row.warps),
+                whole("count", row.count),
+                word("measure", row.measure),
+                word("key", row.key),
+                word("generator_a", row.generator),
+                word("generator_b", b->row.generator),
+                word("method", options.paired ? "paired" : "welch"),
+                whole("sets_a", sets_a),
+                whole("sets_b", sets_b),
+                real("difference", test.difference),
+                real("standard_error", test.standard_error),
+                real("t", test.t),
+                real("degrees_of_freedom", test.degrees),
+                real("p_value", test.p_value),
+                real("p_holm", p_holm),
+                word("study", row.study)};
     };
-    std::string text;
+    const Sample none{};  // where there are no pairs, the table has its names alone
+    std::string text = table_head(style, cells_of_pair({&none, &none}));
     for (const Topic& topic : topics_in_order_) {
         run.check_stop();
-        for (const Pair& pair : pairs_of(topic, options.paired)) text += line(pair, text.empty());
+        for (const Pair& pair : pairs_of(topic, options.paired))
+            text += table_line(style, cells_of_pair(pair));
     }
-    if (!text.empty() || style == StudyTable::Style::jsonl) return text;
-    const Sample none{};  // there are no pairs: the table has its names alone
-    const std::string names = line({&none, &none, 0, 0, {}, 0}, true);
-    return names.substr(0, names.find('\n') + 1);
+    return text;
 }
 
 }  // namespace stipple

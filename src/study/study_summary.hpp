@@ -32,12 +32,12 @@ class StudySummary {
 
     /// A row for each generator, dimension, count, measure and key.
     /// @throws Error(cancelled)
-    [[nodiscard]] std::string means(StudyTable::Style style, const SummaryOptions& options,
+    [[nodiscard]] std::string means(TableStyle style, const SummaryOptions& options,
                                     const RunContext& run) const;
 
     /// A row for each pair of generators, if there are two that some set of went well.
     /// @throws Error(cancelled)
-    [[nodiscard]] std::string comparisons(StudyTable::Style style, const SummaryOptions& options,
+    [[nodiscard]] std::string comparisons(TableStyle style, const SummaryOptions& options,
                                           const RunContext& run) const;
 
   private:

@@ -11,30 +11,31 @@
 #include <string_view>
 #include <vector>
 
+#include "report/table_line.hpp"
 #include "study/sweep.hpp"
 
 namespace stipple {
 
 /// One number of one measure of one set, or why there is none.
 struct StudyRow {
-    std::string generator;  ///< spec
-    std::string generator_options;
+    std::string generator = {};  ///< spec
+    std::string generator_options = {};
     std::uint64_t dimension = 0;
-    std::string warps;
-    std::uint64_t count = 0;              ///< points that were asked for
-    std::optional<std::uint64_t> points;  ///< that were measured
+    std::string warps = {};
+    std::uint64_t count = 0;                   ///< points that were asked for
+    std::optional<std::uint64_t> points = {};  ///< that were measured
     std::uint64_t seed = 0;
-    std::string measure;  ///< spec
-    std::string measure_options;
-    std::string domain;  ///< that the measured points are on
-    std::string key;     ///< of the result
-    std::optional<double> value;
-    bool whole = false;  ///< the value is an integer
-    std::string status;  ///< ok or failed
-    std::string reason;  ///< of a failure
-    std::string study;   ///< fingerprint
-    std::optional<double> generate_seconds;
-    std::optional<double> seconds;
+    std::string measure = {};  ///< spec
+    std::string measure_options = {};
+    std::string domain = {};  ///< that the measured points are on
+    std::string key = {};     ///< of the result
+    std::optional<double> value = {};
+    bool whole = false;         ///< the value is an integer
+    std::string status = "ok";  ///< or failed
+    std::string reason = {};    ///< of a failure
+    std::string study = {};     ///< fingerprint
+    std::optional<double> generate_seconds = {};
+    std::optional<double> seconds = {};
 
     [[nodiscard]] bool failed() const { return status != "ok"; }
 };
@@ -48,11 +49,11 @@ bool belongs(const StudyRow& row, const StudyRow& unit);
 /// How the rows of a file are written.
 class StudyTable {
   public:
-    enum class Style { csv, jsonl };
+    using Style = TableStyle;
 
-    StudyTable(Style style, bool seconds) : style_(style), seconds_(seconds) {}
+    StudyTable(TableStyle style, bool seconds);
 
-    [[nodiscard]] Style style() const { return style_; }
+    [[nodiscard]] TableStyle style() const { return style_; }
 
     /// What stands on top: the line of names in CSV, nothing in JSONL.
     [[nodiscard]] std::string head() const;
@@ -67,11 +68,9 @@ class StudyTable {
     [[nodiscard]] bool is_head(std::string_view line) const;
 
   private:
-    Style style_;
+    TableStyle style_;
     bool seconds_;
+    std::vector<TableCell> columns_;  ///< names alone
 };
-
-/// A field as CSV has it: in quotes where it must be.
-std::string csv_field(const std::string& text);
 
 }  // namespace stipple

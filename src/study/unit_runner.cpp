@@ -12,7 +12,6 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "pipeline/chain.hpp"
-#include "pipeline/delivery.hpp"
 #include "pipeline/pipeline.hpp"
 #include "study/time_limit.hpp"
 
@@ -126,14 +125,6 @@ bool takes(const Chosen<Analyzer>& measure, const WarpChain& chain, const RunCon
            !takes_points(measure, cube_of(chain.dimension_in()), run);
 }
 
-/// Images of all points, of which some are there.
-PointSet image_of(const PointSet& points, const WarpChain& chain, const RunContext& run) {
-    if (chain.empty()) return points;
-    PointSet image = chain.image(points, run);
-    tell_kept(points.count(), image.count(), chain, run);
-    return image;
-}
-
 /// One set of points: as it is measured, and before its warps.
 class MadeSet {
   public:
@@ -164,11 +155,11 @@ class MadeSet {
         const ChainSet set{.seed = seed, .count = before_->count()};
         const std::size_t d = before_->dimension();
         const WarpChain first(std::span<const Spec>(warps).first(scrambles), d, set, run);
-        *before_ = image_of(*before_, first, run);
+        if (!first.empty()) *before_ = image_of(*before_, first, run);
         if (scrambles == warps.size()) return;
         // What a scramble draws depends on seed and coordinates: cut in two, the chain is the same.
-        image_ = image_of(
-            *before_, WarpChain(std::span<const Spec>(warps).subspan(scrambles), d, set, run), run);
+        const WarpChain rest(std::span<const Spec>(warps).subspan(scrambles), d, set, run);
+        image_ = image_of(*before_, rest, run);
     }
 
     std::optional<PointSet> before_;
@@ -212,7 +203,7 @@ bool is_meant(const std::string& key, const std::vector<std::string>& wanted) {
 }
 
 /// What a measure said of a set.
-struct Finding {
+struct Measured {
     std::vector<KeyedNumber> numbers = {};
     std::string domain = {};
     std::optional<std::uint64_t> points = {};
@@ -220,9 +211,9 @@ struct Finding {
     std::optional<Failure> failure = {};
 };
 
-Finding measured(const SweepRequest& request, const Chosen<Analyzer>& measure,
-                 const PointSet& points, const RunContext& run) {
-    Finding found;
+Measured measured(const SweepRequest& request, const Chosen<Analyzer>& measure,
+                  const PointSet& points, const RunContext& run) {
+    Measured found;
     found.domain = points.domain->spec();
     found.points = points.count();
     const double start = run.seconds ? run.seconds() : 0;
@@ -241,7 +232,7 @@ Finding measured(const SweepRequest& request, const Chosen<Analyzer>& measure,
 }
 
 std::string lines_of(const StudyTable& table, StudyRow row, const MadeSet& set,
-                     const Finding& found) {
+                     const Measured& found) {
     row.domain = found.domain;
     row.points = found.points;
     row.generate_seconds = set.seconds();
@@ -263,14 +254,13 @@ std::string lines_of(const StudyTable& table, StudyRow row, const MadeSet& set,
 
 /// The sets of one piece of work: each is made once, and where the seed changes nothing, one is
 /// all.
-class Workbench {
+class PieceRunner {
   public:
-    Workbench(const Sweep& sweep, const StudyTable& table, const UnitRunner& runner,
-              bool shares_memory, const RunContext& run)
+    PieceRunner(const Sweep& sweep, const StudyTable& table, const UnitRunner& runner,
+                bool shares_memory, const RunContext& run)
         : sweep_(sweep), table_(table), runner_(runner), shares_memory_(shares_memory), run_(run) {
         run_.progress = {};
         run_.warn = {};
-        done_.seconds.resize(1 + sweep.measures().size());
     }
 
     void add(std::uint64_t index) {
@@ -285,12 +275,12 @@ class Workbench {
                                              sweep_.request().first_seed + unit.seed_index, run_);
             cell_ = unit.cell;
             variant_ = variant;
-            done_.seconds[0] += set_->seconds();
+            done_.seconds += set_->seconds();
         }
         const auto [it, fresh] = found_.try_emplace(unit.measure);
         if (fresh) {
             it->second = find(cell, unit.measure);
-            done_.seconds[1 + unit.measure] += it->second.seconds;
+            done_.seconds += it->second.seconds;
         }
         keep(index, unit, it->second);
     }
@@ -298,7 +288,7 @@ class Workbench {
     WorkDone take() { return std::move(done_); }
 
   private:
-    Finding find(const Cell& cell, std::size_t number) {
+    Measured find(const Cell& cell, std::size_t number) {
         if (set_->failure()) return {.failure = set_->failure()};
         const auto& measure = sweep_.measures()[number];
         const auto& image = set_->image();
@@ -307,9 +297,9 @@ class Workbench {
         return measured(sweep_.request(), measure, after ? *image : set_->before(), run_);
     }
 
-    void keep(std::uint64_t index, const Unit& unit, const Finding& found) {
+    void keep(std::uint64_t index, const Unit& unit, const Measured& found) {
         if (found.failure && found.failure->memory && shares_memory_) {
-            done_.hungry.push_back({index, index + 1});
+            done_.too_large.push_back({index, index + 1});
             return;
         }
         auto& segments = done_.segments;
@@ -328,7 +318,7 @@ class Workbench {
     std::unique_ptr<MadeSet> set_;
     std::uint64_t cell_ = 0;
     std::uint64_t variant_ = 0;
-    std::map<std::size_t, Finding> found_;
+    std::map<std::size_t, Measured> found_;
 };
 
 }  // namespace
@@ -346,10 +336,10 @@ std::vector<KeyedNumber> numbers_of(const Report& report, const std::vector<std:
 }
 
 WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext& run) const {
-    Workbench bench(sweep_, table_, *this, run.max_memory < whole_memory_, run);
+    PieceRunner runner(sweep_, table_, *this, run.max_memory < whole_memory_, run);
     for (const UnitRange& range : ranges)
-        for (std::uint64_t unit = range.first; unit < range.last; ++unit) bench.add(unit);
-    return bench.take();
+        for (std::uint64_t unit = range.first; unit < range.last; ++unit) runner.add(unit);
+    return runner.take();
 }
 
 std::span<const Spec> UnitRunner::warps_behind_scrambles() const {

@@ -36,19 +36,19 @@ struct UnitRange {
 /// Units that were done, with their lines.
 struct Segment {
     UnitRange units;
-    std::vector<std::string> lines;  ///< of each unit, one or more lines
+    std::vector<std::string> lines = {};  ///< of each unit, one or more lines
 };
 
 /// What became of a piece of work.
 struct WorkDone {
-    std::vector<Segment> segments;
-    std::vector<UnitRange> hungry;  ///< units that need more memory than this worker's share
-    std::vector<double> seconds;    ///< spent on making sets and on each measure
+    std::vector<Segment> segments = {};
+    std::vector<UnitRange> too_large = {};  ///< units that need more memory than a worker's share
+    double seconds = 0;                     ///< spent on making and measuring sets
 };
 
 class UnitRunner {
   public:
-    /// @param whole_memory what the hungry may have; the run's own limit is the worker's share
+    /// @param whole_memory what units that are too large for a share may have; the run's own limit is the worker's share
     UnitRunner(const Sweep& sweep, const StudyTable& table, std::uint64_t whole_memory)
         : sweep_(sweep), table_(table), whole_memory_(whole_memory) {}
 

@@ -4,9 +4,20 @@
 #include <algorithm>
 #include <cmath>
 
-#include "study/work_cost.hpp"
-
 namespace stipple {
+namespace {
+
+constexpr double once = 2e-5;  // what every set and every measure costs, however small
+
+/// A set of a cell with all its measures.
+double set_cost(const Sweep& sweep, const Cell& cell) {
+    double seconds = generate_cost(sweep, cell);
+    for (std::size_t m = 0; m < sweep.measures().size(); ++m)
+        seconds += measure_cost(sweep, cell, m);
+    return seconds;
+}
+
+}  // namespace
 
 void UnitSet::add(UnitRange range) {
     if (range.first >= range.last) return;
@@ -38,6 +49,77 @@ std::vector<UnitRange> UnitSet::ranges() const {
     return all;
 }
 
+double generate_cost(const Sweep& sweep, const Cell& cell) {
+    const auto& generator = *sweep.generators()[cell.generator].unit;
+    const auto n = static_cast<double>(cell.count);
+    const auto d = static_cast<double>(cell.dimension);
+    const double warps = 5e-8 * n * d * static_cast<double>(sweep.warps().size());
+    if (generator.cost) return once + generator.cost(n, d) + warps;
+    if (generator.traits.sequence) return once + 3e-8 * n * d + warps;
+    return once + 3e-5 * n * std::pow(5.0, std::max(0.0, d - 2)) + warps;
+}
+
+double measure_cost(const Sweep& sweep, const Cell& cell, std::size_t measure) {
+    const Analyzer& analyzer = *sweep.measures()[measure].unit;
+    const auto n = static_cast<double>(cell.count);
+    const auto d = static_cast<double>(cell.dimension);
+    return once + (analyzer.cost ? analyzer.cost(n, d) : 5e-7 * n * d);
+}
+
+WorkLeft::WorkLeft(const Sweep& sweep)
+    : sweep_(sweep), parts_(sweep.generators().size() * sweep.request().dimensions.size()) {
+    for (std::uint64_t c = 0; c < sweep.cells(); ++c) {
+        const Cell cell = sweep.cell(c);
+        const auto seeds = static_cast<double>(sweep.request().seeds);
+        part_of(c).left += (sweep.seeded(cell.generator) ? seeds : 1) * set_cost(sweep, cell);
+    }
+}
+
+WorkLeft::Part& WorkLeft::part_of(std::uint64_t cell) {
+    return parts_[static_cast<std::size_t>(cell / sweep_.request().counts.size())];
+}
+
+void WorkLeft::take_out(const std::vector<UnitRange>& ranges, std::optional<double> seconds) {
+    std::vector<std::pair<Part*, double>> costs;
+    double all = 0;
+    const std::uint64_t per_cell = sweep_.units_per_cell();
+    for (const auto& [begin, end] : ranges)
+        for (std::uint64_t first = begin; first < end;) {
+            const std::uint64_t index = first / per_cell;
+            const std::uint64_t last = std::min(end, (index + 1) * per_cell);
+            const Cell cell = sweep_.cell(index);
+            // Ranges that begin or end inside a set count for their share of it.
+            const std::uint64_t units_of_set =
+                sweep_.seeded(cell.generator) ? sweep_.measures().size() : per_cell;
+            const double sets =
+                static_cast<double>(last - first) / static_cast<double>(units_of_set);
+            costs.emplace_back(&part_of(index), sets * set_cost(sweep_, cell));
+            all += costs.back().second;
+            first = last;
+        }
+    for (const auto& [part, cost] : costs) {
+        part->left = std::max(0.0, part->left - cost);
+        if (!seconds) continue;
+        part->modelled += cost;
+        part->spent += *seconds * cost / all;
+    }
+}
+
+double WorkLeft::seconds() const {
+    double modelled = 0;
+    double spent = 0;
+    for (const Part& part : parts_) {
+        modelled += part.modelled;
+        spent += part.spent;
+    }
+    double left = 0;
+    for (const Part& part : parts_)
+        left += part.left * (part.modelled > 0 ? part.spent / part.modelled
+                             : modelled > 0    ? spent / modelled
+                                               : 1);
+    return left;
+}
+
 WorkQueue::WorkQueue(const Sweep& sweep, UnitSet done, std::size_t workers)
     : sweep_(sweep), done_(std::move(done)) {
     constexpr double longest = 1;      // seconds of a piece
@@ -60,8 +142,7 @@ WorkQueue::Cut WorkQueue::cut_of(std::uint64_t index, double grain) const {
     const Cell cell = sweep_.cell(index);
     const std::uint64_t measures = sweep_.measures().size();
     const double made = generate_cost(sweep_, cell);
-    double measured = 0;
-    for (std::size_t m = 0; m < measures; ++m) measured += measure_cost(sweep_, cell, m);
+    const double measured = set_cost(sweep_, cell) - made;
     Cut cut{.cell = index};
     if (!sweep_.seeded(cell.generator)) {  // one set is all, but its rows must find room
         constexpr std::uint64_t most_sets = 1 << 16;

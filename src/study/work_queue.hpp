@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: MIT
 //
 // A study cut into pieces of work by their cost: first those that take long however they are cut,
-// the dearest of them first, so that none is left over when all others are done; then the rest in
-// the order of the study, so that rows can be written soon.
+// the most expensive of them first, so that none is left over when all others are done; then the
+// rest in the order of the study, so that rows can be written soon.
 //
-// A piece is some sets of one cell or, where one set is dear and its measures cost more than it to
-// make it again, some of a set's measures. Pieces take at most about a second where that can be, so
-// that an interrupted study has lost little.
+// A piece is some sets of one cell or, where the measures of one set cost more than to make it
+// again, some of a set's measures. Pieces take about a second at most where that can be, so that an
+// interrupted study has lost little.
 //
-// Shape  memory goes with the number of cells, not of sets.
+// What is left takes, summed over generators and dimensions,
+//
+//     (model of what is left) x (spent / model of what is done),
+//
+// the correction being that of all that is done where nothing is done there yet.
+//
+// Shape   memory goes with the number of cells, not of sets.
+// Beware  the model is good to a factor of ten or so: it orders work and cuts it.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <vector>
@@ -30,6 +38,41 @@ class UnitSet {
 
   private:
     std::map<std::uint64_t, std::uint64_t> parts_;  ///< first, last: apart from each other
+};
+
+/// Seconds on one core to make a set.
+double generate_cost(const Sweep& sweep, const Cell& cell);
+
+/// Seconds on one core to measure a set.
+double measure_cost(const Sweep& sweep, const Cell& cell, std::size_t measure);
+
+/// What is left of a study, in seconds of one core.
+class WorkLeft {
+  public:
+    /// All of it.
+    explicit WorkLeft(const Sweep& sweep);
+
+    /// Takes out what was done before, or elsewhere.
+    void forget(const std::vector<UnitRange>& ranges) { take_out(ranges, {}); }
+
+    /// Takes out what was done in so many seconds.
+    void finish(const std::vector<UnitRange>& ranges, double seconds) { take_out(ranges, seconds); }
+
+    [[nodiscard]] double seconds() const;
+
+  private:
+    /// One generator in one dimension.
+    struct Part {
+        double left = 0;
+        double modelled = 0;  ///< of what is done
+        double spent = 0;
+    };
+
+    [[nodiscard]] Part& part_of(std::uint64_t cell);
+    void take_out(const std::vector<UnitRange>& ranges, std::optional<double> seconds);
+
+    const Sweep& sweep_;
+    std::vector<Part> parts_;
 };
 
 class WorkQueue {

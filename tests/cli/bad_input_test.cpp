@@ -233,15 +233,17 @@ TEST(BadInput, AFailureLeavesTheOldTargetAlone) {
 
 TEST(BadInput, CtrlCLeavesNothingBehind) {
     const Sandbox box;
-    const Outcome outcome =
-        box.shell("stipple generate random -n 1e10 -o p.csv & sleep 0.5; kill -INT $!; wait $!");
+    const Outcome outcome = box.shell(
+        "stipple generate random -n 1e10 -o p.csv & until [ -s .stipple-*.part ]; do "
+        "sleep 0.01; done; kill -INT $!; wait $!");
     expect_refusal(outcome, 130, "interrupted");
     EXPECT_EQ(box.files(), std::vector<std::string>{});
-    const Outcome walking = box.shell(
-        "timeout -k 9 -s INT 0.5 stipple generate random --rng ranlux48 --start 1e15 -n 1; exit 0");
+    const Outcome walking =
+        box.shell("stipple generate random --rng ranlux48 --start 1e15 -n 1 & pid=$!; " +
+                  caught("$pid") + "kill -INT $pid; wait $pid");
     EXPECT_THAT(walking.err, HasSubstr("stipple: interrupted"));
-    const Outcome waiting = box.shell(
-        "sleep 5 | (trap 'exit' TERM; exec timeout -s INT 0.5 stipple analyze chi-square); exit 0");
+    const Outcome waiting = box.shell("mkfifo pipe; stipple analyze chi-square pipe & pid=$!; " +
+                                      caught("$pid") + "kill -INT $pid; wait $pid; rm pipe");
     EXPECT_THAT(waiting.err, HasSubstr("stipple: interrupted"));
 }
 
@@ -250,7 +252,12 @@ TEST(BadInput, CtrlCDuringASearchPrintsTheBoundsFoundSoFarButWritesNoFile) {
     const Sandbox box;
     const std::string search =
         "stipple generate halton -n 2000 -d 8 -o p.npy; stipple analyze star-discrepancy p.npy ";
-    const std::string interrupt = " & sleep 3; kill -INT $!; wait $!";
+    // Bounds are shown as soon as there are some.
+    const std::string interrupt =
+        " --progress always 2> err & until grep -q between err; do sleep 0.02; done; kill -INT $!; "
+        "wait $!; code=$?; tr '\\r' '\\n' < err | grep -a interrupted | sed "
+        "'s/.*stipple:/stipple:/' "
+        ">&2; rm err; exit $code";
     const Outcome printed = box.shell(search + interrupt);
     EXPECT_EQ(printed.code, 130);
     EXPECT_THAT(printed.err, HasSubstr("stipple: interrupted"));

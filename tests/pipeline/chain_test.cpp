@@ -99,6 +99,19 @@ TEST(WarpChain, RefusesWhatDoesNotFit) {
     EXPECT_NE(error_of([] { chain({"disk@1,2", "disk@2,3"}, 3); }), "");
 }
 
+TEST(WarpChain, RefusesPointsThatItWasNotMadeFor) {
+    const WarpChain disk = chain({"disk"}, 2);
+    EXPECT_EQ(error_of([&] { static_cast<void>(disk.image(PointSet(5, 3), {})); }),
+              "input: the points have 3 coordinates; the warps take 2");
+    EXPECT_EQ(error_of([&] { static_cast<void>(disk.preimage(PointSet(5, 3), {})); }),
+              "input: the points have 3 coordinates; the warps give 2");
+    const PointSet once = disk.image(points_of({{0.9, 0.5}}), {});
+    EXPECT_NE(error_of([&] {
+                  static_cast<void>(disk.image(once, {}));
+              }).find("a warp takes points of the unit cube"),
+              std::string::npos);
+}
+
 TEST(WarpChain, NothingLeavesTheCube) {
     const auto nothing = chain({}, 3);
     EXPECT_EQ(nothing.domain()->spec(), "unit-cube");

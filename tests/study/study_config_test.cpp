@@ -32,7 +32,7 @@ TEST(StudyConfig, SaysWhatTheOptionsWouldSay) {
         "generators": ["random", {"name": "sobol", "options": {"scramble": "owen"}}],
         "analyze": "star-discrepancy",
         "warp": [{"name": "triangle", "options": {"vertices": [[0, 0], [2, 0], [0, 1]]}}],
-        "count": [16, "2^5..2^6"], "dimension": 2, "seeds": 4, "seed": 18446744073709551615,
+        "count": [16, "2^5..2^6"], "dimension": 2, "seeds": 1e3, "seed": 18446744073709551615,
         "keys": ["value", "exact"], "curves": false, "seconds": false, "summary": true,
         "time-limit": 2.5
     })",
@@ -43,7 +43,7 @@ TEST(StudyConfig, SaysWhatTheOptionsWouldSay) {
                                     {"warp", "triangle:vertices=[0,0 2,0 0,1]"},
                                     {"count", "16,2^5..2^6"},
                                     {"dimension", "2"},
-                                    {"seeds", "4"},
+                                    {"seeds", "1000"},
                                     {"seed", "18446744073709551615"},
                                     {"keys", "value,exact"},
                                     {"no-seconds", "true"},
@@ -63,16 +63,11 @@ TEST(StudyConfig, ErrorsNameThePlaceAndWhatIsNearest) {
               "input: s.json: $.generators[0].options.scrmble: unknown o");
     EXPECT_EQ(error_in(R"({"generators": [{"nam": "sobol"}], "analyze": "moments"})"),
               "input: s.json: $.generators[0].nam: there is no such key | did you mean 'name'?");
-    EXPECT_EQ(error_with(R"("count": [16, "64..16"])"),
-              "input: s.json: $.count[1]: the range '64..16' is empty: 64 is above 16");
-    EXPECT_EQ(error_with(R"("count": [16.5])"),
-              "input: s.json: $.count[0]: expected a whole number or a range such as "
-              "\"2^4..2^16\", got 16.5");
+    EXPECT_EQ(error_with(R"("count": [{"from": 1}])"),
+              "input: s.json: $.count: expected a word, a number, true, false or a list, got "
+              "{\"from\":1}");
     EXPECT_EQ(error_with(R"("curves": 1)"),
               "input: s.json: $.curves: expected true or false, got 1");
-    EXPECT_EQ(error_with(R"("seeds": "4")"),
-              "input: s.json: $.seeds: expected a whole number in [1, 2^53], got \"4\"");
-    EXPECT_EQ(error_with(R"("keys": [1])"), "input: s.json: $.keys[0]: expected a word, got 1");
     EXPECT_EQ(error_in(R"({"generators": []})"),
               "input: s.json: $.generators: expected a list of specs such as "
               "\"sobol:scramble=owen\"");
@@ -81,21 +76,6 @@ TEST(StudyConfig, ErrorsNameThePlaceAndWhatIsNearest) {
     EXPECT_EQ(error_in("[1]"), "input: s.json: $: expected an object, {\"generators\": ...}");
     EXPECT_EQ(error_in("{\n \"a\": ,"), "input: s.json:2:7: is not JSON here");
     EXPECT_EQ(error_in(""), "input: s.json:1:1: is not JSON here");
-}
-
-TEST(StudyConfig, ValuesThatNoOptionTakesAreNamedByTheirPlace) {
-    const std::vector<std::pair<std::string, std::string>> cases = {
-        {R"("seed": -1)", "$.seed: expected a whole number in [0, 2^64), got -1"},
-        {R"("seeds": 0)", "$.seeds: expected a whole number in [1, 2^53], got 0"},
-        {R"("seeds": 2.5)", "$.seeds: expected a whole number in [1, 2^53], got 2.5"},
-        {R"("confidence": 95)", "$.confidence: expected a number between 0 and 1, got 95"},
-        {R"("time-limit": 0)", "$.time-limit: expected a number of seconds above 0, got 0"},
-        {R"("bootstrap": 0)", "$.bootstrap: expected a whole number in [1, 10000000], got 0"},
-        {R"("pairs": "t")", "$.pairs: expected welch or paired, got 't'"},
-        {R"("format": "json")", "$.format: expected csv or jsonl, got 'json'"},
-        {R"("output": "")", "$.output: expected a name, got an empty one"}};
-    for (const auto& [json, message] : cases)
-        EXPECT_EQ(error_with(json), "input: s.json: " + message);
 }
 
 TEST(StudyConfig, KeysThatStandTwiceAreRefused) {

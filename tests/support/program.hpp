@@ -9,6 +9,11 @@
 
 namespace stipple::testing {
 
+/// Shell words that wait until a process handles an interrupt (bit 1 of its caught signals).
+inline std::string caught(const std::string& pid) {
+    return "until grep -Eq '^SigCgt:.*[2367abef]$' /proc/" + pid + "/status; do sleep 0.01; done; ";
+}
+
 struct Outcome {
     int code = 0;  ///< exit code; 128 + signal if it was killed
     std::string out;

@@ -97,23 +97,25 @@ void refine(Report& mean, std::size_t sets, const Values&) {
 }  // namespace
 
 Analyzer unit() {
-    return {.name = "dispersion",
-            .summary = "Volume of the largest empty axis-parallel box, and where it is",
-            .source = "Naamad, Lee, Hsu 1984, doi:10.1016/0166-218X(84)90124-0",
-            .traits = {.max_dimension = 1000},
-            .options =
-                Schema(torus, limit::method, limit::time_limit, limit::tolerance, limit::max_work),
-            .results = {{"value", "volume of the largest empty box that was found"},
-                        {"lower", "some box is at least so large"},
-                        {"upper", "none is larger"},
-                        {"exact", "whether the two bounds are the same", true, true_or_false},
-                        {"method", "sweep-1d, maximal-rectangles or branch-and-bound", true,
-                         "sweep-1d|maximal-rectangles|branch-and-bound"},
-                        {"box.lower_corner", "lower corner of that box"},
-                        {"box.upper_corner",
-                         "its upper corner; where that is not above the lower one, the box wraps"}},
-            .analyze = analyze,
-            .refine = refine};
+    return {
+        .name = "dispersion",
+        .summary = "Volume of the largest empty axis-parallel box, and where it is",
+        .source = "Naamad, Lee, Hsu 1984, doi:10.1016/0166-218X(84)90124-0",
+        .traits = {.max_dimension = 1000},
+        .options =
+            Schema(torus, limit::method, limit::time_limit, limit::tolerance, limit::max_work),
+        .results = {{"value", "volume of the largest empty box that was found"},
+                    {"lower", "some box is at least so large"},
+                    {"upper", "none is larger"},
+                    {"exact", "whether the two bounds are the same", true, true_or_false},
+                    {"method", "sweep-1d, maximal-rectangles or branch-and-bound", true,
+                     "sweep-1d|maximal-rectangles|branch-and-bound"},
+                    {"box.lower_corner", "lower corner of that box"},
+                    {"box.upper_corner",
+                     "its upper corner; where that is not above the lower one, the box wraps"}},
+        .analyze = analyze,
+        .cost = [](double n, double d) { return d <= 2 ? 3e-6 * n : 1e-8 * std::pow(n, d - 1); },
+        .refine = refine};
 }
 
 }  // namespace stipple::analyzers::dispersion

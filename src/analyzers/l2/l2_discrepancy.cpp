@@ -41,6 +41,7 @@
 //         Complexity 14 (1998) 1-33 (weights). S. Heinrich, Math. Comp. 65 (1996) 1621-1633 (fewer
 //         than n^2).
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -191,7 +192,10 @@ Analyzer unit() {
                          "the value is off by at most this (three and more "
                          "dimensions; fewer are exact)",
                          false}},
-            .analyze = analyze};
+            .analyze = analyze,
+            .cost = [](double n, double d) {
+                return d <= 2 ? 5e-7 * n : d * std::min(1e-10 * n * n * d, 1e-5 * n);
+            }};
 }
 
 }  // namespace stipple::analyzers::l2_discrepancy

@@ -40,6 +40,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "analyzers/analyzer.hpp"
@@ -265,6 +267,11 @@ Analyzer unit() {
                         {"projections.largest.lower", "the largest of all is at least this", false},
                         {"projections.largest.upper", "and at most this", false}},
             .analyze = analyze,
+            .cost =
+                [](double n, double d) {  // exact searches of Halton's, Sobol's and random points
+                    if (d <= 2) return 3e-8 * std::pow(n, 1.33);
+                    return std::min(100.0, 5e-8 * std::pow(n, d <= 8 ? 1 + d / 4 : 2.2 + d / 10));
+                },
             .sharing = {.together = analyze_together},
             .refine = refine};
 }

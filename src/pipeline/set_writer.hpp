@@ -9,12 +9,36 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
+#include "io/format.hpp"
 #include "pipeline/chain.hpp"
-#include "pipeline/produce.hpp"
 
 namespace stipple {
+
+/// Columns that are written behind the coordinates.
+struct Columns {
+    bool pdf = false;     ///< the density of each point
+    bool weight = false;  ///< 1 / density: the mean of f times weight estimates the integral of f
+
+    [[nodiscard]] bool any() const { return pdf || weight; }
+    [[nodiscard]] std::vector<std::string> names() const;
+};
+
+/// Where points go, and how they are written.
+struct Target {
+    std::string path = "-";          ///< may hold {set} and {seed}: a file for each set
+    const Format* format = nullptr;  ///< none: as the path ends; else csv
+    bool header = true;
+    bool meta = false;
+    bool single = false;
+    std::optional<int> precision = {};
+    Columns columns = {};
+    /// Takes the bytes in place of a file; false: it wants no more.
+    std::function<bool(std::string_view bytes)> sink = {};
+};
 
 /// Rows of one set, on their way to the file.
 struct Source {
@@ -31,7 +55,7 @@ struct Source {
 };
 
 /// What happens to rows before and after their warps.
-struct Route {
+struct RowSteps {
     std::optional<Box> bounds = {};  ///< scales the unit cube to this box first
     Columns columns = {};            ///< added as last numbers
     double volume = 1;               ///< measure of what the chain's unit cube was scaled to
@@ -40,7 +64,7 @@ struct Route {
 };
 
 /// Sets with everything that is needed to write them one after the other.
-struct Shipment {
+struct SetsToWrite {
     std::size_t sets = 1;
     std::size_t first_set = 0;  ///< number of the first one among all
     std::function<Source(std::size_t set, const RunContext&)> source;
@@ -51,7 +75,7 @@ struct Shipment {
     std::function<const std::vector<SideFile>&(std::size_t set)> side_files = {};
     std::vector<std::uint64_t> counts;
     std::size_t dimension = 0;  ///< numbers of a row that is written, less the columns
-    Route route;
+    RowSteps steps;
 };
 
 /// Whether the path holds {set} or {seed}.
@@ -63,18 +87,13 @@ std::string path_of_set(std::string path, std::size_t set, std::uint64_t seed);
 /// Writes the sets to the target's file or files, and what comes with them. False: the pipe was
 /// closed.
 /// @throws Error
-bool ship(const Shipment& shipment, const Target& target, const RunContext& run);
+bool write_files(const SetsToWrite& job, const Target& target, const RunContext& run);
 
 /// The part of a run's progress that one of several sets is.
-RunContext lane(const RunContext& run, std::size_t set, std::size_t sets);
+RunContext part_of_run(const RunContext& run, std::size_t set, std::size_t sets);
 
-/// Tells the user how many of `count` points were kept by a chain that may drop some.
-/// @throws Error(input) when none was
-void tell_kept(std::uint64_t count, std::uint64_t kept, const WarpChain& chain,
-               const RunContext& run);
-
-/// Each row with the route's columns behind it.
+/// Each row with the steps's columns behind it.
 std::vector<double> with_columns(std::span<const double> rows, const WarpChain& chain,
-                                 const Route& route);
+                                 const RowSteps& steps);
 
 }  // namespace stipple

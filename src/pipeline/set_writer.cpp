@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "pipeline/delivery.hpp"
+#include "pipeline/set_writer.hpp"
 
 #include <oneapi/tbb/parallel_pipeline.h>
 
@@ -19,16 +19,16 @@
 namespace stipple {
 namespace {
 
-std::vector<double> travel(std::vector<double> rows, const WarpChain& chain, std::uint64_t first,
-                           const Route& route) {
-    if (route.inverse) return chain.inverse(std::move(rows));
-    if (route.bounds) scale_into(*route.bounds, rows);
+std::vector<double> mapped(std::vector<double> rows, const WarpChain& chain, std::uint64_t first,
+                           const RowSteps& steps) {
+    if (steps.inverse) return chain.inverse(std::move(rows));
+    if (steps.bounds) scale_into(*steps.bounds, rows);
     rows = chain.forward(std::move(rows), first);
-    return route.columns.any() ? with_columns(rows, chain, route) : std::move(rows);
+    return steps.columns.any() ? with_columns(rows, chain, steps) : std::move(rows);
 }
 
 /// A block of rows and, later, of bytes.
-struct Parcel {
+struct RowBlock {
     std::uint64_t first = 0;
     std::uint64_t last = 0;
     std::vector<double> rows;
@@ -36,125 +36,125 @@ struct Parcel {
 };
 
 /// The rows of one set through fill, warps and format into the output.
-class Conveyor {
+class RowPipeline {
   public:
-    Conveyor(const Source& source, const Route& route, const Layout& layout, const Format& format,
-             std::size_t set, io::Output& output, const RunContext& run)
+    RowPipeline(const Source& source, const RowSteps& steps, const Layout& layout,
+                const Format& format, std::size_t set, io::Output& output, const RunContext& run)
         : source_(source),
-          route_(route),
+          steps_(steps),
           layout_(layout),
           format_(format),
           set_(set),
           output_(output),
           run_(run),
-          block_(std::max<std::uint64_t>(1, 16384 / source.dimension)) {}
+          block_rows_(std::max<std::uint64_t>(1, 16384 / source.dimension)) {}
 
     /// False: the pipe was closed.
     bool go() {
-        if (run_.thread_count() == 1 || (source_.count <= block_ && !source_.read))
+        if (run_.thread_count() == 1 || (source_.count <= block_rows_ && !source_.read))
             go_alone();
         else
             within_threads(run_, [this] { go_parallel(); });
-        if (source_.read && !closed_ && !route_.inverse)
+        if (source_.read && !closed_ && !steps_.inverse)
             tell_kept(at_, rows_out_, *source_.chain, run_);
         return !closed_;
     }
 
   private:
-    /// The next block in a free parcel; nullptr at the end. Called by one thread at a time.
-    Parcel* next() {
+    /// The next block in a free block; nullptr at the end. Called by one thread at a time.
+    RowBlock* next() {
         if (closed_ || (at_ == source_.count && !source_.read)) return nullptr;
         run_.check_stop();
-        Parcel& parcel = take();
-        parcel.first = at_;
-        if (source_.read) return read(parcel) ? &parcel : nullptr;
-        parcel.last = at_ = at_ + std::min(source_.count - at_, block_);
-        parcel.bytes.clear();
-        if (source_.in_order) fill(parcel);
-        return &parcel;
+        RowBlock& block = take();
+        block.first = at_;
+        if (source_.read) return read(block) ? &block : nullptr;
+        block.last = at_ = at_ + std::min(source_.count - at_, block_rows_);
+        block.bytes.clear();
+        if (source_.in_order) fill(block);
+        return &block;
     }
 
     /// False: all rows were read.
-    bool read(Parcel& parcel) {
-        parcel.rows.resize(block_ * source_.dimension);
-        const std::size_t count = source_.read(parcel.rows);
-        parcel.rows.resize(count * source_.dimension);
-        parcel.last = at_ += count;
-        parcel.bytes.clear();
+    bool read(RowBlock& block) {
+        block.rows.resize(block_rows_ * source_.dimension);
+        const std::size_t count = source_.read(block.rows);
+        block.rows.resize(count * source_.dimension);
+        block.last = at_ += count;
+        block.bytes.clear();
         return count > 0;
     }
 
-    /// Parcels are owned here and used again: a pipeline that is stopped drops what it holds.
-    Parcel& take() {
+    /// Blocks are owned here and used again: a pipeline that is stopped drops what it holds.
+    RowBlock& take() {
         const std::lock_guard lock(mutex_);
         if (free_.empty()) {
-            parcels_.push_back(std::make_unique<Parcel>());
-            return *parcels_.back();
+            blocks_.push_back(std::make_unique<RowBlock>());
+            return *blocks_.back();
         }
-        Parcel* parcel = free_.back();
+        RowBlock* block = free_.back();
         free_.pop_back();
-        return *parcel;
+        return *block;
     }
 
-    void fill(Parcel& parcel) const {
-        parcel.rows.resize((parcel.last - parcel.first) * source_.dimension);
-        source_.fill(parcel.first, parcel.rows);
+    void fill(RowBlock& block) const {
+        block.rows.resize((block.last - block.first) * source_.dimension);
+        source_.fill(block.first, block.rows);
     }
 
-    void work(Parcel& parcel) const {
-        if (!source_.in_order && !source_.read) fill(parcel);
-        parcel.rows =
-            travel(std::move(parcel.rows), *source_.chain, source_.first + parcel.first, route_);
-        format_.rows(layout_, set_, parcel.first, parcel.rows, parcel.bytes);
+    void work(RowBlock& block) const {
+        if (!source_.in_order && !source_.read) fill(block);
+        block.rows =
+            mapped(std::move(block.rows), *source_.chain, source_.first + block.first, steps_);
+        format_.rows(layout_, set_, block.first, block.rows, block.bytes);
     }
 
-    void deliver(Parcel& parcel) {
-        if (!closed_ && !output_.write(parcel.bytes)) closed_ = true;
-        rows_out_ += parcel.rows.size() / layout_.width();
-        if (!source_.read) run_.tick(parcel.last, source_.count);
+    void write(RowBlock& block) {
+        if (!closed_ && !output_.write(block.bytes)) closed_ = true;
+        rows_out_ += block.rows.size() / layout_.width();
+        if (!source_.read) run_.tick(block.last, source_.count);
         const std::lock_guard lock(mutex_);
-        free_.push_back(&parcel);
+        free_.push_back(&block);
     }
 
     void go_alone() {
-        while (Parcel* parcel = next()) {
-            work(*parcel);
-            deliver(*parcel);
+        while (RowBlock* block = next()) {
+            work(*block);
+            write(*block);
         }
     }
 
     void go_parallel() {
-        const auto first = tbb::make_filter<void, Parcel*>(tbb::filter_mode::serial_in_order,
-                                                           [this](tbb::flow_control& control) {
-                                                               Parcel* parcel = next();
-                                                               if (!parcel) control.stop();
-                                                               return parcel;
-                                                           });
-        const auto middle =
-            tbb::make_filter<Parcel*, Parcel*>(tbb::filter_mode::parallel, [this](Parcel* parcel) {
-                work(*parcel);
-                return parcel;
-            });
-        const auto last = tbb::make_filter<Parcel*, void>(
-            tbb::filter_mode::serial_in_order, [this](Parcel* parcel) { deliver(*parcel); });
+        const auto first = tbb::make_filter<void, RowBlock*>(tbb::filter_mode::serial_in_order,
+                                                             [this](tbb::flow_control& control) {
+                                                                 RowBlock* block = next();
+                                                                 if (!block) control.stop();
+                                                                 return block;
+                                                             });
+        const auto middle = tbb::make_filter<RowBlock*, RowBlock*>(tbb::filter_mode::parallel,
+                                                                   [this](RowBlock* block) {
+                                                                       work(*block);
+                                                                       return block;
+                                                                   });
+        const auto last = tbb::make_filter<RowBlock*, void>(
+            tbb::filter_mode::serial_in_order, [this](RowBlock* block) { write(*block); });
         tbb::parallel_pipeline(4 * static_cast<std::size_t>(run_.thread_count()),
                                first & middle & last);
     }
 
     const Source& source_;
-    const Route& route_;
+    const RowSteps& steps_;
     const Layout& layout_;
     const Format& format_;
     std::size_t set_;
     io::Output& output_;
     const RunContext& run_;
-    std::uint64_t block_;
+    std::uint64_t block_rows_;
     std::uint64_t at_ = 0;
     std::uint64_t rows_out_ = 0;
     std::atomic<bool> closed_ = false;
     std::mutex mutex_;
-    std::vector<std::unique_ptr<Parcel>> parcels_;
-    std::vector<Parcel*> free_;
+    std::vector<std::unique_ptr<RowBlock>> blocks_;
+    std::vector<RowBlock*> free_;
 };
 
 std::string span_text(std::size_t low, std::size_t high) {
@@ -178,46 +178,46 @@ void check_format(const Format& format, const Layout& layout) {
                        "--format: {} holds sets of equal size only; these are not", format.name);
 }
 
-Layout layout_of(const Shipment& shipment, std::size_t first, std::size_t last,
+Layout layout_of(const SetsToWrite& job, std::size_t first, std::size_t last,
                  const Target& target) {
-    Layout layout{.dimension = shipment.dimension,
+    Layout layout{.dimension = job.dimension,
                   .header = target.header,
                   .meta = target.meta,
                   .single = target.single,
                   .precision = target.precision,
-                  .provenance = shipment.provenance(first),
-                  .extent = shipment.extent(first)};
+                  .provenance = job.provenance(first),
+                  .extent = job.extent(first)};
     Provenance& meta = layout.provenance;
     if (target.precision && !target.format->traits.binary)
         meta.precision = std::min(meta.precision.value_or(*target.precision), *target.precision);
     meta.single |= target.single && target.format->traits.binary;
     layout.extras = target.columns.names();
-    for (std::size_t set = first; set < last; ++set) layout.counts.push_back(shipment.counts[set]);
+    for (std::size_t set = first; set < last; ++set) layout.counts.push_back(job.counts[set]);
     return layout;
 }
 
-/// One file with sets [first, last) of the shipment.
-bool ship_points(const Shipment& shipment, std::size_t first, std::size_t last,
-                 const std::string& path, const Target& target, const RunContext& run) {
+/// One file with sets [first, last) of the job.
+bool write_points(const SetsToWrite& job, std::size_t first, std::size_t last,
+                  const std::string& path, const Target& target, const RunContext& run) {
     const Format& format = *target.format;
-    const Layout layout = layout_of(shipment, first, last, target);
+    const Layout layout = layout_of(job, first, last, target);
     check_format(format, layout);
     // What is wrong with the first source shall be known before anything is written.
-    RunContext part = lane(run, first, shipment.sets).rising();
-    Source source = shipment.source(first, part);
+    RunContext part = part_of_run(run, first, job.sets).rising();
+    Source source = job.source(first, part);
     io::Output output = target.sink ? io::Output(target.sink) : io::Output(path, run.stop);
     std::string bytes;
     if (format.head) format.head(layout, bytes);
     for (std::size_t set = first; set < last; ++set) {
         if (set > first) {
-            part = lane(run, set, shipment.sets).rising();
-            source = shipment.source(set, part);
+            part = part_of_run(run, set, job.sets).rising();
+            source = job.source(set, part);
         }
         if (format.begin_set) format.begin_set(layout, set - first, bytes);
         if (!output.write(bytes)) return false;
         bytes.clear();
-        Conveyor conveyor(source, shipment.route, layout, format, set - first, output, part);
-        if (!conveyor.go()) return false;
+        RowPipeline pipeline(source, job.steps, layout, format, set - first, output, part);
+        if (!pipeline.go()) return false;
     }
     if (format.tail) format.tail(layout, bytes);
     if (!output.write(bytes)) return false;
@@ -226,17 +226,17 @@ bool ship_points(const Shipment& shipment, std::size_t first, std::size_t last,
 }
 
 /// What comes with sets [first, last), written but not yet in its place.
-std::list<io::Output> side_files(const Shipment& shipment, std::size_t first, std::size_t last,
+std::list<io::Output> side_files(const SetsToWrite& job, std::size_t first, std::size_t last,
                                  const RunContext& run) {
     std::list<io::Output> outputs;
-    for (std::size_t set = first; set < last && shipment.side_files; ++set)
-        for (const SideFile& file : shipment.side_files(set))
+    for (std::size_t set = first; set < last && job.side_files; ++set)
+        for (const SideFile& file : job.side_files(set))
             outputs.emplace_back(file.path, run.stop).write(file.bytes);
     return outputs;
 }
 
 /// Provenance in a file beside the points, where the format has no place for it.
-void put_meta_beside(const Shipment& shipment, std::size_t first, std::size_t last,
+void put_meta_beside(const SetsToWrite& job, std::size_t first, std::size_t last,
                      const std::string& path, const Target& target, const RunContext& run,
                      std::list<io::Output>& outputs) {
     if (!target.meta || !target.format->traits.meta_beside || target.sink) return;
@@ -245,7 +245,7 @@ void put_meta_beside(const Shipment& shipment, std::size_t first, std::size_t la
                              target.format->name, path == "-" ? "standard output" : path));
         return;
     }
-    const Layout layout = layout_of(shipment, first, last, target);
+    const Layout layout = layout_of(job, first, last, target);
     outputs.emplace_back(io::meta_path(path), run.stop)
         .write(io::to_text(
                    {target.format->name, layout.width(), layout.counts.size(), layout.provenance}) +
@@ -253,29 +253,29 @@ void put_meta_beside(const Shipment& shipment, std::size_t first, std::size_t la
 }
 
 /// @throws Error(usage) where two sets would be one file
-std::vector<std::string> paths_of_sets(const Shipment& shipment, const Target& target) {
+std::vector<std::string> paths_of_sets(const SetsToWrite& job, const Target& target) {
     std::vector<std::string> paths;
     std::unordered_map<std::string, std::size_t> taken;
-    for (std::size_t set = 0; set < shipment.sets; ++set) {
+    for (std::size_t set = 0; set < job.sets; ++set) {
         const std::uint64_t seed =
-            shipment.first_seed ? *shipment.first_seed + set : shipment.provenance(set).seed;
-        paths.push_back(path_of_set(target.path, shipment.first_set + set, seed));
+            job.first_seed ? *job.first_seed + set : job.provenance(set).seed;
+        paths.push_back(path_of_set(target.path, job.first_set + set, seed));
         const auto [there, is_new] = taken.try_emplace(paths.back(), set);
         if (!is_new)
             fail_with_hint(ErrorKind::usage, "use {set}",
                            "--output: sets {} and {} both have the seed {}, and would be one file",
-                           shipment.first_set + there->second, shipment.first_set + set, seed);
+                           job.first_set + there->second, job.first_set + set, seed);
     }
     return paths;
 }
 
 /// The points and what comes with them: all of it or, when it fails, nothing. Who closes the pipe
 /// has seen enough of the points, but did not say so of the other files.
-bool ship_file(const Shipment& shipment, std::size_t first, std::size_t last,
-               const std::string& path, const Target& target, const RunContext& run) {
-    auto beside = side_files(shipment, first, last, run);
-    put_meta_beside(shipment, first, last, path, target, run, beside);
-    const bool whole = ship_points(shipment, first, last, path, target, run);
+bool write_file(const SetsToWrite& job, std::size_t first, std::size_t last,
+                const std::string& path, const Target& target, const RunContext& run) {
+    auto beside = side_files(job, first, last, run);
+    put_meta_beside(job, first, last, path, target, run, beside);
+    const bool whole = write_points(job, first, last, path, target, run);
     for (io::Output& file : beside) file.commit();
     return whole;
 }
@@ -292,31 +292,20 @@ std::string path_of_set(std::string path, std::size_t set, std::uint64_t seed) {
     return path;
 }
 
-bool ship(const Shipment& shipment, const Target& target, const RunContext& run) {
-    if (!file_per_set(target.path))
-        return ship_file(shipment, 0, shipment.sets, target.path, target, run);
-    const auto paths = paths_of_sets(shipment, target);
-    for (std::size_t set = 0; set < shipment.sets; ++set)
-        if (!ship_file(shipment, set, set + 1, paths[set], target, run)) return false;
+bool write_files(const SetsToWrite& job, const Target& asked, const RunContext& run) {
+    Target target = asked;
+    if (target.format == nullptr) target.format = io::format_of_extension(target.path);
+    if (target.format == nullptr) target.format = &io::format_named("csv");
+    if (!file_per_set(target.path)) return write_file(job, 0, job.sets, target.path, target, run);
+    const auto paths = paths_of_sets(job, target);
+    for (std::size_t set = 0; set < job.sets; ++set)
+        if (!write_file(job, set, set + 1, paths[set], target, run)) return false;
     return true;
 }
 
-RunContext lane(const RunContext& run, std::size_t set, std::size_t sets) {
+RunContext part_of_run(const RunContext& run, std::size_t set, std::size_t sets) {
     const auto all = static_cast<double>(sets);
     return run.stage(static_cast<double>(set) / all, static_cast<double>(set + 1) / all);
-}
-
-void tell_kept(std::uint64_t count, std::uint64_t kept, const WarpChain& chain,
-               const RunContext& run) {
-    if (chain.drops() && kept < count)
-        run.tell(
-            fmt::format("kept {} of {} points (efficiency {:.3g}): the others have no image "
-                        "under {}",
-                        kept, count, static_cast<double>(kept) / static_cast<double>(count),
-                        join(chain.specs(), ", ")));
-    if (kept == 0)
-        fail(ErrorKind::input, "none of {} points has an image under {}", count,
-             join(chain.specs(), ", "));
 }
 
 std::vector<std::string> Columns::names() const {
@@ -328,19 +317,19 @@ std::vector<std::string> Columns::names() const {
 
 /// Files hold no infinite numbers: no reader would take them.
 static double finite(const char* column, double value, std::span<const double> point,
-                     const Route& route) {
+                     const RowSteps& steps) {
     if (std::isfinite(value)) return value;
     std::vector<std::string> words;
     for (const double x : point) words.push_back(format_number(x));
     fail_with_hint(ErrorKind::input,
-                   route.starts
+                   steps.starts
                        ? "--start 1 leaves out a sequence's first point, where coordinates are 0"
                        : "",
                    "--with-{}: it is infinite at the point ({})", column, join(words, ", "));
 }
 
 std::vector<double> with_columns(std::span<const double> rows, const WarpChain& chain,
-                                 const Route& route) {
+                                 const RowSteps& steps) {
     const std::size_t d = chain.dimension_out();
     const auto density = chain.density(rows);
     std::vector<double> wide;
@@ -348,10 +337,10 @@ std::vector<double> with_columns(std::span<const double> rows, const WarpChain& 
     for (std::size_t i = 0; i < density.size(); ++i) {
         const auto row = rows.subspan(i * d, d);
         wide.insert(wide.end(), row.begin(), row.end());
-        const double pdf = density[i] / route.volume;
-        const double weight = route.volume / density[i];
-        if (route.columns.pdf) wide.push_back(finite("pdf", pdf, row, route));
-        if (route.columns.weight) wide.push_back(finite("weight", weight, row, route));
+        const double pdf = density[i] / steps.volume;
+        const double weight = steps.volume / density[i];
+        if (steps.columns.pdf) wide.push_back(finite("pdf", pdf, row, steps));
+        if (steps.columns.weight) wide.push_back(finite("weight", weight, row, steps));
     }
     return wide;
 }

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#include "core/point_set.hpp"
+
+#include "core/error.hpp"
+
+namespace stipple {
+
+PointSet::PointSet(Rows rows, std::size_t dimension)
+    : domain(unit_cube(dimension)), rows_(std::move(rows)), dimension_(dimension) {
+    const std::size_t numbers = flat().size();
+    if (dimension == 0 ? numbers > 0 : numbers % dimension != 0)
+        fail(ErrorKind::usage, "{} numbers are no whole points of {} coordinates", numbers,
+             dimension);
+}
+
+}  // namespace stipple

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "io/feed.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+
+#include "core/error.hpp"
+#include "core/file_bytes.hpp"
+#include "io/source_text.hpp"
+
+namespace stipple::io {
+namespace {
+
+/// A descriptor that is closed in the end.
+struct Closing {
+    int descriptor;
+    ~Closing() {
+        if (descriptor > STDERR_FILENO) ::close(descriptor);
+    }
+};
+
+[[noreturn]] void refuse_input(const std::string& name, int error) {
+    fail(ErrorKind::io, "{}: {}", name, file_trouble(error));
+}
+
+/// Waits until bytes (or their end) are there.
+void wait_for_bytes(int descriptor, const RunContext& run) {
+    constexpr int patience = 50;  // milliseconds between two looks at the stop token
+    pollfd waiting{.fd = descriptor, .events = POLLIN, .revents = 0};
+    for (int ready = 0; ready == 0;) {
+        run.check_stop();
+        ready = ::poll(&waiting, 1, patience);
+        if (ready < 0 && errno == EINTR) ready = 0;
+    }
+}
+
+/// Opens a file for reading, or takes standard input for "-". @throws Error(io)
+int open_to_read(const std::string& path, struct stat& status) {
+    // Without O_NONBLOCK, opening a named pipe would wait where nobody can stop it.
+    const int descriptor =
+        path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0 || ::fstat(descriptor, &status) != 0) refuse_input(source_name(path), errno);
+    if (S_ISDIR(status.st_mode)) {
+        const Closing file{descriptor};
+        refuse_input(source_name(path), EISDIR);
+    }
+    return descriptor;
+}
+
+}  // namespace
+
+Feed::Feed(const std::string& path, RunContext run)
+    : name_(source_name(path)), run_(std::move(run)) {
+    struct stat status {};
+    descriptor_ = open_to_read(path, status);
+#ifdef F_SETPIPE_SZ
+    // Large enough for a writer's whole block, so that both sides work at the same time.
+    if (S_ISFIFO(status.st_mode)) ::fcntl(descriptor_, F_SETPIPE_SZ, 1 << 20);
+#endif
+    held_.resize(front_size);
+    try {
+        held_.resize(fetch(held_));
+        front_ = held_;
+    } catch (...) {
+        const Closing file{descriptor_};
+        throw;
+    }
+}
+
+Feed::~Feed() { const Closing file{descriptor_}; }
+
+std::size_t Feed::fetch(std::span<char> bytes) {
+    std::size_t done = 0;
+    while (descriptor_ >= 0 && done < bytes.size()) {
+        wait_for_bytes(descriptor_, run_);
+        const auto got = ::read(descriptor_, bytes.data() + done, bytes.size() - done);
+        if (got == 0) break;
+        if (got > 0)
+            done += static_cast<std::size_t>(got);
+        else if (errno != EINTR && errno != EAGAIN)
+            refuse_input(name_, errno);
+    }
+    return done;
+}
+
+std::size_t Feed::read(std::span<char> bytes) {
+    const std::size_t held = std::min(front_.size() - taken_, bytes.size());
+    std::copy_n(front_.begin() + static_cast<std::ptrdiff_t>(taken_), held, bytes.begin());
+    taken_ += held;
+    return held == bytes.size() ? held : held + fetch(bytes.subspan(held));
+}
+
+std::optional<std::uint64_t> Feed::skip(std::uint64_t count) {
+    struct stat status {};
+    if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+    const auto ahead = std::min<std::uint64_t>(count, front_.size() - taken_);
+    const auto at = ::lseek(descriptor_, 0, SEEK_CUR);
+    if (at < 0) return std::nullopt;
+    const auto left = static_cast<std::uint64_t>(std::max<off_t>(0, status.st_size - at));
+    const auto behind = std::min(count - ahead, left);
+    if (behind > 0 && ::lseek(descriptor_, static_cast<off_t>(behind), SEEK_CUR) < 0)
+        return std::nullopt;
+    taken_ += static_cast<std::size_t>(ahead);
+    return ahead + behind;
+}
+
+std::string Feed::read_all() {
+    std::string bytes(front_.substr(taken_));
+    taken_ = front_.size();
+    if (ends_in_front()) return bytes;
+    for (std::size_t more = front_size;; more = bytes.size()) {
+        const std::size_t before = bytes.size();
+        run_.need_memory(static_cast<double>(before + more), "the bytes of " + name_);
+        bytes.resize(before + more);
+        const std::size_t got = fetch(std::span(bytes).subspan(before));
+        bytes.resize(before + got);
+        if (got < more) return bytes;
+    }
+}
+
+}  // namespace stipple::io

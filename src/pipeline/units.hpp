@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+//
+// Units by name.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "analyzers/analyzer.hpp"
+#include "generators/generator.hpp"
+#include "scrambles/scramble.hpp"
+#include "warps/warp.hpp"
+
+namespace stipple {
+
+/// The unit of that name. @throws Error(usage) naming the nearest one.
+const Generator& find_generator(std::string_view name);
+const Warp& find_warp(std::string_view name);  ///< suggests scrambles, too
+const Analyzer& find_analyzer(std::string_view name);
+
+/// The scramble of that name or alias; nullptr if there is none.
+const Scramble* scramble_named(std::string_view name);
+
+/// Options as text: {{"base", "3"}}.
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+/// A unit's options, with defaults where nothing is set. @throws Error(usage)
+Values values_of(const Schema& schema, const Settings& settings);
+
+}  // namespace stipple

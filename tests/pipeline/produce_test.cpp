@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "pipeline/produce.hpp"
+
+#include <gtest/gtest.h>
+
+#include "pipeline/pipeline.hpp"
+#include "support/temporary_file.hpp"
+#include "support/units.hpp"
+
+using namespace stipple;
+using namespace stipple::testing;
+
+namespace {
+
+/// What a target without a file is given.
+std::string written(std::vector<PointSet> sets, Target target = {}) {
+    std::string bytes;
+    target.sink = [&](std::string_view more) {
+        bytes += more;
+        return true;
+    };
+    write_sets(std::move(sets), target, {});
+    return bytes;
+}
+
+}  // namespace
+
+TEST(WriteSets, TakesTheFormatOfTheNameOrCsv) {
+    EXPECT_EQ(written({points_of({{0.5, 0.25}})}), "x,y\n0.5,0.25\n");
+    const TemporaryFile file("", ".txt");
+    write_sets({points_of({{0.5, 0.25}})}, {.path = file.path()}, {});
+    EXPECT_EQ(file.bytes(), "0.5 0.25\n");
+}
+
+TEST(WriteSets, RefusesWhatIsNoPoints) {
+    EXPECT_EQ(error_of([] { written({}); }), "input: there are no points to write");
+    EXPECT_EQ(error_of([] { written({PointSet()}); }), "input: set 0 has no points to write");
+    EXPECT_EQ(error_of([] {
+                  written({PointSet(2, 2), PointSet(2, 3)});
+              }),
+              "input: set 1 has points of 3 coordinates; those before have 2");
+}
+
+TEST(WriteSets, TakesPointsWithoutADomainForThoseOfTheCube) {
+    PointSet points = points_of({{0.5, 0.25}});
+    points.domain = nullptr;
+    EXPECT_EQ(written({points}), "x,y\n0.5,0.25\n");
+    EXPECT_EQ(analyze("star-discrepancy", points).number("value"), 0.875);
+    PointSet more = generate("random", {.count = 100, .dimension = 2});
+    more.domain = nullptr;
+    EXPECT_GT(analyze("chi-square", more).number("p_value"), 0);
+}
+
+// A file that is written of them tells how they were made.
+TEST(Generate, TellsWhereThePointsAreFrom) {
+    const PointSet points =
+        generate("halton", {.count = 5, .dimension = 3, .start = 7, .seed = 9}, {{"leap", "7"}});
+    const Provenance& from = points.provenance;
+    EXPECT_EQ(from.generator, "halton");
+    EXPECT_EQ(from.seed, 9U);
+    EXPECT_EQ(from.count, 5U);
+    EXPECT_EQ(from.dimension, 3U);
+    EXPECT_EQ(from.start, 7U);
+    EXPECT_FALSE(from.version.empty());
+    EXPECT_NE(std::ranges::find(from.options, std::pair<std::string, std::string>("leap", "7")),
+              from.options.end());
+}
+
+TEST(PointSet, ConsistsOfWholePoints) {
+    EXPECT_EQ(error_of([] {
+                  PointSet(std::vector<double>{.1, .2, .3}, 2);
+              }),
+              "usage: 3 numbers are no whole points of 2 coordinates");
+    EXPECT_EQ(error_of([] { PointSet(std::vector<double>{.1}, 0); }),
+              "usage: 1 numbers are no whole points of 0 coordinates");
+}
+
+TEST(Report, SaysWhatIsNoNumber) {
+    const Report report = analyze("star-discrepancy", points_of({{0.5, 0.25}}));
+    EXPECT_EQ(error_of([&] { static_cast<void>(report.number("exact")); }),
+              "usage: 'exact' is a result, but not a number");
+}
