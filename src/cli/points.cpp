@@ -13,8 +13,8 @@
 #include "io/files.hpp"
 #include "io/source_text.hpp"
 #include "pipeline/chain.hpp"
-#include "pipeline/set_writer.hpp"
 #include "pipeline/pipeline.hpp"
+#include "pipeline/set_writer.hpp"
 
 namespace stipple::cli {
 namespace {

@@ -9,7 +9,8 @@
 
 #include "support/program.hpp"
 
-using namespace stipple::testing;
+namespace stipple::testing::analyze_test {
+
 using nlohmann::json;
 using ::testing::HasSubstr;
 
@@ -481,3 +482,5 @@ TEST(Analyze, BoundsAreWhatThePointsLiveOn) {
         EXPECT_EQ(found({"analyze", "moments", option, text})["exact"]["mean"][1], 4.0) << option;
     }
 }
+
+}  // namespace stipple::testing::analyze_test

@@ -9,7 +9,8 @@
 
 #include "support/program.hpp"
 
-using namespace stipple::testing;
+namespace stipple::testing::bad_input_test {
+
 using namespace std::string_literals;
 using ::testing::HasSubstr;
 
@@ -381,3 +382,5 @@ TEST(BadInput, ChartsOfTheWrongDimensionHintAtNothingThatHelps) {
     const Outcome outcome = box.run({"plot", "p.csv", "--chart", "differential", "-o", "p.svg"});
     expect_refusal(outcome, 3, "p.csv: differential takes points of dimension 2; these have 3\n");
 }
+
+}  // namespace stipple::testing::bad_input_test

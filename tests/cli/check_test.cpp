@@ -8,7 +8,8 @@
 
 #include "support/program.hpp"
 
-using namespace stipple::testing;
+namespace stipple::testing::check_test {
+
 using nlohmann::json;
 using ::testing::HasSubstr;
 
@@ -126,3 +127,5 @@ TEST(Check, WithoutAConditionIsRefusedWhereNothingTellsWhetherASetIsValid) {
     EXPECT_EQ(sets.verify({"good.csv", "--check", "valid<"}).code, 2);
     EXPECT_EQ(sets.verify({"good.csv", "--check", "gone.csv"}).code, 4);
 }
+
+}  // namespace stipple::testing::check_test

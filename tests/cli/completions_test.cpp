@@ -9,7 +9,8 @@
 #include "places.hpp"
 #include "support/program.hpp"
 
-using namespace stipple::testing;
+namespace stipple::testing::completions_test {
+
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -130,3 +131,5 @@ TEST(Completions, OfFishAnswer) {
     EXPECT_THAT(ask("stipple generate random --scr"), Not(HasSubstr("--scramble")));
     EXPECT_THAT(ask("stipple warp disk --method pol"), HasSubstr("polar"));
 }
+
+}  // namespace stipple::testing::completions_test

@@ -8,7 +8,8 @@
 
 #include "support/program.hpp"
 
-using namespace stipple::testing;
+namespace stipple::testing::concat_test {
+
 using ::testing::HasSubstr;
 
 // For sequences and sets, for text and bytes, for parts of different size and of one point.
@@ -92,3 +93,5 @@ TEST(Concat, RefusesWhatIsNotOneSet) {
     EXPECT_EQ(box.shell("stipple convert --concat - - < a.json").code, 2);
     EXPECT_THAT(box.run({"convert", "a.json", "b.json"}).err, HasSubstr("--concat"));
 }
+
+}  // namespace stipple::testing::concat_test

@@ -4,7 +4,8 @@
 
 #include "support/program.hpp"
 
-using namespace stipple::testing;
+namespace stipple::testing::convert_test {
+
 using ::testing::HasSubstr;
 
 // Shortest digits and float64 binaries lose nothing, so the way round all formats ends where it
@@ -84,3 +85,5 @@ TEST(Convert, PicturesAndMeshesAreWriteOnly) {
     EXPECT_EQ(outcome.code, 2);
     EXPECT_THAT(outcome.err, HasSubstr("ply"));
 }
+
+}  // namespace stipple::testing::convert_test

@@ -7,7 +7,8 @@
 #include "places.hpp"
 #include "support/program.hpp"
 
-using namespace stipple::testing;
+namespace stipple::testing::generate_test {
+
 using nlohmann::json;
 using ::testing::HasSubstr;
 
@@ -413,3 +414,5 @@ TEST(Generate, SpecsAreTakenWhereverAUnitIsNamed) {
     EXPECT_NE(box.run({"generate", "sobol:scrmble=owen"}).err.find("did you mean 'scramble'?"),
               std::string::npos);
 }
+
+}  // namespace stipple::testing::generate_test

@@ -11,7 +11,8 @@
 #include "cli/catalog.hpp"
 #include "support/program.hpp"
 
-using namespace stipple::testing;
+namespace stipple::testing::help_test {
+
 using namespace stipple::cli;
 using ::testing::HasSubstr;
 
@@ -125,3 +126,5 @@ TEST(Help, SaysWhatDomainsAnAnalyzerTakes) {
     for (const auto& unit : all["analyzers"])
         EXPECT_EQ(unit["traits"]["boxed"], boxed.contains(unit["name"])) << unit["name"];
 }
+
+}  // namespace stipple::testing::help_test

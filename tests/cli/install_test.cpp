@@ -6,7 +6,7 @@
 #include "places.hpp"
 #include "support/program.hpp"
 
-using namespace stipple::testing;
+namespace stipple::testing::install_test {
 
 TEST(Install, AnOutsideProgramBuildsAgainstThePackage) {
     if (sanitized()) GTEST_SKIP() << "the package is that of plain builds";
@@ -35,3 +35,5 @@ TEST(Install, AnOutsideProgramBuildsAgainstThePackage) {
     EXPECT_EQ(box.shell("build/outside").out, "0.050239\n");  // 6511/129600
     EXPECT_EQ(box.shell(prefix + "/bin/stipple --version").code, 0);
 }
+
+}  // namespace stipple::testing::install_test

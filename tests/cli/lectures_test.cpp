@@ -12,8 +12,7 @@
 #include "places.hpp"
 #include "support/program.hpp"
 
-using namespace stipple::testing;
-
+namespace stipple::testing::lectures_test {
 namespace {
 
 const std::filesystem::path folder = STIPPLE_SOURCE_DIR "/data/lectures";
@@ -98,3 +97,5 @@ TEST(Lectures, AreAllInTheTable) {
     for (const std::string& name : lectures())
         EXPECT_NE(table.find("| `" + name + ".sh` |"), std::string::npos) << name;
 }
+
+}  // namespace stipple::testing::lectures_test

@@ -7,7 +7,8 @@
 #include "places.hpp"
 #include "support/program.hpp"
 
-using namespace stipple::testing;
+namespace stipple::testing::package_test {
+
 using ::testing::HasSubstr;
 
 namespace {
@@ -69,3 +70,5 @@ TEST(Package, OfDebianAndAsArchiveIsWholeAndRuns) {
                 HasSubstr("-rwxr-xr-x root/root"));
     if (box.shell("test $(id -u) = 0").code == 0) expect_that_dpkg_takes_it(box);
 }
+
+}  // namespace stipple::testing::package_test

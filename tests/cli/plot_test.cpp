@@ -6,7 +6,8 @@
 
 #include "support/program.hpp"
 
-using namespace stipple::testing;
+namespace stipple::testing::plot_test {
+
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -285,3 +286,5 @@ TEST(Plot, DrawsTheRimOfADomain) {
     EXPECT_EQ(xml(box, "a.svg", "path"), xml(box, "b.svg", "path"));
     EXPECT_NE(xml(box, "a.svg", "path"), xml(box, "c.svg", "path"));
 }
+
+}  // namespace stipple::testing::plot_test

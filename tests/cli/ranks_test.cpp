@@ -9,7 +9,8 @@
 #include "support/launcher.hpp"
 #include "support/program.hpp"
 
-using namespace stipple::testing;
+namespace stipple::testing::ranks_test {
+
 using ::testing::HasSubstr;
 
 namespace {
@@ -100,3 +101,5 @@ TEST(Ranks, NeedABuildWithMpi) {
 }
 
 #endif
+
+}  // namespace stipple::testing::ranks_test

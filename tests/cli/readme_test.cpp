@@ -11,7 +11,8 @@
 #include "places.hpp"
 #include "support/program.hpp"
 
-using namespace stipple::testing;
+namespace stipple::testing::readme_test {
+
 using ::testing::HasSubstr;
 
 namespace {
@@ -69,3 +70,5 @@ TEST(Guide, TablesAreTheRegistry) {
     for (const char* kind : {"generators", "scrambles", "warps", "analyzers", "formats"})
         EXPECT_THAT(text, HasSubstr(box.run({"list", kind, "--markdown"}).out)) << kind;
 }
+
+}  // namespace stipple::testing::readme_test

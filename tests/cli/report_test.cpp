@@ -10,7 +10,8 @@
 #include "places.hpp"
 #include "support/program.hpp"
 
-using namespace stipple::testing;
+namespace stipple::testing::report_test {
+
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -249,3 +250,5 @@ TEST(Report, StaysSmallForLargeSets) {
         "stipple report --generate random --generate jittered -n 99856 --max-work 1e6 -o r.html"));
     EXPECT_LT(box.read("r.html").size(), 1'000'000U);  // 10 of them: 5 MB
 }
+
+}  // namespace stipple::testing::report_test

@@ -6,7 +6,8 @@
 
 #include "support/program.hpp"
 
-using namespace stipple::testing;
+namespace stipple::testing::reproduce_test {
+
 using ::testing::HasSubstr;
 
 namespace {
@@ -344,3 +345,5 @@ TEST(Meta, StandsBesideFormatsWithoutAPlaceForIt) {
     EXPECT_EQ(piped.code, 0);
     EXPECT_THAT(piped.err, HasSubstr("--meta: npy has no place for provenance"));
 }
+
+}  // namespace stipple::testing::reproduce_test

@@ -4,7 +4,8 @@
 
 #include "support/program.hpp"
 
-using namespace stipple::testing;
+namespace stipple::testing::scramble_test {
+
 using ::testing::HasSubstr;
 
 TEST(Scramble, OnTheWayOutOrFromAFileIsTheSame) {
@@ -76,3 +77,5 @@ TEST(Scramble, IsAKindOfItsOwnInTheList) {
     EXPECT_THAT(box.run({"warp", "--help"}).out, HasSubstr("Scrambles:"));
     EXPECT_THAT(box.run({"warp", "rotation", "--help"}).out, HasSubstr("cranley-patterson"));
 }
+
+}  // namespace stipple::testing::scramble_test

@@ -9,7 +9,8 @@
 #include "places.hpp"
 #include "support/program.hpp"
 
-using namespace stipple::testing;
+namespace stipple::testing::scripts_test {
+
 using ::testing::HasSubstr;
 
 namespace {
@@ -211,3 +212,5 @@ TEST(Scripts, ExplainThemselves) {
                           "plot_convergence, overview, plot_blue_noise'"));
     EXPECT_EQ(box.files(), std::vector<std::string>{});
 }
+
+}  // namespace stipple::testing::scripts_test

@@ -7,8 +7,8 @@
 #include "media/png_picture.hpp"
 #include "support/program.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::side_files_test {
+
 using ::testing::HasSubstr;
 
 namespace {
@@ -104,3 +104,5 @@ TEST(SideFiles, AreNotLeftByACommandThatFails) {
         "--mask-image n.png -o pipe; kill $reader; ls -A | grep part; exit 0");
     EXPECT_EQ(box.files(), (Names{"m.png", "pipe"})) << outcome.err;
 }
+
+}  // namespace stipple::testing::side_files_test

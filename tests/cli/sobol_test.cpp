@@ -6,7 +6,8 @@
 
 #include "support/program.hpp"
 
-using namespace stipple::testing;
+namespace stipple::testing::sobol_test {
+
 using ::testing::HasSubstr;
 
 // SciPy's numbers have 30 binary digits, more than 2^16 points need; the last set reaches every
@@ -87,3 +88,5 @@ TEST(Sobol, SaysWhereADirectionFileIsWrong) {
               "stipple: bad.txt:3:9: '4' is out of range; expected an odd m_2 in [1, 3]\n");
     EXPECT_FALSE(box.exists("a.csv"));
 }
+
+}  // namespace stipple::testing::sobol_test

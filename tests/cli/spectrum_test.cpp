@@ -10,8 +10,8 @@
 #include "media/png_picture.hpp"
 #include "support/program.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::spectrum_test {
+
 using nlohmann::json;
 using ::testing::HasSubstr;
 
@@ -202,3 +202,5 @@ TEST(Spectrum, RefusesWhatDoesNotGoTogether) {
             "--max-frequency 100000 needs ");
     refused("--generate random -d 4", 3, "periodogram takes points of dimension 1 to 3");
 }
+
+}  // namespace stipple::testing::spectrum_test

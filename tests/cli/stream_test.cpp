@@ -5,7 +5,7 @@
 
 #include "support/program.hpp"
 
-using namespace stipple::testing;
+namespace stipple::testing::stream_test {
 
 TEST(Stream, AnalyzerInAPipeFindsWhatItFindsInMemory) {
     const Sandbox box;
@@ -106,3 +106,5 @@ TEST(Stream, SeveralSetsBecomeOneVerdict) {
         EXPECT_NE(good(out).find("\"verdict\": \"uniform\""), std::string::npos) << how;
     }
 }
+
+}  // namespace stipple::testing::stream_test

@@ -12,7 +12,8 @@
 #include "support/launcher.hpp"
 #include "support/program.hpp"
 
-using namespace stipple::testing;
+namespace stipple::testing::study_test {
+
 using nlohmann::json;
 using ::testing::HasSubstr;
 
@@ -664,3 +665,5 @@ TEST(Study, OnlySharedWorkLeavesErrorsToTheFirstRank) {
     EXPECT_THAT(box.shell("PMI_RANK=1 stipple study --analyze moments").err,
                 HasSubstr("--generators is missing"));
 }
+
+}  // namespace stipple::testing::study_test

@@ -8,7 +8,8 @@
 #include "cli/guide.hpp"
 #include "support/program.hpp"
 
-using namespace stipple::testing;
+namespace stipple::testing::topics_test {
+
 using namespace stipple::cli;
 using ::testing::HasSubstr;
 
@@ -98,3 +99,5 @@ TEST(Manual, ShowsUnitsOptionsAndExamplesAsTheyAre) {
     EXPECT_THAT(shown, HasSubstr("--scramble"));
     EXPECT_EQ(box.run({"help", "--man", "nonsense"}).code, 2);
 }
+
+}  // namespace stipple::testing::topics_test

@@ -10,9 +10,7 @@
 #include "pipeline/pipeline.hpp"
 #include "support/contract.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::analyzers_test {
 namespace {
 
 class EveryAnalyzer : public ::testing::TestWithParam<std::string> {
@@ -159,3 +157,5 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryAnalyzer, ::testing::ValuesIn(names_of(a
                          case_name);
 
 }  // namespace
+
+}  // namespace stipple::testing::analyzers_test

@@ -11,9 +11,7 @@
 #include "io/format.hpp"
 #include "support/contract.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::formats_test {
 namespace {
 
 class EveryFormat : public ::testing::TestWithParam<std::string> {
@@ -124,3 +122,5 @@ TEST(AnyPoints, SurviveEveryFormatThatIsRead) {
     });
     EXPECT_TRUE(held);
 }
+
+}  // namespace stipple::testing::formats_test

@@ -10,9 +10,7 @@
 #include "places.hpp"
 #include "support/contract.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::generators_test {
 namespace {
 
 /// What a unit cannot do without, or would take too long without.
@@ -185,3 +183,5 @@ TEST(Registry, EveryNameMeansOneUnit) {
         }
     }
 }
+
+}  // namespace stipple::testing::generators_test

@@ -24,9 +24,7 @@
 #include "support/contract.hpp"
 #include "support/warp_examples.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::golden_test {
 namespace {
 
 constexpr const char* table_path = STIPPLE_SOURCE_DIR "/tests/contract/golden.txt";
@@ -269,3 +267,5 @@ TEST(GoldenTable, IsWrittenOnDemand) {
 }
 
 }  // namespace
+
+}  // namespace stipple::testing::golden_test

@@ -15,6 +15,7 @@
 
 #include "places.hpp"
 
+namespace stipple::testing::layering_test {
 namespace {
 
 /// The folders of src/ in their order; those on one line do not include each other. The public API
@@ -120,3 +121,5 @@ TEST(Layering, PointsComeFromNoClockAndNoStandardDistribution) {
          {"core", "math", "media", "generators", "scrambles", "warps", "analyzers"})
         expect_nowhere(forbidden, folder);
 }
+
+}  // namespace stipple::testing::layering_test

@@ -10,9 +10,7 @@
 #include "support/pictures.hpp"
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::moments_test {
 namespace {
 
 /// The midpoint rule on an axis of the cube, its nodes drawn to both ends, where warps may have
@@ -218,3 +216,5 @@ TEST(MomentsOfParts, AreNotGivenWhereDigitsWouldBeLost) {
 }
 
 }  // namespace
+
+}  // namespace stipple::testing::moments_test

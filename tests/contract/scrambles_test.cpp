@@ -11,9 +11,7 @@
 #include "support/contract.hpp"
 #include "support/scrambling.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::scrambles_test {
 namespace {
 
 class EveryScramble : public ::testing::TestWithParam<std::string> {
@@ -145,3 +143,5 @@ TEST_P(EveryScramble, HasACompleteRecord) { expect_complete_record(unit); }
 
 INSTANTIATE_TEST_SUITE_P(Registry, EveryScramble, ::testing::ValuesIn(names_of(scrambles::all())),
                          case_name);
+
+}  // namespace stipple::testing::scrambles_test

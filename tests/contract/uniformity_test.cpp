@@ -21,9 +21,7 @@
 #include "support/warp_examples.hpp"
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::uniformity_test {
 namespace {
 
 const std::size_t many = std::size_t{1} << (sanitized() ? 17 : 20);
@@ -299,3 +297,5 @@ TEST_P(Uniformity, DensityIsRightWithinTwoPercent) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Registry, Uniformity, ::testing::ValuesIn(all_specs()), spec_name);
+
+}  // namespace stipple::testing::uniformity_test

@@ -12,9 +12,7 @@
 #include "support/contract.hpp"
 #include "support/warp_examples.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::warps_test {
 namespace {
 
 /// Default options and, where there is no default, an example.
@@ -152,3 +150,5 @@ INSTANTIATE_TEST_SUITE_P(Registry, EveryWarp, ::testing::ValuesIn(names_of(warps
                          case_name);
 
 }  // namespace
+
+}  // namespace stipple::testing::warps_test

@@ -9,8 +9,7 @@
 #include "pipeline/chain.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::domain_test {
 
 TEST(Domain, UnitCubeIsClosed) {
     const auto cube = unit_cube(2);
@@ -82,3 +81,5 @@ TEST(Domain, ProbabilitiesOfAProductAreThoseOfTheFactors) {
     EXPECT_NEAR(product->probability({{0, 0, 0.5, 0}, {0.5, 0.25, 1, 1}}).value, 0.0625, 1e-9);
     EXPECT_NEAR(product->probability({{0, 0, 0, 0.5}, {1, 1, 1, 1}}).value, 0.75, 1e-9);
 }
+
+}  // namespace stipple::testing::domain_test

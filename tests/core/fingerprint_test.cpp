@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-using namespace stipple;
+namespace stipple::testing::fingerprint_test {
 
 // The values that the authors of the hash print.
 TEST(Fingerprint, IsThatOfItsAuthors) {
@@ -24,3 +24,5 @@ TEST(Fingerprint, OfNumbersIsThatOfTheirBytes) {
 TEST(Fingerprint, IsWrittenInSixteenDigits) {
     EXPECT_EQ(format_fingerprint(255), "00000000000000ff");
 }
+
+}  // namespace stipple::testing::fingerprint_test

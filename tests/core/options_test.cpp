@@ -6,9 +6,7 @@
 #include "core/spec.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::options_test {
 namespace {
 
 constexpr Param<std::int64_t> base{
@@ -123,3 +121,5 @@ TEST(Spec, BracketsNest) {
     EXPECT_EQ(format_spec("unit", values, schema), "unit:parts=[a:b=[c]]");
     EXPECT_EQ(parse_spec("unit:parts=[a:b=[c]]").values(schema), values);
 }
+
+}  // namespace stipple::testing::options_test

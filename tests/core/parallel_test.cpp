@@ -8,8 +8,7 @@
 
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::parallel_test {
 
 TEST(Parallel, BlocksCoverAllOnceForAnyNumberOfThreads) {
     for (const unsigned threads : {1U, 2U, 5U})
@@ -42,3 +41,5 @@ TEST(Parallel, OnlyLongWorkIsWorthThreads) {
     EXPECT_EQ(worth_threads(run, 1e-4).thread_count(), 1);
     EXPECT_EQ(worth_threads(run, 1e-4).max_memory, 9);
 }
+
+}  // namespace stipple::testing::parallel_test

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-using namespace stipple;
+namespace stipple::testing::rng_test {
 
 // The known-answer vectors that Random123 publishes for philox4x32 with 10 rounds (kat_vectors).
 TEST(Rng, PhiloxMatchesThePublishedKnownAnswers) {
@@ -80,3 +80,5 @@ TEST(Rng, BelowMeetsEveryValueAndNoOther) {
     for (std::uint64_t i = 0; i < 600; ++i) ++hits.at(rng.below(i, 6));
     for (const int h : hits) EXPECT_GT(h, 60);
 }
+
+}  // namespace stipple::testing::rng_test

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-using namespace stipple;
+namespace stipple::testing::rows_test {
 
 TEST(Rows, FreshRoomsTakeAsManyNumbersAsAskedForOnSmallAndLargePages) {
     for (const std::size_t count : {0U, 1U, 1000U, (1U << 19) - 1, 1U << 19, 1'234'567U}) {
@@ -34,3 +34,5 @@ TEST(Rows, CopiesAreTheirOwnAndMovesLeaveNothing) {
         EXPECT_TRUE(copy.numbers().empty());
     }
 }
+
+}  // namespace stipple::testing::rows_test

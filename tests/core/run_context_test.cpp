@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-using namespace stipple;
+namespace stipple::testing::run_context_test {
 
 // Stages lie one behind the other, and what goes beyond its own end stays at it.
 TEST(RunContext, StageIsAPartOfTheProgress) {
@@ -31,3 +31,5 @@ TEST(RunContext, TicksWithWordsForWhereItStands) {
     run.tick(1, 1);
     EXPECT_EQ(seen, (std::vector<std::string>{"between 1 and 2", "part", "all"}));
 }
+
+}  // namespace stipple::testing::run_context_test

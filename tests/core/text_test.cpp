@@ -5,7 +5,7 @@
 
 #include <limits>
 
-using namespace stipple;
+namespace stipple::testing::text_test {
 
 TEST(Text, WholeNumbersInManyWays) {
     EXPECT_EQ(parse_integer("1000"), 1000);
@@ -69,3 +69,5 @@ TEST(Text, SplitsKeepEmptyParts) {
     EXPECT_EQ(split("a,,", ','), (std::vector<std::string_view>{"a", "", ""}));
     EXPECT_TRUE(split("", ',').empty());
 }
+
+}  // namespace stipple::testing::text_test

@@ -8,8 +8,7 @@
 #include "core/rng.hpp"
 #include "support/spacing.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::spread_order_test {
 
 // By the definition of the order: point m keeps a distance from those before it that never rises by
 // more than the step of the radii, 2^(1/4), above the least one so far.
@@ -44,3 +43,5 @@ TEST(SpreadOrder, KeepsThePoints) {
     }
     EXPECT_EQ(spread_out(std::vector<double>{0.3, 0.4}, space, 0.7, {}).numbers()[1], 0.4);
 }
+
+}  // namespace stipple::testing::spread_order_test

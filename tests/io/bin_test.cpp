@@ -6,8 +6,8 @@
 
 #include "io/io_support.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::bin_test {
+
 using namespace std::string_literals;
 
 TEST(Bin, WritesLittleEndianNumbersAndNothingElse) {
@@ -55,3 +55,5 @@ TEST(Bin, RefusesNumbersThatAreNotFinite) {
     EXPECT_EQ(refusal("bin", written("bin", {points}), {.dimension = 2}),
               "input: p: byte 56: nan in point 3; expected finite numbers");
 }
+
+}  // namespace stipple::testing::bin_test

@@ -9,9 +9,7 @@
 #include "media/png_picture.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::carried_meta_test {
 namespace {
 
 /// What XML, roff and shells would trip over.
@@ -75,3 +73,5 @@ TEST(CarriedMeta, IsNotFoundWhereThereIsNone) {
                   "input: p.meta.json: no provenance; expected "
                   "{\"format\":\"stipple.meta\",\"version\":1,...}");
 }
+
+}  // namespace stipple::testing::carried_meta_test

@@ -9,9 +9,7 @@
 #include "io/io_support.hpp"
 #include "io/provenance.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::csv_test {
 namespace {
 
 const PointSet two = points_of({{0, 0.5}, {0.25, 1e-7}});
@@ -289,3 +287,5 @@ TEST(Csv, StopsAndLimitsAreHonoured) {
     const std::string error = refusal("csv", text, {}, {.max_memory = 100'000});
     EXPECT_TRUE(error.starts_with("limit: reading p needs")) << error;
 }
+
+}  // namespace stipple::testing::csv_test

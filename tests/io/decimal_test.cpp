@@ -10,6 +10,8 @@
 #include <limits>
 #include <random>
 
+namespace stipple::testing::decimal_test {
+
 using namespace stipple::io;
 
 namespace {
@@ -218,3 +220,5 @@ TEST(Decimal, SingleNeverReachesOneFromBelow) {
         ASSERT_GT(std::nextafter(single, 2.0F), value);
     }
 }
+
+}  // namespace stipple::testing::decimal_test

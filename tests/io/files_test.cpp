@@ -14,8 +14,8 @@
 
 #include "io/io_support.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::files_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -235,3 +235,5 @@ TEST_F(Files, ReadPointsNamesTheFile) {
         "usage: " + path("a.ply") +
             ": ply is only written; formats that are read: bin, csv, json, jsonl, npy, psa, txt");
 }
+
+}  // namespace stipple::testing::files_test

@@ -8,8 +8,7 @@
 
 #include "io/io_support.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::format_test {
 
 TEST(Formats, AreFoundByName) {
     EXPECT_EQ(io::format_named("npy").name, "npy");
@@ -103,3 +102,5 @@ TEST(Formats, BrokenFilesAreReadOrRefused) {
         }
     }
 }
+
+}  // namespace stipple::testing::format_test

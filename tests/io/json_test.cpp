@@ -6,9 +6,7 @@
 
 #include "io/io_support.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::json_test {
 namespace {
 
 const PointSet two = points_of({{0, 0.5}, {0.25, -1e-7}});
@@ -169,3 +167,5 @@ TEST(Json, SurvivesDeepNesting) {
                   .at(0),
               two);
 }
+
+}  // namespace stipple::testing::json_test

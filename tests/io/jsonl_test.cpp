@@ -6,9 +6,7 @@
 
 #include "io/io_support.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::jsonl_test {
 namespace {
 const PointSet two = points_of({{0, 0.5}, {0.25, -1e-7}});
 }
@@ -84,3 +82,5 @@ TEST(Jsonl, RefusesObjectsThatSayOtherwise) {
               "input: p:3:1: a set without points; a line such as this stands between two sets");
     EXPECT_EQ(refused(""), "input: p: the file is empty; expected points, one a line");
 }
+
+}  // namespace stipple::testing::jsonl_test

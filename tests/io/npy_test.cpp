@@ -3,8 +3,8 @@
 
 #include "io/io_support.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::npy_test {
+
 using namespace std::string_literals;
 
 namespace {
@@ -173,3 +173,5 @@ TEST(Npy, RefusesNumbersThatAreNotFinite) {
     file.replace(128 + 24, 8, "\0\0\0\0\0\0\xf0\x7f"s);
     EXPECT_EQ(refused(file), "input: p: byte 152: inf in point 1; expected finite numbers");
 }
+
+}  // namespace stipple::testing::npy_test

@@ -3,8 +3,8 @@
 
 #include "io/io_support.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::ply_test {
+
 using namespace std::string_literals;
 
 TEST(Ply, BinaryVerticesWithZeroForMissingAxes) {
@@ -39,3 +39,5 @@ TEST(Ply, MetaIsAComment) {
 }
 
 TEST(Ply, IsNotRead) { EXPECT_FALSE(io::format_named("ply").read); }
+
+}  // namespace stipple::testing::ply_test

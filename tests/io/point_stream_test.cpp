@@ -11,9 +11,7 @@
 #include "pipeline/produce.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::point_stream_test {
 namespace {
 
 class PointStreams : public ::testing::Test {
@@ -127,3 +125,5 @@ TEST_F(PointStreams, SayWhatIsWrongAsForTheWhole) {
     expect_same_error(cut);
     expect_same_error(path("missing.csv"));
 }
+
+}  // namespace stipple::testing::point_stream_test

@@ -8,8 +8,7 @@
 
 #include "io/io_support.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::provenance_test {
 
 TEST(ProvenanceJson, HasTheKeysOfTheContract) {
     const auto meta = io::to_json(some_provenance());
@@ -106,3 +105,5 @@ TEST(ProvenanceLines, BytesThatAreNoTextDoNoHarm) {
     EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 11);
     EXPECT_NE(lines.find("\\n# seed: 1"), std::string::npos) << lines;
 }
+
+}  // namespace stipple::testing::provenance_test

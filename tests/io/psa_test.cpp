@@ -3,9 +3,7 @@
 
 #include "io/io_support.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::psa_test {
 namespace {
 const PointSet two = points_of({{0, 0.5}, {0.25, 1e-7}});
 }
@@ -41,3 +39,5 @@ TEST(Psa, HoldsOneSetOfTwoDimensions) {
     EXPECT_EQ(traits.min_dimension, 2U);
     EXPECT_EQ(traits.max_dimension, 2U);
 }
+
+}  // namespace stipple::testing::psa_test

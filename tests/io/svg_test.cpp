@@ -3,8 +3,7 @@
 
 #include "io/io_support.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::svg_test {
 
 // The unit square is 1000 units wide in a margin of 20, and y points up.
 TEST(Svg, PointsStandWhereTheyAre) {
@@ -77,3 +76,5 @@ TEST(Svg, IsWriteOnlyAndOfFewCoordinates) {
     EXPECT_EQ(format.traits.min_dimension, 2U);
     EXPECT_EQ(format.traits.max_dimension, 8U);
 }
+
+}  // namespace stipple::testing::svg_test

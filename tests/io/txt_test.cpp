@@ -3,9 +3,7 @@
 
 #include "io/io_support.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::txt_test {
 namespace {
 const PointSet two = points_of({{0, 0.5}, {0.25, -1e-7}});
 }
@@ -49,3 +47,5 @@ TEST(Txt, RefusesWordsInTheMiddle) {
     EXPECT_EQ(refusal("txt", "0 1\nend of file\n"),
               "input: p:2:1: 'end' is not a number; expected one such as 0.5 or 1e-3");
 }
+
+}  // namespace stipple::testing::txt_test

@@ -10,9 +10,7 @@
 #include "support/pictures.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::density_map_test {
 namespace {
 
 std::vector<double> values_of(const DensityMap& map) {
@@ -230,3 +228,5 @@ TEST(ReadDensity, SaysWhyAFileCannotBeRead) {
     EXPECT_EQ(error_of([] { read_density("/tmp", false, {}); }),
               "io: /tmp: is a folder, not a file");
 }
+
+}  // namespace stipple::testing::density_map_test

@@ -5,8 +5,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::density_moments_test {
 namespace {
 
 /// Oracle: the cell cut along the sides of each pixel of the plane around it, piece by piece.
@@ -67,3 +66,5 @@ TEST(DensityMoments, AlongALineByHand) {
     EXPECT_NEAR(moments.along({-1, 0.5}, {2, 0.5}), 2, 1e-15);
     EXPECT_NEAR(moments.along({0.9, 0.95}, {0.7, 0.95}), 0.8, 1e-15);
 }
+
+}  // namespace stipple::testing::density_moments_test

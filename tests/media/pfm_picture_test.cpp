@@ -6,9 +6,7 @@
 #include "support/pictures.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::pfm_picture_test {
 namespace {
 
 PfmPicture read(const std::string& bytes) { return read_pfm(bytes, "p.pfm", {}); }
@@ -74,3 +72,5 @@ TEST(PfmPicture, HonoursTheMemoryLimit) {
     EXPECT_NE(error_of([&] { read_pfm(bytes, "p.pfm", {.max_memory = 100'000}); }).find("limit"),
               std::string::npos);
 }
+
+}  // namespace stipple::testing::pfm_picture_test

@@ -7,9 +7,7 @@
 #include "support/pictures.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::png_picture_test {
 namespace {
 
 using Samples = std::vector<std::uint16_t>;
@@ -118,3 +116,5 @@ TEST(PngPicture, RefusesWhatNeedsTooMuchMemory) {
               "limit: the picture p.png needs 234 KiB of memory; the limit is 97.7 KiB | raise "
               "the limit with --max-memory");
 }
+
+}  // namespace stipple::testing::png_picture_test

@@ -5,9 +5,7 @@
 
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::points_file_test {
 namespace {
 
 PointSet read(const std::string& text) {
@@ -63,3 +61,5 @@ TEST(PointsFile, SaysWhereItIsWrong) {
     EXPECT_EQ(error_of([] { read_points("/no/such/file", {}); }),
               "io: /no/such/file: no such file");
 }
+
+}  // namespace stipple::testing::points_file_test

@@ -5,8 +5,7 @@
 
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::token_file_test {
 
 TEST(TokenFile, GivesWordsWithTheirPlaces) {
     TokenFile file("\xEF\xBB\xBF one  two# not this\r\n#nor this\n\n\tthree", "f");
@@ -62,3 +61,5 @@ TEST(TokenFile, SaysWhichFileCannotBeRead) {
     EXPECT_EQ(error_of([] { TokenFile file("/no/such/file"); }), "io: /no/such/file: no such file");
     EXPECT_EQ(error_of([] { TokenFile file("/"); }), "io: /: is a folder, not a file");
 }
+
+}  // namespace stipple::testing::token_file_test

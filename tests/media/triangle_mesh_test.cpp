@@ -11,9 +11,7 @@
 #include "places.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::triangle_mesh_test {
 namespace {
 
 using Corners = std::vector<std::array<std::uint32_t, 3>>;
@@ -161,3 +159,5 @@ TEST(TriangleMesh, ReadMeshTellsKindsByTheirFirstLine) {
               4U);
     EXPECT_NE(error_of([] { read_mesh("/no/such/file.ply", {}); }).find("io: "), std::string::npos);
 }
+
+}  // namespace stipple::testing::triangle_mesh_test

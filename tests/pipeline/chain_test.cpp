@@ -6,9 +6,7 @@
 #include "core/rng.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::chain_test {
 namespace {
 
 WarpChain chain(std::initializer_list<const char*> specs, std::size_t dimension) {
@@ -157,3 +155,5 @@ TEST(WarpChain, ScramblesGoByTheSetsSeedOrTheirOwn) {
         "usage: warp owen: coordinate 1 is already on another domain; it takes coordinates of "
         "the unit cube");
 }
+
+}  // namespace stipple::testing::chain_test

@@ -7,9 +7,7 @@
 #include "support/temporary_file.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::produce_test {
 namespace {
 
 /// What a target without a file is given.
@@ -80,3 +78,5 @@ TEST(Report, SaysWhatIsNoNumber) {
     EXPECT_EQ(error_of([&] { static_cast<void>(report.number("exact")); }),
               "usage: 'exact' is a result, but not a number");
 }
+
+}  // namespace stipple::testing::produce_test

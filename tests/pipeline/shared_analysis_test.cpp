@@ -15,9 +15,7 @@
 #include "support/thread_ranks.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::shared_analysis_test {
 namespace {
 
 Values values_of(const Analyzer& analyzer, const Settings& settings) {
@@ -230,3 +228,5 @@ TEST(SharedFiles, FailOnAllRanksWithTheFirstError) {
     });
     EXPECT_EQ(failed, 3);
 }
+
+}  // namespace stipple::testing::shared_analysis_test

@@ -13,7 +13,8 @@
 #include "plot/spectrum_picture.hpp"
 #include "report/read_document.hpp"
 
-using namespace stipple;
+namespace stipple::testing::chart_test {
+
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -430,3 +431,5 @@ TEST(ReportCharts, MarksAtTheEndsAreWithinTheFrame) {
         }
     }
 }
+
+}  // namespace stipple::testing::chart_test

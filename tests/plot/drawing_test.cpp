@@ -13,7 +13,8 @@
 #include "plot/panel.hpp"
 #include "plot/ticks.hpp"
 
-using namespace stipple;
+namespace stipple::testing::drawing_test {
+
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -298,3 +299,5 @@ TEST(Panel, MendsAxesWithoutExtent) {
             EXPECT_FALSE(axis.ticks(300, false).numbers.empty());
         }
 }
+
+}  // namespace stipple::testing::drawing_test

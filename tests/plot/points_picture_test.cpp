@@ -17,8 +17,8 @@
 #include "plot/text_picture.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::points_picture_test {
+
 using ::testing::HasSubstr;
 
 namespace {
@@ -294,3 +294,5 @@ TEST(TextPicture, DrawsInAnyRoom) {
     const Grid power{.rows = 9, .columns = 9, .values = std::vector<double>(81, 1.0)};
     EXPECT_THAT(spectrum_as_text(power, "t", {.columns = 30, .rows = 20}), HasSubstr("▒▒"));
 }
+
+}  // namespace stipple::testing::points_picture_test

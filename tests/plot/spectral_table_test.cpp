@@ -10,9 +10,7 @@
 
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::spectral_table_test {
 namespace {
 
 /// A table about its middle: its numbers are 1, 2, 3, ... up to the middle and back again.
@@ -103,3 +101,5 @@ TEST(SpectralTable, OfALineIsDrawnFromFrequencyOne) {
     EXPECT_EQ(chart.panels.at(0).series.at(0).x, (std::vector<double>{1, 2, 3, 4, 5}));
     EXPECT_EQ(chart.panels.at(0).series.at(0).y, (std::vector<double>{5, 4, 3, 2, 1}));
 }
+
+}  // namespace stipple::testing::spectral_table_test

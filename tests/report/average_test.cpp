@@ -9,9 +9,7 @@
 #include "core/spec.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::average_test {
 namespace {
 
 Report sample(double x, std::int64_t n, const char* word) {
@@ -147,3 +145,5 @@ TEST(ReportAverage, StandardErrorsAreThoseOfTheValuesBesideThem) {
                 EXPECT_LT(ratio, 1.4) << analyzer << ' ' << generator << ' ' << key;
             }
 }
+
+}  // namespace stipple::testing::average_test

@@ -6,9 +6,7 @@
 #include "pipeline/chain.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::check_test {
 namespace {
 
 /// A discrepancy between 0.2 and 0.3.
@@ -90,3 +88,5 @@ TEST(Check, OfATablesValuesHoldsForBothBounds) {
     EXPECT_EQ(error_of([&] { holds("prefixes.value<0.5", report); }),
               "usage: --check: 'prefixes.value' has 2 numbers; one of them is prefixes.value[0]");
 }
+
+}  // namespace stipple::testing::check_test

@@ -9,9 +9,7 @@
 #include "report/check.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::document_test {
 namespace {
 
 Measurement sample() {
@@ -152,3 +150,5 @@ TEST(Document, CsvHasErrorsOfCurvesOnTheirRows) {
               "a,p,,4,1,disk,1,3,0.5,0\n"
               "a,p,,4,1,disk,2,4,0.25,0.125\n");
 }
+
+}  // namespace stipple::testing::document_test

@@ -7,7 +7,8 @@
 
 #include <cstring>
 
-using namespace stipple;
+namespace stipple::testing::grid_files_test {
+
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -73,3 +74,5 @@ TEST(GridFiles, PngOfALineIsALine) {
     const Grid line{.rows = 1, .columns = 5, .values = {1, 0, 7, 0, 1}};
     EXPECT_EQ(decode(png_bytes(line), line), (std::vector<int>{128, 0, 0, 0, 128}));
 }
+
+}  // namespace stipple::testing::grid_files_test

@@ -18,8 +18,8 @@
 #include "plot/html_text.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::page_test {
+
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -383,3 +383,5 @@ TEST(PageHtml, TakesTheSmallestSets) {
     const PageSet twins = page_set("twins", points_of({{0, 0}, {0, 0}, {1, 1}}));
     EXPECT_THAT(page_html(page_of({twins, twins})), HasSubstr("twins"));
 }
+
+}  // namespace stipple::testing::page_test

@@ -5,8 +5,7 @@
 
 #include "support/scrambling.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::cranley_patterson_test {
 
 TEST(CranleyPatterson, AddsOneVectorToAllModuloOne) {
     const PointSet plain = make("halton", points(500, 3));
@@ -28,3 +27,5 @@ TEST(CranleyPatterson, GoesByItsOtherNames) {
     EXPECT_EQ(scramble_named("rotation"), scramble_named("cranley-patterson"));
     EXPECT_EQ(scramble_named("rotations"), nullptr);
 }
+
+}  // namespace stipple::testing::cranley_patterson_test

@@ -7,8 +7,7 @@
 #include "support/nets.hpp"
 #include "support/scrambling.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::digital_shift_test {
 
 TEST(DigitalShift, AddsTheSameBitsToAll) {
     const PointSet plain = make("hammersley", points(256, 2));
@@ -44,3 +43,5 @@ TEST(DigitalShift, RefusesWhatIsNoBase) {
               "usage: --base: 3 numbers for 2 coordinates; give one, or one for each");
     EXPECT_EQ(error("4"), "");
 }
+
+}  // namespace stipple::testing::digital_shift_test

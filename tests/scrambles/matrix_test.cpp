@@ -5,8 +5,7 @@
 #include "support/nets.hpp"
 #include "support/scrambling.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::matrix_test {
 
 // By the definition, column by column: the image of x + y is that of x plus that of y plus the
 // shift, digit by digit, and the image of a single digit is its column.
@@ -33,3 +32,5 @@ TEST(MatrixScramble, NeedsAPrimeBase) {
     EXPECT_EQ(error_of([] { scrambled(points_of({{0.5}}), "matrix:base=4"); }),
               "usage: --base: 4 is not a prime, as this scramble needs");
 }
+
+}  // namespace stipple::testing::matrix_test

@@ -4,8 +4,7 @@
 #include "support/nets.hpp"
 #include "support/scrambling.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::micro_jitter_test {
 
 TEST(MicroJitter, KeepsEveryIntervalOfTheSet) {
     for (const std::uint64_t n : {1, 7, 49, 97, 256, 1000}) {
@@ -40,3 +39,5 @@ TEST(MicroJitter, GoesOnWhereAStretchBegins) {
         scrambled(make("halton", points(40, 2, 60)), "micro-jitter:cells=100", 1, 60);
     for (std::size_t i = 0; i < 40; ++i) EXPECT_EQ(tail[i][0], whole[60 + i][0]);
 }
+
+}  // namespace stipple::testing::micro_jitter_test

@@ -8,9 +8,7 @@
 #include "support/nets.hpp"
 #include "support/scrambling.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::owen_test {
 namespace {
 
 /// How much more the part of two functions' variance that is at levels (k, l) of the tree of digits
@@ -102,3 +100,5 @@ TEST(OwenScramble, VarianceOfAMonomialIsTheClosedForm) {
     EXPECT_GT(relative("digital-shift"), 2);
     EXPECT_GT(relative("cranley-patterson"), 2);
 }
+
+}  // namespace stipple::testing::owen_test

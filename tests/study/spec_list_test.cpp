@@ -6,7 +6,8 @@
 
 #include "support/units.hpp"
 
-using namespace stipple;
+namespace stipple::testing::spec_list_test {
+
 using stipple::testing::error_of;
 using ::testing::HasSubstr;
 
@@ -80,3 +81,5 @@ TEST(ParseCounts, RefusesWhatIsNoRangeAndSaysWhatIs) {
     EXPECT_EQ(error_of([] { counts("16.."); }), "usage: --count: a number is missing in '16..'");
     EXPECT_TRUE(error_of([] { counts("1..1e9+1"); }).ends_with("has more than 1000000 numbers"));
 }
+
+}  // namespace stipple::testing::spec_list_test

@@ -8,8 +8,7 @@
 #include "core/error.hpp"
 #include "core/rng.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::statistics_test {
 namespace {
 
 const std::vector<double> a = {1.1, 2.3, 2.9, 4.8, 5.0};
@@ -121,3 +120,5 @@ TEST(Statistics, BootstrapStopsWhenAsked) {
     EXPECT_THROW((void)bootstrap_interval(sample, 0.95, 200, 1, 2, {.stop = stop.get_token()}),
                  Error);
 }
+
+}  // namespace stipple::testing::statistics_test

@@ -10,7 +10,8 @@
 #include "places.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
+namespace stipple::testing::study_config_test {
+
 using stipple::testing::error_of;
 
 namespace {
@@ -98,3 +99,5 @@ TEST(StudyConfig, TheSchemaHasTheSameKeys) {
     for (const auto& name : study_config_keys()) known.insert(name);
     EXPECT_EQ(written, known);
 }
+
+}  // namespace stipple::testing::study_config_test

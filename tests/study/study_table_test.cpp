@@ -8,8 +8,7 @@
 #include "study/unit_runner.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::study_table_test {
 namespace {
 
 StudyRow awkward() {
@@ -98,3 +97,5 @@ TEST(NumbersOf, FlattensNumbersAndLeavesListsOutUnlessAsked) {
     lists.add("mean", Report::Curve{1, 2});
     EXPECT_EQ(keys_of(numbers_of(lists, {}, false)), "mean[0] mean[1] ");
 }
+
+}  // namespace stipple::testing::study_table_test

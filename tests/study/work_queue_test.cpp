@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace stipple;
-
+namespace stipple::testing::work_queue_test {
 namespace {
 
 using Ranges = std::vector<UnitRange>;
@@ -141,3 +140,5 @@ TEST(Sweep, TheFingerprintIsOfAllThatRowsDependOn) {
     other.generators = {"random:rng=philox"};  // the default, written out
     EXPECT_EQ(Sweep(other).fingerprint(), own);
 }
+
+}  // namespace stipple::testing::work_queue_test

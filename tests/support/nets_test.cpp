@@ -9,8 +9,7 @@
 
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::nets_test {
 
 // 1/3 and 2/3 in base 3 round down; x * 3 does not tell.
 TEST(Nets, CellsAreExactAtTheirEdges) {
@@ -32,3 +31,5 @@ TEST(Nets, TellsTheExactT) {
     EXPECT_FALSE(is_net(points_of({{0, 0}, {0.5, 0.5}, {0.75, 0.75}}), 2, 0));
     EXPECT_FALSE(is_net(points_of({{0, 0}, {0.5, 0.5}}), 2, 2));
 }
+
+}  // namespace stipple::testing::nets_test

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+namespace stipple::testing::box_grid_test {
+
 using namespace stipple::discrepancy;
 
 // The plain rule, rank by rank: above the lower end and below the upper one, or, if the interval
@@ -35,3 +37,5 @@ TEST(BoxGrid, AnchoredIntervalsBeginWithTheirLowerFace) {
     EXPECT_TRUE(grid.inside({0, 2}, Side::closed).contains(2));
     EXPECT_FALSE(grid.inside({0, 2}, Side::closed).contains(3));
 }
+
+}  // namespace stipple::testing::box_grid_test

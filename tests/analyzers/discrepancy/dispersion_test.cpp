@@ -11,8 +11,8 @@
 #include "support/lattices.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::dispersion_test {
+
 using namespace stipple::discrepancy;
 
 namespace {
@@ -297,3 +297,5 @@ TEST(Dispersion, RefusesWhatItCannotTake) {
               }).substr(0, 50),
               "limit: the search for the largest empty box needs ");
 }
+
+}  // namespace stipple::testing::dispersion_test

@@ -9,9 +9,7 @@
 #include "pipeline/chain.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::coverage_test {
 namespace {
 
 constexpr const char* unit = "coverage";
@@ -271,3 +269,5 @@ TEST(Coverage, RefusesDomainsThatAreNoBox) {
               "input: 1 of 1 points are outside the domain unit-cube; the first is point 0: (0, 2) "
               "| --domain 'box:bounds=[lo..hi,...]' names another box");
 }
+
+}  // namespace stipple::testing::coverage_test

@@ -5,9 +5,7 @@
 
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::differential_test {
 namespace {
 
 constexpr const char* unit = "differential";
@@ -148,3 +146,5 @@ TEST(Differential, RefusesWhatHasNoImage) {
     EXPECT_EQ(refusal(set, {{"max-distance", "6"}}),
               "usage: --max-distance: 6 is more than half the shortest side, 5");
 }
+
+}  // namespace stipple::testing::differential_test

@@ -7,9 +7,7 @@
 #include "core/text.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::hyperuniformity_test {
 namespace {
 
 constexpr const char* unit = "hyperuniformity";
@@ -244,3 +242,5 @@ TEST(Hyperuniformity, RefusesWhatHasNoWindows) {
     EXPECT_EQ(refusal(set, {{"min-radius", "0.9999"}, {"max-radius", "1"}}),
               "usage: --min-radius: 0.9999 is too near to the largest radius, 1, for a slope");
 }
+
+}  // namespace stipple::testing::hyperuniformity_test

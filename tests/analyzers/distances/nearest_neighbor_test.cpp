@@ -8,9 +8,7 @@
 #include "pipeline/chain.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::nearest_neighbor_test {
 namespace {
 
 constexpr const char* unit = "nearest-neighbor";
@@ -242,3 +240,5 @@ TEST(NearestNeighbor, AMeanOverSetsHasNoPair) {
     analyzer.refine(mean, 2, analyzer.options.defaults());
     EXPECT_EQ(mean.find("pair"), nullptr);
 }
+
+}  // namespace stipple::testing::nearest_neighbor_test

@@ -12,8 +12,8 @@
 #include "core/text.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::pair_correlation_test {
+
 using analyzers::longest_distance;
 using analyzers::pair_probability;
 
@@ -279,3 +279,5 @@ TEST(PairCorrelation, WarnsOfPointsThatAreAllEqual) {
               std::vector<std::string>{"all 3 points are equal: all distances are 0"});
     EXPECT_TRUE(warnings(points_of({{0.5, 0.5}, {0.5, 0.5}, {0.5, 0.25}})).empty());
 }
+
+}  // namespace stipple::testing::pair_correlation_test

@@ -7,8 +7,8 @@
 #include "core/text.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::poisson_disk_test {
+
 using ::testing::HasSubstr;
 
 namespace {
@@ -185,3 +185,5 @@ TEST(PoissonDiskVerification, RefusesARadiusThatIsNone) {
                     }).starts_with("usage: --radius: "))
             << text;
 }
+
+}  // namespace stipple::testing::poisson_disk_test

@@ -6,9 +6,7 @@
 #include "pipeline/chain.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::spanning_tree_test {
 namespace {
 
 constexpr const char* unit = "spanning-tree";
@@ -103,3 +101,5 @@ TEST(SpanningTree, RefusesWhatHasNoEdges) {
     EXPECT_EQ(refusal(points_of({{0.5, 0}, {0.5, 0}})),
               "input: spanning-tree needs points at two places at least; all 2 are at one");
 }
+
+}  // namespace stipple::testing::spanning_tree_test

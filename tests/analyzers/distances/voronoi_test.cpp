@@ -9,9 +9,7 @@
 #include "math/geometry/planar_area.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::voronoi_test {
 namespace {
 
 constexpr const char* unit = "voronoi";
@@ -343,3 +341,5 @@ TEST(Voronoi, RefusesWhatHasNoCells) {
     EXPECT_EQ(refusal(make("random", points(10, 3))),
               "input: voronoi takes points of dimension 2; these have 3");
 }
+
+}  // namespace stipple::testing::voronoi_test

@@ -9,9 +9,7 @@
 #include "pipeline/chain.hpp"
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::integration_test {
 namespace {
 
 /// The unit square with density p(x) = 1/2 + x, and the coordinate in which it is uniform.
@@ -456,3 +454,5 @@ TEST(Integration, WhatAMixtureCoversIsEstimatedWithoutAnExactValue) {
     EXPECT_NEAR(both.number("compare.measure.importance_variance"),
                 quarter * (16 * 0.25 + 16 / 9.0 * 0.75) - 4 * quarter, 0.2);
 }
+
+}  // namespace stipple::testing::integration_test

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <initializer_list>
 
+namespace stipple::testing::tally_test {
+
 using stipple::analyzers::Tally;
 
 namespace {
@@ -45,3 +47,5 @@ TEST(Tally, OfBlocksIsThatOfAll) {
     EXPECT_DOUBLE_EQ(together(of({}), of({1, 2, 6})).variance(), 7);
     EXPECT_DOUBLE_EQ(together(of({1, 2, 6}), of({})).variance(), 7);
 }
+
+}  // namespace stipple::testing::tally_test

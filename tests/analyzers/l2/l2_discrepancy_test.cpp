@@ -18,8 +18,8 @@
 #include "support/lattices.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::l2_discrepancy_test {
+
 using analyzers::l2::Kind;
 
 namespace {
@@ -812,3 +812,5 @@ TEST(L2Discrepancy, StopsAtOnceInManyDimensions) {
     run.progress = [&](double) { source.request_stop(); };
     EXPECT_EQ(error_of([&] { analyze("l2-discrepancy", set, {}, run); }), "cancelled: interrupted");
 }
+
+}  // namespace stipple::testing::l2_discrepancy_test

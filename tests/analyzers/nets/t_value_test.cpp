@@ -10,9 +10,7 @@
 #include "support/scrambling.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::t_value_test {
 namespace {
 
 Report t_value(const PointSet& points, std::int64_t base = 2, std::int64_t projections = 2,
@@ -323,3 +321,5 @@ TEST(TValue, StopsWhileItCounts) {
     EXPECT_EQ(error_of([&] { t_value(net, 2, 2, run); }), "cancelled: interrupted");
     EXPECT_LT(cpu_seconds() - stopped_at, 0.2);  // of two threads
 }
+
+}  // namespace stipple::testing::t_value_test

@@ -14,9 +14,7 @@
 #include "support/fourier.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::periodogram_test {
 namespace {
 
 const Grid& grid_of(const Report& report) { return std::get<Grid>(*report.find("grid")); }
@@ -701,3 +699,5 @@ TEST(Periodogram, FollowsTheFrequenciesOfTheFirstSetOfAMean) {
     unit.follow(second, values);
     EXPECT_EQ(second.number("max_frequency"), 40);
 }
+
+}  // namespace stipple::testing::periodogram_test

@@ -11,9 +11,7 @@
 #include "support/steps.hpp"
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::chi_square_test {
 namespace {
 
 /// Oracle: the digits of i in base b, mirrored at the point.
@@ -779,3 +777,5 @@ TEST(ChiSquare, GridOfLargeSetsStopsAtPowersOfSixteen) {
     EXPECT_EQ(grid_of(million), Grid{509});
     EXPECT_NE(grid_of(million), grid_of(million / 2));
 }
+
+}  // namespace stipple::testing::chi_square_test

@@ -8,8 +8,8 @@
 #include "support/steps.hpp"
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::kolmogorov_smirnov_test {
+
 using analyzers::kolmogorov_exact;
 using analyzers::kolmogorov_expansion;
 using analyzers::kolmogorov_tails;
@@ -210,3 +210,5 @@ TEST(KolmogorovSmirnov, SeveralSetsBecomeOneTest) {
     EXPECT_NEAR(mean.number("combined_p_lower"), 1 - std::pow(0.9, 3), 1e-15);
     EXPECT_EQ(mean.text("verdict"), "non-uniform");
 }
+
+}  // namespace stipple::testing::kolmogorov_smirnov_test

@@ -7,9 +7,7 @@
 #include "support/steps.hpp"
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::moments_test {
 namespace {
 
 double at(const Report& report, const char* key, std::size_t i) { return report.curve(key)[i]; }
@@ -182,3 +180,5 @@ TEST(Moments, SayWhoseExactValuesTheyAre) {
     EXPECT_EQ(bell.text("exact.law"), "the density of normal");
     EXPECT_EQ(analyze("moments", cube).find("cube.axes"), nullptr);
 }
+
+}  // namespace stipple::testing::moments_test

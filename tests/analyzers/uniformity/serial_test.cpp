@@ -5,9 +5,7 @@
 
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::serial_test {
 namespace {
 
 Report serial(const std::vector<double>& flat, const char* lags = "1") {
@@ -82,3 +80,5 @@ TEST(Serial, NeedsMorePointsThanLags) {
               "input: serial needs at least 4 points for 2 lags; these are 3");
     EXPECT_EQ(error_of([] { serial({0.1, 0.2, 0.3}); }), "");
 }
+
+}  // namespace stipple::testing::serial_test

@@ -5,9 +5,7 @@
 #include "math/functions/splitmix64.hpp"
 #include "support/spacing.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::best_candidate_test {
 namespace {
 
 constexpr const char* unit = "best-candidate";
@@ -194,3 +192,5 @@ TEST(BestCandidate, RefusesWhatCannotBe) {
     EXPECT_EQ(refusal({.dimension = 3, .bounds = Box{{0, 0}, {1, 1}}}, {}),
               "usage: --bounds: 2 ranges for 3 coordinates");
 }
+
+}  // namespace stipple::testing::best_candidate_test

@@ -9,9 +9,7 @@
 #include "support/pictures.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::capacity_constrained_test {
 namespace {
 
 /// Mean of | sum over a point's neighbours of exp(6 i theta) | / (their number): hexagons have 1.
@@ -125,3 +123,5 @@ TEST(CapacityConstrained, WorksForFewPointsInAnyBoxAndPlace) {
         }
     }
 }
+
+}  // namespace stipple::testing::capacity_constrained_test

@@ -6,9 +6,7 @@
 #include "support/spacing.hpp"
 #include "support/temporary_file.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::dart_throwing_test {
 namespace {
 
 const Space square{{{0, 0}, {1, 1}}, true};
@@ -214,3 +212,5 @@ TEST(DartThrowing, RefusesWhatContradictsItselfOrFindsNoPlace) {
     EXPECT_NE(refusal({.bounds = Box{{0, 0}, {1e-200, 1e-200}}}, {}), "");
     EXPECT_EQ(make("dart-throwing", points(50, 2), {{"radius", "0.1"}}).count(), 50U);
 }
+
+}  // namespace stipple::testing::dart_throwing_test

@@ -10,8 +10,7 @@
 #include "core/rng.hpp"
 #include "generators/blue_noise/gaussian_relaxation.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::density_relaxation_test {
 namespace {
 
 std::vector<double> scattered(const DensityMap& map, std::size_t n, std::uint64_t seed = 1) {
@@ -156,3 +155,5 @@ TEST(DensityRelaxation, StaysTheSameForAnyNumberOfThreads) {
     relax_to_density(three, map, 5, {.threads = 3});
     EXPECT_EQ(one, three);
 }
+
+}  // namespace stipple::testing::density_relaxation_test

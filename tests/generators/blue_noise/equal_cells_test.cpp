@@ -7,8 +7,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::equal_cells_test {
 namespace {
 
 std::vector<double> random_rows(std::size_t n, Vec2 sides, std::uint64_t seed) {
@@ -62,7 +61,7 @@ TEST(EqualCells, EveryCellHasItsShareByItsDefinition) {
                 std::optional<DensityMoments> density;
                 if (dense) density.emplace(3, 2, scaled, sides);
                 EqualCells cells(planar, density, random_rows(n, sides, n), {});
-                SCOPED_TRACE(testing::Message() << n << (torus ? ", torus" : ", walls") << dense);
+                SCOPED_TRACE(::testing::Message() << n << (torus ? ", torus" : ", walls") << dense);
                 EXPECT_LE(cells.equalize(1e-10, rescue_for(n)), 1e-10);
                 const double share = 1 / static_cast<double>(n);
                 for (std::size_t i = 0; i < n; ++i)
@@ -110,3 +109,5 @@ TEST(EqualCells, SitesInOnePlaceAreRescued) {
     for (const CellMoments& cell : cells.moments()) EXPECT_NEAR(cell.mass, 0.25, 1e-9);
     EXPECT_EQ(cells[0].x, 0.9);
 }
+
+}  // namespace stipple::testing::equal_cells_test

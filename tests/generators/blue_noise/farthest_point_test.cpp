@@ -8,9 +8,7 @@
 #include "support/spacing.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::farthest_point_test {
 namespace {
 
 using Place = std::array<double, 2>;
@@ -256,3 +254,5 @@ TEST(FarthestPoint, BetweenWallsARunEndsWhereNoPointMoves) {
     EXPECT_NEAR(smallest_distance(set, {{{0, 0}, {1, 1}}, false}), 1, 1e-15);
     EXPECT_LT(ticks, 10);
 }
+
+}  // namespace stipple::testing::farthest_point_test

@@ -10,9 +10,7 @@
 #include "support/spacing.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::gaussian_blue_noise_test {
 namespace {
 
 const std::string name = "gaussian-blue-noise";
@@ -177,3 +175,5 @@ TEST(GaussianBlueNoise, RefusesWrongOptionsInOneLine) {
               "usage: --bounds: 0..1,0..10000 has a side 10000 times as long as another; expected "
               "1000 times at most");
 }
+
+}  // namespace stipple::testing::gaussian_blue_noise_test

@@ -8,8 +8,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::gaussian_relaxation_test {
 namespace {
 
 std::vector<double> random_rows(std::size_t n, std::size_t d, std::uint64_t seed = 1) {
@@ -166,3 +165,5 @@ TEST(GaussianRelaxation, LeavesALatticeAndCoincidentPointsAtRest) {
     relax_gaussian(same, 2, 3, {});
     for (const double x : same) EXPECT_NEAR(x, 0.25, 1e-12);
 }
+
+}  // namespace stipple::testing::gaussian_relaxation_test

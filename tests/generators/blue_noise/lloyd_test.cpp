@@ -11,9 +11,7 @@
 #include "support/pictures.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::lloyd_test {
 namespace {
 
 const Settings walls = {{"bounded", "true"}};
@@ -281,3 +279,5 @@ TEST(Lloyd, EvenDensitiesAreNone) {
               }),
               "usage: --invert: there is no --density to invert");
 }
+
+}  // namespace stipple::testing::lloyd_test

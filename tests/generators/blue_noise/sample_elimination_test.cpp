@@ -10,9 +10,7 @@
 #include "support/spacing.hpp"
 #include "support/temporary_file.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::sample_elimination_test {
 namespace {
 
 constexpr const char* unit = "sample-elimination";
@@ -446,3 +444,5 @@ TEST(SampleElimination, RefusesWhatCannotBe) {
                       {{"from", flat.path()}, {"manifold-dimension", "1"}, {"measure", "2"}}),
               "");
 }
+
+}  // namespace stipple::testing::sample_elimination_test

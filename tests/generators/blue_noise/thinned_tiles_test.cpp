@@ -9,8 +9,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::thinned_tiles_test {
 namespace {
 
 using Place = std::pair<double, double>;
@@ -131,3 +130,5 @@ TEST(ThinnedTiles, AreTheSameInAnyPiecesAndForAnyThreads) {
     EXPECT_EQ(whole, filled(*one, 20'000, 777));
     EXPECT_NE(whole, filled(*thinned_tiles(tile, {30, 20}, map, 20'000, 4, {}), 20'000, 20'000));
 }
+
+}  // namespace stipple::testing::thinned_tiles_test

@@ -13,9 +13,7 @@
 #include "support/spacing.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::tiled_test {
 namespace {
 
 const std::string name = "tiled";
@@ -301,3 +299,5 @@ TEST(Tiled, RefusesWrongOptionsInOneLine) {
         error_of([&] { make(name, points(1'000'000'000'000, 2), with_density(file)); });
     EXPECT_TRUE(error.starts_with(fmt::format("limit: {}: ", file.path()))) << error;
 }
+
+}  // namespace stipple::testing::tiled_test

@@ -10,9 +10,7 @@
 #include "support/spacing.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::void_and_cluster_test {
 namespace {
 
 const std::string name = "void-and-cluster";
@@ -192,3 +190,5 @@ TEST(VoidAndCluster, RefusesCellsThatAreTooLong) {
         "usage: --size: 64x64 makes cells as wide as 0.005 times their height in the box; expected "
         "0.01 to 100 times");
 }
+
+}  // namespace stipple::testing::void_and_cluster_test

@@ -8,9 +8,7 @@
 #include "support/sequences.hpp"
 #include "support/temporary_file.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::digital_net_test {
 namespace {
 
 const std::string sobol_file = STIPPLE_SOURCE_DIR "/data/sobol_4d.txt";
@@ -255,3 +253,5 @@ TEST(DigitalNet, TakesColumnsOfAll64Bits) {
     const TemporaryFile bare("18446744073709551615 1\n");
     EXPECT_EQ(net(bare, {.count = 2}, {{"layout", "columns"}})[1][0], 1 - 0x1p-53);
 }
+
+}  // namespace stipple::testing::digital_net_test

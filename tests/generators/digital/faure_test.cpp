@@ -7,9 +7,7 @@
 #include "support/scrambling.hpp"
 #include "support/sequences.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::faure_test {
 namespace {
 
 /// Oracle: Faure's recipe. Coordinate after coordinate, the digits are multiplied once more by
@@ -180,3 +178,5 @@ TEST(Faure, RefusesBasesThatAreNoPrimesOrTooSmall) {
               }),
               "usage: --base: 1 is outside [2, 65521]");
 }
+
+}  // namespace stipple::testing::faure_test

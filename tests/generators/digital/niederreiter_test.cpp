@@ -4,9 +4,7 @@
 #include "support/nets.hpp"
 #include "support/sequences.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::niederreiter_test {
 namespace {
 
 /// Degrees of x, 1 + x, 1 + x + x^2, two of degree 3, three of degree 4, six of degree 5.
@@ -122,3 +120,5 @@ TEST(Niederreiter, RefusesWhatItsBaseDoesNotAllow) {
     EXPECT_EQ(error({{"base", "65521"}}, std::uint64_t{1} << 52).substr(0, 27),
               "usage: --start 0 and 450359");
 }
+
+}  // namespace stipple::testing::niederreiter_test

@@ -6,8 +6,7 @@
 #include "support/nets.hpp"
 #include "support/sequences.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::pmj02_test {
 
 TEST(Pmj02, EveryPrefixOfAPowerOfTwoMeetsAllElementaryIntervals) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
@@ -54,3 +53,5 @@ TEST(Pmj02, IsOfThePlane) {
     EXPECT_EQ(error_of([] { make("pmj02", points(16, 3)); }),
               "usage: --dimension: 3 is outside [2, 2], what pmj02 can make");
 }
+
+}  // namespace stipple::testing::pmj02_test

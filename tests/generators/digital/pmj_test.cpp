@@ -8,9 +8,7 @@
 #include "support/sequences.hpp"
 #include "support/strata.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::pmj_test {
 namespace {
 
 /// Oracle for 2 * 4^k points: two in each square, in opposite quarters.
@@ -86,3 +84,5 @@ TEST(Pmj, EachPointIsUniformOverSeeds) {
 }
 
 TEST(Pmj, AnyStretchIsThatOfTheWhole) { EXPECT_TRUE(stretches_agree("pmj", points(700, 2))); }
+
+}  // namespace stipple::testing::pmj_test

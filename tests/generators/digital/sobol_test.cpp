@@ -9,9 +9,7 @@
 #include "support/sequences.hpp"
 #include "support/temporary_file.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::sobol_test {
 namespace {
 
 constexpr const char* scramblings[] = {"none", "digital-shift", "matrix", "owen"};
@@ -242,3 +240,5 @@ TEST(Sobol, RefusesDimensionsBeyondItsTable) {
               "usage: --dimension: 3668 is outside [1, 3667], what sobol can make | "
               "--directions brings more");
 }
+
+}  // namespace stipple::testing::sobol_test

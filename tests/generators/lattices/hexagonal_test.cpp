@@ -8,9 +8,7 @@
 #include "support/exact.hpp"
 #include "support/sequences.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::hexagonal_test {
 namespace {
 
 using Pair = std::pair<std::int64_t, std::int64_t>;
@@ -106,3 +104,5 @@ TEST(Hexagonal, AnyStretchIsThatOfTheWhole) {
     EXPECT_TRUE(stretches_agree("hexagonal", points(53, 2)));
     EXPECT_TRUE(stretches_agree("hexagonal", points(120, 2)));
 }
+
+}  // namespace stipple::testing::hexagonal_test

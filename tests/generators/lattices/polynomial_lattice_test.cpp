@@ -12,9 +12,7 @@
 #include "support/scrambling.hpp"
 #include "support/sequences.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::polynomial_lattice_test {
 namespace {
 
 std::string listed(const std::vector<std::uint64_t>& numbers) {
@@ -284,3 +282,5 @@ TEST(PolynomialLattice, ASearchCanBeStoppedShowsItsProgressAndKeepsToItsMemory) 
         [] { make("polynomial-lattice", points(1 << 16, 2), {}, {.max_memory = 2'000'000}); });
     EXPECT_TRUE(error.starts_with("limit: the search for a vector")) << error;
 }
+
+}  // namespace stipple::testing::polynomial_lattice_test

@@ -12,9 +12,7 @@
 #include "support/sequences.hpp"
 #include "support/temporary_file.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::rank1_lattice_test {
 namespace {
 
 using Vector = std::vector<std::uint64_t>;
@@ -307,3 +305,5 @@ TEST(Rank1Lattice, ASearchCanBeStoppedShowsItsProgressAndKeepsToItsMemory) {
         error_of([] { make("rank1-lattice", points(1 << 16, 2), {}, {.max_memory = 2'000'000}); });
     EXPECT_TRUE(error.starts_with("limit: the search for a vector")) << error;
 }
+
+}  // namespace stipple::testing::rank1_lattice_test

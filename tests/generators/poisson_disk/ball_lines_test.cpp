@@ -10,8 +10,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::ball_lines_test {
 namespace {
 
 using Lines = std::vector<std::uint32_t>;
@@ -131,3 +130,5 @@ TEST(BallLines, AreReadByCells) {
         }
     }
 }
+
+}  // namespace stipple::testing::ball_lines_test

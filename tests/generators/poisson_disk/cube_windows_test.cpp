@@ -10,8 +10,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::cube_windows_test {
 namespace {
 
 /// Balls about a cell, and the sides of that.
@@ -258,3 +257,5 @@ TEST(CubeWindows, NarrowToTheOpenPartsAndAreSplitOnceDartsHadTheirChance) {
     narrow_cube(window, ~PartBits{0}, 2, left);
     EXPECT_EQ(left.size(), 8);
 }
+
+}  // namespace stipple::testing::cube_windows_test

@@ -7,8 +7,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::disk_covers_test {
 namespace {
 
 /// Largest distance from p, or its nearest image, to a corner of a box of the domain.
@@ -143,3 +142,5 @@ TEST(DiskCovers, TheWindowHoldsAllBitsAndCannotBeHalved) {
                   window.side() > 0.125 ? window.side() / 2 : 0);
     }
 }
+
+}  // namespace stipple::testing::disk_covers_test

@@ -7,7 +7,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
+namespace stipple::testing::disk_shower_test {
 
 // 200 000 numbers of each mean against the Poisson probabilities: the chi-square statistic of the
 // cells with an expectation above 10 is below its mean by 6 of its standard deviations sqrt(2 dof)
@@ -45,3 +45,5 @@ TEST(DiskShower, NoDartsFallOnNothing) {
     Mixer mixer(1);
     for (int i = 0; i < 100; ++i) EXPECT_EQ(shower.on(0, mixer), 0);
 }
+
+}  // namespace stipple::testing::disk_shower_test

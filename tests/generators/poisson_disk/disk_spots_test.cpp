@@ -8,8 +8,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::disk_spots_test {
 namespace {
 
 constexpr std::size_t rows = 12;
@@ -110,3 +109,5 @@ TEST(DiskSpots, FindThoseThatAreNear) {
         EXPECT_LE(found, most);
     }
 }
+
+}  // namespace stipple::testing::disk_spots_test

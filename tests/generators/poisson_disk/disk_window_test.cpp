@@ -5,8 +5,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::disk_window_test {
 namespace {
 
 template <std::size_t D>
@@ -96,3 +95,5 @@ TEST(DiskWindow, IsSplitOnceDartsHadTheirChance) {
     EXPECT_EQ(left[1].corner, (std::array<double, 2>{0.5, 0}));
     EXPECT_EQ(left[1].level, 1);
 }
+
+}  // namespace stipple::testing::disk_window_test

@@ -8,8 +8,7 @@
 #include "core/rng.hpp"
 #include "generators/poisson_disk/disk_window.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::near_disks_test {
 namespace {
 
 template <std::size_t D>
@@ -168,3 +167,5 @@ TEST(NearDisks, GrowWithoutLosingAny) {
         for (std::size_t k = 0; k < 4; ++k)
             EXPECT_EQ(near.along(k)[i], static_cast<double>((k + 1) * i));
 }
+
+}  // namespace stipple::testing::near_disks_test

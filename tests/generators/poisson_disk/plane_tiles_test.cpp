@@ -7,8 +7,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::plane_tiles_test {
 namespace {
 
 BoxSpace space_of_cells(double columns, double rows, bool torus) {
@@ -146,3 +145,5 @@ TEST(PlaneTiles, UndecidedDartsAreFoundByTheirCells) {
     sorted.for_some({64, 0}, {70, 63}, [&](const Undecided&) { return ++none > 0; });
     EXPECT_EQ(none, 0);
 }
+
+}  // namespace stipple::testing::plane_tiles_test

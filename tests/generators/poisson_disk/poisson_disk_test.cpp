@@ -14,9 +14,7 @@
 #include "support/pictures.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::poisson_disk_test {
 namespace {
 
 /// Odd proportions, small and large against a radius of 1; far from the origin; thin.
@@ -571,3 +569,5 @@ TEST(PoissonDisk, AMaskOfAllLeavesTheProcessAsItIs) {
                     5 * 0.003 * std::sqrt(2) * 4353);
     }
 }
+
+}  // namespace stipple::testing::poisson_disk_test

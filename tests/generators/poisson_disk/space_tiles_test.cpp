@@ -7,8 +7,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::space_tiles_test {
 namespace {
 
 /// One tile of 16 or of 32 cells along each direction, with points in some of them and in its halo.
@@ -165,3 +164,5 @@ TEST(SpaceDarts, AreFoundInRunsOfCubes) {
         EXPECT_EQ(found, static_cast<std::size_t>(std::ranges::count_if(darts, about)));
     }
 }
+
+}  // namespace stipple::testing::space_tiles_test

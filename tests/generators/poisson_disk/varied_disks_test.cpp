@@ -12,9 +12,7 @@
 #include "support/spacing.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::varied_disks_test {
 namespace {
 
 /// Oracle of a field: its cells, looked up as a user would; 0 where no point may lie.
@@ -588,3 +586,5 @@ TEST(VariedDisks, ProgressRisesToTheEndAndAStopIsHeeded) {
               }),
               "cancelled: interrupted");
 }
+
+}  // namespace stipple::testing::varied_disks_test

@@ -12,8 +12,7 @@
 #include "support/nets.hpp"
 #include "support/sequences.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::halton_test {
 
 // Radical inverses of 0..5 in bases 2 and 3, worked by hand.
 TEST(Halton, FirstPointsByHand) {
@@ -201,3 +200,5 @@ TEST(Halton, RefusesWhatIsBeyondItsTables) {
     EXPECT_EQ(error_of([&] { make("halton", points(2, 1, end - 1)); }).substr(0, 14),
               "usage: --start");
 }
+
+}  // namespace stipple::testing::halton_test

@@ -6,8 +6,7 @@
 #include "support/exact.hpp"
 #include "support/sequences.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::hammersley_test {
 
 // Worked by hand.
 TEST(Hammersley, FirstPointsByHand) {
@@ -87,3 +86,5 @@ TEST(Hammersley, RefusesAStart) {
     EXPECT_EQ(error_of([] { make("hammersley", points(5, 2, 1)); }).substr(0, 14),
               "usage: --start");
 }
+
+}  // namespace stipple::testing::hammersley_test

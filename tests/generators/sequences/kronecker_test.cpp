@@ -6,9 +6,7 @@
 #include "support/exact.hpp"
 #include "support/sequences.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::kronecker_test {
 namespace {
 
 using Whole = boost::multiprecision::cpp_int;
@@ -113,3 +111,5 @@ TEST(Kronecker, RefusesTooFewNumbersAndWrongOffsets) {
     EXPECT_TRUE(
         error_of([&] { make("kronecker", points(2, 1, end - 1)); }).starts_with("usage: --start"));
 }
+
+}  // namespace stipple::testing::kronecker_test

@@ -4,9 +4,7 @@
 #include "core/rng.hpp"
 #include "support/sequences.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::random_test {
 namespace {
 
 const std::vector<std::string> engines = {"philox",   "mt19937-64", "drand48",
@@ -115,3 +113,5 @@ TEST(Random, NumbersAreUniformAndUncorrelated) {
         EXPECT_LT(std::abs(products), 5 * std::sqrt(200'000 / 144.)) << rng;
     }
 }
+
+}  // namespace stipple::testing::random_test

@@ -8,8 +8,7 @@
 #include "support/exact.hpp"
 #include "support/sequences.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::van_der_corput_test {
 
 TEST(VanDerCorput, FirstPointsByHand) {
     EXPECT_EQ(make("van-der-corput", {.count = 5}), points_of({{0}, {.5}, {.25}, {.75}, {.125}}));
@@ -65,3 +64,5 @@ TEST(VanDerCorput, RefusesBasesAndDimensionsThatItDoesNotHave) {
                         make("van-der-corput", {}, {{"base", base}});
                     }).starts_with("usage: --base: " + std::string(base) + " is outside"));
 }
+
+}  // namespace stipple::testing::van_der_corput_test

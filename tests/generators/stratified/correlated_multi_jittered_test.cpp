@@ -8,9 +8,7 @@
 #include "support/sequences.hpp"
 #include "support/strata.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::correlated_multi_jittered_test {
 namespace {
 
 constexpr const char* name = "correlated-multi-jittered";
@@ -100,3 +98,5 @@ TEST(CorrelatedMultiJittered, ReachesToTheLargestCounts) {
         }
     }
 }
+
+}  // namespace stipple::testing::correlated_multi_jittered_test

@@ -4,8 +4,7 @@
 #include "support/exact.hpp"
 #include "support/sequences.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::grid_test {
 
 TEST(Grid, CentersAndCornersByHand) {
     EXPECT_EQ(make("grid", points(4, 2)),
@@ -93,3 +92,5 @@ TEST(Grid, RefusesWhatItCannotMakeAndSaysWhatItCan) {
     EXPECT_NE(refusal({}, {{"cell", "edge"}}), "");
     EXPECT_NE(refusal(points(4, 2, 1), {}), "");
 }
+
+}  // namespace stipple::testing::grid_test

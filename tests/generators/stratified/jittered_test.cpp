@@ -7,9 +7,7 @@
 #include "support/exact.hpp"
 #include "support/sequences.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::jittered_test {
 namespace {
 
 struct Rectangle {
@@ -129,3 +127,5 @@ TEST(Jittered, RefusesCountsThatAreNoPower) {
     EXPECT_EQ(make("jittered", {.dimension = 3}).count(), 1000);
     EXPECT_NE(error_of([] { make("jittered", points(10, 2, 3)); }), "");
 }
+
+}  // namespace stipple::testing::jittered_test

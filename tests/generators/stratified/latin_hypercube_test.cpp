@@ -8,9 +8,7 @@
 #include "support/sequences.hpp"
 #include "support/strata.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::latin_hypercube_test {
 namespace {
 
 double correlation(const PointSet& set, std::size_t a, std::size_t b) {
@@ -113,3 +111,5 @@ TEST(LatinHypercube, RefusesWhatStrengthTwoCannotBe) {
     EXPECT_EQ(make("latin-hypercube", {.dimension = 2}, {{"strength", "2"}}).count(), 961U);
     EXPECT_EQ(make("latin-hypercube", {.dimension = 50}, {{"strength", "2"}}).count(), 2809U);
 }
+
+}  // namespace stipple::testing::latin_hypercube_test

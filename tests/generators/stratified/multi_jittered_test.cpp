@@ -9,9 +9,7 @@
 #include "support/sequences.hpp"
 #include "support/strata.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::multi_jittered_test {
 namespace {
 
 /// The strips of width 1/n of point i.
@@ -143,3 +141,5 @@ TEST(MultiJittered, RefusesContradictions) {
               "usage: --shape: 3x4x5 has 3 sides; columns x rows are two");
     EXPECT_NE(error_of([] { make("multi-jittered", points(10, 3)); }), "");
 }
+
+}  // namespace stipple::testing::multi_jittered_test

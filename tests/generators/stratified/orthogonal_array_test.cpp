@@ -5,9 +5,7 @@
 #include "support/sequences.hpp"
 #include "support/strata.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::orthogonal_array_test {
 namespace {
 
 constexpr const char* all_substrata[] = {"none", "independent", "correlated"};
@@ -119,3 +117,5 @@ TEST(OrthogonalArray, RefusesWhatNoArrayIs) {
               1331U);
     EXPECT_EQ(make("orthogonal-array", {.dimension = 3}).count(), 1000U);
 }
+
+}  // namespace stipple::testing::orthogonal_array_test

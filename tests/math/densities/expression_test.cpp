@@ -13,9 +13,7 @@
 #include "core/rng.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::expression_test {
 namespace {
 
 double value(const std::string& text, const std::vector<double>& point = {0.25, 0.5}) {
@@ -176,3 +174,5 @@ TEST(Expression, SaysAtWhichColumnWhatIsExpected) {
 TEST(Expression, DropsBlanksFromItsText) {
     EXPECT_EQ(Expression("density", "1 - x * x", 1).text(), "1-x*x");
 }
+
+}  // namespace stipple::testing::expression_test

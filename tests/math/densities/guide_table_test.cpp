@@ -8,8 +8,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::guide_table_test {
 namespace {
 
 /// Holds that the search finds what a search among all sums does, at the sums, beside them and at
@@ -62,3 +61,5 @@ TEST(GuideTable, IsRightOnTheEdgesOfBuckets) {
         expect_searches(sums, count);
     }
 }
+
+}  // namespace stipple::testing::guide_table_test

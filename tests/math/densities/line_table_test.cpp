@@ -8,9 +8,7 @@
 #include "core/rng.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::line_table_test {
 namespace {
 
 template <class F>
@@ -125,3 +123,5 @@ TEST(TabulateLine, RefusesWhatIsNoDensityAndSaysWhere) {
     EXPECT_NE(refused([](double x) { return 1 / std::abs(x - 1 / 3.0); }).find("0.333333333"),
               std::string::npos);
 }
+
+}  // namespace stipple::testing::line_table_test

@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-using namespace stipple;
-
+namespace stipple::testing::quadrature_test {
 namespace {
 
 /// Holds that an integral is right within what it says, and that this is little.
@@ -44,3 +43,5 @@ TEST(Quadrature, TellsWhatItDidNotReach) {
                            {.tolerance = 1e-12, .most = 20});
     EXPECT_GT(pole.error, 0.01);
 }
+
+}  // namespace stipple::testing::quadrature_test

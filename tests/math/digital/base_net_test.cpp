@@ -8,9 +8,7 @@
 #include "math/functions/powers.hpp"
 #include "support/exact.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::base_net_test {
 namespace {
 
 DigitMatrix random_matrix(std::uint32_t base, std::size_t rows, std::size_t columns,
@@ -112,3 +110,5 @@ TEST(BaseNet, NeverReachesOne) {
         EXPECT_GE(last[0], 1 - 2e-12) << base;
     }
 }
+
+}  // namespace stipple::testing::base_net_test

@@ -12,8 +12,7 @@
 #include "core/rng.hpp"
 #include "math/digital/radical_inverse.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::base_scramble_test {
 namespace {
 
 /// Digits 1 to m of x in [0, 1), as a whole number.
@@ -187,3 +186,5 @@ TEST(BaseMatrix, PermutesThePrefixesOfEveryLength) {
         }
     }
 }
+
+}  // namespace stipple::testing::base_scramble_test

@@ -6,8 +6,7 @@
 #include "core/rng.hpp"
 #include "math/digital/binary_scramble.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::binary_net_test {
 namespace {
 
 BinaryMatrices random_matrices(std::size_t dimension, std::size_t digits) {
@@ -73,3 +72,5 @@ TEST(BinaryNet, CutsFractionsOffAtFiftyThreeDigits) {
         EXPECT_LT(y, 1);
     }
 }
+
+}  // namespace stipple::testing::binary_net_test

@@ -12,8 +12,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::binary_scramble_test {
 namespace {
 
 std::uint64_t owen(std::uint64_t seed, std::uint64_t x) {
@@ -182,3 +181,5 @@ TEST(UnitFractions, HoldEveryDoubleOfFiftyThreeDigits) {
     EXPECT_EQ(fraction_to_unit(unit_to_fraction(1.0)), 1 - 0x1p-53);
     EXPECT_EQ(unit_to_fraction(0.75), std::uint64_t{3} << 62);
 }
+
+}  // namespace stipple::testing::binary_scramble_test

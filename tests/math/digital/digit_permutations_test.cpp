@@ -11,8 +11,7 @@
 
 #include "math/functions/primes.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::digit_permutations_test {
 namespace {
 
 constexpr std::uint64_t last = (std::uint64_t{1} << 53) - 1;
@@ -119,3 +118,5 @@ TEST(PermutedInverse, FillGivesTheNumbersOneByOneAllBelowOne) {
         }
     }
 }
+
+}  // namespace stipple::testing::digit_permutations_test

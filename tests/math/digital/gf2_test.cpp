@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <set>
 
-using namespace stipple;
-
+namespace stipple::testing::gf2_test {
 namespace {
 
 /// Oracle: the product without a modulus.
@@ -60,3 +59,5 @@ TEST(Gf2, UnitsAreAllPowersOfOne) {
         for (std::size_t j = 0; j < units.size(); ++j) ASSERT_EQ(units[j], j + 1) << m;
     }
 }
+
+}  // namespace stipple::testing::gf2_test

@@ -5,8 +5,7 @@
 
 #include <cstdlib>
 
-using namespace stipple;
-
+namespace stipple::testing::legacy_engines_test {
 namespace {
 
 constexpr std::uint64_t seeds[] = {0,          1,          2,          42,
@@ -103,3 +102,5 @@ TEST(Ranlux48, TenThousandthNumberOfTheStandard) {
     EXPECT_EQ(nth(Ranlux48(19780503), 10000) * 0x1p48, 249142670248501.);
     EXPECT_EQ(Ranlux48(0).next(), Ranlux48(19780503).next());
 }
+
+}  // namespace stipple::testing::legacy_engines_test

@@ -7,9 +7,7 @@
 #include "math/functions/primes.hpp"
 #include "support/exact.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::radical_inverse_test {
 namespace {
 
 constexpr std::uint64_t last = (std::uint64_t{1} << 53) - 1;
@@ -79,3 +77,5 @@ TEST(RadicalInverse, FillGivesTheNumbersOneByOne) {
         }
     }
 }
+
+}  // namespace stipple::testing::radical_inverse_test

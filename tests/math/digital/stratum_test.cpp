@@ -6,9 +6,7 @@
 #include "core/rng.hpp"
 #include "support/exact.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::stratum_test {
 namespace {
 
 constexpr std::uint64_t most = std::uint64_t{1} << 53;
@@ -137,3 +135,5 @@ TEST(Stratum, ListedStrataHoldTheirPointsToo) {
         }
     }
 }
+
+}  // namespace stipple::testing::stratum_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-using namespace stipple;
+namespace stipple::testing::grid_sum_test {
 
 // Whole numbers do not mind in which order they are added; nor do they lose anything that matters.
 TEST(GridSum, ForgetsTheOrder) {
@@ -73,3 +73,5 @@ TEST(ScaledGridSum, ForgetsTheOrderAndKeepsTheDigits) {
         }
     }
 }
+
+}  // namespace stipple::testing::grid_sum_test

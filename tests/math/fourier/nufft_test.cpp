@@ -17,9 +17,7 @@
 #include "support/fourier.hpp"
 #include "support/temporary_file.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::nufft_test {
 namespace {
 
 using Numbers = std::vector<double>;
@@ -474,3 +472,5 @@ TEST(Interpolator, NarrowestWithinTolerance) {
             }
         }
 }
+
+}  // namespace stipple::testing::nufft_test

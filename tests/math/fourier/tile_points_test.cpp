@@ -5,8 +5,7 @@
 
 #include <numeric>
 
-using namespace stipple;
-
+namespace stipple::testing::tile_points_test {
 namespace {
 
 using Numbers = std::vector<double>;
@@ -93,3 +92,5 @@ TEST(TilePoints, HaveRoomForTheirCapacityWhereverThePointsAre) {
         EXPECT_EQ(points.count_in_block(7), 0U);
     }
 }
+
+}  // namespace stipple::testing::tile_points_test

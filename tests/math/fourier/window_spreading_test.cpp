@@ -9,6 +9,8 @@
 
 #include "core/rng.hpp"
 
+namespace stipple::testing::window_spreading_test {
+
 namespace stipple {
 namespace {
 
@@ -185,3 +187,5 @@ TEST(WindowSpreading, FindsTilesAsTheyAreDefined) {
 }
 
 }  // namespace stipple
+
+}  // namespace stipple::testing::window_spreading_test

@@ -5,7 +5,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
+namespace stipple::testing::cholesky_test {
 
 // By hand: [4 2; 2 10] = [2 0; 1 3] [2 1; 0 3].
 TEST(Cholesky, FactorByHand) {
@@ -41,3 +41,5 @@ TEST(Cholesky, TimesItsTransposeIsTheMatrix) {
             EXPECT_EQ(j > i ? l[i * d + j] : 0, 0);
         }
 }
+
+}  // namespace stipple::testing::cholesky_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace stipple;
+namespace stipple::testing::combinations_test {
 
 TEST(Combinations, BinomialsByHand) {
     EXPECT_EQ(binomial(5, 0), 1);
@@ -30,3 +30,5 @@ TEST(Combinations, NumbersLeadThereAndBack) {
         }
     }
 }
+
+}  // namespace stipple::testing::combinations_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-using namespace stipple;
+namespace stipple::testing::distributions_test {
 
 // With two degrees of freedom chi-square is exponential, with one the square of a normal number.
 TEST(Distributions, ChiSquareInClosedForm) {
@@ -40,3 +40,5 @@ TEST(Distributions, NoncentralityHasThePower) {
         EXPECT_NEAR(power, 0.9, 1e-5);
     }
 }
+
+}  // namespace stipple::testing::distributions_test

@@ -7,6 +7,8 @@
 #include "core/rng.hpp"
 #include "math/functions/logarithm.hpp"
 
+namespace stipple::testing::double_double_test {
+
 namespace stipple {
 namespace {
 
@@ -67,3 +69,5 @@ TEST(DoubleDouble, CarriesAHundredBits) {
 
 }  // namespace
 }  // namespace stipple
+
+}  // namespace stipple::testing::double_double_test

@@ -8,7 +8,8 @@
 #include "core/rng.hpp"
 #include "support/ulps.hpp"
 
-using namespace stipple;
+namespace stipple::testing::exponential_test {
+
 using stipple::testing::ulps;
 
 TEST(Exponential, IsWithinOneUnitInTheLastPlace) {
@@ -59,3 +60,5 @@ TEST(ExpMinusOne, KnowsItsEnds) {
     EXPECT_EQ(exp_minus_1(-1e300), -1);
     EXPECT_TRUE(std::isfinite(exp_minus_1(709)));
 }
+
+}  // namespace stipple::testing::exponential_test

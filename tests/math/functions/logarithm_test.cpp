@@ -9,7 +9,8 @@
 #include "core/rng.hpp"
 #include "support/ulps.hpp"
 
-using namespace stipple;
+namespace stipple::testing::logarithm_test {
+
 using stipple::testing::ulps;
 
 TEST(Logarithm, IsWithinOneUnitInTheLastPlace) {
@@ -79,3 +80,5 @@ TEST(LogarithmParts, AddUpToSixtyTwoBits) {
     EXPECT_EQ(logarithm_parts(1).high, 0);
     EXPECT_EQ(logarithm_parts(1).low, 0);
 }
+
+}  // namespace stipple::testing::logarithm_test

@@ -10,7 +10,8 @@
 #include "math/functions/normal_quantile.hpp"
 #include "support/ulps.hpp"
 
-using namespace stipple;
+namespace stipple::testing::normal_distribution_test {
+
 using stipple::testing::ulps;
 
 // The C library's long double erfc is the oracle: of another precision, and of another source.
@@ -56,3 +57,5 @@ TEST(NormalDistribution, RisesAndIsTheQuantilesInverse) {
     for (const double p : {1e-300, 1e-20, 0.01, 0.25, 0.5, 0.7, 0.999})
         EXPECT_NEAR(normal_distribution(normal_quantile(p)) / p, 1, 1e-12) << p;
 }
+
+}  // namespace stipple::testing::normal_distribution_test

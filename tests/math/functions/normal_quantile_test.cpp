@@ -10,7 +10,8 @@
 #include "core/rng.hpp"
 #include "support/ulps.hpp"
 
-using namespace stipple;
+namespace stipple::testing::normal_quantile_test {
+
 using stipple::testing::ulps;
 
 namespace {
@@ -84,3 +85,5 @@ TEST(NormalQuantile, OfManyNumbersAreThoseOfEach) {
             ASSERT_EQ(x[i], bounded_normal_quantile(p[i])) << p[i];
     }
 }
+
+}  // namespace stipple::testing::normal_quantile_test

@@ -11,8 +11,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::permutation_test {
 namespace {
 
 using Image = std::uint64_t (*)(std::uint64_t size, std::uint64_t key, std::uint64_t i);
@@ -139,3 +138,5 @@ TEST(Permutation, ThreeImagesComeInAnyOrder) {
         EXPECT_GT(upper_tail(hits), 1e-6) << size;
     }
 }
+
+}  // namespace stipple::testing::permutation_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace stipple;
+namespace stipple::testing::powers_test {
 
 constexpr std::uint64_t largest = ~std::uint64_t{0};
 
@@ -48,3 +48,5 @@ TEST(Powers, RoundedRootByHand) {
     EXPECT_EQ(rounded_root(1000), 32U);
     EXPECT_EQ(rounded_root(std::uint64_t{1} << 53), 94906266U);  // sqrt = 94906265.62
 }
+
+}  // namespace stipple::testing::powers_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace stipple;
+namespace stipple::testing::primes_test {
 
 // The thousandth prime is 7919.
 TEST(Primes, AreAllPrimesUpTo7919) {
@@ -29,3 +29,5 @@ TEST(Primes, KnowsThemAndTheSmallestFactorOfOthers) {
     EXPECT_EQ(smallest_factor(65521), 65521U);
     EXPECT_EQ(smallest_factor(65521ULL * 7919), 7919U);
 }
+
+}  // namespace stipple::testing::primes_test

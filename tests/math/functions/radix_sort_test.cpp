@@ -9,8 +9,7 @@
 #include "core/error.hpp"
 #include "core/rng.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::radix_sort_test {
 namespace {
 
 std::vector<std::uint32_t> order_of(const std::vector<double>& values) {
@@ -62,3 +61,5 @@ TEST(RadixSort, StopsWhenAsked) {
     std::vector<Placed> items(10);
     EXPECT_THROW(radix_sort(items, {.stop = source.get_token()}), Error);
 }
+
+}  // namespace stipple::testing::radix_sort_test

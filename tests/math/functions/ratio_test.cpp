@@ -6,8 +6,7 @@
 #include "core/rng.hpp"
 #include "support/exact.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::ratio_test {
 
 TEST(Ratio, IsTheNearestDoubleForAllSizes) {
     const Rng rng(1);
@@ -38,3 +37,5 @@ TEST(Ratio, NeverReachesOne) {
         EXPECT_EQ(ratio(0, b), 0) << bits;
     }
 }
+
+}  // namespace stipple::testing::ratio_test

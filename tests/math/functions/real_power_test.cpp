@@ -8,7 +8,8 @@
 #include "core/rng.hpp"
 #include "support/ulps.hpp"
 
-using namespace stipple;
+namespace stipple::testing::real_power_test {
+
 using stipple::testing::ulps;
 
 TEST(RealPower, IsWithinTwoUnitsInTheLastPlace) {
@@ -52,3 +53,5 @@ TEST(RealPower, GivesKnownValues) {
     EXPECT_EQ(real_power(0.125, -1), 8);
     EXPECT_DOUBLE_EQ(real_power(10, 0.3), 1.99526231496887960135);
 }
+
+}  // namespace stipple::testing::real_power_test

@@ -9,7 +9,8 @@
 #include "core/rng.hpp"
 #include "support/ulps.hpp"
 
-using namespace stipple;
+namespace stipple::testing::roots_test {
+
 using stipple::testing::ulps;
 
 TEST(Roots, OfPowersAreTheirBases) {
@@ -59,3 +60,5 @@ TEST(Roots, RoughCubeRootsAreWithinTheirPromise) {
     for (double x = 1e-300; x < 1e300; x *= 1.0301)
         ASSERT_NEAR(rough_cube_root(x) / cube_root(x), 1, 2e-7) << x;
 }
+
+}  // namespace stipple::testing::roots_test

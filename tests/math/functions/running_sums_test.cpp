@@ -5,7 +5,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
+namespace stipple::testing::running_sums_test {
 
 TEST(RunningSums, OfTenthsAreTheNearestDoubles) {
     const std::vector<double> tenths(1000, 0.1);
@@ -30,3 +30,5 @@ TEST(RunningSums, RiseAndStandStillAtZeros) {
     }
     EXPECT_EQ(running_sums(std::vector{0.0, 1.0, 1e-30, 0.0, 2.0}).back(), 3);
 }
+
+}  // namespace stipple::testing::running_sums_test

@@ -9,8 +9,7 @@
 #include <limits>
 #include <vector>
 
-using namespace stipple;
-
+namespace stipple::testing::trigonometry_test {
 namespace {
 
 using Real = boost::multiprecision::cpp_bin_float_50;
@@ -134,3 +133,5 @@ TEST(Trigonometry, BitsStayTheSame) {
     }
     EXPECT_EQ(sum, 10738784635086853442U);
 }
+
+}  // namespace stipple::testing::trigonometry_test

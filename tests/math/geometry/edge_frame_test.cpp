@@ -7,8 +7,7 @@
 #include <limits>
 #include <vector>
 
-using namespace stipple;
-
+namespace stipple::testing::edge_frame_test {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
@@ -54,3 +53,5 @@ TEST(EdgeFrame, NeitherOverflowsNorUnderflows) {
         EXPECT_NEAR(frame.coordinates({0.25 * size, 0.5 * size, 0}).t, 0.5, 1e-15);
     }
 }
+
+}  // namespace stipple::testing::edge_frame_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace stipple;
+namespace stipple::testing::lattice_test {
 
 TEST(Lattice, VisitsEveryCellOfAStretchInOrder) {
     for (const std::vector<std::uint64_t>& shape :
@@ -29,3 +29,5 @@ TEST(Lattice, VisitsEveryCellOfAStretchInOrder) {
             }
     }
 }
+
+}  // namespace stipple::testing::lattice_test

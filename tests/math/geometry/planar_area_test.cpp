@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-using namespace stipple;
+namespace stipple::testing::planar_area_test {
 
 constexpr double pi = std::numbers::pi;
 
@@ -44,3 +44,5 @@ TEST(PlanarArea, ThatTwoPolygonsShare) {
     EXPECT_EQ(shared_area({{2, 2}, {3, 2}, {2, 3}}, unit_square()), 0);
     EXPECT_EQ(shared_area({{0.5, 0.5}, {1.5, 0.5}, {1.5, 1.5}, {0.5, 1.5}}, unit_square()), 0.25);
 }
+
+}  // namespace stipple::testing::planar_area_test

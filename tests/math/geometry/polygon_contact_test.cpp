@@ -7,8 +7,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::polygon_contact_test {
 namespace {
 
 struct Cell {
@@ -100,3 +99,5 @@ TEST(PolygonContact, NearIsNotTouching) {
     EXPECT_FALSE(find_contact({square, {{2, 1e-12}, {3, 1}, {2, 2}}}, {}));
     EXPECT_TRUE(find_contact({square, {{2, -1e-12}, {3, 1}, {2, 2}}}, {})->crossing);
 }
+
+}  // namespace stipple::testing::polygon_contact_test

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-using namespace stipple;
-
+namespace stipple::testing::zone_integral_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -70,3 +69,5 @@ TEST(ZoneIntegral, DensitiesThatAreNotLevel) {
     const auto height = [](const Vector3& v) { return std::max(v[2], 0.0); };
     expect_integral(integrate_zone(height, {-1, 1, 0.25, 0.75}, up), pi / 2);
 }
+
+}  // namespace stipple::testing::zone_integral_test

@@ -16,9 +16,7 @@
 #include "core/spec.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::integrand_test {
 namespace {
 
 Integrand integrand(const std::string& text, std::size_t dimension) {
@@ -206,3 +204,5 @@ TEST(Integrands, AreNamedInLists) {
 }
 
 }  // namespace
+
+}  // namespace stipple::testing::integrand_test

@@ -7,8 +7,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::covering_bound_test {
 namespace {
 
 template <std::size_t D>
@@ -118,3 +117,5 @@ TEST(CoveringBound, HoldsForFlatBoxesAndCopies) {
     EXPECT_NEAR(bound_of<2>({{1, 1}, {1, 1}, {1, 1}}, {0, 0}), 2, 1e-12);
     EXPECT_NEAR(bound_of<3>({{0, 0, 0}}, {0, 0, 0}), 0, 1e-12);
 }
+
+}  // namespace stipple::testing::covering_bound_test

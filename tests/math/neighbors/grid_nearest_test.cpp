@@ -7,9 +7,7 @@
 
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::grid_nearest_test {
 namespace {
 
 Box unit_box(std::size_t d) { return {std::vector<double>(d, 0.0), std::vector<double>(d, 1.0)}; }
@@ -79,3 +77,5 @@ TEST(GridNearest, NeverDependsOnThreads) {
     EXPECT_EQ(all_nearest_by_grid(set.flat(), unit_box(2), true, {.threads = 1}),
               all_nearest_by_grid(set.flat(), unit_box(2), true, {.threads = 8}));
 }
+
+}  // namespace stipple::testing::grid_nearest_test

@@ -8,9 +8,7 @@
 
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::kd_tree_test {
 namespace {
 
 using Doubles = std::vector<double>;
@@ -194,3 +192,5 @@ TEST(KdTree, RefusesWhatNeedsMoreMemoryThanAllowed) {
                     KdTree(Doubles(2000), 2, {}, {.max_memory = 1000});
                 }).starts_with("limit: a search tree needs "));
 }
+
+}  // namespace stipple::testing::kd_tree_test

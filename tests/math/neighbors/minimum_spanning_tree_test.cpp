@@ -8,8 +8,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::minimum_spanning_tree_test {
 namespace {
 
 using Rows = std::vector<double>;
@@ -103,3 +102,5 @@ TEST(MinimumSpanningTree, BothWaysAgreeOnManyPoints) {
         }
     }
 }
+
+}  // namespace stipple::testing::minimum_spanning_tree_test

@@ -10,8 +10,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::periodic_voronoi_test {
 namespace {
 
 using Rows = std::vector<double>;
@@ -133,8 +132,8 @@ TEST(PeriodicVoronoi, CellsAreThoseOfASweep) {
                 rows.clear();
                 for (const auto& [x, y] : places) rows.insert(rows.end(), {x, y});
                 if (rows.empty()) continue;
-                SCOPED_TRACE(testing::Message() << n << " sites of " << levels << " levels"
-                                                << (torus ? ", torus" : ", walls"));
+                SCOPED_TRACE(::testing::Message() << n << " sites of " << levels << " levels"
+                                                  << (torus ? ", torus" : ", walls"));
                 const PeriodicVoronoi sites({double{side}, double{side}}, torus, rows);
                 expect_same_edges(edges_of(sites), edges_by_sweep(rows, side, torus), 1e-5);
             }
@@ -284,3 +283,5 @@ TEST(PeriodicVoronoi, MomentsOfASquareByHand) {
     EXPECT_DOUBLE_EQ(cell.squared_reach(), 0.5625 + 0.25);
     EXPECT_EQ(cell.farthest_corner().x, -0.75);
 }
+
+}  // namespace stipple::testing::periodic_voronoi_test

@@ -7,8 +7,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::point_grid_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -146,3 +145,5 @@ TEST(PointGrid, NearestIsTheLeastOfAllWhateverTheGuess) {
             }
         }
 }
+
+}  // namespace stipple::testing::point_grid_test

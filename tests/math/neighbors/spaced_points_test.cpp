@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace stipple;
+namespace stipple::testing::spaced_points_test {
 
 TEST(SpacedPoints, DistanceByHand) {
     const double p[] = {0.125, 0.5};
@@ -24,3 +24,5 @@ TEST(SpacedPoints, CellsHaveADiagonalBelowTheRadius) {
     EXPECT_EQ(cells_along({{0, 0, 0}, {2.8868, 2.8868, 2.8868}}, 1),
               (std::vector<double>{6, 6, 6}));
 }
+
+}  // namespace stipple::testing::spaced_points_test

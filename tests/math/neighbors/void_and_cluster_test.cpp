@@ -10,9 +10,7 @@
 
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::void_and_cluster_test {
 namespace {
 
 /// Oracle: the energies of all cells by their definition.
@@ -136,3 +134,5 @@ TEST(VoidAndClusterOrder, RefusesWhatNeedsTooMuchMemory) {
               "limit: the torus of cells needs 439 KiB of memory; the limit is 97.7 KiB | raise "
               "the limit with --max-memory");
 }
+
+}  // namespace stipple::testing::void_and_cluster_test

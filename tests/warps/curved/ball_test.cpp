@@ -6,9 +6,7 @@
 
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::ball_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -98,3 +96,5 @@ TEST(Ball, RefusesOptionsOutOfRange) {
     EXPECT_EQ(error_of([] { mapping("ball:center=[0,0]"); }),
               "usage: --center: 3 numbers are needed, x,y,z; 2 given");
 }
+
+}  // namespace stipple::testing::ball_test

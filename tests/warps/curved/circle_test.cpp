@@ -6,9 +6,7 @@
 
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::circle_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -131,3 +129,5 @@ TEST(Circle, RefusesOptionsOutOfRange) {
               "usage: --center: 1e+30 is so far that a radius of 1 is lost in rounding");
     EXPECT_NE(error_of([] { mapping("circle:radius=0"); }), "");
 }
+
+}  // namespace stipple::testing::circle_test

@@ -6,9 +6,7 @@
 
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::cone_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -134,3 +132,5 @@ TEST(Cone, RefusesOptionsOutOfRange) {
     EXPECT_EQ(error_of([] { mapping("cone:axis=[0,1]"); }),
               "usage: --axis: 3 numbers are needed, x,y,z; 2 given");
 }
+
+}  // namespace stipple::testing::cone_test

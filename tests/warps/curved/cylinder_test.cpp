@@ -6,9 +6,7 @@
 
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::cylinder_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -126,3 +124,5 @@ TEST(Cylinder, RefusesOptionsOutOfRange) {
     EXPECT_EQ(error_of([] { mapping("cylinder:center=[0,1e30,0]"); }),
               "usage: --center: 1e+30 is so far that a radius of 1 is lost in rounding");
 }
+
+}  // namespace stipple::testing::cylinder_test

@@ -6,9 +6,7 @@
 
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::hemisphere_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -152,3 +150,5 @@ TEST(Hemisphere, RefusesOptionsOutOfRange) {
               "usage: --axis: 0,0,0 has no direction");
     EXPECT_NE(error_of([] { mapping("hemisphere:method=sine"); }), "");
 }
+
+}  // namespace stipple::testing::hemisphere_test

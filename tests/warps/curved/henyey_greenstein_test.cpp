@@ -7,9 +7,7 @@
 
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::henyey_greenstein_test {
 namespace {
 
 const std::vector<std::string> lobes = {"0",   "1e-12", "1e-300", "-1e-9",   "0.5",     "-0.5",
@@ -116,3 +114,5 @@ TEST(HenyeyGreenstein, DomainSaysWhatItIsAndRefusesTheRest) {
     EXPECT_EQ(error_of([] { mapping("henyey-greenstein:axis=[0,0,0]"); }),
               "usage: --axis: 0,0,0 has no direction");
 }
+
+}  // namespace stipple::testing::henyey_greenstein_test

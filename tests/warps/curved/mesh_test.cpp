@@ -7,9 +7,7 @@
 #include "support/temporary_file.hpp"
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::mesh_test {
 namespace {
 
 using Point = std::vector<double>;
@@ -191,3 +189,5 @@ TEST(Mesh, RefusesFilesWithoutASurface) {
     EXPECT_NE(error_of([] { mapping("mesh:file=/no/such.obj"); }).find("io: /no/such.obj"),
               std::string::npos);
 }
+
+}  // namespace stipple::testing::mesh_test

@@ -7,9 +7,7 @@
 
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::sphere_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -168,3 +166,5 @@ TEST(Sphere, RefusesOptionsOutOfRange) {
     EXPECT_EQ(error_of([] { mapping("sphere:center=[0,1e30,0]"); }),
               "usage: --center: 1e+30 is so far that a radius of 1 is lost in rounding");
 }
+
+}  // namespace stipple::testing::sphere_test

@@ -6,9 +6,7 @@
 
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::spherical_rectangle_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -198,3 +196,5 @@ TEST(SphericalRectangle, RefusesWhatIsNoRectangleOrHasNoSolidAngle) {
         "or is too far away");
     EXPECT_NE(error("origin=[0,0,1e15]"), "");
 }
+
+}  // namespace stipple::testing::spherical_rectangle_test

@@ -6,9 +6,7 @@
 
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::spherical_triangle_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -184,3 +182,5 @@ TEST(SphericalTriangle, RefusesWhatIsNoTriangle) {
     EXPECT_NE(error("1,2,3 2,4,6 0,1,0"), "") << "two are one direction";
     EXPECT_NE(error("1,2,3 1,2,3 1,2,3"), "");
 }
+
+}  // namespace stipple::testing::spherical_triangle_test

@@ -6,9 +6,7 @@
 
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::torus_surface_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -132,3 +130,5 @@ TEST(TorusSurface, RefusesOptionsOutOfRange) {
               "usage: --axis: 0,0,0 has no direction");
     EXPECT_NE(error_of([] { mapping("torus-surface:minor-radius=0"); }), "");
 }
+
+}  // namespace stipple::testing::torus_surface_test

@@ -8,8 +8,7 @@
 
 #include "core/rng.hpp"
 
-using namespace stipple;
-
+namespace stipple::testing::triangle_tree_test {
 namespace {
 
 /// Triangles of random corners in the unit cube.
@@ -79,3 +78,5 @@ TEST(TriangleTree, ManyTrianglesInOnePlaceAreAllVisited) {
     EXPECT_EQ(count({2, 2, 2}), 0);
     EXPECT_EQ(count({std::nan(""), 0, 0}), 0);
 }
+
+}  // namespace stipple::testing::triangle_tree_test

@@ -7,9 +7,7 @@
 
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::von_mises_fisher_test {
 namespace {
 
 const std::vector<std::string> concentrations = {"0",  "1e-300", "1e-18", "1e-9", "1e-3", "1",
@@ -114,3 +112,5 @@ TEST(VonMisesFisher, DomainSaysWhatItIsAndRefusesTheRest) {
               }),
               "input: the point (0, 0, 2) is outside the domain von-mises-fisher");
 }
+
+}  // namespace stipple::testing::von_mises_fisher_test

@@ -7,9 +7,7 @@
 #include "core/text.hpp"
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::discrete_test {
 namespace {
 
 const std::string four = "discrete:probabilities=[0.2,0.5,0,0.3]";
@@ -130,3 +128,5 @@ TEST(Discrete, DomainSaysWhatItIsAndRefusesTheRest) {
     EXPECT_EQ(error_of([] { mapping("discrete:values=[1,1]"); }),
               "usage: --values: 1 stands twice");
 }
+
+}  // namespace stipple::testing::discrete_test

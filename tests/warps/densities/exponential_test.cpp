@@ -7,8 +7,7 @@
 
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::exponential_test {
 
 TEST(ExponentialWarp, NumbersByHand) {
     const auto map = mapping("exponential");
@@ -88,3 +87,5 @@ TEST(ExponentialWarp, RefusesRatesOutOfRange) {
               }),
               "input: the point (-1, 2) is outside the domain exponential");
 }
+
+}  // namespace stipple::testing::exponential_test

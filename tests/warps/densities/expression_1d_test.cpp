@@ -6,9 +6,7 @@
 #include "pipeline/chain.hpp"
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::expression_1d_test {
 namespace {
 
 double place(const Mapping& map, double u) {
@@ -122,3 +120,5 @@ TEST(Expression1d, RefusesBadOptions) {
     EXPECT_EQ(error_of([] { inverse_of(*mapping("expression-1d:density=x"), {1.5}); }),
               "input: the point (1.5) is outside the domain expression-1d:density=x");
 }
+
+}  // namespace stipple::testing::expression_1d_test

@@ -7,9 +7,7 @@
 #include "pipeline/chain.hpp"
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::expression_2d_test {
 namespace {
 
 struct PlaneMoments {
@@ -176,3 +174,5 @@ TEST(Expression2d, RefusesBadOptions) {
               }),
               "input: the point (1.5, 0) is outside the domain expression-2d:density=x");
 }
+
+}  // namespace stipple::testing::expression_2d_test

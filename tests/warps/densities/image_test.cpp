@@ -7,9 +7,7 @@
 #include "support/pictures.hpp"
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::image_test {
 namespace {
 
 /// An array of values as a file; rows from y = 0.
@@ -169,3 +167,5 @@ TEST(Image, RefusesWhatIsNoPictureAndPointsOutside) {
                   " needs 48 bytes of memory; the limit is 40 "
                   "bytes | raise the limit with --max-memory");
 }
+
+}  // namespace stipple::testing::image_test

@@ -9,9 +9,7 @@
 #include "core/box_mass.hpp"
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::mixture_test {
 namespace {
 
 const std::string lobes =
@@ -217,3 +215,5 @@ TEST(Mixture, EndsWhereAllOfItsShapesDo) {
     const std::array<double, 3> below = {0, 0.6, -0.8};
     EXPECT_FALSE(caps->contains(below));
 }
+
+}  // namespace stipple::testing::mixture_test

@@ -8,9 +8,7 @@
 
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::normal_test {
 namespace {
 
 // L = [2 0; 1 3].
@@ -163,3 +161,5 @@ TEST(Normal, RefusesWhatIsNoCovariance) {
               }),
               "input: the point (nan, 0) is not finite");
 }
+
+}  // namespace stipple::testing::normal_test

@@ -6,9 +6,7 @@
 
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::power_test {
 namespace {
 
 std::unique_ptr<Mapping> on_line(std::string_view text) {
@@ -183,3 +181,5 @@ TEST(Power, ExponentsNearMinusOneKeepPointsAndDensities) {
     EXPECT_NEAR(on_line("power:exponent=-5,range=[1e-100,1e100]")->density(std::vector{1e-100}),
                 4e100, 1e88);
 }
+
+}  // namespace stipple::testing::power_test

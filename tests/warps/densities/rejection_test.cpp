@@ -6,8 +6,7 @@
 #include "pipeline/chain.hpp"
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::rejection_test {
 
 TEST(Rejection, KeepsWhatIsBelowTheFormulaByHand) {
     const auto map = mapping("rejection:density=x,bound=2,bounds=0..2");
@@ -91,3 +90,5 @@ TEST(Rejection, DomainIsTheLawNotTheMethod) {
     EXPECT_EQ(parse_domain(domain->spec(), 2)->spec(), domain->spec());
     EXPECT_FALSE(domain->even());
 }
+
+}  // namespace stipple::testing::rejection_test

@@ -7,9 +7,7 @@
 #include "support/temporary_file.hpp"
 #include "support/warping.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::table_1d_test {
 namespace {
 
 // Masses 1, 0, 3 and 2 of 6: a ramp, a gap, a jump to a plateau, a fall.
@@ -109,3 +107,5 @@ TEST(Table1d, RefusesWhatIsNoDensity) {
     EXPECT_NE(error_of([] { mapping("table-1d:interpolation=constant,rows=[0,1 0,1 1,1]"); }), "");
     EXPECT_EQ(mapping("table-1d")->domain()->spec(), "table-1d");
 }
+
+}  // namespace stipple::testing::table_1d_test

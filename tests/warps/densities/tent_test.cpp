@@ -5,9 +5,7 @@
 
 #include "support/planar.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::tent_test {
 namespace {
 
 /// The map for so many coordinates at hand.
@@ -109,3 +107,5 @@ TEST(Tent, RefusesWhatIsNoTent) {
               }),
               "input: the point (1.5, 0) is outside the domain tent");
 }
+
+}  // namespace stipple::testing::tent_test

@@ -6,8 +6,7 @@
 
 #include "support/planar.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::annulus_test {
 
 TEST(Annulus, PointsByHand) {
     EXPECT_EQ(image_of("annulus", {0, 0}), (std::vector{0.5, 0.0}));
@@ -98,3 +97,5 @@ TEST(Annulus, RefusesWhatIsNoAnnulus) {
               }),
               "input: the point (0.25, 0) is outside the domain annulus");
 }
+
+}  // namespace stipple::testing::annulus_test

@@ -7,9 +7,7 @@
 
 #include "support/planar.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::disk_test {
 namespace {
 
 const std::vector<std::string> methods = {"polar", "concentric", "rejection", "naive"};
@@ -215,3 +213,5 @@ TEST(Disk, RefusesOptionsOutOfRange) {
               "usage: --center: 1e+30 is so far that a radius of 1 is lost in rounding");
     EXPECT_NE(error_of([] { mapping("disk:method=square"); }), "");
 }
+
+}  // namespace stipple::testing::disk_test

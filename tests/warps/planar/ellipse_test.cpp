@@ -7,9 +7,7 @@
 #include "math/functions/trigonometry.hpp"
 #include "support/planar.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::ellipse_test {
 namespace {
 
 const std::vector<std::string> methods = {"polar", "concentric"};
@@ -111,3 +109,5 @@ TEST(Ellipse, IsTurnedByPlainMultiplicationsAndAdditions) {
         ASSERT_EQ(turned[i][1], s * x + c * y) << i;
     }
 }
+
+}  // namespace stipple::testing::ellipse_test

@@ -5,9 +5,7 @@
 
 #include "support/planar.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::parallelogram_test {
 namespace {
 
 const char* skew = "parallelogram:corner=[10,20],edges=[3,1 -1,2]";
@@ -92,3 +90,5 @@ TEST(Parallelogram, RefusesWhatIsNoParallelogram) {
               }),
               "input: the point (1.5, 0) is outside the domain parallelogram");
 }
+
+}  // namespace stipple::testing::parallelogram_test

@@ -6,8 +6,7 @@
 #include "pipeline/chain.hpp"
 #include "support/planar.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::pixel_test {
 
 TEST(Pixel, PointsByHand) {
     EXPECT_EQ(image_of("pixel", {0.25, 0.75}), (std::vector{0.25, 0.75})) << "one pixel";
@@ -98,3 +97,5 @@ TEST(Pixel, RefusesWhatIsNoPixel) {
     EXPECT_EQ(error("pixel:pixel=[0.5,0]"), "usage: --pixel: 0.5 is not a whole number");
     EXPECT_EQ(error("pixel:pixel=3"), "usage: --pixel: 2 numbers are needed, i,j; 1 given");
 }
+
+}  // namespace stipple::testing::pixel_test

@@ -8,9 +8,7 @@
 #include "support/planar.hpp"
 #include "support/temporary_file.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::polygon_test {
 namespace {
 
 using Corners = std::vector<std::pair<double, double>>;
@@ -283,3 +281,5 @@ TEST(PolygonFile, ComplainsByItsName) {
     EXPECT_EQ(error("polygon:vertices=[0,0 1,0 0,1],file=a.csv"),
               "usage: --file: --vertices is given, too; one of them is allowed");
 }
+
+}  // namespace stipple::testing::polygon_test

@@ -6,9 +6,7 @@
 
 #include "support/planar.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::regular_polygon_test {
 namespace {
 
 const std::vector<std::string> shapes = {
@@ -104,3 +102,5 @@ TEST(RegularPolygon, RefusesWhatIsNoPolygon) {
               }),
               "input: the point (0.75, 0.75) is outside the domain regular-polygon:sides=4");
 }
+
+}  // namespace stipple::testing::regular_polygon_test

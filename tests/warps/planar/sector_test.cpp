@@ -6,9 +6,7 @@
 
 #include "support/planar.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::sector_test {
 namespace {
 
 const std::vector<std::string> shapes = {
@@ -105,3 +103,5 @@ TEST(Sector, RefusesWhatIsNoSector) {
               }),
               "input: the point (-0.25, 0) is outside the domain sector");
 }
+
+}  // namespace stipple::testing::sector_test

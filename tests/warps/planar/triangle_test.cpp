@@ -5,9 +5,7 @@
 
 #include "support/planar.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
-
+namespace stipple::testing::triangle_test {
 namespace {
 
 const char* in_space = "triangle:vertices=[1,0,0 0,2,0 0,0,3]";
@@ -211,3 +209,5 @@ TEST(Triangle, RefusesWhatIsNoTriangle) {
     EXPECT_NE(error("triangle:vertices=[0,0 1,0 0,1,2]"), "");
     EXPECT_NE(error("triangle:vertices=[0,0 1e200,0 0,1]"), "");
 }
+
+}  // namespace stipple::testing::triangle_test

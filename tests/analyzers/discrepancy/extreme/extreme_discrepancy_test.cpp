@@ -11,8 +11,8 @@
 #include "support/lattices.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::extreme_discrepancy_test {
+
 using namespace stipple::discrepancy;
 
 namespace {
@@ -406,3 +406,5 @@ TEST(ExtremeDiscrepancy, StopsWhenAskedAndRefusesWhatItCannotTake) {
               }).substr(0, 40),
               "limit: the search for the worst box need");
 }
+
+}  // namespace stipple::testing::extreme_discrepancy_test

@@ -21,8 +21,8 @@
 #include "support/lattices.hpp"
 #include "support/units.hpp"
 
-using namespace stipple;
-using namespace stipple::testing;
+namespace stipple::testing::star_discrepancy_test {
+
 using namespace stipple::discrepancy;
 using boost::multiprecision::cpp_rational;
 using ::testing::HasSubstr;
@@ -1148,3 +1148,5 @@ TEST(StarDiscrepancy, RefusesTablesThatTheSetDoesNotHave) {
     EXPECT_NE(error({{"projections", "0"}}).find("--projections"), std::string::npos);
     EXPECT_NE(error({{"boxes", "open"}}).find("--boxes"), std::string::npos);
 }
+
+}  // namespace stipple::testing::star_discrepancy_test
