@@ -39,7 +39,6 @@ Arguments with_config(const Arguments& typed, std::uint64_t ranks, const RunCont
     const io::Input input(*path, run);
     for (auto& setting : parse_study_config(input.bytes(), io::source_name(*path)))
         if (!typed.has(setting.first)) all.common.push_back(std::move(setting));
-    check_choices(all);
     return all;
 }
 
@@ -309,6 +308,7 @@ int study(const Arguments& arguments, Session& session) {
     const auto ranks = launched("study", session.run());
     std::optional<Study> study;
     try {
+        check_choices(all);
         study.emplace(all, session, *ranks);
     } catch (const Error& e) {
         refuse_setting(e, arguments);

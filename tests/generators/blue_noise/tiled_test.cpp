@@ -238,8 +238,7 @@ TEST(Tiled, IsEvenInABoxOfAnyProportions) {
         for (const std::uint64_t n : {60, 500, 2000}) {
             Request request = points(n, 2);
             request.bounds = Box{{5, 3}, {5 + a, 3 + b}};
-            PointSet set = make(name, request, small);
-            scale_into(*request.bounds, set.flat());
+            const PointSet set = make(name, request, small);
             const Space space{*request.bounds, true};
             EXPECT_GT(stipple::testing::smallest_distance(set, space),
                       0.5 * std::sqrt(a * b / static_cast<double>(n)))
