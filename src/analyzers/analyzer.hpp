@@ -16,8 +16,8 @@
 #include "core/options.hpp"
 #include "core/peers.hpp"
 #include "core/point_set.hpp"
-#include "core/report.hpp"
-#include "core/run_context.hpp"
+#include "stipple/report.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

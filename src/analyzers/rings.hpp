@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/report.hpp"
-#include "core/run_context.hpp"
+#include "stipple/report.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::analyzers {
 

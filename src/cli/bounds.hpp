@@ -11,8 +11,8 @@
 #include "cli/arguments.hpp"
 #include "core/domain.hpp"
 #include "core/point_set.hpp"
-#include "core/run_context.hpp"
 #include "io/point_stream.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::cli {
 

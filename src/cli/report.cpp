@@ -19,6 +19,7 @@
 #include "page/page_figures.hpp"
 #include "page/page_html.hpp"
 #include "page/page_measures.hpp"
+#include "page/page_set.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/generated.hpp"
 #include "report/check.hpp"
@@ -262,17 +263,7 @@ class Reporter {
         const auto all = static_cast<double>(waiting_.size());
         const auto at = static_cast<double>(i);
         const RunContext run = session_.run().stage(at / all, (at + 1) / all);
-        set.measures = measure_set(points, input, limits_, run);
-        if (json_) return set;
-        set.figures = point_figures(points, set, i);
-        if (auto spectrum = spectrum_figure(set); !spectrum.empty())
-            set.figures.push_back(std::move(spectrum));
-        for (PageMeasure& measure : set.measures)
-            if (measure.results)
-                std::erase_if(measure.results->entries(), [](const Report::Entry& entry) {
-                    return std::holds_alternative<Grid>(entry.value);
-                });
-        return set;
+        return finished_set(std::move(set), points, input, limits_, i, !json_, run);
     }
 
     /// Whether no condition of --fail-on holds, or may hold: also of a set that was not measured.

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "cli/arguments.hpp"
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::cli {
 

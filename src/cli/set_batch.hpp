@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/point_set.hpp"
-#include "core/run_context.hpp"
 #include "report/document.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::cli {
 

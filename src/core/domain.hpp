@@ -12,26 +12,15 @@
 #include <utility>
 #include <vector>
 
-namespace stipple {
+#include "stipple/points.hpp"
 
-class Domain;
-using DomainPtr = std::shared_ptr<const Domain>;
+namespace stipple {
 
 /// A number that was worked out to a tolerance: the right one is within `error`; 0: it is exact, up
 /// to its rounding.
 struct Estimate {
     double value = 0;
     double error = 0;
-};
-
-/// An axis-parallel box [low, high).
-struct Box {
-    std::vector<double> low;
-    std::vector<double> high;
-
-    [[nodiscard]] std::size_t dimension() const { return low.size(); }
-    [[nodiscard]] double extent(std::size_t k) const { return high[k] - low[k]; }
-    bool operator==(const Box&) const = default;
 };
 
 /// Exact moments of a law: per coordinate the mean and the skewness, and the covariance of each

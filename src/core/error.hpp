@@ -1,33 +1,16 @@
 // SPDX-License-Identifier: MIT
 //
-// The one exception type of the library. Only the command line turns a kind into an exit code.
+// Throwing the one exception type of the library, its message formatted.
 #pragma once
 
 #include <fmt/format.h>
 
-#include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "stipple/error.hpp"
+
 namespace stipple {
-
-/// What went wrong: a wrong call, bad data, the file system, a limit, or the user's own wish.
-enum class ErrorKind { usage, input, io, limit, cancelled };
-
-class Error : public std::runtime_error {
-  public:
-    Error(ErrorKind kind, const std::string& what, std::string hint = {})
-        : std::runtime_error(what), kind_(kind), hint_(std::move(hint)) {}
-
-    [[nodiscard]] ErrorKind kind() const { return kind_; }
-
-    /// One sentence that helps to mend the call, or nothing.
-    [[nodiscard]] const std::string& hint() const { return hint_; }
-
-  private:
-    ErrorKind kind_;
-    std::string hint_;
-};
 
 /// Throws an Error: what is wrong, the value, what is allowed.
 template <class... Args>

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <functional>
 
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

@@ -11,6 +11,11 @@ PointSet::PointSet(Rows rows, std::size_t dimension)
     if (dimension == 0 ? numbers > 0 : numbers % dimension != 0)
         fail(ErrorKind::usage, "{} numbers are no whole points of {} coordinates", numbers,
              dimension);
+    count_ = dimension == 0 ? 0 : numbers / dimension;
+}
+
+void PointSet::refuse(std::size_t i) const {
+    fail(ErrorKind::usage, "there is no point {}: the set has {}", i, count());
 }
 
 }  // namespace stipple

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/report.hpp"
+#include "stipple/report.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -8,8 +8,8 @@
 
 #include "core/options.hpp"
 #include "core/point_set.hpp"
-#include "core/run_context.hpp"
 #include "media/density_map.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

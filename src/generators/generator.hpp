@@ -15,18 +15,10 @@
 
 #include "core/options.hpp"
 #include "core/point_set.hpp"
-#include "core/run_context.hpp"
+#include "stipple/generate.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
-
-/// What the user asks for; what is not given, the generator's plan fills in.
-struct Request {
-    std::optional<std::uint64_t> count = {};
-    std::optional<std::size_t> dimension = {};
-    std::uint64_t start = 0;         ///< index of the first point
-    std::optional<Box> bounds = {};  ///< for sets whose distances hold in a box; else the unit cube
-    std::uint64_t seed = 1;
-};
 
 /// A request with everything decided.
 struct Plan {

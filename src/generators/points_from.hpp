@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/point_set.hpp"
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

@@ -13,9 +13,9 @@
 
 #include <span>
 
-#include "core/rows.hpp"
-#include "core/run_context.hpp"
 #include "generators/box_space.hpp"
+#include "stipple/points.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "core/point_set.hpp"
-#include "core/run_context.hpp"
 #include "io/columns.hpp"
 #include "io/format.hpp"
 #include "io/point_stream.hpp"
 #include "io/source_text.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::io {
 

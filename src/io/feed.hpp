@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::io {
 

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "core/point_set.hpp"
-#include "core/run_context.hpp"
 #include "io/feed.hpp"
 #include "io/format.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::io {
 

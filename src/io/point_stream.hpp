@@ -15,9 +15,9 @@
 
 #include "core/point_set.hpp"
 #include "core/raw_numbers.hpp"
-#include "core/run_context.hpp"
 #include "io/feed.hpp"
 #include "io/format.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::io {
 

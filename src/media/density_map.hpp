@@ -29,8 +29,8 @@
 #include <string>
 #include <vector>
 
-#include "core/run_context.hpp"
 #include "math/densities/guide_table.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

@@ -16,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

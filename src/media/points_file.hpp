@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "core/point_set.hpp"
-#include "core/run_context.hpp"
 #include "media/token_file.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

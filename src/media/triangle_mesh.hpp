@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
-#include "core/run_context.hpp"
 #include "math/geometry/vector3.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/point_set.hpp"
-#include "core/report.hpp"
-#include "core/run_context.hpp"
+#include "stipple/report.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "core/point_set.hpp"
-#include "core/report.hpp"
-#include "core/run_context.hpp"
 #include "page/page_content.hpp"
 #include "plot/theme.hpp"
+#include "stipple/report.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

@@ -76,12 +76,6 @@ PointSet generate(const Generator& generator, const Request& request, const Valu
     return GeneratedSets(generator, options, request, 1, {}, run).made(0, run);
 }
 
-PointSet generate(std::string_view name, const Request& request, const Settings& settings,
-                  const RunContext& run) {
-    const Generator& generator = find_generator(name);
-    return generate(generator, request, values_of(generator.options, settings), run);
-}
-
 void require_unit_cube(const PointSet& points) {
     const auto outside = [](double x) { return !(x >= 0 && x <= 1); };
     std::size_t count = 0;
@@ -110,12 +104,6 @@ Report analyze(const Analyzer& analyzer, const PointSet& points, const Values& o
     if (analyzer.traits.unit_cube) require_unit_cube(points);
     return analyzer.accumulate ? accumulated(analyzer, points, options, run)
                                : analyzer.analyze(points, options, run);
-}
-
-Report analyze(std::string_view name, const PointSet& points, const Settings& settings,
-               const RunContext& run) {
-    const Analyzer& analyzer = find_analyzer(name);
-    return analyze(analyzer, points, values_of(analyzer.options, settings), run);
 }
 
 }  // namespace stipple

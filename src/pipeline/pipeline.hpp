@@ -11,14 +11,14 @@
 
 #include "pipeline/generated.hpp"
 #include "pipeline/units.hpp"
+#include "stipple/analyze.hpp"
+#include "stipple/generate.hpp"
 
 namespace stipple {
 
 /// All points of a request, in memory, with their provenance.
 PointSet generate(const Generator& generator, const Request& request, const Values& options,
                   const RunContext& run);
-PointSet generate(std::string_view generator, const Request& request, const Settings& settings = {},
-                  const RunContext& run = {});
 
 /// What measures points of `dimension` numbers as they come. @throws Error(input) where the
 /// analyzer or the domain does not take them, Error(usage)
@@ -53,7 +53,5 @@ struct Found {
 /// @throws Error(input)
 Found analyze(const Analyzer& analyzer, const Arrival& arrival, std::size_t dimension,
               const NextRows& next, const Values& options, const RunContext& run);
-Report analyze(std::string_view analyzer, const PointSet& points, const Settings& settings = {},
-               const RunContext& run = {});
 
 }  // namespace stipple

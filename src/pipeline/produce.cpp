@@ -404,6 +404,10 @@ void write_sets(std::vector<PointSet> sets, const Target& target, const RunConte
     write_images(sets, WarpChain({}, d), 0, target, run);
 }
 
+PointSet warped_set(const PointSet& set, const Spec& warp, bool inverse, const RunContext& run) {
+    return warped(set, Warping(warp, inverse, set.domain, {}, run), run);
+}
+
 void write_warped(std::vector<PointSet> sets, const Spec& warp, bool inverse, const Target& target,
                   const RunContext& run) {
     const Warping warping(warp, inverse, sets.front().domain, target, run);

@@ -45,6 +45,10 @@ void produce(const Production& production, const Target& target, const RunContex
 /// points, or where they differ in dimension
 void write_sets(std::vector<PointSet> sets, const Target& target, const RunContext& run);
 
+/// The image of a set under a warp or, with `inverse`, what it is made from; with its provenance.
+/// @throws as write_warped does
+PointSet warped_set(const PointSet& set, const Spec& warp, bool inverse, const RunContext& run);
+
 /// Writes the images of sets under a warp or, with `inverse`, what it makes them from.
 /// @throws Error(input) where coordinates that the warp takes are outside the unit cube, or points
 /// off its domain; Error(usage) where they are on another domain already

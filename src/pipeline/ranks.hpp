@@ -10,7 +10,7 @@
 #include <string>
 
 #include "core/peers.hpp"
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

@@ -11,6 +11,7 @@
 #include "analyzers/analyzer.hpp"
 #include "generators/generator.hpp"
 #include "scrambles/scramble.hpp"
+#include "stipple/generate.hpp"
 #include "warps/warp.hpp"
 
 namespace stipple {
@@ -22,9 +23,6 @@ const Analyzer& find_analyzer(std::string_view name);
 
 /// The scramble of that name or alias; nullptr if there is none.
 const Scramble* scramble_named(std::string_view name);
-
-/// Options as text: {{"base", "3"}}.
-using Settings = std::vector<std::pair<std::string, std::string>>;
 
 /// A unit's options, with defaults where nothing is set. @throws Error(usage)
 Values values_of(const Schema& schema, const Settings& settings);

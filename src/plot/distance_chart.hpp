@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "core/point_set.hpp"
-#include "core/run_context.hpp"
 #include "plot/chart.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

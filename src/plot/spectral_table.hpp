@@ -14,8 +14,8 @@
 #include <span>
 
 #include "core/point_set.hpp"
-#include "core/report.hpp"
 #include "plot/chart.hpp"
+#include "stipple/report.hpp"
 
 namespace stipple {
 

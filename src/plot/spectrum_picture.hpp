@@ -8,8 +8,8 @@
 // repeats lighter, and no peak is cut off. Frequency zero is left out: black.
 #pragma once
 
-#include "core/report.hpp"
 #include "plot/chart.hpp"
+#include "stipple/report.hpp"
 
 namespace stipple {
 

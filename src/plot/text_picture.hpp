@@ -5,9 +5,9 @@
 
 #include <string>
 
-#include "core/report.hpp"
 #include "plot/chart.hpp"
 #include "plot/points_picture.hpp"
+#include "stipple/report.hpp"
 
 namespace stipple {
 

@@ -14,7 +14,7 @@
 
 #include <cstddef>
 
-#include "core/report.hpp"
+#include "stipple/report.hpp"
 
 namespace stipple {
 

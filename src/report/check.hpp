@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "analyzers/analyzer.hpp"
-#include "core/report.hpp"
+#include "stipple/report.hpp"
 
 namespace stipple {
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/report.hpp"
+#include "stipple/report.hpp"
 
 namespace stipple {
 

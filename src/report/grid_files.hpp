@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/report.hpp"
+#include "stipple/report.hpp"
 
 namespace stipple {
 

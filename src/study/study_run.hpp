@@ -9,8 +9,8 @@
 // Promise  the file is the same for any number of threads and ranks, but for the seconds.
 #pragma once
 
-#include "core/run_context.hpp"
 #include "pipeline/ranks.hpp"
+#include "stipple/run.hpp"
 #include "study/study_file.hpp"
 #include "study/study_table.hpp"
 #include "study/sweep.hpp"

@@ -6,7 +6,7 @@
 #include <functional>
 #include <optional>
 
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

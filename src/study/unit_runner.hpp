@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 #include "study/study_table.hpp"
 #include "study/sweep.hpp"
 

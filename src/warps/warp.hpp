@@ -13,7 +13,7 @@
 
 #include "core/domain.hpp"
 #include "core/options.hpp"
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/rows.hpp"
+#include "stipple/points.hpp"
 
 #include <gtest/gtest.h>
 

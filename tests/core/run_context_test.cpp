@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 #include <gtest/gtest.h>
 

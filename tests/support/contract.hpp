@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 #include "support/units.hpp"
 
 namespace stipple::testing {

@@ -23,8 +23,8 @@
 #include <vector>
 
 #include "core/point_set.hpp"
-#include "core/run_context.hpp"
 #include "math/functions/dyadic.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::discrepancy {
 

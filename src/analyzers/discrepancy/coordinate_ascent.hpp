@@ -8,7 +8,7 @@
 
 #include "analyzers/discrepancy/box_grid.hpp"
 #include "analyzers/discrepancy/search_limits.hpp"
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::discrepancy {
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/options.hpp"
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::discrepancy {
 

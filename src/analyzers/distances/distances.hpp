@@ -13,9 +13,9 @@
 #include "core/domain.hpp"
 #include "core/options.hpp"
 #include "core/point_set.hpp"
-#include "core/report.hpp"
-#include "core/run_context.hpp"
 #include "math/neighbors/kd_tree.hpp"
+#include "stipple/report.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::analyzers {
 

@@ -26,7 +26,7 @@
 
 #include "analyzers/distances/distances.hpp"
 #include "core/point_set.hpp"
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::analyzers {
 

@@ -15,7 +15,7 @@
 
 #include "core/domain.hpp"
 #include "core/point_set.hpp"
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::analyzers {
 

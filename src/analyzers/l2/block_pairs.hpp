@@ -8,9 +8,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/run_context.hpp"
 #include "core/vectors.hpp"
 #include "math/functions/double_double.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::analyzers::l2 {
 

@@ -36,8 +36,8 @@
 
 #include "analyzers/l2/kinds.hpp"
 #include "core/point_set.hpp"
-#include "core/run_context.hpp"
 #include "core/vectors.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::analyzers::l2 {
 

@@ -35,7 +35,7 @@
 
 #include "analyzers/l2/kinds.hpp"
 #include "core/point_set.hpp"
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::analyzers::l2 {
 

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "core/point_set.hpp"
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::equidistribution {
 

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/report.hpp"
-#include "core/run_context.hpp"
 #include "math/fourier/grid_sum.hpp"
 #include "math/fourier/transform.hpp"
+#include "stipple/report.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::analyzers {
 

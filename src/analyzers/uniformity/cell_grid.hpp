@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/domain.hpp"
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::analyzers {
 

@@ -11,8 +11,8 @@
 
 #include "analyzers/outside.hpp"
 #include "core/domain.hpp"
-#include "core/report.hpp"
-#include "core/run_context.hpp"
+#include "stipple/report.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::analyzers {
 

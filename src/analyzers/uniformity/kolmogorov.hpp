@@ -29,7 +29,7 @@
 #include <cstdint>
 
 #include "analyzers/uniformity/pearson.hpp"
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::analyzers {
 

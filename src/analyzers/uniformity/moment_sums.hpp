@@ -23,7 +23,7 @@
 
 #include "core/packed.hpp"
 
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::analyzers {
 

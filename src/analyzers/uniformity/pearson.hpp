@@ -37,7 +37,7 @@
 #include <vector>
 
 #include "core/domain.hpp"
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::analyzers {
 

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "core/options.hpp"
-#include "core/report.hpp"
+#include "stipple/report.hpp"
 
 namespace stipple::analyzers {
 

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "core/rng.hpp"
-#include "core/run_context.hpp"
 #include "generators/box_space.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

@@ -15,7 +15,7 @@
 #include <cstddef>
 #include <span>
 
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

@@ -30,8 +30,8 @@
 #include <cstdint>
 #include <span>
 
-#include "core/run_context.hpp"
 #include "media/density_map.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

@@ -26,8 +26,8 @@
 #include <span>
 #include <vector>
 
-#include "core/run_context.hpp"
 #include "generators/box_space.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

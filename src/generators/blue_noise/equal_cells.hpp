@@ -24,10 +24,10 @@
 #include <optional>
 #include <vector>
 
-#include "core/run_context.hpp"
 #include "generators/blue_noise/planar_start.hpp"
 #include "math/neighbors/periodic_voronoi.hpp"
 #include "media/density_moments.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

@@ -21,8 +21,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/run_context.hpp"
 #include "math/neighbors/periodic_voronoi.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

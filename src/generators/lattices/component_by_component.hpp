@@ -21,7 +21,7 @@
 #include <span>
 #include <vector>
 
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

@@ -19,8 +19,8 @@
 #include <span>
 #include <vector>
 
-#include "core/run_context.hpp"
 #include "math/fourier/fftw.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

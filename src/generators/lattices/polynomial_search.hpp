@@ -20,7 +20,7 @@
 #include <span>
 #include <vector>
 
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

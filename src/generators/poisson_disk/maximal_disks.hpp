@@ -34,9 +34,9 @@
 
 #include <cstdint>
 
-#include "core/rows.hpp"
-#include "core/run_context.hpp"
 #include "generators/box_space.hpp"
+#include "stipple/points.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "core/parallel.hpp"
-#include "core/rows.hpp"
-#include "core/run_context.hpp"
+#include "stipple/points.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

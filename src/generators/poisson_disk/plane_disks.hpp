@@ -14,9 +14,9 @@
 
 #include <cstdint>
 
-#include "core/rows.hpp"
-#include "core/run_context.hpp"
 #include "generators/poisson_disk/disk_grid.hpp"
+#include "stipple/points.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

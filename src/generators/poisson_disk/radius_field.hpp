@@ -24,8 +24,8 @@
 #include <vector>
 
 #include "core/domain.hpp"
-#include "core/run_context.hpp"
 #include "media/density_map.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

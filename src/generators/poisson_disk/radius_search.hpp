@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <functional>
 
-#include "core/rows.hpp"
-#include "core/run_context.hpp"
+#include "stipple/points.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

@@ -26,10 +26,10 @@
 #include <cstdint>
 #include <span>
 
-#include "core/rows.hpp"
-#include "core/run_context.hpp"
 #include "generators/box_space.hpp"
 #include "generators/poisson_disk/radius_field.hpp"
+#include "stipple/points.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

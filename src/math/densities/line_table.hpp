@@ -30,8 +30,8 @@
 #include <vector>
 
 #include "core/domain.hpp"
-#include "core/run_context.hpp"
 #include "math/densities/guide_table.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

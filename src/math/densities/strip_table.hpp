@@ -26,9 +26,9 @@
 #include <vector>
 
 #include "core/domain.hpp"
-#include "core/run_context.hpp"
 #include "math/densities/guide_table.hpp"
 #include "math/densities/line_table.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

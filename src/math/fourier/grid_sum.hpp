@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/packed.hpp"
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

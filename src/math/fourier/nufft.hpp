@@ -32,11 +32,11 @@
 #include <utility>
 #include <vector>
 
-#include "core/run_context.hpp"
 #include "math/fourier/grid_sum.hpp"
 #include "math/fourier/interpolator.hpp"
 #include "math/fourier/spreading.hpp"
 #include "math/fourier/transform.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

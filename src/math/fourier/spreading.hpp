@@ -24,9 +24,9 @@
 #include <span>
 #include <vector>
 
-#include "core/run_context.hpp"
 #include "math/fourier/interpolator.hpp"
 #include "math/fourier/tile_points.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

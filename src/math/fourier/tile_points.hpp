@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/rows.hpp"
+#include "stipple/points.hpp"
 
 namespace stipple {
 

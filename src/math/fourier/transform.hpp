@@ -20,9 +20,9 @@
 #include <string>
 #include <vector>
 
-#include "core/run_context.hpp"
 #include "math/fourier/grid_cells.hpp"
 #include "math/fourier/spreading.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

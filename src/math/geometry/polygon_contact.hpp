@@ -14,8 +14,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/run_context.hpp"
 #include "math/geometry/plane_point.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

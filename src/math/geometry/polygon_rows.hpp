@@ -27,10 +27,10 @@
 #include <vector>
 
 #include "core/domain.hpp"
-#include "core/run_context.hpp"
 #include "math/densities/guide_table.hpp"
 #include "math/geometry/plane_point.hpp"
 #include "math/geometry/polygon_contact.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

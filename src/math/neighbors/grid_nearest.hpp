@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "core/domain.hpp"
-#include "core/run_context.hpp"
 #include "math/neighbors/kd_tree.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

@@ -20,9 +20,9 @@
 #include <vector>
 
 #include "core/domain.hpp"
-#include "core/run_context.hpp"
 #include "math/neighbors/kd_tree.hpp"
 #include "math/neighbors/periodic_voronoi.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

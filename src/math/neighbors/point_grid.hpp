@@ -27,8 +27,8 @@
 #include <vector>
 
 #include "core/domain.hpp"
-#include "core/run_context.hpp"
 #include "math/neighbors/spaced_points.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

@@ -30,7 +30,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

@@ -12,8 +12,8 @@
 #include <functional>
 #include <vector>
 
-#include "core/run_context.hpp"
 #include "media/triangle_mesh.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple {
 

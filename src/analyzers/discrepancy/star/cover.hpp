@@ -20,7 +20,7 @@
 #include <cstdint>
 
 #include "analyzers/discrepancy/box_grid.hpp"
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::discrepancy::star {
 

@@ -33,7 +33,7 @@
 #include <vector>
 
 #include "analyzers/discrepancy/box_grid.hpp"
-#include "core/run_context.hpp"
+#include "stipple/run.hpp"
 
 namespace stipple::discrepancy::star {
 

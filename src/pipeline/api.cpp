@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+//
+// The public API, but for studies and pages: calls by name, and checks of what a caller may pass.
+#include <algorithm>
+#include <mutex>
+
+#include "core/error.hpp"
+#include "core/spec.hpp"
+#include "io/files.hpp"
+#include "io/format.hpp"
+#include "pipeline/chain.hpp"
+#include "pipeline/pipeline.hpp"
+#include "pipeline/produce.hpp"
+#include "pipeline/units.hpp"
+#include "stipple/analyze.hpp"
+#include "stipple/generate.hpp"
+#include "stipple/io.hpp"
+#include "stipple/warp.hpp"
+
+namespace stipple {
+namespace {
+
+template <class Unit>
+std::vector<std::string> names_of_units(const std::vector<Unit>& units) {
+    std::vector<std::string> names;
+    for (const Unit& unit : units) names.push_back(unit.name);
+    return names;
+}
+
+/// The options of a spec, and those beside it.
+Values merged(const Spec& spec, const Schema& schema, const Settings& settings) {
+    Values values = spec.values(schema);
+    for (const auto& [name, text] : settings) schema.set(values, name, text);
+    return values;
+}
+
+Spec spec_without_coordinates(std::string_view text) {
+    Spec spec = parse_spec(text);
+    if (!spec.coordinates.empty())
+        fail(ErrorKind::usage, "{}: only warps and scrambles take coordinates behind @", text);
+    return spec;
+}
+
+/// The set, on the unit cube where it says nothing else.
+PointSet placed(PointSet points) {
+    if (!points.domain) points.domain = unit_cube(points.dimension());
+    if (points.domain->dimension() != points.dimension())
+        fail(ErrorKind::usage, "points of {} coordinates are not on {}", points.dimension(),
+             points.domain->spec());
+    return points;
+}
+
+void require_rows(std::span<const double> rows, std::size_t dimension) {
+    if (dimension == 0 || rows.size() % dimension != 0)
+        fail(ErrorKind::usage, "{} numbers are no whole rows of {}", rows.size(), dimension);
+}
+
+}  // namespace
+
+std::vector<std::string> generator_names() { return names_of_units(generators::all()); }
+std::vector<std::string> warp_names() { return names_of_units(warps::all()); }
+std::vector<std::string> scramble_names() { return names_of_units(scrambles::all()); }
+std::vector<std::string> analyzer_names() { return names_of_units(analyzers::all()); }
+
+PointSet generate(std::string_view text, const Request& request, const Settings& settings,
+                  const RunContext& run) {
+    const Spec spec = spec_without_coordinates(text);
+    const Generator& generator = find_generator(spec.name);
+    return generate(generator, request, merged(spec, generator.options, settings), run);
+}
+
+Report analyze(std::string_view text, const PointSet& points, const Settings& settings,
+               const RunContext& run) {
+    const Spec spec = spec_without_coordinates(text);
+    const Analyzer& analyzer = find_analyzer(spec.name);
+    return analyze(analyzer, placed(points), merged(spec, analyzer.options, settings), run);
+}
+
+// ---------------------------------------------------------------- samples one by one
+
+struct Sampler::State {
+    Plan plan;
+    std::uint64_t end = 0;  ///< index behind the last point
+    std::unique_ptr<Sequence> sequence;
+    std::mutex in_turn;  ///< for engines that go from point to point
+};
+
+Sampler::Sampler(std::string_view text, const Request& request)
+    : state_(std::make_unique<State>()) {
+    const Spec spec = spec_without_coordinates(text);
+    const Generator& generator = find_generator(spec.name);
+    if (!generator.sequence)
+        fail(ErrorKind::usage, "a Sampler takes no {}, whose points are made all together",
+             generator.name);
+    if (request.bounds)
+        fail(ErrorKind::usage, "a Sampler gives points of the unit cube; leave out the bounds");
+    const Values values = spec.values(generator.options);
+    state_->plan = plan_for(generator, request, values);
+    state_->end =
+        generator.traits.prefix ? generator.traits.max_index - request.start : state_->plan.count;
+    state_->sequence = generator.sequence(state_->plan, values, {});
+}
+Sampler::Sampler(Sampler&&) noexcept = default;
+Sampler& Sampler::operator=(Sampler&&) noexcept = default;
+Sampler::~Sampler() = default;
+
+std::size_t Sampler::dimension() const { return state_->plan.dimension; }
+
+void Sampler::fill(std::uint64_t first, std::span<double> rows) const {
+    require_rows(rows, dimension());
+    const std::uint64_t count = rows.size() / dimension();
+    if (first > state_->end || count > state_->end - first)
+        fail(ErrorKind::usage, "points {} to {} are beyond the last one, which is {}", first,
+             first + count - 1, state_->end - 1);
+    std::unique_lock lock(state_->in_turn, std::defer_lock);
+    if (!state_->sequence->random_access()) lock.lock();
+    state_->sequence->fill(state_->plan.start + first, rows);
+}
+
+// ---------------------------------------------------------------- warps
+
+PointSet warp(std::string_view spec, const PointSet& points, const RunContext& run) {
+    return warped_set(placed(points), parse_spec(spec), false, run);
+}
+
+PointSet warp_back(std::string_view spec, const PointSet& points, const RunContext& run) {
+    return warped_set(placed(points), parse_spec(spec), true, run);
+}
+
+std::string domain_of(const PointSet& points) { return placed(points).domain->spec(); }
+
+double measure_of(const PointSet& points) { return placed(points).domain->measure(); }
+
+std::vector<double> densities(const PointSet& points) {
+    const DomainPtr domain = placed(points).domain;
+    std::vector<double> density(points.count());
+    for (std::size_t i = 0; i < density.size(); ++i) density[i] = domain->density(points[i]);
+    return density;
+}
+
+struct Warper::State {
+    explicit State(std::span<const Spec> specs, std::size_t dimension) : chain(specs, dimension) {}
+    WarpChain chain;
+};
+
+Warper::Warper(std::span<const std::string> texts, std::size_t dimension) {
+    std::vector<Spec> specs;
+    for (const std::string& text : texts) specs.push_back(parse_spec(text));
+    state_ = std::make_unique<State>(specs, dimension);
+}
+Warper::Warper(const std::string& spec, std::size_t dimension)
+    : Warper(std::span(&spec, 1), dimension) {}
+Warper::Warper(Warper&&) noexcept = default;
+Warper& Warper::operator=(Warper&&) noexcept = default;
+Warper::~Warper() = default;
+
+std::size_t Warper::dimension_in() const { return state_->chain.dimension_in(); }
+std::size_t Warper::dimension_out() const { return state_->chain.dimension_out(); }
+
+std::vector<double> Warper::forward(std::span<const double> rows) const {
+    require_rows(rows, dimension_in());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (!(rows[i] >= 0 && rows[i] <= 1))
+            fail(ErrorKind::input, "number {} is {}, outside [0, 1]", i, rows[i]);
+    return state_->chain.forward({rows.begin(), rows.end()});
+}
+
+std::vector<double> Warper::inverse(std::span<const double> rows) const {
+    require_rows(rows, dimension_out());
+    return state_->chain.inverse({rows.begin(), rows.end()});
+}
+
+std::vector<double> Warper::density(std::span<const double> rows) const {
+    require_rows(rows, dimension_out());
+    return state_->chain.density(rows);
+}
+
+// ---------------------------------------------------------------- files
+
+void write(const std::string& path, std::span<const PointSet> sets, const WriteOptions& options,
+           const RunContext& run) {
+    Target target{.path = path,
+                  .header = options.header,
+                  .meta = options.meta,
+                  .single = options.single,
+                  .precision = options.precision};
+    if (!options.format.empty()) target.format = &io::format_named(options.format);
+    if (options.precision && (*options.precision < 0 || *options.precision > 1000))
+        fail(ErrorKind::usage, "a precision of {} is outside [0, 1000]", *options.precision);
+    std::vector<PointSet> copies;
+    for (const PointSet& set : sets) copies.push_back(placed(set));
+    write_sets(std::move(copies), target, run);
+}
+
+void write(const std::string& path, const PointSet& points, const WriteOptions& options,
+           const RunContext& run) {
+    write(path, std::span(&points, 1), options, run);
+}
+
+std::vector<PointSet> read_sets(const std::string& path, const ReadFileOptions& options,
+                                const RunContext& run) {
+    ReadOptions inner{.source = path};
+    if (options.dimension > 0) inner.dimension = options.dimension;
+    inner.single = options.single;
+    const Format* format = options.format.empty() ? nullptr : &io::format_named(options.format);
+    return io::read_points(path, inner, run, format);
+}
+
+PointSet read(const std::string& path, const ReadFileOptions& options, const RunContext& run) {
+    std::vector<PointSet> sets = read_sets(path, options, run);
+    if (sets.size() != 1) fail(ErrorKind::input, "{}: {} sets; expected one", path, sets.size());
+    return std::move(sets.front());
+}
+
+}  // namespace stipple

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+//
+// The public API: headers on the standard library alone, and calls that throw where they cannot do
+// what they were asked for.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <regex>
+#include <stipple/stipple.hpp>
+
+#include "places.hpp"
+#include "support/temporary_file.hpp"
+#include "support/units.hpp"
+
+namespace stipple::testing::api_test {
+
+namespace {
+
+const double nan = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+TEST(Api, HeadersIncludeTheStandardLibraryAlone) {
+    const std::regex allowed(R"(#include (<[a-z_]+>|"stipple/[a-z]+\.hpp").*)");
+    for (const auto& entry :
+         std::filesystem::directory_iterator(STIPPLE_SOURCE_DIR "/src/stipple")) {
+        std::ifstream in(entry.path());
+        for (std::string text; std::getline(in, text);)
+            if (text.starts_with("#include"))
+                EXPECT_TRUE(std::regex_match(text, allowed)) << entry.path() << ": " << text;
+    }
+}
+
+TEST(Api, ASpecAndSettingsGiveTheSamePoints) {
+    const Request request{.count = 100, .dimension = 3, .seed = 9};
+    const PointSet by_spec = generate("sobol:scramble=owen", request);
+    EXPECT_EQ(by_spec, generate("sobol", request, {{"scramble", "owen"}}));
+    EXPECT_NE(by_spec, generate("sobol:scramble=owen", {.count = 100, .dimension = 3}));
+    EXPECT_EQ(by_spec.provenance.generator, "sobol");
+    EXPECT_EQ(by_spec.provenance.seed, 9U);
+    EXPECT_EQ(error_of([] { generate("hallton"); }).substr(0, 34),
+              "usage: unknown generator 'hallton'");
+    EXPECT_NE(error_of([] { generate("halton@1"); }), "");
+}
+
+TEST(Api, ASamplerGivesThePointsOfTheSet) {
+    const Request request{.count = 64, .dimension = 2, .start = 3, .seed = 5};
+    const PointSet set = generate("halton:scramble=owen", request);
+    const Sampler sampler("halton:scramble=owen", request);
+    std::vector<double> rows(2 * 10);
+    sampler.fill(20, rows);
+    EXPECT_TRUE(std::ranges::equal(rows, set.flat().subspan(40, 20)));
+
+    std::vector<double> odd(3);
+    EXPECT_EQ(error_of([&] { sampler.fill(0, odd); }), "usage: 3 numbers are no whole rows of 2");
+    const Sampler ends("jittered", {.count = 16, .dimension = 2});
+    EXPECT_EQ(error_of([&] { ends.fill(7, rows); }),
+              "usage: points 7 to 16 are beyond the last one, which is 15");
+    EXPECT_NE(error_of([] { Sampler("poisson-disk"); }), "");
+    EXPECT_NE(error_of([] { Sampler("random", {.bounds = Box{{0}, {2}}}); }), "");
+}
+
+TEST(Api, AWarpGoesThereAndBack) {
+    const PointSet cube = generate("halton", {.count = 50, .dimension = 2, .start = 1});
+    const PointSet disk = warp("disk:radius=2", cube);
+    EXPECT_EQ(domain_of(disk), "disk:radius=2");
+    EXPECT_DOUBLE_EQ(measure_of(disk), 4 * std::acos(-1.0));
+    for (const double density : densities(disk)) EXPECT_DOUBLE_EQ(density, 1 / measure_of(disk));
+    const PointSet back = warp_back("disk:radius=2", disk);
+    const Warper warper("disk:radius=2", 2);
+    EXPECT_TRUE(std::ranges::equal(warper.forward(cube.flat()), disk.flat()));
+    EXPECT_TRUE(std::ranges::equal(warper.inverse(disk.flat()), back.flat()));
+    for (std::size_t i = 0; i < cube.flat().size(); ++i)
+        EXPECT_NEAR(back.flat()[i], cube.flat()[i], 1e-14);
+    EXPECT_NE(error_of([&] { warp("disk", disk); }), "") << "it is on a disk already";
+    EXPECT_NE(error_of([&] { (void)warper.forward(std::vector<double>{0.5}); }), "");
+    EXPECT_NE(error_of([&] { (void)warper.forward(std::vector<double>{0.5, nan}); }), "");
+    EXPECT_NE(error_of([&] { (void)warper.density(std::vector<double>{0.5, 1, 2}); }), "");
+    EXPECT_NE(error_of([] { Warper("disk", 3); }), "");
+}
+
+TEST(Api, ASetThatNobodyCouldMeanIsRefused) {
+    EXPECT_NE(error_of([] { PointSet({0.1, 0.2, 0.3}, 2); }), "");
+    PointSet set(3, 2);
+    EXPECT_EQ(error_of([&] { (void)set[3]; }), "usage: there is no point 3: the set has 3");
+    const PointSet moved = std::move(set);
+    EXPECT_NE(error_of([&] { (void)set[0]; }), "");  // NOLINT(bugprone-use-after-move): on purpose
+    PointSet homeless = generate("random", {.count = 200});
+    homeless.domain.reset();
+    EXPECT_GT(analyze("chi-square", homeless).number("p_value"), 0);
+    for (const PointSet& odd : {PointSet(), PointSet({nan, 0}, 2), PointSet({-1, 5}, 2)})
+        for (const std::string& analyzer : analyzer_names())
+            EXPECT_NE(error_of([&] { (void)analyze(analyzer, odd); }), "") << analyzer;
+}
+
+TEST(Api, SetsAreWrittenAndReadBack) {
+    const std::vector<PointSet> sets = {generate("random", {.count = 5, .dimension = 3}),
+                                        generate("halton", {.count = 5, .dimension = 3})};
+    const auto folder = std::filesystem::temp_directory_path() / "stipple_api_test";
+    std::filesystem::create_directory(folder);
+    const std::string path = (folder / "sets.npy").string();
+    write(path, sets);
+    EXPECT_EQ(read_sets(path), sets);
+    EXPECT_NE(error_of([&] { (void)read(path); }), "") << "there are two";
+    write(path, sets[1]);
+    EXPECT_EQ(read(path), sets[1]);
+    EXPECT_NE(error_of([&] { write(path, std::vector<PointSet>{}); }), "");
+    EXPECT_NE(error_of([&] { write(path, PointSet()); }), "");
+    EXPECT_NE(error_of([&] { write(path, std::vector{PointSet(2, 2), PointSet(2, 3)}); }), "");
+    EXPECT_NE(error_of([&] { (void)read((folder / "missing.csv").string()); }), "");
+    std::filesystem::remove_all(folder);
+}
+
+// Worked by hand: the mean of four values, and its interval of 3.182 standard errors.
+TEST(Api, MeansOfAStudyHaveStudentsInterval) {
+    std::vector<StudyValue> values;
+    for (const double x : {1.0, 2.0, 3.0, 4.0})
+        values.push_back({"g", "a", 2, 8, values.size(), "value", x, ""});
+    values.push_back({"g", "a", 2, 8, 9, "value", std::nullopt, "it failed"});
+    const auto means = means_of(values);
+    ASSERT_EQ(means.size(), 1U);
+    EXPECT_EQ(means[0].sets, 4U);
+    EXPECT_DOUBLE_EQ(means[0].mean, 2.5);
+    EXPECT_NEAR(means[0].high - 2.5, 3.182446 * std::sqrt(5.0 / 3 / 4), 1e-5);
+    EXPECT_NE(error_of([&] { (void)means_of(values, 1); }), "");
+}
+
+TEST(Api, AStudyGivesWhatItsPartsGive) {
+    const auto values = study({.generators = {"sobol", "random"},
+                               .analyzers = {"star-discrepancy", "nearest-neighbor"},
+                               .counts = {16, 32},
+                               .first_seed = 3,
+                               .seeds = 2});
+    std::size_t found = 0;
+    for (const StudyValue& v : values) {
+        if (v.generator != "random" || v.key != "value" || v.count != 32 || v.seed != 4) continue;
+        const PointSet set = generate("random", {.count = 32, .dimension = 2, .seed = 4});
+        EXPECT_EQ(v.value, analyze("star-discrepancy", set).number("value"));
+        ++found;
+    }
+    EXPECT_EQ(found, 1U);
+}
+
+}  // namespace stipple::testing::api_test
