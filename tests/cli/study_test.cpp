@@ -530,7 +530,7 @@ TEST(Study, ValuesOfAConfigurationThatNoOptionTakesAreNamedByTheirKey) {
         {R"("time-limit": 0)", "time-limit: '0' is not a number of seconds above 0"},
         {R"("bootstrap": 0, "summary": true)", "bootstrap: 0 is outside [1, 10000000]"},
         {R"("pairs": "t", "summary": true)", "pairs: 't' is not one of welch, paired"},
-        {R"("format": "json")", "format: 'json' is not one of csv, jsonl"}};
+        {R"("format": "json")", "format: 'json' is not one of csv, jsonl; did you mean 'jsonl'?"}};
     for (const auto& [setting, message] : cases) {
         box.write("s.json", R"({"generators": "random", "analyze": "moments", )" + setting + "}");
         const Outcome outcome = box.shell("stipple study --config s.json");
