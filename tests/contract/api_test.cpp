@@ -29,8 +29,8 @@ TEST(Api, HeadersIncludeTheStandardLibraryAlone) {
          std::filesystem::directory_iterator(STIPPLE_SOURCE_DIR "/src/stipple")) {
         std::ifstream in(entry.path());
         for (std::string text; std::getline(in, text);)
-            if (text.starts_with("#include"))
-                EXPECT_TRUE(std::regex_match(text, allowed)) << entry.path() << ": " << text;
+            EXPECT_TRUE(!text.starts_with("#include") || std::regex_match(text, allowed))
+                << entry.path() << ": " << text;
     }
 }
 
