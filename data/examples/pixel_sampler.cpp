@@ -26,5 +26,5 @@ int main() {
         }
         sum += static_cast<double>(hits) / samples;
     }
-    std::printf("covered: %.3f of the picture; the disk's area is 0.283\n", sum / (side * side));
+    std::printf("covered: %.2f of the picture; the disk's area is 0.28\n", sum / (side * side));
 }

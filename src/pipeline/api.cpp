@@ -44,6 +44,12 @@ Spec spec_without_coordinates(std::string_view text) {
 /// The set, on the unit cube where it says nothing else.
 PointSet placed(PointSet points) {
     if (!points.domain) points.domain = unit_cube(points.dimension());
+    return points;
+}
+
+/// The same, where nobody else checks that the domain is one for such points.
+PointSet on_its_domain(PointSet set) {
+    PointSet points = placed(std::move(set));
     if (points.domain->dimension() != points.dimension())
         fail(ErrorKind::usage, "points of {} coordinates are not on {}", points.dimension(),
              points.domain->spec());
@@ -120,11 +126,11 @@ void Sampler::fill(std::uint64_t first, std::span<double> rows) const {
 // ---------------------------------------------------------------- warps
 
 PointSet warp(std::string_view spec, const PointSet& points, const RunContext& run) {
-    return warped_set(placed(points), parse_spec(spec), false, run);
+    return warped_set(on_its_domain(points), parse_spec(spec), false, run);
 }
 
 PointSet warp_back(std::string_view spec, const PointSet& points, const RunContext& run) {
-    return warped_set(placed(points), parse_spec(spec), true, run);
+    return warped_set(on_its_domain(points), parse_spec(spec), true, run);
 }
 
 std::string domain_of(const PointSet& points) { return placed(points).domain->spec(); }
@@ -132,7 +138,7 @@ std::string domain_of(const PointSet& points) { return placed(points).domain->sp
 double measure_of(const PointSet& points) { return placed(points).domain->measure(); }
 
 std::vector<double> densities(const PointSet& points) {
-    const DomainPtr domain = placed(points).domain;
+    const DomainPtr domain = on_its_domain(points).domain;
     std::vector<double> density(points.count());
     for (std::size_t i = 0; i < density.size(); ++i) density[i] = domain->density(points[i]);
     return density;
@@ -188,7 +194,7 @@ void write(const std::string& path, std::span<const PointSet> sets, const WriteO
     if (options.precision && (*options.precision < 0 || *options.precision > 1000))
         fail(ErrorKind::usage, "a precision of {} is outside [0, 1000]", *options.precision);
     std::vector<PointSet> copies;
-    for (const PointSet& set : sets) copies.push_back(placed(set));
+    for (const PointSet& set : sets) copies.push_back(on_its_domain(set));
     write_sets(std::move(copies), target, run);
 }
 
@@ -203,7 +209,11 @@ std::vector<PointSet> read_sets(const std::string& path, const ReadFileOptions& 
     if (options.dimension > 0) inner.dimension = options.dimension;
     inner.single = options.single;
     const Format* format = options.format.empty() ? nullptr : &io::format_named(options.format);
-    return io::read_points(path, inner, run, format);
+    std::vector<PointSet> sets = io::read_points(path, inner, run, format);
+    for (PointSet& set : sets)
+        if (const std::string& domain = set.provenance.domain; !domain.empty())
+            set.domain = parse_domain(domain, set.dimension(), run);
+    return sets;
 }
 
 PointSet read(const std::string& path, const ReadFileOptions& options, const RunContext& run) {

@@ -21,12 +21,10 @@ namespace {
 /// The folders of src/ in their order; those on one line do not include each other. The public API
 /// comes first: its headers include nothing else.
 const std::vector<std::vector<std::string>> line = {
-    {"stipple"},  {"core"},
-    {"math"},     {"media"},
-    {"io"},       {"generators", "scrambles", "warps", "analyzers"},
-    {"pipeline"}, {"report", "study"},
-    {"plot"},     {"page"},
-    {"cli"}};
+    {"stipple"},  {"core"},   {"math"},
+    {"media"},    {"io"},     {"generators", "scrambles", "warps", "analyzers"},
+    {"pipeline"}, {"report"}, {"study"},
+    {"plot"},     {"page"},   {"cli"}};
 
 /// Folders whose folders are engines, which do not see each other.
 const std::set<std::string> of_engines = {"generators", "warps", "analyzers"};

@@ -15,7 +15,7 @@ namespace stipple::testing {
 inline void expect_examples(const std::string& folder) {
     const Sandbox box;
     const auto out = [&](const std::string& line) { return good(box.shell(folder + "/" + line)); };
-    EXPECT_EQ(out("pixel_sampler"), "covered: 0.283 of the picture; the disk's area is 0.283\n");
+    EXPECT_EQ(out("pixel_sampler"), "covered: 0.28 of the picture; the disk's area is 0.28\n");
     EXPECT_EQ(out("integral"), "0.796600, standard error below 1e-6: yes; exact: 0.796600\n");
     EXPECT_EQ(out("density"), "2000 points, most on the right half\n");
     EXPECT_TRUE(box.exists("points.svg"));

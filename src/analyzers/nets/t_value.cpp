@@ -30,9 +30,9 @@
 #include <mutex>
 
 #include "analyzers/analyzer.hpp"
-#include "analyzers/nets/equidistribution.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "math/digital/equidistribution.hpp"
 #include "math/functions/combinations.hpp"
 #include "math/functions/powers.hpp"
 

@@ -22,8 +22,8 @@
 
 #include "core/error.hpp"
 #include "generators/digital/matrix_file.hpp"
-#include "generators/digital/net_sequence.hpp"
 #include "generators/generator.hpp"
+#include "generators/net_sequence.hpp"
 #include "math/functions/powers.hpp"
 #include "math/functions/ratio.hpp"
 

@@ -18,8 +18,8 @@
 // Source  H. Faure, Acta Arith. 41 (1982) 337-351, doi:10.4064/aa-41-4-337-351.
 
 #include "core/error.hpp"
-#include "generators/digital/net_sequence.hpp"
 #include "generators/generator.hpp"
+#include "generators/net_sequence.hpp"
 #include "math/functions/primes.hpp"
 
 namespace stipple::generators::faure {

@@ -21,7 +21,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "generators/digital/net_sequence.hpp"
+#include "generators/net_sequence.hpp"
 #include "math/functions/powers.hpp"
 
 namespace stipple::generators::niederreiter {

@@ -30,7 +30,7 @@
 #include <array>
 
 #include "core/rng.hpp"
-#include "generators/digital/binary_sequence.hpp"
+#include "generators/binary_sequence.hpp"
 
 namespace stipple::generators::pmj {
 namespace {

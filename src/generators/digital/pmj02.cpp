@@ -22,7 +22,7 @@
 //         doi:10.1007/978-1-4612-2552-2_19 (scrambling); A. Helmer, P. Christensen, A. Kensler,
 //         EGSR (2021), doi:10.2312/sr.20211287 (that it makes such sequences).
 
-#include "generators/digital/binary_sequence.hpp"
+#include "generators/binary_sequence.hpp"
 #include "generators/digital/sobol_directions.hpp"
 
 namespace stipple::generators::pmj02 {

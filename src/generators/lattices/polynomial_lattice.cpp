@@ -28,10 +28,10 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "generators/digital/net_sequence.hpp"
 #include "generators/generator.hpp"
 #include "generators/lattices/polynomial_search.hpp"
 #include "generators/lattices/product_weights.hpp"
+#include "generators/net_sequence.hpp"
 #include "math/digital/gf2.hpp"
 
 namespace stipple::generators::polynomial_lattice {

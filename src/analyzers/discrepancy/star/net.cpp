@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "analyzers/nets/equidistribution.hpp"
+#include "math/digital/equidistribution.hpp"
 #include "math/functions/combinations.hpp"
 
 namespace stipple::discrepancy::star {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "analyzers/nets/equidistribution.hpp"
+#include "math/digital/equidistribution.hpp"
 
 #include <algorithm>
 #include <array>

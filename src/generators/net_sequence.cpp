@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "generators/digital/net_sequence.hpp"
+#include "generators/net_sequence.hpp"
 
 #include <algorithm>
 

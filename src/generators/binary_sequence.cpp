@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "generators/digital/binary_sequence.hpp"
+#include "generators/binary_sequence.hpp"
 
 #include <fmt/format.h>
 

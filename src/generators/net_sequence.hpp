@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "generators/digital/binary_sequence.hpp"
+#include "generators/binary_sequence.hpp"
 #include "generators/generator.hpp"
 #include "math/digital/base_net.hpp"
 
