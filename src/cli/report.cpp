@@ -22,6 +22,7 @@
 #include "page/page_set.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/generated.hpp"
+#include "pipeline/units.hpp"
 #include "report/check.hpp"
 
 namespace stipple::cli {
