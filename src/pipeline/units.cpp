@@ -50,10 +50,4 @@ const Analyzer& find_analyzer(std::string_view name) {
     return find_unit("analyzer", analyzers::all(), name);
 }
 
-Values values_of(const Schema& schema, const Settings& settings) {
-    Values values = schema.defaults();
-    for (const auto& [name, text] : settings) schema.set(values, name, text);
-    return values;
-}
-
 }  // namespace stipple

@@ -24,7 +24,4 @@ const Analyzer& find_analyzer(std::string_view name);
 /// The scramble of that name or alias; nullptr if there is none.
 const Scramble* scramble_named(std::string_view name);
 
-/// A unit's options, with defaults where nothing is set. @throws Error(usage)
-Values values_of(const Schema& schema, const Settings& settings);
-
 }  // namespace stipple

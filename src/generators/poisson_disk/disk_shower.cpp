@@ -46,7 +46,7 @@ std::uint64_t Shower::by_inversion(double u, std::size_t parts) const {
     return first_above(u, mean(parts), none_[parts]);
 }
 
-std::uint64_t Shower::in_portions(double u, std::size_t parts, Mixer& mixer) const {
+std::uint64_t Shower::in_portions(double u, std::size_t parts, SplitMix64& mixer) const {
     const double all = mean(parts);
     const double portions = std::ceil(all / most_at_once);
     const double none = exponential(-all / portions);

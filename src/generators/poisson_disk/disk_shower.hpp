@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/rng.hpp"
-#include "math/functions/mixer.hpp"
+#include "math/functions/splitmix64.hpp"
 
 namespace stipple {
 
@@ -24,7 +24,7 @@ class Shower {
     }
 
     /// Darts on that many parts.
-    [[nodiscard]] std::uint64_t on(std::size_t parts, Mixer& mixer) const {
+    [[nodiscard]] std::uint64_t on(std::size_t parts, SplitMix64& mixer) const {
         const double u = to_unit(mixer.next());
         if (parts < none_.size()) {
             const double none = none_[parts];
@@ -36,7 +36,7 @@ class Shower {
 
   private:
     [[nodiscard]] std::uint64_t by_inversion(double u, std::size_t parts) const;
-    [[nodiscard]] std::uint64_t in_portions(double u, std::size_t parts, Mixer& mixer) const;
+    [[nodiscard]] std::uint64_t in_portions(double u, std::size_t parts, SplitMix64& mixer) const;
 
     double mean_;
     std::vector<double> none_;  ///< probability of no dart on so many parts

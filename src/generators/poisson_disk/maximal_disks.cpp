@@ -15,7 +15,7 @@
 #include "generators/poisson_disk/plane_disks.hpp"
 #include "generators/poisson_disk/space_disks.hpp"
 #include "generators/poisson_disk/space_tiles.hpp"
-#include "math/functions/mixer.hpp"
+#include "math/functions/splitmix64.hpp"
 
 namespace stipple {
 namespace {
@@ -152,7 +152,7 @@ class Rain {
             tiles_.prepare(tile, desk);
             tile.candidates.swap(desk.candidates);  // has room
             tiles_.start_over(tile);
-            fall(tile, Mixer(key + number).next(), desk);
+            fall(tile, SplitMix64(key + number).next(), desk);
             tile.candidates.swap(desk.candidates);
             tile.candidates = std::vector(desk.candidates.begin(), desk.candidates.end());
             tile.fates.assign(tile.candidates.size(), {});
@@ -166,11 +166,12 @@ class Rain {
     }
 
     /// Numbers that belong to a piece of a cell, whoever asks for them.
-    static Mixer stream(std::uint64_t key, std::uint64_t place, const Point& corner,
-                        std::uint64_t level) {
-        std::uint64_t state = Mixer(key ^ (place << 8 | level)).next();
-        for (const double x : corner) state = Mixer(state ^ std::bit_cast<std::uint64_t>(x)).next();
-        return Mixer(state);
+    static SplitMix64 stream(std::uint64_t key, std::uint64_t place, const Point& corner,
+                             std::uint64_t level) {
+        std::uint64_t state = SplitMix64(key ^ (place << 8 | level)).next();
+        for (const double x : corner)
+            state = SplitMix64(state ^ std::bit_cast<std::uint64_t>(x)).next();
+        return SplitMix64(state);
     }
 
     /// Calls visit(cell, count) for runs of up to `most` cells along the first direction.
@@ -193,7 +194,7 @@ class Rain {
         desk.near.clear();
         desk.near.close();
         for_runs(tile, together, [&](const Index& run, std::uint32_t count) {
-            Mixer mixer = stream(key, Grid::place_of(run), {}, 0);
+            SplitMix64 mixer = stream(key, Grid::place_of(run), {}, 0);
             for (std::uint64_t left = shower.on(count, mixer); left > 0; --left) {
                 Index cell = run;
                 Point place;
@@ -214,14 +215,14 @@ class Rain {
     /// A dart falls at `place` of a cell (in cells), where these points are near.
     template <class Real>
     void fall(Tile& tile, const Index& cell, const Point& place, const NearDisks<D, Real>& near,
-              Mixer& mixer) {
+              SplitMix64& mixer) {
         std::array<Real, D> off;
         for (std::size_t k = 0; k < D; ++k) off[k] = static_cast<Real>(place[k] * grid_.scales[k]);
         land(tile, cell, place, hits<D, Real>(near, off, slack<Real>()), mixer);
     }
 
     /// Makes a dart a candidate, unless it hit.
-    void land(Tile& tile, const Index& cell, const Point& place, Hit hit, Mixer& mixer) {
+    void land(Tile& tile, const Index& cell, const Point& place, Hit hit, SplitMix64& mixer) {
         if (hit == Hit::yes) return;
         Candidate<D> c{};
         for (std::size_t k = 0; k < D; ++k) {
@@ -240,7 +241,7 @@ class Rain {
     void fall_on_parts(Tile& tile, const Shower& shower, std::uint64_t key, Desk<D>& desk) {
         for_open_cells(tile, [&](const Index& cell, PartBits open) {
             const std::size_t count = ones_of(open);
-            Mixer mixer(Mixer(key ^ Grid::place_of(cell)).next());
+            SplitMix64 mixer(SplitMix64(key ^ Grid::place_of(cell)).next());
             bool gathered = false;
             for (std::uint64_t left = shower.on(count, mixer); left > 0; --left) {
                 Point place = nth_part<D>(open, mixer.below(count));
@@ -318,7 +319,7 @@ class Rain {
         OpenParts<D> open;
         if (!uncovered<D, Real>(near, raster, slack<Real>(), reaching, open)) return;
         const std::size_t count = count_open<D>(open);
-        Mixer mixer = stream(key, window.place, window.corner, window.level);
+        SplitMix64 mixer = stream(key, window.place, window.corner, window.level);
         for (std::uint64_t left = shower.on(count, mixer); left > 0; --left) {
             Point place = open_part<D>(open, mixer.below(count));
             for (std::size_t k = 0; k < D; ++k)

@@ -11,7 +11,7 @@
 #include "generators/poisson_disk/disk_shower.hpp"
 #include "generators/poisson_disk/open_tiles.hpp"
 #include "generators/poisson_disk/plane_tiles.hpp"
-#include "math/functions/mixer.hpp"
+#include "math/functions/splitmix64.hpp"
 
 namespace stipple {
 namespace {
@@ -106,7 +106,7 @@ class Thrower {
     /// In cells from the tile's first. Digits that a dart has no room for are made of the others.
     [[nodiscard]] Point place_of(const Dart& d) const {
         if (exact_) return desk_.places[d.detail];
-        const std::uint64_t more = Mixer(std::uint64_t{d.x} << 32 | d.y).next();
+        const std::uint64_t more = SplitMix64(std::uint64_t{d.x} << 32 | d.y).next();
         return {(d.x + static_cast<double>(more >> 32) * 0x1p-32) / cell_unit,
                 (d.y + static_cast<double>(more & 0xffffffff) * 0x1p-32) / cell_unit};
     }
@@ -138,7 +138,7 @@ STIPPLE_WIDE void fall_in_order(const Rules& rules, PlaneTile& tile, PlaneDesk& 
 
 /// Adds a dart on one of the parts of a cell that are open.
 [[gnu::always_inline]] inline void draw_in_cell(int column, int row, PartBits open,
-                                                std::size_t count, Mixer& mixer,
+                                                std::size_t count, SplitMix64& mixer,
                                                 std::vector<Dart>& darts) {
     const std::uint64_t which = mixer.next();
     const std::uint64_t where = mixer.next();
@@ -165,7 +165,7 @@ STIPPLE_WIDE void draw_on_parts(const PlaneTile& tile, const Shower& shower, std
             const int column = found[i];
             const PartBits open = ~covered[column];
             const auto count = static_cast<std::size_t>(std::popcount(open));
-            Mixer mixer(key + static_cast<std::uint64_t>(row * 64 + column));
+            SplitMix64 mixer(key + static_cast<std::uint64_t>(row * 64 + column));
             for (std::uint64_t left = shower.on(count, mixer); left > 0; --left)
                 draw_in_cell(column, row, open, count, mixer, darts);
         }
@@ -175,7 +175,7 @@ STIPPLE_WIDE void draw_on_parts(const PlaneTile& tile, const Shower& shower, std
 /// Darts everywhere. @param shower for a row of cells of the tile
 STIPPLE_WIDE void draw_at_large(const PlaneTile& tile, const Shower& shower, std::uint64_t key,
                                 std::vector<Dart>& darts) {
-    Mixer mixer(key);
+    SplitMix64 mixer(key);
     const auto columns = static_cast<std::uint64_t>(tile.size(0));
     const auto rows = static_cast<std::uint64_t>(tile.size(1));
     std::uint64_t count = 0;
@@ -323,7 +323,7 @@ class PlaneRain {
             desk.darts.clear();
             desk.undecided.clear();
             desk.waiting.fill(0);
-            draw(tile, Mixer(key + number).next(), desk);
+            draw(tile, SplitMix64(key + number).next(), desk);
             sort_by_time(desk);
             fall_in_order(rules_, tile, desk, exact);
             of_shower(tile, showers_).renew(showers_, desk.undecided);
@@ -446,7 +446,7 @@ class PlaneRain {
                                                   : exactly_open(tile, window, desk);
         if (open == 0) return;
         const std::size_t count = ones_of(open);
-        Mixer mixer = stream(key, window);
+        SplitMix64 mixer = stream(key, window);
         for (std::uint64_t left = shower.on(count, mixer); left > 0; --left) {
             const std::size_t part = nth_bit(open, mixer.below(count));
             Point place{static_cast<double>(part % 8), static_cast<double>(part / 8)};
@@ -483,11 +483,11 @@ class PlaneRain {
     }
 
     /// Numbers that belong to a window, whoever asks for them.
-    static Mixer stream(std::uint64_t key, const Window<2>& window) {
+    static SplitMix64 stream(std::uint64_t key, const Window<2>& window) {
         const std::uint64_t place = std::uint64_t{window.place} << 8 | window.level;
         const auto x = std::bit_cast<std::uint64_t>(window.corner[0]);
         const auto y = std::bit_cast<std::uint64_t>(window.corner[1]);
-        return Mixer(Mixer(key + place + x).next() ^ y);
+        return SplitMix64(SplitMix64(key + place + x).next() ^ y);
     }
 
     /// Whether no arithmetic could tell a gap of this size from none.

@@ -10,7 +10,7 @@
 #include "generators/poisson_disk/open_tiles.hpp"
 #include "generators/poisson_disk/space_showers.hpp"
 #include "generators/poisson_disk/space_tiles.hpp"
-#include "math/functions/mixer.hpp"
+#include "math/functions/splitmix64.hpp"
 
 namespace stipple {
 namespace {
@@ -149,7 +149,7 @@ class SpaceRain {
             SpaceDesk& desk = desk_of_thread();
             take_over(tile, desk);
             desk.darts.clear();
-            fall(tile, Mixer(key + number).next(), desk);
+            fall(tile, SplitMix64(key + number).next(), desk);
             of_shower(tile, showers_).renew(showers_, desk.darts);
         });
         open_.for_each(tiles_, [&](SpaceTile& tile, std::uint32_t) {
@@ -304,7 +304,7 @@ class SpaceRain {
 
     /// A dart on one of the open parts of a window.
     void throw_at(const Point& corner, double part_side, PartBits open, std::size_t count,
-                  Mixer& mixer, SpaceDesk& desk) const {
+                  SplitMix64& mixer, SpaceDesk& desk) const {
         const std::uint64_t which = mixer.next();
         const std::uint64_t where = mixer.next();
         const std::size_t part = nth_bit(open, (which >> 32) * count >> 32);
@@ -341,7 +341,7 @@ class SpaceRain {
             std::array<OpenPart, 65> parts;
             const std::size_t count = open_parts(desk.near, rules_.scales, open, parts.data());
             start_throwing(desk);
-            Mixer mixer(key + place);
+            SplitMix64 mixer(key + place);
             for (std::size_t i = 0; i < count; ++i) {
                 const unsigned part = parts[i].part;
                 const CubeWindow window{{static_cast<std::uint16_t>((part & 3) << 14),
@@ -386,7 +386,7 @@ class SpaceRain {
         desk.open.resize(windows.size());
         open_cubes(desk.near, rules_.scales, windows, desk.open.data());
         start_throwing(desk);
-        Mixer mixer(key + windows[0].place);
+        SplitMix64 mixer(key + windows[0].place);
         for (std::size_t i = 0; i < windows.size(); ++i) {
             const PartBits open = desk.open[i];
             if (open == 0) continue;
@@ -396,7 +396,7 @@ class SpaceRain {
     }
 
     void fall_in_window(const CubeWindow& window, PartBits open, const std::vector<Shower>& showers,
-                        Mixer& mixer, SpaceDesk& desk) const {
+                        SplitMix64& mixer, SpaceDesk& desk) const {
         const Shower& shower = showers[window.level];
         const std::size_t count = ones_of(open);
         Point corner;
@@ -441,7 +441,7 @@ class SpaceRain {
         if (!uncovered<3, double>(desk.exactly_near, raster, slack_, desk.exactly_reaching, open))
             return;
         const std::size_t count = count_open<3>(open);
-        Mixer mixer = stream(key, window);
+        SplitMix64 mixer = stream(key, window);
         for (std::uint64_t left = shower.on(count, mixer); left > 0; --left) {
             Point place = open_part<3>(open, mixer.below(count));
             Point off;
@@ -456,11 +456,12 @@ class SpaceRain {
     }
 
     /// Numbers that belong to a window, whoever asks for them.
-    static Mixer stream(std::uint64_t key, const Window<3>& window) {
-        std::uint64_t state = Mixer(key + (std::uint64_t{window.place} << 8 | window.level)).next();
+    static SplitMix64 stream(std::uint64_t key, const Window<3>& window) {
+        std::uint64_t state =
+            SplitMix64(key + (std::uint64_t{window.place} << 8 | window.level)).next();
         for (const double x : window.corner)
-            state = Mixer(state ^ std::bit_cast<std::uint64_t>(x)).next();
-        return Mixer(state);
+            state = SplitMix64(state ^ std::bit_cast<std::uint64_t>(x)).next();
+        return SplitMix64(state);
     }
 
     /// Whether no arithmetic could tell a gap of this size from none.

@@ -6,7 +6,7 @@
 
 #include "core/rng.hpp"
 #include "core/wide.hpp"
-#include "math/functions/mixer.hpp"
+#include "math/functions/splitmix64.hpp"
 
 namespace stipple {
 
@@ -14,7 +14,7 @@ void land(const SpaceRules& rules, const SpaceTile& tile, const SpaceCell& cell,
           Hit hit, std::vector<SpaceDart>& darts) {
     if (hit == Hit::yes) return;
     SpaceDart d{};
-    Mixer mixer(dart.detail);
+    SplitMix64 mixer(dart.detail);
     for (std::size_t k = 0; k < 3; ++k) {
         const double along = cell[k] + dart.place[k] + dart.grain * to_unit(mixer.next());
         d.at[k] = rules.grid.low[k] + (tile.first()[k] + along) * rules.grid.widths[k];
@@ -33,7 +33,8 @@ void fall_at_large(const SpaceRules& rules, const SpaceTile& tile, const Shower&
         if (row % space_side >= tile.size(1)) continue;
         for (int x = 0; x < tile.size(0); x += cells_together) {
             const int count = std::min(cells_together, tile.size(0) - x);
-            Mixer mixer(Mixer(key ^ static_cast<std::uint64_t>(row * space_side + x)).next());
+            SplitMix64 mixer(
+                SplitMix64(key ^ static_cast<std::uint64_t>(row * space_side + x)).next());
             for (std::uint64_t left = shower.on(static_cast<std::size_t>(count), mixer); left > 0;
                  --left) {
                 std::array<double, 3> place;
@@ -101,7 +102,7 @@ class OpenUnit {
 [[gnu::always_inline]] inline void throw_on_unit(const OpenUnit& unit, const Shower& shower,
                                                  std::uint64_t key,
                                                  std::vector<PartThrow>& throws) {
-    Mixer mixer(key);
+    SplitMix64 mixer(key);
     for (std::uint64_t left = shower.on(unit.count(), mixer); left > 0; --left) {
         const std::uint64_t which = mixer.next();
         const std::uint64_t where = mixer.next();

@@ -13,7 +13,7 @@
 #include "generators/poisson_disk/disk_shower.hpp"
 #include "generators/varied_index.hpp"
 #include "math/functions/exponential.hpp"
-#include "math/functions/mixer.hpp"
+#include "math/functions/splitmix64.hpp"
 
 namespace stipple {
 namespace {
@@ -137,7 +137,7 @@ class Rain {
     [[nodiscard]] bool is_spared(const Window& window) const {
         const double mean = density_ * rate(window);
         if (mean > most_darts / 16) return false;
-        Mixer mixer(shower_key_ ^ window.key);
+        SplitMix64 mixer(shower_key_ ^ window.key);
         const double u = to_unit(mixer.next());
         for (std::size_t i = 0; i < at_most_.size() && u >= at_most_[i]; ++i) {
             for (std::size_t k = 0; k < 2; ++k) mixer.next();
@@ -203,7 +203,8 @@ class Rain {
         if (window.node.level > 0) {
             for (const Node& node : field_.children(window.node)) {
                 const auto corners = field_.corners(node);
-                parts[count] = {corners[0], corners[1], Mixer(window.key + count).next(), node};
+                parts[count] = {corners[0], corners[1], SplitMix64(window.key + count).next(),
+                                node};
                 ++count;
             }
             return count;
@@ -215,14 +216,14 @@ class Rain {
         const double middle = window.low[k] + (window.high[k] - window.low[k]) / 2;
         parts = {window, window};
         parts[0].high[k] = parts[1].low[k] = middle;
-        for (Window& part : parts) part.key = Mixer(window.key + count++).next();
+        for (Window& part : parts) part.key = SplitMix64(window.key + count++).next();
         return count;
     }
 
     /// Darts of the window: `mean` of them where f is the least all over it, fewer where it is
     /// more.
     void throw_darts(const Window& window, std::size_t first, double mean, double least) {
-        Mixer mixer(shower_key_ ^ window.key);
+        SplitMix64 mixer(shower_key_ ^ window.key);
         const double u = to_unit(mixer.next());
         for (std::size_t i = 0; i < at_most_.size() && u >= at_most_[i]; ++i) {
             Candidate dart{};

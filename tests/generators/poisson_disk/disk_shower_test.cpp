@@ -21,7 +21,7 @@ TEST(DiskShower, NumbersArePoisson) {
             EXPECT_EQ(shower.mean(parts), mean);
             std::vector<double> seen(1000);
             for (std::uint64_t i = 0; i < draws; ++i) {
-                Mixer mixer(Rng(3).bits(i));
+                SplitMix64 mixer(Rng(3).bits(i));
                 const std::uint64_t k = shower.on(parts, mixer);
                 ASSERT_LT(k, seen.size());
                 ++seen[k];
@@ -42,7 +42,7 @@ TEST(DiskShower, NumbersArePoisson) {
 
 TEST(DiskShower, NoDartsFallOnNothing) {
     const Shower shower(100, 64);
-    Mixer mixer(1);
+    SplitMix64 mixer(1);
     for (int i = 0; i < 100; ++i) EXPECT_EQ(shower.on(0, mixer), 0);
 }
 
