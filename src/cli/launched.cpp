@@ -40,7 +40,7 @@ std::unique_ptr<Ranks> launched(std::string_view verb, const RunContext& run) {
     const std::uint64_t started = launched_ranks();
     if (started == 1) return std::make_unique<Ranks>();
     if (!has_mpi())
-        fail_with_hint(ErrorKind::usage, "build with -DSTIPPLE_MPI=ON, or start one process",
+        fail_with_hint(ErrorKind::usage, "build it where MPI is installed, or start one process",
                        "{}: an MPI launcher started {} processes, and this build has no MPI", verb,
                        started);
     auto ranks = join_ranks(run.stop);

@@ -20,17 +20,13 @@ std::string timeless(const Sandbox& box, const std::string& command) {
     return good(box.shell(command + " | sed 's/ *\"seconds\":.*//'"));
 }
 
-bool can_launch(const Sandbox& box) { return box.shell("command -v mpirun").code == 0; }
-
 }  // namespace
-
-#ifdef STIPPLE_MPI
 
 // Three files, of which two are shared in the middle, and one of them is text.
 TEST(Ranks, AnalyzeOneSetAsOneProcessDoes) {
     if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
     const Sandbox box;
-    if (!can_launch(box)) GTEST_SKIP() << "no launcher";
+    if (!can_launch()) GTEST_SKIP() << "no MPI, or no launcher";
     for (const char* part : {"0/3 -o a.npy", "1/3 -o b.csv", "2/3 -o c.npy"})
         good(box.shell(std::string("stipple generate random -n 600000 --shard ") + part));
     const std::string shards = " --concat a.npy b.csv c.npy -f json";
@@ -49,7 +45,7 @@ TEST(Ranks, AnalyzeOneSetAsOneProcessDoes) {
 TEST(Ranks, SpeakOnceOfWhatIsWrong) {
     if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
     const Sandbox box;
-    if (!can_launch(box)) GTEST_SKIP() << "no launcher";
+    if (!can_launch()) GTEST_SKIP() << "no MPI, or no launcher";
     box.write("torn.csv", "x,y\n0.1,0.2\n0.3,oh\n");
     const Outcome torn = box.shell(mpirun + "-n 2 stipple analyze moments torn.csv");
     EXPECT_EQ(torn.code, 3);
@@ -65,7 +61,7 @@ TEST(Ranks, SpeakOnceOfWhatIsWrong) {
 TEST(Ranks, NameTheFileThatIsAtFault) {
     if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
     const Sandbox box;
-    if (!can_launch(box)) GTEST_SKIP() << "no launcher";
+    if (!can_launch()) GTEST_SKIP() << "no MPI, or no launcher";
     box.write("outside.csv", "x,y\n0.1,0.2\n0.3,1.5\n");
     box.write("good.csv", "x,y\n0.1,0.2\n0.3,0.5\n");
     for (const std::string rest : {"moments outside.csv", "moments --concat good.csv outside.csv",
@@ -82,24 +78,19 @@ TEST(Ranks, NameTheFileThatIsAtFault) {
 
 TEST(Ranks, AreToldByTheVersion) {
     const Sandbox box;
-    EXPECT_THAT(good(box.run({"--version"})), HasSubstr(", Open MPI v"));
-}
-
-#else
-
-TEST(Ranks, AreToldByTheVersion) {
-    const Sandbox box;
-    EXPECT_THAT(good(box.run({"--version"})), HasSubstr(", without MPI\n"));
+    EXPECT_THAT(good(box.run({"--version"})),
+                HasSubstr(has_mpi() ? ", Open MPI v" : ", without MPI\n"));
 }
 
 TEST(Ranks, NeedABuildWithMpi) {
+    if (has_mpi()) GTEST_SKIP() << "this build has MPI";
     const Sandbox box;
-    const Outcome outcome =
-        box.shell("OMPI_COMM_WORLD_SIZE=2 stipple analyze moments --generate random");
-    EXPECT_EQ(outcome.code, 2);
-    EXPECT_THAT(outcome.err, HasSubstr("this build has no MPI"));
+    for (const std::string command : {"analyze moments --generate random",
+                                      "study --generators random -n 16 --analyze moments"}) {
+        const Outcome outcome = box.shell("OMPI_COMM_WORLD_SIZE=2 stipple " + command);
+        EXPECT_EQ(outcome.code, 2);
+        EXPECT_THAT(outcome.err, HasSubstr("this build has no MPI"));
+    }
 }
-
-#endif
 
 }  // namespace stipple::testing::ranks_test

@@ -100,8 +100,9 @@ TEST(SideFiles, AreNotLeftByACommandThatFails) {
     // Interrupted while the points wait for a reader: both files are begun.
     const Outcome outcome = box.shell(
         "mkfifo pipe; sleep 9 < pipe & reader=$!;"
-        "timeout -s INT 1 stipple generate void-and-cluster --size 128x128 -n 16e3 "
-        "--mask-image n.png -o pipe; kill $reader; ls -A | grep part; exit 0");
+        "stipple generate void-and-cluster --size 128x128 -n 16e3 --mask-image n.png -o pipe & "
+        "pid=$!; until ls -A | grep -q part; do sleep 0.01; done; kill -INT $pid; wait $pid; "
+        "kill $reader; exit 0");
     EXPECT_EQ(box.files(), (Names{"m.png", "pipe"})) << outcome.err;
 }
 

@@ -310,16 +310,7 @@ TEST(TValue, TellsItsProgressWhileItCounts) {
 
 TEST(TValue, StopsWhileItCounts) {
     const PointSet net = shuffled(digital_net(2, 17, 4, Rng(3)), Rng(4));
-    std::stop_source source;
-    RunContext run{.threads = 2, .stop = source.get_token()};
-    double stopped_at = 0;
-    run.progress = [&](double done) {
-        if (done < 0.5 || source.stop_requested()) return;
-        stopped_at = cpu_seconds();
-        source.request_stop();
-    };
-    EXPECT_EQ(error_of([&] { t_value(net, 2, 2, run); }), "cancelled: interrupted");
-    EXPECT_LT(cpu_seconds() - stopped_at, 0.2);  // of two threads
+    expect_to_stop_at_once([&](const RunContext& run) { t_value(net, 2, 2, run); }, 0.5);
 }
 
 }  // namespace stipple::testing::t_value_test
