@@ -25,7 +25,10 @@ const T& held(const Report& report, std::string_view key, std::string_view kind)
 
 }  // namespace
 
-bool Report::operator==(const Report&) const = default;
+// Not defaulted: clang does not end with the recursion through Item.
+bool Report::operator==(const Report& other) const {
+    return entries_ == other.entries_ && unmet_ == other.unmet_;
+}
 
 Report& Report::put(std::string_view name, Item value, std::string_view unit) {
     const auto it = std::ranges::find(entries_, name, &Entry::name);
