@@ -13,32 +13,20 @@
 namespace stipple::testing::generators_test {
 namespace {
 
-/// What a unit cannot do without, or would take too long without.
-Settings needed(const std::string& name) {
-    if (name == "digital-net") return {{"matrices", STIPPLE_SOURCE_DIR "/data/sobol_4d.txt"}};
-    if (name == "gaussian-blue-noise") return {{"iterations", "20"}};
-    if (name == "tiled") return {{"tile-points", "500"}, {"iterations", "20"}};
-    return {};
-}
-
-/// Of a large set; smaller where a point takes much longer than elsewhere.
-std::uint64_t many_of(const std::string& name) {
-    return name == "capacity-constrained" || name == "farthest-point" ? 1000 : 10'000;
-}
-
 class EveryGenerator : public ::testing::TestWithParam<std::string> {
   protected:
     const Generator& unit = find_generator(GetParam());
-    const std::uint64_t many = many_of(unit.name);
+    const std::uint64_t many = std::min<std::uint64_t>(10'000, 4 * many_of(unit.name));
     const std::size_t dimension =
         std::clamp<std::size_t>(2, unit.traits.min_dimension, unit.traits.max_dimension);
 
     PointSet make(std::uint64_t count, const Seeded& seeded = {}, std::uint64_t start = 0) const {
-        return stipple::testing::make(unit.name, points(count, dimension, start), needed(unit.name),
-                                      seeded);
+        return stipple::testing::make(unit.name, points(count, dimension, start),
+                                      needed_options(unit.name), seeded);
     }
     PointSet make_in(const RunContext& run, std::uint64_t count) const {
-        return stipple::testing::make(unit.name, points(count, dimension), needed(unit.name), run);
+        return stipple::testing::make(unit.name, points(count, dimension),
+                                      needed_options(unit.name), run);
     }
 };
 
@@ -86,7 +74,8 @@ TEST_P(EveryGenerator, FillsAnyPiecesToTheSameWhole) {
     if (!unit.traits.sequence) GTEST_SKIP() << "made as a whole";
     const PointSet whole = make(400);
     Values options = unit.options.defaults();
-    for (const auto& [option, value] : needed(unit.name)) unit.options.set(options, option, value);
+    for (const auto& [option, value] : needed_options(unit.name))
+        unit.options.set(options, option, value);
     const Plan plan = plan_for(unit, points(400, dimension), options);
     const auto sequence = unit.sequence(plan, options, {});
     for (const std::size_t piece : {1, 7, 64, 399}) {
@@ -108,7 +97,7 @@ TEST_P(EveryGenerator, MakesOnePoint) { EXPECT_EQ(make(1).count(), 1U); }
 
 TEST_P(EveryGenerator, WorksInOneDimensionOrSaysThatItDoesNot) {
     const auto one = [&] {
-        return stipple::testing::make(unit.name, points(100, 1), needed(unit.name));
+        return stipple::testing::make(unit.name, points(100, 1), needed_options(unit.name));
     };
     if (unit.traits.min_dimension > 1)
         EXPECT_NE(error_of(one).find("usage: --dimension: 1 is outside"), std::string::npos);
@@ -118,8 +107,8 @@ TEST_P(EveryGenerator, WorksInOneDimensionOrSaysThatItDoesNot) {
 
 TEST_P(EveryGenerator, RefusesDimensionsBeyondItsTraits) {
     const std::size_t beyond = unit.traits.max_dimension + 1;
-    const auto error =
-        error_of([&] { stipple::testing::make(unit.name, points(1, beyond), needed(unit.name)); });
+    const auto error = error_of(
+        [&] { stipple::testing::make(unit.name, points(1, beyond), needed_options(unit.name)); });
     EXPECT_NE(error.find("usage: --dimension"), std::string::npos) << error;
 }
 

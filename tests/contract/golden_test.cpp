@@ -22,31 +22,11 @@
 #include "pipeline/chain.hpp"
 #include "places.hpp"
 #include "support/contract.hpp"
-#include "support/warp_examples.hpp"
 
 namespace stipple::testing::golden_test {
 namespace {
 
 constexpr const char* table_path = STIPPLE_SOURCE_DIR "/tests/contract/golden.txt";
-
-/// What a generator cannot do without, or would take too long without.
-Settings needed_by(const std::string& name) {
-    if (name == "digital-net") return {{"matrices", STIPPLE_SOURCE_DIR "/data/sobol_4d.txt"}};
-    if (name == "gaussian-blue-noise") return {{"iterations", "5"}};
-    if (name == "lloyd") return {{"iterations", "5"}};
-    if (name == "tiled") return {{"tile-points", "256"}, {"iterations", "5"}};
-    return {};
-}
-
-/// Of the first set; fewer where a point takes much longer than elsewhere.
-std::uint64_t many_of(const std::string& name) {
-    static const std::map<std::string, std::uint64_t> slow = {
-        {"capacity-constrained", 256}, {"best-candidate", 4000}, {"farthest-point", 200},
-        {"gaussian-blue-noise", 1000}, {"lloyd", 1000},          {"sample-elimination", 2000},
-        {"void-and-cluster", 1024}};
-    const auto it = slow.find(name);
-    return it == slow.end() ? 10'000 : it->second;
-}
 
 /// Settings as a spec has them; of a file, only that it is one.
 std::string label(const Schema& schema, const Settings& settings) {
@@ -107,7 +87,7 @@ std::vector<std::string> lines_of(const Generator& unit) {
             return std::vector<double>(set.flat().begin(), set.flat().end());
         }));
     };
-    const Settings needed = needed_by(unit.name);
+    const Settings needed = needed_options(unit.name);
     add(needed, many_of(unit.name), 2, 1);
     add(needed, std::min<std::uint64_t>(many_of(unit.name), 1024), 2, 987654321);
     // 729 = 9^3 = 27^2: grids and arrays have as many.

@@ -18,7 +18,6 @@
 #include "pipeline/chain.hpp"
 #include "places.hpp"
 #include "support/contract.hpp"
-#include "support/warp_examples.hpp"
 #include "support/warping.hpp"
 
 namespace stipple::testing::uniformity_test {

@@ -10,7 +10,6 @@
 #include "pipeline/chain.hpp"
 #include "pipeline/pipeline.hpp"
 #include "support/contract.hpp"
-#include "support/warp_examples.hpp"
 
 namespace stipple::testing::warps_test {
 namespace {

@@ -1,7 +1,47 @@
 // SPDX-License-Identifier: MIT
 #include "support/units.hpp"
 
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "places.hpp"
+
 namespace stipple::testing {
+namespace {
+
+/// The words after a unit's name in settings.txt, parted at their `=`.
+Settings settings_of(const std::string& unit) {
+    Settings settings;
+    std::ifstream in(STIPPLE_SOURCE_DIR "/tests/contract/settings.txt");
+    for (std::string line; std::getline(in, line);) {
+        std::istringstream words(line);
+        std::string word;
+        if (!(words >> word) || word != unit) continue;
+        while (words >> word) {
+            const auto at = word.find('=');
+            std::string value = word.substr(at + 1);
+            if (value.starts_with("data/") || value.starts_with("tests/"))
+                value = STIPPLE_SOURCE_DIR "/" + value;
+            settings.emplace_back(word.substr(0, at), value);
+        }
+    }
+    return settings;
+}
+
+}  // namespace
+
+Settings needed_options(const std::string& unit) {
+    Settings needed = settings_of(unit);
+    std::erase_if(needed, [](const auto& setting) { return setting.first == "n"; });
+    return needed;
+}
+
+std::uint64_t many_of(const std::string& unit) {
+    for (const auto& [name, value] : settings_of(unit))
+        if (name == "n") return std::stoull(value);
+    return 10'000;
+}
 
 Request points(std::uint64_t count, std::size_t dimension, std::uint64_t start) {
     return {.count = count, .dimension = dimension, .start = start};

@@ -39,6 +39,11 @@ PointSet make(std::string_view generator, const Request& request, const Settings
 /// A set of the given points.
 PointSet points_of(const std::vector<std::vector<double>>& rows);
 
+/// Options that tests of all units set, and the points of a unit's first golden set: those of
+/// tests/contract/settings.txt.
+Settings needed_options(const std::string& unit);
+std::uint64_t many_of(const std::string& unit);
+
 /// One number of an analyzer's report, by dotted key.
 double measure(std::string_view analyzer, std::string_view key, const PointSet& points,
                const Settings& settings = {});
