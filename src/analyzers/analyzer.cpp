@@ -37,6 +37,12 @@ bool alike(std::span<const Report> sets, std::string_view key) {
         sets, [&](const Report& set) { return std::abs(set.number(key) - first) <= 1e-9 * first; });
 }
 
+void drop(Report& report, std::initializer_list<std::string_view> names) {
+    std::erase_if(report.entries(), [&](const auto& entry) {
+        return std::ranges::find(names, entry.name) != names.end();
+    });
+}
+
 std::uint64_t batch_grain(const Arrival& arrival, const Values& /*options*/) {
     return arrival_batch(arrival.dimension());
 }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <span>
@@ -65,7 +66,7 @@ class Accumulator {
     virtual Report report(const RunContext& run) = 0;
 };
 
-/// Measures a part of a set whose count was announced, and takes in what others found of other parts.
+/// Measures a part of a set whose count was announced, and takes in what others found of the rest.
 class SharedAccumulator : public Accumulator {
   public:
     /// Called before any points come, where others take those before: the first here is point
@@ -150,6 +151,9 @@ void check_dimension(const Analyzer& analyzer, std::size_t dimension);
 
 /// Whether all sets that are to be averaged have the same number under a key, but for rounding.
 bool alike(std::span<const Report> sets, std::string_view key);
+
+/// Takes entries out of a report, as of places and pairs there is no mean.
+void drop(Report& report, std::initializer_list<std::string_view> names);
 
 namespace analyzers {
 /// All analyzers, in alphabetical order.

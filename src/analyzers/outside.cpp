@@ -14,13 +14,6 @@ void refuse(const Outside& outside, std::uint64_t total, const Domain& domain, s
                    fmt::join(outside.point, ", "));
 }
 
-void refuse(const Outside& outside, const PointSet& points, std::string hint) {
-    Outside named = outside;
-    const auto point = points[outside.first];
-    named.point.assign(point.begin(), point.end());
-    refuse(named, points.count(), *points.domain, std::move(hint));
-}
-
 std::string outside_hint(const Domain& domain) {
     std::string hint = "--domain names what the points live on";
     if (domain.spec() == "unit-cube")

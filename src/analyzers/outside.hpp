@@ -17,7 +17,7 @@ namespace stipple::analyzers {
 struct Outside {
     std::uint64_t count = 0;
     std::uint64_t first = std::numeric_limits<std::uint64_t>::max();  ///< the lowest index
-    std::vector<double> point = {};  ///< at that index, where points are not kept
+    std::vector<double> point = {};                                   ///< at that index
 
     /// Adds point `i`, the points before it having been looked at.
     void add(std::uint64_t i, std::span<const double> at) {
@@ -43,9 +43,6 @@ struct Outside {
 /// Counts them among `total` and names the first. @throws Error(input)
 [[noreturn]] void refuse(const Outside& outside, std::uint64_t total, const Domain& domain,
                          std::string hint);
-
-/// The same for points that are kept. @throws Error(input)
-[[noreturn]] void refuse(const Outside& outside, const PointSet& points, std::string hint);
 
 /// What helps where points are outside the domain.
 std::string outside_hint(const Domain& domain);

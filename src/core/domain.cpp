@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/box_mass.hpp"
 #include "core/error.hpp"
 #include "core/spec.hpp"
 #include "core/text.hpp"
@@ -215,6 +214,25 @@ class ProductDomain final : public Domain {
 
 }  // namespace
 
+Estimate box_mass_by_axes(const Domain& domain, const Box& box) {
+    const std::size_t d = domain.dimension();
+    const Box ends = domain.bounding_box();
+    const bool finite = std::isfinite(domain.measure());
+    const auto cube_of = [&](std::vector<double> corner) {
+        for (std::size_t k = 0; k < d && finite; ++k)
+            corner[k] = std::clamp(corner[k], ends.low[k], ends.high[k]);
+        std::vector<double> cube(d);
+        domain.to_cube(corner, cube);
+        return cube;
+    };
+    Box cell{cube_of(box.low), cube_of(box.high)};
+    for (std::size_t k = 0; k < d; ++k) {
+        if (!(box.low[k] < box.high[k])) return {};
+        if (cell.low[k] > cell.high[k]) std::swap(cell.low[k], cell.high[k]);
+    }
+    return domain.probability(cell);
+}
+
 DomainPtr unit_cube(std::size_t dimension) { return std::make_shared<UnitCube>(dimension); }
 DomainPtr box_domain(Box box) { return std::make_shared<BoxDomain>(std::move(box)); }
 DomainPtr product_domain(std::vector<Factor> factors) {
@@ -261,6 +279,12 @@ Box bounding_box(std::span<const double> rows, const Box& around) {
         box.high[i % d] = std::max(box.high[i % d], rows[i]);
     }
     return box;
+}
+
+Box bounding_box(std::span<const double> rows, std::size_t dimension) {
+    const std::vector<double> first(rows.begin(),
+                                    rows.begin() + static_cast<std::ptrdiff_t>(dimension));
+    return bounding_box(rows, {first, first});
 }
 
 void scale_into(const Box& box, std::span<double> rows) {

@@ -87,6 +87,24 @@ class Domain {
     [[nodiscard]] virtual std::vector<std::string> cube_axes() const = 0;
 };
 
+/// What a domain also is that knows the probability of boxes of its own space. A mixture has no
+/// coordinates that preserve probability: its cells are such boxes, or zones of the sphere.
+class Weighable {
+  public:
+    Weighable() = default;
+    Weighable(const Weighable&) = delete;
+    Weighable& operator=(const Weighable&) = delete;
+    virtual ~Weighable() = default;
+
+    /// Of points that follow the domain's density; the box may be larger than the domain, and
+    /// reach to infinity.
+    [[nodiscard]] virtual Estimate box_mass(const Box& box) const = 0;
+};
+
+/// Of a domain on which the coordinate k of to_cube depends on coordinate k of a point alone, and
+/// rises or falls with it.
+Estimate box_mass_by_axes(const Domain& domain, const Box& box);
+
 DomainPtr unit_cube(std::size_t dimension);
 DomainPtr box_domain(Box box);
 
@@ -104,6 +122,9 @@ std::string format_box(const Box& box);
 
 /// The smallest box around rows of numbers and around `around`; it may be flat.
 Box bounding_box(std::span<const double> rows, const Box& around);
+
+/// The smallest box around one row or more.
+Box bounding_box(std::span<const double> rows, std::size_t dimension);
 
 /// Moves points of the unit cube into the box, in place; half-open stays half-open.
 void scale_into(const Box& box, std::span<double> rows);

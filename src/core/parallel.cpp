@@ -18,6 +18,16 @@ RunContext worth_threads(const RunContext& run, double seconds) {
     return fit;
 }
 
+RunContext silent(RunContext run) {
+    run.progress = {};
+    return run;
+}
+
+RunContext unstopped(RunContext run) {
+    run.stop = {};
+    return run;
+}
+
 void within_threads(const RunContext& run, const std::function<void()>& work) {
     const unsigned threads = run.thread_count();
     // More threads than cores are only had by raising the library's own bound.
@@ -28,7 +38,7 @@ void within_threads(const RunContext& run, const std::function<void()>& work) {
 }
 
 void for_each_block(const RunContext& run, std::uint64_t count, std::uint64_t size,
-                    const std::function<void(const Block&)>& body, bool silent) {
+                    const std::function<void(const Block&)>& body) {
     const std::size_t blocks = block_count(count, size);
     const auto block = [&](std::size_t b) {
         const std::uint64_t first = b * size;
@@ -38,7 +48,7 @@ void for_each_block(const RunContext& run, std::uint64_t count, std::uint64_t si
         for (std::size_t b = 0; b < blocks; ++b) {
             run.check_stop();
             body(block(b));
-            if (!silent) run.tick(b + 1, blocks);
+            run.tick(b + 1, blocks);
         }
         return;
     }
@@ -50,7 +60,7 @@ void for_each_block(const RunContext& run, std::uint64_t count, std::uint64_t si
         tbb::parallel_for(std::size_t{0}, blocks, [&](std::size_t b) {
             run.check_stop();
             body(block(b));
-            if (silent) return;
+            if (!run.progress) return;
             const std::lock_guard lock(reporting);
             run.tick(++done, blocks);
         });

@@ -25,10 +25,16 @@ constexpr std::size_t block_count(std::uint64_t count, std::uint64_t size) {
 }
 
 /// Calls body(block) for consecutive blocks of `size` that cover [0, count), on run.threads
-/// threads; reports progress (none if `silent`), and stops early when asked to.
+/// threads; reports progress, and stops early when asked to.
 /// @throws what body throws; Error(cancelled).
 void for_each_block(const RunContext& run, std::uint64_t count, std::uint64_t size,
-                    const std::function<void(const Block&)>& body, bool silent = false);
+                    const std::function<void(const Block&)>& body);
+
+/// The run without reports of progress.
+RunContext silent(RunContext run);
+
+/// The run that goes on when a stop is requested.
+RunContext unstopped(RunContext run);
 
 /// The run for work that takes one core about so many seconds: as it is, or of one thread, where to
 /// wake others takes longer than they would save.

@@ -271,22 +271,18 @@ std::vector<Piece> cut_at_lines(const SourceText& text, const char* body, const 
                                 const RunContext& run) {
     const auto size = static_cast<std::uint64_t>(text.end() - body);
     std::vector<Piece> pieces(block_count(size, block_bytes));
-    for_each_block(
-        run, size, block_bytes,
-        [&](const Block& block) {
-            Piece& piece = pieces[block.index];
-            const char* const last = body + block.last;
-            // A line that starts with the block ends just before it.
-            const char* first = body;
-            if (block.first != 0) {
-                first = std::find(body + block.first - 1, last - 1, text.newline()) + 1;
-                if (first == last) return;
-            }
-            piece.first = first;
-            piece.room =
-                1 + static_cast<std::uint64_t>(std::count(piece.first, last, text.newline()));
-        },
-        true);
+    for_each_block(silent(run), size, block_bytes, [&](const Block& block) {
+        Piece& piece = pieces[block.index];
+        const char* const last = body + block.last;
+        // A line that starts with the block ends just before it.
+        const char* first = body;
+        if (block.first != 0) {
+            first = std::find(body + block.first - 1, last - 1, text.newline()) + 1;
+            if (first == last) return;
+        }
+        piece.first = first;
+        piece.room = 1 + static_cast<std::uint64_t>(std::count(piece.first, last, text.newline()));
+    });
     std::erase_if(pieces, [](const Piece& piece) { return piece.first == nullptr; });
     std::uint64_t begin = 0;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
@@ -352,19 +348,16 @@ Rows read_rows(const SourceText& text, const char* body, const char* model, cons
     run.need_memory(static_cast<double>(room) * static_cast<double>(columns.dimension) * 8,
                     "reading " + text.source());
     std::vector<double> numbers(room * columns.dimension);
-    for_each_block(
-        run, pieces.size(), 1,
-        [&](const Block& block) {
-            Piece& piece = pieces[block.index];
-            const auto place = std::span(numbers).subspan(piece.begin * columns.dimension,
-                                                          piece.room * columns.dimension);
-            try {
-                piece.count = reader.read(piece.first, piece.last, place, piece.marks);
-            } catch (const Error& error) {
-                piece.error = error;
-            }
-        },
-        true);
+    for_each_block(silent(run), pieces.size(), 1, [&](const Block& block) {
+        Piece& piece = pieces[block.index];
+        const auto place = std::span(numbers).subspan(piece.begin * columns.dimension,
+                                                      piece.room * columns.dimension);
+        try {
+            piece.count = reader.read(piece.first, piece.last, place, piece.marks);
+        } catch (const Error& error) {
+            piece.error = error;
+        }
+    });
     for (const Piece& piece : pieces)
         if (piece.error) throw Error(*piece.error);
     return close_gaps(pieces, std::move(numbers), columns.dimension);

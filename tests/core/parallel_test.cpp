@@ -35,6 +35,23 @@ TEST(Parallel, ErrorsOfBlocksComeOut) {
                   "input: sixty");
 }
 
+TEST(Parallel, SilentRunsReportNothingAndUnstoppedOnesGoOn) {
+    double shown = -1;
+    std::stop_source stop;
+    const RunContext run{
+        .threads = 2, .progress = [&](double done) { shown = done; }, .stop = stop.get_token()};
+    for_each_block(silent(run), 10, 1, [](const Block&) {});
+    EXPECT_EQ(shown, -1);
+    for_each_block(run, 10, 1, [](const Block&) {});
+    EXPECT_EQ(shown, 1);
+    stop.request_stop();
+    std::atomic<int> blocks = 0;
+    for_each_block(unstopped(run), 10, 1, [&](const Block&) { ++blocks; });
+    EXPECT_EQ(blocks, 10);
+    EXPECT_EQ(error_of([&] { for_each_block(silent(run), 10, 1, [](const Block&) {}); }),
+              "cancelled: interrupted");
+}
+
 TEST(Parallel, OnlyLongWorkIsWorthThreads) {
     const RunContext run{.threads = 8, .max_memory = 9};
     EXPECT_EQ(worth_threads(run, 1).thread_count(), 8);

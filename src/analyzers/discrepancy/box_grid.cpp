@@ -107,11 +107,9 @@ BoxGrid box_grid(const PointSet& points, Family family, const RunContext& run, M
                  .order = std::vector<std::vector<std::uint32_t>>(d),
                  .digits = std::vector<unsigned>(d)};
     const auto at_one = in_no_box(points, family);
-    constexpr bool silent = true;
     const double seconds = 1e-7 * static_cast<double>(points.flat().size());
-    for_each_block(
-        worth_threads(run, seconds), d, 1,
-        [&](const Block& block) { index_axis(points, block.index, at_one, grid, run); }, silent);
+    for_each_block(silent(worth_threads(run, seconds)), d, 1,
+                   [&](const Block& block) { index_axis(points, block.index, at_one, grid, run); });
     for (const unsigned digits : grid.digits) grid.all_digits += digits;
     return grid;
 }

@@ -115,11 +115,9 @@ class Search {
         const auto size = static_cast<std::size_t>(peers_.size());
         const auto rank = static_cast<std::size_t>(peers_.rank());
         const std::size_t some = (tasks.size() + size - 1 - rank) / size;
-        constexpr bool silent = true;
-        for_each_block(
-            run_, some, 1,
-            [&](const Block& block) { problem_.explore(tasks[block.index * size + rank]); },
-            silent);
+        for_each_block(silent(run_), some, 1, [&](const Block& block) {
+            problem_.explore(tasks[block.index * size + rank]);
+        });
     }
 
     /// Tells the others what came of this peer's tasks, and takes in all of them in their order.

@@ -271,16 +271,11 @@ Ascent ascend(const BoxGrid& grid, const SearchLimits& limits, const RunContext&
         }
         mine.work += ascent.work();
     };
-    RunContext unstopped = run;  // ascents end by themselves, with what they found
-    unstopped.stop = {};
-    constexpr bool silent = true;
-    for_each_block(
-        unstopped, plan.starts, together,
-        [&](const Block& block) {
-            ascend_all(block, Side::open);
-            if (grid.measure == Measure::discrepancy) ascend_all(block, Side::closed);
-        },
-        silent);
+    // Ascents end by themselves, with what they found.
+    for_each_block(silent(unstopped(run)), plan.starts, together, [&](const Block& block) {
+        ascend_all(block, Side::open);
+        if (grid.measure == Measure::discrepancy) ascend_all(block, Side::closed);
+    });
     for (const Ascent& part : found) {
         all.worst.offer(part.worst);
         all.work += part.work;
@@ -313,16 +308,12 @@ std::uint64_t ThresholdSearch::go(WorstBox& worst, const SearchLimits& limits,
     constexpr std::size_t walks = 8;
     std::vector<WorstBox> found(walks, WorstBox(grid_));
     std::vector<std::uint64_t> work(walks);
-    constexpr bool silent = true;
-    for_each_block(
-        run, walks, 1,
-        [&](const Block& block) {
-            BoxAscent ascent(grid_, limits, run);
-            walk(ascent, block.index % 2 == 0 ? Side::open : Side::closed,
-                 round_ * walks + block.index, found[block.index], limits, run);
-            work[block.index] = ascent.work();
-        },
-        silent);
+    for_each_block(silent(run), walks, 1, [&](const Block& block) {
+        BoxAscent ascent(grid_, limits, run);
+        walk(ascent, block.index % 2 == 0 ? Side::open : Side::closed, round_ * walks + block.index,
+             found[block.index], limits, run);
+        work[block.index] = ascent.work();
+    });
     ++round_;
     for (const WorstBox& box : found) worst.offer(box);
     return std::accumulate(work.begin(), work.end(), std::uint64_t{0});

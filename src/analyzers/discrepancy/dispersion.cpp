@@ -91,7 +91,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
 
 /// A mean of boxes is none.
 void refine(Report& mean, std::size_t sets, const Values&) {
-    if (sets > 1) std::erase_if(mean.entries(), [](const auto& e) { return e.name == "box"; });
+    if (sets > 1) drop(mean, {"box"});
 }
 
 }  // namespace

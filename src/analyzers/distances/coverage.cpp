@@ -19,7 +19,7 @@
 // Cost    d <= 2: O(n log n) for sets that are not too uneven; 10^6 points in 2-D take 2.3 s on one
 //         core. d >= 3: branch and bound; grows with the number of places that are nearly as empty
 //         as the emptiest, and exponentially with d.
-// Promise d <= 2: exact up to rounding. d >= 3: the radius is that of an empty ball, and no other is
+// Promise d <= 2: exact up to rounding. d >= 3: the radius is that of an empty ball, and none is
 //         larger than `upper`, at most radius (1 + tolerance). Never depends on the number of
 //         threads.
 // Source  H. Niederreiter, "Random Number Generation and Quasi-Monte Carlo Methods", SIAM 1992,
@@ -75,7 +75,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
 
 /// A mean of places is none.
 void refine(Report& mean, std::size_t sets, const Values&) {
-    if (sets > 1) std::erase_if(mean.entries(), [](const auto& e) { return e.name == "center"; });
+    if (sets > 1) drop(mean, {"center"});
 }
 
 }  // namespace

@@ -15,11 +15,8 @@ namespace {
 
 Outside outside_of(const PointSet& points) {
     Outside outside;
-    for (std::size_t i = points.count(); i-- > 0;) {
-        if (points.domain->contains(points[i])) continue;
-        ++outside.count;
-        outside.first = i;
-    }
+    for (std::size_t i = 0; i < points.count(); ++i)
+        if (!points.domain->contains(points[i])) outside.add(i, points[i]);
     return outside;
 }
 
@@ -55,14 +52,14 @@ void require_finite(const PointSet& points) {
 
 void require_squares(const PointSet& points) {
     require_finite(points);
-    const std::vector<double> first(points[0].begin(), points[0].end());
-    require_squares(bounding_box(points.flat(), {first, first}), "the points lie too far apart");
+    require_squares(bounding_box(points.flat(), points.dimension()),
+                    "the points lie too far apart");
 }
 
 /// @throws Error(input) for points outside their domain, or for what is no place at all
 [[noreturn]] void refuse_places(const Outside& outside, const PointSet& points, const char* hint) {
     require_finite(points);
-    refuse(outside, points, hint);
+    refuse(outside, points.count(), *points.domain, hint);
 }
 
 }  // namespace
@@ -146,7 +143,7 @@ std::vector<Neighbor> nearest_neighbors(const PointSet& points, const Distances&
         "the search for nearest neighbours");
     if (points.dimension() <= 3) {
         const Box box =
-            distances.torus ? *distances.box : box_around(points.flat(), points.dimension());
+            distances.torus ? *distances.box : bounding_box(points.flat(), points.dimension());
         auto found = all_nearest_by_grid(points.flat(), box, distances.torus, run);
         if (found) return std::move(*found);
     }

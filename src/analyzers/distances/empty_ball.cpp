@@ -89,13 +89,10 @@ class Search {
             round.assign(std::make_move_iterator(open_.end() - static_cast<std::ptrdiff_t>(size)),
                          std::make_move_iterator(open_.end()));
             open_.resize(open_.size() - size);
-            for_each_block(
-                run, size, 32,
-                [&](const Block& b) {
-                    Bound bound(points_.dimension(), bound_tolerance);
-                    for (std::uint64_t i = b.first; i < b.last; ++i) judge(round[i], bound);
-                },
-                true);
+            for_each_block(silent(run), size, 32, [&](const Block& b) {
+                Bound bound(points_.dimension(), bound_tolerance);
+                for (std::uint64_t i = b.first; i < b.last; ++i) judge(round[i], bound);
+            });
             finish(round);
             run.tick(static_cast<std::uint64_t>(done_ * 1e9), 1'000'000'000);
         }

@@ -218,10 +218,7 @@ Slope slope_of(const Report::Curve& x, const Report::Curve& variance, const Repo
 void add_exponent(Report& report) {
     const Slope slope = slope_of(report.curve("radius"), report.curve("variance"),
                                  report.curve("mean"), report.curve("dispersion"));
-    if (slope.points < 3) {
-        std::erase_if(report.entries(), [](const auto& e) { return e.name.starts_with("expon"); });
-        return;
-    }
+    if (slope.points < 3) return drop(report, {"exponent", "exponent_standard_error"});
     report.add("exponent", slope.value);
     report.add("exponent_standard_error", slope.error);
 }

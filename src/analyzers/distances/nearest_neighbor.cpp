@@ -60,20 +60,17 @@ struct Sums {
 Sums sum_up(const std::vector<Neighbor>& neighbors, double mean, const RunContext& run) {
     constexpr std::uint64_t size = 65536;
     std::vector<Sums> parts(block_count(neighbors.size(), size));
-    for_each_block(
-        run, neighbors.size(), size,
-        [&](const Block& b) {
-            Sums& part = parts[b.index];
-            for (std::uint64_t i = b.first; i < b.last; ++i) {
-                const double squared = neighbors[i].squared;
-                const double distance = std::sqrt(squared);
-                part.distance += distance;
-                part.deviation += (distance - mean) * (distance - mean);
-                part.farthest = std::max(part.farthest, squared);
-                part.duplicates += squared == 0 ? 1 : 0;
-            }
-        },
-        true);
+    for_each_block(silent(run), neighbors.size(), size, [&](const Block& b) {
+        Sums& part = parts[b.index];
+        for (std::uint64_t i = b.first; i < b.last; ++i) {
+            const double squared = neighbors[i].squared;
+            const double distance = std::sqrt(squared);
+            part.distance += distance;
+            part.deviation += (distance - mean) * (distance - mean);
+            part.farthest = std::max(part.farthest, squared);
+            part.duplicates += squared == 0 ? 1 : 0;
+        }
+    });
     Sums all;
     for (const Sums& part : parts) {
         all.distance += part.distance;
@@ -110,7 +107,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
 
 /// A mean of pairs is none.
 void refine(Report& mean, std::size_t sets, const Values&) {
-    if (sets > 1) std::erase_if(mean.entries(), [](const auto& e) { return e.name == "pair"; });
+    if (sets > 1) drop(mean, {"pair"});
 }
 
 }  // namespace

@@ -15,16 +15,19 @@ namespace {
 /// Candidates whose distances are worked out at a time.
 constexpr std::size_t batch_size = 256;
 
-/// The points cell by cell, a coordinate behind the other.
-template <std::size_t D>
-using Columns = std::array<std::vector<double>, D>;
+/// Distances of a place to points that stand axis after axis.
+struct FromPlace {
+    std::size_t dimension;
+    std::array<const double*, 3> columns;  ///< of the points
+    std::array<double, 3> place;
+    std::array<double, 3> sides;  ///< to wrap around; infinite where distances are straight
+};
 
-/// places[i] = distance of p and point first + i, times the scale, at most `last`.
 template <std::size_t D>
-[[gnu::always_inline]] inline void places_of(const std::array<const double*, D>& columns,
-                                             std::size_t count, const std::array<double, D>& p,
-                                             const std::array<double, D>& sides, double scale,
-                                             double last, double* places, std::int32_t* bins) {
+[[gnu::always_inline]] inline void find_places_in(const FromPlace& from, std::size_t count,
+                                                  double scale, double last, double* places,
+                                                  std::int32_t* bins) {
+    const auto [dimension, columns, p, sides] = from;
     for (std::size_t i = 0; i < count; ++i) {
         double sum = 0;
         for (std::size_t k = 0; k < D; ++k) {
@@ -32,27 +35,18 @@ template <std::size_t D>
             gap = gap < sides[k] - gap ? gap : sides[k] - gap;
             sum += gap * gap;
         }
-        double place = std::sqrt(sum) * scale;
-        place = place < last ? place : last;
-        places[i] = place;
-        bins[i] = static_cast<std::int32_t>(place);
+        const double place = std::sqrt(sum) * scale;
+        places[i] = place < last ? place : last;
+        bins[i] = static_cast<std::int32_t>(places[i]);
     }
 }
 
-STIPPLE_WIDE void places_1(const std::array<const double*, 1>& columns, std::size_t count,
-                           const std::array<double, 1>& p, const std::array<double, 1>& sides,
-                           double scale, double last, double* places, std::int32_t* bins) {
-    places_of<1>(columns, count, p, sides, scale, last, places, bins);
-}
-STIPPLE_WIDE void places_2(const std::array<const double*, 2>& columns, std::size_t count,
-                           const std::array<double, 2>& p, const std::array<double, 2>& sides,
-                           double scale, double last, double* places, std::int32_t* bins) {
-    places_of<2>(columns, count, p, sides, scale, last, places, bins);
-}
-STIPPLE_WIDE void places_3(const std::array<const double*, 3>& columns, std::size_t count,
-                           const std::array<double, 3>& p, const std::array<double, 3>& sides,
-                           double scale, double last, double* places, std::int32_t* bins) {
-    places_of<3>(columns, count, p, sides, scale, last, places, bins);
+/// places[i] = distance of point i, times the scale, at most `last`; bins[i] its whole part.
+STIPPLE_WIDE void find_places(const FromPlace& from, std::size_t count, double scale, double last,
+                              double* places, std::int32_t* bins) {
+    if (from.dimension == 1) return find_places_in<1>(from, count, scale, last, places, bins);
+    if (from.dimension == 2) return find_places_in<2>(from, count, scale, last, places, bins);
+    find_places_in<3>(from, count, scale, last, places, bins);
 }
 
 /// What one block of points found.
@@ -85,8 +79,6 @@ struct Tally {
 template <std::size_t D>
 class PairCounter {
   public:
-    using Point = std::array<double, D>;
-
     PairCounter(const PointSet& points, const Distances& distances, double width, std::size_t bins,
                 bool with_offsets, const RunContext& run)
         : points_(GridFrame<D>(
@@ -133,19 +125,14 @@ class PairCounter {
 
     /// Counts the pairs of point s and some points from `from` on.
     void measure(std::size_t s, std::size_t from, std::size_t size, Tally& tally) const {
-        Point p;
-        for (std::size_t k = 0; k < D; ++k) p[k] = columns_[k][s];
+        FromPlace here{D, {}, {}, sides_};
+        for (std::size_t k = 0; k < D; ++k) {
+            here.columns[k] = columns_[k].data() + from;
+            here.place[k] = columns_[k][s];
+        }
         std::array<double, batch_size> places;
         std::array<std::int32_t, batch_size> bins;
-        std::array<const double*, D> columns;
-        for (std::size_t k = 0; k < D; ++k) columns[k] = columns_[k].data() + from;
-        const auto last = static_cast<double>(bins_);
-        if constexpr (D == 1)
-            places_1(columns, size, p, sides_, scale_, last, places.data(), bins.data());
-        else if constexpr (D == 2)
-            places_2(columns, size, p, sides_, scale_, last, places.data(), bins.data());
-        else
-            places_3(columns, size, p, sides_, scale_, last, places.data(), bins.data());
+        find_places(here, size, scale_, static_cast<double>(bins_), places.data(), bins.data());
         tally.add(places.data(), bins.data(), size);
     }
 
@@ -169,12 +156,12 @@ class PairCounter {
     }
 
     SortedPoints<D> points_;
-    Point sides_{};  ///< to wrap around; infinite where distances are straight
+    std::array<double, 3> sides_{};
     double scale_;
     std::size_t bins_;
     bool with_offsets_;
     const RunContext& run_;
-    Columns<D> columns_;
+    std::array<std::vector<double>, D> columns_;  ///< the points cell by cell, axis after axis
 };
 
 }  // namespace

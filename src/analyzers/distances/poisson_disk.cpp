@@ -10,9 +10,9 @@
 // across opposite faces, unless --metric or the provenance (bounded) says that they do not. Sets
 // made with a density, a map of radii or a mask are refused without --radius.
 //
-// The largest empty ball (analyzers/distances/empty_ball.hpp) decides on the second. The last gaps that a
-// generator fills are as small as rounding, so that a radius larger than R by less than --tolerance
-// is let pass; no disk fits into such a gap but within a part of R of about the tolerance's size.
+// The largest empty ball decides on the second (empty_ball.hpp). The last gaps that a generator fills
+// are as small as rounding, so a radius larger than R by less than --tolerance passes; a disk fits
+// into such a gap only within a part of R of about the tolerance's size.
 //
 // Shape   points n x d, d <= 32.
 // Cost    that of `coverage`; 10^6 points in 2-D take 3 s on one core. To count conflicts takes
@@ -181,10 +181,7 @@ void refine(Report& mean, std::size_t sets, const Values& options) {
     const bool* valid = item ? std::get_if<bool>(item) : nullptr;
     if (options.given(expect) && !(valid && *valid))
         mean.unmet(fmt::format("of {} sets, not all are maximal Poisson-disk sets", sets));
-    if (sets > 1)
-        std::erase_if(mean.entries(), [](const auto& entry) {
-            return entry.name == "center" || entry.name == "first_conflict";
-        });
+    if (sets > 1) drop(mean, {"center", "first_conflict"});
 }
 
 }  // namespace

@@ -62,7 +62,7 @@
 #include "math/densities/expression.hpp"
 #include "math/densities/quadrature.hpp"
 #include "math/functions/distributions.hpp"
-#include "math/integrands/integrand.hpp"
+#include "math/integrands/integrands.hpp"
 
 namespace stipple::analyzers::integration {
 namespace {
@@ -379,7 +379,7 @@ Sums sums_over(const PointSet& points, const RegionView& view, const std::vector
     });
     Sums all;
     for (const Sums& part : parts) all.add(part);
-    if (all.outside.count > 0) refuse(all.outside, points, outside_hint(domain));
+    if (all.outside.count > 0) refuse(all.outside, points.count(), domain, outside_hint(domain));
     if (all.fault.point < points.count()) refuse(all.fault, tasks, domain);
     return all;
 }
@@ -544,49 +544,50 @@ void combine(Report& mean, std::span<const Report> sets, const Values&) {
     }
 }
 
+std::vector<ResultKey> results() {
+    return {{"INTEGRAND.estimate", "mean of f / p, where p is the density of the points"},
+            {"INTEGRAND.exact", "the integral; of an expression, if --exact tells it"},
+            {"INTEGRAND.error", "estimate - exact"},
+            {"INTEGRAND.exact_error", "what exact may be off by, where it is by quadrature", false},
+            {"support.whole",
+             "false where the density is 0 on a part of the domain: all is then of the rest", false,
+             true_or_false},
+            {"support.measure", "of that rest, where it is known", false},
+            {"support.measure_error", "what it may be off by; of an estimate, one standard error",
+             false},
+            {"support.measure_is_estimate",
+             "true: --compare found the measure from the points' weights, as nobody knows it",
+             false, true_or_false},
+            {"support.meaning", "the same in words", false},
+            {"INTEGRAND.standard_error",
+             "of the estimate: of several sets (--average) from the spread between them; of one "
+             "set only if its meta says that its points are independent (generator random)",
+             false},
+            {"INTEGRAND.interval_low",
+             "of several sets (--average): the 95 % confidence interval, by Student's t", false},
+            {"INTEGRAND.interval_high", "its other end", false},
+            {"INTEGRAND.rms_error", "of several sets (--average): root mean square of their errors",
+             false},
+            {"compare.INTEGRAND.importance_estimate", "--compare: the estimate", false},
+            {"compare.INTEGRAND.importance_variance", "variance of f / p over the points", false},
+            {"compare.INTEGRAND.uniform_estimate", "estimate by uniform points", false},
+            {"compare.INTEGRAND.uniform_variance",
+             "variance of the domain's measure times f over uniform points", false},
+            {"compare.INTEGRAND.variance_ratio",
+             "uniform over importance: above 1, importance sampling pays", false}};
+}
+
 }  // namespace
 
 Analyzer unit() {
-    return {
-        .name = "integration",
-        .summary = "Integrals of functions with known integrals, and their errors",
-        .source = "Genz 1984; Owen 2003",
-        .traits = {.max_dimension = 10'000, .unit_cube = false},
-        .options = Schema(integrand, expression, exact, compare),
-        .results =
-            {{"INTEGRAND.estimate", "mean of f / p, where p is the density of the points"},
-             {"INTEGRAND.exact", "the integral; of an expression, if --exact tells it"},
-             {"INTEGRAND.error", "estimate - exact"},
-             {"INTEGRAND.exact_error", "what exact may be off by, where it is by quadrature",
-              false},
-             {"support.whole",
-              "false where the density is 0 on a part of the domain: all is then of the rest",
-              false, true_or_false},
-             {"support.measure", "of that rest, where it is known", false},
-             {"support.measure_error", "what it may be off by; of an estimate, one standard error",
-              false},
-             {"support.measure_is_estimate",
-              "true: --compare found the measure from the points' weights, as nobody knows it",
-              false, true_or_false},
-             {"support.meaning", "the same in words", false},
-             {"INTEGRAND.standard_error",
-              "of the estimate: of several sets (--average) from the spread between them; of one "
-              "set only if its meta says that its points are independent (generator random)",
-              false},
-             {"INTEGRAND.interval_low",
-              "of several sets (--average): the 95 % confidence interval, by Student's t", false},
-             {"INTEGRAND.interval_high", "its other end", false},
-             {"INTEGRAND.rms_error",
-              "of several sets (--average): root mean square of their errors", false},
-             {"compare.INTEGRAND.importance_estimate", "--compare: the estimate", false},
-             {"compare.INTEGRAND.importance_variance", "variance of f / p over the points", false},
-             {"compare.INTEGRAND.uniform_estimate", "estimate by uniform points", false},
-             {"compare.INTEGRAND.uniform_variance",
-              "variance of the domain's measure times f over uniform points", false},
-             {"compare.INTEGRAND.variance_ratio",
-              "uniform over importance: above 1, importance sampling pays", false}},
-        .analyze = analyze,
-        .combine = combine};
+    return {.name = "integration",
+            .summary = "Integrals of functions with known integrals, and their errors",
+            .source = "Genz 1984; Owen 2003",
+            .traits = {.max_dimension = 10'000, .unit_cube = false},
+            .options = Schema(integrand, expression, exact, compare),
+            .results = results(),
+            .analyze = analyze,
+            .combine = combine};
 }
 
 }  // namespace stipple::analyzers::integration

@@ -11,6 +11,8 @@
 
 #include <cmath>
 
+#include "math/functions/double_double.hpp"
+
 namespace stipple::analyzers {
 
 class Tally {
@@ -45,9 +47,9 @@ class Tally {
 
   private:
     void carried(double x) {
-        const double next = sum_ + x;
-        carry_ += std::abs(sum_) >= std::abs(x) ? (sum_ - next) + x : (x - next) + sum_;
-        sum_ = next;
+        const DoubleDouble next = exact_sum(sum_, x);
+        sum_ = next.high;
+        carry_ += next.low;
     }
 
     double count_ = 0;

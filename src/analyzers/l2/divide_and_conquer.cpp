@@ -237,7 +237,7 @@ class Division {
     /// Sums of points that went by, over the terms of their first axis.
     using Passed = std::array<Weights, rank>;
 
-    /// Pairs of the items [first, last) of a level, of different sides of the axis r (on the highest
+    /// Pairs of the items [first, last) of a level, on different sides of axis r (on the highest
     /// level: all); they come in order of axis r - 1 and leave in that of r - 2.
     void solve(std::size_t r, std::size_t first, std::size_t last, FixedSum& sum) {
         const std::size_t size = last - first;

@@ -31,8 +31,8 @@
 //         for 131 072 points (all pairs: 18 s) and 80 s for 10^6 (20 minutes).
 // Beware  in four dimensions three products a kernel would be 81 weights of a point, and all pairs
 //         are quicker.
-// Promise the same for any number of threads. `error` bounds what rounding did, and what coordinates
-//         lose that are no multiples of 2^-63, most below 2^-10.
+// Promise the same for any number of threads. `error` bounds the rounding, also that of coordinates
+//         that are no multiples of 2^-63, most of them below 2^-10.
 // Source  S. Heinrich, Math. Comp. 65 (1996) 1621-1633, doi:10.1090/S0025-5718-96-00756-4;
 //         K. Frank, S. Heinrich, J. Complexity 12 (1996) 287-314.
 #pragma once

@@ -237,14 +237,10 @@ Integer dominance(std::vector<Item>& items, const RunContext& run) {
 
     for (std::size_t width = stretch; width < n; width *= 2) {
         std::vector<LongSum> merged(block_count(n, 2 * width));
-        for_each_block(
-            run, n, 2 * width,
-            [&](const Block& block) {
-                merge(items.data() + block.first, std::min(width, block.last - block.first),
-                      block.last - block.first, other.data() + block.first, merged[block.index],
-                      run);
-            },
-            true);
+        for_each_block(silent(run), n, 2 * width, [&](const Block& block) {
+            merge(items.data() + block.first, std::min(width, block.last - block.first),
+                  block.last - block.first, other.data() + block.first, merged[block.index], run);
+        });
         for (const LongSum& sum : merged) total += sum.value();
         items.swap(other);
     }

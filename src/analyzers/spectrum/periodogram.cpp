@@ -35,8 +35,8 @@
 //         1e100 in size; the 2-D power has row = f_1, column = f_0, -F..F.
 // Units   cycles a unit length (of a box: a side); published tables give the effective Nyquist
 //         frequency over `regular_nyquist`, n^(1/d) / 2, which is that of a regular grid.
-// Cost    O(n w^d + (4F)^d log F), see math/fourier/nufft.hpp; `direct` O(n (2F)^d). Sets of up to 2^20
-//         points are kept until their number is known; of more, no more than a batch.
+// Cost    O(n w^d + (4F)^d log F), see math/fourier/nufft.hpp; `direct` O(n (2F)^d). Sets of up to
+//         2^20 points are kept until their number is known; of more, no more than a batch.
 // Promise the same for any number of threads, and whether points come at once or in pieces; in any
 //         run, too, but for last bits where FFTW measures its plans: with --wisdom, and for
 //         transforms of more than 10 seconds.
@@ -192,8 +192,7 @@ void summarize(Report& report, const Grid& power, std::size_t sets, const Values
     report.add("oscillation", swings.value);
     report.add("oscillation_complete", swings.complete);
     report.add("total_variation", total_variation(rings));
-    std::erase_if(report.entries(),
-                  [](const auto& e) { return e.name == "low_frequency_exponent"; });
+    drop(report, {"low_frequency_exponent"});
     if (const auto slope = low_frequency_exponent(rings, regular, least))
         report.add("low_frequency_exponent", *slope);
 }
@@ -411,26 +410,18 @@ class Summation final : public SharedAccumulator {
         } else {
             nufft_.emplace(count, d_, frequency_, options_[tolerance], weighted);
             run.need_memory(std::max(2 * sums, nufft_->bytes()) + kept, cause);
-            sum_ = count == most_points ? open_summation(run, cause)
-                                        : std::make_unique<FourierSummation>(*nufft_);
+            if (count == most_points) need_block_sums(run, cause);
+            sum_ = std::make_unique<FourierSummation>(*nufft_);
         }
         take(buffer_, run);
         buffer_ = {};
     }
 
-    /// Of a large set; its sums must not depend on whether its size was announced.
-    [[nodiscard]] std::unique_ptr<FourierSummation> open_summation(const RunContext& run,
-                                                                   const std::string& cause) const {
-        const std::uint64_t block = FourierSummation::block_of(*nufft_);
-        // What is summed over blocks takes twice the grid, and what the first came to is kept.
-        if (announced_ == 0 || announced_ > block)
-            run.need_memory(nufft_->bytes() +
-                                16 * std::pow(static_cast<double>(nufft_->side()), d_) +
-                                16 * fourier_sums_size(d_, frequency_),
-                            cause);
-        if (at_ > 0) return std::make_unique<FourierSummation>(*nufft_);
-        const Nufft first(block, d_, frequency_, options_[tolerance], nufft_->weighted());
-        return std::make_unique<FourierSummation>(first, *nufft_);
+    /// Of a large set: what is summed over blocks takes twice the grid.
+    void need_block_sums(const RunContext& run, const std::string& cause) const {
+        if (announced_ > 0 && announced_ <= FourierSummation::block_of(*nufft_)) return;
+        run.need_memory(nufft_->bytes() + 16 * std::pow(static_cast<double>(nufft_->side()), d_),
+                        cause);
     }
 
     void take(std::span<const double> points, const RunContext& run) {

@@ -149,13 +149,10 @@ std::size_t shifted_cell_of(std::span<const double> cube, const CellGrid& grid) 
 std::vector<Estimate> cell_masses(const Domain& domain, const CellGrid& grid, bool shifted,
                                   const RunContext& run) {
     std::vector<Estimate> masses(cell_count(grid));
-    for_each_block(
-        run, masses.size(), 4,
-        [&](const Block& block) {
-            for (std::uint64_t c = block.first; c < block.last; ++c)
-                masses[c] = mass_of(domain, pieces_of(c, grid, shifted));
-        },
-        true);
+    for_each_block(silent(run), masses.size(), 4, [&](const Block& block) {
+        for (std::uint64_t c = block.first; c < block.last; ++c)
+            masses[c] = mass_of(domain, pieces_of(c, grid, shifted));
+    });
     Estimate sum;
     for (const Estimate& mass : masses) {
         sum.value += mass.value;

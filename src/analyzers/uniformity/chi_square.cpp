@@ -57,13 +57,13 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
-#include <mutex>
 #include <optional>
 
 #include "analyzers/analyzer.hpp"
-#include "analyzers/outside.hpp"
 #include "analyzers/uniformity/cell_grid.hpp"
+#include "analyzers/uniformity/cube_rows.hpp"
 #include "analyzers/uniformity/pearson.hpp"
 #include "analyzers/uniformity/verdict.hpp"
 #include "core/error.hpp"
@@ -107,16 +107,29 @@ class Gaps {
                                std::max(std::abs(around.low[k]), std::abs(around.high[k])));
     }
 
+    /// How many points of these rows they hold.
+    [[nodiscard]] std::uint64_t count(std::span<const double> rows, const RunContext& run) const {
+        if (support_.whole) return 0;
+        const std::size_t d = domain_->dimension();
+        std::atomic<std::uint64_t> found = 0;
+        for_each_block(silent(run), rows.size() / d, 4096, [&](const Block& block) {
+            std::uint64_t mine = 0;
+            for (std::uint64_t i = block.first; i < block.last; ++i)
+                mine += hold(rows.subspan(i * d, d));
+            found += mine;
+        });
+        return found;
+    }
+
+  private:
+    static constexpr double rounding = 1e-6;
+
     [[nodiscard]] bool hold(std::span<const double> point) const {
-        if (support_.whole) return false;
         if (support_.boxes.empty())
             return support_.by_density && point.size() == 2 && dark_around(point);
         return std::ranges::none_of(support_.boxes,
                                     [&](const Box& box) { return near(box, point); });
     }
-
-  private:
-    static constexpr double rounding = 1e-6;
 
     [[nodiscard]] bool near(const Box& box, std::span<const double> point) const {
         for (std::size_t k = 0; k < point.size(); ++k)
@@ -279,13 +292,9 @@ class Counter final : public SharedAccumulator {
     }
 
     void add(std::span<const double> rows, const RunContext& run) override {
-        const std::size_t d = domain_->dimension();
-        const std::uint64_t count = rows.size() / d;
-        const std::size_t block = std::max<std::size_t>(1, 16384 / d);
-        for_each_block(run, count, block, [&](const Block& b) {
-            take(rows.subspan(b.first * d, (b.last - b.first) * d), first_ + n_ + b.first);
-        });
-        n_ += count;
+        const auto cubes = cube_rows(*domain_, rows, first_ + n_, outside_, run);
+        if (outside_.count == 0) take(rows, cubes, run);
+        n_ += rows.size() / domain_->dimension();
         if (tallies_.empty() && n_ > held_points) lay_grids(run);
         while (tallies_.size() > 1 && tallies_[1].from() <= n_) tallies_.erase(tallies_.begin());
     }
@@ -318,33 +327,15 @@ class Counter final : public SharedAccumulator {
     }
 
   private:
-    /// Rows of which the first is point `first`.
-    void take(std::span<const double> rows, std::uint64_t first) {
-        const std::size_t d = domain_->dimension();
-        std::vector<double> cube(axes_);
-        std::vector<double> cubes;
-        Outside outside;
-        std::uint64_t in_gaps = 0;
-        for (std::size_t i = 0; i < rows.size(); i += d) {
-            const auto point = rows.subspan(i, d);
-            if (!domain_->contains(point)) {
-                outside.add(first + i / d, point);
-                continue;
-            }
-            in_gaps += gaps_.hold(point);
-            domain_->to_cube(point, cube);
-            cubes.insert(cubes.end(), cube.begin(), cube.begin() + kept_axes());
+    /// Points with their coordinates in the cube.
+    void take(std::span<const double> rows, std::span<const double> cubes, const RunContext& run) {
+        in_gaps_ += gaps_.count(rows, run);
+        for (Tally& tally : tallies_) tally.add(cubes, axes_);
+        if (!tallies_.empty()) return;
+        for (std::size_t i = 0; i < cubes.size(); i += axes_) {
+            const auto cube = cubes.subspan(i, width_);
+            held_.insert(held_.end(), cube.begin(), cube.end());
         }
-        const std::lock_guard lock(adding_);
-        outside_.add(outside);
-        in_gaps_ += in_gaps;
-        const auto width = static_cast<std::size_t>(kept_axes());
-        for (Tally& tally : tallies_) tally.add(cubes, width);
-        if (tallies_.empty()) held_.insert(held_.end(), cubes.begin(), cubes.end());
-    }
-
-    [[nodiscard]] std::ptrdiff_t kept_axes() const {
-        return static_cast<std::ptrdiff_t>(width_ > 0 ? width_ : axes_);
     }
 
     /// All grids that it may be in the end, each with the points that were held.
@@ -390,13 +381,12 @@ class Counter final : public SharedAccumulator {
     Values options_;
     std::size_t axes_;
     std::uint64_t first_ = 0;  ///< index of the first point that comes
-    std::size_t width_ = 0;    ///< coordinates of the cube that are kept; 0: all
+    std::size_t width_ = 0;    ///< coordinates of the cube that are held
     std::uint64_t n_ = 0;
     std::uint64_t in_gaps_ = 0;
     std::vector<Tally> tallies_;
     std::vector<double> held_;
     Outside outside_;
-    std::mutex adding_;
 };
 
 void refine(Report& mean, std::size_t sets, const Values& options) {

@@ -28,22 +28,20 @@ std::vector<double> cube_rows(const Domain& domain, std::span<const double> rows
     const std::size_t axes = domain.cube_dimension();
     std::vector<double> cubes(rows.size() / d * axes);
     std::mutex adding;
-    for_each_block(
-        run, rows.size() / d, std::max<std::size_t>(1, 16384 / d),
-        [&](const Block& block) {
-            Outside found;
-            for (std::uint64_t i = block.first; i < block.last; ++i) {
-                const auto point = rows.subspan(i * d, d);
-                if (domain.contains(point))
-                    domain.to_cube(point, std::span(cubes).subspan(i * axes, axes));
-                else
-                    found.add(first + i, point);
-            }
-            if (found.count == 0) return;
-            const std::lock_guard lock(adding);
-            outside.add(found);
-        },
-        true);
+    for_each_block(silent(run), rows.size() / d, std::max<std::size_t>(1, 16384 / d),
+                   [&](const Block& block) {
+                       Outside found;
+                       for (std::uint64_t i = block.first; i < block.last; ++i) {
+                           const auto point = rows.subspan(i * d, d);
+                           if (domain.contains(point))
+                               domain.to_cube(point, std::span(cubes).subspan(i * axes, axes));
+                           else
+                               found.add(first + i, point);
+                       }
+                       if (found.count == 0) return;
+                       const std::lock_guard lock(adding);
+                       outside.add(found);
+                   });
     return cubes;
 }
 

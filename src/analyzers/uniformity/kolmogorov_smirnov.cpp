@@ -13,8 +13,8 @@
 //
 // Sets of more than 2^26 coordinates (--exact-points says otherwise) are not kept: the points are
 // counted in as many cells of each axis (a power of two, at least 4096 and at most 2^26 / d), of
-// which the ends are exact. There D is a
-// maximum over the ends of cells, and below what it is by no more than
+// which the ends are exact. There D is a maximum over the ends of cells, and below what it is by no
+// more than
 //
 //     statistic_error = the longest way from one end of a cell to the next, of i/n and of u,
 //
@@ -187,14 +187,11 @@ class Collector final : public SharedAccumulator {
     /// Every axis on a thread: its counts are its own.
     void count(std::span<const double> cubes, const RunContext& run) {
         const auto cells = static_cast<double>(cells_);
-        for_each_block(
-            run, axes_, 1,
-            [&](const Block& axis) {
-                std::uint64_t* counts = counts_.data() + axis.first * cells_;
-                for (std::size_t i = axis.first; i < cubes.size(); i += axes_)
-                    ++counts[std::min(static_cast<std::uint64_t>(cubes[i] * cells), cells_ - 1)];
-            },
-            true);
+        for_each_block(silent(run), axes_, 1, [&](const Block& axis) {
+            std::uint64_t* counts = counts_.data() + axis.first * cells_;
+            for (std::size_t i = axis.first; i < cubes.size(); i += axes_)
+                ++counts[std::min(static_cast<std::uint64_t>(cubes[i] * cells), cells_ - 1)];
+        });
     }
 
     [[nodiscard]] Distance distance(std::size_t axis, std::vector<Placed>& sorted,

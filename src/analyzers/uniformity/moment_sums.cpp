@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "math/functions/double_double.hpp"
 
 namespace stipple::analyzers {
 namespace {
@@ -51,10 +52,9 @@ void MomentSums::add_block(std::span<const double> rows, std::span<double> sums)
 
 void MomentSums::Node::add(std::span<const double> more) {
     for (std::size_t i = 0; i < more.size(); ++i) {
-        const double total = sums[i] + more[i];
-        const bool larger = std::abs(sums[i]) >= std::abs(more[i]);
-        carries[i] += larger ? (sums[i] - total) + more[i] : (more[i] - total) + sums[i];
-        sums[i] = total;
+        const DoubleDouble total = exact_sum(sums[i], more[i]);
+        sums[i] = total.high;
+        carries[i] += total.low;
     }
 }
 
@@ -68,13 +68,10 @@ void MomentSums::add(std::span<const double> rows, const RunContext& run) {
     const std::uint64_t count = rows.size() / d;
     const std::uint64_t block = std::max<std::size_t>(1, 8192 / d);
     std::vector<std::vector<double>> parts(block_count(count, block));
-    for_each_block(
-        run, count, block,
-        [&](const Block& b) {
-            parts[b.index].resize(size());
-            add_block(rows.subspan(b.first * d, (b.last - b.first) * d), parts[b.index]);
-        },
-        true);
+    for_each_block(silent(run), count, block, [&](const Block& b) {
+        parts[b.index].resize(size());
+        add_block(rows.subspan(b.first * d, (b.last - b.first) * d), parts[b.index]);
+    });
     Node batch{.first = next_++,
                .sums = std::vector<double>(size()),
                .carries = std::vector<double>(size())};

@@ -139,15 +139,12 @@ class Order final : public Accumulator {
         const std::size_t axes = sums_.size();
         const std::size_t block = std::max<std::size_t>(1, 16384 / axes);
         std::vector<std::vector<AxisSums>> parts(block_count(last - first, block));
-        for_each_block(
-            run, last - first, block,
-            [&](const Block& b) {
-                auto& part = parts[b.index];
-                part.assign(axes, AxisSums{.products = std::vector<double>(lags_)});
-                for (std::size_t axis = 0; axis < axes; ++axis)
-                    sum_axis(tail_, axes, axis, first + b.first, first + b.last, part[axis]);
-            },
-            true);
+        for_each_block(silent(run), last - first, block, [&](const Block& b) {
+            auto& part = parts[b.index];
+            part.assign(axes, AxisSums{.products = std::vector<double>(lags_)});
+            for (std::size_t axis = 0; axis < axes; ++axis)
+                sum_axis(tail_, axes, axis, first + b.first, first + b.last, part[axis]);
+        });
         for (const auto& part : parts)
             for (std::size_t axis = 0; axis < axes; ++axis) sums_[axis].add(part[axis]);
     }

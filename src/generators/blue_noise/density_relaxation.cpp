@@ -310,23 +310,20 @@ class Quadtree {
 void all_forces(const std::vector<Body>& points, const std::vector<Octave>& density,
                 const PlaneSides& sides, std::span<double> forces, const RunContext& run) {
     const std::vector<Octave> moving = octaves(sides, points);
-    for_each_block(
-        run, points.size(), 32,
-        [&](const Block& block) {
-            NearBodies near;
-            for (std::uint64_t i = block.first; i < block.last; ++i) {
-                const Body& point = points[i];
-                near.count = 0;
-                for (const auto* group : {&moving, &density})
-                    for (const Octave& octave : *group)
-                        octave.gather(point.x, point.y, point.square, near);
-                near.pad();
-                const auto [fx, fy] = force_at(point.x, point.y, point.square, near);
-                forces[2 * i] = fx;
-                forces[2 * i + 1] = fy;
-            }
-        },
-        true);
+    for_each_block(silent(run), points.size(), 32, [&](const Block& block) {
+        NearBodies near;
+        for (std::uint64_t i = block.first; i < block.last; ++i) {
+            const Body& point = points[i];
+            near.count = 0;
+            for (const auto* group : {&moving, &density})
+                for (const Octave& octave : *group)
+                    octave.gather(point.x, point.y, point.square, near);
+            near.pad();
+            const auto [fx, fy] = force_at(point.x, point.y, point.square, near);
+            forces[2 * i] = fx;
+            forces[2 * i + 1] = fy;
+        }
+    });
 }
 
 }  // namespace

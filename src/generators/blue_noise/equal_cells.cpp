@@ -64,14 +64,11 @@ void EqualCells::measure() {
     std::vector<std::vector<Bond>> found(block_count(count(), size));
     sites_.set_weights(weights_);
     const RunContext part = worth_threads(run_, 2e-6 * static_cast<double>(count()));
-    for_each_block(
-        part, count(), size,
-        [&](const Block& block) {
-            VoronoiCell cell;
-            for (std::uint64_t i = block.first; i < block.last; ++i)
-                measure_cell(i, cell, found[block.index]);
-        },
-        true);
+    for_each_block(silent(part), count(), size, [&](const Block& block) {
+        VoronoiCell cell;
+        for (std::uint64_t i = block.first; i < block.last; ++i)
+            measure_cell(i, cell, found[block.index]);
+    });
     bonds_.clear();
     for (const auto& bonds : found) bonds_.insert(bonds_.end(), bonds.begin(), bonds.end());
 }

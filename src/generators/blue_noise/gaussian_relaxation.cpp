@@ -310,14 +310,10 @@ class Kernels {
 void all_forces(Kernels& kernels, std::span<double> forces, const RunContext& run) {
     kernels.sort();
     constexpr std::uint64_t size = 64;  // cells
-    for_each_block(
-        run, kernels.cells(), size,
-        [&](const Block& block) {
-            Workspace work;
-            for (std::uint64_t c = block.first; c < block.last; ++c)
-                kernels.forces_in(c, work, forces);
-        },
-        true);
+    for_each_block(silent(run), kernels.cells(), size, [&](const Block& block) {
+        Workspace work;
+        for (std::uint64_t c = block.first; c < block.last; ++c) kernels.forces_in(c, work, forces);
+    });
 }
 
 /// The run for one step.

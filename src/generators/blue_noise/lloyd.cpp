@@ -58,14 +58,11 @@ class Lloyd {
     void iterate(std::uint64_t iteration) {
         const std::size_t n = order_.size();
         const RunContext part = worth_threads(run_, 1.3e-6 * static_cast<double>(n));
-        for_each_block(
-            part, n, 1024,
-            [&](const Block& block) {
-                VoronoiCell cell;
-                for (std::uint64_t i = block.first; i < block.last; ++i)
-                    next_[i] = better_place(i, iteration, cell);
-            },
-            true);
+        for_each_block(silent(part), n, 1024, [&](const Block& block) {
+            VoronoiCell cell;
+            for (std::uint64_t i = block.first; i < block.last; ++i)
+                next_[i] = better_place(i, iteration, cell);
+        });
         for (std::size_t i = 0; i < n; ++i) sites_.move(i, next_[i]);
     }
 

@@ -32,9 +32,8 @@ class OpenTiles {
     /// @throws Error(cancelled)
     template <class Tile, class Work>
     void for_each(std::vector<Tile>& tiles, const Work& work) const {
-        for_each_block(
-            run_, numbers_.size(), 1,
-            [&](const Block& b) { work(tiles[numbers_[b.first]], numbers_[b.first]); }, true);
+        for_each_block(silent(run_), numbers_.size(), 1,
+                       [&](const Block& b) { work(tiles[numbers_[b.first]], numbers_[b.first]); });
     }
 
     /// Leaves out those that are closed(tile) now.

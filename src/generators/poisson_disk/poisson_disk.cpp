@@ -219,17 +219,16 @@ Rows shuffled(const Rows& rows, const Plan& plan, const RunContext& run) {
     const auto to = out.numbers();
     const std::uint64_t count = from.size() / d;
     const Permutation permutation(count, Rng(plan.seed, ~std::uint64_t{1}).bits(0));
-    for_each_block(
-        worth_threads(run, 3e-8 * static_cast<double>(count)), count, block,
-        [&](const Block& b) {
-            std::array<double, block> images;
-            permutation.fill(b.first, std::span(images).first(b.last - b.first));
-            for (std::uint64_t i = b.first; i < b.last; ++i)
-                std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(i * d), d,
-                            to.begin() + static_cast<std::ptrdiff_t>(images[i - b.first]) *
-                                             static_cast<std::ptrdiff_t>(d));
-        },
-        true);
+    for_each_block(silent(worth_threads(run, 3e-8 * static_cast<double>(count))), count, block,
+                   [&](const Block& b) {
+                       std::array<double, block> images;
+                       permutation.fill(b.first, std::span(images).first(b.last - b.first));
+                       for (std::uint64_t i = b.first; i < b.last; ++i)
+                           std::copy_n(
+                               from.begin() + static_cast<std::ptrdiff_t>(i * d), d,
+                               to.begin() + static_cast<std::ptrdiff_t>(images[i - b.first]) *
+                                                static_cast<std::ptrdiff_t>(d));
+                   });
     return out;
 }
 

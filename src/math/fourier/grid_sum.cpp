@@ -52,25 +52,19 @@ void GridSum::add(std::span<const double> cells, int exponent, const RunContext&
     const double factor = std::ldexp(1.0, -exponent);
     coarse_.resize(cells.size());
     fine_.resize(cells.size());
-    for_each_block(
-        run, cells.size(), block,
-        [&](const Block& b) {
-            add_cells(cells.data() + b.first, factor, b.last - b.first, coarse_.data() + b.first,
-                      fine_.data() + b.first);
-        },
-        true);
+    for_each_block(silent(run), cells.size(), block, [&](const Block& b) {
+        add_cells(cells.data() + b.first, factor, b.last - b.first, coarse_.data() + b.first,
+                  fine_.data() + b.first);
+    });
 }
 
 void GridSum::copy_to(std::span<double> cells, int exponent, const RunContext& run) const {
     const double factor = std::ldexp(1.0, exponent);
-    for_each_block(
-        run, cells.size(), block,
-        [&](const Block& b) {
-            for (std::uint64_t i = b.first; i < b.last; ++i)
-                cells[i] = (signed_of(coarse_[i]) * coarse_unit + signed_of(fine_[i]) * fine_unit) *
-                           factor;
-        },
-        true);
+    for_each_block(silent(run), cells.size(), block, [&](const Block& b) {
+        for (std::uint64_t i = b.first; i < b.last; ++i)
+            cells[i] =
+                (signed_of(coarse_[i]) * coarse_unit + signed_of(fine_[i]) * fine_unit) * factor;
+    });
 }
 
 void GridSum::pack(Packer& to) const { to.put_all(coarse_).put_all(fine_); }

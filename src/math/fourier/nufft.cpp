@@ -121,40 +121,31 @@ double Nufft::error(double count) const {
     return reserve * static_cast<double>(dimension_) * window_.error() * std::sqrt(count);
 }
 
-FourierSummation::FourierSummation(const Nufft& nufft) : block_(block_of(nufft)) { begin(nufft); }
-
-FourierSummation::FourierSummation(const Nufft& first, const Nufft& later)
-    : later_(later), block_(block_of(later)) {
-    begin(first);
-}
-
-void FourierSummation::begin(const Nufft& nufft) {
-    nufft_ = nufft;
-    spreader_.reset();
-    const std::size_t stride = stride_of(nufft.side());
-    std::size_t lines = 1;
-    for (std::size_t k = 1; k < nufft.dimension(); ++k) lines *= nufft.side();
-    cells_ = GridCells(lines * stride);
-    grid_ = {.dimension = nufft.dimension(),
-             .side = nufft.side(),
-             .stride = stride,
-             .cells = cells_.get()};
-    spreader_ = std::make_unique<Spreader>(nufft.window(), grid_, nufft.count(), nufft.fold_after(),
-                                           nufft.weighted());
-}
-
 namespace {
+
+std::size_t lines_of(const Nufft& nufft) {
+    return static_cast<std::size_t>(real_power_of(nufft.side(), nufft.dimension() - 1));
+}
 
 /// For the next block.
 void zero(std::span<double> cells, const RunContext& run) {
     constexpr std::uint64_t some = std::uint64_t{1} << 18;
-    for_each_block(
-        run, cells.size(), some,
-        [&](const Block& b) { std::ranges::fill(cells.subspan(b.first, b.last - b.first), 0.0); },
-        true);
+    for_each_block(silent(run), cells.size(), some, [&](const Block& b) {
+        std::ranges::fill(cells.subspan(b.first, b.last - b.first), 0.0);
+    });
 }
 
 }  // namespace
+
+FourierSummation::FourierSummation(const Nufft& nufft)
+    : nufft_(nufft),
+      cells_(lines_of(nufft) * stride_of(nufft.side())),
+      grid_{.dimension = nufft.dimension(),
+            .side = nufft.side(),
+            .stride = stride_of(nufft.side()),
+            .cells = cells_.get()},
+      spreader_(nufft.window(), grid_, nufft.count(), nufft.fold_after(), nufft.weighted()),
+      block_(block_of(nufft)) {}
 
 std::uint64_t FourierSummation::block_of(const Nufft& nufft) {
     constexpr std::uint64_t least = std::uint64_t{1} << 24;
@@ -164,23 +155,20 @@ std::uint64_t FourierSummation::block_of(const Nufft& nufft) {
 }
 
 std::span<double> FourierSummation::cells() const {
-    const double lines = real_power_of(grid_.side, grid_.dimension - 1);
-    return {cells_.get(), static_cast<std::size_t>(lines) * grid_.stride};
+    return {cells_.get(), lines_of(nufft_) * grid_.stride};
 }
 
 void FourierSummation::add(std::span<const double> rows, const RunContext& run) {
-    const std::size_t numbers = grid_.dimension + (nufft_->weighted() ? 1 : 0);
+    const std::size_t numbers = grid_.dimension + (nufft_.weighted() ? 1 : 0);
     while (!rows.empty()) {
-        if (points_ == block_ && later_) {
-            go_on_with_later(run);
-        } else if (points_ == block_) {
+        if (points_ == block_) {
             close_block(run);
             zero(cells(), run);
         }
         const std::uint64_t some = std::min<std::uint64_t>(rows.size() / numbers, block_ - points_);
         const auto here = rows.first(static_cast<std::size_t>(some) * numbers);
-        spreader_->add(here, run);
-        if (nufft_->weighted())
+        spreader_.add(here, run);
+        if (nufft_.weighted())
             for (std::size_t at = numbers - 1; at < here.size(); at += numbers)
                 strongest_ = std::max(strongest_, std::abs(here[at]));
         else
@@ -191,7 +179,7 @@ void FourierSummation::add(std::span<const double> rows, const RunContext& run) 
 }
 
 void FourierSummation::close_block(const RunContext& run) {
-    spreader_->finish(run);
+    spreader_.finish(run);
     sum_.add(cells(), strongest_, run);
     points_ = 0;
     strongest_ = 0;
@@ -202,40 +190,23 @@ void FourierSummation::pack(Packer& to, const RunContext& run) {
     sum_.pack(to);
 }
 
-/// Plans are estimated here: the grid is one that takes no time.
-void FourierSummation::go_on_with_later(const RunContext& run) {
-    early_ = transformed(Planning::estimated, run);
-    begin(*later_);
-    later_.reset();
-    points_ = 0;
-    strongest_ = 0;
-}
-
 void FourierSummation::merge(Unpacker& from, const RunContext& run) {
-    if (later_) go_on_with_later(run);
     if (points_ > 0) close_block(run);
     sum_.merge(from);
 }
 
 FourierSums FourierSummation::finish(Planning planning, const RunContext& run) {
-    FourierSums sums = transformed(planning, run);
-    for (std::size_t i = 0; i < early_.values.size(); ++i) sums.values[i] += early_.values[i];
-    return sums;
-}
-
-FourierSums FourierSummation::transformed(Planning planning, const RunContext& run) {
-    RunContext quiet = run;
-    quiet.progress = {};
-    spreader_->finish(quiet);
+    const RunContext quiet = silent(run);
+    spreader_.finish(quiet);
     if (!sum_.empty()) {
         if (points_ > 0) sum_.add(cells(), strongest_, quiet);
         sum_.copy_to(cells(), quiet);
         sum_ = {};
     }
     std::vector<double> factors;
-    const auto side = static_cast<double>(nufft_->side());
-    for (std::size_t f = 0; f <= nufft_->max_frequency(); ++f)
-        factors.push_back(1 / nufft_->window().scaling(static_cast<double>(f) / side));
+    const auto side = static_cast<double>(nufft_.side());
+    for (std::size_t f = 0; f <= nufft_.max_frequency(); ++f)
+        factors.push_back(1 / nufft_.window().scaling(static_cast<double>(f) / side));
     return transform_grid(std::move(cells_), grid_, factors, planning, run);
 }
 
@@ -325,19 +296,19 @@ void DirectSummation::add(std::span<const double> rows, const RunContext& run) {
     const auto last = static_cast<std::int64_t>(sums_.max_frequency);
     for (std::size_t at = 0; at < rows.size(); at += portion) {
         tables.fill(rows.subspan(at, std::min(portion, rows.size() - at)), numbers, run);
-        for_each_block(
-            run, sums_.values.size() / width, std::max<std::size_t>(1, 4096 / width),
-            [&](const Block& b) {
-                for (std::size_t i = b.first; i < b.last; ++i) {
-                    // Sums of a portion first: rounding errors of long sums stay small.
-                    std::vector<std::complex<double>> row(width);
-                    const auto f1 = dimension > 1 ? static_cast<std::int64_t>(i % span) - last : 0;
-                    const auto f2 = static_cast<std::int64_t>(i / span) - last;
-                    tables.add(f1, f2, row.data());
-                    for (std::size_t f = 0; f < width; ++f) sums_.values[i * width + f] += row[f];
-                }
-            },
-            true);
+        for_each_block(silent(run), sums_.values.size() / width,
+                       std::max<std::size_t>(1, 4096 / width), [&](const Block& b) {
+                           for (std::size_t i = b.first; i < b.last; ++i) {
+                               // Sums of a portion first: rounding errors of long sums stay small.
+                               std::vector<std::complex<double>> row(width);
+                               const auto f1 =
+                                   dimension > 1 ? static_cast<std::int64_t>(i % span) - last : 0;
+                               const auto f2 = static_cast<std::int64_t>(i / span) - last;
+                               tables.add(f1, f2, row.data());
+                               for (std::size_t f = 0; f < width; ++f)
+                                   sums_.values[i * width + f] += row[f];
+                           }
+                       });
         run.tick(std::min(at + portion, rows.size()), rows.size());
     }
 }

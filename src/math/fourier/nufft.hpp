@@ -83,11 +83,6 @@ class FourierSummation {
   public:
     explicit FourierSummation(const Nufft& nufft);
 
-    /// The same of points whose number nobody knows: the first block of them, which is all of most
-    /// sets, has a plan for so many points, and a transform of its own.
-    /// @param later what all further points are planned with.
-    FourierSummation(const Nufft& first, const Nufft& later);
-
     /// Points of a block: as many as cells, so that adding grids costs little, but at least 2^24
     /// and at most 2^26.
     static std::uint64_t block_of(const Nufft& nufft);
@@ -103,18 +98,13 @@ class FourierSummation {
     [[nodiscard]] FourierSums finish(Planning planning, const RunContext& run);
 
   private:
-    void begin(const Nufft& nufft);
     [[nodiscard]] std::span<double> cells() const;
     void close_block(const RunContext& run);
-    void go_on_with_later(const RunContext& run);
-    FourierSums transformed(Planning planning, const RunContext& run);
 
-    std::optional<Nufft> nufft_;
-    std::optional<Nufft> later_;  ///< while the first block has not gone by
+    Nufft nufft_;
     GridCells cells_;
-    CellGrid grid_{};
-    std::unique_ptr<Spreader> spreader_;
-    FourierSums early_;         ///< of the first block, when it has gone by
+    CellGrid grid_;
+    Spreader spreader_;
     std::uint64_t block_;       ///< points
     std::uint64_t points_ = 0;  ///< of the block at hand
     double strongest_ = 0;      ///< of these: its strength, or 1

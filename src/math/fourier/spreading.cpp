@@ -6,7 +6,6 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "core/parallel.hpp"
@@ -28,6 +27,16 @@ constexpr std::size_t streams = 2;
 constexpr std::size_t stream_chunk = std::size_t{1} << 15;
 constexpr std::size_t round_of_streams = streams * stream_chunk;
 constexpr std::size_t sorting_block = std::size_t{1} << 12;  // points that the caches hold
+
+/// Points that are sorted at a time: about as many as cells, but at least 2^20 and at most 2^22.
+std::size_t spreading_batch(const CellGrid& grid) {
+    constexpr std::size_t most = std::size_t{1} << 30;  // counters of 32 bits are enough for it
+    std::size_t cells = 1;
+    for (std::size_t k = 0; k < grid.dimension; ++k) cells = std::min(most, cells * grid.side);
+    // Fewer points than cells would pass over the grid too often.
+    cells = std::clamp(cells, std::size_t{1} << 20, std::size_t{1} << 22);
+    return cells / round_of_streams * round_of_streams;
+}
 
 }  // namespace
 
@@ -52,11 +61,9 @@ class Spreader::Tiling {
                    .coefficients = window.coefficients(),
                    .numbers = grid.dimension + (weighted ? 1 : 0),
                    .extent = (widest_ + WeightTable::row_of(window.width()) + 7) / 8 * 8};
-        common_.plane = common_.extent * common_.extent;
     }
 
     [[nodiscard]] std::size_t count() const { return power(along_); }
-    [[nodiscard]] std::size_t pairs() const { return pairs_; }  ///< of tiles along an axis
     [[nodiscard]] std::size_t colours() const { return power(2); }
     [[nodiscard]] std::size_t count_of_colour() const { return power(pairs_); }
     [[nodiscard]] std::size_t buffer_size() const { return power(common_.extent); }
@@ -82,23 +89,6 @@ class Spreader::Tiling {
             description.reach[k] = starts_[tile % along_ + 1] - start + common_.width - 1;
         }
         return description;
-    }
-
-    /// The same with the grid for its buffer, if windows that begin there end within the grid.
-    [[nodiscard]] std::optional<SpreadTile> describe_in_place(std::size_t tile) const {
-        SpreadTile description = describe(tile);
-        for (std::size_t k = 0; k < grid_.dimension; ++k)
-            if (static_cast<std::size_t>(description.start[k]) + description.reach[k] > grid_.side)
-                return {};
-        description.extent = grid_.stride;
-        description.plane = grid_.side * grid_.stride;
-        description.in_grid = true;
-        return description;
-    }
-
-    /// Where such a tile begins.
-    [[nodiscard]] double* place(const SpreadTile& tile) const {
-        return grid_.cells + line(tile, 0, 0) * grid_.stride + wrapped(tile.start[0], 0);
     }
 
     /// Adds a tile's buffer to the grid, around its ends; no cell beyond the tile's reach, for
@@ -181,15 +171,6 @@ class Spreader::TileSums {
     std::size_t count_ = 0;
 };
 
-std::size_t spreading_batch(const CellGrid& grid) {
-    constexpr std::size_t most = std::size_t{1} << 30;  // counters of 32 bits are enough for it
-    std::size_t cells = 1;
-    for (std::size_t k = 0; k < grid.dimension; ++k) cells = std::min(most, cells * grid.side);
-    // Fewer points than cells would pass over the grid too often.
-    cells = std::clamp(cells, std::size_t{1} << 20, std::size_t{1} << 22);
-    return cells / round_of_streams * round_of_streams;
-}
-
 Spreader::Spreader(const Interpolator& window, const CellGrid& grid, std::uint64_t count,
                    std::size_t fold_after, bool weighted)
     : table_(window),
@@ -223,14 +204,7 @@ void Spreader::add(std::span<const double> rows, const RunContext& run) {
 
 void Spreader::finish(const RunContext& run) {
     if (waits_ == 0) return;
-    const std::size_t pairs = tiling_->pairs();
-    const std::size_t shares = 4 * std::size_t{std::max(1U, run.threads)};
-    // Enough blocks for all threads, but none with less work than handing it over is.
-    if (pairs >= shares || run.threads == 1)
-        spread_bands(std::max({std::size_t{1}, pairs / shares, 1024 * pairs / waits_}), run);
-    else
-        for (std::size_t colour = 0; colour < tiling_->colours(); ++colour)
-            spread_colour(colour, run);
+    for (std::size_t colour = 0; colour < tiling_->colours(); ++colour) spread_colour(colour, run);
     for (TilePoints& points : points_) points.clear();
     waits_ = 0;
 }
@@ -257,35 +231,7 @@ void Spreader::sort(std::span<const double> rows, const RunContext& run) {
     };
     RunContext context = run;
     if (end - waits_ <= stream_chunk) context.threads = 1;
-    for_each_block(context, points_.size(), 1, sort_stream, true);
-}
-
-/// Spreads block by block of bands across the last axis, which stay in the caches meanwhile: a
-/// band of odd place when both of its neighbours are done, and those between blocks at the end.
-void Spreader::spread_bands(std::size_t block, const RunContext& run) {
-    const std::size_t pairs = tiling_->pairs();
-    const auto inside = [&](const Block& b) {
-        TileSums sums(tiling_->buffer_size(), fold_after_);
-        for (std::size_t i = b.first; i < b.last; ++i) {
-            spread_band(2 * i, sums, run);
-            if (i > b.first) spread_band(2 * i - 1, sums, run);
-        }
-    };
-    for_each_block(run, pairs, block, inside, true);
-    const auto between = [&](const Block& b) {
-        TileSums sums(tiling_->buffer_size(), fold_after_);
-        spread_band(2 * std::min((b.index + 1) * block, pairs) - 1, sums, run);
-    };
-    for_each_block(run, block_count(pairs, block), 1, between, true);
-}
-
-void Spreader::spread_band(std::size_t band, TileSums& sums, const RunContext& run) const {
-    const std::size_t colours = tiling_->colours() / 2;
-    const std::size_t tiles = tiling_->count_of_colour() / tiling_->pairs();
-    for (std::size_t colour = 0; colour < colours; ++colour)
-        for (std::size_t i = 0; i < tiles; ++i)
-            spread_tile(tiling_->tile(colour + band % 2 * colours, i + band / 2 * tiles), sums,
-                        run);
+    for_each_block(silent(context), points_.size(), 1, sort_stream);
 }
 
 void Spreader::spread_colour(std::size_t colour, const RunContext& run) {
@@ -297,7 +243,7 @@ void Spreader::spread_colour(std::size_t colour, const RunContext& run) {
         for (std::size_t i = b.first; i < b.last; ++i)
             spread_tile(tiling_->tile(colour, i), sums, run);
     };
-    for_each_block(run, tiles, block, spread, true);
+    for_each_block(silent(run), tiles, block, spread);
 }
 
 template <class Visit>
@@ -309,15 +255,8 @@ void Spreader::visit(std::size_t tile, Visit&& visit) const {
 }
 
 void Spreader::spread_tile(std::size_t number, TileSums& sums, const RunContext& run) const {
-    constexpr std::size_t few = 16;  // points that touch fewer cells than the tile has
-    std::size_t count = 0;
-    for (const TilePoints& points : points_) count += points.count_in_block(number);
-    if (count == 0) return;
-    if (count <= few)
-        if (const auto tile = tiling_->describe_in_place(number))
-            return visit(number, [&](std::span<const double> rows) {
-                spread_points(rows, dimension_, *tile, tiling_->place(*tile));
-            });
+    const auto is_empty = [&](const TilePoints& points) { return points.is_empty(number); };
+    if (std::ranges::all_of(points_, is_empty)) return;
     const SpreadTile tile = tiling_->describe(number);
     sums.begin();
     visit(number, [&](std::span<const double> rows) {

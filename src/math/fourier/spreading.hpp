@@ -40,9 +40,6 @@ struct CellGrid {
     static constexpr std::size_t smallest_side = 2 * Interpolator::max_width;
 };
 
-/// Points that are sorted at a time: about as many as cells, but at least 2^20 and at most 2^22.
-std::size_t spreading_batch(const CellGrid& grid);
-
 class Spreader {
   public:
     /// @param count points that are expected; more may come.
@@ -69,8 +66,6 @@ class Spreader {
     class TileSums;
 
     void sort(std::span<const double> rows, const RunContext& run);
-    void spread_bands(std::size_t block, const RunContext& run);
-    void spread_band(std::size_t band, TileSums& sums, const RunContext& run) const;
     void spread_colour(std::size_t colour, const RunContext& run);
     void spread_tile(std::size_t number, TileSums& sums, const RunContext& run) const;
     template <class Visit>

@@ -27,11 +27,8 @@ class TilePoints {
     /// Adds rows to their tiles.
     void add(const double* rows, const std::uint32_t* tile_of, std::size_t count);
 
-    /// The tile's points, if they fill no more than a block; else some more than that.
-    [[nodiscard]] std::size_t count_in_block(std::size_t tile) const {
-        const List list = lists_[tile];
-        return list.end == 0 ? 0 : list.end - list.first * block;
-    }
+    /// Whether the tile has no points.
+    [[nodiscard]] bool is_empty(std::size_t tile) const { return lists_[tile].end == 0; }
 
     /// Tells the processor that the tile is visited soon.
     void expect(std::size_t tile) const { fetch<3>(lists_[tile].first); }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
 // The work of window_spreading.hpp for as many numbers at once as a vector V holds. This is no
-// header of its own: window_spreading.cpp includes it in one namespace after the other, for
-// STIPPLE_LANES lanes, with the instructions chosen there for all that follows. (What is inlined
-// into functions that have instructions of their own was taken apart into single numbers before.)
+// header of its own: core/vector_widths.hpp includes it in window_spreading.cpp for
+// STIPPLE_VECTOR_BITS.
 
-constexpr std::size_t lanes = STIPPLE_LANES;
+constexpr std::size_t lanes = STIPPLE_VECTOR_BITS == 512 ? 8 : 4;
 using V [[gnu::vector_size(8 * lanes)]] = double;
 using Words [[gnu::vector_size(8 * lanes)]] = std::uint64_t;
 using Integers [[gnu::vector_size(4 * lanes)]] = std::int32_t;
@@ -24,9 +23,9 @@ STIPPLE_INLINE void store(const Vector& v, Number* to) {
 
 /// a b + c, rounded once: the same bits on any machine, and one step where it is an instruction.
 STIPPLE_INLINE V fused(const V& a, double b, const V& c) {
-#if STIPPLE_LANES == 8
+#if STIPPLE_VECTOR_BITS == 512
     return _mm512_fmadd_pd(a, _mm512_set1_pd(b), c);
-#elif defined(STIPPLE_FUSES)
+#elif STIPPLE_VECTOR_BITS == 256
     return _mm256_fmadd_pd(a, _mm256_set1_pd(b), c);
 #else
     V sum;
@@ -37,10 +36,10 @@ STIPPLE_INLINE V fused(const V& a, double b, const V& c) {
 
 /// Towards zero.
 STIPPLE_INLINE V truncated(const V& v) {
-#if STIPPLE_LANES == 8
+#if STIPPLE_VECTOR_BITS == 512
     constexpr int towards_zero = _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC;
     return _mm512_mask_roundscale_pd(v, 0xff, v, towards_zero);
-#elif defined(STIPPLE_FUSES)
+#elif STIPPLE_VECTOR_BITS == 256
     return _mm256_round_pd(v, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
 #else
     return __builtin_convertvector(__builtin_convertvector(v, Integers), V);
@@ -136,8 +135,8 @@ STIPPLE_INLINE void locate_all(std::size_t count, const SpreadTile& tile,
     const unsigned bits = tile.piece_bits;
     for (std::size_t i = 0; i < count; i += lanes) {
         V corner = {};
-        const double steps[] = {1, static_cast<double>(tile.extent),
-                                static_cast<double>(tile.plane)};
+        const auto extent = static_cast<double>(tile.extent);
+        const double steps[] = {1, extent, extent * extent};
         for (std::size_t k = 0; k < Dimension; ++k) {
             const Words word = load<Words>(&work.axes[k][i]);
             corner += cell_of(word) * steps[k];
@@ -198,10 +197,9 @@ STIPPLE_INLINE void add_window(
     double* begin) {
     constexpr std::size_t vectors = vectors_of(Fours);
     const std::size_t extent = tile.extent;  // what is stored might change the tile's, else
-    const std::size_t plane = tile.plane;
     const std::size_t width = tile.width;
     const std::size_t behind = reinterpret_cast<std::uintptr_t>(begin) / sizeof(double) % lanes;
-    const std::size_t back = tile.in_grid ? 0 : std::min(behind, vectors * lanes - width);
+    const std::size_t back = std::min(behind, vectors * lanes - width);
     begin -= back;
     V along[vectors];
     for (std::size_t v = 0; v < vectors; ++v)
@@ -210,8 +208,8 @@ STIPPLE_INLINE void add_window(
     if constexpr (Dimension == 2) add_rows(begin, extent, values[1] + margin, width, 1, along);
     if constexpr (Dimension == 3)
         for (std::size_t l = 0; l < width; ++l)
-            add_rows(begin + l * plane, extent, values[1] + margin, width, values[2][margin + l],
-                     along);
+            add_rows(begin + l * extent * extent, extent, values[1] + margin, width,
+                     values[2][margin + l], along);
 }
 
 template <std::size_t Dimension, std::size_t Fours>

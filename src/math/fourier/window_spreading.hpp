@@ -30,9 +30,6 @@ struct SpreadTile {
     std::size_t numbers = 0;               ///< of a point: coordinates, and its strength
     std::size_t extent = 0;  ///< cells of a row of the buffer: a multiple of 8, from the widest
                              ///< tile and whole vectors on
-    std::size_t plane = 0;   ///< cells from one layer of the buffer to the next
-    bool in_grid = false;    ///< the buffer is the grid itself: nothing before a window is touched,
-                             ///< and behind it less than a whole vector
     std::array<std::int64_t, 3> start{};           ///< its first cell, by coordinate
     std::array<std::size_t, 3> reach = {1, 1, 1};  ///< cells that its points touch
 };

@@ -12,7 +12,6 @@
 #include <functional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/options.hpp"
@@ -43,13 +42,13 @@ struct IntegrandKind {
     std::function<Integrand(std::size_t dimension, const Values&)> make;
 };
 
-/// All of them, those of a family together.
-const std::vector<IntegrandKind>& integrand_kinds();
+/// The six families of A. Genz.
+std::vector<IntegrandKind> genz_integrands();
 
-/// @throws Error(usage) naming the nearest one.
-const IntegrandKind& integrand_kind(std::string_view name);
+/// Indicators in the unit square: disk, half-plane and the visible part of a light.
+std::vector<IntegrandKind> planar_integrands();
 
-/// The specs of a list "NAME[:OPT=V,...],NAME...": a comma that stands before OPT=V ends no spec.
-std::vector<std::string> split_specs(std::string_view list);
+/// One formula each: constant, Gaussian, zone plate, Owen, Sobol' g, sky.
+std::vector<IntegrandKind> smooth_integrands();
 
 }  // namespace stipple

@@ -14,7 +14,7 @@
 // Shape   2 coordinates; values 0 and 1.
 // Promise areas to a few rounding errors.
 
-#include "math/integrands/families.hpp"
+#include "math/integrands/integrand.hpp"
 
 #include <algorithm>
 #include <array>

@@ -4,9 +4,9 @@
 //
 //     smooth-gaussian  exp(-|x - 1/2|^2 / (2 width^2)), all coordinates 1/2 in the middle
 //     zone-plate       (1 + cos(k (x^2 + y^2))) / 2
-//     owen             the sum over all sets u of `order` axes of
-//                      prod_{j in u} sqrt(12) (x_j - 1/2), divided by the root of their number: integral 0, variance 1, and all of it
-//                      in interactions of exactly so many coordinates
+//     owen             the sum over all sets u of `order` axes of prod_{j in u} sqrt(12) (x_j - 1/2),
+//                      divided by the root of their number: integral 0, and variance 1, all of it in
+//                      interactions of exactly so many coordinates
 //     sobol-g          prod (|4 x_j - 2| + a_j) / (1 + a_j), integral 1; a_j = j - 1, else given,
 //                      the last one for all axes beyond
 //     sky-radiance     cos theta (1 + 2 cos theta) / 3: the light that a level plane has from an
@@ -21,7 +21,7 @@
 //         I. M. Sobol', Reliability Engineering and System Safety 50 (1995) 225-239 (g-function).
 //         P. Moon, D. E. Spencer, Illuminating Engineering 37 (1942) 707-726 (overcast sky).
 
-#include "math/integrands/families.hpp"
+#include "math/integrands/integrand.hpp"
 
 #include <algorithm>
 #include <array>

@@ -77,17 +77,4 @@ std::optional<std::vector<Neighbor>> all_nearest_by_grid(std::span<const double>
     return std::nullopt;
 }
 
-Box box_around(std::span<const double> rows, std::size_t dimension) {
-    Box box{
-        std::vector<double>(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(dimension)),
-        {}};
-    box.high = box.low;
-    for (std::size_t i = 0; i < rows.size(); i += dimension)
-        for (std::size_t k = 0; k < dimension; ++k) {
-            box.low[k] = std::min(box.low[k], rows[i + k]);
-            box.high[k] = std::max(box.high[k], rows[i + k]);
-        }
-    return box;
-}
-
 }  // namespace stipple

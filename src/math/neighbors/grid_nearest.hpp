@@ -25,7 +25,4 @@ std::optional<std::vector<Neighbor>> all_nearest_by_grid(std::span<const double>
                                                          const Box& box, bool torus,
                                                          const RunContext& run);
 
-/// The smallest box around some points.
-Box box_around(std::span<const double> rows, std::size_t dimension);
-
 }  // namespace stipple

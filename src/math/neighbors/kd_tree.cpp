@@ -88,9 +88,8 @@ class KdTree::Builder {
         keys_.resize(n);
         std::size_t roots = 1;  // of subtrees
         while (roots < tree_.leaves_ && n / roots > subtree_size) {
-            for_each_block(
-                run, roots, 1, [&](const Block& b) { split(rows_, order, roots + b.first, 0); },
-                true);
+            for_each_block(silent(run), roots, 1,
+                           [&](const Block& b) { split(rows_, order, roots + b.first, 0); });
             roots *= 2;
         }
         for_each_block(run, roots, 1,
@@ -248,7 +247,7 @@ void KdTree::search(Query& query) const {
         Neighbor bound;
     };
     const auto entry = [&](std::size_t node) {
-        return Entry{node, {query.bound(box_of(node)), lowest_[node]}};
+        return Entry{node, {query.bound(node), lowest_[node]}};
     };
     std::array<Entry, 66> stack;
     std::size_t size = 0;
@@ -262,52 +261,45 @@ void KdTree::search(Query& query) const {
             if (other.bound < now.bound) std::swap(now, other);
             if (query.wants(other.bound)) stack[size++] = other;
         }
-        query.visit(now.node);
+        const auto [first, last] = range_of(now.node);
+        for (std::size_t i = first; i < last; ++i)
+            query.visit(i, {query.metric.distance(query.place, row(i)), indices_[i]});
     }
 }
 
-template <class Metric>
+/// Passes over one point.
+struct KdTree::AllBut {
+    const KdTree& tree;
+    std::size_t except;
+
+    [[nodiscard]] static bool skips_node(std::size_t) { return false; }
+    [[nodiscard]] bool skips(std::size_t rank) const { return tree.indices_[rank] == except; }
+};
+
+/// Passes over the points of a group.
+struct KdTree::OtherGroups {
+    const Groups& groups;
+    std::uint32_t own;
+
+    [[nodiscard]] bool skips_node(std::size_t node) const { return groups.nodes[node] == own; }
+    [[nodiscard]] bool skips(std::size_t rank) const { return groups.points[rank] == own; }
+};
+
+template <class Metric, class Choice>
 struct KdTree::Nearest {
     const KdTree& tree;
     const Metric& metric;
     const double* place;
-    std::size_t except;
-    Neighbor best{std::numeric_limits<double>::infinity(), none};
+    Choice choice;
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+    Neighbor best{infinity, none};  ///< at a finite distance where nodes are passed over
 
-    [[nodiscard]] double bound(const double* box) const { return metric.nearest(box, place); }
-    [[nodiscard]] bool wants(const Neighbor& bound) const { return bound < best; }
-    void visit(std::size_t leaf) {
-        const auto [first, last] = tree.range_of(leaf);
-        for (std::size_t i = first; i < last; ++i) {
-            const Neighbor point{metric.distance(place, tree.row(i)), tree.indices_[i]};
-            if (point < best && point.index != except) best = point;
-        }
-    }
-};
-
-template <class Metric>
-struct KdTree::NearestOfOthers {
-    const KdTree& tree;
-    const Metric& metric;
-    const Groups& groups;
-    const double* place;
-    std::uint32_t own;
-    Neighbor best;  ///< at a finite distance: those of the own group are at none
-
-    [[nodiscard]] double bound(const double* box) const {
-        const auto node =
-            static_cast<std::size_t>(box - tree.boxes_.data()) / (2 * tree.dimension_);
-        if (groups.nodes[node] == own) return std::numeric_limits<double>::infinity();
-        return metric.nearest(box, place);
+    [[nodiscard]] double bound(std::size_t node) const {
+        return choice.skips_node(node) ? infinity : metric.nearest(tree.box_of(node), place);
     }
     [[nodiscard]] bool wants(const Neighbor& bound) const { return bound < best; }
-    void visit(std::size_t leaf) {
-        const auto [first, last] = tree.range_of(leaf);
-        for (std::size_t i = first; i < last; ++i) {
-            if (groups.points[i] == own) continue;
-            const Neighbor point{metric.distance(place, tree.row(i)), tree.indices_[i]};
-            if (point < best) best = point;
-        }
+    void visit(std::size_t rank, const Neighbor& point) {
+        if (point < best && !choice.skips(rank)) best = point;
     }
 };
 
@@ -320,18 +312,14 @@ struct KdTree::Several {
     std::size_t except;
     std::vector<Neighbor> heap = {};  ///< the farthest on top
 
-    [[nodiscard]] double bound(const double* box) const { return metric.nearest(box, place); }
+    [[nodiscard]] double bound(std::size_t node) const {
+        return metric.nearest(tree.box_of(node), place);
+    }
     [[nodiscard]] bool wants(const Neighbor& bound) const {
         return heap.size() < k || bound < heap.front();
     }
-    void visit(std::size_t leaf) {
-        const auto [first, last] = tree.range_of(leaf);
-        for (std::size_t i = first; i < last; ++i) {
-            const Neighbor point{metric.distance(place, tree.row(i)), tree.indices_[i]};
-            if (wants(point) && point.index != except) add(point);
-        }
-    }
-    void add(const Neighbor& point) {
+    void visit(std::size_t, const Neighbor& point) {
+        if (!wants(point) || point.index == except) return;
         if (heap.size() == k) {
             std::pop_heap(heap.begin(), heap.end());
             heap.back() = point;
@@ -344,7 +332,7 @@ struct KdTree::Several {
 
 Neighbor KdTree::nearest(std::span<const double> place, std::size_t except) const {
     return with_metric([&](const auto metric) {
-        Nearest query{*this, metric, place.data(), except};
+        Nearest query{*this, metric, place.data(), AllBut{*this, except}};
         search(query);
         return query.best;
     });
@@ -367,12 +355,8 @@ void KdTree::spread(Groups& groups) const {
 
 Neighbor KdTree::nearest_of_others(std::size_t rank, const Groups& groups, double squared) const {
     return with_metric([&](const auto metric) {
-        NearestOfOthers query{*this,
-                              metric,
-                              groups,
-                              row(rank),
-                              groups.points[rank],
-                              {std::min(squared, std::numeric_limits<double>::max()), none}};
+        Nearest query{*this, metric, row(rank), OtherGroups{groups, groups.points[rank]},
+                      Neighbor{std::min(squared, std::numeric_limits<double>::max()), none}};
         search(query);
         return query.best;
     });
@@ -417,7 +401,7 @@ std::vector<Neighbor> KdTree::all_nearest(const RunContext& run) const {
     for_each_block(run, count(), block, [&](const Block& b) {
         with_metric([&](const auto metric) {
             for (std::size_t i = b.first; i < b.last; ++i) {
-                Nearest query{*this, metric, row(i), indices_[i]};
+                Nearest query{*this, metric, row(i), AllBut{*this, indices_[i]}};
                 search(query);
                 found[indices_[i]] = query.best;
             }

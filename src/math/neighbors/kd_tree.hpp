@@ -127,10 +127,10 @@ class KdTree {
     std::size_t count_nearer(const Metric& metric, const double* place, double squared,
                              std::size_t node) const;
 
-    template <class Metric>
+    struct AllBut;
+    struct OtherGroups;
+    template <class Metric, class Choice>
     struct Nearest;
-    template <class Metric>
-    struct NearestOfOthers;
     template <class Metric>
     struct Several;
 

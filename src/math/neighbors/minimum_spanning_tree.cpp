@@ -115,20 +115,17 @@ class Growth {
     }
 
     void search() {
-        for_each_block(
-            run_, tree_.count(), 1024,
-            [&](const Block& b) {
-                for (auto s = static_cast<std::size_t>(b.first); s < b.last; ++s) {
-                    if (s % 64 == 0) run_.check_stop();
-                    Neighbor& nearest = nearest_[s];
-                    if (nearest.index != KdTree::none) continue;
-                    const double bound = bounds_[groups_.points[s]].load(std::memory_order_relaxed);
-                    if (nearest.squared > bound) continue;
-                    nearest = tree_.nearest_of_others(s, groups_, bound);
-                    if (nearest.index != KdTree::none) lower(groups_.points[s], nearest.squared);
-                }
-            },
-            true);
+        for_each_block(silent(run_), tree_.count(), 1024, [&](const Block& b) {
+            for (auto s = static_cast<std::size_t>(b.first); s < b.last; ++s) {
+                if (s % 64 == 0) run_.check_stop();
+                Neighbor& nearest = nearest_[s];
+                if (nearest.index != KdTree::none) continue;
+                const double bound = bounds_[groups_.points[s]].load(std::memory_order_relaxed);
+                if (nearest.squared > bound) continue;
+                nearest = tree_.nearest_of_others(s, groups_, bound);
+                if (nearest.index != KdTree::none) lower(groups_.points[s], nearest.squared);
+            }
+        });
     }
 
     void choose() {

@@ -8,9 +8,10 @@
 //     SortedPoints   points that are all there, stored cell by cell
 //     GrowingPoints  points that come one by one; the cells shrink as they become many
 //
-// Shape    D directions; any box, flat ones too; points beyond the faces count with the outer cells.
-// Cost     visiting a ball: the cells that it meets, and their points. SortedPoints: 8 D + 4 bytes a
-//          point, 4 a cell. GrowingPoints: 8 D + 4 bytes a point, 4 a cell, at most 2 cells a point.
+// Shape    D directions; any box, flat ones too; points beyond the faces count in the outer cells.
+// Cost     visiting a ball: the cells that it meets, and their points. SortedPoints: 8 D + 4 bytes
+//          a point, 4 a cell. GrowingPoints: 8 D + 4 bytes a point, 4 a cell, at most 2 cells a
+//          point.
 // Promise  exact to the last pair: a point is visited once if its distance^2, as float64 computes
 //          it by the formula above, is at most radius * radius, and not otherwise; for radii of any
 //          size. Always in the same order.

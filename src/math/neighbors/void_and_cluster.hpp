@@ -4,8 +4,8 @@
 //
 //     E(c) = sum over filled cells f of  exp(-|c - f|^2 / (2 sigma^2)),
 //
-// by toroidal distances in cells, sigma = 1.5. Cells may be wider than high, or higher than wide: lengths are in units of the root of a cell's
-// area then.
+// by toroidal distances in cells, sigma = 1.5. Cells may be wider than high, or higher than wide:
+// lengths are then in units of the root of a cell's area.
 //
 // A random tenth of the cells is filled, and its fullest cell ("tightest cluster") moves to the
 // emptiest ("largest void") until it would move back. Ranks downwards from a tenth go to the

@@ -23,7 +23,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/box_mass.hpp"
+#include "core/domain.hpp"
 #include "math/densities/quadrature.hpp"
 #include "math/functions/roots.hpp"
 #include "math/geometry/law_moments.hpp"

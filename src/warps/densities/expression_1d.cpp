@@ -19,7 +19,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/box_mass.hpp"
+#include "core/domain.hpp"
 #include "core/error.hpp"
 #include "core/spec.hpp"
 #include "core/support.hpp"

@@ -8,7 +8,6 @@
 #include <mutex>
 #include <string>
 
-#include "core/box_mass.hpp"
 #include "core/domain.hpp"
 #include "core/support.hpp"
 #include "math/densities/expression.hpp"

@@ -22,7 +22,7 @@
 
 #include <algorithm>
 
-#include "core/box_mass.hpp"
+#include "core/domain.hpp"
 #include "core/error.hpp"
 #include "core/spec.hpp"
 #include "core/support.hpp"

@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/box_mass.hpp"
+#include "core/domain.hpp"
 #include "core/support.hpp"
 #include "core/wide.hpp"
 #include "math/geometry/law_moments.hpp"

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/box_mass.hpp"
+#include "core/domain.hpp"
 #include "core/error.hpp"
 #include "core/support.hpp"
 #include "math/functions/normal_distribution.hpp"

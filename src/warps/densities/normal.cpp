@@ -28,7 +28,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/box_mass.hpp"
+#include "core/domain.hpp"
 #include "core/error.hpp"
 #include "core/spec.hpp"
 #include "core/wide.hpp"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/box_mass.hpp"
+#include "core/domain.hpp"
 #include "math/geometry/planar_area.hpp"
 
 namespace stipple::warps {

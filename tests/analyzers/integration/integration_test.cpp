@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "core/text.hpp"
-#include "math/integrands/integrand.hpp"
+#include "math/integrands/integrands.hpp"
 #include "pipeline/chain.hpp"
 #include "support/warping.hpp"
 

@@ -51,25 +51,9 @@ TEST(TilePoints, KeepEachTilesPointsInTheirOrder) {
                        count - half);
             for (std::size_t t = 0; t < 5; ++t) {
                 EXPECT_EQ(points_of(points, t), given.wanted[t]) << count << " points, tile " << t;
-                EXPECT_EQ(points.count_in_block(t) == 0, given.wanted[t].empty());
+                EXPECT_EQ(points.is_empty(t), given.wanted[t].empty());
             }
         }
-}
-
-// Some more than a block holds, when a second one follows.
-TEST(TilePoints, CountThoseOfABlock) {
-    TilePoints points(2, 1, 100);
-    const Numbers rows(40, 0.5);
-    std::vector<std::uint32_t> tile_of(40, 1);
-    for (std::size_t i = 0; i < 40; ++i) {
-        if (i <= TilePoints::block) {
-            EXPECT_EQ(points.count_in_block(1), i);
-        } else {
-            EXPECT_GT(points.count_in_block(1), TilePoints::block);
-        }
-        EXPECT_EQ(points.count_in_block(0), 0U);
-        points.add(rows.data(), tile_of.data(), 1);
-    }
 }
 
 // As many points as there is room for, all in one tile, then one in each, again and again.
@@ -84,12 +68,12 @@ TEST(TilePoints, HaveRoomForTheirCapacityWhereverThePointsAre) {
     for (int round = 0; round < 3; ++round) {
         points.add(rows.data(), one.data(), count);
         EXPECT_EQ(points_of(points, 7), rows);
-        EXPECT_EQ(points.count_in_block(8), 0U);
+        EXPECT_TRUE(points.is_empty(8));
         points.clear();
         points.add(rows.data(), each.data(), count);
         for (std::size_t t = 0; t < count; ++t) EXPECT_EQ(points_of(points, t), Numbers{rows[t]});
         points.clear();
-        EXPECT_EQ(points.count_in_block(7), 0U);
+        EXPECT_TRUE(points.is_empty(7));
     }
 }
 

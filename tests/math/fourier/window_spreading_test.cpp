@@ -36,7 +36,6 @@ struct Plane {
         tile.coefficients = table.coefficients();
         tile.numbers = d + (weighted ? 1 : 0);
         tile.extent = side + 24;
-        tile.plane = tile.extent * tile.extent;
     }
 
     [[nodiscard]] std::vector<double> spread(const std::vector<double>& rows,
@@ -125,18 +124,6 @@ TEST(WindowSpreading, SameBitsForEveryWidthOfVectors) {
                 EXPECT_EQ(plane.spread(rows, Vectors::fours), eights) << d << ' ' << width;
                 EXPECT_EQ(plane.spread(rows, Vectors::anywhere), eights) << d << ' ' << width;
             }
-}
-
-// In place of a buffer that vectors may overrun: before a window nothing is touched.
-TEST(WindowSpreading, LeavesWhatStandsBeforeAWindow) {
-    Plane plane(9, 1);
-    plane.tile.in_grid = true;
-    const std::vector<double> point = {50.0 / side};
-    std::vector<double> buffer(160, -0.0);
-    spread_points(plane.places(point), 1, plane.tile, buffer.data());
-    for (std::size_t c = 0; c < 46; ++c) EXPECT_TRUE(std::signbit(buffer[c])) << c;
-    EXPECT_GT(buffer[46], 0);
-    EXPECT_GT(buffer[54], 0);
 }
 
 // 1 - 2^-53 of a cell behind a grid point keeps 52 bits, and does not go on to the next one.

@@ -42,7 +42,7 @@ TEST(GridNearest, FindsWhatATreeFinds) {
         for (const std::size_t n : {2, 3, 10, 5000})
             for (const PointSet& set : sets_of(n, d)) {
                 as_by_tree(set, unit_box(d), true);
-                as_by_tree(set, box_around(set.flat(), d), false);
+                as_by_tree(set, bounding_box(set.flat(), d), false);
             }
 }
 
@@ -58,7 +58,7 @@ TEST(GridNearest, HoldsInLongAndFlatBoxes) {
     scale_into(box, set.flat());
     EXPECT_TRUE(as_by_tree(set, box, true));
     for (std::size_t i = 0; i < set.count(); ++i) set[i][1] = 0.25;
-    EXPECT_TRUE(as_by_tree(set, box_around(set.flat(), 3), false));
+    EXPECT_TRUE(as_by_tree(set, bounding_box(set.flat(), 3), false));
 }
 
 // In one of 10^4 cells, or all at one place: a grid would compare all pairs.
@@ -68,7 +68,7 @@ TEST(GridNearest, LeavesCrowdsToATree) {
     EXPECT_FALSE(as_by_tree(set, unit_box(2), true));
     PointSet one = make("random", points(100, 2));
     for (double& x : one.flat()) x = 0.5;
-    EXPECT_FALSE(as_by_tree(one, box_around(one.flat(), 2), false));
+    EXPECT_FALSE(as_by_tree(one, bounding_box(one.flat(), 2), false));
     EXPECT_FALSE(as_by_tree(make("random", points(100, 4)), unit_box(4), true));
 }
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/box_mass.hpp"
+#include "core/domain.hpp"
 #include "support/warping.hpp"
 
 namespace stipple::testing::mixture_test {

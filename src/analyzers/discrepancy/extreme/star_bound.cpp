@@ -6,6 +6,7 @@
 
 #include "analyzers/discrepancy/star/search.hpp"
 #include "analyzers/discrepancy/star/sweep.hpp"
+#include "core/parallel.hpp"
 
 namespace stipple::discrepancy::extreme {
 namespace {
@@ -58,9 +59,7 @@ SearchLimits share_for_bound(const SearchLimits& limits, const RunContext& run) 
 }
 
 double quick_bound(const PointSet& points, Family family, const RunContext& run) {
-    RunContext unstopped = run;
-    unstopped.stop = {};
-    const BoxGrid grid = anchored_grid(points, family, unstopped);
+    const BoxGrid grid = anchored_grid(points, family, unstopped(run));
     const auto d = static_cast<double>(points.dimension());
     return star::quick_bound(grid, run, factor(family, 1), factor(family, d));
 }

@@ -17,6 +17,7 @@
 #include "analyzers/discrepancy/star/cell.hpp"
 #include "analyzers/discrepancy/star/cover.hpp"
 #include "analyzers/discrepancy/star/net.hpp"
+#include "core/parallel.hpp"
 
 namespace stipple::discrepancy::star {
 namespace {
@@ -107,9 +108,8 @@ class AnchoredBoxes final : public Problem {
 
 double quick_bound(const BoxGrid& grid, const RunContext& run, double of_axis, double of_all) {
     constexpr std::uint64_t few_corners = 1U << 17;
-    RunContext unstopped = run;
-    unstopped.stop = {};
-    return std::min(axis_bound(grid, of_axis), of_all * cover_bound(grid, few_corners, unstopped));
+    return std::min(axis_bound(grid, of_axis),
+                    of_all * cover_bound(grid, few_corners, unstopped(run)));
 }
 
 SearchResult search(const BoxGrid& grid, WorstBox worst, const SearchLimits& limits,

@@ -52,6 +52,7 @@
 #include "analyzers/discrepancy/star/sweep.hpp"
 #include "analyzers/discrepancy/star/tables.hpp"
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "core/text.hpp"
 
 namespace stipple::analyzers::star_discrepancy {
@@ -143,9 +144,7 @@ Found sweep_or_search(const BoxGrid& grid, const Limits& limits, const RunContex
 Found search_free_boxes(const BoxGrid& grid, const star::Member& set, const RunContext& run) {
     const SearchLimits& limits = set.limits.search;
     const SearchLimits share = extreme::share_for_bound(limits, run);
-    RunContext silent = run;
-    silent.progress = {};
-    const double upper = extreme::star_bound(set.points, grid.family, share, silent);
+    const double upper = extreme::star_bound(set.points, grid.family, share, silent(run));
     return {extreme::find_worst(grid, limits.after(share.work), run, upper),
             grid.dimension() == 1 ? "sweep-1d" : "branch-and-bound"};
 }
@@ -168,9 +167,8 @@ Report measure(const star::Member& set, const Values& options, const RunContext&
              points.count());
     const Family family = family_of(options);
     need_room(points, family, run);
-    RunContext steady = run;
-    if (set.peers != nullptr) steady.stop = {};  // peers stop together, in the search
-    const BoxGrid grid = box_grid(points, family, steady);
+    // Peers stop together, in the search.
+    const BoxGrid grid = box_grid(points, family, set.peers != nullptr ? unstopped(run) : run);
     const Found found = search(grid, set, run);
     const auto& [worst, upper, ending] = found.result;
     set.limits.judge(
@@ -205,15 +203,58 @@ Report analyze_together(const PointSet& points, const Values& options, Peers& pe
 /// A mean of boxes is none, nor is one of axes; the worst projection is that of the means.
 void refine(Report& mean, std::size_t sets, const Values&) {
     if (sets < 2) return;
-    const auto drop = [](Report& from, std::string_view name) {
-        std::erase_if(from.entries(), [&](const auto& entry) { return entry.name == name; });
-    };
-    drop(mean, "worst_box");
+    drop(mean, {"worst_box"});
     auto* const item = mean.find("projections");
     if (item == nullptr) return;
     auto& table = std::get<Report>(*item);
-    for (const char* name : {"is_worst", "worst", "worst_is_certain"}) drop(table, name);
+    drop(table, {"is_worst", "worst", "worst_is_certain"});
     star::mark_worst(table);
+}
+
+std::vector<ResultKey> results() {
+    std::vector<ResultKey> keys = {
+        {"value", "the star discrepancy; where exact is false, lower"},
+        {"lower", "it is at least this"},
+        {"upper", "it is at most this"},
+        {"exact", "whether the two bounds are the same", true, true_or_false},
+        {"method", "sweep-1d, sweep-2d or branch-and-bound", true,
+         "sweep-1d|sweep-2d|branch-and-bound"},
+        {"worst_box.corner",
+         "upper corner of the box where the value is reached (of all boxes from the origin, or of "
+         "all that the kind has)"},
+        {"worst_box.lower_corner",
+         "its lower corner, for the kinds extreme and periodic; on an axis where it is above the "
+         "upper one, the box goes from there across 1 to 0 and on (and all round where an open box "
+         "has both the same)",
+         false},
+        {"worst_box.closed",
+         "whether points on the box's faces count (upper faces for the kind star)", true,
+         true_or_false},
+        {"worst_box.points", "points in that box"},
+        {"worst_box.volume", "its volume"},
+        {"prefixes.count", "points of each prefix", false}};
+    const auto add_columns = [&](const std::string& table) {
+        keys.push_back({table + ".value", "its star discrepancy", false});
+        keys.push_back({table + ".lower", "which is at least this", false});
+        keys.push_back({table + ".upper", "and at most this", false});
+        keys.push_back({table + ".exact", "1 where the two are the same, else 0", false});
+    };
+    add_columns("prefixes");
+    keys.push_back({"projections.axis_1", "first axis of each projection, from 1", false});
+    keys.push_back({"projections.axis_2", "the second, and so on", false});
+    add_columns("projections");
+    keys.insert(
+        keys.end(),
+        {{"projections.is_worst",
+          "1 for the first with the largest value; among bounds, with the largest lower one",
+          false},
+         {"projections.worst", "the axes of that one", false},
+         {"projections.worst_is_certain",
+          "whether the bounds of no other projection reach above its value", false, true_or_false},
+         {"projections.largest.value", "the largest value", false},
+         {"projections.largest.lower", "the largest of all is at least this", false},
+         {"projections.largest.upper", "and at most this", false}});
+    return keys;
 }
 
 }  // namespace
@@ -225,47 +266,7 @@ Analyzer unit() {
             .traits = {.max_dimension = 10'000},
             .options = Schema(kind, boxes, limit::method, limit::time_limit, limit::tolerance,
                               limit::max_work, star::prefixes, star::every, star::projections),
-            .results = {{"value", "the star discrepancy; where exact is false, lower"},
-                        {"lower", "it is at least this"},
-                        {"upper", "it is at most this"},
-                        {"exact", "whether the two bounds are the same", true, true_or_false},
-                        {"method", "sweep-1d, sweep-2d or branch-and-bound", true,
-                         "sweep-1d|sweep-2d|branch-and-bound"},
-                        {"worst_box.corner",
-                         "upper corner of the box where the value is reached (of all boxes from "
-                         "the origin, or of all that the kind has)"},
-                        {"worst_box.lower_corner",
-                         "its lower corner, for the kinds extreme and periodic; on an axis where "
-                         "it is above the upper one, the box goes from there across 1 to 0 and on "
-                         "(and all round where an open box has both the same)",
-                         false},
-                        {"worst_box.closed",
-                         "whether points on the box's faces count (upper faces for the kind star)",
-                         true, true_or_false},
-                        {"worst_box.points", "points in that box"},
-                        {"worst_box.volume", "its volume"},
-                        {"prefixes.count", "points of each prefix", false},
-                        {"prefixes.value", "its star discrepancy", false},
-                        {"prefixes.lower", "which is at least this", false},
-                        {"prefixes.upper", "and at most this", false},
-                        {"prefixes.exact", "1 where the two are the same, else 0", false},
-                        {"projections.axis_1", "first axis of each projection, from 1", false},
-                        {"projections.axis_2", "the second, and so on", false},
-                        {"projections.value", "its star discrepancy", false},
-                        {"projections.lower", "which is at least this", false},
-                        {"projections.upper", "and at most this", false},
-                        {"projections.exact", "1 where the two are the same, else 0", false},
-                        {"projections.is_worst",
-                         "1 for the first with the largest value; among bounds, with the largest "
-                         "lower one",
-                         false},
-                        {"projections.worst", "the axes of that one", false},
-                        {"projections.worst_is_certain",
-                         "whether the bounds of no other projection reach above its value", false,
-                         true_or_false},
-                        {"projections.largest.value", "the largest value", false},
-                        {"projections.largest.lower", "the largest of all is at least this", false},
-                        {"projections.largest.upper", "and at most this", false}},
+            .results = results(),
             .analyze = analyze,
             .cost =
                 [](double n, double d) {  // exact searches of Halton's, Sobol's and random points

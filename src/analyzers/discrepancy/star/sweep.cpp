@@ -61,23 +61,20 @@ void sweep_parts(const Plane& points, std::vector<WorstBox>& worst, const Search
     const std::size_t strips = points.strips.count();
     const std::size_t parts = worst.size() / 2;
     SharedProgress progress(run, 2 * n);
-    constexpr bool silent = true;
-    for_each_block(
-        worth_threads(run, 3e-7 * static_cast<double>(n)), worst.size(), 1,
-        [&](const Block& block) {
-            const std::size_t part = block.index / 2;
-            std::uint64_t passed = 0;
-            sweep_strips(points, block.index % 2 == 0 ? Side::open : Side::closed,
-                         {strips * part / parts, strips * (part + 1) / parts}, worst[block.index],
-                         run, [&](std::uint64_t dots) {
-                             passed += dots;
-                             if (passed < ticks_apart) return;
-                             if (limits.over(run)) throw Halt{};
-                             progress.add(std::exchange(passed, 0));
-                         });
-            progress.add(passed);
-        },
-        silent);
+    for_each_block(silent(worth_threads(run, 3e-7 * static_cast<double>(n))), worst.size(), 1,
+                   [&](const Block& block) {
+                       const std::size_t part = block.index / 2;
+                       std::uint64_t passed = 0;
+                       sweep_strips(points, block.index % 2 == 0 ? Side::open : Side::closed,
+                                    {strips * part / parts, strips * (part + 1) / parts},
+                                    worst[block.index], run, [&](std::uint64_t dots) {
+                                        passed += dots;
+                                        if (passed < ticks_apart) return;
+                                        if (limits.over(run)) throw Halt{};
+                                        progress.add(std::exchange(passed, 0));
+                                    });
+                       progress.add(passed);
+                   });
 }
 
 }  // namespace

@@ -133,13 +133,6 @@ class Table {
     std::mutex counting_;
 };
 
-/// A run that goes on with what each set makes of a stop.
-RunContext unstopped(const RunContext& run) {
-    RunContext all = run;
-    all.stop = {};
-    return all;
-}
-
 std::vector<std::size_t> given_sizes(const Values& options) {
     constexpr double most = 0x1p53;
     std::vector<std::size_t> sizes;
@@ -220,9 +213,8 @@ Report of_prefixes(const PointSet& points, const std::vector<std::size_t>& sizes
     const auto fill = [&](std::size_t row, double together) {
         table.fill(row, prefix(points, sizes[row]), static_cast<double>(sizes[row]), together);
     };
-    constexpr bool silent = true;
-    for_each_block(
-        unstopped(run), small, 1, [&](const Block& block) { fill(block.index, threads); }, silent);
+    for_each_block(silent(unstopped(run)), small, 1,
+                   [&](const Block& block) { fill(block.index, threads); });
     for (std::size_t row = small; row < sizes.size(); ++row) fill(row, 1);
     carry_bounds(sizes, table.columns);
     table.tell_of_bounds(
@@ -275,16 +267,12 @@ Report of_projections(const PointSet& points, std::size_t size, const Limits& li
     Table table(count, static_cast<double>(count), limits, measure, run);
     std::vector<Report::Integers> axes(size, Report::Integers(count));
     const double together = std::min<double>(run.thread_count(), static_cast<double>(count));
-    constexpr bool silent = true;
-    for_each_block(
-        unstopped(run), count, 1,
-        [&](const Block& block) {
-            const Combination along = combination(block.index, size);
-            for (std::size_t k = 0; k < size; ++k)
-                axes[k][block.index] = static_cast<std::int64_t>(along[k] + 1);
-            table.fill(block.index, projection(points, along), 1, together);
-        },
-        silent);
+    for_each_block(silent(unstopped(run)), count, 1, [&](const Block& block) {
+        const Combination along = combination(block.index, size);
+        for (std::size_t k = 0; k < size; ++k)
+            axes[k][block.index] = static_cast<std::int64_t>(along[k] + 1);
+        table.fill(block.index, projection(points, along), 1, together);
+    });
     table.tell_of_bounds([&](std::size_t row) { return axes_of(combination(row, size)); });
 
     Report result;

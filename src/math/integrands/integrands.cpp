@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "math/integrands/integrand.hpp"
+#include "math/integrands/integrands.hpp"
 
 #include <algorithm>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "math/integrands/families.hpp"
 
 namespace stipple {
 namespace {

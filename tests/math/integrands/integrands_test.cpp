@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Exact integrals against plain quadrature, and against formulas that are not those of the code.
-#include "math/integrands/integrand.hpp"
+#include "math/integrands/integrands.hpp"
 
 #include <gtest/gtest.h>
 
