@@ -3,8 +3,10 @@
 
 #include <Random123/philox.h>
 
+#include <algorithm>
+
 #include "core/int128.hpp"
-#include "core/philox_avx2.hpp"
+#include "core/wide.hpp"
 
 namespace stipple {
 namespace {
@@ -23,6 +25,44 @@ std::array<std::uint64_t, 2> block(std::uint64_t seed, std::uint64_t stream, std
     return {join(out[0], out[1]), join(out[2], out[3])};
 }
 
+/// to_unit() of these halves, without rounding, by conversions that all vectors have.
+constexpr double unit_of(std::uint32_t low, std::uint32_t high) {
+    const auto upper = static_cast<double>(static_cast<std::int32_t>(high ^ 0x80000000U)) + 0x1p31;
+    return upper * 0x1p-32 + static_cast<double>(static_cast<std::int32_t>(low >> 11)) * 0x1p-53;
+}
+
+/// Numbers 2 * pair, 2 * pair + 1, ... of the stream, an even number of them, from blocks side by
+/// side: a vector holds one of the counter's four words for many blocks.
+STIPPLE_WIDE void fill_pairs(std::uint64_t seed, std::uint64_t stream, std::uint64_t pair,
+                             double* out, std::size_t count) {
+    constexpr std::size_t most = 64;
+    std::uint32_t w0[most], w1[most], w2[most], w3[most];
+    for (std::size_t first = 0; first < count; first += 2 * most, pair += most) {
+        const std::size_t n = std::min(most, (count - first) / 2);
+        for (std::size_t l = 0; l < n; ++l) {
+            w0[l] = low_word(pair + l);
+            w1[l] = high_word(pair + l);
+            w2[l] = low_word(stream);
+            w3[l] = high_word(stream);
+        }
+        std::uint32_t low = low_word(seed);
+        std::uint32_t high = high_word(seed);
+        for (int round = 0; round < 10; ++round, low += 0x9E3779B9, high += 0xBB67AE85)
+            for (std::size_t l = 0; l < n; ++l) {
+                const std::uint64_t p0 = std::uint64_t{0xD2511F53} * w0[l];
+                const std::uint64_t p2 = std::uint64_t{0xCD9E8D57} * w2[l];
+                w0[l] = high_word(p2) ^ w1[l] ^ low;
+                w1[l] = low_word(p2);
+                w2[l] = high_word(p0) ^ w3[l] ^ high;
+                w3[l] = low_word(p0);
+            }
+        for (std::size_t l = 0; l < n; ++l) {
+            out[first + 2 * l] = unit_of(w0[l], w1[l]);
+            out[first + 2 * l + 1] = unit_of(w2[l], w3[l]);
+        }
+    }
+}
+
 }  // namespace
 
 std::array<std::uint32_t, 4> philox_block(const std::array<std::uint32_t, 4>& counter,
@@ -39,19 +79,14 @@ std::uint64_t Rng::below(std::uint64_t i, std::uint64_t n) const {
 }
 
 void Rng::fill(std::uint64_t first, std::span<double> out) const {
-    std::size_t k = 0;
-    if (first % 2 == 1 && !out.empty()) out[k++] = uniform(first);
-    if (has_philox_avx2()) {
-        const std::size_t many = (out.size() - k) / philox_avx2_step * philox_avx2_step;
-        fill_philox_avx2(seed_, stream_, (first + k) / 2, out.data() + k, many);
-        k += many;
+    if (out.empty()) return;
+    if (first % 2 == 1) {
+        out.front() = uniform(first++);
+        out = out.subspan(1);
     }
-    for (; k + 1 < out.size(); k += 2) {
-        const auto pair = block(seed_, stream_, (first + k) / 2);
-        out[k] = to_unit(pair[0]);
-        out[k + 1] = to_unit(pair[1]);
-    }
-    if (k < out.size()) out[k] = uniform(first + k);
+    const std::size_t even = out.size() / 2 * 2;
+    fill_pairs(seed_, stream_, first / 2, out.data(), even);
+    if (even < out.size()) out.back() = uniform(first + even);
 }
 
 }  // namespace stipple
