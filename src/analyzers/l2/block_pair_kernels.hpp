@@ -15,8 +15,7 @@
 //     1 + max(min(x - 1/2, y - 1/2), min(1/2 - x, 1/2 - y), 0)
 //
 // The numbers of a block's points follow each other in columns; `row` is one point of its block and
-// `block` the first of as many as a vector holds. Where blocks lie on one side of each other, less
-// is left to work out.
+// `block` the first of as many as a vector holds.
 
 constexpr std::size_t lanes = STIPPLE_VECTOR_BITS / 64;
 using V [[gnu::vector_size(8 * lanes)]] = double;
@@ -101,8 +100,9 @@ STIPPLE_INLINE Group where_less(const Group& a, const Group& b, const Group& x, 
              where_less(a.at[3], b.at[3], x.at[3], y.at[3])}};
 }
 
-/// A number and its error term, of a vector or a group of them. Of groups, either is to be assigned,
-/// not the whole: GCC copies a structure by halves of vectors, and loads then wait for the stores.
+/// A number and its error term, of a vector or a group of them. Of groups, either is to be
+/// assigned, not the whole: GCC copies a structure by halves of vectors, and loads then wait for the
+/// stores.
 template <class T>
 struct Compensated {
     T value;
@@ -131,20 +131,15 @@ STIPPLE_INLINE Compensated<Group> raised(const Group& a, const Group& b,
     return out;
 }
 
-/// |x - y| - vertex of positions in column 0, position - vertex in column 1 and, if there are any,
-/// rests in column 2. Without rounding.
-template <BlockRelation relation, bool rests>
+/// |x - y| - vertex of positions in column 0 and, if there are any, rests in column 1. Without
+/// rounding.
+template <bool rests>
 STIPPLE_INLINE Compensated<Group> from_vertex(const double* row, const double* block,
                                               const AxisConstants& axis) {
-    Group rest = all(V{});
-    if constexpr (rests) rest = columns(block + 2 * block_width) - rows(row + 2 * block_width);
-    if constexpr (relation == BlockRelation::below)
-        return {columns(block + block_width) - rows(row), rest};
-    if constexpr (relation == BlockRelation::above)
-        return {rows(row + block_width) - columns(block), -rest};
     const Group vertex = all(same(axis.vertex));
     const Group t = columns(block) - rows(row);
-    if constexpr (!rests) return {flipped(t, t) - vertex, rest};
+    if constexpr (!rests) return {flipped(t, t) - vertex, all(V{})};
+    const Group rest = columns(block + block_width) - rows(row + block_width);
     const Group whole = t + rest;
     return {flipped(t, whole) - vertex, flipped(rest, whole)};
 }
@@ -154,7 +149,6 @@ struct Minimum {
     static constexpr std::size_t columns_of_factor = 1;
     static constexpr bool separates = true;
     static constexpr Rounding rounding = Rounding::none;
-    template <BlockRelation>
     STIPPLE_INLINE static Compensated<Group> factor(const double* row, const double* block,
                                                     const AxisConstants&) {
         return {least(columns(block), rows(row)), all(V{})};
@@ -168,7 +162,6 @@ struct MinimumCompensated {
     static constexpr std::size_t columns_of_factor = 3;
     static constexpr bool separates = true;
     static constexpr Rounding rounding = Rounding::compensated;
-    template <BlockRelation>
     STIPPLE_INLINE static Compensated<Group> factor(const double* row, const double* block,
                                                     const AxisConstants&) {
         const Group mine = rows(row);
@@ -187,14 +180,11 @@ struct TwoSided {
     static constexpr std::size_t columns_of_factor = 2;
     static constexpr bool separates = false;
     static constexpr Rounding rounding = Rounding::above_one;
-    template <BlockRelation relation>
     STIPPLE_INLINE static Compensated<Group> factor(const double* row, const double* block,
                                                     const AxisConstants&) {
         const Group none = all(V{});
         const Group above = least(columns(block), rows(row));
-        if constexpr (relation == BlockRelation::above) return {above, none};
         const Group below = least(columns(block + block_width), rows(row + block_width));
-        if constexpr (relation == BlockRelation::below) return {below, none};
         return {greatest(greatest(above, below), none), none};
     }
 };
@@ -202,13 +192,12 @@ struct TwoSided {
 /// A parabola of the distance. Without compensation its base has neither an offset nor an error.
 template <bool compensated, bool rests>
 struct Bernoulli {
-    static constexpr std::size_t columns_of_factor = rests ? 3 : 2;
+    static constexpr std::size_t columns_of_factor = rests ? 2 : 1;
     static constexpr bool separates = false;
     static constexpr Rounding rounding = Rounding::compensated;
-    template <BlockRelation relation>
     STIPPLE_INLINE static Compensated<Group> factor(const double* row, const double* block,
                                                     const AxisConstants& axis) {
-        const auto [u, rest] = from_vertex<relation, rests>(row, block, axis);
+        const auto [u, rest] = from_vertex<rests>(row, block, axis);
         if constexpr (!compensated) return raised(u, u, all(same(axis.base)));
         if constexpr (!rests) return raised(u, u, axis);
         Compensated<Group> out = raised(u, u, axis);
@@ -221,15 +210,14 @@ struct Bernoulli {
 /// has no rounding.
 template <bool rests>
 struct Mixture {
-    static constexpr std::size_t columns_of_factor = rests ? 5 : 4;
+    static constexpr std::size_t columns_of_factor = rests ? 4 : 3;
     static constexpr bool separates = false;
     static constexpr Rounding rounding = Rounding::compensated;
-    template <BlockRelation relation>
     STIPPLE_INLINE static Compensated<Group> factor(const double* row, const double* block,
                                                     const AxisConstants& axis) {
         constexpr std::size_t height = (columns_of_factor - 2) * block_width;
         constexpr std::size_t error = (columns_of_factor - 1) * block_width;
-        const auto [u, rest] = from_vertex<relation, rests>(row, block, axis);
+        const auto [u, rest] = from_vertex<rests>(row, block, axis);
         Compensated<Group> out = raised(u, u, columns(block + height) + rows(row + height));
         out.error = out.error + (columns(block + error) + rows(row + error));
         if constexpr (rests) out.error = fused(u + u, rest, out.error);
@@ -242,7 +230,6 @@ struct OnePlusMinima {
     static constexpr std::size_t columns_of_factor = 3;
     static constexpr bool separates = false;
     static constexpr Rounding rounding = Rounding::compensated;
-    template <BlockRelation>
     STIPPLE_INLINE static Compensated<Group> factor(const double* row, const double* block,
                                                     const AxisConstants& axis) {
         const Group x = rows(row);
@@ -288,11 +275,11 @@ struct GroupPair {
     std::size_t first;  ///< of the group in its block
 };
 
-template <class Kernel, BlockRelation relation>
+template <class Kernel>
 STIPPLE_INLINE Compensated<Group> factor_of(const GroupPair& g, std::size_t factor, std::size_t k) {
     const std::size_t column = factor * Kernel::columns_of_factor * block_width;
-    return Kernel::template factor<relation>(
-        g.pair.rows + column + g.first, g.pair.columns + column + k, g.table.factors()[factor]);
+    return Kernel::factor(g.pair.rows + column + g.first, g.pair.columns + column + k,
+                          g.table.factors()[factor]);
 }
 
 /// What the products begin with: those of the columns alone, or their first factor.
@@ -300,10 +287,9 @@ template <class Kernel>
 STIPPLE_INLINE Compensated<Group> first_factor(const GroupPair& g, std::size_t k) {
     const PointProducts& own = g.pair.column_products;
     if constexpr (Kernel::separates) return {columns(own.value + k), columns(own.error + k)};
-    const std::size_t factor = g.pair.steps.front().factor;
-    if constexpr (Kernel::rounding != Rounding::above_one)
-        return factor_of<Kernel, BlockRelation::mixed>(g, factor, k);
-    const Group more = factor_of<Kernel, BlockRelation::mixed>(g, factor, k).value;
+    const std::size_t factor = g.pair.factors.front();
+    if constexpr (Kernel::rounding != Rounding::above_one) return factor_of<Kernel>(g, factor, k);
+    const Group more = factor_of<Kernel>(g, factor, k).value;
     const Group one = all(same(1));
     const Group value = more + one;
     return {value, more - (value - one)};
@@ -314,15 +300,8 @@ STIPPLE_INLINE Compensated<Group> first_factor(const GroupPair& g, std::size_t k
 template <class Kernel>
 STIPPLE_INLINE Compensated<Group> products(const GroupPair& g, std::size_t k) {
     Compensated<Group> p = first_factor<Kernel>(g, k);
-    const Step* step = g.pair.steps.data() + (Kernel::separates ? 0 : 1);
-    for (const Step* const end = g.pair.steps.data() + g.pair.steps.size(); step < end; ++step) {
-        if (Kernel::separates || step->relation == BlockRelation::mixed)
-            multiply<Kernel>(p, factor_of<Kernel, BlockRelation::mixed>(g, step->factor, k));
-        else if (step->relation == BlockRelation::below)
-            multiply<Kernel>(p, factor_of<Kernel, BlockRelation::below>(g, step->factor, k));
-        else
-            multiply<Kernel>(p, factor_of<Kernel, BlockRelation::above>(g, step->factor, k));
-    }
+    const auto rest = std::span(g.pair.factors).subspan(Kernel::separates ? 0 : 1);
+    for (const std::size_t factor : rest) multiply<Kernel>(p, factor_of<Kernel>(g, factor, k));
     if (Kernel::separates || g.pair.full) return p;
     const std::size_t last = (g.table.height() - 1) * block_width;
     const Group there = columns(g.pair.columns + last + k) * rows(g.pair.rows + last + g.first);

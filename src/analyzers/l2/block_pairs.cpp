@@ -2,8 +2,8 @@
 #include "analyzers/l2/block_pairs.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <cstring>
+#include <span>
 
 #include "core/parallel.hpp"
 
@@ -15,34 +15,26 @@ namespace {
 constexpr std::size_t group = 4;        ///< rows that are multiplied together
 constexpr std::size_t batch_size = 16;  ///< blocks whose sums are doubles
 
-/// How a block's points lie to those of the rows on the axis of a factor.
-enum class BlockRelation : std::uint8_t {
-    mixed,
-    below,  ///< rows first in the axis's order; of the centered kernel: all of both up to 1/2
-    above,  ///< rows last; all from 1/2
-    apart   ///< on either side of 1/2
+/// What is known of a factor for all pairs of points of two blocks.
+enum class Known {
+    nothing,
+    of_rows,     ///< it is the rows' own: they come first in the order of its axis
+    of_columns,  ///< it is the columns' own
+    one          ///< it is 1: they are on either side of 1/2
 };
 
 /// For kernels in which it matters who comes first.
-BlockRelation relation_in_order(const BlockTable::Range& rows, const BlockTable::Range& columns) {
-    if (rows.greatest <= columns.least) return BlockRelation::below;
-    return columns.greatest <= rows.least ? BlockRelation::above : BlockRelation::mixed;
+Known known_in_order(const BlockTable::Range& rows, const BlockTable::Range& columns) {
+    if (rows.greatest <= columns.least) return Known::of_rows;
+    return columns.greatest <= rows.least ? Known::of_columns : Known::nothing;
 }
 
-/// For kernels in which it matters who is on which side of 1/2.
-BlockRelation relation_to_middle(const BlockTable::Range& rows, const BlockTable::Range& columns) {
-    if (std::max(rows.greatest, columns.greatest) <= 0.5) return BlockRelation::below;
-    if (std::min(rows.least, columns.least) >= 0.5) return BlockRelation::above;
+/// For the centered kernel.
+Known known_by_side(const BlockTable::Range& rows, const BlockTable::Range& columns) {
     const bool apart = std::min(rows.greatest, columns.greatest) <= 0.5 &&
                        std::max(rows.least, columns.least) >= 0.5;
-    return apart ? BlockRelation::apart : BlockRelation::mixed;
+    return apart ? Known::one : Known::nothing;
 }
-
-/// A factor that is to be worked out for each pair of points.
-struct Step {
-    std::size_t factor;
-    BlockRelation relation;
-};
 
 /// Products of the factors that belong to a point alone, of a block's points, or 0 where there is
 /// none.
@@ -60,8 +52,8 @@ struct LaneSums {
 struct BlockPair {
     const double* rows = nullptr;
     const double* columns = nullptr;
-    std::vector<Step> steps = {};
-    bool full = true;  ///< no places without points
+    std::vector<std::size_t> factors = {};  ///< to be worked out for each pair of points
+    bool full = true;                       ///< no places without points
     // Of kernels that separate into a number of either point.
     std::vector<std::size_t> row_factors = {};
     std::vector<std::size_t> column_factors = {};
@@ -113,40 +105,34 @@ class Rows {
     }
 
   private:
-    [[nodiscard]] BlockRelation relation(std::size_t b, std::size_t factor) const {
+    [[nodiscard]] Known known(std::size_t b, std::size_t factor) const {
         const auto& rows = table_.range(block_, factor);
         const auto& columns = table_.range(b, factor);
-        if (table_.form() == PairForm::two_sided) return relation_to_middle(rows, columns);
-        if (kernel_.separates && !table_.any_order()) return BlockRelation::mixed;
-        return relation_in_order(rows, columns);
+        if (table_.form() == PairForm::two_sided) return known_by_side(rows, columns);
+        if (!kernel_.separates || !table_.any_order()) return Known::nothing;
+        return known_in_order(rows, columns);
     }
 
     /// Finds what holds for all points of the two blocks.
     void compare_with(std::size_t b) {
         pair_.columns = table_.block(b);
         pair_.full = (std::max(block_, b) + 1) * block_width <= table_.count();
-        pair_.steps.clear();
+        pair_.factors.clear();
         pair_.row_factors.clear();
         pair_.column_factors.clear();
         for (std::size_t f = 0; f < table_.factors().size(); ++f) {
-            const BlockRelation known = relation(b, f);
-            if (kernel_.separates && known == BlockRelation::below)
-                pair_.row_factors.push_back(f);
-            else if (kernel_.separates && known == BlockRelation::above)
-                pair_.column_factors.push_back(f);
-            else if (known != BlockRelation::apart)
-                pair_.steps.push_back({f, known});
+            const Known what = known(b, f);
+            if (what == Known::of_rows) pair_.row_factors.push_back(f);
+            if (what == Known::of_columns) pair_.column_factors.push_back(f);
+            if (what == Known::nothing) pair_.factors.push_back(f);
         }
         if (kernel_.separates) {
             kernel_.multiply_own(table_, pair_.rows, pair_.row_factors, pair_.row_products);
             kernel_.multiply_own(table_, pair_.columns, pair_.column_factors,
                                  pair_.column_products);
-        } else if (pair_.steps.empty()) {
-            pair_.steps.push_back({0, BlockRelation::mixed});
+        } else if (pair_.factors.empty()) {
+            pair_.factors.push_back(0);
         }
-        // The first is worked out as if nothing were known.
-        const auto mixed = std::ranges::find(pair_.steps, BlockRelation::mixed, &Step::relation);
-        if (mixed != pair_.steps.end()) std::iter_swap(pair_.steps.begin(), mixed);
     }
 
     const BlockTable& table_;

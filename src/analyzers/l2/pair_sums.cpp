@@ -17,9 +17,8 @@ namespace {
 
 /// Of a point for a factor.
 struct PointNumbers {
-    double position;     ///< in the order of the axis; of parabolas a multiple of 2^-53
-    double from_vertex;  ///< the position less the parabola's vertex
-    double rest;         ///< of the position
+    double position;  ///< in the order of the axis; of parabolas a multiple of 2^-53
+    double rest;      ///< of the position
     DoubleDouble value;
 };
 
@@ -109,7 +108,7 @@ class FactorForm {
     PointNumbers* put(double x, PointNumbers* to) const {
         const auto write = [&](double position, const DoubleDouble& value) {
             const double at = is_parabola() ? whole(position) : position;
-            *to++ = {at, at - vertex(), position - at, value};
+            *to++ = {at, position - at, value};
         };
         if (two_sided_) {
             write(x, {x - 0.5, 0.5 - x});
@@ -354,7 +353,7 @@ PairForm form_of(const FactorForm& form, Kind kind, const Numbers& numbers,
 }
 
 /// The columns of a point that the kernels of a form want, and what may follow them.
-std::array<double, 5> columns_of(PairForm form, const PointNumbers& point, double root) {
+std::array<double, 4> columns_of(PairForm form, const PointNumbers& point, double root) {
     const double value = root * root * point.value.high;
     const double error = root * root * point.value.low;
     switch (form) {
@@ -365,10 +364,9 @@ std::array<double, 5> columns_of(PairForm form, const PointNumbers& point, doubl
         case PairForm::one_plus_minima:
             return {point.position, value, error};
         case PairForm::mixture:
-            return {root * point.position, root * point.from_vertex, value, error};
+            return {root * point.position, value, error};
         default:
-            return {root * point.position, root * point.from_vertex, root * point.rest, value,
-                    error};
+            return {root * point.position, root * point.rest, value, error};
     }
 }
 
