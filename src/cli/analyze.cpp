@@ -2,7 +2,6 @@
 //
 // The verb `analyze`: point sets in, results out.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -10,14 +9,14 @@
 #include <list>
 #include <optional>
 
-#include "cli/bounds.hpp"
+#include "cli/inputs.hpp"
 #include "cli/launched.hpp"
 #include "cli/set_batch.hpp"
-#include "cli/shared_files.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/files.hpp"
+#include "io/source_text.hpp"
 #include "math/fourier/transform.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/generated.hpp"
@@ -95,8 +94,7 @@ ReportStyle report_style(const Arguments& arguments, const std::string& path) {
     if (path.ends_with(".csv")) return ReportStyle::csv;
     if (path.ends_with(".txt")) return ReportStyle::text;
     // A launcher gives the process that speaks for all a terminal of its own.
-    const bool read_by_people = isatty(STDOUT_FILENO) == 1 && launched_ranks() == 1;
-    return path == "-" && read_by_people ? ReportStyle::text : ReportStyle::json;
+    return is_terminal(path) && launched_ranks() == 1 ? ReportStyle::text : ReportStyle::json;
 }
 
 /// What sets are from; joined ones are from all at once.
@@ -119,6 +117,7 @@ class Analysis {
           path_(output_of(arguments)),
           style_(report_style(arguments, path_)),
           averaged_(arguments.has("average")),
+          strengths_(text_of(analyzer_.strengths).value_or("")),
           batch_(
               session.run(),
               [this](const FoundSet& set, const RunContext& run) { return measured(set, run); },
@@ -140,10 +139,8 @@ class Analysis {
         check_side_files(options_, path_);
         if (ranks_.size() > 1)
             share();
-        else if (arguments_.has("generate"))
-            add_generated();
         else
-            add_inputs();
+            arguments_.has("generate") ? add_generated() : add_inputs();
         batch_.finish();
         if (ranks_.rank() > 0) return 0;  // rank 0 speaks
         if (interrupted()) return print_what_is_known();
@@ -173,7 +170,7 @@ class Analysis {
             fail_with_hint(ErrorKind::usage, "'stipple study' shares many sets out",
                            "--sets: ranks share one");
         if (arguments_.has("generate")) return measure_together(*arguments_.get("generate"));
-        refuse_generated_options();
+        refuse_generated_options(arguments_);
         naming(inputs_.front(), [this] { measure_together(inputs_.front()); });
     }
 
@@ -182,9 +179,8 @@ class Analysis {
         const SharedSet set =
             arguments_.has("generate")
                 ? shared_generated()
-                : shared_files(arguments_, analyzer_, strengths(), ranks_, own_run());
-        Measurement m = measurement(source, 0, set.count, *set.domain);
-        m.set.reset();
+                : shared_files(arguments_, analyzer_, strengths_, ranks_, own_run());
+        Measurement m = measurement(source, {}, set.count, *set.domain);
         if (analyzer_.sharing.together) {
             m.results = searched_together(set);
         } else {
@@ -198,7 +194,7 @@ class Analysis {
     }
 
     SharedSet shared_generated() {
-        auto generated = std::make_shared<GeneratedSets>(generated_sets());
+        const auto generated = std::make_shared<GeneratedSets>(asked_sets());
         const RunContext run = own_run();
         const auto count = generated->streamed();
         if (!count && !analyzer_.sharing.together)
@@ -238,80 +234,58 @@ class Analysis {
         return analyzer_.sharing.together(*points, options_, ranks_, run);
     }
 
-    void refuse_generated_options() const {
-        for (const char* name : {"count", "seed", "sets", "warp", "start"})
-            if (arguments_.has(name))
-                fail(ErrorKind::usage, "--{}: is of --generate, which names a generator", name);
-    }
-
-    void add_inputs() {
-        refuse_generated_options();
-        const bool in_blocks = analyzer_.accumulate && !arguments_.has("rescale");
-        if (!in_blocks && !strengths().empty())
-            fail(ErrorKind::usage, "--rescale and --weights: give --bounds in place of --rescale");
-        for (const std::string& input : inputs_)
-            if (!interrupted()) in_blocks ? add_stream(input) : add_sets(input);
-    }
-
-    /// Generated sets.
-    GeneratedSets generated_sets() {
+    /// What --generate names.
+    GeneratedSets asked_sets() {
         for (const char* name : {"bounds", "rescale", "domain", "column", "from", "dtype"})
             if (arguments_.has(name))
                 fail(ErrorKind::usage, "--{}: is of points from files, not of --generate", name);
         if (!arguments_.inputs.empty())
             fail(ErrorKind::usage, "--generate takes no INPUT; '{}' is given",
                  arguments_.inputs.front());
-        if (!strengths().empty())
+        if (!strengths_.empty())
             fail(ErrorKind::usage, "--weights: generated points have no strengths");
-        const Spec spec = parse_spec(*arguments_.get("generate"));
-        const Generator& generator = find_generator(spec.name);
-        Values values = spec.values(generator.options);
-        Request request = request_of(arguments_);
-        const auto& max_seed = generator.max_seed;
-        request.seed =
-            seed_of(arguments_, max_seed ? max_seed(values) : ~std::uint64_t{0}, session_);
-        std::vector<Spec> warps;
-        for (const auto& warp : arguments_.all("warp")) warps.push_back(parse_spec(warp));
-        const std::uint64_t sets = arguments_.integer("sets").value_or(1);
-        return {generator, std::move(values), std::move(request),
-                sets,      std::move(warps),  own_run()};
+        const auto spec = arguments_.all("generate");
+        return generated_sets(spec.back(), seed_for(arguments_, spec, session_), arguments_,
+                              own_run());
     }
 
     void add_generated() {
-        const GeneratedSets generated = generated_sets();
+        const GeneratedSets generated = asked_sets();
         const std::string text = *arguments_.get("generate");
         const std::uint64_t sets = generated.sets();
+        const auto count = generated.streamed();
+        RunContext quiet = session_.run();
+        if (sets > 1) quiet.progress = {};
         for (std::uint64_t set = 0; set < sets && !interrupted(); ++set) {
             session_.run().tick(set, sets);
-            add_generated(generated, set, text);
+            if (analyzer_.accumulate && count)
+                keep(arrived({generated.domain(), count}, generated.dimension(),
+                             generated.stream(set, quiet), text, number_of(set, sets), quiet),
+                     sets > 1);
+            else
+                batch_.add({of_the_cube(generated.made(set, quiet), analyzer_), text, set, sets});
         }
     }
 
-    void add_generated(const GeneratedSets& generated, std::uint64_t set, const std::string& text) {
-        RunContext quiet = session_.run();
-        if (generated.sets() > 1) quiet.progress = {};
-        const auto start = Clock::now();
-        const auto count = generated.streamed();
-        if (!analyzer_.accumulate || !count) {
-            batch_.add(
-                {of_the_cube(generated.made(set, quiet), analyzer_), text, set, generated.sets()});
-            return;
-        }
-        Found found =
-            stipple::analyze(analyzer_, {generated.domain(), count}, generated.dimension(),
-                             generated.stream(set, quiet), options_, quiet);
-        Measurement m = measurement(text, set, found.count, *generated.domain());
-        m.results = std::move(found.report);
-        m.seconds = seconds_since(start);
-        if (generated.sets() == 1) m.set.reset();
-        keep(std::move(m), generated.sets() > 1);
+    void add_inputs() {
+        refuse_generated_options(arguments_);
+        const bool in_blocks = analyzer_.accumulate && !arguments_.has("rescale");
+        if (!in_blocks && !strengths_.empty())
+            fail(ErrorKind::usage, "--rescale and --weights: give --bounds in place of --rescale");
+        for (const std::string& input : inputs_)
+            if (!interrupted()) in_blocks ? add_stream(input) : add_sets(input);
+    }
+
+    /// A set's number, where there are several.
+    static std::optional<std::size_t> number_of(std::size_t set, std::size_t of) {
+        return of > 1 ? std::optional(set) : std::nullopt;
     }
 
     static double seconds_since(Clock::time_point start) {
         return std::chrono::duration<double>(Clock::now() - start).count();
     }
 
-    [[nodiscard]] Measurement measurement(const std::string& source, std::size_t set,
+    [[nodiscard]] Measurement measurement(const std::string& source, std::optional<std::size_t> set,
                                           std::uint64_t count, const Domain& domain) const {
         return {.analyzer = analyzer_.name,
                 .source = source,
@@ -322,10 +296,11 @@ class Analysis {
                 .options = shown_options_};
     }
 
-    /// The column of strengths that was asked for.
-    [[nodiscard]] std::string strengths() const {
-        const auto* option = options_.try_find(analyzer_.strengths);
-        return option != nullptr && option->given ? std::get<std::string>(option->value) : "";
+    /// The text of an option of the analyzer, where it is given.
+    [[nodiscard]] std::optional<std::string> text_of(std::string_view name) const {
+        const auto* option = options_.try_find(name);
+        if (option == nullptr || !option->given) return std::nullopt;
+        return format_value(option->value);
     }
 
     void add_sets(const std::string& input) {
@@ -354,69 +329,46 @@ class Analysis {
         }
     }
 
-    /// Errors in a set's points name the file that they are from.
-    template <class Work>
-    static void naming(const std::string& input, const Work& work) {
-        try {
-            work();
-        } catch (const Error& e) {
-            const std::string name = input == "-" ? "stdin" : input;
-            const std::string what = e.what();
-            const auto named = [&](const auto& part) {
-                return what.starts_with(std::string(part) + ":");
-            };
-            // A limit is met by what a file holds as well; of stdin there is nothing to tell apart.
-            const bool of_file =
-                e.kind() == ErrorKind::input || (e.kind() == ErrorKind::limit && input != "-");
-            if (!of_file || named(name)) throw;
-            // What is wrong with one of joined files names it.
-            for (const auto part : split(name, ','))
-                if (named(trim(part))) throw;
-            throw Error(e.kind(), fmt::format("{}: {}", name, e.what()), e.hint());
-        }
-    }
-
     /// Sets of any size, in blocks.
     void add_stream(const std::string& input) {
-        const auto stream = joined_ ? open_joined(arguments_, session_.run(), strengths())
-                                    : open_input(input, arguments_, session_.run(), strengths());
+        const RunContext& run = session_.run();
+        const auto stream = joined_ ? open_joined(arguments_, run, strengths_)
+                                    : open_input(input, arguments_, run, strengths_);
         const std::size_t before = measurements_.size();
+        const std::size_t width = stream->dimension();
+        const std::size_t d = width - (strengths_.empty() ? 0 : 1);
         std::size_t sets = 0;
-        while (stream->next_set()) naming(input, [&] { add_arriving(*stream, input, sets++); });
+        for (; stream->next_set(); ++sets)
+            naming(input, [&] {
+                const NextRows read = [&](std::span<double> rows) { return stream->read(rows); };
+                keep(arrived(arrival_of(*stream, !strengths_.empty(), analyzer_, arguments_, run),
+                             d, within_bounds(read, width, d, 0, analyzer_, arguments_), input,
+                             sets, run),
+                     inputs_.size() > 1 || sets > 0);
+            });
         if (sets == 1 && measurements_.size() == before + 1) measurements_.back().set.reset();
     }
 
-    void add_arriving(io::PointStream& stream, const std::string& input, std::size_t set) {
+    /// Measures a set that comes in blocks.
+    [[nodiscard]] Measurement arrived(const Arrival& arrival, std::size_t dimension,
+                                      const NextRows& next, const std::string& source,
+                                      std::optional<std::size_t> set, const RunContext& run) const {
         const auto start = Clock::now();
-        const std::size_t width = stream.dimension();
-        const bool weighted = !strengths().empty();
-        const std::size_t d = width - (weighted ? 1 : 0);
-        const DomainPtr domain = domain_of(stream, d, analyzer_, arguments_, session_.run());
-        std::optional<Box> box;
-        if (const auto bounds = arguments_.get("bounds")) box = parse_box(*bounds, d);
-        std::uint64_t at = 0;
-        const NextRows next = [&](std::span<double> rows) {
-            const std::size_t count = stream.read(rows);
-            if (box) take_bounds(rows.first(count * width), width, *box, at, analyzer_);
-            at += count;
-            return count;
-        };
-        Found found = stipple::analyze(analyzer_, {domain, stream.count(), weighted}, d, next,
-                                       options_, session_.run());
-        Measurement m = measurement(input, set, found.count, *domain);
+        Found found = stipple::analyze(analyzer_, arrival, dimension, next, options_, run);
+        Measurement m = measurement(source, set, found.count, *arrival.domain);
         m.results = std::move(found.report);
         m.seconds = seconds_since(start);
-        keep(std::move(m), inputs_.size() > 1 || set > 0);
+        return m;
     }
 
     /// The run, its warnings with the set in front where there are others.
     [[nodiscard]] RunContext naming_set(const FoundSet& set, const RunContext& run) const {
         RunContext named = run;
         if (set.of == 1 && arguments_.inputs.size() <= 1) return named;
-        std::string name = set.source == "-" ? "stdin" : set.source;
+        std::string name = io::source_name(set.source);
         if (set.of > 1) name += fmt::format(", set {}", set.number);
-        named.warn = [tell = run.warn, name](const std::string& sentence) {
-            if (tell) tell(fmt::format("{}: {}", name, sentence));
+        named.warn = [&run, name](const std::string& sentence) {
+            run.tell(fmt::format("{}: {}", name, sentence));
         };
         return named;
     }
@@ -424,17 +376,12 @@ class Analysis {
     [[nodiscard]] Measurement measured(const FoundSet& set, const RunContext& run) const {
         const auto start = Clock::now();
         const PointSet& points = set.points;
-        Measurement m{.analyzer = analyzer_.name,
-                      .source = set.source,
-                      .set = set.of > 1 ? std::optional(set.number) : std::nullopt,
-                      .count = points.count(),
-                      .dimension = points.dimension(),
-                      .domain = points.domain->spec(),
-                      .options = shown_options_};
+        Measurement m =
+            measurement(set.source, number_of(set.number, set.of), points.count(), *points.domain);
         const RunContext named = naming_set(set, run);
         naming(set.source,
                [&] { m.results = stipple::analyze(analyzer_, points, options_, named); });
-        m.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        m.seconds = seconds_since(start);
         return m;
     }
 
@@ -483,11 +430,7 @@ class Analysis {
     void finish_average() {
         Measurement& m = measurements_[0];
         m.set.reset();
-        m.sets = average_.count();
-        m.results = average_.mean();
-        if (analyzer_.refine) analyzer_.refine(m.results, average_.count(), options_);
-        if (analyzer_.combine) analyzer_.combine(m.results, singles_, options_);
-        if (average_.count() > 1) m.standard_error = only_of(m.results, average_.standard_error());
+        take_mean(m, average_, singles_, analyzer_, options_);
         if (m.largest_count > 0) warn_of_sizes();
         save_grid(m.results, 0, false);
     }
@@ -495,27 +438,22 @@ class Analysis {
     void save_grid(const Report& results, std::size_t number, bool several) {
         const auto* item = results.find("grid");
         const Grid* grid = item ? std::get_if<Grid>(item) : nullptr;
-        for (const char* name : {"grid", "image"}) {
-            const auto* option = options_.try_find(name);
-            if (option == nullptr || !option->given) continue;
-            std::string path = std::get<std::string>(option->value);
+        for (const std::string name : {"grid", "image"}) {
+            auto path = text_of(name);
+            if (!path) continue;
             if (grid == nullptr)
                 fail(ErrorKind::input, "--{}: there is no grid for points of this dimension", name);
-            const auto at = path.find("{set}");
-            if (at != std::string::npos)
-                path.replace(at, 5, std::to_string(number));
-            else if (several)
+            if (several && path->find("{set}") == std::string::npos)
                 fail(ErrorKind::usage, "--{}: several sets need a name with {{set}}, or --average",
                      name);
-            save_beside(path, std::string(name) == "grid" ? npy_bytes(*grid)
-                                                          : png_bytes(*grid, picture(results)));
+            replace_all(*path, "{set}", std::to_string(number));
+            save_beside(*path,
+                        name == "grid" ? npy_bytes(*grid) : png_bytes(*grid, picture(results)));
         }
     }
 
     void save_wisdom() {
-        const auto* wisdom = options_.try_find("wisdom");
-        if (wisdom && wisdom->given)
-            save_beside(std::get<std::string>(wisdom->value), wisdom_text());
+        if (const auto path = text_of("wisdom")) save_beside(*path, wisdom_text());
     }
 
     /// Files that come with the report are put in their places when it is out.
@@ -528,7 +466,8 @@ class Analysis {
     /// How the options say that a grid is drawn.
     [[nodiscard]] PowerPicture picture(const Report& results) const {
         PowerPicture picture;
-        if (analyzer_.name == "differential") picture.differences = results.number("max_distance");
+        if (const auto* reach = results.find("max_distance"))
+            picture.differences = std::get<double>(*reach);
         if (const auto* scale = options_.try_find("image-scale"))
             picture.scale = std::get<std::string>(scale->value);
         if (const auto* bits = options_.try_find("image-bits"))
@@ -594,6 +533,7 @@ class Analysis {
     std::string path_;
     ReportStyle style_;
     bool averaged_;
+    std::string strengths_;  ///< the column of strengths that was asked for
     std::vector<Check> checks_;
     std::vector<std::pair<std::string, std::string>> shown_options_;
     std::vector<Measurement> measurements_;
@@ -606,6 +546,15 @@ class Analysis {
 };
 
 }  // namespace
+
+void take_mean(Measurement& m, const ReportAverage& average, std::span<const Report> sets,
+               const Analyzer& analyzer, const Values& options) {
+    m.sets = average.count();
+    m.results = average.mean();
+    if (analyzer.refine) analyzer.refine(m.results, average.count(), options);
+    if (analyzer.combine) analyzer.combine(m.results, sets, options);
+    if (average.count() > 1) m.standard_error = only_of(m.results, average.standard_error());
+}
 
 int analyze(const Arguments& arguments, Session& session) {
     const auto ranks = launched("analyze", session.run());

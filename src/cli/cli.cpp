@@ -6,9 +6,9 @@
 #include <exception>
 #include <new>
 
-#include "cli/arguments.hpp"
-#include "cli/help.hpp"
+#include "cli/help/help.hpp"
 #include "cli/launched.hpp"
+#include "cli/parsing/arguments.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"

@@ -8,15 +8,15 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <type_traits>
 
-#include "cli/bounds.hpp"
+#include "cli/inputs.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/npy_header.hpp"
 #include "core/text.hpp"
 #include "io/files.hpp"
 #include "io/provenance.hpp"
+#include "io/source_text.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/pipeline.hpp"
 #include "plot/distance_chart.hpp"
@@ -41,7 +41,7 @@ Medium medium_named(const std::string& name) {
 }
 
 Medium medium_of(const Arguments& arguments, const std::string& path) {
-    const bool terminal = path == "-" && isatty(STDOUT_FILENO) == 1;
+    const bool terminal = is_terminal(path);
     if (const auto named = arguments.get("format")) {
         const Medium medium = medium_named(*named);
         if (medium == Medium::png && terminal)
@@ -61,8 +61,8 @@ Medium medium_of(const Arguments& arguments, const std::string& path) {
 }
 
 /// Size of the terminal in characters; defaults where it is unknown.
-TextRoom terminal_room() {
-    TextRoom room;
+plot::TextRoom terminal_room() {
+    plot::TextRoom room;
     winsize size{};
     if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0) return {.columns = 80, .rows = 40};
     if (size.ws_col > 0) room.columns = size.ws_col;
@@ -110,7 +110,7 @@ class Plot {
 
   private:
     void take_style() {
-        style_.theme = arguments_.get("theme") == "dark" ? &dark_theme : &light_theme;
+        style_.theme = arguments_.get("theme") == "dark" ? &plot::dark_theme : &plot::light_theme;
         style_.title = arguments_.get("title");
         style_.log_x = scale_of(arguments_, "x-scale");
         style_.log_y = scale_of(arguments_, "y-scale");
@@ -141,36 +141,21 @@ class Plot {
 
     void read(const std::string& input) {
         const RunContext& run = session_.run();
-        const std::string name = input == "-" ? "stdin" : input;
         const io::Input file(input, run);
         if (!arguments_.has("from") && looks_like_reports(file.bytes())) {
-            for (Measurement& m : read_reports(file.bytes(), name))
+            for (Measurement& m : read_reports(file.bytes(), io::source_name(input)))
                 reports_.push_back(std::move(m));
             return;
         }
-        auto sets = explained([&] { return read_input(file.bytes(), input, arguments_, run); },
-                              input, "plot takes points, or the JSON of 'stipple analyze'");
+        auto sets = naming(
+            input, [&] { return read_input(file.bytes(), input, arguments_, run); },
+            "plot takes points, or the JSON of 'stipple analyze'");
         for (std::size_t i = 0; i < sets.size(); ++i) {
             require_width(sets[i], input);
-            if (const auto domain = arguments_.get("domain"))
-                sets[i].domain = parse_domain(*domain, sets[i].dimension());
+            take_domain(sets[i], arguments_);
             sets_.push_back({std::move(sets[i]), input,
                              sets.size() > 1 ? std::optional(i) : std::nullopt,
                              file.bytes().starts_with(npy_magic)});
-        }
-    }
-
-    /// Works on an input, and adds a hint to its errors.
-    template <class Work>
-    static std::invoke_result_t<Work> explained(const Work& work, const std::string& input,
-                                                const std::string& hint) {
-        try {
-            return work();
-        } catch (const Error& e) {
-            if (e.kind() != ErrorKind::input) throw;
-            const std::string name = input == "-" ? "stdin" : input;
-            const bool named = std::string(e.what()).starts_with(name + ":");
-            throw Error(e.kind(), named ? e.what() : fmt::format("{}: {}", name, e.what()), hint);
         }
     }
 
@@ -193,14 +178,15 @@ class Plot {
         if (!chart_.empty())
             fail(ErrorKind::usage, "--chart: is for points; a report of {} is drawn as what it is",
                  reports_[0].analyzer);
-        return drawn(chart_of(reports_, arguments_.get("key").value_or("")));
+        return drawn(plot::chart_of(reports_, arguments_.get("key").value_or("")));
     }
 
     std::string picture_of_points() {
         if (arguments_.has("key"))
             fail(ErrorKind::usage, "--key: is for reports; these are points");
-        if (chart_ == "radial") return drawn(chart_of(analyzed("periodogram")));
-        if (chart_ == "pair-correlation") return drawn(chart_of(analyzed("pair-correlation")));
+        if (chart_ == "radial") return drawn(plot::chart_of(analyzed("periodogram")));
+        if (chart_ == "pair-correlation")
+            return drawn(plot::chart_of(analyzed("pair-correlation")));
         const bool table = chart_ == "spectrum" || chart_ == "differential";
         if (table || chart_.empty())
             if (auto found = saved_table()) {
@@ -211,10 +197,10 @@ class Plot {
         check_dimensions();
         if (chart_ == "distances") return distances();
         if (chart_ != "histogram") refuse_scales("points");
-        const PointsPicture picture = points_picture();
-        if (chart_ == "histogram") return drawn(histogram_chart(picture));
-        if (medium_ == Medium::text) return points_as_text(picture, room_);
-        return finished(draw_points(picture, style_, session_.run()));
+        const plot::PointsPicture picture = points_picture();
+        if (chart_ == "histogram") return drawn(plot::histogram_chart(picture));
+        if (medium_ == Medium::text) return plot::points_as_text(picture, room_);
+        return finished(plot::draw_points(picture, style_, session_.run()));
     }
 
     /// @throws Error(usage) for a logarithmic axis of what lies where it is
@@ -228,33 +214,33 @@ class Plot {
                                "--{}: a picture of {} has no logarithmic axes", name, what);
     }
 
-    std::string drawn(const Chart& chart) {
-        if (medium_ == Medium::text) return chart_as_text(chart, style_, room_);
-        return finished(draw_chart(chart, style_));
+    std::string drawn(const plot::Chart& chart) {
+        if (medium_ == Medium::text) return plot::chart_as_text(chart, style_, room_);
+        return finished(plot::draw_chart(chart, style_));
     }
 
-    std::string finished(const Drawing& drawing) {
+    std::string finished(const plot::Drawing& drawing) {
         constexpr double pixel_bytes = 14;  // of colours, of marks, and twice on the way to libpng
         if (medium_ == Medium::png)
             session_.run().need_memory(
                 pixel_bytes * drawing.width * drawing.height * scale_ * scale_, "the picture");
-        const PictureNotes notes = notes_of();
-        return medium_ == Medium::svg ? svg_bytes(drawing, scale_, notes)
-                                      : png_bytes_of(drawing, scale_, notes);
+        const plot::PictureNotes notes = notes_of();
+        return medium_ == Medium::svg ? plot::svg_bytes(drawing, scale_, notes)
+                                      : plot::png_bytes_of(drawing, scale_, notes);
     }
 
     /// The table that --grid saved, if the input is one.
-    [[nodiscard]] std::optional<SpectralTable> saved_table() const {
+    [[nodiscard]] std::optional<plot::SpectralTable> saved_table() const {
         std::vector<const PointSet*> sets;
         for (const Loaded& set : sets_) {
             if (set.source != sets_[0].source || !set.npy) return std::nullopt;
             sets.push_back(&set.points);
         }
-        return spectral_table(sets);
+        return plot::spectral_table(sets);
     }
 
     /// Of a table of differences, with the side of its pixels where that is known.
-    [[nodiscard]] static TableNames names_of(std::optional<double> pixel) {
+    [[nodiscard]] static plot::TableNames names_of(std::optional<double> pixel) {
         if (!pixel) return {.x = "Δx (pixels)", .y = "Δy (pixels)", .shade = "density"};
         return {.x = "Δx / mean distance",
                 .y = "Δy / mean distance",
@@ -262,14 +248,14 @@ class Plot {
                 .cell = *pixel};
     }
 
-    std::string saved(const SpectralTable& table) {
-        const std::string title =
-            arguments_.get("title").value_or(title_of_points(sets_[0].points, sets_[0].source));
-        if (table.dimension == 1) return drawn(power_chart(table.values, title));
+    std::string saved(const plot::SpectralTable& table) {
+        const std::string title = arguments_.get("title").value_or(
+            plot::title_of_points(sets_[0].points, sets_[0].source));
+        if (table.dimension == 1) return drawn(plot::power_chart(table.values, title));
         refuse_scales("a table");
         const std::string plane = table.dimension == 3 ? "plane fz = 0" : "";
         return drawn_table(table.values, title, plane,
-                           table.differences ? names_of(std::nullopt) : TableNames());
+                           table.differences ? names_of(std::nullopt) : plot::TableNames());
     }
 
     std::string spectrum() {
@@ -278,15 +264,15 @@ class Plot {
         const Report found = analyzed_table();
         const std::string what = differences ? "Pair differences" : "Power spectrum";
         const std::string title = arguments_.get("title").value_or(
-            what + " of " + title_of_points(sets_[0].points, sets_[0].source));
+            what + " of " + plot::title_of_points(sets_[0].points, sets_[0].source));
         return drawn_table(std::get<Grid>(*found.find("grid")), title, subtitle_of(sets_[0]),
-                           differences ? names_of(found.number("pixel")) : TableNames());
+                           differences ? names_of(found.number("pixel")) : plot::TableNames());
     }
 
     std::string drawn_table(const Grid& table, const std::string& title,
-                            const std::string& subtitle, const TableNames& names) {
-        if (medium_ == Medium::text) return spectrum_as_text(table, title, room_);
-        return finished(draw_spectrum(table, title, subtitle, style_, names));
+                            const std::string& subtitle, const plot::TableNames& names) {
+        if (medium_ == Medium::text) return plot::spectrum_as_text(table, title, room_);
+        return finished(plot::draw_spectrum(table, title, subtitle, style_, names));
     }
 
     /// What an analyzer finds of the one input, a table among it.
@@ -307,9 +293,9 @@ class Plot {
     std::string distances() {
         std::vector<const PointSet*> sets;
         for (const Loaded& set : sets_) sets.push_back(&set.points);
-        Chart chart = distance_chart(sets, names(), session_.run());
+        plot::Chart chart = plot::distance_chart(sets, names(), session_.run());
         if (!different_titles())
-            chart.title += " of " + title_of_points(sets_[0].points, sets_[0].source);
+            chart.title += " of " + plot::title_of_points(sets_[0].points, sets_[0].source);
         if (sets_.size() == 1) chart.subtitle = subtitle_of(sets_[0]);
         return drawn(chart);
     }
@@ -333,13 +319,13 @@ class Plot {
         ReportAverage average;
         std::vector<Report> singles;
         for (std::size_t i = first; i < last; ++i) {
-            explained([&] { check_dimension(analyzer, sets_[i].points.dimension()); },
-                      sets_[i].source, "");
-            const auto measure = [&] {
-                return stipple::analyze(analyzer, sets_[i].points, options, session_.run());
-            };
-            const Report report = explained(
-                measure, sets_[i].source,
+            const auto& [points, source, number, npy] = sets_[i];
+            naming(source, [&, &set = points] { check_dimension(analyzer, set.dimension()); });
+            const Report report = naming(
+                source,
+                [&, &set = points] {
+                    return stipple::analyze(analyzer, set, options, session_.run());
+                },
                 fmt::format("'stipple analyze {}' has options for others, and plot draws its JSON",
                             analyzer.name));
             average.add(report);
@@ -347,15 +333,11 @@ class Plot {
         }
         const PointSet& points = sets_[first].points;
         Measurement m{.analyzer = analyzer.name,
-                      .source = title_of_points(points, sets_[first].source),
-                      .sets = last - first,
+                      .source = plot::title_of_points(points, sets_[first].source),
                       .count = points.count(),
                       .dimension = points.dimension(),
-                      .domain = points.domain->spec(),
-                      .results = average.mean()};
-        if (analyzer.refine) analyzer.refine(m.results, average.count(), options);
-        if (analyzer.combine) analyzer.combine(m.results, singles, options);
-        if (average.count() > 1) m.standard_error = only_of(m.results, average.standard_error());
+                      .domain = points.domain->spec()};
+        take_mean(m, average, singles, analyzer, options);
         return m;
     }
 
@@ -372,19 +354,19 @@ class Plot {
         }
     }
 
-    PointsPicture points_picture() {
+    plot::PointsPicture points_picture() {
         const std::size_t d = sets_[0].points.dimension();
-        if (d > most_pair_coordinates && chart_ != "histogram")
+        if (d > plot::most_pair_coordinates && chart_ != "histogram")
             session_.warn(
                 fmt::format("the first {} of {} coordinates are drawn; --column picks "
                             "others",
-                            most_pair_coordinates, d));
-        PointsPicture picture{.sets = {}, .names = names(), .title = {}};
+                            plot::most_pair_coordinates, d));
+        plot::PointsPicture picture{.sets = {}, .names = names(), .title = {}};
         for (const Loaded& set : sets_) picture.sets.push_back(&set.points);
-        if (chart_ == "points") picture.marking = Marking::disks;
-        if (chart_ == "density") picture.marking = Marking::density;
-        picture.title =
-            arguments_.get("title").value_or(title_of_points(sets_[0].points, sets_[0].source));
+        if (chart_ == "points") picture.marking = plot::Marking::disks;
+        if (chart_ == "density") picture.marking = plot::Marking::density;
+        picture.title = arguments_.get("title").value_or(
+            plot::title_of_points(sets_[0].points, sets_[0].source));
         if (sets_.size() > 1 && different_titles()) picture.title = "points";
         picture.subtitle = subtitle_of(sets_[0]);
         if (sets_.size() > 1) picture.subtitle.clear();
@@ -393,7 +375,7 @@ class Plot {
 
     [[nodiscard]] bool different_titles() const {
         const auto title = [](const Loaded& set) {
-            return title_of_points(set.points, set.source);
+            return plot::title_of_points(set.points, set.source);
         };
         return std::ranges::any_of(
             sets_, [&](const Loaded& set) { return title(set) != title(sets_[0]); });
@@ -403,7 +385,7 @@ class Plot {
         const bool different = different_titles();
         std::vector<std::string> found;
         for (const Loaded& set : sets_) {
-            std::string name = different ? title_of_points(set.points, set.source) : "";
+            std::string name = different ? plot::title_of_points(set.points, set.source) : "";
             if (set.number) name += fmt::format("{}set {}", name.empty() ? "" : ", ", *set.number);
             if (name.empty()) name = set.source;
             found.push_back(name);
@@ -412,23 +394,18 @@ class Plot {
     }
 
     static std::string subtitle_of(const Loaded& set) {
-        std::string text = subtitle_of_points(set.points);
+        std::string text = plot::subtitle_of_points(set.points);
         if (set.number) text += fmt::format(" (set {})", *set.number);
         return text;
     }
 
     // ---------------------------------------------------------------- where it comes from
 
-    /// The command that draws this, less what cannot change it.
-    [[nodiscard]] std::string command() const {
-        const std::vector<std::string> silent = {"output", "threads", "quiet", "progress",
-                                                 "max-memory"};
-        return "stipple plot" + command_text(arguments_, silent);
-    }
-
-    [[nodiscard]] PictureNotes notes_of() const {
-        nlohmann::ordered_json note = {
-            {"tool", "stipple"}, {"version", STIPPLE_VERSION}, {"command", command()}};
+    /// With the command that draws this, less what cannot change it.
+    [[nodiscard]] plot::PictureNotes notes_of() const {
+        nlohmann::ordered_json note = {{"tool", "stipple"},
+                                       {"version", STIPPLE_VERSION},
+                                       {"command", "stipple plot" + command_text(arguments_)}};
         if (sets_.size() == 1 && !sets_[0].points.provenance.generator.empty())
             note["meta"] = io::to_json(sets_[0].points.provenance);
         const auto replace = nlohmann::ordered_json::error_handler_t::replace;
@@ -441,8 +418,8 @@ class Plot {
     std::string path_;
     Medium medium_;
     std::string chart_;
-    PictureStyle style_;
-    TextRoom room_;
+    plot::PictureStyle style_;
+    plot::TextRoom room_;
     double scale_ = 1;
     std::vector<Loaded> sets_;
     std::vector<Measurement> reports_;

@@ -2,7 +2,6 @@
 //
 // The verb `report`: sets in, one page about them out.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -10,16 +9,14 @@
 #include <optional>
 #include <string_view>
 
-#include "cli/bounds.hpp"
+#include "cli/inputs.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/files.hpp"
 #include "io/source_text.hpp"
-#include "page/page_figures.hpp"
-#include "page/page_html.hpp"
-#include "page/page_measures.hpp"
-#include "page/page_set.hpp"
+#include "page/html.hpp"
+#include "page/measures.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/generated.hpp"
 #include "pipeline/units.hpp"
@@ -31,8 +28,8 @@ namespace {
 /// A set that waits to be measured.
 struct Waiting {
     PointSet points;
-    PageSet set;
-    PageInput input;
+    page::Set set;
+    page::Input input;
 };
 
 std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
@@ -43,7 +40,7 @@ std::vector<std::string> keys_of(const std::string& measure, const Analyzer& ana
     const auto any_name = [](char c) { return c >= 'A' && c <= 'Z'; };
     for (const ResultKey& result : analyzer.results)
         if (std::ranges::none_of(result.key, any_name)) keys.push_back(measure + "." + result.key);
-    for (const PageKey& known : page_keys())
+    for (const page::Key& known : page::compared_keys())
         if (std::string_view(known.key).starts_with(measure + ".") &&
             std::ranges::find(keys, known.key) == keys.end())
             keys.emplace_back(known.key);
@@ -55,9 +52,9 @@ std::vector<std::string> keys_of(const std::string& measure, const Analyzer& ana
 Check condition_of(const std::string& text) {
     Check check = parse_check(text, "--fail-on");
     const std::string measure = check.key.substr(0, check.key.find_first_of(".["));
-    const Analyzer* analyzer = page_analyzer(measure);
+    const Analyzer* analyzer = page::analyzer_of(measure);
     if (analyzer == nullptr)
-        fail_with_hint(ErrorKind::usage, suggest(measure, page_measures()),
+        fail_with_hint(ErrorKind::usage, suggest(measure, page::measure_names()),
                        "--fail-on: '{}' does not begin with the name of a measure", check.key);
     const bool alone = check.key == measure;
     if (alone) check.key += ".value";
@@ -90,7 +87,7 @@ class Reporter {
           session_(session),
           path_(output_of(arguments)),
           json_(arguments.has("json") || path_.ends_with(".json")) {
-        if (!json_ && path_ == "-" && isatty(STDOUT_FILENO) == 1)
+        if (!json_ && is_terminal(path_))
             fail_with_hint(ErrorKind::usage, "name a file with -o, or pipe it on",
                            "a page is not for terminals");
         if (const auto work = arguments.integer("max-work"))
@@ -99,20 +96,18 @@ class Reporter {
     }
 
     int go() {
-        for (const char* name : {"count", "seed", "warp", "start"})
-            if (arguments_.has(name) && !arguments_.has("generate"))
-                fail(ErrorKind::usage, "--{}: is of --generate, which names a generator", name);
+        refuse_generated_options(arguments_);
         keep_inputs();
         io::Output output(path_, session_.run().stop);
         load();
         check_sets();
         name_sets();
-        Page page{.title = {}, .version = STIPPLE_VERSION, .command = command(), .sets = {}};
-        for (std::size_t i = 0; i < waiting_.size(); ++i) page.sets.push_back(finished(i));
-        page.title = title_of(page.sets);
-        const bool fine = judge(page.sets);
+        page::Page whole{.title = {}, .version = STIPPLE_VERSION, .command = command(), .sets = {}};
+        for (std::size_t i = 0; i < waiting_.size(); ++i) whole.sets.push_back(finished(i));
+        whole.title = title_of(whole.sets);
+        const bool fine = judge(whole.sets);
         session_.run().check_stop();
-        if (output.write(json_ ? page_json(page) : page_html(page))) output.commit();
+        if (output.write(json_ ? page::to_json(whole) : page::to_html(whole))) output.commit();
         return fine ? 0 : 1;
     }
 
@@ -132,28 +127,15 @@ class Reporter {
         if (!arguments_.inputs.empty() || !arguments_.has("generate"))
             for (const std::string& input : input_names(arguments_)) add_file(input);
         const auto specs = arguments_.all("generate");
-        if (!specs.empty()) seed_ = seed_of(arguments_, largest_seed(specs), session_);
+        if (!specs.empty()) seed_ = seed_for(arguments_, specs, session_);
         for (const std::string& spec : specs) add_generated(spec);
-    }
-
-    /// That all generators take.
-    static std::uint64_t largest_seed(const std::vector<std::string>& specs) {
-        std::uint64_t largest = ~std::uint64_t{0};
-        for (const std::string& text : specs) {
-            const Spec spec = parse_spec(text);
-            const Generator& generator = find_generator(spec.name);
-            const auto& of = generator.max_seed;
-            if (of) largest = std::min(largest, of(spec.values(generator.options)));
-        }
-        return largest;
     }
 
     void add_file(const std::string& input) {
         auto sets = read_input(input, arguments_, session_.run());
         for (std::size_t i = 0; i < sets.size(); ++i) {
             require_width(sets[i], input);
-            if (const auto domain = arguments_.get("domain"))
-                sets[i].domain = parse_domain(*domain, sets[i].dimension());
+            take_domain(sets[i], arguments_);
             Waiting next;
             next.set.source = input;
             next.set.provenance = sets[i].provenance;
@@ -165,7 +147,7 @@ class Reporter {
                 next.input.remark = fmt::format("  # result {} of the array", i);
             }
             next.points = std::move(sets[i]);
-            add(std::move(next));
+            waiting_.push_back(std::move(next));
         }
     }
 
@@ -173,61 +155,45 @@ class Reporter {
     [[nodiscard]] std::string words_of_file(const std::string& input) const {
         std::string words = shell_word(input);
         for (const char* name : {"from", "dimension", "column", "dtype", "domain"})
-            if (const auto text = arguments_.get(name))
-                words += fmt::format(" --{} {}", name, shell_word(*text));
+            if (const auto text = arguments_.get(name)) words += typed_option(name, *text, false);
         return words;
     }
 
     void add_generated(const std::string& text) {
-        const Spec spec = parse_spec(text);
-        const Generator& generator = find_generator(spec.name);
-        const Values values = spec.values(generator.options);
-        Request request = request_of(arguments_);
-        request.seed = seed_;
-        std::vector<Spec> warps;
-        for (const auto& warp : arguments_.all("warp")) warps.push_back(parse_spec(warp));
-        const GeneratedSets generated(generator, values, request, 1, warps, session_.run());
         Waiting next;
-        next.points = generated.made(0, session_.run());
+        next.points =
+            generated_sets(text, seed_, arguments_, session_.run()).made(0, session_.run());
         next.set.source = text;
         next.set.command = fmt::format("stipple generate {}{}", shell_word(text), of_generated());
         next.set.provenance = next.points.provenance;
         next.set.provenance.command = next.set.command;
         next.input.words = fmt::format("--generate {}{}", shell_word(text), of_generated());
-        add(std::move(next));
+        waiting_.push_back(std::move(next));
     }
 
     /// The options that all generated sets share, as they are typed.
     [[nodiscard]] std::string of_generated() const {
         std::string words;
         for (const char* name : {"count", "dimension", "start", "warp"})
-            for (const auto& text : arguments_.all(name))
-                words += fmt::format(" --{} {}", name, shell_word(text));
+            for (const auto& text : arguments_.all(name)) words += typed_option(name, text, false);
         if (arguments_.has("seed")) words += fmt::format(" --seed {}", seed_);
         return words;
     }
 
-    void add(Waiting next) {
-        next.set.count = next.points.count();
-        next.set.dimension = next.points.dimension();
-        next.set.domain = next.points.domain->spec();
-        waiting_.push_back(std::move(next));
-    }
-
     /// @throws Error for sets that do not go on one page
     void check_sets() const {
-        if (waiting_.size() > most_page_sets)
+        if (waiting_.size() > page::most_sets)
             fail_with_hint(ErrorKind::usage, "'stipple study' compares more, as tables",
-                           "a report compares at most {} sets; these are {}", most_page_sets,
+                           "a report compares at most {} sets; these are {}", page::most_sets,
                            waiting_.size());
-        const PageSet& first = waiting_.front().set;
+        const Waiting& first = waiting_.front();
         for (const auto& [points, set, input] : waiting_)
-            if (set.dimension != first.dimension)
+            if (points.dimension() != first.points.dimension())
                 fail_with_hint(ErrorKind::input, "make a report for each dimension",
                                "{}: points of {} coordinates are not compared with those of {}, "
                                "which have {}",
-                               io::source_name(set.source), set.dimension,
-                               io::source_name(first.source), first.dimension);
+                               io::source_name(set.source), points.dimension(),
+                               io::source_name(first.set.source), first.points.dimension());
     }
 
     /// Short names that tell the sets apart.
@@ -247,32 +213,30 @@ class Reporter {
         }
     }
 
-    [[nodiscard]] static std::string title_of(const std::vector<PageSet>& sets) {
+    [[nodiscard]] static std::string title_of(const std::vector<page::Set>& sets) {
         constexpr std::size_t few = 3;
         if (sets.size() > few) return fmt::format("{} sample sets compared", sets.size());
         std::vector<std::string> names;
-        for (const PageSet& set : sets) names.push_back(set.name);
+        for (const page::Set& set : sets) names.push_back(set.name);
         return join(names, " · ");
     }
 
     // ---------------------------------------------------------------- what is said of them
 
     /// Measures a set and draws it; its points are not needed any more then.
-    PageSet finished(std::size_t i) {
+    page::Set finished(std::size_t i) {
         auto [points, set, input] = std::move(waiting_[i]);
         waiting_[i].points = {};
-        const auto all = static_cast<double>(waiting_.size());
-        const auto at = static_cast<double>(i);
-        const RunContext run = session_.run().stage(at / all, (at + 1) / all);
-        return finished_set(std::move(set), points, input, limits_, i, !json_, run);
+        return page::finished_set(std::move(set), points, input, limits_, {i, waiting_.size()},
+                                  !json_, session_.run());
     }
 
     /// Whether no condition of --fail-on holds, or may hold: also of a set that was not measured.
-    bool judge(const std::vector<PageSet>& sets) const {
+    bool judge(const std::vector<page::Set>& sets) const {
         bool fine = true;
         for (const Check& check : conditions_) {
             require_known(check.key, sets);
-            for (const PageSet& set : sets) {
+            for (const page::Set& set : sets) {
                 const Report all = set.all_results();
                 const bool there = has(all, check.key);
                 if (there && opposite_of(check).holds(all)) continue;
@@ -291,19 +255,19 @@ class Reporter {
     }
 
     /// The measure that a key is of.
-    static const PageMeasure& measure_of(const PageSet& set, const std::string& key) {
-        return *std::ranges::find(set.measures, key.substr(0, key.find('.')), &PageMeasure::name);
+    static const page::Measure& measure_of(const page::Set& set, const std::string& key) {
+        return *std::ranges::find(set.measures, key.substr(0, key.find('.')), &page::Measure::name);
     }
 
-    static std::string why_not(const PageSet& set, const std::string& key) {
-        const PageMeasure& measure = measure_of(set, key);
+    static std::string why_not(const page::Set& set, const std::string& key) {
+        const page::Measure& measure = measure_of(set, key);
         return measure.results ? "no result" : fmt::format("not known ({})", measure.left_out);
     }
 
     /// @throws Error(usage) for a key that the measure does not have
-    static void require_known(const std::string& key, const std::vector<PageSet>& sets) {
+    static void require_known(const std::string& key, const std::vector<page::Set>& sets) {
         std::string hint;
-        for (const PageSet& set : sets) {
+        for (const page::Set& set : sets) {
             const Report all = set.all_results();
             if (has(all, key) || !measure_of(set, key).results) return;
             hint = suggest(key, all.keys());
@@ -313,9 +277,7 @@ class Reporter {
 
     /// The command that makes this page, less what cannot change it.
     [[nodiscard]] std::string command() const {
-        const std::vector<std::string> silent = {"output",     "threads", "quiet",   "progress",
-                                                 "max-memory", "json",    "fail-on", "seed"};
-        std::string text = "stipple report" + command_text(arguments_, silent);
+        std::string text = "stipple report" + command_text(arguments_, {"json", "fail-on", "seed"});
         if (arguments_.has("seed")) text += fmt::format(" --seed {}", seed_);
         return text + (json_ ? " --json" : " -o report.html");
     }
@@ -324,7 +286,7 @@ class Reporter {
     Session& session_;
     std::string path_;
     bool json_;
-    PageLimits limits_;
+    page::Limits limits_;
     std::vector<Check> conditions_;
     std::uint64_t seed_ = 1;
     std::vector<Waiting> waiting_;

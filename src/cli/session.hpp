@@ -6,7 +6,7 @@
 #include <chrono>
 #include <string>
 
-#include "cli/arguments.hpp"
+#include "cli/parsing/arguments.hpp"
 #include "stipple/run.hpp"
 
 namespace stipple::cli {

@@ -2,7 +2,6 @@
 //
 // The verb `study`: generators x dimensions x counts x seeds x measures, as one tidy table.
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -10,6 +9,7 @@
 #include <fstream>
 #include <memory>
 
+#include "cli/inputs.hpp"
 #include "cli/launched.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"

@@ -3,12 +3,16 @@
 // What the verbs do; each returns the exit code.
 #pragma once
 
+#include <initializer_list>
 #include <span>
+#include <string_view>
 
-#include "cli/arguments.hpp"
+#include "analyzers/analyzer.hpp"
+#include "cli/parsing/arguments.hpp"
 #include "cli/session.hpp"
-#include "io/point_stream.hpp"
 #include "pipeline/produce.hpp"
+#include "report/average.hpp"
+#include "report/document.hpp"
 
 namespace stipple::cli {
 
@@ -31,53 +35,32 @@ std::string complete(std::vector<std::string> words, const std::vector<Kind>& ki
 /// What `generate` was asked to make.
 Production production_of(const Arguments& arguments, Session& session);
 
-/// --seed, or one that is drawn and reported, at most `largest`. @throws Error(usage)
-std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session& session);
-
 /// Where points go, as -o, -f, --dtype, --precision, --meta and --no-header say.
 Target target_of(const Arguments& arguments);
-
-/// The inputs that are named, or standard input. @throws Error(usage) when that is named twice
-std::vector<std::string> input_names(const Arguments& arguments);
 
 /// Where a verb writes its one file. @throws Error(usage) for a name with {set} or {seed}
 std::string output_of(const Arguments& arguments);
 
-/// The sets of an input file, with their domain; --from, -d, --column, --dtype are heeded.
-std::vector<PointSet> read_input(const std::string& path, const Arguments& arguments,
-                                 const RunContext& run);
-
-/// The same of the bytes of a file that was read already.
-std::vector<PointSet> read_input(std::string_view bytes, const std::string& path,
-                                 const Arguments& arguments, const RunContext& run);
-
-/// The same in blocks, where they are many; their domain is input_domain.
-/// `strengths` names a column that comes behind the coordinates.
-std::unique_ptr<io::PointStream> open_input(const std::string& path, const Arguments& arguments,
-                                            const RunContext& run,
-                                            const std::string& strengths = {});
-
-/// All inputs as one set, for --concat.
-std::unique_ptr<io::PointStream> open_joined(const Arguments& arguments, const RunContext& run,
-                                             const std::string& strengths = {});
-std::vector<PointSet> read_joined(const Arguments& arguments, const RunContext& run);
-
-/// What points of a file live on.
-DomainPtr input_domain(const Provenance& provenance, std::size_t dimension,
-                       const Arguments& arguments, const RunContext& run);
+/// Whether this is standard output, and a terminal.
+bool is_terminal(const std::string& path);
 
 /// A word as a shell takes it, in quotes where it must be.
 std::string shell_word(const std::string& word);
 
+/// " --name value", as a shell takes it.
+std::string typed_option(const std::string& name, const std::string& value, bool flag);
+
 /// What was typed of a verb's inputs and common options, as a shell takes it; less what is left
-/// out.
-std::string command_text(const Arguments& arguments, std::span<const std::string> left_out);
+/// out, and what never changes a result.
+std::string command_text(const Arguments& arguments,
+                         std::initializer_list<std::string_view> left_out = {});
 
 /// The unit's options as typed. @throws Error(usage)
 Values settings_of(const Schema& schema, const Arguments& arguments);
 
-/// What is asked of a generator: -n, -d, --start; without seed and bounds.
-Request request_of(const Arguments& arguments);
+/// Puts the mean of an analyzer's results on several sets into a measurement.
+void take_mean(Measurement& m, const ReportAverage& average, std::span<const Report> sets,
+               const Analyzer& analyzer, const Values& options);
 
 /// Writes text to a file or standard output, whole or not at all.
 void write_text(const std::string& path, const std::string& text);

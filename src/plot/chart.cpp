@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "plot/letters.hpp"
+#include "plot/drawing/letters.hpp"
 
-namespace stipple {
+namespace stipple::plot {
 namespace {
 
 constexpr double panel_gap = 12;
@@ -441,4 +441,4 @@ Bars histogram_of(const std::vector<double>& values, double low, double high, st
     return bars;
 }
 
-}  // namespace stipple
+}  // namespace stipple::plot

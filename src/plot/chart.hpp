@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "plot/drawing.hpp"
-#include "plot/panel.hpp"
-#include "plot/theme.hpp"
+#include "plot/drawing/drawing.hpp"
+#include "plot/drawing/panel.hpp"
+#include "plot/drawing/theme.hpp"
 
-namespace stipple {
+namespace stipple::plot {
 
 /// Space between a picture's edge and what is drawn, in units of a drawing.
 constexpr double picture_margin = 14;
@@ -117,4 +117,4 @@ void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Posi
 /// A histogram in so many bins of one width, over [low, high]; heights are shares over the width.
 Bars histogram_of(const std::vector<double>& values, double low, double high, std::size_t bins);
 
-}  // namespace stipple
+}  // namespace stipple::plot

@@ -10,7 +10,7 @@
 #include "analyzers/distances/distances.hpp"
 #include "core/error.hpp"
 
-namespace stipple {
+namespace stipple::plot {
 namespace {
 
 std::vector<double> nearest_distances(const PointSet& set, bool& torus, const RunContext& run) {
@@ -70,4 +70,4 @@ Chart distance_chart(std::span<const PointSet* const> sets, const std::vector<st
     return chart;
 }
 
-}  // namespace stipple
+}  // namespace stipple::plot

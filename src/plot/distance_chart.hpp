@@ -18,10 +18,10 @@
 #include "plot/chart.hpp"
 #include "stipple/run.hpp"
 
-namespace stipple {
+namespace stipple::plot {
 
 /// @throws Error(input) for a set of one point.
 Chart distance_chart(std::span<const PointSet* const> sets, const std::vector<std::string>& names,
                      const RunContext& run);
 
-}  // namespace stipple
+}  // namespace stipple::plot

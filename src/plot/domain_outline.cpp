@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 
-namespace stipple {
+namespace stipple::plot {
 namespace {
 
 constexpr std::size_t cells_a_side = 200;  ///< of the grid, along each side
@@ -164,4 +164,4 @@ std::vector<std::vector<Position>> outline_of(const Domain& domain) {
     return Tracer(domain).trace();
 }
 
-}  // namespace stipple
+}  // namespace stipple::plot

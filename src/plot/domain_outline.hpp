@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "core/domain.hpp"
-#include "plot/drawing.hpp"
+#include "plot/drawing/drawing.hpp"
 
-namespace stipple {
+namespace stipple::plot {
 
 /// Lines along the boundary, in the domain's coordinates; none where the domain has no inside (a circle)
 /// or no end.
 std::vector<std::vector<Position>> outline_of(const Domain& domain);
 
-}  // namespace stipple
+}  // namespace stipple::plot

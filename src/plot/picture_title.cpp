@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "pipeline/pipeline.hpp"
 
-namespace stipple {
+namespace stipple::plot {
 namespace {
 
 /// The generator, if this program has it.
@@ -69,4 +69,4 @@ std::string subtitle_of_points(const PointSet& points) {
     return text;
 }
 
-}  // namespace stipple
+}  // namespace stipple::plot

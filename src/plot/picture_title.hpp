@@ -7,7 +7,7 @@
 
 #include "core/point_set.hpp"
 
-namespace stipple {
+namespace stipple::plot {
 
 /// "halton", "sobol, disk"; the file's name, where no generator is known; else "points".
 std::string title_of_points(const PointSet& points, const std::string& source);
@@ -16,4 +16,4 @@ std::string title_of_points(const PointSet& points, const std::string& source);
 /// seed where it matters.
 std::string subtitle_of_points(const PointSet& points);
 
-}  // namespace stipple
+}  // namespace stipple::plot

@@ -11,17 +11,23 @@
 
 #include "io/disk_size.hpp"
 #include "io/format.hpp"
-#include "plot/colour_bar.hpp"
 #include "plot/domain_outline.hpp"
-#include "plot/letters.hpp"
+#include "plot/drawing/colour_bar.hpp"
+#include "plot/drawing/letters.hpp"
 
-namespace stipple {
+namespace stipple::plot {
 namespace {
 
 std::size_t points_of(const PointsPicture& picture) {
     std::size_t sum = 0;
     for (const PointSet* set : picture.sets) sum += set->count();
     return sum;
+}
+
+/// A point of the box where each coordinate is its low (0) or high (1) end, or between.
+std::array<double, 3> corner(const Box& box, double a, double b, double c) {
+    return {box.low[0] + a * box.extent(0), box.low[1] + b * box.extent(1),
+            box.low[2] + c * box.extent(2)};
 }
 
 /// Whether the frame of the picture is the domain's outline.
@@ -41,7 +47,7 @@ bool without_domain(const PointSet& set) {
     return set.domain->spec().starts_with("unit-cube") && !all_inside(set);
 }
 
-/// The same directions a little longer on both sides.
+/// The same directions a little longer on both sides; what has no extent gets one.
 void widen(Box& box, double share) {
     for (std::size_t k = 0; k < box.dimension(); ++k) {
         double more = share * box.extent(k);
@@ -148,6 +154,19 @@ class Cloud {
         for (std::size_t i = 0; i < tally.counts.size(); ++i)
             tally.raster.pixels[i] = shade(static_cast<double>(tally.counts[i]) / largest);
         drawing.add(std::move(tally.raster));
+    }
+
+    /// What many points are drawn as: a density, or specks. Gives the largest number of the density.
+    double raster(Drawing& drawing, const Area& area, const Place& place, bool dense) const {
+        if (as_disks()) return 0;
+        if (!dense) {
+            specks(drawing, area, place);
+            return 0;
+        }
+        Tally counted = tally(area, place);
+        const double largest = counted.largest();
+        density(drawing, std::move(counted), largest);
+        return largest;
     }
 
     void draw_bar(Drawing& drawing, const Area& frame, double largest) const {
@@ -289,14 +308,8 @@ Drawing draw_plane(const PointsPicture& picture, const PictureStyle& style, cons
     const Panel panel(frame, x, y);
     const Place place = [&panel](std::span<const double> p) { return panel.at(p[0], p[1]); };
     Drawing& drawing = page.drawing;
-    if (dense) {
-        Tally tally = cloud.tally(frame, place);
-        const double largest = tally.largest();
-        cloud.density(drawing, std::move(tally), largest);
-        cloud.draw_bar(drawing, frame, largest);
-    } else if (!cloud.as_disks()) {
-        cloud.specks(drawing, frame, place);
-    }
+    const double largest = cloud.raster(drawing, frame, place, dense);
+    if (dense) cloud.draw_bar(drawing, frame, largest);
     panel.draw_axes(drawing, theme, true);
     draw_outline(drawing, picture, panel, theme);
     if (cloud.as_disks()) cloud.disks(drawing, frame, place);
@@ -305,12 +318,6 @@ Drawing draw_plane(const PointsPicture& picture, const PictureStyle& style, cons
 }
 
 // ---------------------------------------------------------------- three coordinates
-
-/// A point of the box where each coordinate is its low (0) or high (1) end, or between.
-std::array<double, 3> corner(const Box& box, double a, double b, double c) {
-    return {box.low[0] + a * box.extent(0), box.low[1] + b * box.extent(1),
-            box.low[2] + c * box.extent(2)};
-}
 
 /// The box seen from the front: scale and shift to a drawing.
 struct Scene {
@@ -324,28 +331,9 @@ struct Scene {
         return {left + scale * seen.right, top - scale * seen.up};
     }
     [[nodiscard]] Position at(double a, double b, double c) const {
-        const auto point = corner(box, a, b, c);
-        return at(point);
+        return at(corner(box, a, b, c));
     }
 };
-
-struct Extent {
-    double left = 0;
-    double right = 0;
-    double bottom = 0;
-    double top = 0;
-};
-
-Extent extent_of(const Box& box) {
-    Extent e{1e9, -1e9, 1e9, -1e9};
-    for (int bits = 0; bits < 8; ++bits) {
-        const auto point = corner(box, bits & 1, bits >> 1 & 1, bits >> 2 & 1);
-        const Seen seen = seen_at(box, point);
-        e = {std::min(e.left, seen.right), std::max(e.right, seen.right),
-             std::min(e.bottom, seen.up), std::max(e.top, seen.up)};
-    }
-    return e;
-}
 
 /// The edges of the box that are behind all points, or before them.
 void draw_edges(Drawing& drawing, const Scene& scene, const Theme& theme, bool front) {
@@ -398,14 +386,7 @@ void draw_layers(Drawing& drawing, const PointsPicture& picture, const Scene& sc
     constexpr std::size_t layers = 10;
     const auto n = static_cast<double>(points_of(picture));
     const double radius = std::clamp(0.075 * side / std::cbrt(std::max(n, 1.0)), 0.7, 4.0);
-    double near = -1e9;
-    double far = 1e9;
-    for (int bits = 0; bits < 8; ++bits) {
-        const auto point = corner(scene.box, bits & 1, bits >> 1 & 1, bits >> 2 & 1);
-        const double depth = seen_at(scene.box, point).depth;
-        near = std::max(near, depth);
-        far = std::min(far, depth);
-    }
+    const auto [low, high] = seen_range(scene.box);
     std::vector<Disks> disks;
     for (std::size_t layer = 0; layer < layers; ++layer)
         for (std::size_t s = 0; s < picture.sets.size(); ++s) {
@@ -418,7 +399,8 @@ void draw_layers(Drawing& drawing, const PointsPicture& picture, const Scene& sc
     for (std::size_t s = 0; s < picture.sets.size(); ++s)
         for (std::size_t i = 0; i < picture.sets[s]->count(); ++i) {
             const auto point = (*picture.sets[s])[i];
-            const double share = (seen_at(scene.box, point).depth - far) / (near - far);
+            const double share =
+                (seen_at(scene.box, point).depth - low.depth) / (high.depth - low.depth);
             const auto layer = static_cast<std::size_t>(
                 std::clamp(share * layers, 0.0, static_cast<double>(layers - 1)));
             disks[layer * picture.sets.size() + s].centres.push_back(scene.at(point));
@@ -434,33 +416,27 @@ Drawing draw_space(const PointsPicture& picture, const PictureStyle& style, cons
     Box box = shown_box(picture.sets);
     for (std::size_t k = 0; k < 3; ++k)
         if (!(box.extent(k) > 0)) box.high[k] = box.low[k] + 1;
-    const Extent e = extent_of(box);
+    const auto [low, high] = seen_range(box);
+    const double across = high.right - low.right;
+    const double upward = high.up - low.up;
     const double sides = 46 + picture_margin;
     const double below = 30 + picture_margin;
-    double scale = (page.drawing.width - 2 * sides) / (e.right - e.left);
-    if (style.height > 0)
-        scale = std::min(scale, (style.height - page.top - below - 8) / (e.top - e.bottom));
+    double scale = (page.drawing.width - 2 * sides) / across;
+    if (style.height > 0) scale = std::min(scale, (style.height - page.top - below - 8) / upward);
     scale = std::max(scale, 20.0);
     Drawing& drawing = page.drawing;
-    if (style.height <= 0)
-        drawing.height = std::ceil(page.top + 8 + scale * (e.top - e.bottom) + below);
-    const double wide = scale * (e.right - e.left);
+    if (style.height <= 0) drawing.height = std::ceil(page.top + 8 + scale * upward + below);
+    const double wide = scale * across;
     const double left = (drawing.width - wide) / 2;
-    const Scene scene{box, scale, left - scale * e.left, page.top + 8 + scale * e.top};
+    const Scene scene{box, scale, left - scale * low.right, page.top + 8 + scale * high.up};
     if (cloud.as_disks()) {
         draw_edges(drawing, scene, theme, false);
         draw_layers(drawing, picture, scene, theme, scale);
     } else {
         const Place place = [&scene](std::span<const double> p) { return scene.at(p); };
         const Area area{std::floor(left), std::floor(page.top + 8), std::ceil(wide),
-                        std::ceil(scale * (e.top - e.bottom))};
-        if (cloud.as_density(area.width, area.height)) {
-            Tally tally = cloud.tally(area, place);
-            const double largest = tally.largest();
-            cloud.density(drawing, std::move(tally), largest);
-        } else {
-            cloud.specks(drawing, area, place);
-        }
+                        std::ceil(scale * upward)};
+        cloud.raster(drawing, area, place, cloud.as_density(area.width, area.height));
         draw_edges(drawing, scene, theme, false);
     }
     draw_edges(drawing, scene, theme, true);
@@ -634,6 +610,19 @@ Seen seen_at(const Box& box, std::span<const double> point) {
             .depth = rise_cosine * toward + rise_sine * z};
 }
 
+std::pair<Seen, Seen> seen_range(const Box& box) {
+    Seen low{1e9, 1e9, 1e9};
+    Seen high{-1e9, -1e9, -1e9};
+    for (int bits = 0; bits < 8; ++bits) {
+        const Seen seen = seen_at(box, corner(box, bits & 1, bits >> 1 & 1, bits >> 2 & 1));
+        low = {std::min(low.right, seen.right), std::min(low.up, seen.up),
+               std::min(low.depth, seen.depth)};
+        high = {std::max(high.right, seen.right), std::max(high.up, seen.up),
+                std::max(high.depth, seen.depth)};
+    }
+    return {low, high};
+}
+
 Chart histogram_chart(const PointsPicture& picture) {
     constexpr std::size_t most_panels = 6;
     const Box box = shown_box(picture.sets);
@@ -670,4 +659,4 @@ Drawing draw_pairs(const PointsPicture& picture, const PictureStyle& style, cons
     return PairSheet(picture, style, run).draw();
 }
 
-}  // namespace stipple
+}  // namespace stipple::plot

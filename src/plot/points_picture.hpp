@@ -19,7 +19,7 @@
 #include "plot/chart.hpp"
 #include "stipple/run.hpp"
 
-namespace stipple {
+namespace stipple::plot {
 
 inline constexpr std::size_t most_pair_coordinates = 8;
 inline constexpr double density_share = 0.75;  ///< of points to a frame's area, for their density
@@ -60,6 +60,9 @@ struct Seen {
 };
 Seen seen_at(const Box& box, std::span<const double> point);
 
+/// The least and the largest of these over the box.
+std::pair<Seen, Seen> seen_range(const Box& box);
+
 Drawing draw_points(const PointsPicture& picture, const PictureStyle& style, const RunContext& run);
 
 /// Every pair of the first coordinates in a panel of its own, of two or more.
@@ -68,4 +71,4 @@ Drawing draw_pairs(const PointsPicture& picture, const PictureStyle& style, cons
 /// The histogram of each coordinate in a panel of its own, at most 6 of them.
 Chart histogram_chart(const PointsPicture& picture);
 
-}  // namespace stipple
+}  // namespace stipple::plot

@@ -10,9 +10,9 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "plot/ticks.hpp"
+#include "plot/drawing/ticks.hpp"
 
-namespace stipple {
+namespace stipple::plot {
 namespace {
 
 using Curve = Report::Curve;
@@ -639,4 +639,4 @@ Chart chart_of(Measurements ms, const std::string& key) {
     return any_chart(ms, key);
 }
 
-}  // namespace stipple
+}  // namespace stipple::plot

@@ -23,7 +23,7 @@
 #include "plot/chart.hpp"
 #include "report/document.hpp"
 
-namespace stipple {
+namespace stipple::plot {
 
 /// key: of the results, what to draw where there is a choice; empty: what is drawn as a rule.
 /// @throws Error(input) for reports of different analyzers, or with nothing to draw: says what
@@ -43,4 +43,4 @@ std::vector<std::string> names_of_inputs(std::span<const Measurement> measuremen
 /// white noise.
 std::pair<double, double> white_noise_band(double cells, double sets);
 
-}  // namespace stipple
+}  // namespace stipple::plot

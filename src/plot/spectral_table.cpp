@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace stipple {
+namespace stipple::plot {
 namespace {
 
 constexpr std::size_t least_side = 9;  ///< smaller tables may be points
@@ -30,21 +30,16 @@ bool is_symmetric(std::span<const double> v) {
     return true;
 }
 
-/// The same of what stands in the sets one after the other, plane by plane.
-bool is_cube(std::span<const PointSet* const> sets) {
-    const std::size_t side = sets.size();
-    if (!is_side(side)) return false;
-    for (std::size_t s = 0; s < side; ++s) {
-        const PointSet& plane = *sets[s];
-        if (plane.dimension() != side || plane.count() != side) return false;
-        const auto here = plane.flat();
-        const auto there = sets[side - 1 - s]->flat();
-        for (std::size_t i = 0; i < here.size(); ++i)
-            if (!(here[i] >= 0) ||
-                std::abs(here[i] - there[here.size() - 1 - i]) > 1e-6 * (1 + here[i]))
-                return false;
+bool is_spectrum(std::span<const double> v) { return is_symmetric(v) && is_power(v); }
+
+/// The numbers of planes that are as many as their sides, one after the other; else none.
+std::vector<double> cube_of(std::span<const PointSet* const> sets) {
+    std::vector<double> values;
+    for (const PointSet* plane : sets) {
+        if (plane->dimension() != sets.size() || plane->count() != sets.size()) return {};
+        values.insert(values.end(), plane->flat().begin(), plane->flat().end());
     }
-    return true;
+    return values;
 }
 
 Grid grid_of(const PointSet& table, std::size_t rows) {
@@ -56,8 +51,7 @@ Grid grid_of(const PointSet& table, std::size_t rows) {
 }  // namespace
 
 bool looks_like_power(const Grid& grid) {
-    return grid.rows == grid.columns && is_side(grid.rows) && is_symmetric(grid.values) &&
-           is_power(grid.values);
+    return grid.rows == grid.columns && is_side(grid.rows) && is_spectrum(grid.values);
 }
 
 bool looks_like_differences(const Grid& grid) {
@@ -69,14 +63,13 @@ std::optional<SpectralTable> spectral_table(std::span<const PointSet* const> set
     const PointSet& first = *sets[0];
     if (!first.provenance.generator.empty()) return std::nullopt;
     if (sets.size() > 1) {
-        if (!is_cube(sets) || !is_power(sets[sets.size() / 2]->flat())) return std::nullopt;
+        const auto values = cube_of(sets);
+        if (values.empty() || !is_side(sets.size()) || !is_spectrum(values)) return std::nullopt;
         return SpectralTable{.dimension = 3,
                              .values = grid_of(*sets[sets.size() / 2], sets.size())};
     }
     if (first.dimension() == 1) {
-        const auto values = first.flat();
-        if (!is_side(first.count()) || !is_symmetric(values) || !is_power(values))
-            return std::nullopt;
+        if (!is_side(first.count()) || !is_spectrum(first.flat())) return std::nullopt;
         return SpectralTable{.dimension = 1, .values = grid_of(first, 1)};
     }
     Grid grid = grid_of(first, first.count());
@@ -105,4 +98,4 @@ Chart power_chart(const Grid& power, const std::string& title) {
     return {.title = title, .panels = {std::move(panel)}};
 }
 
-}  // namespace stipple
+}  // namespace stipple::plot

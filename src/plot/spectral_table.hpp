@@ -17,7 +17,7 @@
 #include "plot/chart.hpp"
 #include "stipple/report.hpp"
 
-namespace stipple {
+namespace stipple::plot {
 
 struct SpectralTable {
     std::size_t dimension = 2;
@@ -37,4 +37,4 @@ bool looks_like_differences(const Grid& grid);
 /// The power at the frequencies 1 to F of a table of one row.
 Chart power_chart(const Grid& power, const std::string& title);
 
-}  // namespace stipple
+}  // namespace stipple::plot

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "plot/colour_bar.hpp"
+#include "plot/drawing/colour_bar.hpp"
 #include "report/grid_files.hpp"
 
-namespace stipple {
+namespace stipple::plot {
 namespace {
 
 Colour grey(double power) {
@@ -66,4 +66,4 @@ Drawing draw_spectrum(const Grid& power, const std::string& title, const std::st
     return drawing;
 }
 
-}  // namespace stipple
+}  // namespace stipple::plot

@@ -11,7 +11,7 @@
 #include "plot/chart.hpp"
 #include "stipple/report.hpp"
 
-namespace stipple {
+namespace stipple::plot {
 
 /// What the axes and the colours of a table mean.
 struct TableNames {
@@ -25,4 +25,4 @@ struct TableNames {
 Drawing draw_spectrum(const Grid& power, const std::string& title, const std::string& subtitle,
                       const PictureStyle& style, const TableNames& names = {});
 
-}  // namespace stipple
+}  // namespace stipple::plot

@@ -8,12 +8,12 @@
 #include <cmath>
 
 #include "io/format.hpp"
-#include "plot/dot_matrix.hpp"
-#include "plot/letters.hpp"
-#include "plot/ticks.hpp"
+#include "plot/drawing/dot_matrix.hpp"
+#include "plot/drawing/letters.hpp"
+#include "plot/drawing/ticks.hpp"
 #include "report/grid_files.hpp"
 
-namespace stipple {
+namespace stipple::plot {
 namespace {
 
 constexpr std::size_t frame_columns = 3;  ///< beside the field, without the numbers
@@ -64,20 +64,14 @@ std::string plane_as_text(const PointsPicture& picture, const TextRoom& room) {
 
 std::string space_as_text(const PointsPicture& picture, const TextRoom& room) {
     const Box box = shown_box(picture.sets);
-    std::array<double, 4> e = {1e9, -1e9, 1e9, -1e9};
-    for (int bits = 0; bits < 8; ++bits) {
-        const std::array<double, 3> corner = {(bits & 1) != 0 ? box.high[0] : box.low[0],
-                                              (bits & 2) != 0 ? box.high[1] : box.low[1],
-                                              (bits & 4) != 0 ? box.high[2] : box.low[2]};
-        const Seen seen = seen_at(box, corner);
-        e = {std::min(e[0], seen.right), std::max(e[1], seen.right), std::min(e[2], seen.up),
-             std::max(e[3], seen.up)};
-    }
-    DotMatrix dots = field_for(room, {}, (e[3] - e[2]) / (e[1] - e[0]));
+    const auto [low, high] = seen_range(box);
+    const double across = high.right - low.right;
+    const double upward = high.up - low.up;
+    DotMatrix dots = field_for(room, {}, upward / across);
     for (const PointSet* set : picture.sets)
         for (std::size_t i = 0; i < set->count(); ++i) {
             const Seen seen = seen_at(box, (*set)[i]);
-            dots.set((seen.right - e[0]) / (e[1] - e[0]), (seen.up - e[2]) / (e[3] - e[2]));
+            dots.set((seen.right - low.right) / across, (seen.up - low.up) / upward);
         }
     return framed(dots, {.title = picture.title,
                          .low_x = {},
@@ -162,4 +156,4 @@ std::string spectrum_as_text(const Grid& power, const std::string& title, const 
     return text + fmt::format("frequencies from −{0} to {0}\n", power.rows / 2);
 }
 
-}  // namespace stipple
+}  // namespace stipple::plot

@@ -9,7 +9,7 @@
 #include "plot/points_picture.hpp"
 #include "stipple/report.hpp"
 
-namespace stipple {
+namespace stipple::plot {
 
 /// Characters that there is room for. Both at least 1; what is too small is made as large as needed.
 struct TextRoom {
@@ -27,4 +27,4 @@ std::string chart_as_text(const Chart& chart, const PictureStyle& style, const T
 /// A spectrum in five shades.
 std::string spectrum_as_text(const Grid& power, const std::string& title, const TextRoom& room);
 
-}  // namespace stipple
+}  // namespace stipple::plot

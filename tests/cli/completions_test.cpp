@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "cli/arguments.hpp"
+#include "cli/parsing/arguments.hpp"
 #include "core/text.hpp"
 #include "places.hpp"
 #include "support/program.hpp"

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "cli/arguments.hpp"
-#include "cli/catalog.hpp"
+#include "cli/parsing/arguments.hpp"
+#include "cli/parsing/catalog.hpp"
 #include "support/program.hpp"
 
 namespace stipple::testing::help_test {

@@ -15,6 +15,8 @@
 
 namespace stipple::testing::chart_test {
 
+using namespace plot;
+
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 

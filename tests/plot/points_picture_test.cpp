@@ -13,11 +13,13 @@
 #include "pipeline/chain.hpp"
 #include "plot/distance_chart.hpp"
 #include "plot/domain_outline.hpp"
-#include "plot/dot_matrix.hpp"
+#include "plot/drawing/dot_matrix.hpp"
 #include "plot/text_picture.hpp"
 #include "support/units.hpp"
 
 namespace stipple::testing::points_picture_test {
+
+using namespace plot;
 
 using ::testing::HasSubstr;
 

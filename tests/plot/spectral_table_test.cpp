@@ -11,6 +11,8 @@
 #include "support/units.hpp"
 
 namespace stipple::testing::spectral_table_test {
+
+using namespace plot;
 namespace {
 
 /// A table about its middle: its numbers are 1, 2, 3, ... up to the middle and back again.

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+//
+// What shells offer behind a word: their scripts ask `stipple complete WORDS...`, which answers
+// from the records, a candidate a line, or @files where a file's name may stand.
+#include <fmt/format.h>
+
+#include <optional>
+#include <set>
+
+#include "cli/help/guide.hpp"
+#include "cli/verbs.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace stipple::cli {
+
+// completion.bash, completion.zsh and completion.fish beside this file
+const char* bash_completion();
+const char* zsh_completion();
+const char* fish_completion();
+
+namespace {
+
+/// A word that may stand here, and what it is.
+struct Candidate {
+    std::string word;
+    std::string help = {};
+};
+
+using Candidates = std::vector<Candidate>;
+
+const Candidate files = {"@files"};
+
+Candidates words_of(const std::vector<std::string>& words) {
+    Candidates found;
+    for (const std::string& word : words) found.push_back({word});
+    return found;
+}
+
+Candidates units_of(const std::vector<Kind>& kinds, std::string_view name) {
+    Candidates found;
+    for (const Kind& kind : kinds)
+        if (kind.name == name)
+            for (const UnitInfo& unit : kind.units) found.push_back({unit.name, unit.summary});
+    return found;
+}
+
+Candidates joined(Candidates one, const Candidates& two) {
+    one.insert(one.end(), two.begin(), two.end());
+    return one;
+}
+
+/// What may stand behind an option.
+Candidates values_of(const Option& option) {
+    if (option.type == "file") return {files};
+    return words_of(option.choices);
+}
+
+Candidates values_of(const CommonOption& common, const std::vector<Kind>& kinds) {
+    const std::string_view value = common.value;
+    if (value == "FORMAT") return units_of(kinds, "formats");
+    if (value == "SPECS" || value.starts_with("GENERATOR"))
+        return units_of(kinds, common.option.name == "analyze" ? "analyzers" : "generators");
+    if (value == "S") return {{"random"}};
+    if (value.starts_with("NAME["))
+        return joined(units_of(kinds, "warps"), units_of(kinds, "scrambles"));
+    if (value == "SPEC") return joined({{"unit-cube"}}, units_of(kinds, "warps"));
+    return values_of(common.option);
+}
+
+/// What a verb takes that is not a unit: words, or files.
+Candidates operands_of(Verb verb, const std::vector<Kind>& kinds) {
+    Candidates found;
+    switch (verb) {
+        case Verb::generate:
+            return {};
+        case Verb::list:
+            for (const Kind& kind : kinds) found.push_back({kind.name});
+            return found;
+        case Verb::help:
+            for (const Topic& topic : topics()) found.push_back({topic.name, topic.summary});
+            for (const VerbInfo& info : verbs()) found.push_back({info.name, info.summary});
+            for (const Kind& kind : kinds)
+                if (!kind.verb.empty())
+                    found = joined(std::move(found), units_of(kinds, kind.name));
+            return found;
+        case Verb::completions:
+            return words_of({"bash", "zsh", "fish"});
+        default:
+            return {files};
+    }
+}
+
+Candidates option_names(Verb verb, const UnitInfo* unit) {
+    Candidates found = {{"--help", "show help"}};
+    for (const CommonOption* common : options_of(verb))
+        for (const auto name : split(common->names, ','))
+            found.push_back({std::string(name), common->option.help});
+    if (unit != nullptr)
+        for (const Option& option : own_options(verb, *unit))
+            found.push_back({"--" + option.name, option.help});
+    return found;
+}
+
+/// The values of the option that stands before; nothing where that is none, or a flag.
+std::optional<Candidates> values_behind(const std::string& before, Verb verb, const UnitInfo* unit,
+                                        const std::vector<Kind>& kinds) {
+    if (const CommonOption* common = find_common(before, verb)) {
+        if (common->option.type == "flag") return std::nullopt;
+        return values_of(*common, kinds);
+    }
+    if (unit != nullptr)
+        for (const Option& option : own_options(verb, *unit))
+            if (before == "--" + option.name && option.type != "flag") return values_of(option);
+    return std::nullopt;
+}
+
+/// Candidates for the last of the words; `before` is the option that it may belong to.
+Candidates candidates(const std::vector<std::string>& words, const std::string& before,
+                      const std::vector<Kind>& kinds) {
+    Candidates found;
+    if (words.size() < 2) {
+        for (const VerbInfo& info : verbs()) found.push_back({info.name, info.summary});
+        return joined(found, words_of({"--help", "--version"}));
+    }
+    const VerbInfo* info = find_verb(words[0]);
+    if (info == nullptr) return {};
+    const auto kind = units_for(kinds, info->name);
+    const std::vector<std::string> typed(words.begin() + 1, words.end() - 1);
+    const std::string* named = kind ? word_of_unit(typed, *kind, info->verb) : nullptr;
+    const UnitInfo* unit =
+        named ? find_unit(*kind, named->substr(0, named->find_first_of("@:"))) : nullptr;
+    if (const auto values = values_behind(before, info->verb, unit, kinds)) return *values;
+    if (words.back().starts_with('-') && words.back() != "-") return option_names(info->verb, unit);
+    if (!kind || unit != nullptr) return operands_of(info->verb, kinds);
+    for (const UnitInfo& each : kind->units) found.push_back({each.name, each.summary});
+    return found;
+}
+
+}  // namespace
+
+std::string complete(std::vector<std::string> words, const std::vector<Kind>& kinds) {
+    if (words.empty()) words.emplace_back();
+    std::string before = words.size() > 1 ? words[words.size() - 2] : "";
+    std::string current = words.back();
+    std::string prefix;
+    if (current == "=") {  // bash splits --option=value into three words
+        current.clear();
+    } else if (before == "=" && words.size() > 2) {
+        before = words[words.size() - 3];
+    } else if (const auto equals = current.find('=');
+               current.starts_with("--") && equals != std::string::npos) {
+        prefix = current.substr(0, equals + 1);
+        before = current.substr(0, equals);
+        current.erase(0, equals + 1);
+    }
+    std::string text;
+    std::set<std::string> seen;
+    for (const auto& [word, help] : candidates(words, before, kinds))
+        if ((word.starts_with('@') || word.starts_with(current)) && seen.insert(word).second)
+            text += fmt::format("{}{}{}{}\n", word.starts_with('@') ? "" : prefix, word,
+                                help.empty() ? "" : "\t", help);
+    return text;
+}
+
+int completions(const Arguments& arguments) {
+    const std::string shell = arguments.inputs.size() == 1 ? arguments.inputs[0] : "";
+    if (shell != "bash" && shell != "zsh" && shell != "fish")
+        fail(ErrorKind::usage, "completions takes one shell, bash, zsh or fish; given: '{}'",
+             join(arguments.inputs, " "));
+    write_text("-", shell == "bash"  ? bash_completion()
+                    : shell == "zsh" ? zsh_completion()
+                                     : fish_completion());
+    return 0;
+}
+
+}  // namespace stipple::cli

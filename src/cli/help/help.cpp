@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+//
+// --help, the verb `help`, and the manual: the same pages, made from the records.
+#include "cli/help/help.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "cli/help/guide.hpp"
+#include "cli/help/help_page.hpp"
+#include "cli/verbs.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+
+namespace stipple::cli {
+namespace {
+
+std::string capitalised(std::string text) {
+    if (!text.empty())
+        text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+    return text;
+}
+
+void add_common_options(HelpPage& page, Verb verb) {
+    for (const CommonOption* common : options_of(verb)) {
+        std::string names = common->names;
+        if (names.starts_with("--")) names.insert(0, "    ");
+        replace_all(names, ",", ", ");
+        if (!common->value.empty()) names += " " + common->value;
+        std::string help = common->option.help;
+        if (common->repeatable) help += "; repeatable";
+        if (!common->fallback.empty()) help += fmt::format(" (default {})", common->fallback);
+        page.entry(names, help);
+    }
+    page.entry("-h, --help", "show this help");
+}
+
+void add_options_of(HelpPage& page, Verb verb, const UnitInfo& unit) {
+    for (const Option& option : own_options(verb, unit))
+        page.entry("    " + option_usage(option), option.help + option_notes(option));
+}
+
+void add_results(HelpPage& page, const UnitInfo& unit) {
+    for (const auto& [key, help] : unit.results) page.entry(key, help);
+}
+
+/// What a unit is, less its options.
+std::string facts_of(const UnitInfo& unit) {
+    std::string text =
+        fmt::format("Source: {}\n{}.", unit.source, capitalised(join(unit.remarks, "; ")));
+    if (!unit.strata.empty()) text += fmt::format("\nStrata: {}.", unit.strata);
+    if (!unit.aliases.empty()) text += fmt::format("\nAlso called {}.", join(unit.aliases, ", "));
+    return text;
+}
+
+HelpPage page_of_program(HelpPage::Style style) {
+    HelpPage page(style);
+    page.title("stipple", 1, "makes sample sets, warps them, and judges them",
+               "stipple VERB ... [OPTIONS]");
+    page.paragraph(
+        "Points for whatever samples a domain: sequences, nets, lattices and blue noise; maps of\n"
+        "them onto other domains and densities; and measures of how even they are. Data is the\n"
+        "only thing on standard output.");
+    page.section("Verbs");
+    for (const VerbInfo& info : verbs()) page.entry(info.name, info.summary);
+    page.section("Topics");
+    for (const Topic& topic : topics()) page.entry(topic.name, topic.summary);
+    page.paragraph(
+        "'stipple help TOPIC' explains a topic, 'stipple VERB --help' a verb, and\n"
+        "'stipple VERB UNIT --help' a unit. 'stipple --version' names the linked libraries.");
+    page.section("Exit status");
+    const std::string codes = std::ranges::find(topics(), "exit-codes", &Topic::name)->text;
+    const auto first = codes.find("\n    ") + 1;
+    page.lines(codes.substr(first, codes.find("\n\n", first) + 1 - first));
+    page.see_also("stipple");
+    return page;
+}
+
+/// A unit in the manual page of its verb.
+void add_unit(HelpPage& page, Verb verb, const UnitInfo& unit) {
+    page.subsection(unit.name);
+    page.paragraph(capitalised(unit.summary) + ".\n" + facts_of(unit));
+    add_options_of(page, verb, unit);
+    if (!unit.results.empty()) page.paragraph("Results:");
+    add_results(page, unit);
+}
+
+HelpPage page_of_verb(const VerbInfo& info, const std::vector<Kind>& kinds, HelpPage::Style style) {
+    HelpPage page(style);
+    const bool man = page.for_man();
+    page.title((man ? "stipple-" : "stipple ") + info.name, 1, info.summary, info.usage);
+    page.paragraph(info.text);
+    for (const Kind& kind : kinds) {
+        if (kind.verb != info.name) continue;
+        page.section(capitalised(kind.name));
+        for (const UnitInfo& unit : kind.units)
+            man ? add_unit(page, info.verb, unit) : page.entry(unit.name, unit.summary);
+    }
+    if (!man && units_for(kinds, info.name))
+        page.lines(fmt::format("'stipple {} UNIT --help' shows a unit's own options.", info.name));
+    page.section("Options");
+    add_common_options(page, info.verb);
+    page.section("Examples");
+    std::string examples = "  " + info.examples;
+    replace_all(examples, "\nstipple", "\n  stipple");
+    page.lines(examples);
+    page.see_also("stipple-" + info.name);
+    return page;
+}
+
+HelpPage page_of_unit(const VerbInfo& info, const UnitInfo& unit) {
+    std::string usage = info.usage;
+    const auto word = usage.find(' ', sizeof "stipple");
+    const auto end = usage.find(' ', word + 1);
+    usage.replace(word + 1, end - word - 1, unit.name);
+    HelpPage page(HelpPage::Style::text);
+    page.title(unit.name, 1, unit.summary, usage);
+    page.paragraph(facts_of(unit));
+    if (!own_options(info.verb, unit).empty()) page.section("Options of " + unit.name);
+    add_options_of(page, info.verb, unit);
+    if (!unit.results.empty()) page.section("Results");
+    add_results(page, unit);
+    page.section("Options of " + info.name);
+    add_common_options(page, info.verb);
+    page.paragraph(info.text);
+    return page;
+}
+
+/// The Markdown of a topic as a manual page.
+HelpPage page_of_topic(const Topic& topic) {
+    HelpPage page(HelpPage::Style::man);
+    page.title("stipple-" + topic.name, 7, topic.summary);
+    std::string_view rest = topic.text;
+    rest.remove_prefix(rest.find("\n\n") + 2);
+    while (!rest.empty()) {
+        const auto end = std::min(rest.find("\n\n"), rest.size());
+        const std::string_view part = rest.substr(0, end);
+        if (part.starts_with("## "))
+            page.section(std::string(part.substr(3)));
+        else if (part.starts_with("    "))
+            page.lines(part);
+        else
+            page.paragraph(std::string(trim(part)));
+        rest.remove_prefix(std::min(end + 2, rest.size()));
+    }
+    page.see_also("stipple-" + topic.name);
+    return page;
+}
+
+const Topic* find_topic(const std::string& name) {
+    const auto it = std::ranges::find(topics(), name, &Topic::name);
+    return it == topics().end() ? nullptr : &*it;
+}
+
+[[noreturn]] void refuse_name(const std::string& name, const std::vector<Kind>& kinds) {
+    std::vector<std::string> known;
+    for (const Topic& topic : topics()) known.push_back(topic.name);
+    for (const VerbInfo& info : verbs()) known.push_back(info.name);
+    for (const Kind& kind : kinds)
+        for (const UnitInfo& unit : kind.units) {
+            known.push_back(unit.name);
+            known.insert(known.end(), unit.aliases.begin(), unit.aliases.end());
+        }
+    fail_with_hint(
+        ErrorKind::usage,
+        nearest_word(name, known) ? suggest(name, known) : "'stipple help' lists topics and verbs",
+        "help: unknown topic, verb or unit '{}'", name);
+}
+
+/// A unit by its name alone.
+std::string help_of_unit(const std::string& name, const std::vector<Kind>& kinds) {
+    for (const Kind& kind : kinds) {
+        const UnitInfo* unit = find_unit(kind, name);
+        if (unit == nullptr) continue;
+        if (const VerbInfo* info = find_verb(kind.verb)) return page_of_unit(*info, *unit).text();
+        if (const Topic* topic = find_topic(kind.name)) return topic->text;  // csv: formats
+    }
+    refuse_name(name, kinds);
+}
+
+std::string help_on(const std::vector<std::string>& words, const std::vector<Kind>& kinds) {
+    Arguments asked;
+    if (words.empty()) return help_text(asked, kinds);
+    if (const Topic* topic = find_topic(words[0]); topic != nullptr && words.size() == 1)
+        return topic->text;
+    const VerbInfo* info = find_verb(words[0]);
+    if (words.size() > 1 && (info == nullptr || !units_for(kinds, info->name)))
+        fail_with_hint(ErrorKind::usage, fmt::format("'stipple help {}' takes one word", words[0]),
+                       "help: unexpected '{}': '{}' is not a verb with units", words[1], words[0]);
+    if (info == nullptr) return help_of_unit(words[0], kinds);
+    asked.verb = info->verb;
+    if (words.size() > 1) asked.unit = words[1];
+    return help_text(asked, kinds);
+}
+
+/// Every manual page in a folder, under the names that man knows them by.
+void write_manual(const std::string& folder, const std::vector<Kind>& kinds) {
+    write_text(folder + "/stipple.1", manual_page("", kinds));
+    for (const VerbInfo& info : verbs())
+        write_text(fmt::format("{}/stipple-{}.1", folder, info.name),
+                   manual_page(info.name, kinds));
+    for (const Topic& topic : topics())
+        write_text(fmt::format("{}/stipple-{}.7", folder, topic.name),
+                   manual_page(topic.name, kinds));
+}
+
+}  // namespace
+
+std::string help_text(const Arguments& arguments, const std::vector<Kind>& kinds) {
+    if (!arguments.verb) return page_of_program(HelpPage::Style::text).text();
+    const VerbInfo& info = info_of(*arguments.verb);
+    if (arguments.unit.empty()) return page_of_verb(info, kinds, HelpPage::Style::text).text();
+    return page_of_unit(info, unit_of(kinds, info.name, arguments.unit)).text();
+}
+
+std::string manual_page(const std::string& name, const std::vector<Kind>& kinds) {
+    if (name.empty()) return page_of_program(HelpPage::Style::man).text();
+    if (const Topic* topic = find_topic(name)) return page_of_topic(*topic).text();
+    if (const VerbInfo* info = find_verb(name))
+        return page_of_verb(*info, kinds, HelpPage::Style::man).text();
+    refuse_name(name, kinds);
+}
+
+int help(const Arguments& arguments, const std::vector<Kind>& kinds) {
+    const auto& words = arguments.inputs;
+    const std::size_t most = arguments.has("man") ? 1 : 2;
+    if (words.size() > most)
+        fail(ErrorKind::usage, "help takes {} at most; {} are given",
+             most == 1 ? "one word with --man" : "a topic, or a verb and a unit", words.size());
+    const auto folder = arguments.get("output");
+    if (folder && (!arguments.has("man") || !words.empty()))
+        fail(ErrorKind::usage, "--output: a folder is for all manual pages: help --man -o {}",
+             *folder);
+    if (folder) {
+        write_manual(*folder, kinds);
+        return 0;
+    }
+    write_text("-", arguments.has("man") ? manual_page(words.empty() ? "" : words[0], kinds)
+                                         : help_on(words, kinds));
+    return 0;
+}
+
+}  // namespace stipple::cli

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include <fftw3.h>
+#include <fmt/format.h>
+#include <oneapi/tbb/version.h>
+#include <png.h>
+
+#include <CLI/Version.hpp>
+#include <boost/version.hpp>
+#include <nlohmann/json_fwd.hpp>
+
+#include "cli/help/help.hpp"
+#include "math/densities/expression.hpp"
+#include "pipeline/ranks.hpp"
+
+namespace stipple::cli {
+
+std::string version_text() {
+    return fmt::format(
+        "stipple {}\nCLI11 {}, fmt {}.{}.{}, nlohmann-json {}.{}.{}, {}, oneTBB {}.{}, Boost "
+        "{}.{}.{}, Random123 {}, libpng {}, muParser {}, {}\n",
+        STIPPLE_VERSION, CLI11_VERSION, FMT_VERSION / 10000, FMT_VERSION / 100 % 100,
+        FMT_VERSION % 100, NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+        NLOHMANN_JSON_VERSION_PATCH, fftw_version, TBB_VERSION_MAJOR, TBB_VERSION_MINOR,
+        BOOST_VERSION / 100000, BOOST_VERSION / 100 % 1000, BOOST_VERSION % 100, RANDOM123_VERSION,
+        PNG_LIBPNG_VER_STRING, muparser_version(), has_mpi() ? mpi_version() : "without MPI");
+}
+
+}  // namespace stipple::cli

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: MIT
+#include "cli/inputs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <random>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "io/files.hpp"
+#include "io/source_text.hpp"
+#include "pipeline/chain.hpp"
+
+namespace stipple::cli {
+
+// ---------------------------------------------------------------- files
+
+namespace {
+
+/// How an input is to be read.
+struct Reading {
+    ReadOptions options;
+    const Format* format = nullptr;  ///< as named; else by its name or its bytes
+};
+
+Reading reading_of(const std::string& path, const Arguments& arguments) {
+    ReadOptions options{.source = path};
+    std::string from = arguments.get("from").value_or("");
+    options.single = path.ends_with(".f32") || from == "f32";
+    if (const auto type = arguments.get("dtype"); type && arguments.verb != Verb::convert)
+        options.single = *type == "f32";
+    if (from == "f32" || from == "f64") from = "bin";
+    if (const auto d = arguments.integer("dimension")) options.dimension = *d;
+    if (const auto columns = arguments.get("column"))
+        for (const auto column : split(*columns, ',')) options.columns.emplace_back(trim(column));
+    return {std::move(options), from.empty() ? nullptr : &io::format_named(from)};
+}
+
+/// Domain and provenance as the program knows them.
+std::vector<PointSet> named(std::vector<PointSet> sets, const Arguments& arguments,
+                            const RunContext& run) {
+    for (PointSet& set : sets) {
+        set.domain = input_domain(set.provenance, set.dimension(), arguments, run);
+        set.provenance.domain = set.domain->spec();
+        set.provenance.count = set.count();
+        set.provenance.dimension = set.dimension();
+    }
+    return sets;
+}
+
+}  // namespace
+
+std::vector<std::string> input_names(const Arguments& arguments) {
+    std::vector<std::string> names = arguments.inputs;
+    if (names.empty()) names.emplace_back("-");
+    if (std::ranges::count(names, "-") > 1) fail(ErrorKind::usage, "standard input is named twice");
+    return names;
+}
+
+std::string only_input(const Arguments& arguments, const std::string& hint) {
+    if (arguments.inputs.size() > 1)
+        fail_with_hint(ErrorKind::usage, hint, "{} takes one INPUT; {} are given",
+                       info_of(*arguments.verb).name, arguments.inputs.size());
+    return input_names(arguments).front();
+}
+
+DomainPtr input_domain(const Provenance& provenance, std::size_t dimension,
+                       const Arguments& arguments, const RunContext& run) {
+    const std::string& domain = provenance.domain;
+    // Columns picked by hand are not what the file's domain speaks of.
+    if (arguments.has("column") || domain == "unit-cube" || domain.empty())
+        return unit_cube(dimension);
+    try {
+        return parse_domain(domain, dimension, run);
+    } catch (const Error& e) {  // it is the file that is wrong, not the call
+        if (e.kind() != ErrorKind::usage) throw;
+        throw Error(ErrorKind::input, fmt::format("its domain {}: {}", io::shown(domain), e.what()),
+                    e.hint());
+    }
+}
+
+Error named_error(const Error& e, const std::string& input, const std::string& hint) {
+    // A limit is met by what a file holds as well; of stdin there is nothing to tell apart.
+    const bool of_file =
+        e.kind() == ErrorKind::input || (e.kind() == ErrorKind::limit && input != "-");
+    if (!of_file) return e;
+    const std::string name = io::source_name(input);
+    const std::string what = e.what();
+    bool named = what.starts_with(name + ":");
+    for (const auto part : split(name, ','))  // what is wrong with one of joined files names it
+        named = named || what.starts_with(std::string(trim(part)) + ":");
+    return {e.kind(), named ? what : fmt::format("{}: {}", name, what),
+            hint.empty() ? e.hint() : hint};
+}
+
+void take_domain(PointSet& set, const Arguments& arguments) {
+    if (const auto domain = arguments.get("domain"))
+        set.domain = parse_domain(*domain, set.dimension());
+}
+
+std::vector<PointSet> read_input(const std::string& path, const Arguments& arguments,
+                                 const RunContext& run) {
+    const auto [options, format] = reading_of(path, arguments);
+    return named(io::read_points(path, options, run, format), arguments, run);
+}
+
+std::vector<PointSet> read_input(std::string_view bytes, const std::string& path,
+                                 const Arguments& arguments, const RunContext& run) {
+    const auto [options, format] = reading_of(path, arguments);
+    return named(io::read_sets(bytes, path, options, run, format), arguments, run);
+}
+
+std::unique_ptr<io::PointStream> open_input(const std::string& path, const Arguments& arguments,
+                                            const RunContext& run, const std::string& strengths) {
+    auto [options, format] = reading_of(path, arguments);
+    options.strengths = strengths;
+    return io::open_points(path, options, run, format);
+}
+
+std::unique_ptr<io::PointStream> open_joined(const Arguments& arguments, const RunContext& run,
+                                             const std::string& strengths) {
+    return io::join_points(input_names(arguments),
+                           [&arguments, &run, strengths](const std::string& path) {
+                               return open_input(path, arguments, run, strengths);
+                           });
+}
+
+std::vector<PointSet> read_all(io::PointStream& stream, const Arguments& arguments,
+                               const RunContext& run) {
+    return named(stream.read_all(run), arguments, run);
+}
+
+std::vector<PointSet> read_joined(const Arguments& arguments, const RunContext& run) {
+    return read_all(*open_joined(arguments, run), arguments, run);
+}
+
+// ---------------------------------------------------------------- boxes
+
+namespace {
+
+/// The box of the points' extremes.
+Box extremes_of(const PointSet& points) {
+    const std::vector<double> first(points[0].begin(), points[0].end());
+    return bounding_box(points.flat(), {first, first});
+}
+
+/// The same, with a direction that has no extent made as wide as 1.
+Box box_around(const PointSet& points) {
+    Box box = extremes_of(points);
+    for (std::size_t k = 0; k < box.dimension(); ++k)
+        if (!(box.high[k] > box.low[k])) box.high[k] = box.low[k] + 1;
+    return box;
+}
+
+/// Looks at points the first of which is point `first`; a row may hold more than the box has
+/// coordinates. Makes points of the unit cube of them where the analyzer takes only those.
+/// @throws Error(input) for points outside
+void take_box(std::span<double> rows, std::size_t width, const Box& box, std::uint64_t first,
+              bool to_cube) {
+    const DomainPtr domain = box_domain(box);
+    const std::size_t d = box.dimension();
+    for (std::size_t i = 0; i < rows.size(); i += width)
+        if (!domain->contains(rows.subspan(i, d)))
+            fail(ErrorKind::input, "point {} is outside the bounds {}", first + i / width,
+                 format_box(box));
+    for (std::size_t i = 0; to_cube && i < rows.size(); i += width)
+        domain->to_cube(rows.subspan(i, d), rows.subspan(i, d));
+}
+
+PointSet taken_box(PointSet points, const Box& box, bool to_cube) {
+    take_box(points.flat(), box.dimension(), box, 0, to_cube);
+    points.domain = to_cube ? unit_cube(points.dimension()) : box_domain(box);
+    return points;
+}
+
+}  // namespace
+
+void require_width(const PointSet& points, const std::string& input) {
+    constexpr double most = 1e307;  // and room for margins around
+    const Box box = extremes_of(points);
+    for (std::size_t k = 0; k < box.dimension(); ++k)
+        if (box.low[k] < -most || box.high[k] > most)
+            fail(ErrorKind::input,
+                 "{}the box around the points is too wide for float64: x{} goes from {} to {}",
+                 input.empty() ? "" : io::source_name(input) + ": ", k + 1,
+                 format_number(box.low[k]), format_number(box.high[k]));
+}
+
+void check_bounds(const Arguments& arguments) {
+    for (const char* other : {"rescale", "domain"})
+        if (arguments.has("bounds") && arguments.has(other))
+            fail(ErrorKind::usage, "--bounds and --{}: give one of them", other);
+}
+
+PointSet of_the_cube(PointSet points, const Analyzer& analyzer) {
+    const std::string domain = points.domain->spec();
+    const auto outside = [](double x) { return !(x >= 0 && x <= 1); };
+    if (!analyzer.traits.unit_cube || domain == "unit-cube" ||
+        (domain.starts_with("box") &&
+         points.domain->bounding_box() == unit_cube(points.dimension())->bounding_box()) ||
+        std::ranges::any_of(points.flat(), outside))  // which is said with the first of them
+        return points;
+    fail_with_hint(ErrorKind::input,
+                   "--rescale or --bounds lo..hi moves points into the cube; --domain unit-cube "
+                   "takes them as they are",
+                   "{} measures points against the unit cube; the domain of these is {}",
+                   analyzer.name, domain);
+}
+
+PointSet prepared(PointSet points, const Analyzer& analyzer, const Arguments& arguments) {
+    check_bounds(arguments);
+    take_domain(points, arguments);
+    if (const auto bounds = arguments.get("bounds")) {
+        const Box box = parse_box(*bounds, points.dimension());
+        return taken_box(std::move(points), box, analyzer.traits.unit_cube);
+    }
+    if (arguments.has("rescale")) {
+        require_width(points);
+        const Box box = box_around(points);
+        return taken_box(std::move(points), box, true);
+    }
+    return of_the_cube(std::move(points), analyzer);
+}
+
+Arrival arrival_of(const io::PointStream& stream, bool weighted, const Analyzer& analyzer,
+                   const Arguments& arguments, const RunContext& run) {
+    const std::size_t d = stream.dimension() - (weighted ? 1 : 0);
+    DomainPtr domain;
+    if (const auto bounds = arguments.get("bounds"))
+        domain = analyzer.traits.unit_cube ? unit_cube(d) : box_domain(parse_box(*bounds, d));
+    else if (const auto named = arguments.get("domain"))
+        domain = parse_domain(*named, d);
+    else
+        domain = input_domain(stream.provenance(), d, arguments, run);
+    return {.domain = std::move(domain), .count = stream.count(), .weighted = weighted};
+}
+
+NextRows within_bounds(NextRows next, std::size_t width, std::size_t dimension, std::uint64_t first,
+                       const Analyzer& analyzer, const Arguments& arguments) {
+    const auto bounds = arguments.get("bounds");
+    if (!bounds) return next;
+    return [next = std::move(next), width, box = parse_box(*bounds, dimension),
+            to_cube = analyzer.traits.unit_cube, at = first](std::span<double> rows) mutable {
+        const std::size_t count = next(rows);
+        take_box(rows.first(count * width), width, box, at, to_cube);
+        at += count;
+        return count;
+    };
+}
+
+SharedSet shared_files(const Arguments& arguments, const Analyzer& analyzer,
+                       const std::string& strengths, Ranks& ranks, const RunContext& run) {
+    const auto open = [&arguments, run, strengths](const std::string& path) {
+        return open_input(path, arguments, run, strengths);
+    };
+    const auto files = std::make_shared<SharedFiles>(arguments.inputs, open, ranks);
+    const std::size_t width = files->dimension();
+    const Arrival arrival =
+        arrival_of(*open(arguments.inputs.front()), !strengths.empty(), analyzer, arguments, run);
+    const std::size_t d = width - (arrival.weighted ? 1 : 0);
+    return {.domain = arrival.domain,
+            .count = files->count(),
+            .dimension = d,
+            .weighted = arrival.weighted,
+            .from = [=, &analyzer, &arguments](std::uint64_t first) {
+                return within_bounds(files->from(first), width, d, first, analyzer, arguments);
+            }};
+}
+
+// ---------------------------------------------------------------- generators
+
+namespace {
+
+std::uint64_t drawn_seed(std::uint64_t largest) {
+    std::random_device device;
+    const std::uint64_t bits = (static_cast<std::uint64_t>(device()) << 32) | device();
+    // 53 bits at most, so that the seed survives every program that reads numbers as doubles.
+    return bits % (std::min(largest, (std::uint64_t{1} << 53) - 1) + 1);
+}
+
+std::uint64_t largest_seed(const Generator& generator, const Values& values) {
+    return generator.max_seed ? generator.max_seed(values) : ~std::uint64_t{0};
+}
+
+}  // namespace
+
+std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session& session) {
+    const auto text = arguments.get("seed");
+    if (!text) return 1;
+    if (*text == "random") {
+        const std::uint64_t seed = drawn_seed(largest);
+        session.warn(fmt::format("--seed {}", seed));
+        return seed;
+    }
+    const auto seed = parse_unsigned(*text);
+    if (!seed)
+        fail(ErrorKind::usage, "--seed: '{}' is not a whole number in [0, 2^64) or 'random'",
+             *text);
+    return *seed;
+}
+
+std::uint64_t seed_for(const Arguments& arguments, const Generator& generator, const Values& values,
+                       Session& session) {
+    return seed_of(arguments, largest_seed(generator, values), session);
+}
+
+std::uint64_t seed_for(const Arguments& arguments, std::span<const std::string> specs,
+                       Session& session) {
+    std::uint64_t largest = ~std::uint64_t{0};
+    for (const std::string& text : specs) {
+        const Spec spec = parse_spec(text);
+        const Generator& generator = find_generator(spec.name);
+        largest = std::min(largest, largest_seed(generator, spec.values(generator.options)));
+    }
+    return seed_of(arguments, largest, session);
+}
+
+Request request_of(const Arguments& arguments) {
+    Request request;
+    request.count = arguments.integer("count");
+    if (const auto d = arguments.integer("dimension")) request.dimension = *d;
+    request.start = arguments.integer("start").value_or(0);
+    return request;
+}
+
+std::vector<Spec> warps_of(const Arguments& arguments) {
+    std::vector<Spec> warps;
+    for (const auto& text : arguments.all("warp")) warps.push_back(parse_spec(text));
+    return warps;
+}
+
+GeneratedSets generated_sets(const std::string& spec, std::uint64_t seed,
+                             const Arguments& arguments, const RunContext& run) {
+    const Spec named = parse_spec(spec);
+    const Generator& generator = find_generator(named.name);
+    Values values = named.values(generator.options);
+    Request request = request_of(arguments);
+    request.seed = seed;
+    const std::uint64_t sets = arguments.integer("sets").value_or(1);
+    return {generator, std::move(values), std::move(request), sets, warps_of(arguments), run};
+}
+
+void refuse_generated_options(const Arguments& arguments) {
+    if (arguments.has("generate")) return;
+    for (const char* name : {"count", "seed", "sets", "warp", "start"})
+        if (arguments.has(name))
+            fail(ErrorKind::usage, "--{}: is of --generate, which names a generator", name);
+}
+
+}  // namespace stipple::cli

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT
+#include "cli/parsing/catalog.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "analyzers/analyzer.hpp"
+#include "core/error.hpp"
+#include "core/json.hpp"
+#include "core/text.hpp"
+#include "generators/generator.hpp"
+#include "io/format.hpp"
+#include "scrambles/scramble.hpp"
+#include "warps/warp.hpp"
+
+namespace stipple::cli {
+namespace {
+
+constexpr std::size_t any_dimension = 1'000'000;
+
+std::string dimensions(std::size_t low, std::size_t high) {
+    if (low == high) return fmt::format("dimension {}", low);
+    if (high >= any_dimension)
+        return low == 1 ? "any dimension" : fmt::format("dimension {} and up", low);
+    return fmt::format("dimensions {} to {}", low, high);
+}
+
+std::string seed_use(const Generator& unit) {
+    if (uses_seed(unit, unit.options.defaults())) return "uses the seed";
+    return unit.traits.seeded ? "uses the seed when scrambled" : "does not use the seed";
+}
+
+std::shared_ptr<const Json> shared(Json json) {
+    return std::make_shared<const Json>(std::move(json));
+}
+
+/// What the records of all kinds have, as far as this one has it.
+template <class Unit>
+UnitInfo base_info(const Unit& unit) {
+    UnitInfo out{.name = unit.name, .summary = unit.summary, .source = unit.source};
+    if constexpr (requires { unit.strata; }) out.strata = unit.strata;
+    if constexpr (requires { unit.aliases; }) out.aliases = unit.aliases;
+    if constexpr (requires { unit.stream_version; }) out.stream_version = unit.stream_version;
+    if constexpr (requires { unit.options; }) out.options = unit.options.options();
+    return out;
+}
+
+UnitInfo info(const Generator& unit) {
+    const auto& t = unit.traits;
+    UnitInfo out = base_info(unit);
+    out.traits = shared({{"min_dimension", t.min_dimension},
+                         {"max_dimension", t.max_dimension},
+                         {"sequence", t.sequence},
+                         {"prefix", t.prefix},
+                         {"seeded", t.seeded},
+                         {"max_index", t.max_index}});
+    out.remarks = {dimensions(t.min_dimension, t.max_dimension) +
+                       (t.more_dimensions.empty() ? "" : ", more with --" + t.more_dimensions),
+                   t.sequence ? "streams in constant memory" : "made as a whole, in memory",
+                   t.prefix ? "any prefix of a longer set is the shorter set; --start and --shard"
+                            : "the points depend on their number; --shard",
+                   seed_use(unit)};
+    return out;
+}
+
+UnitInfo info(const Scramble& unit) {
+    UnitInfo out = base_info(unit);
+    out.traits = shared({{"min_dimension", 1}, {"max_dimension", any_dimension}, {"seeded", true}});
+    out.remarks = {"any dimension", "uses the seed"};
+    return out;
+}
+
+UnitInfo info(const Warp& unit) {
+    const auto& t = unit.traits;
+    UnitInfo out = base_info(unit);
+    out.traits = shared({{"invertible", t.invertible}, {"drops", t.drops}, {"biased", t.biased}});
+    out.remarks = {t.invertible ? "has an inverse" : "has no inverse"};
+    if (t.drops) out.remarks.emplace_back("can drop points");
+    if (t.biased) out.remarks.emplace_back("can be biased, on purpose");
+    return out;
+}
+
+UnitInfo info(const Analyzer& unit) {
+    const auto& t = unit.traits;
+    UnitInfo out = base_info(unit);
+    out.traits = shared({{"min_dimension", t.min_dimension},
+                         {"max_dimension", t.max_dimension},
+                         {"unit_cube", t.unit_cube},
+                         {"boxed", t.boxed}});
+    out.remarks = {dimensions(t.min_dimension, t.max_dimension),
+                   t.unit_cube ? "takes points of the closed unit cube"
+                   : t.boxed   ? "takes points of the unit cube or a box"
+                               : "takes any domain"};
+    for (const ResultKey& result : unit.results) out.results.emplace_back(result.key, result.help);
+    return out;
+}
+
+UnitInfo info(const Format& unit) {
+    UnitInfo out = base_info(unit);
+    const bool reads = static_cast<bool>(unit.read);
+    out.traits = shared({{"extensions", unit.extensions},
+                         {"reads", reads},
+                         {"writes", unit.rows != nullptr},
+                         {"binary", unit.traits.binary},
+                         {"equal_sets", unit.traits.equal_sets},
+                         {"min_dimension", unit.traits.min_dimension},
+                         {"max_dimension", unit.traits.max_dimension}});
+    out.remarks = {reads ? "read and write" : "write only",
+                   unit.extensions.empty() ? "by name" : join(unit.extensions, " ")};
+    return out;
+}
+
+template <class Unit>
+Kind kind_of(std::string name, std::string verb, const std::vector<Unit>& units) {
+    Kind kind{std::move(name), std::move(verb), {}};
+    for (const Unit& unit : units) kind.units.push_back(info(unit));
+    return kind;
+}
+
+Json value_json(const Value& value) {
+    return std::visit([](const auto& held) -> Json { return held; }, value);
+}
+
+Json option_json(const Option& option) {
+    Json out = {{"name", option.name}, {"type", option.type}};
+    out["default"] = option.optional ? Json(nullptr) : value_json(option.fallback);
+    if (!option.range().empty() && option.type != "choice") out["range"] = option.range();
+    if (!option.choices.empty()) out["choices"] = option.choices;
+    if (!option.unit.empty()) out["unit"] = option.unit;
+    out["help"] = option.help;
+    return out;
+}
+
+Json unit_json(const UnitInfo& unit, std::string_view kind) {
+    Json out = {{"name", unit.name},     {"aliases", unit.aliases}, {"summary", unit.summary},
+                {"source", unit.source}, {"traits", *unit.traits},  {"options", Json::array()}};
+    if (!unit.strata.empty()) out["strata"] = unit.strata;
+    if (unit.stream_version > 0) out["stream_version"] = unit.stream_version;
+    for (const Option& option : unit.options) out["options"].push_back(option_json(option));
+    if (kind == "analyzers") {
+        out["results"] = Json::array();
+        for (const auto& [key, help] : unit.results)
+            out["results"].push_back({{"key", key}, {"help", help}});
+    }
+    return out;
+}
+
+}  // namespace
+
+std::vector<Kind> catalog() {
+    return {kind_of("generators", "generate", generators::all()),
+            kind_of("scrambles", "warp", scrambles::all()), kind_of("warps", "warp", warps::all()),
+            kind_of("analyzers", "analyze", analyzers::all()), kind_of("formats", "", io::all())};
+}
+
+std::optional<Kind> units_for(const std::vector<Kind>& kinds, std::string_view verb) {
+    std::optional<Kind> found;
+    for (const Kind& kind : kinds) {
+        if (kind.verb != verb) continue;
+        if (!found) found.emplace();
+        found->name = kind.name;
+        found->verb = kind.verb;
+        found->units.insert(found->units.end(), kind.units.begin(), kind.units.end());
+    }
+    return found;
+}
+
+const UnitInfo* find_unit(const Kind& kind, std::string_view name) {
+    for (const UnitInfo& unit : kind.units)
+        if (unit.name == name || std::ranges::find(unit.aliases, name) != unit.aliases.end())
+            return &unit;
+    return nullptr;
+}
+
+const UnitInfo& unit_of(const std::vector<Kind>& kinds, std::string_view verb,
+                        std::string_view name) {
+    const auto kind = units_for(kinds, verb);
+    for (const Kind& each : kinds)
+        if (const UnitInfo* unit = each.verb == verb ? find_unit(each, name) : nullptr)
+            return *unit;
+    std::vector<std::string> names;
+    for (const auto& known : kind->units) {
+        names.push_back(known.name);
+        names.insert(names.end(), known.aliases.begin(), known.aliases.end());
+    }
+    const std::string singular = kind->name.substr(0, kind->name.size() - 1);
+    fail_with_hint(ErrorKind::usage, suggest(name, names), "unknown {} '{}'", singular, name);
+}
+
+std::string option_usage(const Option& option) {
+    if (option.type == "flag") return "--" + option.name;
+    const std::string_view placeholder = option.type == "integer"   ? "N"
+                                         : option.type == "number"  ? "X"
+                                         : option.type == "choice"  ? "WORD"
+                                         : option.type == "file"    ? "FILE"
+                                         : option.type == "numbers" ? "X,Y,..."
+                                         : option.type == "points"  ? "'X,Y X,Y ...'"
+                                         : option.type == "extents" ? "NxM..."
+                                                                    : "TEXT";
+    return fmt::format("--{} {}", option.name, placeholder);
+}
+
+std::string option_notes(const Option& option) {
+    std::vector<std::string> notes;
+    if (!option.range().empty())
+        notes.push_back(option.type == "choice" ? option.range() : "in " + option.range());
+    if (!option.unit.empty()) notes.push_back(option.unit);
+    if (!option.optional && option.type != "flag")
+        notes.push_back("default " + format_value(option.fallback));
+    return notes.empty() ? "" : " (" + join(notes, "; ") + ")";
+}
+
+std::string list_text(const std::vector<Kind>& kinds) {
+    std::string text;
+    for (const Kind& kind : kinds) {
+        text += fmt::format("{}{}\n", text.empty() ? "" : "\n", kind.name);
+        for (const UnitInfo& unit : kind.units) {
+            text += fmt::format("  {:<18} {}\n", unit.name, unit.summary);
+            text += fmt::format("  {:<18} [{}]\n", "", join(unit.remarks, "; "));
+            if (!unit.aliases.empty())
+                text += fmt::format("  {:<18} also called {}\n", "", join(unit.aliases, ", "));
+            for (const Option& option : unit.options)
+                text += fmt::format("  {:<18} {:<22} {}{}\n", "", option_usage(option), option.help,
+                                    option_notes(option));
+        }
+    }
+    return text;
+}
+
+std::string list_json(const std::vector<Kind>& kinds) {
+    Json out = {{"format", "stipple.list"}, {"version", 1}, {"stipple", STIPPLE_VERSION}};
+    for (const Kind& kind : kinds) {
+        out[kind.name] = Json::array();
+        for (const UnitInfo& unit : kind.units)
+            out[kind.name].push_back(unit_json(unit, kind.name));
+    }
+    return out.dump(2) + "\n";
+}
+
+std::string list_markdown(const std::vector<Kind>& kinds) {
+    std::string text;
+    for (const Kind& kind : kinds) {
+        text += fmt::format("{}| {} | what it is | options |\n|---|---|---|\n",
+                            text.empty() ? "" : "\n", kind.name.substr(0, kind.name.size() - 1));
+        for (const UnitInfo& unit : kind.units) {
+            std::vector<std::string> options;
+            for (const Option& option : unit.options) options.push_back("`--" + option.name + "`");
+            std::vector<std::string> names = {"`" + unit.name + "`"};
+            for (const std::string& alias : unit.aliases) names.push_back("`" + alias + "`");
+            text += fmt::format("| {} | {} ({}) | {} |\n", join(names, ", "), unit.summary,
+                                join(unit.remarks, "; "), join(options, " "));
+        }
+    }
+    return text;
+}
+
+}  // namespace stipple::cli

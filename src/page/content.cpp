@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "page/content.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "plot/drawing/ticks.hpp"
+#include "plot/report_charts.hpp"
+
+namespace stipple::page {
+
+using plot::rounded;
+
+namespace {
+
+constexpr std::array keys = {
+    Key{"star-discrepancy.value", "Star discrepancy", "Discrepancy"},
+    Key{"extreme-discrepancy.value", "Extreme discrepancy", "Discrepancy"},
+    Key{"periodic-discrepancy.value", "Periodic discrepancy", "Discrepancy"},
+    Key{"l2-discrepancy.star.value", "L2 star", "L2 discrepancy"},
+    Key{"l2-discrepancy.extreme.value", "L2 extreme", "L2 discrepancy"},
+    Key{"l2-discrepancy.periodic.value", "L2 periodic", "L2 discrepancy"},
+    Key{"l2-discrepancy.centered.value", "L2 centered", "L2 discrepancy"},
+    Key{"l2-discrepancy.wraparound.value", "L2 wraparound", "L2 discrepancy"},
+    Key{"l2-discrepancy.mixture.value", "L2 mixture", "L2 discrepancy"},
+    Key{"l2-discrepancy.modified.value", "L2 modified", "L2 discrepancy"},
+    Key{"l2-discrepancy.diaphony.value", "Diaphony", "L2 discrepancy"},
+    Key{"dispersion.value", "Dispersion: largest empty box", "Gaps"},
+    Key{"t-value.t", "t-value in base 2", "Gaps", Better::lower, false},
+    Key{"nearest-neighbor.minimum", "Smallest distance", "Distances", Better::higher, false},
+    Key{"nearest-neighbor.mean", "Mean nearest distance", "Distances", Better::higher, false},
+    Key{"nearest-neighbor.relative_radius", "Relative radius", "Distances", Better::higher, true},
+    Key{"nearest-neighbor.duplicates", "Duplicates", "Distances", Better::lower, true},
+    Key{"periodogram.effective_nyquist", "Effective Nyquist frequency", "Spectrum", Better::higher,
+        false},
+    Key{"periodogram.relative_nyquist", "Relative Nyquist frequency", "Spectrum", Better::higher,
+        true},
+    Key{"periodogram.oscillation", "Oscillation", "Spectrum", Better::lower, true},
+    Key{"chi-square.p_value", "χ² p-value", "Uniformity", Better::neither, true},
+    Key{"kolmogorov-smirnov.combined_p_value", "Kolmogorov–Smirnov p-value", "Uniformity",
+        Better::neither, true}};
+
+/// The p-value of the tail that decided.
+std::string probability(double p) {
+    return p < 1e-300 ? "p below 10⁻³⁰⁰" : fmt::format("p = {}", rounded(p, 2));
+}
+
+std::string chi_square_words(const Report& found) {
+    const std::string& verdict = found.text("verdict");
+    const std::string numbers = fmt::format(
+        "χ² = {} with {} degrees of freedom, {}", rounded(found.number("statistic")),
+        rounded(found.number("degrees_of_freedom"), 12), probability(found.number("p_value")));
+    if (verdict == "uniform")
+        return fmt::format("Cells hold as many points as chance would put there ({}).", numbers);
+    if (verdict == "stratified")
+        return fmt::format(
+            "Cells are filled more evenly than independent points fill them ({}): good news for "
+            "low-discrepancy and stratified sets.",
+            numbers);
+    return fmt::format("The points do not follow their domain's density ({}).", numbers);
+}
+
+std::string kolmogorov_words(const Report& found) {
+    const std::string& verdict = found.text("verdict");
+    const auto& statistic = found.curve("statistic");
+    const auto worst = std::ranges::max_element(statistic);
+    const std::string numbers =
+        fmt::format("largest distance {}, on axis {}; {} over all axes", rounded(*worst),
+                    worst - statistic.begin() + 1, probability(found.number("combined_p_value")));
+    if (verdict == "uniform")
+        return fmt::format("Each axis on its own looks like independent uniform numbers ({}).",
+                           numbers);
+    if (verdict == "stratified")
+        return fmt::format("At least one axis is covered more evenly than by chance ({}).",
+                           numbers);
+    return fmt::format("At least one axis has a wrong density ({}).", numbers);
+}
+
+}  // namespace
+
+const Report* Set::results(std::string_view measure) const {
+    const auto it = std::ranges::find(measures, measure, &Measure::name);
+    return it == measures.end() || !it->results ? nullptr : &*it->results;
+}
+
+Report Set::all_results() const {
+    Report all;
+    for (const Measure& measure : measures)
+        if (measure.results) all.add(measure.name, *measure.results);
+    return all;
+}
+
+bool same_count(std::span<const Set> sets) {
+    return std::ranges::all_of(sets, [&](const Set& set) { return set.count == sets[0].count; });
+}
+
+bool same_domain(std::span<const Set> sets) {
+    return std::ranges::all_of(sets, [&](const Set& set) { return set.domain == sets[0].domain; });
+}
+
+std::vector<std::string> notes_on(std::span<const Set> sets) {
+    std::vector<std::string> notes;
+    if (!same_count(sets))
+        notes.emplace_back(
+            "The sets have different numbers of points: most measures change with n, so only "
+            "those that do not have their best marked.");
+    if (!same_domain(sets))
+        notes.emplace_back("The sets live on different domains: nothing is marked as best.");
+    return notes;
+}
+
+std::span<const Key> compared_keys() { return keys; }
+
+std::optional<Known> known_under(const Set& set, std::string_view key) {
+    const auto dot = key.find('.');
+    const Report* found = set.results(key.substr(0, dot));
+    if (found == nullptr || dot == std::string_view::npos) return std::nullopt;
+    const std::string_view path = key.substr(dot + 1);
+    const auto value = plot::number_at(*found, path);
+    if (!value || std::isnan(*value)) return std::nullopt;
+    if (path != "value") return Known{*value, *value, *value};
+    return Known{*value, plot::number_at(*found, "lower").value_or(*value),
+                 plot::number_at(*found, "upper").value_or(*value)};
+}
+
+std::vector<bool> best_of(std::span<const std::optional<Known>> values, Better better) {
+    const std::vector<bool> none(values.size(), false);
+    const auto there = std::ranges::count_if(values, [](const auto& v) { return v.has_value(); });
+    if (better == Better::neither || there < 2) return none;
+    const auto no_worse = [better](const Known& a, const Known& b) {
+        return better == Better::lower ? a.upper <= b.lower : a.lower >= b.upper;
+    };
+    std::vector<bool> best = none;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        best[i] = values[i] && std::ranges::all_of(values, [&](const auto& other) {
+                      return !other || &other == &values[i] || no_worse(*values[i], *other);
+                  });
+    return std::ranges::count(best, true) == there ? none : best;
+}
+
+std::vector<Row> compare_sets(std::span<const Set> sets) {
+    const bool one_count = same_count(sets);
+    const bool one_domain = same_domain(sets);
+    std::vector<Row> rows;
+    for (const Key& key : keys) {
+        Row row{.key = key, .values = {}, .best = {}};
+        for (const Set& set : sets) row.values.push_back(known_under(set, key.key));
+        if (std::ranges::none_of(row.values, [](const auto& v) { return v.has_value(); })) continue;
+        const bool fair = one_domain && (one_count || key.any_count);
+        row.best = best_of(row.values, fair ? key.better : Better::neither);
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+std::string verdict_in_words(const Measure& measure) {
+    if (!measure.results) return {};
+    if (measure.name == "chi-square") return chi_square_words(*measure.results);
+    if (measure.name == "kolmogorov-smirnov") return kolmogorov_words(*measure.results);
+    return {};
+}
+
+std::string shown_number(double value) {
+    if (std::isinf(value)) return value > 0 ? "∞" : "−∞";
+    return rounded(value, 4);
+}
+
+std::string shown_known(const Known& known) {
+    if (known.exact()) return shown_number(known.value);
+    return fmt::format("{} to {}", shown_number(known.lower), shown_number(known.upper));
+}
+
+}  // namespace stipple::page

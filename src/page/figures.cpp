@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: MIT
+#include "page/figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/json.hpp"
+#include "plot/drawing/html_text.hpp"
+#include "plot/drawing/ticks.hpp"
+#include "plot/points_picture.hpp"
+#include "plot/report_charts.hpp"
+#include "plot/spectrum_picture.hpp"
+
+namespace stipple::page {
+
+using namespace plot;
+
+namespace {
+
+constexpr double picture_width = 520;
+constexpr double pairs_width = 1000;
+constexpr double line_width = 720;
+
+constexpr Colour light_sets[] = {{0, 114, 178}, {213, 94, 0},   {0, 137, 95},   {176, 80, 138},
+                                 {176, 125, 0}, {47, 159, 208}, {60, 60, 60},   {122, 79, 192},
+                                 {160, 48, 48}, {95, 127, 31},  {15, 143, 143}, {143, 111, 95}};
+constexpr Colour dark_sets[] = {{86, 180, 233},  {240, 128, 48},  {26, 188, 144},  {222, 150, 190},
+                                {240, 190, 60},  {143, 208, 245}, {208, 208, 208}, {182, 154, 240},
+                                {240, 138, 138}, {169, 201, 90},  {79, 208, 208},  {205, 176, 160}};
+
+constexpr Theme with_sets(Theme theme, std::span<const Colour> colours) {
+    theme.series = colours;
+    return theme;
+}
+
+constexpr Theme light_page = with_sets(light_theme, light_sets);
+constexpr Theme dark_page = with_sets(dark_theme, dark_sets);
+
+/// Labels that explain the boxes, each with a switch; projections of them are hidden at first.
+std::string box_legend(const std::vector<WorstBox>& boxes, bool projections) {
+    if (boxes.empty()) return {};
+    std::string out = "<ul class=\"boxes\">\n";
+    for (const WorstBox& box : boxes)
+        out += fmt::format(
+            "<li><label><input type=\"checkbox\" data-box=\"{0}\"{3}> <span class=\"key {0}{1}\">"
+            "</span> {2}</label></li>\n",
+            box.kind, box.closed ? "" : " open", html_text(box.label),
+            !projections && (box.kind == "star" || box.kind == "empty") ? " checked" : "");
+    return out + "</ul>\n";
+}
+
+std::vector<MarkedBox> marked_boxes(const PointSet& points, const Set& set) {
+    std::vector<MarkedBox> marked;
+    for (const WorstBox& worst : worst_boxes(set)) {
+        const Box cube = points.domain->bounding_box();
+        MarkedBox box{.attributes = fmt::format("class=\"box {}\"", worst.kind),
+                      .ranges = {},
+                      .closed = worst.closed};
+        for (std::size_t k = 0; k < points.dimension(); ++k) {
+            auto& ranges = box.ranges.emplace_back();
+            for (const auto& [low, high] : parts_of_range(worst.low[k], worst.high[k]))
+                ranges.emplace_back(cube.low[k] + low * cube.extent(k),
+                                    cube.low[k] + high * cube.extent(k));
+        }
+        marked.push_back(std::move(box));
+    }
+    return marked;
+}
+
+/// What a drawing function draws of the points, for light and dark pages.
+template <class Draw>
+std::string figure_of(const Set& set, const PointSet& points, std::size_t number, const char* where,
+                      const Draw& draw) {
+    const PointsPicture picture{.sets = {&points},
+                                .names = {set.name},
+                                .title = {},
+                                .boxes = marked_boxes(points, set),
+                                .most_disks = most_dots,
+                                .most_coordinates = most_axes};
+    const double width = points.dimension() == 1  ? line_width
+                         : points.dimension() > 3 ? pairs_width
+                                                  : picture_width;
+    const auto drawn = [&](bool dark) {
+        Theme theme = theme_of(dark);
+        theme.series = theme.series.subspan(number % theme.series.size(), 1);
+        return draw(picture, PictureStyle{.theme = &theme, .width = width}, RunContext());
+    };
+    return svg_element(drawn(false), drawn(true),
+                       fmt::format("{} point{} of {} {}", points.count(),
+                                   points.count() == 1 ? "" : "s", set.name, where));
+}
+
+std::string figure(const std::string& kind, const std::string& body, const std::string& caption) {
+    return fmt::format("<figure class=\"{}\">\n{}<figcaption>{}</figcaption>\n</figure>\n", kind,
+                       body, caption);
+}
+
+std::string plane_figure(const std::string& drawing, const PointSet& points, const Set& set) {
+    const auto boxes = worst_boxes(set);
+    std::string caption = "Points";
+    if (points.count() > most_dots) caption += ", as pixels";
+    if (!boxes.empty()) caption += ", with the worst boxes";
+    return figure("picture", drawing + box_legend(boxes, false), caption + ".");
+}
+
+std::string pairs_figure(const std::string& drawing, const PointSet& points, const Set& set) {
+    const auto boxes = worst_boxes(set);
+    const std::size_t d = points.dimension();
+    std::string caption = d > most_axes
+                              ? fmt::format("Pairs of the first {} of {} axes", most_axes, d)
+                              : std::string("Projections on every pair of axes");
+    if (!boxes.empty())
+        caption +=
+            ". A worst box is drawn as its projection: a point is in the box only if it is in all "
+            "of its projections";
+    return figure(d == 3 ? "picture" : "wide", drawing + box_legend(boxes, true), caption + ".");
+}
+
+/// Side of the blocks, odd, of which no more than `most` stand side by side.
+std::size_t block_side(std::size_t rows, std::size_t most) {
+    std::size_t block = 1;
+    while ((rows + block - 1) / block > most) block += 2;
+    return block;
+}
+
+// -------------------------------------------------------------------- charts
+
+constexpr double chart_width = 640;
+constexpr double chart_height = 300;
+
+/// Numbers as short as eyes need them.
+Json short_numbers(const std::vector<double>& values) {
+    Json list = Json::array();
+    for (const double v : values) {
+        if (!std::isfinite(v))
+            list.push_back(nullptr);
+        else
+            list.push_back(std::stod(fmt::format("{:.4g}", v)));
+    }
+    return list;
+}
+
+/// What the page's script needs to show values under the pointer.
+std::string numbers_of(std::span<const Set> sets, const Chart& chart, const Area& frame) {
+    const ChartPanel& panel = chart.panels.front();
+    const Axis x = chart_axes(chart, 0, {}).first;
+    Json curves = Json::array();
+    for (const Series& series : panel.series)
+        curves.push_back({{"set", *series.set},
+                          {"name", sets[*series.set].name},
+                          {"x", short_numbers(series.x)},
+                          {"y", short_numbers(series.y)}});
+    const Json all = {{"x", panel.x_name},
+                      {"left", frame.left},
+                      {"right", frame.right()},
+                      {"top", frame.top},
+                      {"bottom", frame.bottom()},
+                      {"width", chart_width},
+                      {"from", x.low},
+                      {"to", x.high},
+                      {"curves", curves}};
+    return html_json(all.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+/// The first panel of the chart of a measure of these sets, as far as they have the curve.
+std::string chart_figure(std::span<const Set> sets, std::span<const std::size_t> which,
+                         const char* measure, const char* curve, const std::string& what,
+                         const std::string& caption) {
+    std::vector<Measurement> found;
+    std::vector<std::size_t> numbers;
+    for (const std::size_t i : which) {
+        const Report* results = sets[i].results(measure);
+        if (results == nullptr || results->find(curve) == nullptr) continue;
+        found.push_back({.analyzer = measure,
+                         .source = sets[i].name,
+                         .count = sets[i].count,
+                         .dimension = sets[i].dimension,
+                         .domain = sets[i].domain,
+                         .results = *results});
+        numbers.push_back(i);
+    }
+    if (found.empty()) return {};
+    Chart chart = chart_of(found);
+    chart.title = chart.subtitle = {};
+    chart.panels.resize(1);
+    ChartPanel& panel = chart.panels.front();
+    for (Series& series : panel.series) series.set = numbers[series.measurement];
+    std::vector<Area> frames;
+    const auto drawn = [&](bool dark) {
+        return draw_chart(chart,
+                          {.theme = &theme_of(dark), .width = chart_width, .height = chart_height},
+                          &frames);
+    };
+    const std::string of =
+        found.size() == 1 ? found[0].source : fmt::format("{} sets", found.size());
+    const std::string svg =
+        svg_element(drawn(false), drawn(true), fmt::format("{} of {}", what, of));
+    return figure("chart",
+                  fmt::format("{}<output class=\"tip\" hidden></output>\n<script "
+                              "type=\"application/json\">{}</script>\n",
+                              svg, numbers_of(sets, chart, frames.front())),
+                  caption + (panel.log_y ? "; logarithmic." : "."));
+}
+
+}  // namespace
+
+const Theme& theme_of(bool dark) { return dark ? dark_page : light_page; }
+
+std::vector<WorstBox> worst_boxes(const Set& set) {
+    std::vector<WorstBox> boxes;
+    const auto add = [&](const char* measure, const char* kind, const char* title) {
+        const Report* found = set.results(measure);
+        if (found == nullptr || found->find("worst_box.corner") == nullptr) return;
+        WorstBox box{
+            .kind = kind, .label = {}, .low = {}, .high = found->curve("worst_box.corner")};
+        box.low.assign(box.high.size(), 0);
+        if (found->find("worst_box.lower_corner") != nullptr)
+            box.low = found->curve("worst_box.lower_corner");
+        if (const auto* closed = std::get_if<bool>(found->find("worst_box.closed")))
+            box.closed = *closed;
+        const double share = found->number("worst_box.points") / static_cast<double>(set.count);
+        box.label = fmt::format("{}: {} of the points in {} of the volume", title,
+                                rounded(share, 4), rounded(found->number("worst_box.volume"), 4));
+        boxes.push_back(std::move(box));
+    };
+    add("star-discrepancy", "star", "worst box from the origin");
+    add("extreme-discrepancy", "extreme", "worst box of all");
+    add("periodic-discrepancy", "periodic", "worst box on the torus");
+    const Report* found = set.results("dispersion");
+    if (found != nullptr && found->find("box.lower_corner") != nullptr)
+        boxes.push_back({.kind = "empty",
+                         .label = fmt::format("largest empty box: volume {}",
+                                              rounded(found->number("lower"), 4)),
+                         .low = found->curve("box.lower_corner"),
+                         .high = found->curve("box.upper_corner")});
+    return boxes;
+}
+
+std::vector<std::pair<double, double>> parts_of_range(double low, double high) {
+    if (low <= high) return {{low, high}};
+    return {{0, high}, {low, 1}};
+}
+
+std::vector<std::string> point_figures(const PointSet& points, const Set& set, std::size_t number) {
+    const auto drawing = [&](const char* where, const auto& draw) {
+        return figure_of(set, points, number, where, draw);
+    };
+    if (points.dimension() == 1)
+        return {figure("wide", drawing("on a line", draw_points), "Points on the line.")};
+    if (points.dimension() == 2)
+        return {plane_figure(drawing("in the plane", draw_points), points, set)};
+    const std::string pairs = pairs_figure(drawing("by pairs of axes", draw_pairs), points, set);
+    if (points.dimension() > 3) return {pairs};
+    return {figure("picture", drawing("in space", draw_points),
+                   "Points in space, seen from a fixed place."),
+            pairs};
+}
+
+Grid in_blocks(const Grid& grid, std::size_t most) {
+    const std::size_t block = block_side(grid.rows, most);
+    if (block == 1) return grid;
+    // The centre stays the centre of its block; what does not fill a block at the rim is left out.
+    const std::size_t half = (grid.rows / 2 - block / 2) / block;
+    const std::size_t first = grid.rows / 2 - block / 2 - half * block;
+    const std::size_t side = 2 * half + 1;
+    Grid small{.rows = side, .columns = side, .values = std::vector<double>(side * side)};
+    for (std::size_t row = 0; row < side * block; ++row)
+        for (std::size_t column = 0; column < side * block; ++column)
+            small.values[row / block * side + column / block] +=
+                grid.values[(first + row) * grid.columns + first + column] /
+                static_cast<double>(block * block);
+    return small;
+}
+
+std::string spectrum_figure(const Set& set) {
+    constexpr std::size_t most_pixels = 255;
+    const Report* found = set.results("periodogram");
+    if (found == nullptr || set.dimension != 2) return {};
+    const auto* grid = std::get_if<Grid>(found->find("grid"));
+    if (grid == nullptr || grid->rows != grid->columns || grid->rows % 2 == 0) return {};
+    Grid centred = *grid;
+    centred.values[centred.values.size() / 2] = 0;  // frequency zero, n, would outshine its block
+    const Grid small = in_blocks(centred, most_pixels);
+    const std::size_t block = block_side(grid->rows, most_pixels);
+    const TableNames names{
+        .x = "frequency along x", .y = "frequency along y", .cell = static_cast<double>(block)};
+    const auto draw = [&](bool dark) {
+        return draw_spectrum(small, "", "", {.theme = &theme_of(dark), .width = picture_width},
+                             names);
+    };
+    std::string caption =
+        fmt::format("Power at frequencies −{0} to {0}: black 0, grey 1 (white noise), white ∞",
+                    small.rows * block / 2);
+    if (block > 1) caption += fmt::format("; a pixel is the mean of {0} × {0}", block);
+    return figure(
+        "picture",
+        svg_element(draw(false), draw(true),
+                    fmt::format("power spectrum of {}, frequency zero in the middle", set.name)),
+        caption + ".");
+}
+
+std::string radial_power_figure(std::span<const Set> sets, std::span<const std::size_t> which) {
+    return chart_figure(sets, which, "periodogram", "radial.power", "radial power",
+                        "Radial power over frequency; white noise has 1");
+}
+
+std::string pair_correlation_figure(std::span<const Set> sets, std::span<const std::size_t> which) {
+    return chart_figure(sets, which, "pair-correlation", "density", "pair correlation",
+                        "Pair correlation over distance; independent points have 1");
+}
+
+}  // namespace stipple::page

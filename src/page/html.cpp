@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: MIT
+#include "page/html.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/options.hpp"
+#include "core/text.hpp"
+#include "page/figures.hpp"
+#include "plot/drawing/html_text.hpp"
+
+namespace stipple::page {
+
+using plot::html_text;
+
+namespace {
+
+/// The mark of a set's colour.
+std::string swatch(std::size_t set) {
+    return fmt::format("<span class=\"swatch\" style=\"--c:var(--c{})\"></span>", set);
+}
+
+std::string plural(std::uint64_t n, const char* one, const char* many) {
+    return fmt::format("{} {}", n, n == 1 ? one : many);
+}
+
+/// "the unit cube", "the disk", "the domain disk:center=[1,2]"
+std::string domain_in_words(const std::string& spec) {
+    if (spec.find_first_of(": ") != std::string::npos) return "the domain " + spec;
+    std::string words = "the " + spec;
+    std::ranges::replace(words, '-', ' ');
+    return words;
+}
+
+std::string source_of(const Set& set) { return set.source == "-" ? "standard input" : set.source; }
+
+std::string facts_of(const Set& set) {
+    std::string text =
+        fmt::format("{} in {} on {}", plural(set.count, "point", "points"),
+                    plural(set.dimension, "dimension", "dimensions"), domain_in_words(set.domain));
+    if (set.source != set.name) text += fmt::format(" · from {}", source_of(set));
+    if (set.number) text += fmt::format(" (set {})", *set.number);
+    return html_text(text);
+}
+
+// -------------------------------------------------------------------- comparison
+
+std::string comparison_head(std::span<const Set> sets) {
+    std::string out = "<thead><tr><th scope=\"col\">Measure</th>";
+    for (std::size_t i = 0; i < sets.size(); ++i)
+        out += fmt::format("<th scope=\"col\" class=\"number\" data-set=\"{}\">{}{}</th>", i,
+                           swatch(i), html_text(sets[i].name));
+    return out + "</tr></thead>\n";
+}
+
+/// The cell of a set in a row; `more` are words of its class and other attributes.
+std::string cell(std::size_t set, std::string_view text, const char* kind = "",
+                 const std::string& more = {}) {
+    return fmt::format("<td class=\"number{}\" data-set=\"{}\"{}>{}</td>", kind, set, more, text);
+}
+
+std::string cell_of(const std::optional<Known>& known, bool best, std::size_t set) {
+    if (!known) return cell(set, "–", " none");
+    std::string exact = format_number(known->lower);
+    if (!known->exact()) exact += " to " + format_number(known->upper);
+    return cell(set, shown_known(*known), best ? " best" : "",
+                fmt::format(" title=\"{}{}\"", exact, best ? ", best of these" : ""));
+}
+
+std::string verdict_row(std::span<const Set> sets, const char* measure, const char* label) {
+    std::string cells;
+    bool any = false;
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+        const Report* found = sets[i].results(measure);
+        any = any || found != nullptr;
+        cells +=
+            found == nullptr ? cell(i, "–", " none") : cell(i, html_text(found->text("verdict")));
+    }
+    if (!any) return {};
+    return fmt::format("<tr><th scope=\"row\">{}</th>{}</tr>\n", label, cells);
+}
+
+std::string arrow_of(Better better) {
+    if (better == Better::lower) return "&nbsp;<small title=\"lower is better\">↓</small>";
+    if (better == Better::higher) return "&nbsp;<small title=\"higher is better\">↑</small>";
+    return {};
+}
+
+std::string size_row(std::span<const Set> sets) {
+    std::string out = "<tr><th scope=\"row\">Points</th>";
+    for (std::size_t i = 0; i < sets.size(); ++i) out += cell(i, std::to_string(sets[i].count));
+    return out + "</tr>\n";
+}
+
+std::string comparison_of(std::span<const Set> sets) {
+    std::string out = fmt::format("<section id=\"comparison\">\n<h2>{}</h2>\n",
+                                  sets.size() > 1 ? "Comparison" : "Summary");
+    for (const std::string& note : notes_on(sets))
+        out += fmt::format("<p class=\"note\">{}</p>\n", html_text(note));
+    out +=
+        "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"comparison\"><table>\n" +
+        comparison_head(sets) + "<tbody>\n" + size_row(sets);
+    std::string group;
+    for (const Row& row : compare_sets(sets)) {
+        if (group != row.key.group) {
+            group = row.key.group;
+            out += fmt::format(
+                "<tr class=\"group\"><th colspan=\"{}\" scope=\"colgroup\">{}</th></tr>\n",
+                sets.size() + 1, group);
+        }
+        out += fmt::format("<tr data-key=\"{}\"><th scope=\"row\">{}{}</th>", row.key.key,
+                           html_text(row.key.label), arrow_of(row.key.better));
+        for (std::size_t i = 0; i < sets.size(); ++i) out += cell_of(row.values[i], row.best[i], i);
+        out += "</tr>\n";
+    }
+    out += verdict_row(sets, "chi-square", "χ² verdict") +
+           verdict_row(sets, "kolmogorov-smirnov", "Kolmogorov–Smirnov verdict");
+    out += "</tbody></table></div>\n";
+    if (sets.size() > 1)
+        out +=
+            "<p class=\"note\">★ marks what no other set here can be better in; ↓ lower is better, "
+            "↑ higher is better. “a to b” are certain bounds.</p>\n";
+    return out + "</section>\n";
+}
+
+// -------------------------------------------------------------------- one set
+
+constexpr std::size_t most_listed = 8;  ///< numbers of a list that a table shows
+
+/// A result as a table shows it; empty for long lists and pictures.
+std::string shown_item(const Report::Item& item) {
+    return std::visit(
+        []<class T>(const T& value) -> std::string {
+            if constexpr (std::is_same_v<T, bool>) {
+                return value ? "yes" : "no";
+            } else if constexpr (std::is_same_v<T, double>) {
+                return shown_number(value);
+            } else if constexpr (std::is_same_v<T, std::int64_t>) {
+                return std::to_string(value);
+            } else if constexpr (std::is_same_v<T, std::string>) {
+                return value;
+            } else if constexpr (requires { value.size(); }) {
+                std::vector<std::string> shown;
+                for (const auto x : value) shown.push_back(shown_number(static_cast<double>(x)));
+                return shown.size() > most_listed ? "" : join(shown, ", ");
+            } else {
+                return {};
+            }
+        },
+        item);
+}
+
+std::string row_of(const std::string& key, const Report::Item& item) {
+    const std::string shown = shown_item(item);
+    if (shown.empty()) return {};
+    const auto* number = std::get_if<double>(&item);
+    const std::string whole =
+        number == nullptr ? "" : fmt::format(" title=\"{}\"", format_number(*number));
+    return fmt::format("<tr><th scope=\"row\">{}</th><td class=\"number\"{}>{}</td></tr>\n",
+                       html_text(key), whole, html_text(shown));
+}
+
+std::string measure_of(const Measure& measure) {
+    std::string out = fmt::format("<div class=\"measure\">\n<h3>{}</h3>\n<table><tbody>\n",
+                                  html_text(measure.title));
+    for (const std::string& key : measure.results->keys())
+        out += row_of(key, *measure.results->find(key));
+    return out +
+           fmt::format("</tbody></table>\n<pre>{}</pre>\n</div>\n", html_text(measure.command));
+}
+
+std::string verdicts_of(const Set& set) {
+    std::string out;
+    for (const Measure& measure : set.measures) {
+        const std::string words = verdict_in_words(measure);
+        if (words.empty()) continue;
+        out += fmt::format("<p><span class=\"verdict\">{}</span> {}: {}</p>\n",
+                           html_text(measure.results->text("verdict")), html_text(measure.title),
+                           html_text(words));
+    }
+    if (out.empty()) return {};
+    return "<div class=\"verdicts\">\n<h3>Uniformity</h3>\n" + out + "</div>\n";
+}
+
+std::string left_out_of(const Set& set) {
+    std::string out;
+    for (const Measure& measure : set.measures)
+        if (!measure.results)
+            out += fmt::format("<li>{}: {}</li>\n", html_text(measure.title),
+                               html_text(measure.left_out));
+    if (out.empty()) return {};
+    return "<h3>Left out</h3>\n<ul class=\"left-out\">\n" + out + "</ul>\n";
+}
+
+std::string provenance_of(const Set& set) {
+    const Provenance& from = set.provenance;
+    std::string out;
+    const auto add = [&out](const std::string& name, const std::string& text) {
+        if (!text.empty())
+            out += fmt::format("<dt>{}</dt><dd>{}</dd>\n", html_text(name), html_text(text));
+    };
+    add("source", source_of(set));
+    if (!from.generator.empty()) {
+        add("generator", from.generator);
+        for (const auto& [name, value] : from.options) add(name, value);
+        add("seed", std::to_string(from.seed));
+        if (from.start > 0) add("first index", std::to_string(from.start));
+        add("warps", join(from.warps, ", "));
+        add("bounds", from.bounds);
+        add("made by", from.version.empty() ? "" : "stipple " + from.version);
+    }
+    add("domain", set.domain);
+    out = fmt::format("<h3>Provenance</h3>\n<dl>\n{}</dl>\n", out);
+    if (!set.command.empty())
+        out += fmt::format("<pre>{}</pre>\n", html_text(set.command));
+    else if (from.generator.empty())
+        out += "<p class=\"note\">The file does not say how its points were made.</p>\n";
+    return out;
+}
+
+std::string section_of(std::span<const Set> sets, std::size_t i) {
+    const Set& set = sets[i];
+    const std::size_t which[] = {i};
+    std::string out = fmt::format(
+        "<section class=\"set\" id=\"set-{0}\" data-set=\"{0}\">\n<h2>{1}{2}</h2>\n<p "
+        "class=\"facts\">{3}</p>\n<div class=\"figures\">\n",
+        i, swatch(i), html_text(set.name), facts_of(set));
+    for (const std::string& figure : set.figures) out += figure;
+    out += radial_power_figure(sets, which) + pair_correlation_figure(sets, which) + "</div>\n" +
+           verdicts_of(set) + "<div class=\"measures\">\n";
+    for (const Measure& measure : set.measures)
+        if (measure.results) out += measure_of(measure);
+    return out + "</div>\n" + left_out_of(set) + provenance_of(set) + "</section>\n";
+}
+
+// -------------------------------------------------------------------- the page
+
+std::string navigation(std::span<const Set> sets) {
+    std::string out = "<nav aria-label=\"Sets\">\n";
+    for (std::size_t i = 0; i < sets.size(); ++i)
+        out += fmt::format(
+            "<label style=\"--c:var(--c{0})\"><input type=\"checkbox\" value=\"{0}\" checked "
+            "aria-label=\"show {1}\"><a href=\"#set-{0}\">{1}</a></label>\n",
+            i, html_text(sets[i].name));
+    return out + "</nav>\n";
+}
+
+/// The colours of the sets, and what the boxes of the navigation hide.
+std::string rules_of_sets(std::size_t sets) {
+    std::string out;
+    for (std::size_t i = 0; i < sets; ++i) {
+        const auto hex = [i](bool dark) {
+            const plot::Colour c = theme_of(dark).series_colour(i);
+            return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue);
+        };
+        out += fmt::format(
+            ":root{{--c{0}:{1}}}@media screen and "
+            "(prefers-color-scheme:dark){{:root{{--c{0}:{2}}}}}"
+            "\n.hide-{0} [data-set=\"{0}\"]{{display:none}}\n",
+            i, hex(false), hex(true));
+    }
+    return out;
+}
+
+std::string overlays_of(std::span<const Set> sets) {
+    if (sets.size() < 2) return {};
+    std::vector<std::size_t> all(sets.size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+    const std::string figures = radial_power_figure(sets, all) + pair_correlation_figure(sets, all);
+    if (figures.empty()) return {};
+    return "<section>\n<h2>Curves of all sets</h2>\n<div class=\"figures\">\n" + figures +
+           "</div>\n</section>\n";
+}
+
+std::string head_of(const Page& page) {
+    return fmt::format(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
+        "style-src 'unsafe-inline'; script-src 'unsafe-inline'\">\n"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+        "<meta name=\"color-scheme\" content=\"light dark\">\n"
+        "<meta name=\"generator\" content=\"stipple {}\">\n<title>{}</title>\n<style>{}{}</style>\n"
+        "</head>\n",
+        html_text(page.version), html_text(page.title), style_sheet(),
+        rules_of_sets(page.sets.size()));
+}
+
+}  // namespace
+
+std::string to_html(const Page& page) {
+    const std::span<const Set> sets = page.sets;
+    const Set& first = sets.front();
+    std::string size = fmt::format("{}, {}", plural(sets.size(), "set", "sets"),
+                                   plural(first.dimension, "dimension", "dimensions"));
+    if (same_count(sets))
+        size += fmt::format(", {}{}", plural(first.count, "point", "points"),
+                            sets.size() > 1 ? " each" : "");
+    std::string out = head_of(page);
+    out += fmt::format("<body>\n<header>\n<h1>{}</h1>\n<p class=\"facts\">{}</p>\n</header>\n",
+                       html_text(page.title), html_text(size));
+    out += navigation(sets) + "<main>\n" + comparison_of(sets) + overlays_of(sets);
+    for (std::size_t i = 0; i < sets.size(); ++i) out += section_of(sets, i);
+    out += fmt::format(
+        "</main>\n<footer>\n<p>Made by stipple {}. The same command makes the same page:</p>\n"
+        "<pre>{}</pre>\n</footer>\n<script>{}</script>\n</body>\n</html>\n",
+        html_text(page.version), html_text(page.command), script());
+    return out;
+}
+
+}  // namespace stipple::page

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/json.hpp"
+#include "io/provenance.hpp"
+#include "page/html.hpp"
+#include "report/document.hpp"
+
+namespace stipple::page {
+namespace {
+
+Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+/// Results and options as `stipple analyze` prints them, less what it measured of time.
+Json json_of(const Measure& measure, const Set& set) {
+    const Measurement m{.analyzer = measure.analyzer,
+                        .source = {},
+                        .set = set.number,
+                        .count = set.count,
+                        .dimension = set.dimension,
+                        .domain = set.domain,
+                        .options = measure.options,
+                        .results = measure.results.value_or(Report())};
+    const Json whole = Json::parse(to_json(std::span(&m, 1)));
+    Json object = {
+        {"name", measure.name}, {"analyzer", measure.analyzer}, {"options", whole["options"]}};
+    if (!measure.results) {
+        object["left_out"] = measure.left_out;
+        return object;
+    }
+    object["command"] = measure.command;
+    object["results"] = whole["results"];
+    const std::string words = verdict_in_words(measure);
+    if (!words.empty()) object["in_words"] = words;
+    return object;
+}
+
+Json json_of(const Set& set) {
+    Json object = {{"name", set.name}, {"source", set.source}};
+    if (set.number) object["set"] = *set.number;
+    object["count"] = set.count;
+    object["dimension"] = set.dimension;
+    object["domain"] = set.domain;
+    if (!set.command.empty()) object["command"] = set.command;
+    if (!set.provenance.generator.empty()) object["meta"] = io::to_json(set.provenance);
+    object["measures"] = Json::array();
+    for (const Measure& measure : set.measures) object["measures"].push_back(json_of(measure, set));
+    return object;
+}
+
+const char* word_of(Better better) {
+    return better == Better::lower ? "lower" : better == Better::higher ? "higher" : "neither";
+}
+
+Json json_of(const Row& row) {
+    Json object = {{"key", row.key.key},
+                   {"label", row.key.label},
+                   {"better", word_of(row.key.better)},
+                   {"values", Json::array()},
+                   {"best", Json::array()}};
+    bool bounds = false;
+    for (std::size_t i = 0; i < row.values.size(); ++i) {
+        const auto& known = row.values[i];
+        bounds = bounds || (known && !known->exact());
+        object["values"].push_back(known ? number(known->value) : Json(nullptr));
+        if (row.best[i]) object["best"].push_back(i);
+    }
+    if (!bounds) return object;
+    for (const auto& known : row.values) {
+        object["lower"].push_back(known ? number(known->lower) : Json(nullptr));
+        object["upper"].push_back(known ? number(known->upper) : Json(nullptr));
+    }
+    return object;
+}
+
+}  // namespace
+
+std::string to_json(const Page& page) {
+    Json all = {{"format", "stipple.comparison"},
+                {"version", 1},
+                {"tool", "stipple " + page.version},
+                {"title", page.title},
+                {"command", page.command},
+                {"notes", notes_on(page.sets)},
+                {"sets", Json::array()},
+                {"comparison", Json::array()}};
+    for (const Set& set : page.sets) all["sets"].push_back(json_of(set));
+    for (const Row& row : compare_sets(page.sets)) all["comparison"].push_back(json_of(row));
+    return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace stipple::page

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "page/measures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "page/figures.hpp"
+#include "pipeline/pipeline.hpp"
+
+namespace stipple::page {
+namespace {
+
+struct Planned {
+    const char* name;
+    const char* title;
+    const char* analyzer;
+    const char* kind = "";  ///< of star-discrepancy
+    bool searches = false;  ///< takes a limit of work
+};
+
+constexpr std::array plans = {
+    Planned{"star-discrepancy", "Star discrepancy", "star-discrepancy", "", true},
+    Planned{"extreme-discrepancy", "Extreme discrepancy", "star-discrepancy", "extreme", true},
+    Planned{"periodic-discrepancy", "Periodic discrepancy", "star-discrepancy", "periodic", true},
+    Planned{"l2-discrepancy", "L2 discrepancies", "l2-discrepancy"},
+    Planned{"dispersion", "Dispersion", "dispersion", "", true},
+    Planned{"t-value", "t-value", "t-value"},
+    Planned{"nearest-neighbor", "Nearest neighbours", "nearest-neighbor"},
+    Planned{"periodogram", "Power spectrum", "periodogram"},
+    Planned{"pair-correlation", "Pair correlation", "pair-correlation"},
+    Planned{"chi-square", "χ² test", "chi-square"},
+    Planned{"kolmogorov-smirnov", "Kolmogorov–Smirnov test", "kolmogorov-smirnov"}};
+
+/// What takes n² d steps, for which a comparison of the limit may stand: sums over all pairs, but
+/// for the plane, where there are faster ways, and neighbours where trees do not help any more.
+double steps_of_a_comparison(const Planned& plan, std::size_t dimension) {
+    const std::string_view analyzer = plan.analyzer;
+    if (analyzer == "l2-discrepancy" && dimension > 2) return 20;
+    if (analyzer == "nearest-neighbor" && dimension > 8) return 5;
+    return std::numeric_limits<double>::infinity();
+}
+
+/// @throws Error(limit)
+void need_few_pairs(const Planned& plan, const PointSet& points, const Limits& limits) {
+    const auto n = static_cast<double>(points.count());
+    const double steps = n * n * static_cast<double>(points.dimension());
+    const double allowed = steps_of_a_comparison(plan, points.dimension());
+    if (steps <= allowed * static_cast<double>(limits.work)) return;
+    fail(ErrorKind::limit,
+         "it would compare all pairs of {} points in {} dimensions, which takes long; a larger "
+         "--max-work allows it, or 'stipple analyze {}'",
+         points.count(), points.dimension(), plan.analyzer);
+}
+
+/// Comparisons of a search for a worst box. Beyond some points one for extreme and periodic boxes
+/// ends in the bounds of its beginning, however long it takes.
+std::int64_t work_for(const Planned& plan, std::size_t count, const Limits& limits) {
+    constexpr std::size_t many = 50'000;
+    return *plan.kind != '\0' && count > many ? std::max<std::int64_t>(1, limits.work / 8)
+                                              : limits.work;
+}
+
+Measure described(const Planned& plan, const Input& input, std::int64_t work, Values& values) {
+    const Analyzer& analyzer = find_analyzer(plan.analyzer);
+    Measure measure{.name = plan.name, .title = plan.title, .analyzer = plan.analyzer};
+    measure.command = fmt::format("stipple analyze {} {}", plan.analyzer, input.words);
+    const auto set = [&](const char* option, const std::string& text) {
+        analyzer.options.set(values, option, text);
+        measure.command += fmt::format(" --{} {}", option, text);
+    };
+    if (*plan.kind != '\0') set("kind", plan.kind);
+    if (plan.searches) set("max-work", std::to_string(work));
+    for (const Option& option : analyzer.options.options()) {
+        const auto& item = values.find(option.name);
+        if (!option.optional || item.given)
+            measure.options.emplace_back(option.name, format_value(item.value));
+    }
+    return measure;
+}
+
+/// A set mapped to the unit cube, where its domain is a box.
+struct Cubed {
+    std::optional<PointSet> points;
+    std::string bounds;
+};
+
+Cubed cubed(const PointSet& points, const Input& input) {
+    const std::string domain = points.domain->spec();
+    if (!input.bounds || !domain.starts_with("box:")) return {};
+    Cubed cube{.points = points, .bounds = format_box(points.domain->bounding_box())};
+    for (std::size_t i = 0; i < points.count(); ++i) {
+        if (!points.domain->contains(points[i])) return {};
+        points.domain->to_cube(points[i], (*cube.points)[i]);
+    }
+    cube.points->domain = unit_cube(points.dimension());
+    return cube;
+}
+
+Measure measured(const Planned& plan, const PointSet& points, const Cubed& cube, const Input& input,
+                 const Limits& limits, const RunContext& run) {
+    const Analyzer& analyzer = find_analyzer(plan.analyzer);
+    Values values = analyzer.options.defaults();
+    Measure measure = described(plan, input, work_for(plan, points.count(), limits), values);
+    const PointSet* shown = &points;
+    if (analyzer.traits.unit_cube && cube.points) {
+        shown = &*cube.points;
+        measure.command += " --bounds " + cube.bounds;
+    }
+    measure.command += input.remark;
+    const std::string domain = shown->domain->spec();
+    if (analyzer.traits.unit_cube && domain != "unit-cube") {
+        measure.left_out =
+            fmt::format("it measures points against the unit cube; these live on {}", domain);
+        return measure;
+    }
+    try {
+        need_few_pairs(plan, points, limits);
+        measure.results = analyze(analyzer, *shown, values, run);
+    } catch (const Error& e) {
+        if (e.kind() == ErrorKind::cancelled || e.kind() == ErrorKind::io) throw;
+        measure.left_out = e.what();
+    }
+    return measure;
+}
+
+}  // namespace
+
+std::vector<Measure> measure_set(const PointSet& points, const Input& input, const Limits& limits,
+                                 const RunContext& run) {
+    RunContext mute = run;
+    mute.warn = {};  // bounds say so in the page
+    const Cubed cube = cubed(points, input);
+    std::vector<Measure> all;
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+        const double share = 1 / static_cast<double>(plans.size());
+        const auto at = static_cast<double>(i);
+        all.push_back(measured(plans[i], points, cube, input, limits,
+                               mute.stage(at * share, (at + 1) * share)));
+        run.check_stop();
+    }
+    return all;
+}
+
+Set finished_set(Set set, const PointSet& points, const Input& input, const Limits& limits,
+                 SetPlace place, bool with_pictures, const RunContext& run) {
+    set.count = points.count();
+    set.dimension = points.dimension();
+    set.domain = points.domain->spec();
+    const auto all = static_cast<double>(place.of);
+    const auto at = static_cast<double>(place.number);
+    set.measures = measure_set(points, input, limits, run.stage(at / all, (at + 1) / all));
+    if (!with_pictures) return set;
+    set.figures = point_figures(points, set, place.number);
+    if (auto spectrum = spectrum_figure(set); !spectrum.empty())
+        set.figures.push_back(std::move(spectrum));
+    for (Measure& measure : set.measures)
+        if (measure.results)
+            std::erase_if(measure.results->entries(), [](const Report::Entry& entry) {
+                return std::holds_alternative<Grid>(entry.value);
+            });
+    return set;
+}
+
+std::vector<std::string> measure_names() {
+    std::vector<std::string> names;
+    for (const Planned& plan : plans) names.emplace_back(plan.name);
+    return names;
+}
+
+const Analyzer* analyzer_of(std::string_view measure) {
+    for (const Planned& plan : plans)
+        if (plan.name == measure) return &find_analyzer(plan.analyzer);
+    return nullptr;
+}
+
+}  // namespace stipple::page

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+//
+// What a report page measures of every set: by which analyzers, with which limits.
+//
+// Promise  results depend on the points and on the limits alone: searches that could take long end
+//          after so many comparisons, not by the clock.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analyzers/analyzer.hpp"
+#include "page/content.hpp"
+#include "stipple/run.hpp"
+
+namespace stipple::page {
+
+struct Limits {
+    std::int64_t work = 1'000'000'000;  ///< comparisons of each search for a worst box
+};
+
+/// How the points of a set are named to `stipple analyze`: what stands behind the analyzer.
+struct Input {
+    std::string words;        ///< "points.csv --domain disk", "--generate halton -n 64"
+    bool bounds = false;      ///< takes --bounds behind them
+    std::string remark = {};  ///< " # the third of its results"; else empty
+};
+
+/// All measures, in the order of the page. What an analyzer does not take is left out with its
+/// reason; so is what would compare more pairs of points than the limits allow.
+/// @throws Error(cancelled), Error(io)
+std::vector<Measure> measure_set(const PointSet& points, const Input& input, const Limits& limits,
+                                 const RunContext& run);
+
+/// Where a set stands among all of a page, from 0: its colour, and its part of the progress.
+struct SetPlace {
+    std::size_t number = 0;
+    std::size_t of = 1;
+};
+
+/// The set with its size, all measures and, for a page, its pictures; its grids are in these, and
+/// left out.
+/// @throws Error(cancelled), Error(io)
+Set finished_set(Set set, const PointSet& points, const Input& input, const Limits& limits,
+                 SetPlace place, bool with_pictures, const RunContext& run);
+
+/// Names of all measures, as their keys begin.
+std::vector<std::string> measure_names();
+
+/// The analyzer of the measure of that name; nullptr if there is none.
+const Analyzer* analyzer_of(std::string_view measure);
+
+}  // namespace stipple::page

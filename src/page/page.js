@@ -1,0 +1,81 @@
+(() => {
+  'use strict';
+  const body = document.body;
+  for (const box of document.querySelectorAll('nav input')) {
+    box.addEventListener('change', () => body.classList.toggle('hide-' + box.value, !box.checked));
+  }
+  const show = (figure, box) => {
+    for (const group of figure.querySelectorAll('g.box.' + box.dataset.box)) {
+      group.style.display = box.checked ? '' : 'none';
+    }
+  };
+  for (const figure of document.querySelectorAll('figure')) {
+    for (const box of figure.querySelectorAll('input[data-box]')) {
+      show(figure, box);
+      box.addEventListener('change', () => show(figure, box));
+    }
+  }
+  const nearest = (xs, x) => {
+    let low = 0, high = xs.length - 1;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (xs[middle] > x) high = middle; else low = middle;
+    }
+    return x - xs[low] < xs[high] - x ? low : high;
+  };
+  const text = (parent, words, colour) => {
+    const line = document.createElement('div');
+    if (colour) {
+      const swatch = document.createElement('span');
+      swatch.className = 'swatch';
+      swatch.style.setProperty('--c', colour);
+      line.append(swatch);
+    }
+    line.append(words);
+    parent.append(line);
+  };
+  for (const figure of document.querySelectorAll('figure.chart')) {
+    const data = JSON.parse(figure.querySelector('script').textContent);
+    const svg = figure.querySelector('svg');
+    const tip = figure.querySelector('.tip');
+    const rule = document.createElementNS(svg.namespaceURI, 'path');
+    rule.setAttribute('class', 'rule');
+    rule.setAttribute('d', 'M0 ' + data.top + 'V' + data.bottom);
+    svg.append(rule);
+    const hide = () => { tip.hidden = true; rule.style.visibility = 'hidden'; };
+    const move = event => {
+      const box = svg.getBoundingClientRect();
+      const at = (event.clientX - box.left) / box.width * data.width;
+      const x = data.from + (at - data.left) / (data.right - data.left) * (data.to - data.from);
+      const seen = data.curves.filter(c => !body.classList.contains('hide-' + c.set));
+      if (at < data.left || at > data.right || !seen.length) return hide();
+      tip.replaceChildren();
+      let shown = null;
+      for (const curve of seen) {
+        const i = nearest(curve.x, x);
+        if (shown === null) {
+          shown = curve.x[i];
+          text(tip, data.x + ' ' + shown);
+        }
+        const y = curve.y[i] === null ? '–' : String(curve.y[i]);
+        text(tip, (curve.x[i] === shown ? y : y + ' at ' + curve.x[i]) + '  ' + curve.name,
+             'var(--c' + curve.set + ')');
+      }
+      const share = (shown - data.from) / (data.to - data.from);
+      const place = data.left + share * (data.right - data.left);
+      rule.setAttribute('transform', 'translate(' + place + ' 0)');
+      rule.style.visibility = 'visible';
+      tip.hidden = false;
+      const room = figure.clientWidth - tip.offsetWidth;
+      tip.style.left = Math.max(0, Math.min(room, event.clientX - box.left + 14)) + 'px';
+      tip.style.top = Math.max(0, event.clientY - box.top - tip.offsetHeight - 10) + 'px';
+    };
+    svg.addEventListener('pointermove', move);
+    svg.addEventListener('pointerdown', move);
+    svg.addEventListener('pointerleave', hide);
+  }
+  addEventListener('beforeprint', () => {
+    for (const part of document.querySelectorAll('details')) part.open = true;
+  });
+  document.documentElement.dataset.ready = 'yes';
+})();

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "plot/drawing/dot_matrix.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "plot/drawing/letters.hpp"
+
+namespace stipple::plot {
+namespace {
+
+/// Letters of a terminal that a text takes.
+std::size_t length_of(const std::string& text) { return letters_of(text).size(); }
+
+std::string blanks(std::size_t n) { return std::string(n, ' '); }
+
+std::string repeated(const char* letter, std::size_t n) {
+    std::string out;
+    for (std::size_t i = 0; i < n; ++i) out += letter;
+    return out;
+}
+
+}  // namespace
+
+DotMatrix::DotMatrix(std::size_t columns, std::size_t rows)
+    : columns_(std::max<std::size_t>(columns, 1)),
+      rows_(std::max<std::size_t>(rows, 1)),
+      letters_(columns_ * rows_) {}
+
+void DotMatrix::set(double right, double up) {
+    if (!(right >= 0 && right <= 1 && up >= 0 && up <= 1)) return;
+    const std::size_t x =
+        std::min(static_cast<std::size_t>(right * static_cast<double>(width())), width() - 1);
+    const std::size_t y =
+        std::min(static_cast<std::size_t>((1 - up) * static_cast<double>(height())), height() - 1);
+    constexpr std::array<std::array<unsigned char, 2>, 4> bits = {
+        {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}}};
+    unsigned char& letter = letters_[y / 4 * columns_ + x / 2];
+    letter = static_cast<unsigned char>(letter | bits[y % 4][x % 2]);
+}
+
+void DotMatrix::draw(double right0, double up0, double right1, double up1) {
+    const double dots = std::max(std::abs(right1 - right0) * static_cast<double>(width()),
+                                 std::abs(up1 - up0) * static_cast<double>(height()));
+    const double steps = std::clamp(std::ceil(dots), 1.0, 1e4);
+    for (double k = 0; k <= steps; ++k)
+        set(right0 + (right1 - right0) * k / steps, up0 + (up1 - up0) * k / steps);
+}
+
+std::string DotMatrix::row(std::size_t row) const {
+    std::string text;
+    for (std::size_t i = 0; i < columns_; ++i)
+        append_utf8(text, 0x2800U + letters_[row * columns_ + i]);
+    return text;
+}
+
+std::size_t DotMatrix::dots() const {
+    std::size_t sum = 0;
+    for (const unsigned char letter : letters_)
+        sum += static_cast<std::size_t>(std::popcount(letter));
+    return sum;
+}
+
+std::string framed(const DotMatrix& dots, const TextFrame& frame) {
+    const std::size_t columns = dots.width() / 2;
+    const std::size_t rows = dots.height() / 4;
+    const std::size_t side = std::max(length_of(frame.low_y), length_of(frame.high_y));
+    const auto beside = [side](const std::string& text) {
+        return blanks(side - std::min(side, length_of(text))) + text;
+    };
+    std::string text = frame.title.empty() ? "" : frame.title + "\n";
+    if (!frame.name_y.empty()) text += fmt::format("{} {}\n", beside(""), frame.name_y);
+    text += fmt::format("{} ┌{}┐\n", beside(""), repeated("─", columns));
+    for (std::size_t i = 0; i < rows; ++i) {
+        const std::string& label = i == 0 ? frame.high_y : i + 1 == rows ? frame.low_y : "";
+        text += fmt::format("{} │{}│\n", beside(label), dots.row(i));
+    }
+    text += fmt::format("{} └{}┘\n", beside(""), repeated("─", columns));
+    const std::size_t taken =
+        length_of(frame.low_x) + length_of(frame.high_x) + length_of(frame.name_x);
+    const std::size_t room = columns + 2 > taken ? columns + 2 - taken : 2;
+    return text + fmt::format("{} {}{}{}{}{}\n", beside(""), frame.low_x, blanks(room / 2),
+                              frame.name_x, blanks(room - room / 2), frame.high_x);
+}
+
+}  // namespace stipple::plot

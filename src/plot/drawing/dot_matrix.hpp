@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+//
+// Pictures of letters, for terminals: Braille has 2 x 4 dots in a letter.
+//
+// Source  The Unicode Standard, Braille Patterns: U+2800 and a bit for each of the dots 1 to 8,
+//         which stand 1 2 3 7 in the left column, 4 5 6 8 in the right one.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace stipple::plot {
+
+class DotMatrix {
+  public:
+    /// A field of so many letters.
+    DotMatrix(std::size_t columns, std::size_t rows);
+
+    [[nodiscard]] std::size_t width() const { return 2 * columns_; }  ///< dots
+    [[nodiscard]] std::size_t height() const { return 4 * rows_; }    ///< dots
+
+    /// Sets the dot at shares of the field, to the right and upward; nothing outside of [0, 1].
+    void set(double right, double up);
+
+    /// Dots on the straight way between two places.
+    void draw(double right0, double up0, double right1, double up1);
+
+    /// The letters of a row, from the top.
+    [[nodiscard]] std::string row(std::size_t row) const;
+
+    /// Number of dots.
+    [[nodiscard]] std::size_t dots() const;
+
+  private:
+    std::size_t columns_;
+    std::size_t rows_;
+    std::vector<unsigned char> letters_;
+};
+
+/// The field in a frame, with a title above, and what the axes range over below and beside.
+struct TextFrame {
+    std::string title;
+    std::string low_x, high_x, name_x;
+    std::string low_y, high_y, name_y;
+};
+std::string framed(const DotMatrix& dots, const TextFrame& frame);
+
+}  // namespace stipple::plot

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+//
+// A picture as a list of shapes, in units of which one is a pixel on a plain screen; x to the
+// right, y downward. It is written as SVG (svg_bytes, svg_element) or as pixels (png_bytes_of).
+//
+// Promise the same drawing gives the same bytes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace stipple::plot {
+
+struct Colour {
+    std::uint8_t red = 0;
+    std::uint8_t green = 0;
+    std::uint8_t blue = 0;
+    bool operator==(const Colour&) const = default;
+};
+
+/// a + share (b - a).
+Colour mixed(Colour a, Colour b, double share);
+
+struct Position {
+    double x = 0;
+    double y = 0;
+    bool operator==(const Position&) const = default;
+};
+
+/// An upright rectangle.
+struct Area {
+    double left = 0;
+    double top = 0;
+    double width = 0;
+    double height = 0;
+
+    [[nodiscard]] double right() const { return left + width; }
+    [[nodiscard]] double bottom() const { return top + height; }
+};
+
+enum class Dash { none, dashed, dotted };
+
+/// A line through spots; crisp: of whole pixels, for lines along the axes.
+struct Line {
+    std::vector<Position> spots;
+    Colour colour = {};
+    double width = 1;
+    Dash dash = Dash::none;
+    bool crisp = false;
+};
+
+/// The inside of a closed line.
+struct Patch {
+    std::vector<Position> spots;
+    Colour colour = {};
+    double opacity = 1;
+};
+
+/// Disks of one size.
+struct Disks {
+    std::vector<Position> centres;
+    double radius = 1;
+    Colour colour = {};
+    double opacity = 1;
+};
+
+enum class Anchor { start, middle, end };
+
+/// A line of text; `at` is on its base line. Upward: read from below, for the axis on the left.
+struct Label {
+    std::string text;
+    Position at;
+    double size = 12;
+    Colour colour = {};
+    Anchor anchor = Anchor::start;
+    bool upward = false;
+    bool bold = false;
+};
+
+/// Pixels, row after row from the top, stretched to an area; each stays a sharp square.
+struct PixelImage {
+    Area area;
+    std::size_t columns = 0;
+    std::size_t rows = 0;
+    std::vector<Colour> pixels;
+};
+
+/// What follows is seen inside of the area only, up to the next one; without an area: everywhere.
+struct ClipWindow {
+    Area area;
+    bool open = false;  ///< everywhere
+};
+
+/// What follows is one group of a page's SVG, up to the next one; of files it changes nothing.
+struct SvgGroup {
+    std::string attributes;  ///< of its element: class="box star"; empty: no group
+};
+
+using Shape = std::variant<Line, Patch, Disks, Label, PixelImage, ClipWindow, SvgGroup>;
+
+struct Drawing {
+    double width = 0;
+    double height = 0;
+    Colour ground = {255, 255, 255};
+    std::string title;  ///< for readers of screens, and the file's text chunk
+    std::vector<Shape> shapes = {};
+
+    /// Made in its place: GCC 12 takes a moved variant for one that was not initialized.
+    template <class S>
+    void add(S shape) {
+        shapes.emplace_back(std::in_place_type<S>, std::move(shape));
+    }
+    void line(Position from, Position to, Colour colour, double width_of_line = 1);
+    void rectangle(const Area& area, Colour colour);
+};
+
+/// What a picture's file says about itself, besides its title: keyword and text.
+using PictureNotes = std::vector<std::pair<std::string, std::string>>;
+
+/// As SVG 1.1; text is text. One unit is `scale` pixels.
+std::string svg_bytes(const Drawing& drawing, double scale, const PictureNotes& notes = {});
+
+/// As an element of a page, in the colours of the first where the page is light, of the second
+/// where it is dark; the label says in words what is drawn. Both have the same shapes.
+std::string svg_element(const Drawing& light, const Drawing& dark, const std::string& label);
+
+/// As PNG, one unit `scale` pixels. @throws Error(limit) for one that is too large.
+std::string png_bytes_of(const Drawing& drawing, double scale, const PictureNotes& notes = {});
+
+}  // namespace stipple::plot

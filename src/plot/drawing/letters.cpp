@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: MIT
+//
+// A glyph is a line of glyphs.txt: its letter, its advance in thousandths of an em, and a path. M begins
+// a stroke, L goes straight on, Q goes through a quarter of an ellipse whose tangents meet at its
+// first point.
+#include "plot/drawing/letters.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "core/text.hpp"
+
+namespace stipple::plot {
+
+const char* glyph_table();  // glyphs.txt
+
+namespace {
+
+struct Glyph {
+    char32_t letter;
+    int advance;  ///< thousandths of an em
+    std::string_view path;
+};
+
+constexpr Glyph unknown{U'\uFFFD', 556, "M2 1L13.6 1L13.6 19L2 19L2 1"};
+
+/// Raised letters are small ones, higher up.
+constexpr double raised_size = 0.6;
+constexpr double raised_by = 8.5;
+
+constexpr std::u32string_view raised_letters = U"⁰¹²³⁴⁵⁶⁷⁸⁹⁻";
+constexpr std::u32string_view plain_letters = U"0123456789−";
+
+/// Letters of Latin-1 from U+00C0 on, without their accents.
+constexpr std::u32string_view bare_letters =
+    U"AAAAAAACEEEEIIIIDNOOOOO×OUUUUYPsaaaaaaaceeeeiiiidnooooo/ouuuuypy";
+
+/// Bytes that follow the first one of a letter in UTF-8, or nothing for what begins none.
+std::optional<std::size_t> following(unsigned char first) {
+    if (first < 0x80) return 0;
+    if (first >= 0xC2 && first < 0xE0) return 1;
+    if (first >= 0xE0 && first < 0xF0) return 2;
+    if (first >= 0xF0 && first < 0xF5) return 3;
+    return std::nullopt;
+}
+
+/// The letter at the front of the text and its length; U+FFFD of one byte where there is none.
+std::pair<char32_t, std::size_t> first_letter(std::string_view text) {
+    const auto first = static_cast<unsigned char>(text[0]);
+    const auto more = following(first);
+    if (more == std::size_t{0}) return {first, 1};
+    if (!more || text.size() <= *more) return {U'\uFFFD', 1};
+    char32_t letter = first & (0x3FU >> *more);
+    for (std::size_t k = 1; k <= *more; ++k) {
+        const auto byte = static_cast<unsigned char>(text[k]);
+        if ((byte & 0xC0) != 0x80) return {U'\uFFFD', 1};
+        letter = letter << 6 | (byte & 0x3FU);
+    }
+    const bool overlong = (*more == 2 && letter < 0x800) || (*more == 3 && letter < 0x10000);
+    const bool none = overlong || letter > 0x10FFFF || (letter >= 0xD800 && letter < 0xE000);
+    if (none) return {U'\uFFFD', 1};
+    return {letter, *more + 1};
+}
+
+/// All glyphs by their letters, from lines such as "L 556 M3 19L3 1L14.2 1".
+const std::vector<Glyph>& glyphs() {
+    static const auto all = [] {
+        std::vector<Glyph> found;
+        for (const std::string_view line : split(glyph_table(), '\n')) {
+            if (line.empty()) continue;
+            const auto [letter, size] = first_letter(line);
+            const std::string_view rest = line.substr(size + 1);
+            Glyph glyph{.letter = letter, .advance = 0, .path = {}};
+            const char* end =
+                std::from_chars(rest.data(), rest.data() + rest.size(), glyph.advance).ptr;
+            glyph.path = trim(rest.substr(static_cast<std::size_t>(end - rest.data())));
+            found.push_back(glyph);
+        }
+        return found;
+    }();
+    return all;
+}
+
+const Glyph& plain_glyph(char32_t letter) {
+    if (letter >= 0xC0 && letter < 0xC0 + bare_letters.size()) letter = bare_letters[letter - 0xC0];
+    const auto it = std::ranges::lower_bound(glyphs(), letter, {}, &Glyph::letter);
+    return it != glyphs().end() && it->letter == letter ? *it : unknown;
+}
+
+/// The plain letter of a raised one.
+std::optional<char32_t> lowered(char32_t letter) {
+    const auto at = raised_letters.find(letter);
+    return at == std::u32string_view::npos ? std::nullopt : std::optional(plain_letters[at]);
+}
+
+/// Reads the path's numbers and draws.
+class Pen {
+  public:
+    explicit Pen(std::string_view path) : at_(path.data()), end_(at_ + path.size()) {}
+
+    std::vector<std::vector<Position>> draw() {
+        while (at_ != end_) {
+            const char command = *at_++;
+            const Position spot = read_spot();
+            if (command == 'M') strokes_.emplace_back();
+            if (command == 'Q')
+                turn(spot, read_spot());
+            else
+                strokes_.back().push_back(spot);
+        }
+        return std::move(strokes_);
+    }
+
+  private:
+    double read() {
+        if (*at_ == ' ') ++at_;
+        double value = 0;
+        at_ = std::from_chars(at_, end_, value).ptr;
+        return value;
+    }
+
+    Position read_spot() {
+        const double x = read();
+        return {x, read()};
+    }
+
+    /// A rational curve of weight sqrt(1/2): a quarter of a circle or an ellipse where the tangents
+    /// are at right angles.
+    void turn(Position corner, Position end) {
+        constexpr int steps = 8;
+        const Position start = strokes_.back().back();
+        for (int i = 1; i <= steps; ++i) {
+            const double t = static_cast<double>(i) / steps;
+            const double a = (1 - t) * (1 - t);
+            const double b = 2 * t * (1 - t) * std::sqrt(0.5);
+            const double c = t * t;
+            const double sum = a + b + c;
+            strokes_.back().push_back({(a * start.x + b * corner.x + c * end.x) / sum,
+                                       (a * start.y + b * corner.y + c * end.y) / sum});
+        }
+    }
+
+    const char* at_;
+    const char* end_;
+    std::vector<std::vector<Position>> strokes_;
+};
+
+}  // namespace
+
+std::u32string letters_of(std::string_view text) {
+    std::u32string letters;
+    while (!text.empty()) {
+        const auto [letter, size] = first_letter(text);
+        letters += letter;
+        text.remove_prefix(size);
+    }
+    return letters;
+}
+
+void append_utf8(std::string& out, char32_t letter) {
+    const auto put = [&out](char32_t byte) { out += static_cast<char>(byte); };
+    if (letter < 0x80) {
+        put(letter);
+        return;
+    }
+    if (letter < 0x800) {
+        put(0xC0 | letter >> 6);
+    } else if (letter < 0x10000) {
+        put(0xE0 | letter >> 12);
+        put(0x80 | (letter >> 6 & 0x3F));
+    } else {
+        put(0xF0 | letter >> 18);
+        put(0x80 | (letter >> 12 & 0x3F));
+        put(0x80 | (letter >> 6 & 0x3F));
+    }
+    put(0x80 | (letter & 0x3F));
+}
+
+std::string utf8_of(std::u32string_view letters) {
+    std::string out;
+    for (const char32_t letter : letters) append_utf8(out, letter);
+    return out;
+}
+
+std::string clean_text(std::string_view text) {
+    std::string out;
+    for (const char32_t letter : letters_of(text)) {
+        const bool control = letter < 0x20 || (letter >= 0x7F && letter < 0xA0);
+        if (!control && letter != 0xFFFE && letter != 0xFFFF) append_utf8(out, letter);
+    }
+    return out;
+}
+
+double advance_of(char32_t letter) {
+    const auto plain = lowered(letter);
+    const double size = plain ? raised_size : 1;
+    return size * em_units * plain_glyph(plain.value_or(letter)).advance / 1000;
+}
+
+std::vector<std::vector<Position>> strokes_of(char32_t letter) {
+    const auto plain = lowered(letter);
+    auto strokes = Pen(plain_glyph(plain.value_or(letter)).path).draw();
+    if (!plain) return strokes;
+    for (auto& stroke : strokes)
+        for (Position& spot : stroke)
+            spot = {spot.x * raised_size, spot.y * raised_size + raised_by};
+    return strokes;
+}
+
+double text_width(std::string_view text, double size) {
+    double units = 0;
+    for (const char32_t letter : letters_of(text)) units += advance_of(letter);
+    return units * size / em_units;
+}
+
+std::string shortened_to(const std::string& text, double size, double width) {
+    if (text_width(text, size) <= width) return text;
+    std::u32string letters = letters_of(text);
+    std::string out;
+    do {
+        letters.erase(0, 1);
+        out = "…" + utf8_of(letters);
+    } while (!letters.empty() && text_width(out, size) > width);
+    return out;
+}
+
+std::string cut_to(const std::string& text, double size, double width) {
+    if (text_width(text, size) <= width) return text;
+    std::u32string letters = letters_of(text);
+    std::string out;
+    do {
+        letters.pop_back();
+        out = utf8_of(letters) + "…";
+    } while (!letters.empty() && text_width(out, size) > width);
+    return out;
+}
+
+}  // namespace stipple::plot

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+//
+// Letters of pictures: UTF-8 taken apart, and every letter as strokes of a pen, for pictures that
+// are drawn without a font.
+//
+// Units   an em is 28 units of the glyph's grid; y upward from the base line, capitals 20 high.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "plot/drawing/drawing.hpp"
+
+namespace stipple::plot {
+
+inline constexpr double em_units = 28;
+
+/// Code points of UTF-8; bytes that are none become U+FFFD.
+std::u32string letters_of(std::string_view text);
+
+/// The way back.
+void append_utf8(std::string& out, char32_t letter);
+std::string utf8_of(std::u32string_view letters);
+
+/// The text as UTF-8 without control letters; U+FFFD in place of bytes that are no letters.
+std::string clean_text(std::string_view text);
+
+/// Units from a letter's origin to the next one's: those of Helvetica.
+double advance_of(char32_t letter);
+
+/// The letter's strokes; a box for one that is not known.
+std::vector<std::vector<Position>> strokes_of(char32_t letter);
+
+/// Width of a line of text of that size.
+double text_width(std::string_view text, double size);
+
+/// The text, or as much of its end as fits into the width, after "…": of a path, its file.
+std::string shortened_to(const std::string& text, double size, double width);
+
+/// The text, or as much of its front as fits, before "…".
+std::string cut_to(const std::string& text, double size, double width);
+
+}  // namespace stipple::plot

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+//
+// A frame with two axes, and the way from data to its place in a drawing.
+#pragma once
+
+#include <string>
+
+#include "plot/drawing/drawing.hpp"
+#include "plot/drawing/theme.hpp"
+#include "plot/drawing/ticks.hpp"
+
+namespace stipple::plot {
+
+inline constexpr double number_size = 12;  ///< of the numbers on axes
+inline constexpr double name_size = 13;    ///< of the axes' names
+
+struct Axis {
+    double low = 0;
+    double high = 1;
+    bool log = false;
+    bool whole = false;     ///< numbers are whole
+    std::string name = {};  ///< empty: none
+    bool numbers = true;    ///< false: marks only, where the panel below has them
+    bool tight = false;     ///< numbers stay within the frame, where another one is beside it
+
+    /// Numbers that fit along so many units: side by side, or one above the other.
+    [[nodiscard]] Ticks ticks(double length, bool upright) const;
+
+    /// The place of a value between low (0) and high (1).
+    [[nodiscard]] double share(double value) const;
+
+    /// Makes low < high, and what is logarithmic positive.
+    void mend();
+};
+
+class Panel {
+  public:
+    Panel(const Area& frame, Axis x, Axis y);
+
+    [[nodiscard]] const Area& frame() const { return frame_; }
+    [[nodiscard]] double x(double value) const;
+    [[nodiscard]] double y(double value) const;
+    [[nodiscard]] Position at(double x_value, double y_value) const {
+        return {x(x_value), y(y_value)};
+    }
+
+    /// Faint lines behind the data.
+    void draw_grid(Drawing& drawing, const Theme& theme) const;
+
+    /// The frame with its numbers and names; closed: on all four sides.
+    void draw_axes(Drawing& drawing, const Theme& theme, bool closed) const;
+
+    /// Room that numbers and name take beside and below the frame.
+    static double room_left(const Axis& y, double height);
+    static double room_below(const Axis& x);
+
+  private:
+    void draw_x(Drawing& drawing, const Theme& theme) const;
+    void draw_y(Drawing& drawing, const Theme& theme) const;
+
+    Area frame_;
+    Axis x_;
+    Axis y_;
+    Ticks x_ticks_;
+    Ticks y_ticks_;
+};
+
+}  // namespace stipple::plot

@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: MIT
+//
+// A drawing as pixels. What a shape covers of a pixel is
+//
+//     lines and disks   w / 2 + 1/2 - distance of the pixel's middle, cut to [0, 1],
+//     patches           the share of four rows in it, each exact along x,
+//
+// and colours are mixed by that share.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/error.hpp"
+#include "media/png_picture.hpp"
+#include "plot/drawing/drawing.hpp"
+#include "plot/drawing/letters.hpp"
+
+namespace stipple::plot {
+namespace {
+
+/// Whole pixels from (left, top) up to, not including, (right, bottom).
+struct Pixels {
+    int left = 0;
+    int top = 0;
+    int right = 0;
+    int bottom = 0;
+
+    void cut_to(const Pixels& other) {
+        left = std::max(left, other.left);
+        top = std::max(top, other.top);
+        right = std::min(right, other.right);
+        bottom = std::min(bottom, other.bottom);
+    }
+};
+
+constexpr double most_pixels = 2.5e8;
+
+/// A number of a pixel, far outside of every picture at most.
+int pixel(double x) { return static_cast<int>(std::clamp(x, -1e6, 1e6)); }
+
+double squared_distance(Position p, Position a, Position b) {
+    const double dx = b.x - a.x;
+    const double dy = b.y - a.y;
+    const double length = dx * dx + dy * dy;
+    double t = length > 0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / length : 0;
+    t = std::clamp(t, 0.0, 1.0);
+    const double x = a.x + t * dx - p.x;
+    const double y = a.y + t * dy - p.y;
+    return x * x + y * y;
+}
+
+/// The strokes of a dashed line; the pattern in units of its drawing.
+std::vector<std::vector<Position>> dashes_of(const std::vector<Position>& spots, double on,
+                                             double off) {
+    std::vector<std::vector<Position>> dashes;
+    double left = on;
+    bool drawn = true;
+    dashes.push_back({spots[0]});
+    for (std::size_t i = 1; i < spots.size(); ++i) {
+        Position at = spots[i - 1];
+        double length = std::hypot(spots[i].x - at.x, spots[i].y - at.y);
+        while (length > left) {
+            const double share = left / length;
+            at = {at.x + share * (spots[i].x - at.x), at.y + share * (spots[i].y - at.y)};
+            length -= left;
+            if (drawn) dashes.back().push_back(at);
+            drawn = !drawn;
+            left = drawn ? on : off;
+            if (drawn) dashes.push_back({at});
+        }
+        left -= length;
+        if (drawn) dashes.back().push_back(spots[i]);
+    }
+    return dashes;
+}
+
+class Painter {
+  public:
+    Painter(const Drawing& drawing, double scale)
+        : scale_(scale),
+          width_(pixel(std::round(drawing.width * scale))),
+          height_(pixel(std::round(drawing.height * scale))),
+          window_{0, 0, width_, height_},
+          colours_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
+                   drawing.ground),
+          shares_(colours_.size(), 0.0F) {}
+
+    void operator()(const Line& line) {
+        if (line.spots.size() < 2) return;
+        if (line.crisp && line.dash == Dash::none && line.spots.size() == 2) {
+            crisp(line);
+            return;
+        }
+        if (line.dash == Dash::none) {
+            stroke(line.spots, line.width * scale_);
+        } else {
+            const bool dashed = line.dash == Dash::dashed;
+            // Round ends make dashes longer and gaps shorter by a width.
+            const double on = dashed ? std::max(6 - line.width, 1.0) : 0.5;
+            for (const auto& dash : dashes_of(line.spots, on, (dashed ? 10.0 : 4.5) - on))
+                stroke(dash, line.width * scale_);
+        }
+        mix(line.colour, 1);
+    }
+
+    void operator()(const Patch& patch) {
+        std::vector<Position> spots;
+        for (const Position& spot : patch.spots)
+            spots.push_back({spot.x * scale_, spot.y * scale_});
+        fill(spots);
+        mix(patch.colour, patch.opacity);
+    }
+
+    void operator()(const Disks& disks) {
+        const double radius = disks.radius * scale_;
+        for (const Position& centre : disks.centres) {
+            stroke({centre, centre}, 2 * radius);
+            mix(disks.colour, disks.opacity);
+        }
+    }
+
+    void operator()(const Label& label) {
+        const double unit = label.size / em_units;
+        double x = label.anchor == Anchor::start ? 0 : -text_width(label.text, label.size);
+        if (label.anchor == Anchor::middle) x /= 2;
+        const double pen = (label.bold ? 3.3 : 2.3) * unit * scale_;
+        for (const char32_t letter : letters_of(label.text)) {
+            for (auto& points : strokes_of(letter)) {
+                for (Position& spot : points) {
+                    const double right = x + spot.x * unit;
+                    const double down = -spot.y * unit;
+                    spot = label.upward ? Position{label.at.x + down, label.at.y - right}
+                                        : Position{label.at.x + right, label.at.y + down};
+                }
+                stroke(points, pen);
+            }
+            x += advance_of(letter) * unit;
+        }
+        mix(label.colour, 1);
+    }
+
+    void operator()(const PixelImage& raster) {
+        const Area& a = raster.area;
+        const double left = std::round(a.left * scale_);
+        const double top = std::round(a.top * scale_);
+        const double across = std::max(1.0, std::round(a.right() * scale_) - left);
+        const double down = std::max(1.0, std::round(a.bottom() * scale_) - top);
+        const double step_x = static_cast<double>(raster.columns) / across;
+        const double step_y = static_cast<double>(raster.rows) / down;
+        Pixels area{pixel(left), pixel(top), pixel(left + across), pixel(top + down)};
+        area.cut_to(window_);
+        for (int y = area.top; y < area.bottom; ++y)
+            for (int x = area.left; x < area.right; ++x)
+                colours_[index(x, y)] =
+                    mean_colour(raster, (x - left) * step_x, (y - top) * step_y, step_x, step_y);
+    }
+
+    void operator()(const SvgGroup&) {}
+
+    void operator()(const ClipWindow& window) {
+        window_ = {0, 0, width_, height_};
+        if (window.open) return;
+        const Area& a = window.area;
+        Pixels cut{pixel(std::floor(a.left * scale_)), pixel(std::floor(a.top * scale_)),
+                   pixel(std::ceil(a.right() * scale_)), pixel(std::ceil(a.bottom() * scale_))};
+        cut.cut_to(window_);
+        window_ = cut;
+    }
+
+    [[nodiscard]] std::string png(const PictureNotes& notes) const {
+        std::string samples;
+        samples.reserve(3 * colours_.size());
+        for (const Colour& c : colours_)
+            for (const std::uint8_t part : {c.red, c.green, c.blue})
+                samples += static_cast<char>(part);
+        const PngShape shape{.width = static_cast<std::size_t>(width_),
+                             .height = static_cast<std::size_t>(height_),
+                             .bits = 8,
+                             .colour = true};
+        return encode_png(shape, samples, notes);
+    }
+
+  private:
+    [[nodiscard]] std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+               static_cast<std::size_t>(x);
+    }
+
+    /// A line along an axis, of whole pixels.
+    void crisp(const Line& line) {
+        const double wide = std::max(1.0, std::round(line.width * scale_));
+        const Position a{line.spots[0].x * scale_, line.spots[0].y * scale_};
+        const Position b{line.spots[1].x * scale_, line.spots[1].y * scale_};
+        const bool across = a.y == b.y;
+        const double at = std::floor((across ? a.y : a.x) + 0.5 * (scale_ - wide));
+        const double from = std::floor(across ? std::min(a.x, b.x) : std::min(a.y, b.y));
+        const double to = std::ceil(across ? std::max(a.x, b.x) : std::max(a.y, b.y));
+        Pixels area = across ? Pixels{pixel(from), pixel(at), pixel(to), pixel(at + wide)}
+                             : Pixels{pixel(at), pixel(from), pixel(at + wide), pixel(to)};
+        area.cut_to(window_);
+        for (int y = area.top; y < area.bottom; ++y)
+            for (int x = area.left; x < area.right; ++x) colours_[index(x, y)] = line.colour;
+    }
+
+    /// Marks what a pen of `wide` pixels covers on its way through spots of the drawing.
+    void stroke(const std::vector<Position>& spots, double wide) {
+        if (spots.size() == 1) stroke_piece(spots[0], spots[0], wide);
+        for (std::size_t i = 1; i < spots.size(); ++i) stroke_piece(spots[i - 1], spots[i], wide);
+    }
+
+    void stroke_piece(Position from, Position to, double wide) {
+        const Position a{from.x * scale_, from.y * scale_};
+        const Position b{to.x * scale_, to.y * scale_};
+        const double reach = wide / 2 + 0.5;
+        // A pen thinner than a pixel marks that share of it.
+        const double most = std::min(1.0, wide);
+        Pixels area{pixel(std::floor(std::min(a.x, b.x) - reach)),
+                    pixel(std::floor(std::min(a.y, b.y) - reach)),
+                    pixel(std::ceil(std::max(a.x, b.x) + reach)) + 1,
+                    pixel(std::ceil(std::max(a.y, b.y) + reach)) + 1};
+        area.cut_to(window_);
+        for (int y = area.top; y < area.bottom; ++y)
+            for (int x = area.left; x < area.right; ++x) {
+                const double d = squared_distance({x + 0.5, y + 0.5}, a, b);
+                if (d >= reach * reach) continue;
+                float& share = shares_[index(x, y)];
+                share = std::max(share,
+                                 static_cast<float>(std::clamp(reach - std::sqrt(d), 0.0, most)));
+            }
+        marked(area);
+    }
+
+    /// Marks the inside of a closed line of spots in pixels; what is inside an even number of times
+    /// is outside.
+    void fill(const std::vector<Position>& spots) {
+        constexpr int rows_in_pixel = 4;
+        double top = std::numeric_limits<double>::infinity();
+        double bottom = -top;
+        for (const Position& spot : spots) {
+            top = std::min(top, spot.y);
+            bottom = std::max(bottom, spot.y);
+        }
+        Pixels area{0, pixel(std::floor(top)), width_, pixel(std::ceil(bottom))};
+        area.cut_to(window_);
+        std::vector<double> crossings;
+        for (int row = area.top * rows_in_pixel; row < area.bottom * rows_in_pixel; ++row) {
+            const double y = (row + 0.5) / rows_in_pixel;
+            crossings.clear();
+            for (std::size_t i = 0; i < spots.size(); ++i) {
+                const Position a = spots[i];
+                const Position b = spots[(i + 1) % spots.size()];
+                if ((a.y <= y) != (b.y <= y))
+                    crossings.push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+            }
+            std::ranges::sort(crossings);
+            for (std::size_t i = 0; i + 1 < crossings.size(); i += 2)
+                fill_row(row / rows_in_pixel, crossings[i], crossings[i + 1], 1.0 / rows_in_pixel);
+        }
+        marked(area);
+    }
+
+    void fill_row(int y, double from, double to, double share) {
+        from = std::max(from, static_cast<double>(window_.left));
+        to = std::min(to, static_cast<double>(window_.right));
+        for (int x = pixel(std::floor(from)); x < to; ++x) {
+            const double covered = std::min(to, x + 1.0) - std::max(from, static_cast<double>(x));
+            shares_[index(x, y)] += static_cast<float>(share * covered);
+        }
+    }
+
+    void marked(const Pixels& area) {
+        if (area.left >= area.right || area.top >= area.bottom) return;
+        if (touched_.left >= touched_.right) {
+            touched_ = area;
+            return;
+        }
+        touched_ = {std::min(touched_.left, area.left), std::min(touched_.top, area.top),
+                    std::max(touched_.right, area.right), std::max(touched_.bottom, area.bottom)};
+    }
+
+    /// Colours what is marked, and forgets the marks.
+    void mix(Colour colour, double opacity) {
+        for (int y = touched_.top; y < touched_.bottom; ++y)
+            for (int x = touched_.left; x < touched_.right; ++x) {
+                float& share = shares_[index(x, y)];
+                if (share <= 0) continue;
+                Colour& ground = colours_[index(x, y)];
+                ground = mixed(ground, colour, opacity * std::min(1.0, static_cast<double>(share)));
+                share = 0;
+            }
+        touched_ = {};
+    }
+
+    /// The mean over pixels of the raster from (x, y) on, at least the one that it is in.
+    static Colour mean_colour(const PixelImage& raster, double x, double y, double step_x,
+                              double step_y) {
+        // The middle of what is shown decides where a pixel of the raster is larger.
+        const auto range = [](double from, double step, std::size_t size) {
+            const double first = step <= 1 ? from + step / 2 : from;
+            const double last = step <= 1 ? first : from + step - 1e-9;
+            const double most = static_cast<double>(size) - 1;
+            return std::pair{static_cast<std::size_t>(std::clamp(std::floor(first), 0.0, most)),
+                             static_cast<std::size_t>(std::clamp(std::floor(last), 0.0, most))};
+        };
+        const auto [left, right] = range(x, step_x, raster.columns);
+        const auto [top, bottom] = range(y, step_y, raster.rows);
+        double red = 0;
+        double green = 0;
+        double blue = 0;
+        for (std::size_t j = top; j <= bottom; ++j)
+            for (std::size_t i = left; i <= right; ++i) {
+                const Colour c = raster.pixels[j * raster.columns + i];
+                red += c.red;
+                green += c.green;
+                blue += c.blue;
+            }
+        const auto n = static_cast<double>((right - left + 1) * (bottom - top + 1));
+        const auto part = [n](double sum) {
+            return static_cast<std::uint8_t>(std::lround(sum / n));
+        };
+        return {part(red), part(green), part(blue)};
+    }
+
+    double scale_;
+    int width_;
+    int height_;
+    Pixels window_;
+    std::vector<Colour> colours_;
+    std::vector<float> shares_;  ///< how much of each pixel is marked
+    Pixels touched_;             ///< where pixels are marked
+};
+
+}  // namespace
+
+std::string png_bytes_of(const Drawing& drawing, double scale, const PictureNotes& notes) {
+    if (drawing.width * scale * drawing.height * scale > most_pixels)
+        fail(ErrorKind::limit, "a picture of {:.0f} x {:.0f} pixels is larger than {:.0f} pixels",
+             drawing.width * scale, drawing.height * scale, most_pixels);
+    Painter painter(drawing, scale);
+    for (const Shape& shape : drawing.shapes) std::visit(painter, shape);
+    PictureNotes all = {{"Title", clean_text(drawing.title)}};
+    for (const auto& [keyword, text] : notes) all.emplace_back(keyword, clean_text(text));
+    return painter.png(all);
+}
+
+}  // namespace stipple::plot

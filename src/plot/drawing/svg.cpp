@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+//
+// A drawing as SVG. Text stays text, in whatever plain sans serif the reader has; pixels are a PNG
+// picture inside.
+//
+// Source  W3C, Scalable Vector Graphics 1.1; colours of pages: CSS Color 5, light-dark().
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "io/decimal.hpp"
+#include "media/png_picture.hpp"
+#include "plot/drawing/drawing.hpp"
+#include "plot/drawing/html_text.hpp"
+
+namespace stipple::plot {
+namespace {
+
+constexpr const char* font = "Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif";
+
+std::string hex(Colour c) { return fmt::format("#{:02x}{:02x}{:02x}", c.red, c.green, c.blue); }
+
+/// Hundredths of a unit are more than eyes see.
+std::string number(double x) {
+    std::string text = fmt::format("{:.2f}", x);
+    text.erase(text.find_last_not_of('0') + 1);
+    if (text.back() == '.') text.pop_back();
+    return text == "-0" ? "0" : text;
+}
+
+/// fill="#0072b2", with the colour of dark pages where that is another one.
+std::string paint(const char* property, Colour light, Colour dark) {
+    std::string text = fmt::format(" {}=\"{}\"", property, hex(light));
+    if (light != dark)
+        text += fmt::format(" style=\"{}:light-dark({},{})\"", property, hex(light), hex(dark));
+    return text;
+}
+
+/// The pixels as a PNG picture, in grey where they are.
+std::string png_of(const PixelImage& raster) {
+    const bool grey = std::ranges::all_of(
+        raster.pixels, [](Colour c) { return c.red == c.green && c.green == c.blue; });
+    std::string bytes;
+    bytes.reserve(raster.pixels.size() * (grey ? 1 : 3));
+    for (const Colour& c : raster.pixels) {
+        bytes += static_cast<char>(c.red);
+        if (grey) continue;
+        bytes += static_cast<char>(c.green);
+        bytes += static_cast<char>(c.blue);
+    }
+    return encode_png({raster.columns, raster.rows, 8, !grey}, bytes, {});
+}
+
+/// Writes shapes one after the other.
+class Writer {
+  public:
+    explicit Writer(bool page) : page_(page) {}
+
+    void operator()(const Line& line, const Line& dark) {
+        if (line.spots.size() < 2) return;
+        // Lines one unit wide are sharp where they run along the middle of pixels.
+        const bool half = line.crisp && std::lround(line.width) % 2 == 1;
+        out_ += "<path d=\"";
+        for (std::size_t i = 0; i < line.spots.size(); ++i) {
+            const Position spot = line.spots[i];
+            const double x = half ? std::floor(spot.x) + 0.5 : spot.x;
+            const double y = half ? std::floor(spot.y) + 0.5 : spot.y;
+            out_ += fmt::format("{}{} {}", i == 0 ? "M" : "L", number(x), number(y));
+        }
+        out_ += fmt::format("\" fill=\"none\"{} stroke-width=\"{}\"",
+                            paint("stroke", line.colour, dark.colour), number(line.width));
+        if (line.dash == Dash::dashed) out_ += " stroke-dasharray=\"6 4\"";
+        if (line.dash == Dash::dotted) out_ += " stroke-dasharray=\"1.5 3\"";
+        out_ +=
+            line.crisp ? " shape-rendering=\"crispEdges\"/>\n" : " stroke-linejoin=\"round\"/>\n";
+    }
+
+    void operator()(const Patch& patch, const Patch& dark) {
+        out_ += "<path d=\"";
+        for (std::size_t i = 0; i < patch.spots.size(); ++i)
+            out_ += fmt::format("{}{} {}", i == 0 ? "M" : "L", number(patch.spots[i].x),
+                                number(patch.spots[i].y));
+        out_ += "Z\"" + paint("fill", patch.colour, dark.colour);
+        if (patch.opacity < 1) out_ += fmt::format(" fill-opacity=\"{}\"", number(patch.opacity));
+        out_ += "/>\n";
+    }
+
+    void operator()(const Disks& disks, const Disks& dark) {
+        if (page_) return dots(disks, dark);
+        out_ += "<g" + paint("fill", disks.colour, dark.colour);
+        if (disks.opacity < 1) out_ += fmt::format(" fill-opacity=\"{}\"", number(disks.opacity));
+        out_ += ">\n";
+        std::string close = "\" r=\"";
+        io::append_number(close, disks.radius, 2);
+        close += "\"/>\n";
+        for (const Position& centre : disks.centres) {
+            out_ += "<circle cx=\"";
+            io::append_number(out_, centre.x, 2);
+            out_ += "\" cy=\"";
+            io::append_number(out_, centre.y, 2);
+            out_ += close;
+        }
+        out_ += "</g>\n";
+    }
+
+    void operator()(const Label& label, const Label& dark) {
+        out_ += fmt::format("<text x=\"{}\" y=\"{}\" font-size=\"{}\"{}", number(label.at.x),
+                            number(label.at.y), number(label.size),
+                            paint("fill", label.colour, dark.colour));
+        if (label.anchor == Anchor::middle) out_ += " text-anchor=\"middle\"";
+        if (label.anchor == Anchor::end) out_ += " text-anchor=\"end\"";
+        if (label.bold) out_ += " font-weight=\"bold\"";
+        if (label.upward)
+            out_ += fmt::format(" transform=\"rotate(-90 {} {})\"", number(label.at.x),
+                                number(label.at.y));
+        out_ += fmt::format(">{}</text>\n", xml_text(label.text));
+    }
+
+    /// Pixels have one set of colours; where a dark page has others, its style sheet inverts them.
+    void operator()(const PixelImage& raster, const PixelImage& dark) {
+        const Area& a = raster.area;
+        out_ += fmt::format(
+            "<image{} x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
+            "style=\"image-rendering:pixelated\" {}=\"data:image/png;base64,{}\"/>\n",
+            raster.pixels == dark.pixels ? "" : " class=\"inverted\"", number(a.left),
+            number(a.top), number(a.width), number(a.height), page_ ? "href" : "xlink:href",
+            base64(png_of(raster)));
+    }
+
+    void operator()(const ClipWindow& window, const ClipWindow&) {
+        close(in_group_);
+        close(in_window_);
+        if (window.open) return;
+        // Named by what it shows, so that drawings can stand in one page.
+        const Area& a = window.area;
+        const std::string name = fmt::format("w{}-{}-{}-{}", number(a.left), number(a.top),
+                                             number(a.width), number(a.height));
+        out_ += fmt::format(
+            "<clipPath id=\"{0}\"><rect x=\"{1}\" y=\"{2}\" width=\"{3}\" height=\"{4}\"/>"
+            "</clipPath>\n<g clip-path=\"url(#{0})\">\n",
+            name, number(a.left), number(a.top), number(a.width), number(a.height));
+        in_window_ = true;
+    }
+
+    void operator()(const SvgGroup& group, const SvgGroup&) {
+        close(in_group_);
+        if (!page_ || group.attributes.empty()) return;
+        out_ += fmt::format("<g {}>\n", group.attributes);
+        in_group_ = true;
+    }
+
+    std::string take() {
+        close(in_group_);
+        close(in_window_);
+        return std::move(out_);
+    }
+
+  private:
+    void close(bool& open) {
+        if (open) out_ += "</g>\n";
+        open = false;
+    }
+
+    /// Strokes without length, whose ends are round: a third of the bytes of circles.
+    void dots(const Disks& disks, const Disks& dark) {
+        out_ += fmt::format("<path fill=\"none\" stroke-linecap=\"round\" stroke-width=\"{}\"{}",
+                            number(2 * disks.radius), paint("stroke", disks.colour, dark.colour));
+        if (disks.opacity < 1) out_ += fmt::format(" stroke-opacity=\"{}\"", number(disks.opacity));
+        out_ += " d=\"";
+        for (const Position& centre : disks.centres) {
+            out_ += 'M';
+            io::append_number(out_, centre.x, 1);
+            out_ += ' ';
+            io::append_number(out_, centre.y, 1);
+            out_ += "h0";
+        }
+        out_ += "\"/>\n";
+    }
+
+    bool page_;
+    std::string out_;
+    bool in_window_ = false;
+    bool in_group_ = false;
+};
+
+/// The ground and all shapes, in the colours of both.
+std::string body_of(const Drawing& light, const Drawing& dark, bool page) {
+    assert(light.shapes.size() == dark.shapes.size());
+    Writer writer(page);
+    for (std::size_t i = 0; i < light.shapes.size(); ++i)
+        std::visit([&]<class S>(const S& shape) { writer(shape, std::get<S>(dark.shapes[i])); },
+                   light.shapes[i]);
+    return fmt::format("<rect width=\"{}\" height=\"{}\"{}/>\n", number(light.width),
+                       number(light.height), paint("fill", light.ground, dark.ground)) +
+           writer.take();
+}
+
+}  // namespace
+
+std::string svg_element(const Drawing& light, const Drawing& dark, const std::string& label) {
+    return fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n",
+                       number(light.width), number(light.height), html_text(label)) +
+           body_of(light, dark, true) + "</svg>\n";
+}
+
+std::string svg_bytes(const Drawing& drawing, double scale, const PictureNotes& notes) {
+    std::string out = fmt::format(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
+        "width=\"{}\" height=\"{}\" viewBox=\"0 0 {} {}\" font-family=\"{}\">\n<title>{}</title>\n",
+        number(drawing.width * scale), number(drawing.height * scale), number(drawing.width),
+        number(drawing.height), font, xml_text(drawing.title));
+    if (!notes.empty()) {
+        out += "<metadata>\n";
+        for (const auto& [keyword, text] : notes)
+            out += fmt::format("{}: {}\n", xml_text(keyword), xml_text(text));
+        out += "</metadata>\n";
+    }
+    return out + body_of(drawing, drawing, false) + "</svg>\n";
+}
+
+}  // namespace stipple::plot

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+#include "plot/drawing/ticks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+namespace stipple::plot {
+namespace {
+
+std::string with_minus(const std::string& text) {
+    std::string out;
+    for (const char c : text) c == '-' ? out += "−" : out += c;
+    return out;
+}
+
+/// 10 to a whole power, the double nearest to it.
+double ten_to(int exponent) {
+    return exponent >= 0 ? std::pow(10.0, exponent) : 1 / std::pow(10.0, -exponent);
+}
+
+/// The smallest of 1, 2, 5 times a power of ten that is at least `least`.
+struct Step {
+    int digit;
+    int exponent;
+    [[nodiscard]] double value() const { return digit * ten_to(exponent); }
+};
+
+Step step_at_least(double least) {
+    int exponent = static_cast<int>(std::floor(std::log10(least)));
+    for (;; ++exponent)
+        for (const int digit : {1, 2, 5})
+            if (digit * ten_to(exponent) >= least * (1 - 1e-9)) return {digit, exponent};
+}
+
+Step next(Step step) {
+    if (step.digit == 1) return {2, step.exponent};
+    if (step.digit == 2) return {5, step.exponent};
+    return {1, step.exponent + 1};
+}
+
+Step previous(Step step) {
+    if (step.digit == 5) return {2, step.exponent};
+    if (step.digit == 2) return {1, step.exponent};
+    return {5, step.exponent - 1};
+}
+
+/// Multiples of the step in [low, high], counted in steps.
+std::pair<double, double> multiples(double low, double high, double step) {
+    constexpr double slack = 1e-9;
+    return {std::ceil(low / step - slack), std::floor(high / step + slack)};
+}
+
+/// Which of some whole numbers are labelled.
+struct Numbered {
+    double from;
+    double stride;
+    [[nodiscard]] bool operator()(double k) const { return std::fmod(k - from, stride) == 0; }
+};
+
+/// At most `most` of first..last, but two where there are: multiples of a stride, if they do.
+Numbered spread(double first, double last, std::size_t most) {
+    const double stride = std::floor((last - first) / static_cast<double>(most)) + 1;
+    const double from = std::ceil(first / stride) * stride;
+    return {from + stride <= last ? from : first, stride};
+}
+
+/// Decades, or every second, third, ... of them, so that at most `most` have numbers.
+void add_decades(double low, double high, std::size_t most, Ticks& ticks) {
+    const int first = static_cast<int>(std::ceil(std::log10(low) - 1e-9));
+    const int last = static_cast<int>(std::floor(std::log10(high) + 1e-9));
+    if (first >= last) return;
+    const Numbered numbered = spread(first, last, most);
+    const bool plain = first >= -3 && last <= 4;
+    for (int k = first; k <= last; ++k) {
+        if (!numbered(k))
+            ticks.minor.push_back(ten_to(k));
+        else
+            ticks.numbers.push_back(
+                {ten_to(k), plain ? printed(ten_to(k), std::max(0, -k)) : power_of_ten(k)});
+    }
+    if (numbered.stride > 1) return;
+    for (int k = first - 1; k <= last; ++k)
+        for (int digit = 2; digit < 10; ++digit) {
+            const double value = digit * ten_to(k);
+            if (value >= low && value <= high) ticks.minor.push_back(value);
+        }
+}
+
+/// Numbers between powers of ten, where less than two of these are in sight.
+void add_digits(double low, double high, std::size_t most, Ticks& ticks) {
+    ticks.minor.clear();
+    const auto digits =
+        high / low > 6 ? std::vector<int>{1, 2, 5} : std::vector<int>{1, 2, 3, 4, 5, 6, 7, 8, 9};
+    std::vector<Tick> numbers;
+    const int first = static_cast<int>(std::floor(std::log10(low)));
+    for (int k = first; ten_to(k) <= high; ++k)
+        for (int digit = 1; digit < 10; ++digit) {
+            const double value = digit * ten_to(k);
+            if (value < low * (1 - 1e-9) || value > high * (1 + 1e-9)) continue;
+            if (std::ranges::find(digits, digit) == digits.end()) {
+                ticks.minor.push_back(value);
+                continue;
+            }
+            const bool plain = k >= -3 && k <= 4;
+            const std::string power = power_of_ten(k);
+            numbers.push_back({value, plain        ? printed(value, std::max(0, -k))
+                                      : digit == 1 ? power
+                                                   : fmt::format("{}×{}", digit, power)});
+        }
+    if (numbers.size() <= most) ticks.numbers = std::move(numbers);
+}
+
+}  // namespace
+
+std::string printed(double value, int digits_after_point) {
+    const std::string text = fmt::format("{:.{}f}", value, digits_after_point);
+    const bool zero = text.find_first_not_of("-0.") == std::string::npos;
+    return with_minus(zero && text[0] == '-' ? text.substr(1) : text);
+}
+
+std::string rounded(double value, int digits) {
+    return with_minus(fmt::format("{:.{}g}", value, digits));
+}
+
+std::string power_of_ten(int exponent) {
+    constexpr std::array<const char*, 10> raised = {"⁰", "¹", "²", "³", "⁴",
+                                                    "⁵", "⁶", "⁷", "⁸", "⁹"};
+    std::string text = "10";
+    for (const char c : std::to_string(exponent))
+        text += c == '-' ? "⁻" : raised[static_cast<std::size_t>(c - '0')];
+    return text;
+}
+
+Ticks linear_ticks(double low, double high, std::size_t most, bool whole) {
+    most = std::max<std::size_t>(most, 2);
+    Step step = step_at_least((high - low) / static_cast<double>(most));
+    if (whole && step.exponent < 0) step = {1, 0};
+    auto [first, last] = multiples(low, high, step.value());
+    while (last - first + 1 > static_cast<double>(most)) {
+        step = next(step);
+        std::tie(first, last) = multiples(low, high, step.value());
+    }
+    // A single number shows no scale: take some of the finer step.
+    if (first >= last && !(whole && step.value() <= 1)) {
+        step = previous(step);
+        std::tie(first, last) = multiples(low, high, step.value());
+    }
+    const Numbered numbered = spread(first, last, most);
+    Ticks ticks;
+    const double largest = std::max(std::abs(low), std::abs(high));
+    if (largest >= 1e5 || largest < 1e-2)
+        ticks.exponent = static_cast<int>(std::floor(std::log10(largest)));
+    const int digits = std::max(0, ticks.exponent - step.exponent);
+    for (double k = first; k <= last; ++k) {
+        const double value = k * step.value();
+        if (numbered(k))
+            ticks.numbers.push_back({value, printed(value / ten_to(ticks.exponent), digits)});
+    }
+    return ticks;
+}
+
+Ticks log_ticks(double low, double high, std::size_t most) {
+    Ticks ticks;
+    add_decades(low, high, most, ticks);
+    if (ticks.numbers.size() < 3 && high / low < 200) add_digits(low, high, most, ticks);
+    if (ticks.numbers.size() < 2) return linear_ticks(low, high, most);
+    return ticks;
+}
+
+}  // namespace stipple::plot

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: MIT
+//
+// Drawings as SVG and as pixels, the letters in them, and the numbers on axes.
+#include "plot/drawing/drawing.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "media/png_picture.hpp"
+#include "plot/drawing/letters.hpp"
+#include "plot/drawing/panel.hpp"
+#include "plot/drawing/ticks.hpp"
+
+namespace stipple::testing::drawing_test {
+
+using namespace plot;
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+namespace {
+
+constexpr Colour black{0, 0, 0};
+constexpr Colour white{255, 255, 255};
+
+Drawing page(double width, double height) {
+    return {.width = width, .height = height, .ground = white, .title = "a <b> & c"};
+}
+
+PngPicture pixels(const Drawing& drawing, double scale = 1) {
+    return read_png(png_bytes_of(drawing, scale), "test", {});
+}
+
+double grey_at(const PngPicture& picture, std::size_t x, std::size_t y) {
+    return picture.grey[y * picture.width + x];
+}
+
+/// How much ink there is, in pixels.
+double ink(const PngPicture& picture) {
+    double sum = 0;
+    for (const double grey : picture.grey) sum += 1 - grey;
+    return sum;
+}
+
+std::vector<std::string> texts(const Ticks& ticks) {
+    std::vector<std::string> found;
+    for (const Tick& tick : ticks.numbers) found.push_back(tick.text);
+    return found;
+}
+
+}  // namespace
+
+TEST(PngDrawing, CrispLinesAreWholePixels) {
+    for (const double scale : {1.0, 2.0}) {
+        Drawing drawing = page(20, 10);
+        drawing.line({3, 4}, {9, 4}, black);
+        const PngPicture picture = pixels(drawing, scale);
+        EXPECT_EQ(picture.width, 20 * scale);
+        EXPECT_EQ(ink(picture), 6 * scale * scale) << scale;
+        const auto at = static_cast<std::size_t>(scale);
+        EXPECT_EQ(grey_at(picture, 3 * at, 4 * at), 0);
+        EXPECT_EQ(grey_at(picture, 2 * at, 4 * at), 1);
+    }
+}
+
+TEST(PngDrawing, ShapesCoverTheirArea) {
+    Drawing disk = page(60, 60);
+    disk.add(Disks{.centres = {{30.3, 29.8}}, .radius = 20, .colour = black});
+    EXPECT_NEAR(ink(pixels(disk)), 400 * 3.14159265, 4);
+
+    Drawing patch = page(60, 60);
+    patch.add(Patch{.spots = {{10, 10}, {50.5, 10}, {10, 40}}, .colour = black});
+    EXPECT_NEAR(ink(pixels(patch)), 40.5 * 30 / 2, 2);
+    patch = page(60, 60);
+    patch.add(Patch{.spots = {{10, 10}, {50.5, 10}, {10, 40}}, .colour = black, .opacity = 0.5});
+    EXPECT_NEAR(ink(pixels(patch)), 40.5 * 30 / 4, 3);
+
+    Drawing line = page(60, 60);
+    line.add(Line{.spots = {{10, 10}, {50, 40}}, .colour = black, .width = 4});
+    EXPECT_NEAR(ink(pixels(line)), 50 * 4 + 4 * 3.14159265, 3);  // with two half disks
+    line = page(60, 60);
+    line.add(Line{.spots = {{0, 30}, {60, 30}}, .colour = black, .width = 2, .dash = Dash::dashed});
+    EXPECT_NEAR(ink(pixels(line)), 60 * 2 * 0.6, 10);
+}
+
+TEST(PngDrawing, NothingIsDrawnOutsideOfAWindow) {
+    Drawing drawing = page(40, 40);
+    drawing.add(ClipWindow{.area = {10, 10, 5, 5}});
+    drawing.rectangle({0, 0, 40, 40}, black);
+    drawing.add(Disks{.centres = {{30, 30}}, .radius = 5, .colour = black});
+    EXPECT_EQ(ink(pixels(drawing)), 25);
+    drawing.add(ClipWindow{.area = {}, .open = true});
+    drawing.rectangle({30, 30, 2, 2}, black);
+    EXPECT_EQ(ink(pixels(drawing)), 29);
+}
+
+// What lies outside of the picture, however far, is no place in it.
+TEST(PngDrawing, TakesShapesOutsideOfThePicture) {
+    Drawing drawing = page(10, 10);
+    drawing.add(Line{.spots = {{-1e12, 5}, {1e12, 5}}, .colour = black, .width = 2});
+    drawing.add(Disks{.centres = {{1e300, -1e300}}, .radius = 3, .colour = black});
+    drawing.add(Patch{.spots = {{-1e9, -1e9}, {-1e9, -5}, {-5, -5}}, .colour = black});
+    drawing.add(Label{.text = "far", .at = {-500, 700}, .colour = black});
+    EXPECT_LT(ink(pixels(drawing)), 25);
+}
+
+TEST(PngDrawing, RastersAreSharpWhenLargerAndMeansWhenSmaller) {
+    Drawing drawing = page(8, 8);
+    drawing.add(PixelImage{
+        .area = {0, 0, 8, 8}, .columns = 2, .rows = 2, .pixels = {black, white, white, black}});
+    const PngPicture picture = pixels(drawing);
+    EXPECT_EQ(ink(picture), 32);
+    EXPECT_EQ(grey_at(picture, 3, 3), 0);
+    EXPECT_EQ(grey_at(picture, 4, 3), 1);
+
+    drawing = page(1, 1);
+    drawing.add(PixelImage{
+        .area = {0, 0, 1, 1}, .columns = 2, .rows = 2, .pixels = {black, white, white, white}});
+    EXPECT_NEAR(pixels(drawing).grey[0], 191 / 255.0, 1e-9);
+}
+
+TEST(PngDrawing, IsTheSameEveryTimeAndSaysWhatItIs) {
+    Drawing drawing = page(30, 20);
+    drawing.add(Label{.text = "x", .at = {5, 15}, .colour = black});
+    const std::string bytes = png_bytes_of(drawing, 2, {{"stipple", "{\"n\":1}"}});
+    EXPECT_EQ(bytes, png_bytes_of(drawing, 2, {{"stipple", "{\"n\":1}"}}));
+    EXPECT_THAT(bytes, HasSubstr("iTXt"));
+    EXPECT_THAT(bytes, HasSubstr("{\"n\":1}"));
+    EXPECT_THAT(bytes, HasSubstr("a <b> & c"));
+}
+
+TEST(SvgDrawing, TextIsTextAndEscaped) {
+    Drawing drawing = page(30, 20);
+    drawing.add(Label{.text = "a<b & \"c\" \xFF\x01 10⁻³", .at = {5, 15}, .colour = black});
+    const std::string svg = svg_bytes(drawing, 1);
+    EXPECT_THAT(svg, HasSubstr(">a&lt;b &amp; \"c\" \xEF\xBF\xBD 10⁻³</text>"));
+    EXPECT_THAT(svg, HasSubstr("<title>a &lt;b&gt; &amp; c</title>"));
+    EXPECT_TRUE(svg.starts_with("<?xml"));
+    EXPECT_TRUE(svg_element(drawing, drawing, "a \"b\"").starts_with("<svg"));
+    EXPECT_THAT(svg_element(drawing, drawing, "a \"b\""),
+                HasSubstr("aria-label=\"a &quot;b&quot;\""));
+}
+
+TEST(SvgDrawing, HairlinesRunAlongTheMiddleOfPixels) {
+    Drawing drawing = page(30, 20);
+    drawing.line({3, 4}, {9.7, 4.9}, black);
+    EXPECT_THAT(svg_bytes(drawing, 1), HasSubstr("M3.5 4.5L9.5 4.5"));
+}
+
+// ---------------------------------------------------------------- letters
+
+TEST(Letters, EveryPrintableLetterHasStrokesWithinItsBox) {
+    for (char32_t letter = U'!'; letter <= U'~'; ++letter) {
+        const auto strokes = strokes_of(letter);
+        EXPECT_FALSE(strokes.empty()) << static_cast<int>(letter);
+        const bool unknown = strokes == strokes_of(U'\uFFFD');
+        EXPECT_FALSE(unknown) << static_cast<int>(letter);
+        for (const auto& stroke : strokes)
+            for (const Position& spot : stroke) {
+                EXPECT_TRUE(spot.x >= 0 && spot.x <= advance_of(letter) + 0.1)
+                    << static_cast<int>(letter) << " " << spot.x;
+                EXPECT_TRUE(spot.y >= -6 && spot.y <= 21) << static_cast<int>(letter);
+            }
+    }
+    for (const char32_t letter : {U'⁻', U'³', U'×', U'·', U'−', U'…', U'√', U'∞', U'±'})
+        EXPECT_NE(strokes_of(letter), strokes_of(U'\uFFFD')) << static_cast<int>(letter);
+    EXPECT_TRUE(strokes_of(U' ').empty());
+    EXPECT_EQ(strokes_of(U'é'), strokes_of(U'e'));
+    EXPECT_EQ(strokes_of(U'ÿ'), strokes_of(U'y'));
+    EXPECT_EQ(strokes_of(U'Σ'), strokes_of(U'\uFFFD'));
+}
+
+// A quarter of a circle: the pen stays at its distance from the middle.
+TEST(Letters, CurvesAreEllipses) {
+    const auto strokes = strokes_of(U'o');
+    for (const Position& spot : strokes[0]) {
+        const double x = spot.x < 7.8 ? (spot.x - 7.8) / 5.8 : (spot.x - 7.8) / 5.7;
+        const double y = spot.y < 7.2 ? (spot.y - 7.2) / 6.2 : (spot.y - 7.2) / 6.3;
+        EXPECT_NEAR(x * x + y * y, 1, 1e-9);
+    }
+}
+
+TEST(Letters, Utf8GoesThereAndBack) {
+    const std::string text = "aé−√𝛑";
+    std::string back;
+    for (const char32_t letter : letters_of(text)) append_utf8(back, letter);
+    EXPECT_EQ(back, text);
+    EXPECT_EQ(letters_of("\xC0\xAF\xED\xA0\x80\xE2\x88"), std::u32string(7, U'\uFFFD'));
+    EXPECT_EQ(clean_text("a\nb\x7F"), "ab");
+}
+
+TEST(Letters, LongTextsLoseTheirFront) {
+    EXPECT_EQ(shortened_to("abc", 12, 100), "abc");
+    const std::string cut = shortened_to("a/long/path/to/points.csv", 12, 80);
+    EXPECT_TRUE(cut.starts_with("…"));
+    EXPECT_TRUE(cut.ends_with("points.csv"));
+    EXPECT_LE(text_width(cut, 12), 80);
+    EXPECT_EQ(cut_to("abcdef", 10, text_width("abc…", 10)), "abc…");
+}
+
+// ---------------------------------------------------------------- numbers on axes
+
+TEST(Ticks, AreOneTwoOrFiveTimesAPowerOfTen) {
+    EXPECT_THAT(texts(linear_ticks(0, 1, 6)),
+                ElementsAre("0.0", "0.2", "0.4", "0.6", "0.8", "1.0"));
+    EXPECT_THAT(texts(linear_ticks(-1, 1, 5)), ElementsAre("−1.0", "−0.5", "0.0", "0.5", "1.0"));
+    EXPECT_THAT(texts(linear_ticks(0, 23, 6)), ElementsAre("0", "5", "10", "15", "20"));
+    EXPECT_THAT(texts(linear_ticks(0, 2, 9, true)), ElementsAre("0", "1", "2"));
+}
+
+TEST(Ticks, LargeAndSmallNumbersShareAPower) {
+    const Ticks large = linear_ticks(0, 250000, 4);
+    EXPECT_EQ(large.exponent, 5);
+    EXPECT_THAT(texts(large), ElementsAre("0", "1", "2"));
+    const Ticks small = linear_ticks(0, 0.003, 4);
+    EXPECT_EQ(small.exponent, -3);
+    EXPECT_THAT(texts(small), ElementsAre("0", "1", "2", "3"));
+    EXPECT_EQ(power_of_ten(-13), "10⁻¹³");
+}
+
+TEST(Ticks, OfALogarithmicAxisArePowersOfTen) {
+    EXPECT_THAT(texts(log_ticks(0.02, 300, 8)), ElementsAre("0.1", "1", "10", "100"));
+    EXPECT_THAT(texts(log_ticks(1e-7, 1e-3, 8)),
+                ElementsAre("10⁻⁷", "10⁻⁶", "10⁻⁵", "10⁻⁴", "10⁻³"));
+    EXPECT_THAT(texts(log_ticks(1e-12, 1, 4)), ElementsAre("10⁻¹²", "10⁻⁸", "10⁻⁴", "10⁰"));
+    EXPECT_THAT(texts(log_ticks(30, 1100, 8)), ElementsAre("50", "100", "200", "500", "1000"));
+    EXPECT_EQ(log_ticks(1, 10, 8).minor.size() + log_ticks(1, 10, 8).numbers.size(), 10U);
+    EXPECT_GE(log_ticks(5.1, 5.9, 8).numbers.size(), 2U);
+}
+
+// No step of 1, 2 or 5 has from two to so many numbers in these ranges.
+TEST(Ticks, AreTwoAtLeast) {
+    EXPECT_THAT(texts(linear_ticks(-4.5, 4.1, 4)), ElementsAre("−4", "0", "4"));
+    EXPECT_THAT(texts(linear_ticks(1.5, 6.5, 2)), ElementsAre("2", "6"));
+    EXPECT_THAT(texts(linear_ticks(-4.9, 0.1, 2)), ElementsAre("−4", "0"));
+    EXPECT_THAT(texts(log_ticks(0.9e-5, 1.1e-3, 2)), ElementsAre("10⁻⁵", "10⁻³"));
+    EXPECT_THAT(texts(linear_ticks(0.5, 1.5, 9, true)), ElementsAre("1"));
+}
+
+TEST(Ticks, AreTwoToSoManyInAnyRangeAndWithinIt) {
+    for (double high = 1; high < 1000; high *= 1.013)
+        for (const double below : {-30.0, -1.0, -0.93, -0.11, 0.0, 0.003, 0.31, 0.9})
+            for (std::size_t most = 2; most <= 11; ++most)
+                for (const bool log : {false, true}) {
+                    const double low = below * high;
+                    if (log && low <= 0) continue;
+                    const Ticks ticks =
+                        log ? log_ticks(low, high, most) : linear_ticks(low, high, most);
+                    const auto& all = ticks.numbers;
+                    ASSERT_GE(all.size(), 2U) << low << " to " << high << ", " << most;
+                    ASSERT_LE(all.size(), most) << low << " to " << high;
+                    ASSERT_GE(all.front().value, low - 1e-8 * high);
+                    ASSERT_LE(all.back().value, high * (1 + 1e-8));
+                }
+}
+
+// Whatever the range and the room, numbers side by side keep their distance.
+TEST(Ticks, NeverOverlap) {
+    for (const double high : {1e-9, 0.0123, 1.0, 7.3, 99.9, 12345.6, 9.99e9})
+        for (const double length : {60.0, 100.0, 333.0, 900.0})
+            for (const bool log : {false, true}) {
+                const Axis axis{.low = log ? high / 3e4 : -high, .high = high, .log = log};
+                double end = -1e9;
+                const Ticks ticks = axis.ticks(length, false);
+                EXPECT_GE(ticks.numbers.size(), 2U);
+                if (ticks.numbers.size() <= 2) continue;
+                for (const Tick& tick : ticks.numbers) {
+                    const double half = text_width(tick.text, number_size) / 2;
+                    EXPECT_GT(axis.share(tick.value) * length - half, end)
+                        << high << " " << length << " " << log;
+                    end = axis.share(tick.value) * length + half;
+                }
+            }
+}
+
+TEST(Panel, PutsTheEndsOfItsAxesAtTheFramesCorners) {
+    const Panel linear({10, 20, 100, 50}, {.low = -1, .high = 3}, {.low = 0, .high = 8});
+    EXPECT_EQ(linear.at(-1, 0), (Position{10, 70}));
+    EXPECT_EQ(linear.at(3, 8), (Position{110, 20}));
+    EXPECT_EQ(linear.at(1, 4), (Position{60, 45}));
+    const Panel log({0, 0, 100, 100}, {.low = 1, .high = 100, .log = true},
+                    {.low = 0.01, .high = 1, .log = true});
+    EXPECT_NEAR(log.x(10), 50, 1e-9);
+    EXPECT_NEAR(log.y(0.1), 50, 1e-9);
+}
+
+// A single value, nothing at all, zeros on a logarithmic axis: there is an axis nevertheless.
+TEST(Panel, MendsAxesWithoutExtent) {
+    for (const auto& [low, high] :
+         {std::pair{2.0, 2.0},
+          {0.0, 0.0},
+          {-3.0, -3.0},
+          {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}})
+        for (const bool log : {false, true}) {
+            Axis axis{.low = low, .high = high, .log = log};
+            axis.mend();
+            EXPECT_LT(axis.low, axis.high);
+            EXPECT_TRUE(!log || axis.low > 0);
+            EXPECT_FALSE(axis.ticks(300, false).numbers.empty());
+        }
+}
+
+}  // namespace stipple::testing::drawing_test
