@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <exception>
+#include <map>
 #include <new>
 
 #include "cli/help/help.hpp"
@@ -19,19 +21,8 @@ namespace {
 
 /// The contract's exit codes.
 int exit_code(ErrorKind kind) {
-    switch (kind) {
-        case ErrorKind::usage:
-            return 2;
-        case ErrorKind::input:
-            return 3;
-        case ErrorKind::io:
-            return 4;
-        case ErrorKind::limit:
-            return 5;
-        case ErrorKind::cancelled:
-            return 130;
-    }
-    return 4;
+    constexpr std::array codes = {2, 3, 4, 5, 130};  // usage, input, io, limit, cancelled
+    return codes.at(static_cast<std::size_t>(kind));
 }
 
 /// The verb's unit must be named; the hint lists what there is.
@@ -61,24 +52,11 @@ int dispatch(const Arguments& arguments, const std::vector<Kind>& kinds) {
     if (arguments.verb == Verb::help) return help(arguments, kinds);
     if (arguments.verb == Verb::completions) return completions(arguments);
     Session session(arguments);
-    switch (*arguments.verb) {
-        case Verb::generate:
-            return generate(arguments, session);
-        case Verb::warp:
-            return warp(arguments, session);
-        case Verb::convert:
-            return convert(arguments, session);
-        case Verb::plot:
-            return plot(arguments, session);
-        case Verb::study:
-            return study(arguments, session);
-        case Verb::report:
-            return report(arguments, session);
-        case Verb::reproduce:
-            return reproduce(arguments, kinds, session);
-        default:
-            return analyze(arguments, session);
-    }
+    static const std::map<Verb, int (*)(const Arguments&, Session&)> work = {
+        {Verb::generate, generate}, {Verb::warp, warp},          {Verb::analyze, analyze},
+        {Verb::convert, convert},   {Verb::plot, plot},          {Verb::study, study},
+        {Verb::report, report},     {Verb::reproduce, reproduce}};
+    return work.at(*arguments.verb)(arguments, session);
 }
 
 /// One line, and the hint in a second sentence of it.

@@ -80,7 +80,8 @@ struct Loaded {
     PointSet points;
     std::string source;
     std::optional<std::size_t> number;  ///< in its file, of several
-    bool npy = false;                   ///< so that it may be a table that --grid saved
+    bool npy;                           ///< so that it may be a table that --grid saved
+    std::string title;                  ///< of the points, by where they come from
 };
 
 /// One call: what was read, and what is drawn of it.
@@ -153,9 +154,10 @@ class Plot {
         for (std::size_t i = 0; i < sets.size(); ++i) {
             require_width(sets[i], input);
             take_domain(sets[i], arguments_);
+            const std::string title = plot::title_of_points(sets[i], input);
             sets_.push_back({std::move(sets[i]), input,
                              sets.size() > 1 ? std::optional(i) : std::nullopt,
-                             file.bytes().starts_with(npy_magic)});
+                             file.bytes().starts_with(npy_magic), title});
         }
     }
 
@@ -249,8 +251,7 @@ class Plot {
     }
 
     std::string saved(const plot::SpectralTable& table) {
-        const std::string title = arguments_.get("title").value_or(
-            plot::title_of_points(sets_[0].points, sets_[0].source));
+        const std::string title = arguments_.get("title").value_or(sets_[0].title);
         if (table.dimension == 1) return drawn(plot::power_chart(table.values, title));
         refuse_scales("a table");
         const std::string plane = table.dimension == 3 ? "plane fz = 0" : "";
@@ -263,8 +264,7 @@ class Plot {
         refuse_scales(differences ? "differences" : "a spectrum");
         const Report found = analyzed_table();
         const std::string what = differences ? "Pair differences" : "Power spectrum";
-        const std::string title = arguments_.get("title").value_or(
-            what + " of " + plot::title_of_points(sets_[0].points, sets_[0].source));
+        const std::string title = arguments_.get("title").value_or(what + " of " + sets_[0].title);
         return drawn_table(std::get<Grid>(*found.find("grid")), title, subtitle_of(sets_[0]),
                            differences ? names_of(found.number("pixel")) : plot::TableNames());
     }
@@ -294,8 +294,7 @@ class Plot {
         std::vector<const PointSet*> sets;
         for (const Loaded& set : sets_) sets.push_back(&set.points);
         plot::Chart chart = plot::distance_chart(sets, names(), session_.run());
-        if (!different_titles())
-            chart.title += " of " + plot::title_of_points(sets_[0].points, sets_[0].source);
+        if (!different_titles()) chart.title += " of " + sets_[0].title;
         if (sets_.size() == 1) chart.subtitle = subtitle_of(sets_[0]);
         return drawn(chart);
     }
@@ -319,13 +318,11 @@ class Plot {
         ReportAverage average;
         std::vector<Report> singles;
         for (std::size_t i = first; i < last; ++i) {
-            const auto& [points, source, number, npy] = sets_[i];
-            naming(source, [&, &set = points] { check_dimension(analyzer, set.dimension()); });
+            const Loaded& set = sets_[i];
+            naming(set.source, [&] { check_dimension(analyzer, set.points.dimension()); });
             const Report report = naming(
-                source,
-                [&, &set = points] {
-                    return stipple::analyze(analyzer, set, options, session_.run());
-                },
+                set.source,
+                [&] { return stipple::analyze(analyzer, set.points, options, session_.run()); },
                 fmt::format("'stipple analyze {}' has options for others, and plot draws its JSON",
                             analyzer.name));
             average.add(report);
@@ -333,7 +330,7 @@ class Plot {
         }
         const PointSet& points = sets_[first].points;
         Measurement m{.analyzer = analyzer.name,
-                      .source = plot::title_of_points(points, sets_[first].source),
+                      .source = sets_[first].title,
                       .count = points.count(),
                       .dimension = points.dimension(),
                       .domain = points.domain->spec()};
@@ -365,8 +362,7 @@ class Plot {
         for (const Loaded& set : sets_) picture.sets.push_back(&set.points);
         if (chart_ == "points") picture.marking = plot::Marking::disks;
         if (chart_ == "density") picture.marking = plot::Marking::density;
-        picture.title = arguments_.get("title").value_or(
-            plot::title_of_points(sets_[0].points, sets_[0].source));
+        picture.title = arguments_.get("title").value_or(sets_[0].title);
         if (sets_.size() > 1 && different_titles()) picture.title = "points";
         picture.subtitle = subtitle_of(sets_[0]);
         if (sets_.size() > 1) picture.subtitle.clear();
@@ -374,21 +370,17 @@ class Plot {
     }
 
     [[nodiscard]] bool different_titles() const {
-        const auto title = [](const Loaded& set) {
-            return plot::title_of_points(set.points, set.source);
-        };
-        return std::ranges::any_of(
-            sets_, [&](const Loaded& set) { return title(set) != title(sets_[0]); });
+        return std::ranges::any_of(sets_,
+                                   [&](const Loaded& set) { return set.title != sets_[0].title; });
     }
 
     [[nodiscard]] std::vector<std::string> names() const {
         const bool different = different_titles();
         std::vector<std::string> found;
         for (const Loaded& set : sets_) {
-            std::string name = different ? plot::title_of_points(set.points, set.source) : "";
+            std::string name = different ? set.title : "";
             if (set.number) name += fmt::format("{}set {}", name.empty() ? "" : ", ", *set.number);
-            if (name.empty()) name = set.source;
-            found.push_back(name);
+            found.push_back(name.empty() ? set.source : name);
         }
         return found;
     }

@@ -6,13 +6,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
-#include <filesystem>
-#include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/original.hpp"
 #include "cli/verbs.hpp"
-#include "cli/without_points.hpp"
 #include "core/error.hpp"
 #include "core/file_bytes.hpp"
 #include "core/fingerprint.hpp"
@@ -30,8 +27,7 @@
 namespace stipple::cli {
 namespace {
 
-/// The words of a command as a shell would take them: blanks part them, 'quotes' hold them
-/// together,
+/// The words of a command as a shell would take them: blanks part them, 'quotes' hold them together,
 /// \' stands for itself.
 std::vector<std::string> shell_words(std::string_view command) {
     std::vector<std::string> words;
@@ -56,118 +52,6 @@ std::vector<std::string> shell_words(std::string_view command) {
     return words;
 }
 
-/// A file whose provenance is known.
-struct Original {
-    std::string name;                       ///< for messages
-    std::string path;                       ///< where it can be opened more than once
-    std::shared_ptr<std::FILE> spool = {};  ///< that it is, where it came from a pipe
-    Provenance meta = {};
-    const Format* format = nullptr;         ///< where its name and bytes leave it open
-    std::optional<std::size_t> width = {};  ///< numbers of a point, where the bytes leave it open
-    std::size_t sets = 0;                   ///< in the file; 0: as its bytes say
-    std::string picture = {};               ///< option of the generator that made it, if it is one
-    bool drawn = false;                     ///< svg or ply, which are not read
-    std::string plotted = {};               ///< command that drew it, if it is a picture of points
-};
-
-/// A pipe's bytes in a file of no name, which goes when it is closed.
-std::shared_ptr<std::FILE> spooled(const std::string& pipe, const RunContext& run) {
-    const io::Input input(pipe, run);
-    const auto close = [](std::FILE* open) {
-        if (open != nullptr) std::fclose(open);
-    };
-    std::shared_ptr<std::FILE> file(std::tmpfile(), close);
-    const auto bytes = input.bytes();
-    if (file == nullptr || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size() ||
-        std::fflush(file.get()) != 0)
-        fail(ErrorKind::io, "{}: no room for its bytes in the folder of temporary files",
-             io::source_name(pipe));
-    std::rewind(file.get());
-    return file;
-}
-
-bool file_there(const std::string& path) {
-    std::FILE* const file = std::fopen(path.c_str(), "rb");
-    if (file != nullptr) std::fclose(file);
-    return file != nullptr;
-}
-
-[[noreturn]] void refuse_without_provenance(const Original& original) {
-    fail_with_hint(ErrorKind::input,
-                   "json and jsonl always hold it; generate --meta puts it into other formats",
-                   "{}: it does not say how its points were made", original.name);
-}
-
-/// A picture by `stipple plot`, with what it tells of the set that it shows. False: no such
-/// picture.
-bool take_plot(Original& original, std::string_view picture) {
-    const Json note = Json::parse(io::picture_note(picture).value_or(""), nullptr, false);
-    if (!note.is_object() || note.contains("format") || !note.contains("command")) return false;
-    original.plotted = note["command"].get<std::string>();
-    if (!note.contains("meta"))
-        fail(ErrorKind::input, "{}: a picture drawn by '{}', of no single set with provenance",
-             original.name, original.plotted);
-    original.meta = io::provenance_from(note["meta"]);
-    return true;
-}
-
-/// Sets what carries its provenance where no reader of points looks. False: not such a file.
-bool take_carried(Original& original, std::string_view front, const RunContext& run) {
-    std::optional<io::CarriedMeta> carried;
-    const std::string beside = io::meta_path(original.path);
-    const bool picture = front.starts_with(png_magic);
-    const bool svg = front.starts_with("<svg") || front.starts_with("<?xml");
-    original.drawn = front.starts_with("ply\n") || svg;
-    if (picture || original.drawn) {
-        const io::Input whole(original.path, run);
-        if (take_plot(original, whole.bytes())) return true;
-        carried = io::find_carried_meta(whole.bytes(), original.name);
-        if (!carried) refuse_without_provenance(original);
-    } else if (file_there(beside)) {
-        carried = io::carried_meta(io::Input(beside, run).bytes(), beside);
-        original.format = &io::format_named(carried->of);
-        if (carried->width > 0) original.width = carried->width;
-        original.sets = carried->sets;
-    }
-    if (!carried) return false;
-    original.meta = carried->provenance;
-    if (picture) original.picture = carried->of;
-    if (original.drawn) original.format = &io::format_named(carried->of);
-    return true;
-}
-
-std::unique_ptr<io::PointStream> open_original(const Original& original,
-                                               const std::vector<std::string>& columns,
-                                               const RunContext& run) {
-    // One thread reads, for the points are made on all.
-    RunContext reading = run;
-    reading.threads = 1;
-    ReadOptions options{.source = original.name, .columns = columns};
-    options.single = original.meta.single;
-    if (original.width) options.dimension = original.width;
-    return io::open_points(original.path, options, reading, original.format);
-}
-
-Original read_original(const std::string& input, const RunContext& run) {
-    std::error_code ignored;
-    const bool pipe = input == "-" || (std::filesystem::exists(input, ignored) &&
-                                       !std::filesystem::is_regular_file(input, ignored) &&
-                                       !std::filesystem::is_directory(input, ignored));
-    Original original{.name = io::source_name(input), .path = input};
-    if (pipe) {
-        original.spool = spooled(input, run);
-        original.path = fmt::format("/dev/fd/{}", fileno(original.spool.get()));
-    }
-    const io::Feed feed(original.path, run);
-    refuse_without_points(original.name, feed.front());
-    const bool carried = take_carried(original, feed.front(), run);
-    if (!carried && io::format_of_extension(original.path) == &io::format_named("bin"))
-        refuse_without_provenance(original);  // it has no place for one
-    if (!carried) original.meta = open_original(original, {}, run)->provenance();
-    if (original.meta.generator.empty()) refuse_without_provenance(original);
-    return original;
-}
-
 /// What the provenance says was typed, where it holds no command.
 Arguments arguments_of(const Provenance& meta, const std::string& name) {
     if (!meta.shard.empty() || meta.efficiency < 1)
@@ -186,13 +70,13 @@ Arguments arguments_of(const Provenance& meta, const std::string& name) {
 }
 
 /// What was typed, as the provenance's command says.
-Arguments typed_for(const Original& original, const std::vector<Kind>& kinds) {
+Arguments typed_for(const Original& original) {
     const auto words = shell_words(original.meta.command);
     if (words.size() < 3 || words[1] != "generate")
         return arguments_of(original.meta, original.name);
     std::vector<const char*> argv;
     for (const std::string& word : words) argv.push_back(word.c_str());
-    return parse_arguments(static_cast<int>(argv.size()), argv.data(), kinds);
+    return parse_arguments(static_cast<int>(argv.size()), argv.data(), catalog());
 }
 
 /// What makes the file again, and how its numbers were written.
@@ -216,11 +100,11 @@ auto reading_provenance(const Original& original, const Work& work) {
     }
 }
 
-Recipe recipe_of(const Original& original, const std::vector<Kind>& kinds, Session& session) {
+Recipe recipe_of(const Original& original, Session& session) {
     const Provenance& meta = original.meta;
     const Generator& generator = find_generator(meta.generator);
     Recipe recipe;
-    recipe.typed = typed_for(original, kinds);
+    recipe.typed = typed_for(original);
     recipe.job = production_of(recipe.typed, session);
     Production& job = recipe.job;
     if (job.generator->name != generator.name)
@@ -243,13 +127,13 @@ Recipe recipe_of(const Original& original, const std::vector<Kind>& kinds, Sessi
 }
 
 /// The stream version of a unit that makes or moves points.
-std::uint64_t stream_version_of(const std::string& unit) {
-    if (const Scramble* scramble = scramble_named(unit)) return scramble->stream_version;
-    for (const Warp& warp : warps::all())
-        if (warp.name == unit) return warp.stream_version;
-    for (const Generator& generator : generators::all())
-        if (generator.name == unit) return generator.stream_version;
-    return 0;
+std::uint64_t stream_version_of(const std::string& name) {
+    const auto of = [&name](const auto& units) {
+        const auto it = std::ranges::find_if(units, [&](const auto& u) { return u.name == name; });
+        return it == units.end() ? 0 : it->stream_version;
+    };
+    const Scramble* scramble = scramble_named(name);
+    return scramble ? scramble->stream_version : std::max(of(warps::all()), of(generators::all()));
 }
 
 /// A sentence about the first unit whose rules are not those that made the file; or nothing.
@@ -375,9 +259,7 @@ class Reproducer {
         auto stream = open_original(original_, {}, run_);
         const std::size_t width = find_columns(*stream);
         if (written_.columns.any() && width != stream->dimension()) {
-            auto names = coordinate_names(stream->dimension());
-            for (const auto& extra : written_.columns.names()) names.push_back(extra);
-            stream = open_original(original_, names, run_);
+            stream = open_original(original_, column_names(stream->dimension()), run_);
         }
         // Raw numbers do not tell their sets.
         const bool raw = original_.format != nullptr && original_.format->name == "bin";
@@ -393,6 +275,13 @@ class Reproducer {
             verdict.sentence = wrong;
         }
         return verdict;
+    }
+
+    /// Those of coordinates, and what stands behind them.
+    [[nodiscard]] std::vector<std::string> column_names(std::size_t dimension) const {
+        auto names = coordinate_names(dimension);
+        for (const auto& extra : written_.columns.names()) names.push_back(extra);
+        return names;
     }
 
     /// Finds out which columns stand behind the coordinates; numbers of a point with them.
@@ -459,8 +348,7 @@ class Reproducer {
                 fmt::format("{}{}", size_of(found, width), remarks_on(found, written_));
         if (!found.difference) return verdict;
         const Difference& at = *found.difference;
-        auto names = coordinate_names(width - written_.columns.names().size());
-        for (const auto& extra : written_.columns.names()) names.push_back(extra);
+        const auto names = column_names(width - written_.columns.names().size());
         const bool several = recipe_.job.sets > 1 || at.set > 0;
         verdict.sentence =
             fmt::format("{}point {}, {}: the file has {}; made again it is {}",
@@ -583,7 +471,7 @@ int remake_plotted(const Original& original, Reproducer& reproducer, const Argum
 
 }  // namespace
 
-int reproduce(const Arguments& arguments, const std::vector<Kind>& kinds, Session& session) {
+int reproduce(const Arguments& arguments, Session& session) {
     if (arguments.inputs.size() != 1)
         fail(ErrorKind::usage, "reproduce takes one FILE; {} are given", arguments.inputs.size());
     const Original original = read_original(arguments.inputs[0], session.run());
@@ -592,7 +480,7 @@ int reproduce(const Arguments& arguments, const std::vector<Kind>& kinds, Sessio
     if (!changed.empty()) return say(original, {}, changed, arguments);
     std::optional<Reproducer> reproducer;
     const Verdict verdict = reading_provenance(original, [&] {
-        reproducer.emplace(original, recipe_of(original, kinds, session), session);
+        reproducer.emplace(original, recipe_of(original, session), session);
         return reproducer->go();
     });
     if (!original.plotted.empty()) return remake_plotted(original, *reproducer, arguments);

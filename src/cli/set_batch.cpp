@@ -23,33 +23,28 @@ struct Outcome {
     std::vector<std::string> warnings;
 };
 
-Outcome outcome_of(const FoundSet& set, const SetBatch::Measure& measure, RunContext run) {
-    Outcome outcome;
-    run.warn = [&outcome](const std::string& sentence) { outcome.warnings.push_back(sentence); };
-    try {
-        outcome.measurement = measure(set, run);
-    } catch (const Error& e) {
-        outcome.error = std::current_exception();
-        outcome.over_limit = e.kind() == ErrorKind::limit;
-    } catch (...) {
-        outcome.error = std::current_exception();
-    }
-    return outcome;
-}
-
 /// Measures sets side by side, a thread each; those that a stop came before have no outcome.
 std::vector<Outcome> side_by_side(std::span<const FoundSet> sets, const SetBatch::Measure& measure,
                                   const RunContext& run) {
     std::vector<Outcome> outcomes(sets.size());
-    RunContext each = run;
-    each.threads = 1;
-    each.progress = {};
-    each.max_memory = run.max_memory / run.thread_count();
     RunContext all = run;
     all.stop = {};  // a set that has begun may come to a result nevertheless
     for_each_block(all, sets.size(), 1, [&](const Block& block) {
-        if (!run.stop.stop_requested())
-            outcomes[block.index] = outcome_of(sets[block.index], measure, each);
+        if (run.stop.stop_requested()) return;
+        Outcome& outcome = outcomes[block.index];
+        RunContext one = run;
+        one.threads = 1;
+        one.progress = {};
+        one.max_memory = run.max_memory / run.thread_count();
+        one.warn = [&outcome](const std::string& text) { outcome.warnings.push_back(text); };
+        try {
+            outcome.measurement = measure(sets[block.index], one);
+        } catch (const Error& e) {
+            outcome.error = std::current_exception();
+            outcome.over_limit = e.kind() == ErrorKind::limit;
+        } catch (...) {
+            outcome.error = std::current_exception();
+        }
     });
     return outcomes;
 }

@@ -118,29 +118,24 @@ SummaryOptions summary_options(const Arguments& arguments, std::uint64_t seed) {
 /// ".csv" of study.csv, nothing of files without one, and of devices.
 std::string extension_of(const std::string& path) {
     if (path == "-" || path.starts_with("/dev/")) return "";
-    const auto name = path.substr(path.rfind('/') + 1);
-    const auto dot = name.rfind('.');
-    return dot == std::string::npos || dot == 0 ? "" : name.substr(dot);
+    return std::filesystem::path(path).extension().string();
 }
 
 StudyTable::Style table_style(const Arguments& arguments, const std::string& path) {
-    const auto format = arguments.get("format");
-    const bool lines = path.ends_with(".jsonl") || path.ends_with(".ndjson");
     const std::string extension = extension_of(path);
+    const bool lines = extension == ".jsonl" || extension == ".ndjson";
+    const auto format = arguments.get("format");
     if (!format && !lines && !extension.empty() && extension != ".csv")
         fail_with_hint(ErrorKind::usage, "--format csv or jsonl says what it is to hold",
                        "--output: a study's table is .csv or .jsonl; '{}' is neither", path);
-    if (format) return *format == "jsonl" ? StudyTable::Style::jsonl : StudyTable::Style::csv;
-    return lines ? StudyTable::Style::jsonl : StudyTable::Style::csv;
+    return (format ? *format == "jsonl" : lines) ? StudyTable::Style::jsonl
+                                                 : StudyTable::Style::csv;
 }
 
 /// study.csv -> study.summary.csv
 std::string beside(const std::string& path, const std::string& what) {
-    const auto slash = path.rfind('/');
-    const auto dot = path.rfind('.');
-    const bool extension =
-        dot != std::string::npos && (slash == std::string::npos || dot > slash + 1);
-    return extension ? path.substr(0, dot) + "." + what + path.substr(dot) : path + "." + what;
+    const std::string extension = std::filesystem::path(path).extension().string();
+    return path.substr(0, path.size() - extension.size()) + "." + what + extension;
 }
 
 std::string long_time(double seconds) {

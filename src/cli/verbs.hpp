@@ -24,7 +24,7 @@ int plot(const Arguments& arguments, Session& session);
 int report(const Arguments& arguments, Session& session);
 int study(const Arguments& arguments, Session& session);
 int list(const Arguments& arguments, const std::vector<Kind>& kinds);
-int reproduce(const Arguments& arguments, const std::vector<Kind>& kinds, Session& session);
+int reproduce(const Arguments& arguments, Session& session);
 int help(const Arguments& arguments, const std::vector<Kind>& kinds);
 int completions(const Arguments& arguments);
 

@@ -98,25 +98,16 @@ std::string figure(const std::string& kind, const std::string& body, const std::
                        body, caption);
 }
 
-std::string plane_figure(const std::string& drawing, const PointSet& points, const Set& set) {
+/// A drawing of the points with the worst boxes and their legend.
+std::string boxes_figure(const char* kind, const std::string& drawing, const Set& set,
+                         std::string caption, bool projections) {
     const auto boxes = worst_boxes(set);
-    std::string caption = "Points";
-    if (points.count() > most_dots) caption += ", as pixels";
-    if (!boxes.empty()) caption += ", with the worst boxes";
-    return figure("picture", drawing + box_legend(boxes, false), caption + ".");
-}
-
-std::string pairs_figure(const std::string& drawing, const PointSet& points, const Set& set) {
-    const auto boxes = worst_boxes(set);
-    const std::size_t d = points.dimension();
-    std::string caption = d > most_axes
-                              ? fmt::format("Pairs of the first {} of {} axes", most_axes, d)
-                              : std::string("Projections on every pair of axes");
     if (!boxes.empty())
-        caption +=
-            ". A worst box is drawn as its projection: a point is in the box only if it is in all "
-            "of its projections";
-    return figure(d == 3 ? "picture" : "wide", drawing + box_legend(boxes, true), caption + ".");
+        caption += projections
+                       ? ". A worst box is drawn as its projection: a point is in the box only if "
+                         "it is in all of its projections"
+                       : ", with the worst boxes";
+    return figure(kind, drawing + box_legend(boxes, projections), caption + ".");
 }
 
 /// Side of the blocks, odd, of which no more than `most` stand side by side.
@@ -248,12 +239,17 @@ std::vector<std::string> point_figures(const PointSet& points, const Set& set, s
     const auto drawing = [&](const char* where, const auto& draw) {
         return figure_of(set, points, number, where, draw);
     };
-    if (points.dimension() == 1)
-        return {figure("wide", drawing("on a line", draw_points), "Points on the line.")};
-    if (points.dimension() == 2)
-        return {plane_figure(drawing("in the plane", draw_points), points, set)};
-    const std::string pairs = pairs_figure(drawing("by pairs of axes", draw_pairs), points, set);
-    if (points.dimension() > 3) return {pairs};
+    const std::size_t d = points.dimension();
+    if (d == 1) return {figure("wide", drawing("on a line", draw_points), "Points on the line.")};
+    if (d == 2)
+        return {boxes_figure("picture", drawing("in the plane", draw_points), set,
+                             points.count() > most_dots ? "Points, as pixels" : "Points", false)};
+    const std::string pairs =
+        boxes_figure(d == 3 ? "picture" : "wide", drawing("by pairs of axes", draw_pairs), set,
+                     d > most_axes ? fmt::format("Pairs of the first {} of {} axes", most_axes, d)
+                                   : "Projections on every pair of axes",
+                     true);
+    if (d > 3) return {pairs};
     return {figure("picture", drawing("in space", draw_points),
                    "Points in space, seen from a fixed place."),
             pairs};

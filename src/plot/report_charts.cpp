@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "plot/drawing/ticks.hpp"
+#include "study/statistics.hpp"
 
 namespace stipple::plot {
 namespace {
@@ -109,13 +110,15 @@ bool finite_in(const std::vector<Series>& all, double& top) {
 
 /// The band of white noise, where one holds for all measurements.
 std::vector<Background> noise_band(Measurements ms) {
-    const auto frequency = curve_at(ms[0].results, "radial.frequency");
     const auto cells = curve_at(ms[0].results, "radial.cells");
     const bool same = std::ranges::all_of(ms, [&](const Measurement& m) {
         return m.sets == ms[0].sets && curve_at(m.results, "radial.cells") == cells;
     });
-    if (!same || !frequency || !cells) return {};
-    Background band{.name = "white noise, 95 %", .x = *frequency, .low = {}, .high = {}};
+    if (!same || !cells) return {};
+    Background band{.name = "white noise, 95 %",
+                    .x = *curve_at(ms[0].results, "radial.frequency"),
+                    .low = {},
+                    .high = {}};
     for (const double ring : *cells) {
         const auto [low, high] = white_noise_band(ring, static_cast<double>(ms[0].sets));
         band.low.push_back(low);
@@ -176,71 +179,14 @@ std::string option_of(const Measurement& m, std::string_view name) {
     return at == m.options.end() ? "" : at->second;
 }
 
-Chart spectrum_chart(Measurements ms) {
-    Chart chart = titled("Power spectrum", ms);
-    chart.subtitle = noted(chart.subtitle, summary_of_spectrum(ms));
+/// What a spectrum was made with, and numbers of it.
+std::string notes_of_spectrum(Measurements ms) {
+    std::string notes = summary_of_spectrum(ms);
     if (const std::string window = option_of(ms[0], "window"); !window.empty() && window != "none")
-        chart.subtitle = noted(chart.subtitle, "window " + window);
+        notes = noted(notes, "window " + window);
     if (const std::string weights = option_of(ms[0], "weights"); !weights.empty())
-        chart.subtitle = noted(chart.subtitle, "weights " + weights);
-    const bool normalized = option_of(ms[0], "normalize-frequency") == "true";
-    const std::string x_name = normalized ? "frequency / n^(1/d)" : "frequency";
-    ChartPanel power{.x_name = x_name,
-                     .y_name = "radial power",
-                     .series = series_of(ms, "radial.", "frequency", "power"),
-                     .backgrounds = noise_band(ms),
-                     .guides = {{.name = {}, .x = {}, .y = {1}}},
-                     .from_zero = true,
-                     .reach_y = 1.4,
-                     .least_y = log_floor,
-                     .share = 1.5};
-    double top = 0;
-    if (power.series.empty() || !finite_in(power.series, top))
-        fail(ErrorKind::input, "the report of periodogram has no curve radial.power");
-    power.log_y = top > log_above;
-    ChartPanel anisotropy{.x_name = x_name,
-                          .y_name = "anisotropy (dB)",
-                          .series = series_of(ms, "radial.", "frequency", "anisotropy_db")};
-    make_gaps(anisotropy.series);
-    if (const Guide guide = noise_anisotropy(ms); !guide.y.empty())
-        anisotropy.guides.push_back(guide);
-    // A ring of one dimension is two opposite frequencies, which have one power.
-    const bool line = std::ranges::all_of(ms, [](const auto& m) { return m.dimension == 1; });
-    const bool drawn = !line && finite_in(anisotropy.series, top);
-    chart.panels.push_back(std::move(power));
-    if (drawn) chart.panels.push_back(std::move(anisotropy));
-    return chart;
-}
-
-Chart pair_correlation_chart(Measurements ms) {
-    Chart chart = titled("Pair correlation", ms);
-    const Measurement& first = ms[0];
-    const bool normalized = option_of(first, "normalize-distance") == "true";
-    ChartPanel panel{.x_name = normalized ? "distance / mean distance" : "distance",
-                     .y_name = "pair correlation g",
-                     .series = series_of(ms, "", "distance", "density"),
-                     .guides = {{.name = {}, .x = {}, .y = {1}}},
-                     .from_zero = true,
-                     .reach_y = 1.4};
-    if (panel.series.empty())
-        fail(ErrorKind::input, "the report of pair-correlation has no curve density");
-    const auto distance = curve_at(first.results, "distance");
-    const auto deviation = curve_at(first.results, "deviation");
-    if (ms.size() == 1 && deviation && deviation->size() == distance->size()) {
-        // Two standard deviations of a mean of independent sets.
-        const double width = 2 / std::sqrt(static_cast<double>(first.sets));
-        Background band{
-            .name = "uniform points, ± 2 deviations", .x = *distance, .low = {}, .high = {}};
-        for (const double s : *deviation) {
-            band.low.push_back(std::max(0.0, 1 - width * s));
-            band.high.push_back(1 + width * s);
-        }
-        panel.backgrounds.push_back(std::move(band));
-    } else {
-        panel.guides[0].name = "uniform points";
-    }
-    chart.panels.push_back(std::move(panel));
-    return chart;
+        notes = noted(notes, "weights " + weights);
+    return notes;
 }
 
 // ---------------------------------------------------------------- any analyzer's lists
@@ -383,26 +329,69 @@ void make_bars(ChartPanel& panel) {
 }
 
 /// "radius", and in what where that is no length of the points.
-std::string abscissa_of(const std::string& analyzer, const std::string& x) {
-    const bool by_mean = (analyzer == "hyperuniformity" && x == "radius") ||
-                         (analyzer == "differential" && x == "distance");
+std::string abscissa_of(const Measurement& m, const std::string& x) {
+    if (x == "count" || x == "n") return "points n";
+    if (x == "frequency" && option_of(m, "normalize-frequency") == "true")
+        return "frequency / n^(1/d)";
+    const bool by_mean = (m.analyzer == "hyperuniformity" && x == "radius") ||
+                         (m.analyzer == "differential" && x == "distance") ||
+                         (x == "distance" && option_of(m, "normalize-distance") == "true");
     return words_of(x) + (by_mean ? " / mean distance" : "");
 }
 
+/// Radial power, with what white noise has in rings of so many cells.
+void make_power(ChartPanel& panel, Measurements ms) {
+    panel.y_name = "radial power";
+    panel.backgrounds = noise_band(ms);
+    panel.guides = {{.name = {}, .x = {}, .y = {1}}};
+    panel.reach_y = 1.4;
+    panel.least_y = log_floor;
+    panel.share = 1.5;
+    double top = 0;
+    if (!finite_in(panel.series, top)) panel.series.clear();
+    panel.log_y = top > log_above;
+}
+
+/// Pair correlation, for one measurement with the band of two standard deviations of a mean of
+/// independent sets.
+void make_pair_correlation(ChartPanel& panel, Measurements ms) {
+    panel.y_name = "pair correlation g";
+    panel.guides = {{.name = ms.size() > 1 ? "uniform points" : "", .x = {}, .y = {1}}};
+    panel.reach_y = 1.4;
+    if (ms.size() > 1) return;
+    const double width = 2 / std::sqrt(static_cast<double>(ms[0].sets));
+    Background band{.name = "uniform points, ± 2 deviations",
+                    .x = *curve_at(ms[0].results, "distance"),
+                    .low = {},
+                    .high = {}};
+    const auto deviation = curve_at(ms[0].results, "deviation");
+    for (const double s : *deviation) {
+        band.low.push_back(std::max(0.0, 1 - width * s));
+        band.high.push_back(1 + width * s);
+    }
+    panel.backgrounds.push_back(std::move(band));
+}
+
 ChartPanel curve_panel(Measurements ms, const CurveGroup& group, const std::string& y) {
-    ChartPanel panel{.x_name = abscissa_of(ms[0].analyzer, group.x),
+    ChartPanel panel{.x_name = abscissa_of(ms[0], group.x),
                      .y_name = y == "value" ? words_of(ms[0].analyzer) : words_of(y),
                      .series = series_of(ms, group.prefix, group.x, y),
                      .guides = references(ms, group, y)};
+    std::erase_if(panel.guides, [](const Guide& guide) { return guide.y.empty(); });
     if (y == "anisotropy_db") {
         panel.y_name = "anisotropy (dB)";
         make_gaps(panel.series);
+        double top = 0;
+        if (!finite_in(panel.series, top)) panel.series.clear();
     }
     panel.from_zero = y == "density" || y == "power" || y == "dispersion";
     if (panel.from_zero) panel.reach_y = 1.2;
-    std::erase_if(panel.guides, [](const Guide& guide) { return guide.y.empty(); });
+    const bool power = group.prefix == "radial." && has(group, "power") && has(group, "cells");
+    if (power && y == "power") make_power(panel, ms);
+    const bool pairs = group.prefix.empty() && y == "density" && has(group, "deviation");
+    if (pairs) make_pair_correlation(panel, ms);
+    if (power || pairs) return panel;
     const bool counts = group.x == "count" || group.x == "n";
-    if (counts) panel.x_name = "points n";
     panel.log_x = counts || y == "variance" || y == "dispersion";
     const bool steep = counts || y == "variance" || wants_log(panel.series);
     panel.log_y = panel.log_x && steep && positive(panel.series);
@@ -412,8 +401,11 @@ ChartPanel curve_panel(Measurements ms, const CurveGroup& group, const std::stri
     return panel;
 }
 
-bool wanted(const CurveGroup& group, const std::string& y, const std::string& key) {
-    if (key.empty()) return !accompanies(group, y);
+bool wanted(Measurements ms, const CurveGroup& group, const std::string& y,
+            const std::string& key) {
+    // A ring of one dimension is two opposite frequencies, which have one power.
+    const bool line = std::ranges::all_of(ms, [](const auto& m) { return m.dimension == 1; });
+    if (key.empty()) return !accompanies(group, y) && !(line && y == "anisotropy_db");
     return key == group.prefix + y || key + "." == group.prefix;
 }
 
@@ -427,12 +419,14 @@ std::optional<Chart> curves_chart(Measurements ms, const std::string& key) {
     constexpr std::size_t most_panels = 4;
     std::vector<CurveGroup> groups;
     collect_groups(ms[0].results, "", groups);
-    Chart chart = titled(sentence_case(words_of(ms[0].analyzer)), ms);
+    const bool spectrum = curve_at(ms[0].results, "radial.power").has_value();
+    Chart chart = titled(spectrum ? "Power spectrum" : sentence_case(words_of(ms[0].analyzer)), ms);
+    if (spectrum) chart.subtitle = noted(chart.subtitle, notes_of_spectrum(ms));
     std::string x;
     for (const CurveGroup& group : groups)
         for (const std::string& y : group.ys) {
             const bool fits = x.empty() || x == group.prefix + group.x;
-            if (!wanted(group, y, key) || !fits || chart.panels.size() == most_panels) continue;
+            if (!wanted(ms, group, y, key) || !fits || chart.panels.size() == most_panels) continue;
             ChartPanel panel = curve_panel(ms, group, y);
             if (panel.series.empty() && panel.bars.empty()) continue;
             x = group.prefix + group.x;
@@ -463,33 +457,20 @@ std::string family_of(const std::string& source) {
     return last == std::string::npos ? "" : name.substr(0, last + 1);
 }
 
-/// Mean and standard error of what sets of one size have; of errors, their root mean square.
-struct Gathered {
-    std::vector<double> values;
-    bool errors;
-
-    [[nodiscard]] double mean() const {
-        double sum = 0;
-        for (const double v : values) sum += errors ? v * v : v;
-        sum /= static_cast<double>(values.size());
-        return errors ? std::sqrt(sum) : sum;
-    }
-    [[nodiscard]] double standard_error() const {
-        if (errors || values.size() < 2) return 0;
-        const auto n = static_cast<double>(values.size());
-        double sum = 0;
-        for (const double v : values) sum += (v - mean()) * (v - mean());
-        return std::sqrt(sum / (n * (n - 1)));
-    }
-};
-
-Series series_over_count(const std::string& name, const std::map<std::uint64_t, Gathered>& at) {
+/// Means, with their standard errors, of what sets of one size have; of errors, their root mean square.
+Series series_over_count(const std::string& name, bool errors,
+                         const std::map<std::uint64_t, std::vector<double>>& at) {
     Series series{.name = name, .x = {}, .y = {}, .marks = true};
-    for (const auto& [n, gathered] : at) {
+    for (auto [n, values] : at) {
+        if (errors)
+            for (double& v : values) v *= v;
+        const SampleSummary sample = summarize(values);
+        const double mean = errors ? std::sqrt(sample.mean) : sample.mean;
+        const double spread = errors || sample.count < 2 ? 0 : sample.standard_error;
         series.x.push_back(static_cast<double>(n));
-        series.y.push_back(gathered.mean());
-        series.low.push_back(gathered.mean() - gathered.standard_error());
-        series.high.push_back(gathered.mean() + gathered.standard_error());
+        series.y.push_back(mean);
+        series.low.push_back(mean - spread);
+        series.high.push_back(mean + spread);
     }
     if (series.low == series.high) series.low = series.high = {};
     return series;
@@ -498,21 +479,20 @@ Series series_over_count(const std::string& name, const std::map<std::uint64_t, 
 Chart number_over_count(Measurements ms, const std::string& key) {
     const bool errors = key == "error" || key.ends_with(".error");
     std::vector<std::string> families;
-    std::map<std::string, std::map<std::uint64_t, Gathered>> found;
+    std::map<std::string, std::map<std::uint64_t, std::vector<double>>> found;
     for (const Measurement& m : ms) {
         const auto value = number_at(m.results, key);
         if (!value || !std::isfinite(*value)) continue;
         const std::string family = family_of(m.source);
         if (!found.contains(family)) families.push_back(family);
-        auto& gathered = found[family].try_emplace(m.count, Gathered{{}, errors}).first->second;
-        gathered.values.push_back(*value);
+        found[family][m.count].push_back(*value);
     }
     ChartPanel panel{.x_name = "points n",
                      .y_name = key == "value" ? words_of(ms[0].analyzer) : words_of(key),
                      .log_x = true};
     if (errors) panel.y_name += ", root mean square";
     for (const std::string& family : families)
-        panel.series.push_back(series_over_count(family, found[family]));
+        panel.series.push_back(series_over_count(family, errors, found[family]));
     panel.log_y = positive(panel.series);
     if (panel.log_y) panel.guides = slopes(panel.series);
     Chart chart = titled(sentence_case(words_of(ms[0].analyzer)), ms);
@@ -575,20 +555,6 @@ std::vector<std::string> drawable(Measurements ms) {
         "a single report of {} has nothing to draw but numbers", ms[0].analyzer);
 }
 
-Chart any_chart(Measurements ms, const std::string& key) {
-    if (auto chart = curves_chart(ms, key)) return *std::move(chart);
-    if (ms.size() == 1) refuse(ms, key);
-    const std::string number = key.empty() ? main_number(ms[0].results) : key;
-    const auto has = [&](const Measurement& m) {
-        const auto value = number_at(m.results, number);
-        return value && std::isfinite(*value);
-    };
-    if (std::ranges::count_if(ms, has) < 2) refuse(ms, key);
-    const bool same_count =
-        std::ranges::all_of(ms, [&](const Measurement& m) { return m.count == ms[0].count; });
-    return same_count ? number_histogram(ms, number) : number_over_count(ms, number);
-}
-
 }  // namespace
 
 std::optional<double> number_at(const Report& report, std::string_view key) {
@@ -634,9 +600,17 @@ Chart chart_of(Measurements ms, const std::string& key) {
         if (m.analyzer != ms[0].analyzer)
             fail(ErrorKind::input, "reports of {} and of {} are not drawn in one picture",
                  ms[0].analyzer, m.analyzer);
-    if (key.empty() && ms[0].analyzer == "periodogram") return spectrum_chart(ms);
-    if (key.empty() && ms[0].analyzer == "pair-correlation") return pair_correlation_chart(ms);
-    return any_chart(ms, key);
+    if (auto chart = curves_chart(ms, key)) return *std::move(chart);
+    if (ms.size() == 1) refuse(ms, key);
+    const std::string number = key.empty() ? main_number(ms[0].results) : key;
+    const auto has_number = [&](const Measurement& m) {
+        const auto value = number_at(m.results, number);
+        return value && std::isfinite(*value);
+    };
+    if (std::ranges::count_if(ms, has_number) < 2) refuse(ms, key);
+    const bool same_count =
+        std::ranges::all_of(ms, [&](const Measurement& m) { return m.count == ms[0].count; });
+    return same_count ? number_histogram(ms, number) : number_over_count(ms, number);
 }
 
 }  // namespace stipple::plot

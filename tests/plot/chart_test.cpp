@@ -356,7 +356,7 @@ TEST(ReportCharts, SaysWhatCanBeDrawnWhereNothingCan) {
     EXPECT_THAT(refusal({number(0.1, 64), spectrum("a", {1, 1, 1})}),
                 HasSubstr("reports of star-discrepancy and of periodogram"));
     EXPECT_THAT(refusal({number(0.1, 64), number(0.2, 64)}, "volume"), HasSubstr("no 'volume'"));
-    EXPECT_THAT(refusal({measurement("periodogram", {}, "a")}), HasSubstr("no curve"));
+    EXPECT_THAT(refusal({measurement("periodogram", {}, "a")}), HasSubstr("nothing to draw"));
 }
 
 TEST(Chart, GapsSplitACurve) {

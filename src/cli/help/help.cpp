@@ -159,10 +159,7 @@ const Topic* find_topic(const std::string& name) {
     for (const Topic& topic : topics()) known.push_back(topic.name);
     for (const VerbInfo& info : verbs()) known.push_back(info.name);
     for (const Kind& kind : kinds)
-        for (const UnitInfo& unit : kind.units) {
-            known.push_back(unit.name);
-            known.insert(known.end(), unit.aliases.begin(), unit.aliases.end());
-        }
+        for (std::string& unit : names_of(kind)) known.push_back(std::move(unit));
     fail_with_hint(
         ErrorKind::usage,
         nearest_word(name, known) ? suggest(name, known) : "'stipple help' lists topics and verbs",

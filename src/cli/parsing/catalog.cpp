@@ -174,19 +174,24 @@ const UnitInfo* find_unit(const Kind& kind, std::string_view name) {
     return nullptr;
 }
 
+std::vector<std::string> names_of(const Kind& kind) {
+    std::vector<std::string> names;
+    for (const UnitInfo& unit : kind.units) {
+        names.push_back(unit.name);
+        names.insert(names.end(), unit.aliases.begin(), unit.aliases.end());
+    }
+    return names;
+}
+
 const UnitInfo& unit_of(const std::vector<Kind>& kinds, std::string_view verb,
                         std::string_view name) {
     const auto kind = units_for(kinds, verb);
     for (const Kind& each : kinds)
         if (const UnitInfo* unit = each.verb == verb ? find_unit(each, name) : nullptr)
             return *unit;
-    std::vector<std::string> names;
-    for (const auto& known : kind->units) {
-        names.push_back(known.name);
-        names.insert(names.end(), known.aliases.begin(), known.aliases.end());
-    }
     const std::string singular = kind->name.substr(0, kind->name.size() - 1);
-    fail_with_hint(ErrorKind::usage, suggest(name, names), "unknown {} '{}'", singular, name);
+    fail_with_hint(ErrorKind::usage, suggest(name, names_of(*kind)), "unknown {} '{}'", singular,
+                   name);
 }
 
 std::string option_usage(const Option& option) {

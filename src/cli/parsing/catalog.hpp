@@ -44,6 +44,9 @@ std::optional<Kind> units_for(const std::vector<Kind>& kinds, std::string_view v
 /// The unit of that name or alias; nullptr if there is none.
 const UnitInfo* find_unit(const Kind& kind, std::string_view name);
 
+/// Names and aliases of all its units.
+std::vector<std::string> names_of(const Kind& kind);
+
 /// The unit of a verb. @throws Error(usage)
 const UnitInfo& unit_of(const std::vector<Kind>& kinds, std::string_view verb,
                         std::string_view name);

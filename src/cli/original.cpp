@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "cli/original.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/error.hpp"
+#include "core/json.hpp"
+#include "io/carried_meta.hpp"
+#include "io/files.hpp"
+#include "io/provenance.hpp"
+#include "io/source_text.hpp"
+#include "media/png_picture.hpp"
+#include "study/study_table.hpp"
+
+namespace stipple::cli {
+namespace {
+
+[[noreturn]] void refuse_without_provenance(const Original& original) {
+    fail_with_hint(ErrorKind::input,
+                   "json and jsonl always hold it; generate --meta puts it into other formats",
+                   "{}: it does not say how its points were made", original.name);
+}
+
+/// A row of a study, its sums, or what compares them.
+bool is_study(std::string_view front) {
+    using Style = StudyTable::Style;
+    const auto line = front.substr(0, front.find('\n'));
+    for (const Style style : {Style::csv, Style::jsonl})
+        if (StudyTable(style, true).is_head(line)) return true;
+    return line.starts_with("table,generator,") || line.starts_with("table,dimension,");
+}
+
+/// Refuses files that stipple writes about points, and that hold none, saying what can be made again
+/// from them. @param front the first bytes of the file, some hundred at least where it has them
+void refuse_without_points(const std::string& name, std::string_view front) {
+    const auto top = front.substr(0, 1000);
+    const auto has = [top](std::string_view words) {
+        return top.find(words) != std::string_view::npos;
+    };
+    const auto is = [&](const char* format) {
+        return (top.starts_with('[') || top.starts_with('{')) && has(fmt::format("\"{}\"", format));
+    };
+    const auto refuse = [&name](const char* what, std::string hint) {
+        fail_with_hint(ErrorKind::input, std::move(hint), "{}: {}", name, what);
+    };
+    if (is("stipple.report") || top.starts_with("analyzer,source,"))
+        refuse(
+            "it holds results of analyze, and names the points that they are of, but not how these "
+            "were made",
+            "reproduce takes files of points");
+    if (is("stipple.comparison") || has("name=\"generator\" content=\"stipple"))
+        refuse("a report about points, which it does not hold",
+               "it names the command that makes it again, and those that make its points");
+    if (is("stipple.study-journal"))
+        refuse("the journal of a study that is not finished, without points",
+               "the same 'stipple study' with --resume goes on");
+    if (is_study(front))
+        refuse("a table of a study, without points",
+               "'stipple generate' with a row's generator, its options, count, dimension, warps "
+               "and seed makes the points of that row again");
+    if (is("stipple.meta"))
+        refuse("it says how the points in the file beside it were made",
+               "reproduce takes the file of points");
+    if (has("<!DOCTYPE html") || has("<html")) refuse("an HTML page, which holds no points", {});
+}
+
+/// A pipe's bytes in a file of no name, which goes when it is closed.
+std::shared_ptr<std::FILE> spooled(const std::string& pipe, const RunContext& run) {
+    const io::Input input(pipe, run);
+    const auto close = [](std::FILE* open) {
+        if (open != nullptr) std::fclose(open);
+    };
+    std::shared_ptr<std::FILE> file(std::tmpfile(), close);
+    const auto bytes = input.bytes();
+    if (file == nullptr || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size() ||
+        std::fflush(file.get()) != 0)
+        fail(ErrorKind::io, "{}: no room for its bytes in the folder of temporary files",
+             io::source_name(pipe));
+    std::rewind(file.get());
+    return file;
+}
+
+/// A picture by `stipple plot`, with what it tells of the set that it shows. False: no such
+/// picture.
+bool take_plot(Original& original, std::string_view picture) {
+    const Json note = Json::parse(io::picture_note(picture).value_or(""), nullptr, false);
+    if (!note.is_object() || note.contains("format") || !note.contains("command")) return false;
+    original.plotted = note["command"].get<std::string>();
+    if (!note.contains("meta"))
+        fail(ErrorKind::input, "{}: a picture drawn by '{}', of no single set with provenance",
+             original.name, original.plotted);
+    original.meta = io::provenance_from(note["meta"]);
+    return true;
+}
+
+/// Sets what carries its provenance where no reader of points looks. False: not such a file.
+bool take_carried(Original& original, std::string_view front, const RunContext& run) {
+    std::optional<io::CarriedMeta> carried;
+    const std::string beside = io::meta_path(original.path);
+    const bool picture = front.starts_with(png_magic);
+    const bool svg = front.starts_with("<svg") || front.starts_with("<?xml");
+    original.drawn = front.starts_with("ply\n") || svg;
+    if (picture || original.drawn) {
+        const io::Input whole(original.path, run);
+        if (take_plot(original, whole.bytes())) return true;
+        carried = io::find_carried_meta(whole.bytes(), original.name);
+        if (!carried) refuse_without_provenance(original);
+    } else if (std::error_code none; std::filesystem::exists(beside, none)) {
+        carried = io::carried_meta(io::Input(beside, run).bytes(), beside);
+        original.format = &io::format_named(carried->of);
+        if (carried->width > 0) original.width = carried->width;
+        original.sets = carried->sets;
+    }
+    if (!carried) return false;
+    original.meta = carried->provenance;
+    if (picture) original.picture = carried->of;
+    if (original.drawn) original.format = &io::format_named(carried->of);
+    return true;
+}
+
+}  // namespace
+
+std::unique_ptr<io::PointStream> open_original(const Original& original,
+                                               const std::vector<std::string>& columns,
+                                               const RunContext& run) {
+    RunContext reading = run;
+    reading.threads = 1;
+    ReadOptions options{.source = original.name, .columns = columns};
+    options.single = original.meta.single;
+    if (original.width) options.dimension = original.width;
+    return io::open_points(original.path, options, reading, original.format);
+}
+
+Original read_original(const std::string& input, const RunContext& run) {
+    std::error_code ignored;
+    const bool pipe = input == "-" || (std::filesystem::exists(input, ignored) &&
+                                       !std::filesystem::is_regular_file(input, ignored) &&
+                                       !std::filesystem::is_directory(input, ignored));
+    Original original{.name = io::source_name(input), .path = input};
+    if (pipe) {
+        original.spool = spooled(input, run);
+        original.path = fmt::format("/dev/fd/{}", fileno(original.spool.get()));
+    }
+    const io::Feed feed(original.path, run);
+    refuse_without_points(original.name, feed.front());
+    const bool carried = take_carried(original, feed.front(), run);
+    if (!carried && io::format_of_extension(original.path) == &io::format_named("bin"))
+        refuse_without_provenance(original);  // it has no place for one
+    if (!carried) original.meta = open_original(original, {}, run)->provenance();
+    if (original.meta.generator.empty()) refuse_without_provenance(original);
+    return original;
+}
+
+}  // namespace stipple::cli
