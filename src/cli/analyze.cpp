@@ -103,7 +103,7 @@ std::vector<std::string> inputs_of(const Arguments& arguments) {
     return arguments.has("concat") ? std::vector{join(names, ", ")} : names;
 }
 
-/// The measurements of one call, and what is to be done with them.
+/// One call: its measurements, checks and outputs.
 class Analysis {
   public:
     Analysis(const Arguments& arguments, Session& session, Ranks& ranks)
@@ -259,8 +259,9 @@ class Analysis {
         for (std::uint64_t set = 0; set < sets && !interrupted(); ++set) {
             session_.run().tick(set, sets);
             if (analyzer_.accumulate && count)
-                keep(arrived({generated.domain(), count}, generated.dimension(),
-                             generated.stream(set, quiet), text, number_of(set, sets), quiet),
+                keep(measured_in_blocks({generated.domain(), count}, generated.dimension(),
+                                        generated.stream(set, quiet), text, number_of(set, sets),
+                                        quiet),
                      sets > 1);
             else
                 batch_.add({of_the_cube(generated.made(set, quiet), analyzer_), text, set, sets});
@@ -341,18 +342,19 @@ class Analysis {
         for (; stream->next_set(); ++sets)
             naming(input, [&] {
                 const NextRows read = [&](std::span<double> rows) { return stream->read(rows); };
-                keep(arrived(arrival_of(*stream, !strengths_.empty(), analyzer_, arguments_, run),
-                             d, within_bounds(read, width, d, 0, analyzer_, arguments_), input,
-                             sets, run),
+                keep(measured_in_blocks(
+                         arrival_of(*stream, !strengths_.empty(), analyzer_, arguments_, run), d,
+                         within_bounds(read, width, d, 0, analyzer_, arguments_), input, sets, run),
                      inputs_.size() > 1 || sets > 0);
             });
         if (sets == 1 && measurements_.size() == before + 1) measurements_.back().set.reset();
     }
 
     /// Measures a set that comes in blocks.
-    [[nodiscard]] Measurement arrived(const Arrival& arrival, std::size_t dimension,
-                                      const NextRows& next, const std::string& source,
-                                      std::optional<std::size_t> set, const RunContext& run) const {
+    [[nodiscard]] Measurement measured_in_blocks(const Arrival& arrival, std::size_t dimension,
+                                                 const NextRows& next, const std::string& source,
+                                                 std::optional<std::size_t> set,
+                                                 const RunContext& run) const {
         const auto start = Clock::now();
         Found found = stipple::analyze(analyzer_, arrival, dimension, next, options_, run);
         Measurement m = measurement(source, set, found.count, *arrival.domain);
@@ -478,16 +480,16 @@ class Analysis {
     }
 
     /// What averaged sets disagree on is not in their mean, and holds for none of it.
-    bool lost(const Check& check, const Report& results) const {
+    bool disagreed(const Check& check, const Report& results) const {
         return averaged_ && !results.find(check.key) && find_result(analyzer_, check.key);
     }
 
     bool holds(const Check& check, const Report& results) const {
-        return !lost(check, results) && check.holds(results);
+        return !disagreed(check, results) && check.holds(results);
     }
 
     std::string found(const Check& check, const Report& results) const {
-        return lost(check, results) ? "not the same for all sets" : check.found(results);
+        return disagreed(check, results) ? "not the same for all sets" : check.found(results);
     }
 
     /// Whether all checks and expectations hold; says which do not.

@@ -83,7 +83,7 @@ std::shared_ptr<std::FILE> spooled(const std::string& pipe, const RunContext& ru
     return file;
 }
 
-/// A picture by `stipple plot`, with what it tells of the set that it shows. False: no such
+/// A picture by `stipple plot`, with the provenance of its set. False: no such
 /// picture.
 bool take_plot(Original& original, std::string_view picture) {
     const Json note = Json::parse(io::picture_note(picture).value_or(""), nullptr, false);

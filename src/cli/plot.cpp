@@ -84,7 +84,7 @@ struct Loaded {
     std::string title;                  ///< of the points, by where they come from
 };
 
-/// One call: what was read, and what is drawn of it.
+/// One call: the sets or reports that were read, and their picture.
 class Plot {
   public:
     Plot(const Arguments& arguments, Session& session)
@@ -174,7 +174,7 @@ class Plot {
         reports_.empty() ? pick(sets_) : pick(reports_);
     }
 
-    // ---------------------------------------------------------------- what is drawn
+    // ---------------------------------------------------------------- pictures
 
     std::string picture_of_reports() {
         if (!chart_.empty())

@@ -25,8 +25,8 @@
 namespace stipple::cli {
 namespace {
 
-/// A set that waits to be measured.
-struct Waiting {
+/// A set that is not measured yet.
+struct PendingSet {
     PointSet points;
     page::Set set;
     page::Input input;
@@ -103,7 +103,7 @@ class Reporter {
         check_sets();
         name_sets();
         page::Page whole{.title = {}, .version = STIPPLE_VERSION, .command = command(), .sets = {}};
-        for (std::size_t i = 0; i < waiting_.size(); ++i) whole.sets.push_back(finished(i));
+        for (std::size_t i = 0; i < pending_.size(); ++i) whole.sets.push_back(finished(i));
         whole.title = title_of(whole.sets);
         const bool fine = judge(whole.sets);
         session_.run().check_stop();
@@ -112,7 +112,7 @@ class Reporter {
     }
 
   private:
-    // ---------------------------------------------------------------- what is reported on
+    // ---------------------------------------------------------------- sets
 
     /// A page must not overwrite the points that it is about.
     void keep_inputs() const {
@@ -136,7 +136,7 @@ class Reporter {
         for (std::size_t i = 0; i < sets.size(); ++i) {
             require_width(sets[i], input);
             take_domain(sets[i], arguments_);
-            Waiting next;
+            PendingSet next;
             next.set.source = input;
             next.set.provenance = sets[i].provenance;
             next.set.command = sets[i].provenance.command;
@@ -147,7 +147,7 @@ class Reporter {
                 next.input.remark = fmt::format("  # result {} of the array", i);
             }
             next.points = std::move(sets[i]);
-            waiting_.push_back(std::move(next));
+            pending_.push_back(std::move(next));
         }
     }
 
@@ -160,7 +160,7 @@ class Reporter {
     }
 
     void add_generated(const std::string& text) {
-        Waiting next;
+        PendingSet next;
         next.points =
             generated_sets(text, seed_, arguments_, session_.run()).made(0, session_.run());
         next.set.source = text;
@@ -168,7 +168,7 @@ class Reporter {
         next.set.provenance = next.points.provenance;
         next.set.provenance.command = next.set.command;
         next.input.words = fmt::format("--generate {}{}", shell_word(text), of_generated());
-        waiting_.push_back(std::move(next));
+        pending_.push_back(std::move(next));
     }
 
     /// The options that all generated sets share, as they are typed.
@@ -182,12 +182,12 @@ class Reporter {
 
     /// @throws Error for sets that do not go on one page
     void check_sets() const {
-        if (waiting_.size() > page::most_sets)
+        if (pending_.size() > page::most_sets)
             fail_with_hint(ErrorKind::usage, "'stipple study' compares more, as tables",
                            "a report compares at most {} sets; these are {}", page::most_sets,
-                           waiting_.size());
-        const Waiting& first = waiting_.front();
-        for (const auto& [points, set, input] : waiting_)
+                           pending_.size());
+        const PendingSet& first = pending_.front();
+        for (const auto& [points, set, input] : pending_)
             if (points.dimension() != first.points.dimension())
                 fail_with_hint(ErrorKind::input, "make a report for each dimension",
                                "{}: points of {} coordinates are not compared with those of {}, "
@@ -196,13 +196,13 @@ class Reporter {
                                io::source_name(first.set.source), first.points.dimension());
     }
 
-    /// Short names that tell the sets apart.
+    /// Short, distinct names.
     void name_sets() {
         std::map<std::string, int> seen;
-        for (auto& [points, set, input] : waiting_) {
+        for (auto& [points, set, input] : pending_) {
             const std::string last = file_name(set.source);
             const bool one_file =
-                std::ranges::all_of(waiting_, [&, &source = set.source](const Waiting& other) {
+                std::ranges::all_of(pending_, [&, &source = set.source](const PendingSet& other) {
                     return file_name(other.set.source) != last || other.set.source == source;
                 });
             set.name = one_file && input.words.find("--generate") != 0 ? last : set.source;
@@ -221,13 +221,13 @@ class Reporter {
         return join(names, " · ");
     }
 
-    // ---------------------------------------------------------------- what is said of them
+    // ---------------------------------------------------------------- measures and conditions
 
     /// Measures a set and draws it; its points are not needed any more then.
     page::Set finished(std::size_t i) {
-        auto [points, set, input] = std::move(waiting_[i]);
-        waiting_[i].points = {};
-        return page::finished_set(std::move(set), points, input, limits_, {i, waiting_.size()},
+        auto [points, set, input] = std::move(pending_[i]);
+        pending_[i].points = {};
+        return page::finished_set(std::move(set), points, input, limits_, {i, pending_.size()},
                                   !json_, session_.run());
     }
 
@@ -289,7 +289,7 @@ class Reporter {
     page::Limits limits_;
     std::vector<Check> conditions_;
     std::uint64_t seed_ = 1;
-    std::vector<Waiting> waiting_;
+    std::vector<PendingSet> pending_;
 };
 
 }  // namespace

@@ -11,7 +11,7 @@
 
 namespace stipple::cli {
 
-/// A bar on stderr: "[####      ]  41 %  3 s left", or what is to stand in place of the time.
+/// A bar on stderr: "[####      ]  41 %  3 s left", or a note in place of the time.
 class ProgressBar {
   public:
     enum class Mode { automatic, always, never };

@@ -262,14 +262,14 @@ class Study {
         const StudyRow row = row_of(sweep_, sweep_.unit(0));
         const double bytes = static_cast<double>(table_.line(row).size() + 40);
         const auto units = static_cast<double>(sweep_.units());
-        const unsigned hands =
+        const unsigned cores =
             threads_of(ranks_, session_.run()) * static_cast<unsigned>(ranks_.size());
         const SweepRequest& r = sweep_.request();
         std::string takes = "about " + format_bytes(units * bytes);
         constexpr std::uint64_t most_cells = 1'000'000;  // that are looked at in a moment
         if (sweep_.cells() <= most_cells)
-            takes += fmt::format(" and {} on {} {}", long_time(WorkLeft(sweep_).seconds() / hands),
-                                 hands, hands == 1 ? "core" : "cores");
+            takes += fmt::format(" and {} on {} {}", long_time(WorkLeft(sweep_).seconds() / cores),
+                                 cores, cores == 1 ? "core" : "cores");
         fail_with_hint(
             ErrorKind::limit, "--yes starts it all the same",
             "the study has {} rows or more ({} generators x {} dimensions x {} counts x {} seeds x "

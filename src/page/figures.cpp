@@ -258,7 +258,7 @@ std::vector<std::string> point_figures(const PointSet& points, const Set& set, s
 Grid in_blocks(const Grid& grid, std::size_t most) {
     const std::size_t block = block_side(grid.rows, most);
     if (block == 1) return grid;
-    // The centre stays the centre of its block; what does not fill a block at the rim is left out.
+    // The centre stays the centre of its block; incomplete blocks at the edge are left out.
     const std::size_t half = (grid.rows / 2 - block / 2) / block;
     const std::size_t first = grid.rows / 2 - block / 2 - half * block;
     const std::size_t side = 2 * half + 1;

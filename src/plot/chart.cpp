@@ -105,7 +105,7 @@ Axis y_axis(const ChartPanel& panel, const PictureStyle& style) {
     // What differs by rounding only is one value.
     if (span.high - span.low <= 1e-7 * std::abs(span.high)) span.low = span.high;
     Axis axis{.low = span.low, .high = span.high, .log = span.log, .name = panel.y_name};
-    axis.mend();
+    axis.make_valid();
     if (axis.log) {
         axis.low = std::max(axis.low, panel.least_y > 0 ? panel.least_y : 0);
         widen(axis, 0.05);
@@ -143,9 +143,9 @@ std::vector<LegendEntry> legend_of(const ChartPanel& panel, bool sets_named, con
         entries.resize(most_entries);
         entries.push_back({.kind = LegendEntry::Kind::box,
                            .name = fmt::format("and {} more", more),
-                           .colour = theme.ground});
+                           .colour = theme.background});
     }
-    for (const Background& band : panel.backgrounds)
+    for (const Band& band : panel.bands)
         if (!band.name.empty()) entries.push_back({LegendEntry::Kind::band, band.name, theme.band});
     for (const Guide& guide : panel.guides)
         if (!guide.name.empty())
@@ -155,14 +155,14 @@ std::vector<LegendEntry> legend_of(const ChartPanel& panel, bool sets_named, con
 
 /// Positions too close to be distinguished are left out: of each column of half a
 /// unit the first, the lowest, the highest and the last remain.
-std::vector<Position> thinned(const std::vector<Position>& spots) {
-    if (spots.size() < 4000) return spots;
+std::vector<Position> thinned(const std::vector<Position>& vertices) {
+    if (vertices.size() < 4000) return vertices;
     std::vector<Position> out;
-    for (std::size_t i = 0; i < spots.size();) {
+    for (std::size_t i = 0; i < vertices.size();) {
         std::size_t end = i;
-        while (end < spots.size() && std::abs(spots[end].x - spots[i].x) < 0.5) ++end;
-        const auto first = spots.begin() + static_cast<std::ptrdiff_t>(i);
-        const auto last = spots.begin() + static_cast<std::ptrdiff_t>(end);
+        while (end < vertices.size() && std::abs(vertices[end].x - vertices[i].x) < 0.5) ++end;
+        const auto first = vertices.begin() + static_cast<std::ptrdiff_t>(i);
+        const auto last = vertices.begin() + static_cast<std::ptrdiff_t>(end);
         const auto [low, high] = std::minmax_element(
             first, last, [](const Position& a, const Position& b) { return a.y < b.y; });
         auto kept = std::vector{first, low, high, last - 1};
@@ -192,52 +192,52 @@ std::vector<std::vector<Position>> pieces(const Panel& panel, const std::vector<
 void draw_band(Drawing& drawing, const Panel& panel, const std::vector<double>& x,
                const std::vector<double>& low, const std::vector<double>& high, Colour colour,
                double opacity) {
-    Patch patch{.spots = {}, .colour = colour, .opacity = opacity};
+    Patch patch{.vertices = {}, .colour = colour, .opacity = opacity};
     std::vector<Position> back;
     const std::size_t size = std::min({x.size(), low.size(), high.size()});
     for (std::size_t i = 0; i < size; ++i) {
         if (!std::isfinite(low[i]) || !std::isfinite(high[i])) continue;
-        patch.spots.push_back(panel.at(x[i], high[i]));
+        patch.vertices.push_back(panel.at(x[i], high[i]));
         back.push_back(panel.at(x[i], low[i]));
     }
-    patch.spots.insert(patch.spots.end(), back.rbegin(), back.rend());
-    if (patch.spots.size() > 2) drawing.add(std::move(patch));
+    patch.vertices.insert(patch.vertices.end(), back.rbegin(), back.rend());
+    if (patch.vertices.size() > 2) drawing.add(std::move(patch));
 }
 
 void draw_guide(Drawing& drawing, const Panel& panel, const Guide& guide, Colour colour) {
-    Line line{.spots = {}, .colour = colour, .width = 1.2, .dash = Dash::dashed};
+    Line line{.vertices = {}, .colour = colour, .width = 1.2, .dash = Dash::dashed};
     if (guide.x.empty()) {
         const double y = panel.y(guide.y[0]);
-        line.spots = {{panel.frame().left, y}, {panel.frame().right(), y}};
+        line.vertices = {{panel.frame().left, y}, {panel.frame().right(), y}};
     }
     for (std::size_t i = 0; i < guide.x.size(); ++i)
-        line.spots.push_back(panel.at(guide.x[i], guide.y[i]));
+        line.vertices.push_back(panel.at(guide.x[i], guide.y[i]));
     drawing.add(std::move(line));
 }
 
 /// The bars' outline, where several histograms lie over each other.
 void draw_steps(Drawing& drawing, const Panel& panel, const Bars& bars, Colour colour) {
-    const double ground = panel.frame().bottom();
-    Line rim{.spots = {{panel.x(bars.edges[0]), ground}}, .colour = colour, .width = 1.6};
+    const double base = panel.frame().bottom();
+    Line outline{.vertices = {{panel.x(bars.edges[0]), base}}, .colour = colour, .width = 1.6};
     for (std::size_t i = 0; i < bars.heights.size(); ++i) {
-        const double top = std::min(panel.y(bars.heights[i]), ground);
-        rim.spots.push_back({panel.x(bars.edges[i]), top});
-        rim.spots.push_back({panel.x(bars.edges[i + 1]), top});
+        const double top = std::min(panel.y(bars.heights[i]), base);
+        outline.vertices.push_back({panel.x(bars.edges[i]), top});
+        outline.vertices.push_back({panel.x(bars.edges[i + 1]), top});
     }
-    rim.spots.push_back({panel.x(bars.edges.back()), ground});
-    drawing.add(std::move(rim));
+    outline.vertices.push_back({panel.x(bars.edges.back()), base});
+    drawing.add(std::move(outline));
 }
 
 void draw_bars(Drawing& drawing, const Panel& panel, const Bars& bars, Colour colour) {
-    const double ground = panel.frame().bottom();
+    const double base = panel.frame().bottom();
     for (std::size_t i = 0; i < bars.heights.size(); ++i) {
         const double left = panel.x(bars.edges[i]);
         const double right = panel.x(bars.edges[i + 1]);
-        // A hair of ground between bars that are wide enough for it.
+        // A thin gap between bars that are wide enough for it.
         const double space = right - left > 4 ? 0.5 : 0;
         const double top = panel.y(bars.heights[i]);
-        if (!(top < ground)) continue;
-        drawing.rectangle({left + space, top, right - left - 2 * space, ground - top}, colour);
+        if (!(top < base)) continue;
+        drawing.rectangle({left + space, top, right - left - 2 * space, base - top}, colour);
     }
 }
 
@@ -250,17 +250,17 @@ void draw_series(Drawing& drawing, const Panel& panel, const Series& series, Col
                 Disks{.centres = piece, .radius = series.marks ? 2.6 : 2, .colour = colour});
         if (series.line && !alone)
             drawing.add(
-                Line{.spots = std::move(piece), .colour = colour, .width = 1.6, .dash = dash});
+                Line{.vertices = std::move(piece), .colour = colour, .width = 1.6, .dash = dash});
     }
 }
 
 void draw_rug(Drawing& drawing, const Panel& panel, const std::vector<double>& values,
               Colour colour) {
-    constexpr std::size_t most = 4000;  // more cannot be seen
+    constexpr std::size_t most = 4000;  // more are indistinguishable
     if (values.size() > most) return;
     for (const double value : values) {
         const double x = panel.x(value);
-        drawing.add(Line{.spots = {{x, panel.frame().bottom() - 9}, {x, panel.frame().bottom()}},
+        drawing.add(Line{.vertices = {{x, panel.frame().bottom() - 9}, {x, panel.frame().bottom()}},
                          .colour = colour,
                          .width = 0.8});
     }
@@ -282,7 +282,7 @@ void draw_panel(Drawing& drawing, const ChartPanel& content, const Panel& panel,
     panel.draw_grid(drawing, theme);
     const Area& f = panel.frame();
     drawing.add(ClipWindow{.area = {f.left, f.top - 3, f.width + 3, f.height + 3}});
-    for (const Background& band : content.backgrounds)
+    for (const Band& band : content.bands)
         draw_band(drawing, panel, band.x, band.low, band.high, theme.band, 1);
     const bool several = content.bars.size() > 1;
     for (std::size_t i = 0; !several && i < content.bars.size(); ++i)
@@ -335,7 +335,7 @@ void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Posi
         const double x = top_left.x + places[i].x;
         const double y = top_left.y + places[i].y + legend_row / 2;
         if (entry.kind == Kind::line || entry.kind == Kind::guide)
-            drawing.add(Line{.spots = {{x, y}, {x + swatch, y}},
+            drawing.add(Line{.vertices = {{x, y}, {x + swatch, y}},
                              .colour = entry.colour,
                              .width = entry.kind == Kind::line ? 2.0 : 1.2,
                              .dash = entry.kind == Kind::line ? entry.dash : Dash::dashed});
@@ -347,13 +347,17 @@ void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Posi
         drawing.add(Label{.text = shortened_to(entry.name, legend_size, width - swatch - 6),
                           .at = {x + swatch + 6, y + 0.36 * legend_size},
                           .size = legend_size,
-                          .colour = theme.words});
+                          .colour = theme.text});
     }
 }
 
-double draw_title(Drawing& drawing, const std::string& title, const std::string& subtitle,
-                  const PictureStyle& style) {
+TitledDrawing titled_drawing(const std::string& title, const std::string& subtitle,
+                             const PictureStyle& style, double usual_width, double usual_height) {
     const std::string& first = style.title.value_or(title);
+    Drawing drawing{.width = style.width > 0 ? style.width : usual_width,
+                    .height = style.height > 0 ? style.height : usual_height,
+                    .background = style.theme->background,
+                    .title = first.empty() ? "stipple plot" : first};
     double y = picture_margin;
     const double width = drawing.width - 2 * picture_margin;
     const auto put = [&](const std::string& text, double size, bool bold, Colour colour) {
@@ -369,26 +373,22 @@ double draw_title(Drawing& drawing, const std::string& title, const std::string&
         y += 1.45 * size;
     };
     put(first, 15, true, style.theme->ink);
-    put(subtitle, 12, false, style.theme->words);
-    drawing.title = first.empty() ? "stipple plot" : first;
-    return y == picture_margin ? y : y + 5;
+    put(subtitle, 12, false, style.theme->text);
+    return {std::move(drawing), y == picture_margin ? y : y + 5};
 }
 
 std::pair<Axis, Axis> chart_axes(const Chart& chart, std::size_t panel, const PictureStyle& style) {
     std::pair axes{x_axis(chart.panels, style), y_axis(chart.panels[panel], style)};
-    axes.first.mend();
-    axes.second.mend();
+    axes.first.make_valid();
+    axes.second.make_valid();
     return axes;
 }
 
 Drawing draw_chart(const Chart& chart, const PictureStyle& style, std::vector<Area>* frames) {
     const Theme& theme = *style.theme;
     const auto more_panels = static_cast<double>(chart.panels.size() - 1);
-    Drawing drawing{.width = style.width > 0 ? style.width : 720,
-                    .height = style.height > 0 ? style.height : 420 + 170 * more_panels,
-                    .ground = theme.ground,
-                    .title = {}};
-    double y = draw_title(drawing, chart.title, chart.subtitle, style);
+    auto [drawing, y] =
+        titled_drawing(chart.title, chart.subtitle, style, 720, 420 + 170 * more_panels);
     const Axis x = x_axis(chart.panels, style);
     const double whole_width = drawing.width - 2 * picture_margin;
     double used = y + Panel::room_below(x) + picture_margin + panel_gap * more_panels;
@@ -421,7 +421,7 @@ Drawing draw_chart(const Chart& chart, const PictureStyle& style, std::vector<Ar
         draw_panel(drawing, panel, Panel(frame, across, y_axis(panel, style)), theme);
         y = frame.bottom() + panel_gap;
     }
-    return drawing;
+    return std::move(drawing);
 }
 
 Bars histogram_of(const std::vector<double>& values, double low, double high, std::size_t bins) {

@@ -41,7 +41,7 @@ struct Series {
 };
 
 /// What lies behind the curves: what chance allows.
-struct Background {
+struct Band {
     std::string name;
     std::vector<double> x;
     std::vector<double> low;
@@ -67,7 +67,7 @@ struct ChartPanel {
     std::string x_name;
     std::string y_name;
     std::vector<Series> series = {};
-    std::vector<Background> backgrounds = {};
+    std::vector<Band> bands = {};
     std::vector<Guide> guides = {};
     std::vector<Bars> bars = {};
     std::vector<double> rug = {};  ///< marks below, one for each value
@@ -96,9 +96,14 @@ Drawing draw_chart(const Chart& chart, const PictureStyle& style,
 /// The axes of a panel, as they are drawn.
 std::pair<Axis, Axis> chart_axes(const Chart& chart, std::size_t panel, const PictureStyle& style);
 
-/// Draws a picture's title lines at the top left; gives the height that they take.
-double draw_title(Drawing& drawing, const std::string& title, const std::string& subtitle,
-                  const PictureStyle& style);
+/// A drawing with its title lines at the top left.
+struct TitledDrawing {
+    Drawing drawing;
+    double top = 0;  ///< height that they take
+};
+TitledDrawing titled_drawing(const std::string& title, const std::string& subtitle,
+                             const PictureStyle& style, double usual_width,
+                             double usual_height = 0);
 
 /// What a legend explains.
 struct LegendEntry {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <string_view>
 
 namespace stipple::plot {
 namespace {
@@ -78,33 +79,18 @@ class Tracer {
     }
 
     /// Notes how the boundary crosses a cell, with the inside on its left: from which side to which
-    /// other one (0 bottom, 1 right, 2 top, 3 left), by the corners that are inside.
+    /// other one (0 bottom, 1 right, 2 top, 3 left), by the corners that are inside: "0321" from 0 to 3 and from 2 to 1.
     void cross_cell(std::size_t i, std::size_t j) {
-        struct Way {
-            std::size_t from;
-            std::size_t to;
-        };
-        static const std::array<std::vector<Way>, 16> ways = {{{},
-                                                               {{0, 3}},
-                                                               {{1, 0}},
-                                                               {{1, 3}},
-                                                               {{2, 1}},
-                                                               {{0, 3}, {2, 1}},
-                                                               {{2, 0}},
-                                                               {{2, 3}},
-                                                               {{3, 2}},
-                                                               {{0, 2}},
-                                                               {{1, 0}, {3, 2}},
-                                                               {{1, 2}},
-                                                               {{3, 1}},
-                                                               {{0, 1}},
-                                                               {{3, 0}},
-                                                               {}}};
+        static constexpr std::array<std::string_view, 16> ways = {
+            "",   "03", "10",   "13", "21", "0321", "20", "23",
+            "32", "02", "1032", "12", "31", "01",   "30", ""};
         const std::array<Edge, 4> sides = {{{i, j, 0}, {i + 1, j, 1}, {i, j + 1, 0}, {i, j, 1}}};
         const std::size_t corners = (inside_at(i, j) ? 1U : 0U) + (inside_at(i + 1, j) ? 2U : 0U) +
                                     (inside_at(i + 1, j + 1) ? 4U : 0U) +
                                     (inside_at(i, j + 1) ? 8U : 0U);
-        for (const Way& way : ways[corners]) next_.emplace(sides[way.from], sides[way.to]);
+        const auto side = [&](char digit) { return sides[static_cast<std::size_t>(digit - '0')]; };
+        for (std::string_view way = ways[corners]; !way.empty(); way.remove_prefix(2))
+            next_.emplace(side(way[0]), side(way[1]));
     }
 
     std::vector<Position> follow() {
@@ -125,12 +111,13 @@ class Tracer {
         const Position from = line.back();
         const Position middle{(from.x + to.x) / 2, (from.y + to.y) / 2};
         const double reach = std::hypot(to.x - from.x, to.y - from.y);
-        const std::optional<Position> rim =
+        const std::optional<Position> outline =
             depth > 0 ? boundary_beside(middle, from, to) : std::nullopt;
-        const bool beside = rim && std::hypot(rim->x - middle.x, rim->y - middle.y) > fineness_ &&
+        const bool beside = outline &&
+                            std::hypot(outline->x - middle.x, outline->y - middle.y) > fineness_ &&
                             reach > fineness_;
         if (beside) {
-            refine(line, *rim, depth - 1);
+            refine(line, *outline, depth - 1);
             refine(line, to, depth - 1);
         } else {
             line.push_back(to);

@@ -74,7 +74,7 @@ double share_of_box(const PointSet& set) {
 using Place = std::function<Position(std::span<const double>)>;
 
 /// How many points there are in the squares of a raster.
-struct Tally {
+struct BinCounts {
     PixelImage raster;
     std::vector<std::uint64_t> counts;
 
@@ -92,9 +92,9 @@ std::vector<Tick> count_ticks(double largest) {
 }
 
 /// Points as marks in an area of a drawing.
-class Cloud {
+class PointMarks {
   public:
-    Cloud(const PointsPicture& picture, const PictureStyle& style, const RunContext& run)
+    PointMarks(const PointsPicture& picture, const PictureStyle& style, const RunContext& run)
         : picture_(picture), theme_(*style.theme), run_(run) {}
 
     [[nodiscard]] bool as_disks() const {
@@ -129,7 +129,7 @@ class Cloud {
     }
 
     /// A pixel for each point, half a unit wide.
-    void specks(Drawing& drawing, const Area& area, const Place& place) const {
+    void pixels_of_points(Drawing& drawing, const Area& area, const Place& place) const {
         PixelImage raster = empty_raster(area, 0.5);
         for (std::size_t s = 0; s < picture_.sets.size(); ++s)
             for_each_bin(*picture_.sets[s], raster, place,
@@ -138,32 +138,32 @@ class Cloud {
     }
 
     /// Points in squares that hold some of them on average.
-    [[nodiscard]] Tally tally(const Area& area, const Place& place) const {
+    [[nodiscard]] BinCounts counts_in(const Area& area, const Place& place) const {
         const auto n = static_cast<double>(points_of(picture_));
         const double side =
             std::clamp(std::ceil(std::sqrt(6 * area.width * area.height / n)), 1.0, 16.0);
-        Tally tally{.raster = empty_raster(area, side), .counts = {}};
-        tally.counts.resize(tally.raster.pixels.size());
-        for_each_bin(*picture_.sets[0], tally.raster, place,
-                     [&](std::size_t bin) { ++tally.counts[bin]; });
-        return tally;
+        BinCounts counts_in{.raster = empty_raster(area, side), .counts = {}};
+        counts_in.counts.resize(counts_in.raster.pixels.size());
+        for_each_bin(*picture_.sets[0], counts_in.raster, place,
+                     [&](std::size_t bin) { ++counts_in.counts[bin]; });
+        return counts_in;
     }
 
-    /// The tally in shades up to the largest number.
-    void density(Drawing& drawing, Tally tally, double largest) const {
-        for (std::size_t i = 0; i < tally.counts.size(); ++i)
-            tally.raster.pixels[i] = shade(static_cast<double>(tally.counts[i]) / largest);
-        drawing.add(std::move(tally.raster));
+    /// The counts in shades up to the largest.
+    void density(Drawing& drawing, BinCounts counts_in, double largest) const {
+        for (std::size_t i = 0; i < counts_in.counts.size(); ++i)
+            counts_in.raster.pixels[i] = shade(static_cast<double>(counts_in.counts[i]) / largest);
+        drawing.add(std::move(counts_in.raster));
     }
 
-    /// What many points are drawn as: a density, or specks. Gives the largest number of the density.
+    /// Many points as a density or as single pixels. Returns the largest count of the density.
     double raster(Drawing& drawing, const Area& area, const Place& place, bool dense) const {
         if (as_disks()) return 0;
         if (!dense) {
-            specks(drawing, area, place);
+            pixels_of_points(drawing, area, place);
             return 0;
         }
-        Tally counted = tally(area, place);
+        BinCounts counted = counts_in(area, place);
         const double largest = counted.largest();
         density(drawing, std::move(counted), largest);
         return largest;
@@ -175,10 +175,10 @@ class Cloud {
             [this](double share) { return shade(share); }, count_ticks(largest));
     }
 
-    /// From the ground over the first colour to the ink.
+    /// From the background through the first colour to the ink.
     [[nodiscard]] Colour shade(double share) const {
         const Colour middle = theme_.series[0];
-        return share < 0.6 ? mixed(theme_.ground, middle, share / 0.6)
+        return share < 0.6 ? mixed(theme_.background, middle, share / 0.6)
                            : mixed(middle, theme_.ink, (share - 0.6) / 0.4);
     }
 
@@ -188,7 +188,7 @@ class Cloud {
                           .columns = static_cast<std::size_t>(std::ceil(area.width / side)),
                           .rows = static_cast<std::size_t>(std::ceil(area.height / side)),
                           .pixels = {}};
-        raster.pixels.assign(raster.columns * raster.rows, theme_.ground);
+        raster.pixels.assign(raster.columns * raster.rows, theme_.background);
         return raster;
     }
 
@@ -201,9 +201,9 @@ class Cloud {
         const auto rows = static_cast<double>(raster.rows);
         for (std::size_t i = 0; i < set.count(); ++i) {
             if (i % patience == 0) run_.tick(i, set.count());
-            const Position spot = place(set[i]);
-            const double x = (spot.x - a.left) / a.width * columns;
-            const double y = (spot.y - a.top) / a.height * rows;
+            const Position position = place(set[i]);
+            const double x = (position.x - a.left) / a.width * columns;
+            const double y = (position.y - a.top) / a.height * rows;
             if (!(x >= 0 && x <= columns && y >= 0 && y <= rows)) continue;
             visit(std::min(static_cast<std::size_t>(y), raster.rows - 1) * raster.columns +
                   std::min(static_cast<std::size_t>(x), raster.columns - 1));
@@ -232,15 +232,12 @@ struct Page {
     double width = 0;  ///< between the margins
 
     Page(const PointsPicture& picture, const PictureStyle& style, double usual_width) {
-        drawing = {.width = style.width > 0 ? style.width : usual_width,
-                   .height = style.height,
-                   .ground = style.theme->ground,
-                   .title = {}};
+        auto titled = titled_drawing(picture.title, picture.subtitle, style, usual_width);
+        drawing = std::move(titled.drawing);
         width = drawing.width - 2 * picture_margin;
-        top = draw_title(drawing, picture.title, picture.subtitle, style);
         const auto entries = legend_of(picture, *style.theme);
-        draw_legend(drawing, entries, {picture_margin, top}, width, *style.theme);
-        top = std::ceil(top + legend_height(entries, width));
+        draw_legend(drawing, entries, {picture_margin, titled.top}, width, *style.theme);
+        top = std::ceil(titled.top + legend_height(entries, width));
     }
 };
 
@@ -251,9 +248,10 @@ void draw_outline(Drawing& drawing, const PointsPicture& picture, const Panel& p
     const PointSet& first = *picture.sets[0];
     if (is_box(first)) return;
     for (const auto& line : outline_of(*first.domain)) {
-        Line rim{.spots = {}, .colour = theme.frame, .width = 1};
-        for (const Position& spot : line) rim.spots.push_back(panel.at(spot.x, spot.y));
-        drawing.add(std::move(rim));
+        Line outline{.vertices = {}, .colour = theme.frame, .width = 1};
+        for (const Position& position : line)
+            outline.vertices.push_back(panel.at(position.x, position.y));
+        drawing.add(std::move(outline));
     }
 }
 
@@ -266,9 +264,9 @@ void draw_boxes(Drawing& drawing, const PointsPicture& picture, const Panel& pan
             for (const auto& [y0, y1] : box.ranges[j]) {
                 std::vector<Position> corners = {panel.at(x0, y0), panel.at(x1, y0),
                                                  panel.at(x1, y1), panel.at(x0, y1)};
-                drawing.add(Patch{.spots = corners, .colour = box.colour, .opacity = 0.1});
+                drawing.add(Patch{.vertices = corners, .colour = box.colour, .opacity = 0.1});
                 corners.push_back(corners[0]);
-                drawing.add(Line{.spots = std::move(corners),
+                drawing.add(Line{.vertices = std::move(corners),
                                  .colour = box.colour,
                                  .width = 1.6,
                                  .dash = box.closed ? Dash::none : Dash::dashed});
@@ -290,7 +288,7 @@ std::pair<double, double> frame_size(const Box& box, double width, double height
 
 Drawing draw_plane(const PointsPicture& picture, const PictureStyle& style, const RunContext& run) {
     const Theme& theme = *style.theme;
-    const Cloud cloud(picture, style, run);
+    const PointMarks marks(picture, style, run);
     Page page(picture, style, 640);
     Box box = shown_box(picture.sets);
     if (!frame_is_outline(picture)) widen(box, 0.03);
@@ -298,7 +296,7 @@ Drawing draw_plane(const PointsPicture& picture, const PictureStyle& style, cons
     const Axis y{.low = box.low[1], .high = box.high[1], .name = "y"};
     const double left = std::ceil(picture_margin / 2 + Panel::room_left(y, 500));
     const double below = Panel::room_below(x) + picture_margin;
-    const bool dense = cloud.as_density(page.width, style.height > 0 ? style.height : page.width);
+    const bool dense = marks.as_density(page.width, style.height > 0 ? style.height : page.width);
     const double right = dense ? colour_bar_room + picture_margin : picture_margin + 8;
     const double top = page.top + (dense ? 14 : 4);
     const double room = style.height > 0 ? style.height - top - below : 0;
@@ -308,18 +306,18 @@ Drawing draw_plane(const PointsPicture& picture, const PictureStyle& style, cons
     const Panel panel(frame, x, y);
     const Place place = [&panel](std::span<const double> p) { return panel.at(p[0], p[1]); };
     Drawing& drawing = page.drawing;
-    const double largest = cloud.raster(drawing, frame, place, dense);
-    if (dense) cloud.draw_bar(drawing, frame, largest);
+    const double largest = marks.raster(drawing, frame, place, dense);
+    if (dense) marks.draw_bar(drawing, frame, largest);
     panel.draw_axes(drawing, theme, true);
     draw_outline(drawing, picture, panel, theme);
-    if (cloud.as_disks()) cloud.disks(drawing, frame, place);
+    if (marks.as_disks()) marks.disks(drawing, frame, place);
     draw_boxes(drawing, picture, panel, 0, 1);
     return std::move(page.drawing);
 }
 
 // ---------------------------------------------------------------- three coordinates
 
-/// The box seen from the front: scale and shift to a drawing.
+/// The projected box: scale and shift to a drawing.
 struct Scene {
     const Box& box;
     double scale = 1;
@@ -327,8 +325,8 @@ struct Scene {
     double top = 0;
 
     [[nodiscard]] Position at(std::span<const double> point) const {
-        const Seen seen = seen_at(box, point);
-        return {left + scale * seen.right, top - scale * seen.up};
+        const Projected projected = project(box, point);
+        return {left + scale * projected.right, top - scale * projected.up};
     }
     [[nodiscard]] Position at(double a, double b, double c) const {
         return at(corner(box, a, b, c));
@@ -349,9 +347,10 @@ void draw_edges(Drawing& drawing, const Scene& scene, const Theme& theme, bool f
                 return c[0] == 0 && c[1] == 1 && c[2] == 0;
             };
             if ((is_hidden(a) || is_hidden(b)) == front) continue;
-            drawing.add(Line{.spots = {scene.at(a[0], a[1], a[2]), scene.at(b[0], b[1], b[2])},
-                             .colour = front ? theme.frame : mixed(theme.frame, theme.ground, 0.6),
-                             .width = 1});
+            drawing.add(
+                Line{.vertices = {scene.at(a[0], a[1], a[2]), scene.at(b[0], b[1], b[2])},
+                     .colour = front ? theme.frame : mixed(theme.frame, theme.background, 0.6),
+                     .width = 1});
         }
 }
 
@@ -362,7 +361,7 @@ void draw_ends(Drawing& drawing, const Scene& scene, const Theme& theme) {
         drawing.add(Label{.text = text,
                           .at = {at.x + dx, at.y + dy},
                           .size = name ? name_size : number_size,
-                          .colour = name ? theme.ink : theme.words,
+                          .colour = name ? theme.ink : theme.text,
                           .anchor = anchor});
     };
     const Box& box = scene.box;
@@ -386,7 +385,7 @@ void draw_layers(Drawing& drawing, const PointsPicture& picture, const Scene& sc
     constexpr std::size_t layers = 10;
     const auto n = static_cast<double>(points_of(picture));
     const double radius = std::clamp(0.075 * side / std::cbrt(std::max(n, 1.0)), 0.7, 4.0);
-    const auto [low, high] = seen_range(scene.box);
+    const auto [low, high] = projected_range(scene.box);
     std::vector<Disks> disks;
     for (std::size_t layer = 0; layer < layers; ++layer)
         for (std::size_t s = 0; s < picture.sets.size(); ++s) {
@@ -394,13 +393,13 @@ void draw_layers(Drawing& drawing, const PointsPicture& picture, const Scene& sc
             disks.push_back(
                 {.centres = {},
                  .radius = radius * (0.7 + 0.3 * share),
-                 .colour = mixed(theme.series_colour(s), theme.ground, 0.62 * (1 - share))});
+                 .colour = mixed(theme.series_colour(s), theme.background, 0.62 * (1 - share))});
         }
     for (std::size_t s = 0; s < picture.sets.size(); ++s)
         for (std::size_t i = 0; i < picture.sets[s]->count(); ++i) {
             const auto point = (*picture.sets[s])[i];
             const double share =
-                (seen_at(scene.box, point).depth - low.depth) / (high.depth - low.depth);
+                (project(scene.box, point).depth - low.depth) / (high.depth - low.depth);
             const auto layer = static_cast<std::size_t>(
                 std::clamp(share * layers, 0.0, static_cast<double>(layers - 1)));
             disks[layer * picture.sets.size() + s].centres.push_back(scene.at(point));
@@ -411,12 +410,12 @@ void draw_layers(Drawing& drawing, const PointsPicture& picture, const Scene& sc
 
 Drawing draw_space(const PointsPicture& picture, const PictureStyle& style, const RunContext& run) {
     const Theme& theme = *style.theme;
-    const Cloud cloud(picture, style, run);
+    const PointMarks marks(picture, style, run);
     Page page(picture, style, 640);
     Box box = shown_box(picture.sets);
     for (std::size_t k = 0; k < 3; ++k)
         if (!(box.extent(k) > 0)) box.high[k] = box.low[k] + 1;
-    const auto [low, high] = seen_range(box);
+    const auto [low, high] = projected_range(box);
     const double across = high.right - low.right;
     const double upward = high.up - low.up;
     const double sides = 46 + picture_margin;
@@ -429,14 +428,14 @@ Drawing draw_space(const PointsPicture& picture, const PictureStyle& style, cons
     const double wide = scale * across;
     const double left = (drawing.width - wide) / 2;
     const Scene scene{box, scale, left - scale * low.right, page.top + 8 + scale * high.up};
-    if (cloud.as_disks()) {
+    if (marks.as_disks()) {
         draw_edges(drawing, scene, theme, false);
         draw_layers(drawing, picture, scene, theme, scale);
     } else {
         const Place place = [&scene](std::span<const double> p) { return scene.at(p); };
         const Area area{std::floor(left), std::floor(page.top + 8), std::ceil(wide),
                         std::ceil(scale * upward)};
-        cloud.raster(drawing, area, place, cloud.as_density(area.width, area.height));
+        marks.raster(drawing, area, place, marks.as_density(area.width, area.height));
         draw_edges(drawing, scene, theme, false);
     }
     draw_edges(drawing, scene, theme, true);
@@ -452,7 +451,7 @@ class PairSheet {
     PairSheet(const PointsPicture& picture, const PictureStyle& style, const RunContext& run)
         : picture_(picture),
           theme_(*style.theme),
-          cloud_(picture, style, run),
+          marks_(picture, style, run),
           page_(picture, style, 800),
           box_(shown_box(picture.sets)),
           names_(coordinate_names(picture.sets[0]->dimension())),
@@ -480,7 +479,7 @@ class PairSheet {
     }
 
     Drawing draw() {
-        if (cloud_.as_density(side_, side_)) draw_densities();
+        if (marks_.as_density(side_, side_)) draw_densities();
         for (std::size_t j = 1; j < shown_; ++j)
             for (std::size_t i = 0; i < j; ++i) draw_pair(i, j);
         return std::move(page_.drawing);
@@ -513,31 +512,33 @@ class PairSheet {
 
     /// All pairs in the same shades, whose bar stands in the sheet's free corner.
     void draw_densities() {
-        std::vector<Tally> tallies;
+        std::vector<BinCounts> all_counts;
         double largest = 0;
         for (std::size_t j = 1; j < shown_; ++j)
             for (std::size_t i = 0; i < j; ++i) {
                 const Panel here = panel(i, j);
-                tallies.push_back(cloud_.tally(here.frame(), place(here, i, j)));
-                largest = std::max(largest, tallies.back().largest());
+                all_counts.push_back(marks_.counts_in(here.frame(), place(here, i, j)));
+                largest = std::max(largest, all_counts.back().largest());
             }
-        for (Tally& tally : tallies) cloud_.density(page_.drawing, std::move(tally), largest);
-        cloud_.draw_bar(page_.drawing, panel(0, 1).frame(), largest);
+        for (BinCounts& counts_in : all_counts)
+            marks_.density(page_.drawing, std::move(counts_in), largest);
+        marks_.draw_bar(page_.drawing, panel(0, 1).frame(), largest);
     }
 
     void draw_pair(std::size_t i, std::size_t j) {
         const Panel here = panel(i, j);
         const Area& frame = here.frame();
-        const bool dense = cloud_.as_density(side_, side_);
-        if (!dense && !cloud_.as_disks()) cloud_.specks(page_.drawing, frame, place(here, i, j));
+        const bool dense = marks_.as_density(side_, side_);
+        if (!dense && !marks_.as_disks())
+            marks_.pixels_of_points(page_.drawing, frame, place(here, i, j));
         here.draw_axes(page_.drawing, theme_, true);
-        if (cloud_.as_disks()) cloud_.disks(page_.drawing, frame, place(here, i, j));
+        if (marks_.as_disks()) marks_.disks(page_.drawing, frame, place(here, i, j));
         draw_boxes(page_.drawing, picture_, here, i, j);
     }
 
     const PointsPicture& picture_;
     const Theme& theme_;
-    Cloud cloud_;
+    PointMarks marks_;
     Page page_;
     Box box_;
     std::vector<std::string> names_;
@@ -594,7 +595,7 @@ Box shown_box(std::span<const PointSet* const> sets) {
     return box;
 }
 
-Seen seen_at(const Box& box, std::span<const double> point) {
+Projected project(const Box& box, std::span<const double> point) {
     // From 30 degrees beside the y axis, 25 degrees above the ground.
     constexpr double side_cosine = 0.8660254037844386;
     constexpr double side_sine = 0.5;
@@ -610,15 +611,16 @@ Seen seen_at(const Box& box, std::span<const double> point) {
             .depth = rise_cosine * toward + rise_sine * z};
 }
 
-std::pair<Seen, Seen> seen_range(const Box& box) {
-    Seen low{1e9, 1e9, 1e9};
-    Seen high{-1e9, -1e9, -1e9};
+std::pair<Projected, Projected> projected_range(const Box& box) {
+    Projected low{1e9, 1e9, 1e9};
+    Projected high{-1e9, -1e9, -1e9};
     for (int bits = 0; bits < 8; ++bits) {
-        const Seen seen = seen_at(box, corner(box, bits & 1, bits >> 1 & 1, bits >> 2 & 1));
-        low = {std::min(low.right, seen.right), std::min(low.up, seen.up),
-               std::min(low.depth, seen.depth)};
-        high = {std::max(high.right, seen.right), std::max(high.up, seen.up),
-                std::max(high.depth, seen.depth)};
+        const Projected projected =
+            project(box, corner(box, bits & 1, bits >> 1 & 1, bits >> 2 & 1));
+        low = {std::min(low.right, projected.right), std::min(low.up, projected.up),
+               std::min(low.depth, projected.depth)};
+        high = {std::max(high.right, projected.right), std::max(high.up, projected.up),
+                std::max(high.depth, projected.depth)};
     }
     return {low, high};
 }

@@ -51,17 +51,17 @@ struct PointsPicture {
 /// the unit cube that is their default domain, the box is that of the points.
 Box shown_box(std::span<const PointSet* const> sets);
 
-/// Where a point of three coordinates is seen, in units of the box's longest side; `depth` is
-/// larger for what is nearer.
-struct Seen {
+/// A point of three coordinates in the parallel projection of a picture, in units of the box's longest
+/// side; `depth` is larger for nearer points.
+struct Projected {
     double right = 0;
     double up = 0;
     double depth = 0;
 };
-Seen seen_at(const Box& box, std::span<const double> point);
+Projected project(const Box& box, std::span<const double> point);
 
 /// The least and the largest of these over the box.
-std::pair<Seen, Seen> seen_range(const Box& box);
+std::pair<Projected, Projected> projected_range(const Box& box);
 
 Drawing draw_points(const PointsPicture& picture, const PictureStyle& style, const RunContext& run);
 

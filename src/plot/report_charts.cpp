@@ -24,6 +24,29 @@ constexpr double log_floor = 1e-4;  ///< of that axis: what is lower is rounding
 
 std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
+/// "halton.csv", "halton.csv, set 3", "10 sets: halton.csv"
+std::string name_of_input(const Measurement& m) {
+    std::string name = m.source == "-" ? "" : file_name(m.source);
+    if (m.set) name += fmt::format("{}set {}", name.empty() ? "" : ", ", *m.set);
+    if (m.sets > 1) name = fmt::format("{} sets{}{}", m.sets, name.empty() ? "" : ": ", name);
+    return name;
+}
+
+/// Names that tell inputs apart: file names without their folders, where these do.
+std::vector<std::string> names_of_inputs(Measurements ms) {
+    std::vector<std::string> names;
+    std::set<std::string> distinct;
+    for (const Measurement& m : ms) distinct.insert(names.emplace_back(name_of_input(m)));
+    if (distinct.size() == ms.size()) return names;
+    for (std::size_t i = 0; i < ms.size(); ++i) {
+        if (ms[i].source != "-") names[i] = ms[i].source;
+        if (ms[i].set)
+            names[i] += fmt::format("{}set {}", names[i].empty() ? "" : ", ", *ms[i].set);
+        if (names[i].empty()) names[i] = fmt::format("input {}", i + 1);
+    }
+    return names;
+}
+
 /// A list of numbers under a key; nothing where there is none.
 std::optional<Curve> curve_at(const Report& report, std::string_view key) {
     const Report::Item* item = report.find(key);
@@ -109,16 +132,16 @@ bool finite_in(const std::vector<Series>& all, double& top) {
 }
 
 /// The band of white noise, where one holds for all measurements.
-std::vector<Background> noise_band(Measurements ms) {
+std::vector<Band> noise_band(Measurements ms) {
     const auto cells = curve_at(ms[0].results, "radial.cells");
     const bool same = std::ranges::all_of(ms, [&](const Measurement& m) {
         return m.sets == ms[0].sets && curve_at(m.results, "radial.cells") == cells;
     });
     if (!same || !cells) return {};
-    Background band{.name = "white noise, 95 %",
-                    .x = *curve_at(ms[0].results, "radial.frequency"),
-                    .low = {},
-                    .high = {}};
+    Band band{.name = "white noise, 95 %",
+              .x = *curve_at(ms[0].results, "radial.frequency"),
+              .low = {},
+              .high = {}};
     for (const double ring : *cells) {
         const auto [low, high] = white_noise_band(ring, static_cast<double>(ms[0].sets));
         band.low.push_back(low);
@@ -342,7 +365,7 @@ std::string abscissa_of(const Measurement& m, const std::string& x) {
 /// Radial power, with what white noise has in rings of so many cells.
 void make_power(ChartPanel& panel, Measurements ms) {
     panel.y_name = "radial power";
-    panel.backgrounds = noise_band(ms);
+    panel.bands = noise_band(ms);
     panel.guides = {{.name = {}, .x = {}, .y = {1}}};
     panel.reach_y = 1.4;
     panel.least_y = log_floor;
@@ -360,16 +383,16 @@ void make_pair_correlation(ChartPanel& panel, Measurements ms) {
     panel.reach_y = 1.4;
     if (ms.size() > 1) return;
     const double width = 2 / std::sqrt(static_cast<double>(ms[0].sets));
-    Background band{.name = "uniform points, ± 2 deviations",
-                    .x = *curve_at(ms[0].results, "distance"),
-                    .low = {},
-                    .high = {}};
+    Band band{.name = "uniform points, ± 2 deviations",
+              .x = *curve_at(ms[0].results, "distance"),
+              .low = {},
+              .high = {}};
     const auto deviation = curve_at(ms[0].results, "deviation");
     for (const double s : *deviation) {
         band.low.push_back(std::max(0.0, 1 - width * s));
         band.high.push_back(1 + width * s);
     }
-    panel.backgrounds.push_back(std::move(band));
+    panel.bands.push_back(std::move(band));
 }
 
 ChartPanel curve_panel(Measurements ms, const CurveGroup& group, const std::string& y) {
@@ -508,7 +531,7 @@ Chart number_histogram(Measurements ms, const std::string& key) {
     auto [low, high] = std::ranges::minmax(values);
     if (!(low < high)) {
         Axis axis{.low = low, .high = high};
-        axis.mend();
+        axis.make_valid();
         low = axis.low;
         high = axis.high;
     }
@@ -572,27 +595,6 @@ std::pair<double, double> white_noise_band(double cells, double sets) {
         return root * root * root;
     };
     return {point(-1.96), point(1.96)};
-}
-
-std::string name_of_input(const Measurement& m) {
-    std::string name = m.source == "-" ? "" : file_name(m.source);
-    if (m.set) name += fmt::format("{}set {}", name.empty() ? "" : ", ", *m.set);
-    if (m.sets > 1) name = fmt::format("{} sets{}{}", m.sets, name.empty() ? "" : ": ", name);
-    return name;
-}
-
-std::vector<std::string> names_of_inputs(Measurements ms) {
-    std::vector<std::string> names;
-    std::set<std::string> seen;
-    for (const Measurement& m : ms) seen.insert(names.emplace_back(name_of_input(m)));
-    if (seen.size() == ms.size()) return names;
-    for (std::size_t i = 0; i < ms.size(); ++i) {
-        if (ms[i].source != "-") names[i] = ms[i].source;
-        if (ms[i].set)
-            names[i] += fmt::format("{}set {}", names[i].empty() ? "" : ", ", *ms[i].set);
-        if (names[i].empty()) names[i] = fmt::format("input {}", i + 1);
-    }
-    return names;
 }
 
 Chart chart_of(Measurements ms, const std::string& key) {

@@ -33,12 +33,6 @@ Chart chart_of(std::span<const Measurement> measurements, const std::string& key
 /// The number under a key of a report; nothing where there is none.
 std::optional<double> number_at(const Report& report, std::string_view key);
 
-/// "halton.csv", "halton.csv, set 3", "mean of 10 sets of halton.csv"
-std::string name_of_input(const Measurement& measurement);
-
-/// Names that tell inputs apart: file names without their folders, where these do.
-std::vector<std::string> names_of_inputs(std::span<const Measurement> measurements);
-
 /// 2.5 and 97.5 % points of the mean power of a ring of so many frequencies, over so many sets of
 /// white noise.
 std::pair<double, double> white_noise_band(double cells, double sets);

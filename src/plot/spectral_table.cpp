@@ -48,15 +48,16 @@ Grid grid_of(const PointSet& table, std::size_t rows) {
         .rows = rows, .columns = values.size() / rows, .values = {values.begin(), values.end()}};
 }
 
+/// Whether it can be the density of pair differences: none at zero.
+bool looks_like_differences(const Grid& grid) {
+    return grid.rows == grid.columns && is_side(grid.rows) && is_symmetric(grid.values) &&
+           grid.values[grid.values.size() / 2] == 0 && std::ranges::max(grid.values) > 0;
+}
+
 }  // namespace
 
 bool looks_like_power(const Grid& grid) {
     return grid.rows == grid.columns && is_side(grid.rows) && is_spectrum(grid.values);
-}
-
-bool looks_like_differences(const Grid& grid) {
-    return grid.rows == grid.columns && is_side(grid.rows) && is_symmetric(grid.values) &&
-           grid.values[grid.values.size() / 2] == 0 && std::ranges::max(grid.values) > 0;
 }
 
 std::optional<SpectralTable> spectral_table(std::span<const PointSet* const> sets) {
@@ -91,7 +92,7 @@ Chart power_chart(const Grid& power, const std::string& title) {
                      .from_zero = true,
                      .reach_y = 1.4,
                      .least_y = 1e-4};
-    // As in the chart of radial power: a lattice's peaks leave nothing else to be seen.
+    // As in the chart of radial power: a lattice's peaks would hide everything else.
     panel.log_y = std::ranges::max(curve.y) > 12;
     panel.guides.push_back({.name = "white noise", .x = {}, .y = {1}});
     panel.series.push_back(std::move(curve));

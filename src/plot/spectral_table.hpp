@@ -31,9 +31,6 @@ std::optional<SpectralTable> spectral_table(std::span<const PointSet* const> set
 /// Whether a square table can be the power at frequencies -F to F.
 bool looks_like_power(const Grid& grid);
 
-/// Whether it can be the density of pair differences: none at zero.
-bool looks_like_differences(const Grid& grid);
-
 /// The power at the frequencies 1 to F of a table of one row.
 Chart power_chart(const Grid& power, const std::string& title);
 

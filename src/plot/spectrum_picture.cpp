@@ -43,17 +43,13 @@ Drawing draw_spectrum(const Grid& power, const std::string& title, const std::st
     const bool whole = names.cell == 1;
     const Axis x{.low = -last, .high = last, .whole = whole, .name = names.x};
     const Axis y{.low = -last, .high = last, .whole = whole, .name = names.y};
-    Drawing drawing{.width = style.width > 0 ? style.width : 640,
-                    .height = 0,
-                    .ground = theme.ground,
-                    .title = {}};
-    const double top = draw_title(drawing, title, subtitle, style);
+    auto [drawing, top] = titled_drawing(title, subtitle, style, 640);
     const double left = std::ceil(picture_margin / 2 + Panel::room_left(y, 500));
     const double below = Panel::room_below(x) + picture_margin;
     double side = std::floor(drawing.width - left - colour_bar_room - picture_margin);
     if (style.height > 0) side = std::min(side, std::floor(style.height - top - below - 14));
     side = std::max(side, 60.0);
-    drawing.height = style.height > 0 ? style.height : std::ceil(top + 14 + side + below);
+    if (style.height <= 0) drawing.height = std::ceil(top + 14 + side + below);
     const Area frame{left, std::ceil(top) + 14, side, side};
     drawing.add(picture_of(power, frame));
     Panel(frame, x, y).draw_axes(drawing, theme, true);
@@ -63,7 +59,7 @@ Drawing draw_spectrum(const Grid& power, const std::string& title, const std::st
                         return Colour{level, level, level};
                     },
                     {{0, "0"}, {0.2, "1/4"}, {0.5, "1"}, {0.8, "4"}, {1, "∞"}});
-    return drawing;
+    return std::move(drawing);
 }
 
 }  // namespace stipple::plot

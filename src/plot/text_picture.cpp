@@ -28,7 +28,7 @@ std::size_t inner(std::size_t room, std::size_t taken, std::size_t least) {
 /// Letters that are left beside the numbers.
 std::size_t columns_for(const TextRoom& room, const TextFrame& frame) {
     const std::size_t numbers =
-        std::max(letters_of(frame.low_y).size(), letters_of(frame.high_y).size());
+        std::max(code_points(frame.low_y).size(), code_points(frame.high_y).size());
     return inner(room.columns, frame_columns + numbers, least_columns);
 }
 
@@ -64,14 +64,14 @@ std::string plane_as_text(const PointsPicture& picture, const TextRoom& room) {
 
 std::string space_as_text(const PointsPicture& picture, const TextRoom& room) {
     const Box box = shown_box(picture.sets);
-    const auto [low, high] = seen_range(box);
+    const auto [low, high] = projected_range(box);
     const double across = high.right - low.right;
     const double upward = high.up - low.up;
     DotMatrix dots = field_for(room, {}, upward / across);
     for (const PointSet* set : picture.sets)
         for (std::size_t i = 0; i < set->count(); ++i) {
-            const Seen seen = seen_at(box, (*set)[i]);
-            dots.set((seen.right - low.right) / across, (seen.up - low.up) / upward);
+            const Projected projected = project(box, (*set)[i]);
+            dots.set((projected.right - low.right) / across, (projected.up - low.up) / upward);
         }
     return framed(dots, {.title = picture.title,
                          .low_x = {},

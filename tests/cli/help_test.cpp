@@ -43,10 +43,8 @@ TEST(Help, NoUnitOptionHidesACommonOne) {
         for (const VerbInfo& verb : verbs()) {
             if (kind.verb != verb.name) continue;
             std::set<std::string> common;
-            for (const CommonOption& option : common_options()) {
-                if (!takes(option, verb.verb)) continue;
-                EXPECT_TRUE(common.insert(option.option.name).second) << option.names;
-            }
+            for (const CommonOption* option : options_of(verb.verb))
+                EXPECT_TRUE(common.insert(option->option.name).second) << option->names;
             for (const UnitInfo& unit : kind.units)
                 for (const auto& option : unit.options)
                     EXPECT_EQ(common.contains(option.name),

@@ -335,7 +335,7 @@ TEST(PageHtml, SaysTheSameNumbersAsTheData) {
     const std::string html = to_html(page);
     const auto json = nlohmann::json::parse(to_json(page));
     EXPECT_EQ(json["format"], "stipple.comparison");
-    std::size_t seen = 0;
+    std::size_t projected = 0;
     for (const auto& row : json["comparison"])
         for (std::size_t i = 0; i < 2; ++i) {
             const auto& value = row["values"][i];
@@ -347,9 +347,9 @@ TEST(PageHtml, SaysTheSameNumbersAsTheData) {
             std::smatch found;
             ASSERT_TRUE(std::regex_search(cells, found, cell)) << cells;
             EXPECT_EQ(std::stod(found[1].str()), value.get<double>()) << row["key"];
-            ++seen;
+            ++projected;
         }
-    EXPECT_GT(seen, 30U);
+    EXPECT_GT(projected, 30U);
     for (const auto& set : json["sets"])
         for (const auto& measure : set["measures"]) {
             const char* said = measure.contains("results") ? "command" : "left_out";

@@ -137,8 +137,8 @@ TEST(ReportCharts, SpectrumHasPowerAndAnisotropyAsReported) {
     EXPECT_THAT(power.low, ElementsAre(0.4, 1.3, 0.7));
     EXPECT_FALSE(chart.panels[0].log_y);
     const auto [low, high] = white_noise_band(12, 4);
-    EXPECT_EQ(chart.panels[0].backgrounds.at(0).high[1], high);
-    EXPECT_EQ(chart.panels[0].backgrounds.at(0).low[1], low);
+    EXPECT_EQ(chart.panels[0].bands.at(0).high[1], high);
+    EXPECT_EQ(chart.panels[0].bands.at(0).low[1], low);
     EXPECT_EQ(chart.panels[1].guides.at(0).name, "white noise: −6.02 dB");
     EXPECT_NEAR(chart.panels[1].guides.at(0).y[0], -10 * std::log10(4.0), 1e-12);
 }
@@ -173,11 +173,11 @@ TEST(ReportCharts, CurvesAreWhereTheAxesSay) {
     const Drawing drawing = draw_chart(chart_of(ms), {});
     const Line* curve = nullptr;
     for (const Line* line : shapes_of<Line>(drawing))
-        if (line->spots.size() == 3 && curve == nullptr) curve = line;
+        if (line->vertices.size() == 3 && curve == nullptr) curve = line;
     ASSERT_NE(curve, nullptr);
-    EXPECT_NEAR(curve->spots[1].x, (curve->spots[0].x + curve->spots[2].x) / 2, 1e-9);
-    EXPECT_NEAR(curve->spots[1].y, (curve->spots[0].y + curve->spots[2].y) / 2, 1e-9);
-    EXPECT_GT(curve->spots[0].y, curve->spots[2].y);
+    EXPECT_NEAR(curve->vertices[1].x, (curve->vertices[0].x + curve->vertices[2].x) / 2, 1e-9);
+    EXPECT_NEAR(curve->vertices[1].y, (curve->vertices[0].y + curve->vertices[2].y) / 2, 1e-9);
+    EXPECT_GT(curve->vertices[0].y, curve->vertices[2].y);
     const auto [x, y] = chart_axes(chart_of(ms), 0, {});
     EXPECT_EQ(x.low, 1);
     EXPECT_EQ(x.high, 3);
@@ -214,8 +214,8 @@ TEST(ReportCharts, PairCorrelationHasWhatUniformPointsHave) {
     ms[0].sets = 4;
     const ChartPanel panel = chart_of(ms).panels.at(0);
     EXPECT_THAT(panel.series.at(0).y, ElementsAre(0, 1.1));
-    EXPECT_THAT(panel.backgrounds.at(0).low, ElementsAre(0.4, 0.9));
-    EXPECT_THAT(panel.backgrounds.at(0).high, ElementsAre(1.6, 1.1));
+    EXPECT_THAT(panel.bands.at(0).low, ElementsAre(0.4, 0.9));
+    EXPECT_THAT(panel.bands.at(0).high, ElementsAre(1.6, 1.1));
 }
 
 // Lists of any analyzer, over the rising one before them.
@@ -385,10 +385,10 @@ TEST(Chart, LongCurvesKeepTheirExtremes) {
     const Drawing drawing = draw_chart(chart, {});
     const Line* longest = shapes_of<Line>(drawing)[0];
     for (const Line* line : shapes_of<Line>(drawing))
-        if (line->spots.size() > longest->spots.size()) longest = line;
-    EXPECT_LT(longest->spots.size(), 8000U);
+        if (line->vertices.size() > longest->vertices.size()) longest = line;
+    EXPECT_LT(longest->vertices.size(), 8000U);
     std::vector<double> heights;
-    for (const Position& spot : longest->spots) heights.push_back(spot.y);
+    for (const Position& position : longest->vertices) heights.push_back(position.y);
     std::ranges::sort(heights);  // upward is less
     EXPECT_NEAR(heights.back() - heights[0], 5 * (heights.back() - heights[1]), 1e-6);
 }
@@ -427,9 +427,9 @@ TEST(ReportCharts, MarksAtTheEndsAreWithinTheFrame) {
         const auto windows = shapes_of<ClipWindow>(drawing);
         ASSERT_FALSE(disks.empty());
         const Area& frame = windows.at(0)->area;
-        for (const Position& spot : disks[0]->centres) {
-            EXPECT_GE(spot.x - disks[0]->radius, frame.left) << log;
-            EXPECT_LE(spot.x + disks[0]->radius, frame.right()) << log;
+        for (const Position& position : disks[0]->centres) {
+            EXPECT_GE(position.x - disks[0]->radius, frame.left) << log;
+            EXPECT_LE(position.x + disks[0]->radius, frame.right()) << log;
         }
     }
 }

@@ -105,7 +105,7 @@ TEST(PointsPicture, SetsHaveColoursAndALegend) {
     const PointSet b = points_of({{0.3, 0.3}});
     PictureStyle dark{.theme = &dark_theme};
     const Drawing drawing = draw_points(picture_of({&a, &b}), dark, {});
-    EXPECT_EQ(drawing.ground, dark_theme.ground);
+    EXPECT_EQ(drawing.background, dark_theme.background);
     std::vector<Colour> colours;
     std::size_t marks = 0;
     for (const Disks* disks : shapes_of<Disks>(drawing)) {
@@ -124,10 +124,10 @@ TEST(PointsPicture, ManyPointsAreADensityThatCountsThemAll) {
     EXPECT_EQ(shapes_of<PixelImage>(drawing).size(), 2U);  // and the bar of colours
     EXPECT_LT(svg_bytes(drawing, 1).size(), 400'000U);
     const PointSet fewer = make("random", {50'000, 2});
-    const Drawing specks = draw_points(picture_of({&fewer}), {}, {});
-    const PixelImage& raster = *shapes_of<PixelImage>(specks).at(0);
+    const Drawing pixels_of_points = draw_points(picture_of({&fewer}), {}, {});
+    const PixelImage& raster = *shapes_of<PixelImage>(pixels_of_points).at(0);
     std::size_t dark = 0;
-    for (const Colour& pixel : raster.pixels) dark += pixel != light_theme.ground ? 1 : 0;
+    for (const Colour& pixel : raster.pixels) dark += pixel != light_theme.background ? 1 : 0;
     EXPECT_GT(dark, 45'000U);  // some share a pixel
     EXPECT_LE(dark, 50'000U);
 }
@@ -135,16 +135,16 @@ TEST(PointsPicture, ManyPointsAreADensityThatCountsThemAll) {
 // Seen from the side of high x, low y and high z.
 TEST(PointsPicture, SpaceIsSeenFromAFixedPlace) {
     const Box box{{0, 0, 0}, {1, 1, 1}};
-    const auto seen = [&](double x, double y, double z) {
+    const auto projected = [&](double x, double y, double z) {
         const std::array<double, 3> point = {x, y, z};
-        return seen_at(box, point);
+        return project(box, point);
     };
-    EXPECT_GT(seen(1, 0, 0).right, seen(0, 0, 0).right);
-    EXPECT_GT(seen(0, 1, 0).right, seen(0, 0, 0).right);
-    EXPECT_GT(seen(0, 0, 1).up, seen(0, 0, 0).up);
-    EXPECT_GT(seen(1, 0, 1).depth, seen(0, 1, 0).depth);
+    EXPECT_GT(projected(1, 0, 0).right, projected(0, 0, 0).right);
+    EXPECT_GT(projected(0, 1, 0).right, projected(0, 0, 0).right);
+    EXPECT_GT(projected(0, 0, 1).up, projected(0, 0, 0).up);
+    EXPECT_GT(projected(1, 0, 1).depth, projected(0, 1, 0).depth);
     // A length is as long in every direction at right angles to the view.
-    const Seen a = seen(1, 0, 0);
+    const Projected a = projected(1, 0, 0);
     EXPECT_NEAR(a.right * a.right + a.up * a.up + a.depth * a.depth, 1, 1e-12);
     const PointSet points = make("random", {500, 3});
     EXPECT_EQ(marks_of(draw_points(picture_of({&points}), {}, {})).size(), 500U);
@@ -224,8 +224,8 @@ TEST(DomainOutline, GoesRoundTheDomainsArea) {
 TEST(DomainOutline, HasCorners) {
     double nearest = 1;
     for (const auto& line : outline_of(*parse_domain("triangle:vertices=[0,0 1,0 0,1]", 2)))
-        for (const Position& spot : line)
-            nearest = std::min(nearest, std::hypot(spot.x - 1, spot.y));
+        for (const Position& position : line)
+            nearest = std::min(nearest, std::hypot(position.x - 1, position.y));
     EXPECT_LT(nearest, 1e-3);
 }
 

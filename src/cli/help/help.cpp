@@ -192,6 +192,15 @@ std::string help_on(const std::vector<std::string>& words, const std::vector<Kin
     return help_text(asked, kinds);
 }
 
+/// The manual page of the program (an empty name), a verb or a topic, for man. @throws Error(usage)
+std::string manual_page(const std::string& name, const std::vector<Kind>& kinds) {
+    if (name.empty()) return page_of_program(HelpPage::Style::man).text();
+    if (const Topic* topic = find_topic(name)) return page_of_topic(*topic).text();
+    if (const VerbInfo* info = find_verb(name))
+        return page_of_verb(*info, kinds, HelpPage::Style::man).text();
+    refuse_name(name, kinds);
+}
+
 /// Every manual page in a folder, under the names that man knows them by.
 void write_manual(const std::string& folder, const std::vector<Kind>& kinds) {
     write_text(folder + "/stipple.1", manual_page("", kinds));
@@ -210,14 +219,6 @@ std::string help_text(const Arguments& arguments, const std::vector<Kind>& kinds
     const VerbInfo& info = info_of(*arguments.verb);
     if (arguments.unit.empty()) return page_of_verb(info, kinds, HelpPage::Style::text).text();
     return page_of_unit(info, unit_of(kinds, info.name, arguments.unit)).text();
-}
-
-std::string manual_page(const std::string& name, const std::vector<Kind>& kinds) {
-    if (name.empty()) return page_of_program(HelpPage::Style::man).text();
-    if (const Topic* topic = find_topic(name)) return page_of_topic(*topic).text();
-    if (const VerbInfo* info = find_verb(name))
-        return page_of_verb(*info, kinds, HelpPage::Style::man).text();
-    refuse_name(name, kinds);
 }
 
 int help(const Arguments& arguments, const std::vector<Kind>& kinds) {

@@ -10,10 +10,6 @@ namespace stipple::cli {
 /// What --help says for the program, a verb, or a unit of a verb; made from the records.
 std::string help_text(const Arguments& arguments, const std::vector<Kind>& kinds);
 
-/// The manual page of the program (an empty name), a verb or a topic, for man.
-/// @throws Error(usage)
-std::string manual_page(const std::string& name, const std::vector<Kind>& kinds);
-
 /// stipple and the libraries it is linked with.
 std::string version_text();
 

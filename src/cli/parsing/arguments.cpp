@@ -32,7 +32,7 @@ std::vector<std::string> known_options(Verb verb, const UnitInfo* unit) {
     fail_with_hint(ErrorKind::usage, hint, "unknown {} '{}'", what, word);
 }
 
-/// `--check` before what is no condition, such as a file, gets none.
+/// `--check` takes the next word only if that is a condition, not a file.
 void complete_checks(std::vector<std::string>& words) {
     const auto condition = [](const std::string& word) {
         return !word.starts_with('-') && word.find_first_of("<>=") != std::string::npos;

@@ -3,65 +3,23 @@
 
 #include <algorithm>
 
-#include "cli/help/guide.hpp"
 #include "core/text.hpp"
 
 namespace stipple::cli {
 namespace table {
 namespace {
 
-constexpr unsigned generate = static_cast<unsigned>(Verb::generate);
-constexpr unsigned warp = static_cast<unsigned>(Verb::warp);
-constexpr unsigned analyze = static_cast<unsigned>(Verb::analyze);
-constexpr unsigned convert = static_cast<unsigned>(Verb::convert);
-constexpr unsigned list = static_cast<unsigned>(Verb::list);
-constexpr unsigned plot = static_cast<unsigned>(Verb::plot);
-constexpr unsigned study = static_cast<unsigned>(Verb::study);
-constexpr unsigned report = static_cast<unsigned>(Verb::report);
-constexpr unsigned reproduce = static_cast<unsigned>(Verb::reproduce);
-constexpr unsigned help = static_cast<unsigned>(Verb::help);
-constexpr unsigned writers = generate | warp | convert;
-constexpr unsigned readers = warp | analyze | convert | plot | report;
-constexpr unsigned workers = writers | analyze | plot | study | report | reproduce;
+using enum Verb;
+constexpr Verb writers = generate | warp | convert;
+constexpr Verb readers = warp | analyze | convert | plot | report;
+constexpr Verb workers = writers | analyze | plot | study | report | reproduce;
 
 constexpr double most_points = 0x1p53;
 constexpr double most_dimensions = 1'000'000;
 constexpr double most_sets = 1'000'000'000;
 constexpr double most_work = 0x1p60;
 
-/// A line of the table below.
-struct Row {
-    const char* names;
-    const char* value;  ///< placeholder; words with | between are all that it may be; empty: a flag
-    const char* fallback;
-    const char* help;
-    unsigned verbs;
-    bool repeatable = false;
-    double low = 0;
-    double high = 0;  ///< above 0: a whole number up to it
-};
-
-/// The option as units describe theirs.
-Option typed(const Row& row) {
-    const std::string_view names = row.names;
-    const std::string_view value = row.value;
-    Option option{.name = std::string(names.substr(names.rfind("--") + 2)),
-                  .type = "text",
-                  .fallback = std::string(row.fallback),
-                  .optional = true,
-                  .low = row.low,
-                  .high = row.high,
-                  .help = row.help};
-    if (value.empty()) option.type = "flag";
-    if (row.high > 0) option.type = "integer";
-    if (value == "FILE" || value == "FOLDER") option.type = "file";
-    if (value.find('|') == std::string_view::npos) return option;
-    option.type = "choice";
-    for (const auto word : split(value, '|')) option.choices.emplace_back(word);
-    return option;
-}
-
-const Row rows[] = {
+const std::vector<CommonOption> rows = {
     {"--generators", "SPECS", "", "generators to compare: sobol:scramble=owen,halton", study, true},
     {"--analyze", "SPECS", "", "analyzers to run: star-discrepancy,integration:integrand=...",
      study, true},
@@ -225,10 +183,8 @@ const std::vector<VerbInfo>& verbs() {
                                          {Verb::list, "list"},
                                          {Verb::reproduce, "reproduce"},
                                          {Verb::help, "help"},
-                                         {Verb::completions, "completions"}}) {
-            const VerbPage page = verb_page(name);
-            all.push_back({verb, name, page.usage, page.summary, page.text, page.examples});
-        }
+                                         {Verb::completions, "completions"}})
+            all.push_back({verb_page(name), verb, name});
         return all;
     }();
     return table;
@@ -241,25 +197,34 @@ const VerbInfo* find_verb(std::string_view name) {
 
 const VerbInfo& info_of(Verb verb) { return *std::ranges::find(verbs(), verb, &VerbInfo::verb); }
 
-const std::vector<CommonOption>& common_options() {
-    static const auto options = [] {
-        std::vector<CommonOption> all;
-        for (const table::Row& row : table::rows)
-            all.push_back(
-                {row.names, row.value, row.fallback, table::typed(row), row.verbs, row.repeatable});
-        return all;
-    }();
-    return options;
-}
-
-bool takes(const CommonOption& option, Verb verb) {
-    return (option.verbs & static_cast<unsigned>(verb)) != 0;
+CommonOption::CommonOption(std::string_view all_names, std::string_view placeholder,
+                           const char* shown_default, const char* help, Verb of_verbs, bool several,
+                           double low, double high)
+    : names(all_names),
+      value(placeholder),
+      fallback(shown_default),
+      option{.name = std::string(all_names.substr(all_names.rfind("--") + 2)),
+             .type = "text",
+             .fallback = fallback,
+             .optional = true,
+             .low = low,
+             .high = high,
+             .help = help},
+      verbs(of_verbs),
+      repeatable(several) {
+    if (value.empty()) option.type = "flag";
+    if (high > 0) option.type = "integer";
+    if (value == "FILE" || value == "FOLDER") option.type = "file";
+    if (value.find('|') == std::string::npos) return;
+    option.type = "choice";
+    for (const auto word : split(value, '|')) option.choices.emplace_back(word);
 }
 
 std::vector<const CommonOption*> options_of(Verb verb) {
     std::vector<const CommonOption*> found;
-    for (const CommonOption& option : common_options())
-        if (takes(option, verb)) found.push_back(&option);
+    for (const CommonOption& option : table::rows)
+        if ((static_cast<unsigned>(option.verbs) & static_cast<unsigned>(verb)) != 0)
+            found.push_back(&option);
     return found;
 }
 

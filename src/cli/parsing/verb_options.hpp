@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/help/guide.hpp"
 #include "cli/parsing/catalog.hpp"
 #include "core/options.hpp"
 
@@ -26,13 +27,14 @@ enum class Verb : unsigned {
     completions = 1024,
 };
 
-struct VerbInfo {
+/// A set of verbs.
+constexpr Verb operator|(Verb a, Verb b) {
+    return static_cast<Verb>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
+}
+
+struct VerbInfo : VerbPage {
     Verb verb;
     std::string name;
-    std::string usage;
-    std::string summary;
-    std::string text;      ///< paragraphs for --help
-    std::string examples;  ///< lines for --help
 };
 
 const std::vector<VerbInfo>& verbs();
@@ -44,17 +46,19 @@ const VerbInfo& info_of(Verb verb);
 
 /// An option that a verb takes whatever the unit.
 struct CommonOption {
+    /// @param placeholder its type: empty: a flag; words with | between: all that it may be
+    /// @param high above 0: it is a whole number up to it
+    CommonOption(std::string_view all_names, std::string_view placeholder,
+                 const char* shown_default, const char* help, Verb of_verbs, bool several = false,
+                 double low = 0, double high = 0);
+
     std::string names;     ///< "-n,--count", the long name last
     std::string value;     ///< placeholder; empty: a flag
     std::string fallback;  ///< as help states it; empty: nothing to state
     Option option;         ///< long name, type, range and help
-    unsigned verbs = 0;    ///< Verb bits
-    bool repeatable = false;
+    Verb verbs;            ///< that take it
+    bool repeatable;
 };
-
-const std::vector<CommonOption>& common_options();
-
-bool takes(const CommonOption& option, Verb verb);
 
 /// All common options that the verb takes.
 std::vector<const CommonOption*> options_of(Verb verb);

@@ -25,7 +25,7 @@ void draw_colour_bar(Drawing& drawing, const Area& area, const std::string& name
         drawing.add(Label{.text = text,
                           .at = {right + 8, y + 0.36 * number_size},
                           .size = number_size,
-                          .colour = theme.words});
+                          .colour = theme.text});
     }
     drawing.add(Label{.text = name,
                       .at = {right, area.top - 8},

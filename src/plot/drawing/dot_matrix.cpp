@@ -14,7 +14,7 @@ namespace stipple::plot {
 namespace {
 
 /// Letters of a terminal that a text takes.
-std::size_t length_of(const std::string& text) { return letters_of(text).size(); }
+std::size_t length_of(const std::string& text) { return code_points(text).size(); }
 
 std::string blanks(std::size_t n) { return std::string(n, ' '); }
 

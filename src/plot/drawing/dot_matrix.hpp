@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Pictures of letters, for terminals: Braille has 2 x 4 dots in a letter.
+// Pictures of characters, for terminals: a Braille pattern has 2 x 4 dots.
 //
 // Source  The Unicode Standard, Braille Patterns: U+2800 and a bit for each of the dots 1 to 8,
 //         which stand 1 2 3 7 in the left column, 4 5 6 8 in the right one.
@@ -13,7 +13,7 @@ namespace stipple::plot {
 
 class DotMatrix {
   public:
-    /// A field of so many letters.
+    /// A field of so many characters.
     DotMatrix(std::size_t columns, std::size_t rows);
 
     [[nodiscard]] std::size_t width() const { return 2 * columns_; }  ///< dots
@@ -25,7 +25,7 @@ class DotMatrix {
     /// Dots on the straight way between two places.
     void draw(double right0, double up0, double right1, double up1);
 
-    /// The letters of a row, from the top.
+    /// The characters of a row, from the top.
     [[nodiscard]] std::string row(std::size_t row) const;
 
     /// Number of dots.

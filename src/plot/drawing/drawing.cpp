@@ -13,14 +13,14 @@ Colour mixed(Colour a, Colour b, double share) {
 }
 
 void Drawing::line(Position from, Position to, Colour colour, double width_of_line) {
-    add(Line{.spots = {from, to}, .colour = colour, .width = width_of_line, .crisp = true});
+    add(Line{.vertices = {from, to}, .colour = colour, .width = width_of_line, .crisp = true});
 }
 
 void Drawing::rectangle(const Area& area, Colour colour) {
-    add(Patch{.spots = {{area.left, area.top},
-                        {area.right(), area.top},
-                        {area.right(), area.bottom()},
-                        {area.left, area.bottom()}},
+    add(Patch{.vertices = {{area.left, area.top},
+                           {area.right(), area.top},
+                           {area.right(), area.bottom()},
+                           {area.left, area.bottom()}},
               .colour = colour});
 }
 

@@ -43,9 +43,9 @@ struct Area {
 
 enum class Dash { none, dashed, dotted };
 
-/// A line through spots; crisp: of whole pixels, for lines along the axes.
+/// A polyline; crisp: of whole pixels, for lines along the axes.
 struct Line {
-    std::vector<Position> spots;
+    std::vector<Position> vertices;
     Colour colour = {};
     double width = 1;
     Dash dash = Dash::none;
@@ -54,7 +54,7 @@ struct Line {
 
 /// The inside of a closed line.
 struct Patch {
-    std::vector<Position> spots;
+    std::vector<Position> vertices;
     Colour colour = {};
     double opacity = 1;
 };
@@ -88,10 +88,10 @@ struct PixelImage {
     std::vector<Colour> pixels;
 };
 
-/// What follows is seen inside of the area only, up to the next one; without an area: everywhere.
+/// Clips the shapes that follow, up to the next one, to an area.
 struct ClipWindow {
     Area area;
-    bool open = false;  ///< everywhere
+    bool open = false;  ///< no clipping
 };
 
 /// What follows is one group of a page's SVG, up to the next one; of files it changes nothing.
@@ -104,7 +104,7 @@ using Shape = std::variant<Line, Patch, Disks, Label, PixelImage, ClipWindow, Sv
 struct Drawing {
     double width = 0;
     double height = 0;
-    Colour ground = {255, 255, 255};
+    Colour background = {255, 255, 255};
     std::string title;  ///< for readers of screens, and the file's text chunk
     std::vector<Shape> shapes = {};
 
@@ -124,7 +124,7 @@ using PictureNotes = std::vector<std::pair<std::string, std::string>>;
 std::string svg_bytes(const Drawing& drawing, double scale, const PictureNotes& notes = {});
 
 /// As an element of a page, in the colours of the first where the page is light, of the second
-/// where it is dark; the label says in words what is drawn. Both have the same shapes.
+/// where it is dark; the label describes it to screen readers. Both have the same shapes.
 std::string svg_element(const Drawing& light, const Drawing& dark, const std::string& label);
 
 /// As PNG, one unit `scale` pixels. @throws Error(limit) for one that is too large.

@@ -96,19 +96,19 @@ std::optional<char32_t> lowered(char32_t letter) {
 }
 
 /// Reads the path's numbers and draws.
-class Pen {
+class PathReader {
   public:
-    explicit Pen(std::string_view path) : at_(path.data()), end_(at_ + path.size()) {}
+    explicit PathReader(std::string_view path) : at_(path.data()), end_(at_ + path.size()) {}
 
     std::vector<std::vector<Position>> draw() {
         while (at_ != end_) {
             const char command = *at_++;
-            const Position spot = read_spot();
+            const Position position = read_position();
             if (command == 'M') strokes_.emplace_back();
             if (command == 'Q')
-                turn(spot, read_spot());
+                curve_to(position, read_position());
             else
-                strokes_.back().push_back(spot);
+                strokes_.back().push_back(position);
         }
         return std::move(strokes_);
     }
@@ -121,14 +121,14 @@ class Pen {
         return value;
     }
 
-    Position read_spot() {
+    Position read_position() {
         const double x = read();
         return {x, read()};
     }
 
     /// A rational curve of weight sqrt(1/2): a quarter of a circle or an ellipse where the tangents
     /// are at right angles.
-    void turn(Position corner, Position end) {
+    void curve_to(Position corner, Position end) {
         constexpr int steps = 8;
         const Position start = strokes_.back().back();
         for (int i = 1; i <= steps; ++i) {
@@ -149,7 +149,7 @@ class Pen {
 
 }  // namespace
 
-std::u32string letters_of(std::string_view text) {
+std::u32string code_points(std::string_view text) {
     std::u32string letters;
     while (!text.empty()) {
         const auto [letter, size] = first_letter(text);
@@ -186,7 +186,7 @@ std::string utf8_of(std::u32string_view letters) {
 
 std::string clean_text(std::string_view text) {
     std::string out;
-    for (const char32_t letter : letters_of(text)) {
+    for (const char32_t letter : code_points(text)) {
         const bool control = letter < 0x20 || (letter >= 0x7F && letter < 0xA0);
         if (!control && letter != 0xFFFE && letter != 0xFFFF) append_utf8(out, letter);
     }
@@ -201,23 +201,23 @@ double advance_of(char32_t letter) {
 
 std::vector<std::vector<Position>> strokes_of(char32_t letter) {
     const auto plain = lowered(letter);
-    auto strokes = Pen(plain_glyph(plain.value_or(letter)).path).draw();
+    auto strokes = PathReader(plain_glyph(plain.value_or(letter)).path).draw();
     if (!plain) return strokes;
     for (auto& stroke : strokes)
-        for (Position& spot : stroke)
-            spot = {spot.x * raised_size, spot.y * raised_size + raised_by};
+        for (Position& position : stroke)
+            position = {position.x * raised_size, position.y * raised_size + raised_by};
     return strokes;
 }
 
 double text_width(std::string_view text, double size) {
     double units = 0;
-    for (const char32_t letter : letters_of(text)) units += advance_of(letter);
+    for (const char32_t letter : code_points(text)) units += advance_of(letter);
     return units * size / em_units;
 }
 
 std::string shortened_to(const std::string& text, double size, double width) {
     if (text_width(text, size) <= width) return text;
-    std::u32string letters = letters_of(text);
+    std::u32string letters = code_points(text);
     std::string out;
     do {
         letters.erase(0, 1);
@@ -228,7 +228,7 @@ std::string shortened_to(const std::string& text, double size, double width) {
 
 std::string cut_to(const std::string& text, double size, double width) {
     if (text_width(text, size) <= width) return text;
-    std::u32string letters = letters_of(text);
+    std::u32string letters = code_points(text);
     std::string out;
     do {
         letters.pop_back();

@@ -17,7 +17,7 @@ namespace stipple::plot {
 inline constexpr double em_units = 28;
 
 /// Code points of UTF-8; bytes that are none become U+FFFD.
-std::u32string letters_of(std::string_view text);
+std::u32string code_points(std::string_view text);
 
 /// The way back.
 void append_utf8(std::string& out, char32_t letter);

@@ -59,7 +59,7 @@ double Axis::share(double value) const {
     return (std::log(std::max(value, 1e-300)) - bottom) / (std::log(high) - bottom);
 }
 
-void Axis::mend() {
+void Axis::make_valid() {
     if (!std::isfinite(low) || !std::isfinite(high)) {
         low = log ? 0.1 : 0;
         high = 1;
@@ -78,8 +78,8 @@ void Axis::mend() {
 
 Panel::Panel(const Area& frame, Axis x, Axis y)
     : frame_(frame), x_(std::move(x)), y_(std::move(y)) {
-    x_.mend();
-    y_.mend();
+    x_.make_valid();
+    y_.make_valid();
     x_ticks_ = x_.ticks(frame_.width, false);
     y_ticks_ = y_.ticks(frame_.height, true);
 }
@@ -90,7 +90,7 @@ double Panel::y(double value) const { return frame_.bottom() - y_.share(value) *
 
 double Panel::room_left(const Axis& y, double height) {
     Axis axis = y;
-    axis.mend();
+    axis.make_valid();
     double widest = 0;
     for (const Tick& tick : axis.ticks(height, true).numbers)
         widest = std::max(widest, text_width(tick.text, number_size));
@@ -120,7 +120,7 @@ void Panel::draw_x(Drawing& drawing, const Theme& theme) const {
             drawing.add(Label{.text = tick.text,
                               .at = {middle, bottom + mark + 4 + capital},
                               .size = number_size,
-                              .colour = theme.words,
+                              .colour = theme.text,
                               .anchor = Anchor::middle});
     }
     const std::string name = full_name(x_, x_ticks_);
@@ -146,7 +146,7 @@ void Panel::draw_y(Drawing& drawing, const Theme& theme) const {
         drawing.add(Label{.text = text,
                           .at = {left - mark - 4, base},
                           .size = number_size,
-                          .colour = theme.words,
+                          .colour = theme.text,
                           .anchor = Anchor::end});
         widest = std::max(widest, text_width(text, number_size));
     }

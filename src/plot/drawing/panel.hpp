@@ -30,7 +30,7 @@ struct Axis {
     [[nodiscard]] double share(double value) const;
 
     /// Makes low < high, and what is logarithmic positive.
-    void mend();
+    void make_valid();
 };
 
 class Panel {

@@ -50,18 +50,18 @@ double squared_distance(Position p, Position a, Position b) {
 }
 
 /// The strokes of a dashed line; the pattern in units of its drawing.
-std::vector<std::vector<Position>> dashes_of(const std::vector<Position>& spots, double on,
+std::vector<std::vector<Position>> dashes_of(const std::vector<Position>& vertices, double on,
                                              double off) {
     std::vector<std::vector<Position>> dashes;
     double left = on;
     bool drawn = true;
-    dashes.push_back({spots[0]});
-    for (std::size_t i = 1; i < spots.size(); ++i) {
-        Position at = spots[i - 1];
-        double length = std::hypot(spots[i].x - at.x, spots[i].y - at.y);
+    dashes.push_back({vertices[0]});
+    for (std::size_t i = 1; i < vertices.size(); ++i) {
+        Position at = vertices[i - 1];
+        double length = std::hypot(vertices[i].x - at.x, vertices[i].y - at.y);
         while (length > left) {
             const double share = left / length;
-            at = {at.x + share * (spots[i].x - at.x), at.y + share * (spots[i].y - at.y)};
+            at = {at.x + share * (vertices[i].x - at.x), at.y + share * (vertices[i].y - at.y)};
             length -= left;
             if (drawn) dashes.back().push_back(at);
             drawn = !drawn;
@@ -69,45 +69,45 @@ std::vector<std::vector<Position>> dashes_of(const std::vector<Position>& spots,
             if (drawn) dashes.push_back({at});
         }
         left -= length;
-        if (drawn) dashes.back().push_back(spots[i]);
+        if (drawn) dashes.back().push_back(vertices[i]);
     }
     return dashes;
 }
 
-class Painter {
+class Rasterizer {
   public:
-    Painter(const Drawing& drawing, double scale)
+    Rasterizer(const Drawing& drawing, double scale)
         : scale_(scale),
           width_(pixel(std::round(drawing.width * scale))),
           height_(pixel(std::round(drawing.height * scale))),
           window_{0, 0, width_, height_},
           colours_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
-                   drawing.ground),
+                   drawing.background),
           shares_(colours_.size(), 0.0F) {}
 
     void operator()(const Line& line) {
-        if (line.spots.size() < 2) return;
-        if (line.crisp && line.dash == Dash::none && line.spots.size() == 2) {
+        if (line.vertices.size() < 2) return;
+        if (line.crisp && line.dash == Dash::none && line.vertices.size() == 2) {
             crisp(line);
             return;
         }
         if (line.dash == Dash::none) {
-            stroke(line.spots, line.width * scale_);
+            stroke(line.vertices, line.width * scale_);
         } else {
             const bool dashed = line.dash == Dash::dashed;
             // Round ends make dashes longer and gaps shorter by a width.
             const double on = dashed ? std::max(6 - line.width, 1.0) : 0.5;
-            for (const auto& dash : dashes_of(line.spots, on, (dashed ? 10.0 : 4.5) - on))
+            for (const auto& dash : dashes_of(line.vertices, on, (dashed ? 10.0 : 4.5) - on))
                 stroke(dash, line.width * scale_);
         }
         mix(line.colour, 1);
     }
 
     void operator()(const Patch& patch) {
-        std::vector<Position> spots;
-        for (const Position& spot : patch.spots)
-            spots.push_back({spot.x * scale_, spot.y * scale_});
-        fill(spots);
+        std::vector<Position> vertices;
+        for (const Position& position : patch.vertices)
+            vertices.push_back({position.x * scale_, position.y * scale_});
+        fill(vertices);
         mix(patch.colour, patch.opacity);
     }
 
@@ -124,13 +124,13 @@ class Painter {
         double x = label.anchor == Anchor::start ? 0 : -text_width(label.text, label.size);
         if (label.anchor == Anchor::middle) x /= 2;
         const double pen = (label.bold ? 3.3 : 2.3) * unit * scale_;
-        for (const char32_t letter : letters_of(label.text)) {
+        for (const char32_t letter : code_points(label.text)) {
             for (auto& points : strokes_of(letter)) {
-                for (Position& spot : points) {
-                    const double right = x + spot.x * unit;
-                    const double down = -spot.y * unit;
-                    spot = label.upward ? Position{label.at.x + down, label.at.y - right}
-                                        : Position{label.at.x + right, label.at.y + down};
+                for (Position& position : points) {
+                    const double right = x + position.x * unit;
+                    const double down = -position.y * unit;
+                    position = label.upward ? Position{label.at.x + down, label.at.y - right}
+                                            : Position{label.at.x + right, label.at.y + down};
                 }
                 stroke(points, pen);
             }
@@ -189,8 +189,8 @@ class Painter {
     /// A line along an axis, of whole pixels.
     void crisp(const Line& line) {
         const double wide = std::max(1.0, std::round(line.width * scale_));
-        const Position a{line.spots[0].x * scale_, line.spots[0].y * scale_};
-        const Position b{line.spots[1].x * scale_, line.spots[1].y * scale_};
+        const Position a{line.vertices[0].x * scale_, line.vertices[0].y * scale_};
+        const Position b{line.vertices[1].x * scale_, line.vertices[1].y * scale_};
         const bool across = a.y == b.y;
         const double at = std::floor((across ? a.y : a.x) + 0.5 * (scale_ - wide));
         const double from = std::floor(across ? std::min(a.x, b.x) : std::min(a.y, b.y));
@@ -202,17 +202,18 @@ class Painter {
             for (int x = area.left; x < area.right; ++x) colours_[index(x, y)] = line.colour;
     }
 
-    /// Marks what a pen of `wide` pixels covers on its way through spots of the drawing.
-    void stroke(const std::vector<Position>& spots, double wide) {
-        if (spots.size() == 1) stroke_piece(spots[0], spots[0], wide);
-        for (std::size_t i = 1; i < spots.size(); ++i) stroke_piece(spots[i - 1], spots[i], wide);
+    /// Marks the coverage of a polyline of the drawing, `wide` pixels wide.
+    void stroke(const std::vector<Position>& vertices, double wide) {
+        if (vertices.size() == 1) stroke_piece(vertices[0], vertices[0], wide);
+        for (std::size_t i = 1; i < vertices.size(); ++i)
+            stroke_piece(vertices[i - 1], vertices[i], wide);
     }
 
     void stroke_piece(Position from, Position to, double wide) {
         const Position a{from.x * scale_, from.y * scale_};
         const Position b{to.x * scale_, to.y * scale_};
         const double reach = wide / 2 + 0.5;
-        // A pen thinner than a pixel marks that share of it.
+        // A line thinner than a pixel covers that share of it.
         const double most = std::min(1.0, wide);
         Pixels area{pixel(std::floor(std::min(a.x, b.x) - reach)),
                     pixel(std::floor(std::min(a.y, b.y) - reach)),
@@ -230,15 +231,14 @@ class Painter {
         marked(area);
     }
 
-    /// Marks the inside of a closed line of spots in pixels; what is inside an even number of times
-    /// is outside.
-    void fill(const std::vector<Position>& spots) {
+    /// Marks the coverage of a polygon in pixels, by the even-odd rule.
+    void fill(const std::vector<Position>& vertices) {
         constexpr int rows_in_pixel = 4;
         double top = std::numeric_limits<double>::infinity();
         double bottom = -top;
-        for (const Position& spot : spots) {
-            top = std::min(top, spot.y);
-            bottom = std::max(bottom, spot.y);
+        for (const Position& position : vertices) {
+            top = std::min(top, position.y);
+            bottom = std::max(bottom, position.y);
         }
         Pixels area{0, pixel(std::floor(top)), width_, pixel(std::ceil(bottom))};
         area.cut_to(window_);
@@ -246,9 +246,9 @@ class Painter {
         for (int row = area.top * rows_in_pixel; row < area.bottom * rows_in_pixel; ++row) {
             const double y = (row + 0.5) / rows_in_pixel;
             crossings.clear();
-            for (std::size_t i = 0; i < spots.size(); ++i) {
-                const Position a = spots[i];
-                const Position b = spots[(i + 1) % spots.size()];
+            for (std::size_t i = 0; i < vertices.size(); ++i) {
+                const Position a = vertices[i];
+                const Position b = vertices[(i + 1) % vertices.size()];
                 if ((a.y <= y) != (b.y <= y))
                     crossings.push_back(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
             }
@@ -278,14 +278,15 @@ class Painter {
                     std::max(touched_.right, area.right), std::max(touched_.bottom, area.bottom)};
     }
 
-    /// Colours what is marked, and forgets the marks.
+    /// Blends a colour into the pixels by their coverage, and clears it.
     void mix(Colour colour, double opacity) {
         for (int y = touched_.top; y < touched_.bottom; ++y)
             for (int x = touched_.left; x < touched_.right; ++x) {
                 float& share = shares_[index(x, y)];
                 if (share <= 0) continue;
-                Colour& ground = colours_[index(x, y)];
-                ground = mixed(ground, colour, opacity * std::min(1.0, static_cast<double>(share)));
+                Colour& background = colours_[index(x, y)];
+                background =
+                    mixed(background, colour, opacity * std::min(1.0, static_cast<double>(share)));
                 share = 0;
             }
         touched_ = {};
@@ -336,11 +337,11 @@ std::string png_bytes_of(const Drawing& drawing, double scale, const PictureNote
     if (drawing.width * scale * drawing.height * scale > most_pixels)
         fail(ErrorKind::limit, "a picture of {:.0f} x {:.0f} pixels is larger than {:.0f} pixels",
              drawing.width * scale, drawing.height * scale, most_pixels);
-    Painter painter(drawing, scale);
-    for (const Shape& shape : drawing.shapes) std::visit(painter, shape);
+    Rasterizer rasterizer(drawing, scale);
+    for (const Shape& shape : drawing.shapes) std::visit(rasterizer, shape);
     PictureNotes all = {{"Title", clean_text(drawing.title)}};
     for (const auto& [keyword, text] : notes) all.emplace_back(keyword, clean_text(text));
-    return painter.png(all);
+    return rasterizer.png(all);
 }
 
 }  // namespace stipple::plot

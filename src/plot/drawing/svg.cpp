@@ -59,14 +59,14 @@ class Writer {
     explicit Writer(bool page) : page_(page) {}
 
     void operator()(const Line& line, const Line& dark) {
-        if (line.spots.size() < 2) return;
+        if (line.vertices.size() < 2) return;
         // Lines one unit wide are sharp where they run along the middle of pixels.
         const bool half = line.crisp && std::lround(line.width) % 2 == 1;
         out_ += "<path d=\"";
-        for (std::size_t i = 0; i < line.spots.size(); ++i) {
-            const Position spot = line.spots[i];
-            const double x = half ? std::floor(spot.x) + 0.5 : spot.x;
-            const double y = half ? std::floor(spot.y) + 0.5 : spot.y;
+        for (std::size_t i = 0; i < line.vertices.size(); ++i) {
+            const Position position = line.vertices[i];
+            const double x = half ? std::floor(position.x) + 0.5 : position.x;
+            const double y = half ? std::floor(position.y) + 0.5 : position.y;
             out_ += fmt::format("{}{} {}", i == 0 ? "M" : "L", number(x), number(y));
         }
         out_ += fmt::format("\" fill=\"none\"{} stroke-width=\"{}\"",
@@ -79,9 +79,9 @@ class Writer {
 
     void operator()(const Patch& patch, const Patch& dark) {
         out_ += "<path d=\"";
-        for (std::size_t i = 0; i < patch.spots.size(); ++i)
-            out_ += fmt::format("{}{} {}", i == 0 ? "M" : "L", number(patch.spots[i].x),
-                                number(patch.spots[i].y));
+        for (std::size_t i = 0; i < patch.vertices.size(); ++i)
+            out_ += fmt::format("{}{} {}", i == 0 ? "M" : "L", number(patch.vertices[i].x),
+                                number(patch.vertices[i].y));
         out_ += "Z\"" + paint("fill", patch.colour, dark.colour);
         if (patch.opacity < 1) out_ += fmt::format(" fill-opacity=\"{}\"", number(patch.opacity));
         out_ += "/>\n";
@@ -185,7 +185,7 @@ class Writer {
     bool in_group_ = false;
 };
 
-/// The ground and all shapes, in the colours of both.
+/// The background and all shapes, in the colours of both.
 std::string body_of(const Drawing& light, const Drawing& dark, bool page) {
     assert(light.shapes.size() == dark.shapes.size());
     Writer writer(page);
@@ -193,7 +193,7 @@ std::string body_of(const Drawing& light, const Drawing& dark, bool page) {
         std::visit([&]<class S>(const S& shape) { writer(shape, std::get<S>(dark.shapes[i])); },
                    light.shapes[i]);
     return fmt::format("<rect width=\"{}\" height=\"{}\"{}/>\n", number(light.width),
-                       number(light.height), paint("fill", light.ground, dark.ground)) +
+                       number(light.height), paint("fill", light.background, dark.background)) +
            writer.take();
 }
 

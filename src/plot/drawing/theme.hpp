@@ -11,9 +11,9 @@
 namespace stipple::plot {
 
 struct Theme {
-    Colour ground;
+    Colour background;
     Colour ink;    ///< titles
-    Colour words;  ///< numbers and names on axes
+    Colour text;   ///< numbers and names on axes
     Colour frame;  ///< axes
     Colour grid;   ///< lines behind the data
     Colour band;   ///< what chance allows
@@ -30,18 +30,18 @@ inline constexpr Colour dark_series[] = {{86, 180, 233},  {240, 128, 48}, {26, 1
                                          {222, 150, 190}, {240, 190, 60}, {110, 140, 255},
                                          {245, 245, 245}};
 
-inline constexpr Theme light_theme{.ground = {255, 255, 255},
+inline constexpr Theme light_theme{.background = {255, 255, 255},
                                    .ink = {26, 26, 26},
-                                   .words = {64, 64, 64},
+                                   .text = {64, 64, 64},
                                    .frame = {112, 112, 112},
                                    .grid = {230, 230, 230},
                                    .band = {222, 222, 222},
                                    .guide = {107, 107, 107},
                                    .series = light_series};
 
-inline constexpr Theme dark_theme{.ground = {22, 24, 28},
+inline constexpr Theme dark_theme{.background = {22, 24, 28},
                                   .ink = {236, 236, 236},
-                                  .words = {190, 193, 198},
+                                  .text = {190, 193, 198},
                                   .frame = {128, 132, 140},
                                   .grid = {48, 51, 57},
                                   .band = {58, 62, 69},

@@ -26,7 +26,7 @@ constexpr Colour black{0, 0, 0};
 constexpr Colour white{255, 255, 255};
 
 Drawing page(double width, double height) {
-    return {.width = width, .height = height, .ground = white, .title = "a <b> & c"};
+    return {.width = width, .height = height, .background = white, .title = "a <b> & c"};
 }
 
 PngPicture pixels(const Drawing& drawing, double scale = 1) {
@@ -71,17 +71,18 @@ TEST(PngDrawing, ShapesCoverTheirArea) {
     EXPECT_NEAR(ink(pixels(disk)), 400 * 3.14159265, 4);
 
     Drawing patch = page(60, 60);
-    patch.add(Patch{.spots = {{10, 10}, {50.5, 10}, {10, 40}}, .colour = black});
+    patch.add(Patch{.vertices = {{10, 10}, {50.5, 10}, {10, 40}}, .colour = black});
     EXPECT_NEAR(ink(pixels(patch)), 40.5 * 30 / 2, 2);
     patch = page(60, 60);
-    patch.add(Patch{.spots = {{10, 10}, {50.5, 10}, {10, 40}}, .colour = black, .opacity = 0.5});
+    patch.add(Patch{.vertices = {{10, 10}, {50.5, 10}, {10, 40}}, .colour = black, .opacity = 0.5});
     EXPECT_NEAR(ink(pixels(patch)), 40.5 * 30 / 4, 3);
 
     Drawing line = page(60, 60);
-    line.add(Line{.spots = {{10, 10}, {50, 40}}, .colour = black, .width = 4});
+    line.add(Line{.vertices = {{10, 10}, {50, 40}}, .colour = black, .width = 4});
     EXPECT_NEAR(ink(pixels(line)), 50 * 4 + 4 * 3.14159265, 3);  // with two half disks
     line = page(60, 60);
-    line.add(Line{.spots = {{0, 30}, {60, 30}}, .colour = black, .width = 2, .dash = Dash::dashed});
+    line.add(
+        Line{.vertices = {{0, 30}, {60, 30}}, .colour = black, .width = 2, .dash = Dash::dashed});
     EXPECT_NEAR(ink(pixels(line)), 60 * 2 * 0.6, 10);
 }
 
@@ -99,9 +100,9 @@ TEST(PngDrawing, NothingIsDrawnOutsideOfAWindow) {
 // What lies outside of the picture, however far, is no place in it.
 TEST(PngDrawing, TakesShapesOutsideOfThePicture) {
     Drawing drawing = page(10, 10);
-    drawing.add(Line{.spots = {{-1e12, 5}, {1e12, 5}}, .colour = black, .width = 2});
+    drawing.add(Line{.vertices = {{-1e12, 5}, {1e12, 5}}, .colour = black, .width = 2});
     drawing.add(Disks{.centres = {{1e300, -1e300}}, .radius = 3, .colour = black});
-    drawing.add(Patch{.spots = {{-1e9, -1e9}, {-1e9, -5}, {-5, -5}}, .colour = black});
+    drawing.add(Patch{.vertices = {{-1e9, -1e9}, {-1e9, -5}, {-5, -5}}, .colour = black});
     drawing.add(Label{.text = "far", .at = {-500, 700}, .colour = black});
     EXPECT_LT(ink(pixels(drawing)), 25);
 }
@@ -158,10 +159,10 @@ TEST(Letters, EveryPrintableLetterHasStrokesWithinItsBox) {
         const bool unknown = strokes == strokes_of(U'\uFFFD');
         EXPECT_FALSE(unknown) << static_cast<int>(letter);
         for (const auto& stroke : strokes)
-            for (const Position& spot : stroke) {
-                EXPECT_TRUE(spot.x >= 0 && spot.x <= advance_of(letter) + 0.1)
-                    << static_cast<int>(letter) << " " << spot.x;
-                EXPECT_TRUE(spot.y >= -6 && spot.y <= 21) << static_cast<int>(letter);
+            for (const Position& position : stroke) {
+                EXPECT_TRUE(position.x >= 0 && position.x <= advance_of(letter) + 0.1)
+                    << static_cast<int>(letter) << " " << position.x;
+                EXPECT_TRUE(position.y >= -6 && position.y <= 21) << static_cast<int>(letter);
             }
     }
     for (const char32_t letter : {U'⁻', U'³', U'×', U'·', U'−', U'…', U'√', U'∞', U'±'})
@@ -175,9 +176,9 @@ TEST(Letters, EveryPrintableLetterHasStrokesWithinItsBox) {
 // A quarter of a circle: the pen stays at its distance from the middle.
 TEST(Letters, CurvesAreEllipses) {
     const auto strokes = strokes_of(U'o');
-    for (const Position& spot : strokes[0]) {
-        const double x = spot.x < 7.8 ? (spot.x - 7.8) / 5.8 : (spot.x - 7.8) / 5.7;
-        const double y = spot.y < 7.2 ? (spot.y - 7.2) / 6.2 : (spot.y - 7.2) / 6.3;
+    for (const Position& position : strokes[0]) {
+        const double x = position.x < 7.8 ? (position.x - 7.8) / 5.8 : (position.x - 7.8) / 5.7;
+        const double y = position.y < 7.2 ? (position.y - 7.2) / 6.2 : (position.y - 7.2) / 6.3;
         EXPECT_NEAR(x * x + y * y, 1, 1e-9);
     }
 }
@@ -185,9 +186,9 @@ TEST(Letters, CurvesAreEllipses) {
 TEST(Letters, Utf8GoesThereAndBack) {
     const std::string text = "aé−√𝛑";
     std::string back;
-    for (const char32_t letter : letters_of(text)) append_utf8(back, letter);
+    for (const char32_t letter : code_points(text)) append_utf8(back, letter);
     EXPECT_EQ(back, text);
-    EXPECT_EQ(letters_of("\xC0\xAF\xED\xA0\x80\xE2\x88"), std::u32string(7, U'\uFFFD'));
+    EXPECT_EQ(code_points("\xC0\xAF\xED\xA0\x80\xE2\x88"), std::u32string(7, U'\uFFFD'));
     EXPECT_EQ(clean_text("a\nb\x7F"), "ab");
 }
 
@@ -295,7 +296,7 @@ TEST(Panel, MendsAxesWithoutExtent) {
           {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}})
         for (const bool log : {false, true}) {
             Axis axis{.low = low, .high = high, .log = log};
-            axis.mend();
+            axis.make_valid();
             EXPECT_LT(axis.low, axis.high);
             EXPECT_TRUE(!log || axis.low > 0);
             EXPECT_FALSE(axis.ticks(300, false).numbers.empty());
