@@ -4,6 +4,7 @@
 // options that say so, and the step from a dimension to code compiled for it.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string_view>
 #include <vector>
@@ -23,9 +24,11 @@ inline constexpr Param<bool> bounded_option{.name = "bounded",
 /// @throws Error(usage): --torus and --bounded
 void check_torus(const Values& options);
 
-/// Points to r^d when hardly one more that keeps the distance r finds a place in d dimensions;
-/// rather too many.
-inline constexpr double saturated_density[] = {0, 0.76, 0.71, 0.75, 0.86, 1.06, 1.40};
+/// Points to r^d in a large box, d = 0 ... 6, when points thrown at random with a least distance r
+/// leave no place for another: the saturation densities of random sequential addition (S. Torquato,
+/// O. U. Uche, F. H. Stillinger, Phys. Rev. E 74 (2006) 061308, doi:10.1103/PhysRevE.74.061308).
+inline constexpr std::array<double, 7> saturated_density{0,      0.7476, 0.6966, 0.7336,
+                                                         0.8430, 1.0377, 1.3598};
 
 /// A box with distances; they go across opposite faces on the torus.
 struct BoxSpace {

@@ -5,10 +5,14 @@
 
 #include "core/wide.hpp"
 
-namespace stipple {
+namespace stipple::poisson_disk {
 namespace {
 
 constexpr std::size_t lanes = 8;
+
+/// Lines of sub-cells in a gap.
+template <std::size_t D>
+constexpr std::size_t lines = power(subcells<D>, D - 1);
 
 template <std::size_t D, class Real>
 [[gnu::always_inline]] inline Hit hits_by_lanes(const NearDisks<D, Real>& near,
@@ -31,42 +35,42 @@ template <std::size_t D, class Real>
 
 /// Where eight lines lie: their middles along all directions but the first.
 template <std::size_t D, class Real>
-[[gnu::always_inline]] inline void place_lines(const Raster<D, Real>& window, std::size_t first,
+[[gnu::always_inline]] inline void place_lines(const SubcellGrid<D, Real>& grid, std::size_t first,
                                                Real (&middle)[D][lanes]) {
     for (std::size_t l = 0; l < lanes; ++l) {
         std::size_t rest = first + l;
-        for (std::size_t k = 1; k < D; ++k, rest /= parts<D>)
-            middle[k][l] = window.corner[k] +
-                           (static_cast<Real>(rest % parts<D>) + Real{0.5}) * window.part[k];
+        for (std::size_t k = 1; k < D; ++k, rest /= subcells<D>)
+            middle[k][l] = grid.corner[k] +
+                           (static_cast<Real>(rest % subcells<D>) + Real{0.5}) * grid.sides[k];
     }
 }
 
-/// Floats are used for windows of some size alone, so that no disk is millions of parts off.
+/// Floats are used for gaps of some size alone, so that no disk is millions of sub-cells off.
 [[gnu::always_inline]] inline float within_int(float x) { return x; }
 [[gnu::always_inline]] inline double within_int(double x) { return std::clamp(x, -1e9, 1e9); }
 
-/// The first end of a part at x or beyond, in 0 ... parts; the last one at x or before.
+/// The first end of a sub-cell at x or beyond, in 0 ... P; the last one at x or before.
 template <std::size_t D, class Real>
 [[gnu::always_inline]] inline std::int32_t next_end(Real x) {
     const auto whole = static_cast<std::int32_t>(within_int(x));
     const std::int32_t up = whole + (static_cast<Real>(whole) < x ? 1 : 0);
-    return std::clamp(up, 0, static_cast<std::int32_t>(parts<D>));
+    return std::clamp(up, 0, static_cast<std::int32_t>(subcells<D>));
 }
 template <std::size_t D, class Real>
 [[gnu::always_inline]] inline std::int32_t last_end(Real x) {
     const auto whole = static_cast<std::int32_t>(within_int(x));
-    return std::clamp(whole, 0, static_cast<std::int32_t>(parts<D>));
+    return std::clamp(whole, 0, static_cast<std::int32_t>(subcells<D>));
 }
 
 template <std::size_t D, class Real>
 [[gnu::always_inline]] inline void choose(const NearDisks<D, Real>& near,
-                                          const Raster<D, Real>& window, Real slack,
+                                          const SubcellGrid<D, Real>& grid, Real slack,
                                           NearDisks<D, Real>& reaching) {
     std::array<Real, D> half;
     std::array<Real, D> middle;
     for (std::size_t k = 0; k < D; ++k) {
-        half[k] = window.part[k] * (Real{parts<D>} / 2);
-        middle[k] = window.corner[k] + half[k];
+        half[k] = grid.sides[k] * (Real{subcells<D>} / 2);
+        middle[k] = grid.corner[k] + half[k];
     }
     reaching.start_over(near);
     for (std::size_t i = 0; i < near.size(); i += lanes) {
@@ -86,24 +90,25 @@ template <std::size_t D, class Real>
 }
 
 template <std::size_t D, class Real>
-[[gnu::always_inline]] inline bool uncovered_by_lanes(const NearDisks<D, Real>& near,
-                                                      const Raster<D, Real>& window, Real slack,
-                                                      NearDisks<D, Real>& reaching,
-                                                      OpenParts<D>& open) {
-    choose<D, Real>(near, window, slack, reaching);
-    const Real scale = 1 / window.part[0];
-    std::uint8_t any = 0;
+[[gnu::always_inline]] inline SubcellBits uncovered_by_lanes(const NearDisks<D, Real>& near,
+                                                             const SubcellGrid<D, Real>& grid,
+                                                             Real slack,
+                                                             NearDisks<D, Real>& reaching) {
+    constexpr std::size_t p = subcells<D>;
+    choose<D, Real>(near, grid, slack, reaching);
+    const Real scale = 1 / grid.sides[0];
+    SubcellBits open = 0;
     for (std::size_t first = 0; first < lines<D>; first += lanes) {
         Real middle[D][lanes];
-        place_lines<D, Real>(window, first, middle);
+        place_lines<D, Real>(grid, first, middle);
         std::int32_t covered[lanes] = {};
         for (std::size_t i = 0; i < reaching.size(); ++i) {
-            const Real at = (reaching.along(0)[i] - window.corner[0]) * scale;
+            const Real at = (reaching.along(0)[i] - grid.corner[0]) * scale;
             for (std::size_t l = 0; l < lanes; ++l) {
                 Real left = 1 - slack;
                 for (std::size_t k = 1; k < D; ++k) {
                     const Real y =
-                        std::abs(reaching.along(k)[i] - middle[k][l]) + window.part[k] / 2;
+                        std::abs(reaching.along(k)[i] - middle[k][l]) + grid.sides[k] / 2;
                     left -= y * y;
                 }
                 const Real half = std::sqrt(std::max(left, Real{0})) * scale;
@@ -112,12 +117,11 @@ template <std::size_t D, class Real>
                 covered[l] |= (1 << std::max(begin, end)) - (1 << begin);
             }
         }
-        for (std::size_t l = 0; l < lanes; ++l) {
-            open[first + l] = static_cast<std::uint8_t>(~covered[l] & ((1 << parts<D>)-1));
-            any |= open[first + l];
-        }
+        for (std::size_t l = 0; l < lanes; ++l)
+            open |= SubcellBits{~static_cast<std::uint32_t>(covered[l]) & ((1U << p) - 1)}
+                    << (p * (first + l));
     }
-    return any != 0;
+    return open;
 }
 
 }  // namespace
@@ -128,19 +132,19 @@ template <std::size_t D, class Real>
                                Real slack) {                                                     \
         return hits_by_lanes<D, Real>(near, place, slack);                                       \
     }                                                                                            \
-    STIPPLE_WIDE bool wide_uncovered(const NearDisks<D, Real>& near,                             \
-                                     const Raster<D, Real>& window, Real slack,                  \
-                                     NearDisks<D, Real>& reaching, OpenParts<D>& open) {         \
-        return uncovered_by_lanes<D, Real>(near, window, slack, reaching, open);                 \
+    STIPPLE_WIDE SubcellBits wide_uncovered(const NearDisks<D, Real>& near,                      \
+                                            const SubcellGrid<D, Real>& grid, Real slack,        \
+                                            NearDisks<D, Real>& reaching) {                      \
+        return uncovered_by_lanes<D, Real>(near, grid, slack, reaching);                         \
     }                                                                                            \
     template <>                                                                                  \
     Hit hits(const NearDisks<D, Real>& near, const std::array<Real, D>& place, Real slack) {     \
         return wide_hits(near, place, slack);                                                    \
     }                                                                                            \
     template <>                                                                                  \
-    bool uncovered(const NearDisks<D, Real>& near, const Raster<D, Real>& window, Real slack,    \
-                   NearDisks<D, Real>& reaching, OpenParts<D>& open) {                           \
-        return wide_uncovered(near, window, slack, reaching, open);                              \
+    SubcellBits uncovered(const NearDisks<D, Real>& near, const SubcellGrid<D, Real>& grid,      \
+                          Real slack, NearDisks<D, Real>& reaching) {                            \
+        return wide_uncovered(near, grid, slack, reaching);                                      \
     }
 
 STIPPLE_NEAR_DISKS(2, float)
@@ -154,4 +158,4 @@ STIPPLE_NEAR_DISKS(4, double)
 STIPPLE_NEAR_DISKS(5, double)
 STIPPLE_NEAR_DISKS(6, double)
 
-}  // namespace stipple
+}  // namespace stipple::poisson_disk

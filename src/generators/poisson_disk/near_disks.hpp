@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 //
-// The few disks about a place, and which parts of a window they cover. Lengths are in radii, so
-// that a disk about p covers where sum_k (x_k - p_k)^2 < 1.
+// The few disks about a place, and which sub-cells of a gap they cover. Lengths are in radii, so that
+// a disk about p covers where sum_k (x_k - p_k)^2 < 1.
 //
-// A window is cut into `parts<D>` along each direction. Of a line of parts along the first
-// direction a disk covers those between two ends, which one root gives:
+// Of a line of sub-cells along the first direction a disk covers those between two ends, which one
+// root gives:
 //
 //     |x_1 - p_1| < sqrt(1 - sum_{k > 1} y_k^2),    y_k from p_k to the farther face of the line.
 //
@@ -18,25 +18,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
-namespace stipple {
+#include "generators/poisson_disk/gaps.hpp"
 
-/// Parts of a window along each direction.
-template <std::size_t D>
-inline constexpr std::size_t parts = D == 2   ? 8
-                                     : D <= 4 ? 4
-                                              : 2;
-
-constexpr std::size_t power(std::size_t base, std::size_t exponent) {
-    return exponent == 0 ? 1 : base * power(base, exponent - 1);
-}
-
-/// Lines of parts in a window.
-template <std::size_t D>
-inline constexpr std::size_t lines = power(parts<D>, D - 1);
+namespace stipple::poisson_disk {
 
 /// How near to a rim arithmetic in `Real` can go wrong, where places are a few radii from zero.
 inline constexpr float float_slack = 4e-6F;
@@ -50,7 +37,7 @@ class NearDisks {
     void clear() { size_ = 0; }
 
     void add(const std::array<Real, D>& center) {
-        if constexpr (!bounded) make_room(size_ + lanes + 1);
+        make_room(size_ + lanes + 1);
         for (std::size_t k = 0; k < D; ++k) at_[k * room_ + size_] = center[k];
         ++size_;
     }
@@ -65,7 +52,7 @@ class NearDisks {
     /// Makes these the disks of `all` that are chosen: start_over(), take() for each eight,
     /// close().
     void start_over(const NearDisks& all) {
-        if constexpr (!bounded) make_room(all.size() + 2 * lanes);
+        make_room(all.size() + 2 * lanes);
         size_ = 0;
     }
     [[gnu::always_inline]] void take(const NearDisks& all, std::size_t i,
@@ -80,11 +67,6 @@ class NearDisks {
     [[nodiscard]] const Real* along(std::size_t k) const { return at_.data() + k * room_; }
 
   private:
-    /// There are no more disks about a cell than cells about it, 7^D; for larger D mostly far
-    /// fewer.
-    static constexpr bool bounded = D <= 3;
-    static constexpr std::size_t first_room = bounded ? power(7, D) + 2 * lanes : 128;
-
     void make_room(std::size_t size) {
         while (size > room_) {
             std::vector<Real> more(2 * at_.size());
@@ -96,17 +78,9 @@ class NearDisks {
         }
     }
 
-    using Store = std::conditional_t<bounded, std::array<Real, D * first_room>, std::vector<Real>>;
-    static Store first_store() {
-        if constexpr (bounded)
-            return {};
-        else
-            return Store(D * first_room);
-    }
-
     std::size_t size_ = 0;
-    std::conditional_t<bounded, const std::size_t, std::size_t> room_ = first_room;
-    Store at_ = first_store();
+    std::size_t room_ = 128;
+    std::vector<Real> at_ = std::vector<Real>(D * 128);
 };
 
 enum class Hit : std::uint8_t { no, yes, unsure };
@@ -115,20 +89,24 @@ enum class Hit : std::uint8_t { no, yes, unsure };
 template <std::size_t D, class Real>
 Hit hits(const NearDisks<D, Real>& near, const std::array<Real, D>& place, Real slack);
 
-/// A window by its lowest corner, and the sides of its parts.
+/// The sub-cells of a gap, by its lowest corner and their sides.
 template <std::size_t D, class Real>
-struct Raster {
+struct SubcellGrid {
     std::array<Real, D> corner;
-    std::array<Real, D> part;
+    std::array<Real, D> sides;
+
+    /// @param scales sides of a cell
+    SubcellGrid(const Gap<D>& gap, const std::array<double, D>& scales) {
+        for (std::size_t k = 0; k < D; ++k) {
+            corner[k] = static_cast<Real>(gap.corner[k] * scales[k]);
+            sides[k] = static_cast<Real>(gap.subcell_side() * scales[k]);
+        }
+    }
 };
 
-/// For each line of parts the bits of those that no disk covers alone.
-template <std::size_t D>
-using OpenParts = std::array<std::uint8_t, lines<D>>;
-
-/// Finds the disks that reach into a window, and what they leave open; false for nothing.
+/// Sub-cells that no disk covers alone, and the disks that reach into the gap.
 template <std::size_t D, class Real>
-bool uncovered(const NearDisks<D, Real>& near, const Raster<D, Real>& window, Real slack,
-               NearDisks<D, Real>& reaching, OpenParts<D>& open);
+SubcellBits uncovered(const NearDisks<D, Real>& near, const SubcellGrid<D, Real>& grid, Real slack,
+                      NearDisks<D, Real>& reaching);
 
-}  // namespace stipple
+}  // namespace stipple::poisson_disk

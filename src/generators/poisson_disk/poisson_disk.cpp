@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
 //
-// Poisson-disk set: points thrown at random, none nearer than a radius to any other, until no place
-// is left for one more (generators/poisson_disk/maximal_disks.hpp).
+// Poisson-disk set: points thrown at random, none nearer than a radius to any other, until no further
+// point fits (generators/poisson_disk/maximal_disks.hpp).
 //
 // --radius R   as many points as fit.
 // --n-approx N about N points: as many as fit with the radius that gives N in the mean.
 // --count N    exactly N points, as many as fit with some radius, which is searched for: the same
 //              darts leave fewer points for a larger radius, mostly, and hardly other points for
 //              one that hardly differs, so that a few tries, each as long as a run with --radius,
-//              come to exactly N. Where N is passed over other darts are tried; of eight in vain,
-//              which happens to a few points only, the surplus of the best is removed. The radius
-//              that is noted is the least distance that the points have, and they are maximal for
-//              that, too.
+//              come to exactly N. The radius that is noted is the least distance that the points
+//              have, and they are maximal for that, too. Where N is passed over other darts are
+//              tried; of eight in vain, which may happen with a few points only, the surplus of the
+//              best set is removed: then the set is not maximal, and the user is told.
 //
-// In 2-D radii may change from place to place (generators/poisson_disk/varied_disks.hpp); two points then keep
-// the smaller of their radii, and every place where points may lie is nearer than the smaller of
-// its radius and a point's to that point:
+// In 2-D radii may change from place to place (generators/poisson_disk/varying/varied_disks.hpp); two
+// points then keep the smaller of their radii, and every place where points may lie is nearer than
+// the smaller of its radius and a point's to that point:
 //
 // --density    r(x) = radius * sqrt(largest density / density(x)), no points where it is 0.
 // --radius-map r(x) as given; scaled to a least radius with --radius, --count and --n-approx.
@@ -38,9 +38,9 @@
 #include "generators/box_space.hpp"
 #include "generators/density_options.hpp"
 #include "generators/poisson_disk/maximal_disks.hpp"
-#include "generators/poisson_disk/radius_field.hpp"
 #include "generators/poisson_disk/radius_search.hpp"
-#include "generators/poisson_disk/varied_disks.hpp"
+#include "generators/poisson_disk/varying/radius_field.hpp"
+#include "generators/poisson_disk/varying/varied_disks.hpp"
 #include "generators/spread_order.hpp"
 #include "math/functions/draws.hpp"
 #include "math/functions/permutation.hpp"
@@ -48,6 +48,8 @@
 
 namespace stipple::generators::poisson_disk {
 namespace {
+
+using namespace stipple::poisson_disk;
 
 constexpr Param<double> radius{.name = "radius",
                                .low = 0,
@@ -69,10 +71,8 @@ constexpr Param<std::int64_t> about{.name = "n-approx",
 constexpr Param<Path> density{
     {.name = "density",
      .help = "Picture (PNG, PFM) or array (NPY, row 0 at y = 0): points per area go by its values, "
-             "none "
-             "where it is 0. "
-             "The densest place has --radius; two points keep the smaller of their radii. In 2-D, "
-             "as the next three"}};
+             "none where it is 0. The densest place has --radius; two points keep the smaller of "
+             "their radii. In 2-D, as the next three"}};
 constexpr Param<Path> radius_map{{.name = "radius-map",
                                   .help = "Array (NPY, row 0 at y = 0) of radii; two points keep "
                                           "the smaller of theirs. Scaled to a least one "
@@ -165,14 +165,13 @@ RadiusField read_field(const BoxSpace& space, const Values& options, const RunCo
 /// The radius of a packing is the least one.
 Packing pack_varied(const BoxSpace& space, const RadiusField& field, const Plan& plan,
                     const Values& options, const RunContext& run) {
-    constexpr double jammed = 0.6966;  // points to integral dx / r^2
     const auto fill = [&](double r, double cells, std::uint64_t seed, const RunContext& part) {
         return varied_disks(space, field, r / field.least(), cells / field.least(), seed, part);
     };
     const auto once = [&](double r) { return Packing{fill(r, r, plan.seed, run), r}; };
     const auto typical = [&](double count) {
         return std::min(space.largest_distance(),
-                        field.least() * std::sqrt(jammed * field.darts() / count));
+                        field.least() * std::sqrt(saturated_density[2] * field.darts() / count));
     };
     if (options.given(radius)) return once(options[radius]);
     if (options.given(about)) return once(typical(static_cast<double>(options[about])));
@@ -284,7 +283,7 @@ Generator unit() {
             .options = Schema(radius, about, density, invert_option, radius_map, mask, torus_option,
                               bounded_option, order),
             .aliases = {"poisson", "poisson-disc"},
-            .stream_version = 4,
+            .stream_version = 5,
             .plan = plan,
             .set = make};
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "generators/poisson_disk/radius_search.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -8,7 +10,7 @@
 #include "core/error.hpp"
 #include "core/rng.hpp"
 
-namespace stipple {
+namespace stipple::poisson_disk {
 namespace {
 
 /// Looks for the radius at which the darts of one seed leave exactly `count` points.
@@ -18,7 +20,8 @@ class Search {
         : goal_(goal), pack_(pack), run_(run), dimension_(goal.dimension), count_(goal.count) {}
 
     /// Sets of the streams of a seed are searched one after the other, until one comes to exactly
-    /// the count. If none does, the surplus of the one with the largest radius is removed.
+    /// the count. If none does, the surplus of the one with the largest radius is removed, and the
+    /// user is told.
     Packing find(std::uint64_t seed) {
         constexpr std::uint64_t streams = 8;
         for (std::uint64_t stream = 0; stream < streams; ++stream)
@@ -26,6 +29,10 @@ class Search {
         if (best_.radius == 0)
             fail(ErrorKind::limit, "--count: no radius was found that leaves {} points", count_);
         trim(seed);
+        run_.tell(fmt::format(
+            "no radius was found that leaves exactly {} points; points were removed from a larger "
+            "set, which leaves room for others",
+            count_));
         return std::move(best_);
     }
 
@@ -100,4 +107,4 @@ Packing search_radius(const SearchGoal& goal, std::uint64_t seed, const Pack& pa
     return Search(goal, pack, run).find(seed);
 }
 
-}  // namespace stipple
+}  // namespace stipple::poisson_disk

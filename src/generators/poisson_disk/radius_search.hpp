@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 //
-// Looks for the radius at which a process leaves exactly as many points as are wanted: the same
-// darts leave fewer points for a larger radius, mostly, and hardly other points for one that hardly
+// Finds the radius at which a process leaves exactly as many points as are wanted: the same darts
+// leave fewer points for a larger radius, mostly, and hardly other points for one that hardly
 // differs, so that a few tries come to exactly the count. Where it is passed over other darts are
-// tried; of eight in vain the surplus of the best is removed.
+// tried; of eight in vain the surplus of the best set is removed, and the user is told.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 #include "stipple/points.hpp"
 #include "stipple/run.hpp"
 
-namespace stipple {
+namespace stipple::poisson_disk {
 
-/// Points with a radius that they keep, and leave no place for more.
+/// Points with a radius that they keep.
 struct Packing {
     Rows rows = {};
     double radius = 0;
@@ -33,8 +33,8 @@ struct SearchGoal {
     double largest;  ///< radius that leaves one point
 };
 
-/// Exactly as many points as wanted.
+/// Exactly as many points as wanted: a maximal set, unless the user is told otherwise.
 Packing search_radius(const SearchGoal& goal, std::uint64_t seed, const Pack& pack,
                       const RunContext& run);
 
-}  // namespace stipple
+}  // namespace stipple::poisson_disk

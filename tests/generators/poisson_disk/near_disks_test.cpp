@@ -6,26 +6,27 @@
 #include <cmath>
 
 #include "core/rng.hpp"
-#include "generators/poisson_disk/disk_window.hpp"
 
 namespace stipple::testing::near_disks_test {
+using namespace stipple::poisson_disk;
+
 namespace {
 
 template <std::size_t D>
 using Place = std::array<double, D>;
 
-/// A window somewhere, and disks of which some reach into it; all numbers are floats.
+/// A gap somewhere, and disks of which some reach into it; all numbers are floats.
 template <std::size_t D>
 struct Scene {
     std::vector<Place<D>> centers;
     Place<D> corner;
-    double part;
+    double side;
 
     Scene(std::uint64_t seed, std::size_t count) {
         const Rng rng(seed);
         std::uint64_t i = 0;
         const auto draw = [&] { return static_cast<double>(static_cast<float>(rng.uniform(i++))); };
-        part = static_cast<double>(
+        side = static_cast<double>(
             static_cast<float>(std::ldexp(draw(), -static_cast<int>(seed % 5))));
         for (double& x : corner) x = draw();
         for (std::size_t n = 0; n < count; ++n) {
@@ -49,7 +50,7 @@ struct Scene {
     }
 };
 
-/// 1 - the squared distance that decides on a part: the farthest corner of it from the center.
+/// 1 - the squared distance that decides on a sub-cell: the farthest corner of it from the center.
 template <std::size_t D>
 double depth(const Place<D>& center, const Place<D>& low, double side) {
     double squared = 0;
@@ -61,37 +62,36 @@ double depth(const Place<D>& center, const Place<D>& low, double side) {
     return 1 - squared;
 }
 
-/// Part by part: one that some disk covers with room to spare is not open, one that none covers is.
+/// Sub-cell by sub-cell: one that some disk covers with room to spare is not open, one that none covers is.
 template <std::size_t D, class Real>
-void compare_parts(std::uint64_t seed, Real slack) {
+void compare_subcells(std::uint64_t seed, Real slack) {
     const Scene<D> scene(seed, 1 + seed % 23);
-    Raster<D, Real> raster;
+    SubcellGrid<D, Real> grid({}, {});
     for (std::size_t k = 0; k < D; ++k) {
-        raster.corner[k] = static_cast<Real>(scene.corner[k]);
-        raster.part[k] = static_cast<Real>(scene.part);
+        grid.corner[k] = static_cast<Real>(scene.corner[k]);
+        grid.sides[k] = static_cast<Real>(scene.side);
     }
     NearDisks<D, Real> reaching;
-    OpenParts<D> open;
-    const bool any = uncovered<D, Real>(scene.template near<Real>(), raster, slack, reaching, open);
-    EXPECT_EQ(any, count_open<D>(open) > 0);
-    for (std::size_t line = 0; line < lines<D>; ++line)
-        for (std::size_t i = 0; i < parts<D>; ++i) {
-            Place<D> low;
-            low[0] = scene.corner[0] + static_cast<double>(i) * scene.part;
-            for (std::size_t k = 1, rest = line; k < D; ++k, rest /= parts<D>)
-                low[k] = scene.corner[k] + static_cast<double>(rest % parts<D>) * scene.part;
-            double deepest = -1e9;
-            for (const auto& c : scene.centers)
-                deepest = std::max(deepest, depth<D>(c, low, scene.part));
-            const bool is_open = (open[line] >> i & 1) != 0;
-            const double room = 4 * static_cast<double>(slack);
-            if (deepest < 0) {
-                EXPECT_TRUE(is_open) << D << "-D, seed " << seed << ", part " << i;
-            }
-            if (deepest > room) {
-                EXPECT_FALSE(is_open) << D << "-D, seed " << seed << ", part " << i;
-            }
+    const SubcellBits open = uncovered<D, Real>(scene.template near<Real>(), grid, slack, reaching);
+    for (std::size_t i = 0; i < all_subcells<D>; ++i) {
+        Place<D> low;
+        for (std::size_t k = 0, rest = i; k < D; ++k, rest /= subcells<D>)
+            low[k] = scene.corner[k] + static_cast<double>(rest % subcells<D>) * scene.side;
+        double deepest = -1e9;
+        for (const auto& c : scene.centers)
+            deepest = std::max(deepest, depth<D>(c, low, scene.side));
+        const bool is_open = (open >> i & 1) != 0;
+        const double room = 4 * static_cast<double>(slack);
+        if (deepest < 0) {
+            EXPECT_TRUE(is_open) << D << "-D, seed " << seed << ", sub-cell " << i;
         }
+        if (deepest > room) {
+            EXPECT_FALSE(is_open) << D << "-D, seed " << seed << ", sub-cell " << i;
+        }
+    }
+    if constexpr (all_subcells<D> < 64) {
+        EXPECT_EQ(open >> all_subcells<D>, 0U);
+    }
     for (std::size_t i = 0; i < reaching.size(); ++i) EXPECT_LT(std::abs(reaching.along(0)[i]), 5);
 }
 
@@ -127,8 +127,8 @@ void compare_hits(std::uint64_t seed, Real slack) {
 template <std::size_t D>
 void compare_all() {
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
-        compare_parts<D, float>(seed, float_slack);
-        compare_parts<D, double>(seed, 1e-13);
+        compare_subcells<D, float>(seed, float_slack);
+        compare_subcells<D, double>(seed, 1e-13);
         compare_hits<D, float>(seed, float_slack);
         compare_hits<D, double>(seed, 1e-13);
     }
@@ -136,7 +136,7 @@ void compare_all() {
 
 }  // namespace
 
-TEST(NearDisks, AgreeWithTheDefinitionPartByPart) {
+TEST(NearDisks, AgreeWithTheDefinitionSubcellBySubcell) {
     compare_all<2>();
     compare_all<3>();
     compare_all<4>();

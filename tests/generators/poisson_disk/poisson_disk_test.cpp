@@ -174,7 +174,7 @@ TEST(PoissonDisk, SetsForRadiiThatHardlyDifferHardlyDiffer) {
         const double side = d == 2 ? 150 : 30;
         const BoxSpace space{{std::vector<double>(d, 0), std::vector<double>(d, side)}, true};
         const auto points = [&](double r) {
-            const Rows rows = maximal_disks(space, r, 0.9, 1, RunContext{});
+            const Rows rows = stipple::poisson_disk::maximal_disks(space, r, 0.9, 1, RunContext{});
             std::set<std::vector<double>> all;
             for (auto at = rows.numbers().begin(); at != rows.numbers().end();
                  at += static_cast<std::ptrdiff_t>(d))

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "generators/poisson_disk/box_sampler.hpp"
+
+#include <cmath>
+#include <type_traits>
+
+#include "generators/poisson_disk/near_disks.hpp"
+
+namespace stipple::poisson_disk {
+namespace {
+
+template <std::size_t D>
+class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
+    using Base = Tile<D, box_tile_bits<D>, 1>;
+
+  public:
+    using typename Base::Cell;
+    using typename Base::Point;
+
+    BoxTile() = default;
+    BoxTile(const Grid<D>& grid, std::size_t number) : Base(grid, number), grid_(&grid) {}
+
+    void take(std::span<const Addition<D>> additions) {
+        for (const Addition<D>& a : additions) {
+            Near p{{}, a.at};
+            double squared = 0;  // distance from the tile, in radii
+            for (std::size_t k = 0; k < D; ++k) {
+                const double in_cell = (a.at[k] - grid_->low[k]) / grid_->widths[k] - a.in_box[k];
+                p.place[k] = a.cell[k] + in_cell;
+                const double out = std::max({-p.place[k], p.place[k] - this->size(k), 0.0});
+                squared += out * out * grid_->scales[k] * grid_->scales[k];
+            }
+            if (squared < reaching) near_.push_back(p);
+        }
+    }
+
+    [[nodiscard]] bool has_gaps() const { return !gaps.empty(); }
+    void drop() {
+        near_ = {};
+        this->pending = {};
+    }
+
+    /// Points that reach into a cell, from its corner in radii.
+    template <class Real>
+    void gather(const Cell& cell, NearDisks<D, Real>& near) const {
+        near.clear();
+        for (const Near& p : near_) {
+            std::array<Real, D> off;
+            double squared = 0;
+            for (std::size_t k = 0; k < D; ++k) {
+                const double x = (p.place[k] - cell[k]) * grid_->scales[k];
+                const double out = std::max({-x, x - grid_->scales[k], 0.0});
+                squared += out * out;
+                off[k] = static_cast<Real>(x);
+            }
+            if (squared < reaching) near.add(off);
+        }
+        near.close();
+    }
+
+    /// Whether one of the points is too near to a place of the tile.
+    [[nodiscard]] bool hits(const Point& at) const {
+        return std::ranges::any_of(near_, [&](const Near& p) { return grid_->too_near(at, p.at); });
+    }
+
+    std::vector<Gap<D>> gaps;
+
+  private:
+    static constexpr double reaching = 1 + 1e-9;  ///< squared, with room for rounding
+
+    /// A point that reaches into the tile.
+    struct Near {
+        Point place;  ///< in cells, from the tile's first
+        Point at;
+    };
+
+    const Grid<D>* grid_ = nullptr;
+    std::vector<Near> near_;
+};
+
+template <std::size_t D>
+struct BoxWorkspace {
+    std::vector<PendingDart<D>> pending;
+    std::vector<Gap<D>> gaps;
+    NearDisks<D, float> near;
+    NearDisks<D, float> reaching;
+    NearDisks<D, double> exactly_near;
+    NearDisks<D, double> exactly_reaching;
+};
+
+template <std::size_t D>
+class BoxSampler {
+    using T = BoxTile<D>;
+    using Cell = typename T::Cell;
+    using Point = typename T::Point;
+    using Workspace = BoxWorkspace<D>;
+    using Counts = std::vector<PoissonCounts>;
+
+  public:
+    BoxSampler(const Task<D>& task, const RunContext& run)
+        : grid_(task.grid), slack_(task.slack), rounds_(task, run) {
+        rounds_.make_tiles([&](std::uint32_t number) { return T(grid_, number); });
+    }
+
+    Rows sample() {
+        constexpr double growth = D == 3 ? 6 : 4;
+        rounds_.close_gaps(
+            1.25, growth,
+            [&](T& tile, const Counts& counts, std::uint64_t key, Workspace& work, bool first) {
+                if (first) make_gaps(tile);
+                work.gaps.clear();
+                throw_at_gaps(tile, counts, key, work);
+                tile.gaps = std::vector(work.gaps.begin(), work.gaps.end());
+            });
+        return rounds_.collect();
+    }
+
+  private:
+    /// Gaps of this level and beyond are too small for floats.
+    static constexpr std::uint8_t deep = 7;
+
+    /// Every cell is one.
+    static void make_gaps(T& tile) {
+        Cell cell{};
+        while (true) {
+            tile.gaps.push_back({{}, T::place_of(cell), 0});
+            std::size_t k = 0;
+            for (; k < D && ++cell[k] == tile.size(k); ++k) cell[k] = 0;
+            if (k == D) return;
+        }
+    }
+
+    void throw_at_gaps(T& tile, const Counts& counts, std::uint64_t key, Workspace& work) const {
+        const auto& gaps = tile.gaps;
+        for (std::size_t i = 0; i < gaps.size();) {
+            const std::uint16_t place = gaps[i].place;
+            const std::size_t first = i;
+            bool small = false;
+            for (; i < gaps.size() && gaps[i].place == place; ++i)
+                small = small || gaps[i].level >= deep;
+            tile.gather(T::cell_at(place), work.near);
+            if (small) tile.gather(T::cell_at(place), work.exactly_near);
+            for (std::size_t g = first; g < i; ++g) {
+                const PoissonCounts& count = counts[gaps[g].level];
+                if (gaps[g].level < deep)
+                    throw_at<float>(tile, gaps[g], count, key, work, work.near, work.reaching);
+                else
+                    throw_at<double>(tile, gaps[g], count, key, work, work.exactly_near,
+                                     work.exactly_reaching);
+            }
+        }
+    }
+
+    /// Darts on what is open of a gap; what is left of it goes to the workspace.
+    template <class Real>
+    void throw_at(const T& tile, const Gap<D>& gap, const PoissonCounts& counts, std::uint64_t key,
+                  Workspace& work, const NearDisks<D, Real>& near,
+                  NearDisks<D, Real>& reaching) const {
+        constexpr double enough = 2;  // darts after which a gap is better split
+        if (rounds_.too_small(gap)) return;
+        const Real slack = std::is_same_v<Real, float> ? Real{float_slack} : Real(slack_);
+        const SubcellBits open =
+            uncovered<D, Real>(near, SubcellGrid<D, Real>(gap, grid_.scales), slack, reaching);
+        if (open == 0) return;
+        const auto count = static_cast<std::size_t>(std::popcount(open));
+        const Cell cell = T::cell_at(gap.place);
+        SplitMix64 mixer = stream_of(key, gap);
+        for (std::uint64_t left = counts.draw(count, mixer); left > 0; --left) {
+            const Point place = place_in(gap, open, count, mixer);
+            std::array<Real, D> off;
+            for (std::size_t k = 0; k < D; ++k)
+                off[k] = static_cast<Real>(place[k] * grid_.scales[k]);
+            const Hit hit = hits<D, Real>(reaching, off, slack);
+            PendingDart<D> dart{{}, static_cast<std::uint32_t>(mixer.next() >> 32), gap.place};
+            if (hit == Hit::yes || !tile.locate(grid_, cell, place, dart.at)) continue;
+            if (hit == Hit::no || !tile.hits(dart.at)) work.pending.push_back(dart);
+        }
+        narrow(gap, open, counts.mean(count) >= enough, work.gaps);
+    }
+
+    const Grid<D>& grid_;
+    double slack_;
+    TileRounds<T, Workspace> rounds_;
+};
+
+}  // namespace
+
+template <std::size_t D>
+Rows box_sample(const Task<D>& task, const RunContext& run) {
+    return BoxSampler<D>(task, run).sample();
+}
+
+template Rows box_sample(const Task<2>&, const RunContext&);
+template Rows box_sample(const Task<3>&, const RunContext&);
+template Rows box_sample(const Task<4>&, const RunContext&);
+template Rows box_sample(const Task<5>&, const RunContext&);
+template Rows box_sample(const Task<6>&, const RunContext&);
+
+}  // namespace stipple::poisson_disk

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+//
+// Gaps: cubes within a cell in which something may be uncovered. A gap, like a cell, is cut into
+// P^D sub-cells, and a word has a bit for each of them: bit sum_k i_k P^k for the one with index i_k
+// along direction k. Gaps shrink to what is open of them, or are split, until nothing is.
+//
+// Shape   P = 8 (D = 2), 4 (3), 2 (4 ... 6).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include "core/rng.hpp"
+#include "generators/poisson_disk/grid.hpp"
+#include "math/functions/splitmix64.hpp"
+
+namespace stipple::poisson_disk {
+
+/// A bit for each sub-cell.
+using SubcellBits = std::uint64_t;
+
+/// Sub-cells along each direction.
+template <std::size_t D>
+inline constexpr std::size_t subcells = D == 2   ? 8
+                                        : D == 3 ? 4
+                                                 : 2;
+
+/// All of them.
+template <std::size_t D>
+inline constexpr std::size_t all_subcells = power(subcells<D>, D);
+
+/// Where in a byte its n-th one is, at 8 byte + n.
+inline constexpr auto nth_in_byte = [] {
+    std::array<std::uint8_t, 2048> table{};
+    for (std::size_t byte = 0; byte < 256; ++byte)
+        for (std::size_t bit = 0, n = 0; bit < 8; ++bit)
+            if ((byte >> bit & 1) != 0) table[8 * byte + n++] = static_cast<std::uint8_t>(bit);
+    return table;
+}();
+
+/// The number of the n-th one among the bits, of which there are more than n.
+inline std::size_t nth_bit(SubcellBits bits, std::size_t n) {
+    constexpr SubcellBits each = 0x0101010101010101U;  // byte
+    constexpr SubcellBits high = 0x8080808080808080U;
+    SubcellBits counts = bits - (bits >> 1 & 0x5555555555555555U);
+    counts = (counts & 0x3333333333333333U) + (counts >> 2 & 0x3333333333333333U);
+    const SubcellBits up_to = ((counts + (counts >> 4)) & 0x0f0f0f0f0f0f0f0fU) * each;
+    const SubcellBits passed = ((n * each | high) - up_to) & high;  // bytes before the one with it
+    const std::size_t shift = (passed >> 7) * each >> 56 << 3;
+    const std::size_t before = (up_to << 8) >> shift & 0xff;
+    return shift + nth_in_byte[(bits >> shift & 0xff) * 8 + n - before];
+}
+
+/// @tparam Length of the corner: double, in cells; or uint16, in 2^-16 of a cell
+template <std::size_t D, class Length = double>
+struct Gap {
+    using Unit = std::conditional_t<std::is_integral_v<Length>, std::uint32_t, double>;
+
+    std::array<Length, D> corner;  ///< the lowest, from that of the cell
+    std::uint16_t place;           ///< the cell's number in its tile
+    std::uint8_t level;            ///< the side is 2^-level of the cell's
+
+    [[nodiscard]] Unit side() const {
+        if constexpr (std::is_integral_v<Length>)
+            return 0x10000U >> level;
+        else
+            return 1 / static_cast<double>(std::uint64_t{1} << level);
+    }
+    [[nodiscard]] Unit subcell_side() const { return side() / Unit{subcells<D>}; }
+
+    /// Moves the corner along a direction.
+    void move(std::size_t k, Unit by) { corner[k] = static_cast<Length>(corner[k] + by); }
+};
+
+/// The smallest box of sub-cells around those with a bit: its lowest corner and its longest side.
+template <std::size_t D>
+struct Extent {
+    std::array<std::size_t, D> low;
+    std::size_t longest = 0;
+
+    explicit Extent(SubcellBits bits) {
+        constexpr std::size_t p = subcells<D>;
+        for (std::size_t k = 0, stride = 1; k < D; ++k, stride *= p) {
+            SubcellBits fold = bits;  // onto direction k
+            for (std::size_t other = 0, by = 1; other < D; ++other, by *= p)
+                for (std::size_t half = p / 2; other != k && half > 0; half /= 2)
+                    fold |= fold >> (half * by);
+            SubcellBits along = 0;
+            for (std::size_t i = 0; i < p; ++i) along |= (fold >> (i * stride) & 1) << i;
+            low[k] = static_cast<std::size_t>(std::countr_zero(along));
+            longest = std::max(longest, static_cast<std::size_t>(std::bit_width(along)) - low[k]);
+        }
+    }
+};
+
+/// Adds the halves along every direction in which something is open.
+template <std::size_t D, class Length>
+void split(const Gap<D, Length>& gap, SubcellBits open, std::vector<Gap<D, Length>>& out) {
+    constexpr std::size_t p = subcells<D>;
+    constexpr SubcellBits lowest = [] {  // of the halves
+        SubcellBits bits = 0;
+        for (std::size_t i = 0; i < all_subcells<D>; ++i) {
+            bool in = true;
+            for (std::size_t k = 0, rest = i; k < D; ++k, rest /= p) in = in && rest % p < p / 2;
+            if (in) bits |= SubcellBits{1} << i;
+        }
+        return bits;
+    }();
+    for (std::size_t child = 0; child < power(2, D); ++child) {
+        std::size_t shift = 0;
+        for (std::size_t k = 0, stride = p / 2; k < D; ++k, stride *= p)
+            shift += (child >> k & 1) * stride;
+        if ((open >> shift & lowest) == 0) continue;
+        Gap<D, Length> half = gap;
+        ++half.level;
+        for (std::size_t k = 0; k < D; ++k)
+            if ((child >> k & 1) != 0) half.move(k, half.side());
+        out.push_back(half);
+    }
+}
+
+/// Adds what is left of a gap, of which something is open: a smaller one where that fits. One that
+/// is open from end to end is split if it may be, and else stays as it is.
+template <std::size_t D, class Length>
+void narrow(const Gap<D, Length>& gap, SubcellBits open, bool may_split,
+            std::vector<Gap<D, Length>>& out) {
+    constexpr std::size_t p = subcells<D>;
+    const Extent<D> extent(open);
+    if (extent.longest > p / 2) {
+        if (may_split) return split(gap, open, out);
+        return out.push_back(gap);
+    }
+    Gap<D, Length> smaller = gap;
+    std::size_t fit = p;
+    for (; fit > 1 && fit / 2 >= extent.longest; fit /= 2) ++smaller.level;
+    for (std::size_t k = 0; k < D; ++k)
+        smaller.move(k, gap.subcell_side() * static_cast<typename Gap<D, Length>::Unit>(
+                                                 std::min(extent.low[k], p - fit)));
+    out.push_back(smaller);
+}
+
+/// A random place in one of the open sub-cells, in cells from the corner of the gap's cell.
+template <std::size_t D>
+std::array<double, D> place_in(const Gap<D>& gap, SubcellBits open, std::size_t count,
+                               SplitMix64& mixer) {
+    std::size_t bit = nth_bit(open, mixer.below(count));
+    std::array<double, D> place;
+    for (std::size_t k = 0; k < D; ++k, bit /= subcells<D>)
+        place[k] =
+            gap.corner[k] +
+            (static_cast<double>(bit % subcells<D>) + to_unit(mixer.next())) * gap.subcell_side();
+    return place;
+}
+
+/// Random numbers that belong to a gap and a round, whoever asks for them.
+template <std::size_t D>
+SplitMix64 stream_of(std::uint64_t key, const Gap<D>& gap) {
+    std::uint64_t state = SplitMix64(key ^ (std::uint64_t{gap.place} << 8 | gap.level)).next();
+    for (const double x : gap.corner)
+        state = SplitMix64(state ^ std::bit_cast<std::uint64_t>(x)).next();
+    return SplitMix64(state);
+}
+
+}  // namespace stipple::poisson_disk

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+//
+// The cells in which maximal disk sets are kept: boxes with a diagonal of at most a radius, so that
+// one holds one point at most, in tiles that are worked on as a whole.
+//
+// "In radii" below means: in units of the radius, from the corner of a cell. Such numbers are small,
+// so that floats hold them well.
+//
+// Shape   D directions, m_k cells along each, fewer than 2^32 in all.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "generators/box_space.hpp"
+#include "math/neighbors/spaced_points.hpp"
+
+namespace stipple::poisson_disk {
+
+constexpr std::size_t power(std::size_t base, std::size_t exponent) {
+    return exponent == 0 ? 1 : base * power(base, exponent - 1);
+}
+
+/// A cell of a tile, counted from the tile's first one on; beyond its faces, too.
+template <std::size_t D>
+using TileCell = std::array<int, D>;
+
+/// Whether a radius leads across two of the cells along a direction, and there are five or more.
+inline bool fine_cells(double cells, double extent, double radius) {
+    const double across = radius / (extent / cells) * (1 + 1e-6);
+    return cells > 4 && across >= 1 && across < 2;
+}
+
+template <std::size_t D>
+struct Grid {
+    using Point = std::array<double, D>;
+    using Index = std::array<std::uint32_t, D>;
+
+    /// Cells for `cell_radius`, which is at most `radius`: a grid may serve several radii.
+    /// @param tile_side largest number of cells along a tile
+    Grid(const BoxSpace& space, double disk_radius, double cell_radius, std::uint32_t tile_side)
+        : torus(space.torus), radius(disk_radius) {
+        const std::vector<double> along = cells_along(space.box, cell_radius);
+        for (std::size_t k = 0; k < D; ++k) {
+            low[k] = space.box.low[k];
+            high[k] = space.box.high[k];
+            sides[k] = space.box.extent(k);
+            cells[k] = static_cast<std::uint32_t>(along[k]);
+            widths[k] = sides[k] / cells[k];
+            scales[k] = widths[k] / radius;
+            const double across = radius / widths[k] * (1 + 1e-6);
+            reach[k] = static_cast<int>(across < cells[k] ? across + 1 : cells[k]);
+            tiles[k] = (cells[k] + tile_side - 1) / tile_side;
+            tile_count *= tiles[k];
+            cell_count *= cells[k];
+        }
+    }
+
+    /// The first cell of a tile along direction k. Tiles are of about the same size.
+    [[nodiscard]] std::uint32_t first_cell(std::size_t k, std::uint64_t tile) const {
+        return static_cast<std::uint32_t>(tile * cells[k] / tiles[k]);
+    }
+
+    /// The first cell of a tile, and the one behind its last.
+    [[nodiscard]] std::pair<Index, Index> tile(std::size_t number) const {
+        Index first{};
+        Index last{};
+        for (std::size_t k = 0; k < D; number /= tiles[k], ++k) {
+            first[k] = first_cell(k, number % tiles[k]);
+            last[k] = first_cell(k, number % tiles[k] + 1);
+        }
+        return {first, last};
+    }
+
+    /// In the numbers as they are stored.
+    [[nodiscard]] bool too_near(const Point& p, const Point& q) const {
+        return squared_distance<D>(p.data(), q.data(), sides, torus) < radius * radius;
+    }
+
+    bool torus;
+    double radius;
+    Point low{};
+    Point high{};
+    Point sides{};
+    Point widths{};  ///< of a cell
+    Point scales{};  ///< of a cell, in radii
+    Index cells{};
+    TileCell<D> reach{};  ///< cells that a distance of the radius can lead across
+    Index tiles{};
+    std::size_t tile_count = 1;
+    std::size_t cell_count = 1;
+};
+
+}  // namespace stipple::poisson_disk

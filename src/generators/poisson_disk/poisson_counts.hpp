@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+//
+// How many darts of a round fall on a piece of a box: a Poisson number, drawn once for the piece.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/rng.hpp"
+#include "math/functions/splitmix64.hpp"
+
+namespace stipple::poisson_disk {
+
+/// For pieces of 0 ... most equal parts.
+class PoissonCounts {
+  public:
+    /// @param mean number of darts to a part; finite
+    PoissonCounts(double mean, std::size_t most);
+
+    [[nodiscard]] double mean(std::size_t parts) const {
+        return mean_ * static_cast<double>(parts);
+    }
+
+    /// Number of darts on that many parts.
+    [[nodiscard]] std::uint64_t draw(std::size_t parts, SplitMix64& mixer) const {
+        const double u = to_unit(mixer.next());
+        if (parts < none_.size()) {
+            const double none = none_[parts];
+            if (u < none) return 0;
+            return u < none + none * mean(parts) ? 1 : by_inversion(u, parts);
+        }
+        return in_portions(u, parts, mixer);
+    }
+
+  private:
+    [[nodiscard]] std::uint64_t by_inversion(double u, std::size_t parts) const;
+    [[nodiscard]] std::uint64_t in_portions(double u, std::size_t parts, SplitMix64& mixer) const;
+
+    double mean_;
+    std::vector<double> none_;  ///< probability of no dart on so many parts
+};
+
+}  // namespace stipple::poisson_disk

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+//
+// Tiles of cells in space, each with all that is needed to throw darts at it: its own points and
+// what they cover, and those of two layers of cells about it.
+//
+// What a tile knows lies in one piece, so that it is fetched in order and then stays near while the
+// tile is worked on.
+//
+// Shape   cells that hold one point at most, a radius leading across two of them; five along each
+//         direction, or more. Up to 32 cells along each side of a tile; a tile may be its own
+//         neighbour on a torus.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/fetch.hpp"
+#include "generators/poisson_disk/space/ball_kernels.hpp"
+#include "generators/poisson_disk/space/ball_lines.hpp"
+#include "generators/poisson_disk/tile_rounds.hpp"
+
+namespace stipple::poisson_disk {
+
+/// Cells along a tile with those about it.
+inline constexpr int space_across = space_side + 4;
+
+/// A bit for each cell of a tile and its halo, such that those of the 5 x 5 x 5 cells about one are
+/// five words: for every fourth cell along the first direction a strip along the others has, byte
+/// after byte, the eight cells from there on.
+class SpaceBits {
+  public:
+    static constexpr std::size_t layers = 5;
+    static constexpr std::size_t layer_bits = 40;  ///< from which on a layer has none
+    using Layers = std::array<std::uint64_t, layers>;
+
+    void set(const TileCell<3>& halo_cell) {
+        const auto x = static_cast<std::size_t>(halo_cell[0]);
+        const auto byte = static_cast<std::size_t>(halo_cell[2] * across + halo_cell[1]);
+        const auto bit = static_cast<std::uint8_t>(1U << (x % 4));
+        if (x < space_side) bytes_[x / 4 * strip + byte] |= bit;
+        if (x >= 4) bytes_[(x / 4 - 1) * strip + byte] |= static_cast<std::uint8_t>(bit << 4);
+    }
+
+    /// Those of the layer about a cell, from two before it on: bit x + 8 y.
+    [[nodiscard]] std::uint64_t layer(const TileCell<3>& cell, std::size_t z) const {
+        std::uint64_t word;
+        const auto x = static_cast<std::size_t>(cell[0]);
+        const auto byte = static_cast<std::size_t>(cell[2] * across + cell[1]);
+        std::memcpy(&word, &bytes_[x / 4 * strip + byte + across * z], sizeof word);
+        return word >> (x % 4) & 0x1f1f1f1f1fU;
+    }
+
+    [[nodiscard]] bool has(const TileCell<3>& cell) const {
+        return (layer(cell, 2) >> 18 & 1) != 0;
+    }
+
+  private:
+    static constexpr std::size_t across = space_across;
+    static constexpr std::size_t strip = across * across;
+    std::array<std::uint8_t, space_side / 4 * strip + 8> bytes_{};
+};
+
+/// What all tiles share.
+struct SpaceRules {
+    using Quad [[gnu::vector_size(16)]] = float;
+
+    explicit SpaceRules(const Grid<3>& box_grid) : grid(box_grid) {
+        for (std::size_t b = 0; b < about.size(); ++b) {
+            const std::array<std::size_t, 3> along{b % 8, b % 40 / 8, b / 40};
+            for (std::size_t k = 0; k < 3; ++k) {
+                steps[b][k] = static_cast<int>(along[k]) - 2;
+                about[b][k] = static_cast<float>(steps[b][k] * grid.scales[k]);
+            }
+            about[b][3] = 0;
+            cells[b] = steps[b][0] + (steps[b][1] + steps[b][2] * space_across) * space_across;
+        }
+        for (std::size_t i = 0; i < all_subcells<3>; ++i)
+            for (std::size_t b = 0; b < about.size(); ++b)
+                if (reaches(b, i)) masks[i][b / 40] |= std::uint64_t{1} << (b % 40);
+        for (std::size_t k = 0; k < 3; ++k) {
+            scales[k] = static_cast<float>(grid.scales[k]);
+            per_width[k] = 1 / grid.widths[k];
+        }
+    }
+
+    /// Whether a ball in a neighbour can reach into a sub-cell.
+    [[nodiscard]] bool reaches(std::size_t b, std::size_t subcell) const {
+        double squared = 0;
+        for (std::size_t k = 0; k < 3; ++k, subcell /= 4) {
+            const double low = static_cast<double>(subcell % 4) / 4;
+            const double step = steps[b][k];
+            const double apart = std::max({step - low - 0.25, low - step - 1, 0.0});
+            squared += apart * apart * grid.scales[k] * grid.scales[k];
+        }
+        return squared < 1 + float_slack;
+    }
+
+    const Grid<3>& grid;
+    std::array<float, 3> scales{};
+    std::array<double, 3> per_width{};
+    std::array<Quad, 200> about;  ///< corners of the 5 x 5 x 5 cells about one, in radii
+    std::array<int, 200> cells{};
+    std::array<std::array<int, 3>, 200> steps{};
+    /// For each sub-cell from which neighbours a ball reaches into it.
+    std::array<SpaceBits::Layers, all_subcells<3>> masks{};
+};
+
+class SpaceTile : public Tile<3, space_bits, 1> {
+  public:
+    static constexpr int halo = 2;
+    static constexpr std::size_t halo_cells = power(std::size_t{space_across}, 3);
+    /// What a tile takes, however few cells it has, and without points.
+    static constexpr std::size_t bytes =
+        BallLines::room * sizeof(std::uint32_t) + halo_cells * sizeof(std::uint16_t);
+
+    SpaceTile() = default;
+    /// @param lines room for BallLines::room words @param numbers room for halo_cells
+    SpaceTile(const SpaceRules& rules, std::size_t number, std::uint32_t* lines,
+              std::uint16_t* numbers)
+        : Tile(rules.grid, number), rules_(&rules), lines_(lines), numbers_(numbers) {
+        open_cells();
+        const std::size_t own = typical_points(rules.grid);
+        places_.reserve(typical_points(rules.grid, halo));
+        exact_.reserve(3 * (places_.capacity() - own));
+        points_.reserve(3 * own);
+    }
+
+    /// Sub-cells that a point covers alone.
+    [[nodiscard]] const std::uint32_t* lines() const { return lines_; }
+    [[nodiscard]] bool taken(const Cell& cell) const { return taken_.has(cell); }
+
+    void take(std::span<const Addition<3>> additions) {
+        constexpr std::size_t many = 50;  // less takes the time that they save
+        if (additions.size() > many) fetch();
+        thread_local std::vector<PlacedBall> balls;
+        balls.clear();
+        for (const Addition<3>& a : additions) balls.push_back(add(a));
+        cover_lines(rules_->scales, balls, lines_);
+    }
+
+    [[nodiscard]] bool has_gaps() const { return !cubes.empty() || !gaps.empty(); }
+
+    /// Points that reach into some sub-cells of a cell, and some more.
+    void gather(const TileCell<3>& cell, SubcellBits some, NearBalls& near) const {
+        using Quad = SpaceRules::Quad;
+        std::array<Quad, 128> found_at;
+        std::size_t n = 0;
+        const std::uint16_t* numbers = &numbers_[number_of(cell)];
+        const SpaceBits::Layers masks = reaching(some);
+        for (std::size_t z = 0; z < SpaceBits::layers; ++z) {
+            std::uint64_t found = taken_.layer(cell, z) & masks[z];
+            for (; found != 0; found &= found - 1) {
+                const std::size_t b = 40 * z + static_cast<std::size_t>(std::countr_zero(found));
+                found_at[n++] = places_[numbers[rules_->cells[b]]] + rules_->about[b];
+            }
+        }
+        transpose(found_at.data(), n, near);
+    }
+
+    /// Whether a point covers a place in a sub-cell of a cell.
+    /// @param place from the cell's corner, in radii
+    [[nodiscard, gnu::always_inline]] Hit hit(const TileCell<3>& cell, std::size_t subcell,
+                                              SpaceRules::Quad place) const {
+        const std::uint16_t* const numbers = &numbers_[number_of(cell)];
+        const SpaceBits::Layers& masks = rules_->masks[subcell];
+        float least = 2;
+        const auto layer = [&](std::size_t z) __attribute__((always_inline)) {
+            const SpaceRules::Quad* const about = &rules_->about[40 * z];
+            const int* const cells = &rules_->cells[40 * z];
+            for (std::uint64_t found = taken_.layer(cell, z) & masks[z]; found != 0;
+                 found &= found - 1) {
+                const int b = std::countr_zero(found);
+                const SpaceRules::Quad off = places_[numbers[cells[b]]] + (about[b] - place);
+                const SpaceRules::Quad squares = off * off;
+                least = std::min(least, squares[0] + squares[1] + squares[2]);
+                if (least < 1 - float_slack) return true;
+            }
+            return false;
+        };
+        if (layer(2) || layer(1) || layer(3) || layer(0) || layer(4)) return Hit::yes;
+        return least < 1 + float_slack ? Hit::unsure : Hit::no;
+    }
+
+    /// Calls visit(point, steps) for the points of the cells about one, as long as that is true.
+    template <class Visit>
+    void for_about(const TileCell<3>& cell, const Visit& visit) const {
+        for (std::size_t z = 0; z < SpaceBits::layers; ++z) {
+            std::uint64_t found = taken_.layer(cell, z);
+            for (; found != 0; found &= found - 1) {
+                const std::size_t b = 40 * z + static_cast<std::size_t>(std::countr_zero(found));
+                const std::size_t number = numbers_[static_cast<std::size_t>(
+                    static_cast<int>(number_of(cell)) + rules_->cells[b])];
+                if (!visit(exact(places_[number][3]), rules_->steps[b])) return;
+            }
+        }
+    }
+
+    /// Whether a point is too near to one in the cell, to the last digit.
+    [[nodiscard]] bool hits(const Cell& cell, const Point& p) const {
+        bool hit = false;
+        for_about(cell, [&](const Point& q, const Cell&) {
+            hit = rules_->grid.too_near(p, q);
+            return !hit;
+        });
+        return hit;
+    }
+
+    std::vector<CubeGap> cubes;
+    std::vector<Gap<3>> gaps;  ///< too small for floats
+
+    void drop() {
+        places_ = {};
+        exact_ = {};
+        pending = {};
+    }
+
+  private:
+    /// A point by the last number of its place.
+    [[nodiscard]] Point exact(float known) const {
+        const double* p = known < 0 ? &exact_[3 * static_cast<std::size_t>(-1 - known)]
+                                    : &points_[3 * static_cast<std::size_t>(known)];
+        return {p[0], p[1], p[2]};
+    }
+
+    /// Adds a point; what it covers is left to be added.
+    PlacedBall add(const Addition<3>& a) {
+        PlacedBall added{a.cell, {}};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double along = (a.at[k] - rules_->grid.low[k]) * rules_->per_width[k];
+            added.off[k] =
+                static_cast<float>(std::max(along - a.in_box[k], 0.0) * rules_->grid.scales[k]);
+        }
+        taken_.set({a.cell[0] + halo, a.cell[1] + halo, a.cell[2] + halo});
+        numbers_[number_of(a.cell)] = static_cast<std::uint16_t>(places_.size());
+        const auto known = a.own ? static_cast<float>(own_++) : -1 - static_cast<float>(beyond_++);
+        places_.push_back(SpaceRules::Quad{added.off[0], added.off[1], added.off[2], known});
+        if (!a.own) exact_.insert(exact_.end(), a.at.begin(), a.at.end());
+        return added;
+    }
+
+    /// Fetches what is looked at in no order when balls are added and darts are thrown.
+    void fetch() const {
+        stipple::fetch(std::span<const std::uint32_t>(lines_, BallLines::room));
+        stipple::fetch(std::span<const std::uint16_t>(numbers_, halo_cells));
+        stipple::fetch(std::span<const SpaceRules::Quad>(places_));
+    }
+
+    /// Nothing is covered of the tile's cells, everything beyond the last of them.
+    void open_cells() {
+        std::fill_n(lines_, BallLines::room, ~std::uint32_t{0});
+        for (int z = 0; z < 4 * size_[2]; ++z)
+            for (std::size_t word = 0; word < BallLines::words; ++word) {
+                const int cells = std::clamp(size_[0] - 8 * static_cast<int>(word), 0, 8);
+                const auto open = static_cast<std::uint32_t>((std::uint64_t{1} << (4 * cells)) - 1);
+                std::fill_n(lines_ + BallLines::at(word, 0, static_cast<std::size_t>(z)),
+                            4 * size_[1], ~open);
+            }
+    }
+
+    static std::size_t number_of(const TileCell<3>& cell) {
+        return static_cast<std::size_t>(
+            cell[0] + halo + (cell[1] + halo + (cell[2] + halo) * space_across) * space_across);
+    }
+
+    [[nodiscard]] SpaceBits::Layers reaching(SubcellBits some) const {
+        SpaceBits::Layers all{};
+        for (; some != 0; some &= some - 1) {
+            const auto& one = rules_->masks[static_cast<std::size_t>(std::countr_zero(some))];
+            for (std::size_t z = 0; z < SpaceBits::layers; ++z) all[z] |= one[z];
+        }
+        return all;
+    }
+
+    static void transpose(const SpaceRules::Quad* from, std::size_t n, NearBalls& near) {
+        using Quad = SpaceRules::Quad;
+        using Pick [[gnu::vector_size(16)]] = int;
+        for (std::size_t i = 0; i < n; i += 4) {
+            const Quad ab = __builtin_shuffle(from[i], from[i + 1], Pick{0, 4, 1, 5});
+            const Quad cd = __builtin_shuffle(from[i + 2], from[i + 3], Pick{0, 4, 1, 5});
+            const Quad ab_z = __builtin_shuffle(from[i], from[i + 1], Pick{2, 6, 3, 7});
+            const Quad cd_z = __builtin_shuffle(from[i + 2], from[i + 3], Pick{2, 6, 3, 7});
+            const Quad x = __builtin_shuffle(ab, cd, Pick{0, 1, 4, 5});
+            const Quad y = __builtin_shuffle(ab, cd, Pick{2, 3, 6, 7});
+            const Quad z = __builtin_shuffle(ab_z, cd_z, Pick{0, 1, 4, 5});
+            std::memcpy(&near.at[0][i], &x, sizeof x);
+            std::memcpy(&near.at[1][i], &y, sizeof y);
+            std::memcpy(&near.at[2][i], &z, sizeof z);
+        }
+        near.size = n;
+        near.close();
+    }
+
+    const SpaceRules* rules_ = nullptr;
+    std::uint32_t* lines_ = nullptr;
+    SpaceBits taken_;
+    std::uint16_t* numbers_ = nullptr;  ///< of the points in cells, where taken
+    /// Of points, from the corners of their cells; and which it is of the own points, or
+    /// -1 - that of the others, all small whole numbers.
+    std::vector<SpaceRules::Quad> places_;
+    std::vector<double> exact_;  ///< points of other tiles
+    std::size_t own_ = 0;
+    std::size_t beyond_ = 0;
+};
+
+}  // namespace stipple::poisson_disk

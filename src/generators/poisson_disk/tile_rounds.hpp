@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: MIT
+//
+// What samplers that work tile by tile have in common: the rounds of darts, and how tiles learn of
+// each other's points.
+//
+// A tile is changed by one thread alone. In each round it first takes over the darts of the last
+// round that were accepted, its own and those near its faces; then darts are thrown at it, of which
+// those that no point rules out are pending. When all tiles have got so far, pending darts are
+// decided: one stays unless an earlier one that is too near to it stays, which is asked from dart to
+// dart, across tiles. That has one answer, whatever the order of asking, so that threads don't
+// matter.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "core/parallel.hpp"
+#include "core/rng.hpp"
+#include "generators/poisson_disk/gaps.hpp"
+#include "generators/poisson_disk/grid.hpp"
+#include "generators/poisson_disk/pending_darts.hpp"
+#include "generators/poisson_disk/poisson_counts.hpp"
+#include "stipple/points.hpp"
+#include "stipple/run.hpp"
+
+namespace stipple::poisson_disk {
+
+/// Volume of the ball of radius 1.
+inline constexpr std::array<double, 7> unit_ball{1,
+                                                 2,
+                                                 3.141592653589793,
+                                                 4.188790204786391,
+                                                 4.934802200544679,
+                                                 5.263789013914325,
+                                                 5.167712780049970};
+
+/// What all samplers work with.
+template <std::size_t D>
+struct Task {
+    const Grid<D>& grid;
+    double slack;            ///< of distances that doubles hold, in radii
+    std::uint64_t expected;  ///< number of points
+    std::uint64_t seed;
+};
+
+/// A point that a tile takes over.
+template <std::size_t D>
+struct Addition {
+    std::array<double, D> at;
+    TileCell<D> cell;                     ///< from the tile's first on
+    std::array<std::uint32_t, D> in_box;  ///< the cell that `at` lies in
+    bool own;                             ///< whether it is one of the tile's points()
+};
+
+/// What every tile has: its cells, neighbours, pending darts and points. A tile of a sampler derives
+/// from it and has
+///     take(additions)   adds points that were accepted, the own ones in the order of points();
+///     has_gaps()        whether anything may be uncovered, once gaps are known;
+///     drop()            gives back its own memory, but that of the points.
+template <std::size_t D, unsigned side_bits, unsigned block_bits>
+class Tile {
+  public:
+    static constexpr std::size_t dimension = D;
+    using Cell = TileCell<D>;
+    using Index = typename Grid<D>::Index;
+    using Point = typename Grid<D>::Point;
+    using Pending = PendingDarts<D, side_bits, block_bits>;
+
+    static constexpr int side = Pending::side;
+
+    Tile() = default;
+    Tile(const Grid<D>& grid, std::size_t number) {
+        const auto [first, last] = grid.tile(number);
+        first_ = first;
+        for (std::size_t k = 0; k < D; ++k) size_[k] = static_cast<int>(last[k] - first[k]);
+    }
+
+    static std::uint16_t place_of(const Cell& cell) { return Pending::place_of(cell); }
+    static Cell cell_at(std::uint16_t place) { return Pending::cell_at(place); }
+
+    [[nodiscard]] const Index& first() const { return first_; }
+    [[nodiscard]] int size(std::size_t k) const { return size_[k]; }
+    [[nodiscard]] std::vector<double>& points() { return points_; }
+
+    /// Where a place of a cell is in the box, in cells; false if it is rounded up to a face.
+    [[nodiscard]] bool locate(const Grid<D>& grid, const Cell& cell, const Point& place,
+                              Point& at) const {
+        bool inside = true;
+        for (std::size_t k = 0; k < D; ++k) {
+            at[k] = grid.low[k] + (first_[k] + (cell[k] + place[k])) * grid.widths[k];
+            inside = inside && at[k] < grid.high[k];
+        }
+        return inside;
+    }
+
+    /// A little more points than there mostly are, in the tile and `more` cells beyond each face.
+    [[nodiscard]] std::size_t typical_points(const Grid<D>& grid, int more = 0) const {
+        double mean = saturated_density[D];
+        for (std::size_t k = 0; k < D; ++k) mean *= (size_[k] + 2 * more) * grid.scales[k];
+        return static_cast<std::size_t>(mean + std::sqrt(mean) / 2 + 1);
+    }
+
+    /// A tile from which a radius leads into this one, and the cells from here to its first one; on
+    /// a small torus more than one stands for the same tile, or for this one.
+    struct Neighbour {
+        std::uint32_t number;
+        Cell steps;
+    };
+    std::vector<Neighbour> neighbours;
+    std::array<Pending, 2> pending;  ///< of even and odd rounds
+
+  protected:
+    Index first_{};  ///< cell
+    Cell size_{};
+    std::vector<double> points_;
+};
+
+/// @tparam T a tile @tparam Workspace what one thread needs to work on a tile, with `pending`
+template <class T, class Workspace>
+class TileRounds {
+  public:
+    static constexpr std::size_t D = T::dimension;
+    using Cell = typename T::Cell;
+    using Dart = PendingDart<D>;
+
+    /// Gaps of this level are the last ones.
+    static constexpr std::size_t levels = 56;
+
+    TileRounds(const Task<D>& task, const RunContext& run)
+        : task_(task), run_(run), keys_(task.seed), tiles_(task.grid.tile_count) {
+        open_.resize(tiles_.size());
+        std::iota(open_.begin(), open_.end(), 0U);
+    }
+
+    /// Makes the tiles: make(number).
+    template <class Make>
+    void make_tiles(const Make& make) {
+        for_open([&](T& tile, std::uint32_t number) {
+            tile = make(number);
+            find_neighbours(tile, number);
+        });
+    }
+
+    /// One round: draw(tile, key, workspace) throws darts at a tile.
+    template <class Draw>
+    void round(const Draw& draw) {
+        const std::uint64_t key = keys_.bits(++round_);
+        for_open([&](T& tile, std::uint32_t number) {
+            Workspace& work = workspace();
+            take_over(tile);
+            work.pending.clear();
+            draw(tile, SplitMix64(key + number).next(), work);
+            of_round(tile, round_).renew(round_, work.pending);
+        });
+        for_open([&](T& tile, std::uint32_t) {
+            of_round(tile, round_).fetch();
+            for (const Dart& d : of_round(tile, round_).all())
+                if (decide(tile, d) == Status::accepted)
+                    tile.points().insert(tile.points().end(), d.at.begin(), d.at.end());
+        });
+        std::uint64_t count = 0;
+        for (T& tile : tiles_) count += tile.points().size() / D;
+        run_.tick(std::min(count, task_.expected), task_.expected);
+    }
+
+    /// Rounds until no tile has gaps: draw(tile, counts, key, workspace, first), counts for gaps of
+    /// each level, `first` while gaps are not known yet.
+    /// @param density of darts to the volume of a ball, `growth` times as many in each next round
+    template <class Draw>
+    void close_gaps(double density, double growth, const Draw& draw) {
+        for (bool first = true; !open_.empty(); first = false, density *= growth) {
+            std::vector<PoissonCounts> counts;
+            double mean = to_a_subcell(density);
+            for (std::size_t level = 0; level < levels;
+                 ++level, mean /= static_cast<double>(power(2, D)))
+                counts.emplace_back(mean, all_subcells<D>);
+            round([&](T& tile, std::uint64_t key, Workspace& work) {
+                draw(tile, counts, key, work, first);
+            });
+            std::erase_if(open_, [&](std::uint32_t t) { return !tiles_[t].has_gaps(); });
+        }
+    }
+
+    /// Darts to a sub-cell of a cell, when `density` of them fall on a ball, and cells are as large
+    /// as they may be.
+    static double to_a_subcell(double density) {
+        return density / (unit_ball[D] * std::sqrt(static_cast<double>(power(D, D)))) /
+               static_cast<double>(all_subcells<D>);
+    }
+
+    /// Whether no arithmetic could tell a gap of this size from none.
+    [[nodiscard]] bool too_small(const Gap<D>& gap) const {
+        bool small = gap.level + 1U >= levels;
+        for (const double scale : task_.grid.scales)
+            small = small || gap.side() * scale < 2 * task_.slack;
+        return small;
+    }
+
+    /// The points of all tiles, one after the other; what tiles know goes before.
+    Rows collect() {
+        for (T& tile : tiles_) tile.drop();
+        std::size_t numbers = 0;
+        for (T& tile : tiles_) numbers += tile.points().size();
+        Rows rows = Rows::unwritten(numbers);
+        auto out = rows.numbers().begin();
+        for (T& tile : tiles_) {
+            run_.check_stop();
+            out = std::ranges::copy(tile.points(), out).out;
+            tile.points() = {};
+        }
+        return rows;
+    }
+
+  private:
+    [[gnu::noinline]] static Workspace& workspace() {
+        thread_local Workspace work;
+        return work;
+    }
+
+    static auto& of_round(T& tile, std::uint64_t round) { return tile.pending[round % 2]; }
+
+    /// Calls work(tile, number) for tiles with gaps, on several threads.
+    template <class Work>
+    void for_open(const Work& work) {
+        for_each_block(
+            run_, open_.size(), 1,
+            [&](const Block& b) { work(tiles_[open_[b.first]], open_[b.first]); }, true);
+    }
+
+    /// Tiles along one direction from which a radius leads into one, and the cells to their first.
+    [[nodiscard]] std::vector<std::pair<std::uint32_t, int>> neighbours_along(
+        std::size_t k, std::uint32_t own) const {
+        const Grid<D>& grid = task_.grid;
+        const auto first = static_cast<std::int64_t>(grid.first_cell(k, own));
+        const std::int64_t size = grid.first_cell(k, own + 1) - first;
+        std::vector<std::pair<std::uint32_t, int>> found{{own, 0}};
+        for (const int direction : {-1, 1}) {
+            std::int64_t there = own;
+            std::int64_t turns = 0;  // around the torus
+            while (true) {
+                there += direction;
+                if (there < 0 || there >= grid.tiles[k]) {
+                    if (!grid.torus) break;
+                    turns += direction;
+                    there -= direction * std::int64_t{grid.tiles[k]};
+                }
+                const auto t = static_cast<std::uint32_t>(there);
+                const std::int64_t steps = turns * grid.cells[k] + grid.first_cell(k, t) - first;
+                const std::int64_t end = turns * grid.cells[k] + grid.first_cell(k, t + 1) - first;
+                if (steps >= size + grid.reach[k] || end <= -grid.reach[k]) break;
+                found.emplace_back(t, static_cast<int>(steps));
+            }
+        }
+        return found;
+    }
+
+    void find_neighbours(T& tile, std::size_t number) const {
+        tile.neighbours = {{0, {}}};
+        std::size_t stride = 1;
+        for (std::size_t k = 0; k < D; ++k) {
+            const auto own = static_cast<std::uint32_t>(number % task_.grid.tiles[k]);
+            number /= task_.grid.tiles[k];
+            std::vector<typename T::Neighbour> more;
+            for (const auto& n : tile.neighbours)
+                for (const auto& [there, steps] : neighbours_along(k, own)) {
+                    more.push_back(n);
+                    more.back().number += static_cast<std::uint32_t>(there * stride);
+                    more.back().steps[k] = steps;
+                }
+            tile.neighbours = std::move(more);
+            stride *= task_.grid.tiles[k];
+        }
+    }
+
+    /// Calls visit(tile, steps) for a tile itself and its neighbours.
+    template <class Visit>
+    void for_neighbours(const T& tile, const Visit& visit) {
+        for (const auto& n : tile.neighbours) visit(tiles_[n.number], n.steps);
+    }
+
+    /// Adds what was accepted in the last round, in the tile and near the faces of others.
+    void take_over(T& tile) {
+        thread_local std::vector<Addition<D>> additions;
+        additions.clear();
+        const std::uint64_t last = round_ - 1;
+        for_neighbours(tile, [&](T& other, const Cell& steps) {
+            if (!of_round(other, last).of(last)) return;
+            const bool own = &tile == &other && steps == Cell{};
+            Cell low;
+            Cell high;
+            for (std::size_t k = 0; k < D; ++k) {
+                low[k] = -task_.grid.reach[k] - steps[k];
+                high[k] = tile.size(k) + task_.grid.reach[k] - 1 - steps[k];
+            }
+            of_round(other, last).any(low, high, [&](const Dart& d) {
+                if (d.status() != Status::accepted) return false;
+                Addition<D> added{d.at, T::cell_at(d.place), other.first(), own};
+                bool in = true;
+                for (std::size_t k = 0; k < D; ++k) {
+                    in = in && added.cell[k] >= low[k] && added.cell[k] <= high[k];
+                    added.in_box[k] += static_cast<std::uint32_t>(added.cell[k]);
+                    added.cell[k] += steps[k];
+                }
+                if (in) additions.push_back(added);
+                return false;
+            });
+        });
+        tile.take(std::span<const Addition<D>>(additions));
+    }
+
+    /// Stays, unless an earlier one that is too near to it stays. One that stays tells the later
+    /// ones near it to go, which need not look about themselves then.
+    Status decide(T& tile, const Dart& d) {
+        if (const Status known = d.status(); known != Status::pending) return known;
+        std::array<const Dart*, 32> later;  // there are hardly ever more
+        std::size_t later_count = 0;
+        const bool ruled_out = any_near(tile, d, [&](T& there, const Dart& other) {
+            if (&other == &d || other.status() == Status::rejected) return false;
+            if (!task_.grid.too_near(other.at, d.at)) return false;
+            if (other.before(d)) return decide(there, other) == Status::accepted;
+            if (later_count < later.size()) later[later_count++] = &other;
+            return false;
+        });
+        d.set(ruled_out ? Status::rejected : Status::accepted);
+        for (std::size_t i = 0; i < later_count && !ruled_out; ++i) later[i]->set(Status::rejected);
+        return d.status();
+    }
+
+    /// Whether something is true of a dart that may be too near to one: is(tile, dart).
+    template <class Is>
+    bool any_near(T& tile, const Dart& d, const Is& is) {
+        const Cell own = T::cell_at(d.place);
+        const auto& reach = task_.grid.reach;
+        bool at_face = false;
+        for (std::size_t k = 0; k < D; ++k)
+            at_face = at_face || own[k] < reach[k] || own[k] >= tile.size(k) - reach[k];
+        bool found = false;
+        for_neighbours(tile, [&](T& there, const Cell& steps) {
+            if (found || (!at_face && &there != &tile)) return;
+            auto& darts = of_round(there, round_);
+            if (!darts.of(round_)) return;
+            Cell low;
+            Cell high;
+            for (std::size_t k = 0; k < D; ++k) {
+                low[k] = own[k] - steps[k] - reach[k];
+                high[k] = own[k] - steps[k] + reach[k];
+            }
+            found = darts.any(low, high, [&](const Dart& other) { return is(there, other); });
+        });
+        return found;
+    }
+
+    Task<D> task_;
+    RunContext run_;
+    Rng keys_;
+    std::vector<T> tiles_;
+    std::vector<std::uint32_t> open_;  ///< numbers of tiles with gaps
+    std::uint64_t round_ = 0;
+};
+
+}  // namespace stipple::poisson_disk

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: MIT
+#include "generators/poisson_disk/varying/varied_disks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/rng.hpp"
+#include "core/text.hpp"
+#include "generators/poisson_disk/poisson_counts.hpp"
+#include "generators/varied_index.hpp"
+#include "math/functions/exponential.hpp"
+#include "math/functions/splitmix64.hpp"
+
+namespace stipple::poisson_disk {
+namespace {
+
+using Point = std::array<double, 2>;
+using Node = RadiusField::Node;
+
+/// A part of the rectangle in which something may be uncovered yet.
+struct VariedGap {
+    Point low;
+    Point high;
+    std::uint64_t key;  ///< its own, whoever asks
+    Node node;          ///< of level 0: a part of this cell; else just this node
+};
+
+struct TimedDart {
+    Disk disk;
+    std::uint64_t time;
+};
+
+class VariedSampler {
+  public:
+    VariedSampler(const BoxSpace& space, const RadiusField& field, double scale, double dart_scale,
+                  std::uint64_t seed, const RunContext& run)
+        : field_(field),
+          scale_(scale),
+          dart_scale_(dart_scale),
+          keys_(seed),
+          run_(run),
+          expected_(expected_varied(field, scale)),
+          index_(space, scale * field.least(), static_cast<std::size_t>(expected_)),
+          buckets_(bucket_count) {
+        finest_ = space.largest_coordinate() * 0x1p-48;
+        double none = exponential(-most_darts);
+        double sum = none;
+        for (std::size_t k = 1; sum < one_minus_ulp && k < 40; ++k) {
+            at_most_.push_back(sum);
+            none *= most_darts / static_cast<double>(k);
+            sum += none;
+        }
+    }
+
+    Rows sample() {
+        const auto corners = field_.corners(field_.root());
+        gaps_.push_back({corners[0], corners[1], keys_.bits(0), field_.root()});
+        double thrown = 0;  // darts to r^2
+        for (std::uint64_t round = 1; !gaps_.empty(); ++round) {
+            // Ever more, and so many that the fastest gap gets something at least.
+            density_ =
+                round == 1 ? first_density : std::max(thrown * growth, most_darts / fastest_);
+            thrown += density_;
+            round_key_ = keys_.bits(round);
+            throw_at_gaps();
+            decide();
+        }
+        Rows rows = Rows::unwritten(2 * index_.disks().size());
+        auto out = rows.numbers().begin();
+        for (const Disk& disk : index_.disks()) out = std::ranges::copy(disk.at, out).out;
+        return rows;
+    }
+
+  private:
+    static constexpr double first_density = 0.4;
+    static constexpr double growth = 3;
+    static constexpr double most_darts = 1.5;  ///< mean on a gap
+    static constexpr std::size_t bucket_count = 1024;
+    static constexpr std::size_t often = 256;  ///< gaps between two questions for a stop
+
+    /// Darts on all gaps: pending ones, and the gaps for the next round.
+    void throw_at_gaps() {
+        std::deque<VariedGap> before;
+        before.swap(gaps_);
+        fastest_ = 0;
+        for (; !before.empty(); before.pop_front()) {
+            const VariedGap& gap = before.front();
+            if (tried_++ % often == 0) report();
+            near_.clear();
+            gather(gap);
+            throw_at(gap, 0);
+        }
+    }
+
+    /// Darts on a gap to a density of 1, where r is the least all over it.
+    [[nodiscard]] double rate(const VariedGap& gap) const {
+        const double unit = dart_scale_ * field_.least(gap.node);
+        return (gap.high[0] - gap.low[0]) / unit * ((gap.high[1] - gap.low[1]) / unit);
+    }
+
+    void keep(const VariedGap& gap) {
+        fastest_ = std::max(fastest_, rate(gap));
+        gaps_.push_back(gap);
+    }
+
+    /// Lists the disks that reach a gap.
+    void gather(const VariedGap& gap) {
+        const double most = scale_ * field_.most(gap.node);
+        index_.any_near(gap.low, gap.high, most, [&](const Disk& disk) {
+            if (reaches(disk, gap, most)) near_.push_back(disk);
+            return false;
+        });
+    }
+
+    /// Adds to near_ those from the first up to the last that reach a gap.
+    void narrow(std::size_t first, std::size_t last, const VariedGap& gap) {
+        const double most = scale_ * field_.most(gap.node);
+        for (std::size_t i = first; i < last; ++i)
+            if (reaches(near_[i], gap, most)) near_.push_back(near_[i]);
+    }
+
+    /// Darts on a gap, or its halves, where only disks of near_ from the `first` on may reach it.
+    void throw_at(const VariedGap& gap, std::size_t first) {
+        const double least = field_.least(gap.node);
+        if (least == RadiusField::closed) return;
+        const double r = scale_ * least;
+        const std::size_t last = near_.size();
+        for (std::size_t i = first; i < last; ++i)
+            if (covers(near_[i], gap, r)) return;
+        const double mean = density_ * rate(gap);
+        if (mean <= most_darts) {
+            throw_darts(gap, first, mean, least);
+            return keep(gap);
+        }
+        std::array<VariedGap, 2> halves;
+        const std::size_t count = divide(gap, halves);
+        if (++divided_ % often == 0) run_.check_stop();
+        for (std::size_t p = 0; p < count; ++p) {
+            narrow(first, last, halves[p]);
+            throw_at(halves[p], last);
+            near_.resize(last);
+        }
+    }
+
+    /// Halves of a gap, or what its node joins; none of one that is too small to matter.
+    std::size_t divide(const VariedGap& gap, std::array<VariedGap, 2>& halves) const {
+        std::size_t count = 0;
+        if (gap.node.level > 0) {
+            for (const Node& node : field_.children(gap.node)) {
+                const auto corners = field_.corners(node);
+                halves[count] = {corners[0], corners[1], SplitMix64(gap.key + count).next(), node};
+                ++count;
+            }
+            return count;
+        }
+        const double width = gap.high[0] - gap.low[0];
+        const double height = gap.high[1] - gap.low[1];
+        if (std::max(width, height) < finest_) return 0;
+        const std::size_t k = width >= height ? 0 : 1;
+        const double middle = gap.low[k] + (gap.high[k] - gap.low[k]) / 2;
+        halves = {gap, gap};
+        halves[0].high[k] = halves[1].low[k] = middle;
+        for (VariedGap& half : halves) half.key = SplitMix64(gap.key + count++).next();
+        return count;
+    }
+
+    /// Darts of the gap: `mean` of them where f is the least all over it, fewer where it is
+    /// more.
+    void throw_darts(const VariedGap& gap, std::size_t first, double mean, double least) {
+        SplitMix64 mixer(round_key_ ^ gap.key);
+        const double u = to_unit(mixer.next());
+        for (std::size_t i = 0; i < at_most_.size() && u >= at_most_[i]; ++i) {
+            TimedDart dart{};
+            for (std::size_t k = 0; k < 2; ++k)
+                dart.disk.at[k] = gap.low[k] + to_unit(mixer.next()) * (gap.high[k] - gap.low[k]);
+            const double chance = to_unit(mixer.next());
+            dart.time = mixer.next();
+            if (!(dart.disk.at[0] < gap.high[0] && dart.disk.at[1] < gap.high[1]))
+                continue;  // rounded up
+            const double f = gap.node.level == 0
+                                 ? field_.least(gap.node)
+                                 : field_.within(gap.node, dart.disk.at[0], dart.disk.at[1]);
+            if (!(chance * most_darts < mean * (least / f) * (least / f))) continue;
+            dart.disk.radius = scale_ * f;
+            if (!blocked(dart.disk, first)) buckets_[dart.time >> 54].push_back(dart);
+        }
+    }
+
+    [[nodiscard]] bool blocked(const Disk& disk, std::size_t first) const {
+        for (std::size_t i = first; i < near_.size(); ++i) {
+            const double r = std::min(disk.radius, near_[i].radius);
+            if (index_.squared(disk.at, near_[i].at) < r * r) return true;
+        }
+        return false;
+    }
+
+    /// Whether a dart on the gap could be too near, where no radius is above `most`.
+    [[nodiscard]] bool reaches(const Disk& disk, const VariedGap& gap, double most) const {
+        const double r = std::min(disk.radius, most) + finest_;
+        double sum = 0;
+        for (std::size_t k = 0; k < 2; ++k) {
+            const double half = (gap.high[k] - gap.low[k]) / 2;
+            const double d = index_.apart(k, disk.at[k], gap.low[k] + half) - half;
+            if (d > 0) sum += d * d;
+        }
+        return sum < r * r;
+    }
+
+    /// Whether no dart on the gap could keep the rule, where no radius is below `least`.
+    [[nodiscard]] bool covers(const Disk& disk, const VariedGap& gap, double least) const {
+        const double r = std::min(disk.radius, least);
+        double sum = 0;
+        for (std::size_t k = 0; k < 2; ++k) {
+            const double half = (gap.high[k] - gap.low[k]) / 2;
+            double d = index_.apart(k, disk.at[k], gap.low[k] + half) + half;
+            if (index_.torus()) d = std::min(d, index_.side(k) / 2);
+            sum += d * d;
+        }
+        return sum < r * r;
+    }
+
+    /// Pending darts come in the order of their times.
+    void decide() {
+        for (std::vector<TimedDart>& bucket : buckets_) {
+            std::ranges::sort(bucket, [](const TimedDart& a, const TimedDart& b) {
+                return a.time != b.time ? a.time < b.time : a.disk.at < b.disk.at;
+            });
+            for (const TimedDart& c : bucket)
+                if (!index_.blocks(c.disk)) index_.add(c.disk);
+            bucket.clear();
+            report();
+        }
+    }
+
+    void report() const {
+        const auto expected = static_cast<std::uint64_t>(expected_);
+        run_.tick(std::min<std::uint64_t>(index_.disks().size(), expected), expected);
+    }
+
+    const RadiusField& field_;
+    double scale_;
+    double dart_scale_;
+    Rng keys_;
+    const RunContext& run_;
+    double expected_;
+    VariedIndex index_;
+    double finest_ = 0;   ///< a length that nobody can tell from none
+    double density_ = 0;  ///< darts to r^2, r by dart_scale_
+    double fastest_ = 0;  ///< the largest rate of the gaps
+    std::uint64_t round_key_ = 0;
+    std::vector<double> at_most_;  ///< probability of at most so many darts, their mean most_darts
+    std::deque<VariedGap> gaps_;
+    std::vector<Disk> near_;
+    std::size_t divided_ = 0;
+    std::size_t tried_ = 0;
+    std::vector<std::vector<TimedDart>> buckets_;  ///< by the first bits of their times
+};
+
+/// @throws Error(limit) when the least radius is too small for the coordinates, or the memory.
+void check_size(const BoxSpace& space, const RadiusField& field, double scale,
+                const RunContext& run) {
+    constexpr double bytes = 300;  // to a point
+    const double radius = scale * field.least();
+    space.check_resolution(radius, "a least radius");
+    const double points = expected_varied(field, scale);
+    const std::string what = fmt::format("a least radius of {}, with about {:.3g} points,",
+                                         format_number(radius), points);
+    run.need_memory(bytes * points, what);
+    if (points >= 0x1p31)
+        fail(ErrorKind::limit, "{} is too small; at most 2^31 points are possible", what);
+}
+
+}  // namespace
+
+double expected_varied(const RadiusField& field, double scale) {
+    return saturated_density[2] * field.darts() / scale / scale + 1;
+}
+
+Rows varied_disks(const BoxSpace& space, const RadiusField& field, double scale, double dart_scale,
+                  std::uint64_t seed, const RunContext& run) {
+    check_size(space, field, scale, run);
+    return VariedSampler(space, field, scale, dart_scale, seed, run).sample();
+}
+
+Rows spread_varied(std::span<const double> rows, const BoxSpace& space, const RadiusField& field,
+                   double scale, const RunContext& run) {
+    constexpr double step = 0.8408964152537145;  // 2^(-1/4)
+    constexpr std::size_t often = 1024;
+    std::vector<Disk> left;
+    for (std::size_t i = 0; i < rows.size(); i += 2)
+        left.push_back({{rows[i], rows[i + 1]}, field.at(rows[i], rows[i + 1])});
+    std::vector<Disk> chosen;
+    for (double s = space.largest_distance() / field.least(); !left.empty(); s *= step) {
+        const bool all = s <= scale;  // nothing that is left is too near
+        VariedIndex index(space, s * field.least(), chosen.size());
+        for (std::size_t i = 0; i < chosen.size(); ++i) {
+            if (i % often == 0) run.check_stop();
+            index.add({chosen[i].at, s * chosen[i].radius});
+        }
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < left.size(); ++i) {
+            if (i % often == 0) run.tick(chosen.size(), rows.size() / 2);
+            const Disk scaled{left[i].at, s * left[i].radius};
+            if (!all && index.blocks(scaled)) {
+                left[kept++] = left[i];
+                continue;
+            }
+            if (!all) index.add(scaled);
+            chosen.push_back(left[i]);
+        }
+        left.resize(kept);
+    }
+    Rows out = Rows::unwritten(rows.size());
+    auto to = out.numbers().begin();
+    for (const Disk& disk : chosen) to = std::ranges::copy(disk.at, to).out;
+    return out;
+}
+
+}  // namespace stipple::poisson_disk
