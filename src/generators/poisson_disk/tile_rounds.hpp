@@ -110,6 +110,7 @@ class Tile {
     struct Neighbour {
         std::uint32_t number;
         Cell steps;
+        unsigned faces = 0;  ///< of this tile that it lies beyond: bit 2 k or 2 k + 1
     };
     std::vector<Neighbour> neighbours;
     std::array<Pending, 2> pending;  ///< of even and odd rounds
@@ -271,6 +272,7 @@ class TileRounds {
                     more.push_back(n);
                     more.back().number += static_cast<std::uint32_t>(there * stride);
                     more.back().steps[k] = steps;
+                    more.back().faces |= (steps < 0 ? 1U : steps > 0 ? 2U : 0U) << 2 * k;
                 }
             tile.neighbours = std::move(more);
             stride *= task_.grid.tiles[k];
@@ -336,23 +338,25 @@ class TileRounds {
     bool any_near(T& tile, const Dart& d, const Is& is) {
         const Cell own = T::cell_at(d.place);
         const auto& reach = task_.grid.reach;
-        bool at_face = false;
-        for (std::size_t k = 0; k < D; ++k)
-            at_face = at_face || own[k] < reach[k] || own[k] >= tile.size(k) - reach[k];
-        bool found = false;
-        for_neighbours(tile, [&](T& there, const Cell& steps) {
-            if (found || (!at_face && &there != &tile)) return;
+        unsigned faces = 0;  // that a radius leads across
+        for (std::size_t k = 0; k < D; ++k) {
+            if (own[k] < reach[k]) faces |= 1U << 2 * k;
+            if (own[k] >= tile.size(k) - reach[k]) faces |= 2U << 2 * k;
+        }
+        for (const auto& [number, steps, beyond] : tile.neighbours) {
+            T& there = tiles_[number];
             auto& darts = of_round(there, round_);
-            if (!darts.of(round_)) return;
+            if ((beyond & ~faces) != 0 || !darts.of(round_)) continue;
             Cell low;
             Cell high;
             for (std::size_t k = 0; k < D; ++k) {
                 low[k] = own[k] - steps[k] - reach[k];
                 high[k] = own[k] - steps[k] + reach[k];
             }
-            found = darts.any(low, high, [&](const Dart& other) { return is(there, other); });
-        });
-        return found;
+            if (darts.any(low, high, [&](const Dart& other) { return is(there, other); }))
+                return true;
+        }
+        return false;
     }
 
     Task<D> task_;

@@ -51,24 +51,35 @@ STIPPLE_INLINE V four_times(const float* from) {
 #endif
 }
 STIPPLE_INLINE V each_four_times(const float* from) {
-    V v;
-    for (std::size_t l = 0; l < lanes; ++l) v[l] = from[l / 4];
-    return v;
+#if STIPPLE_VECTOR_BITS == 512
+    const __m512i lane = _mm512_set_epi32(3, 3, 3, 3, 2, 2, 2, 2, 1, 1, 1, 1, 0, 0, 0, 0);
+    return _mm512_maskz_permutexvar_ps(0xffff, lane, _mm512_castps128_ps512(_mm_loadu_ps(from)));
+#elif STIPPLE_VECTOR_BITS == 256
+    return _mm256_set_m128(_mm_set1_ps(from[1]), _mm_set1_ps(from[0]));
+#else
+    return same(from[0]);
+#endif
 }
 
-/// What is open of 64 parts.
-struct Rows {
+/// What is open of 64 sub-cells: where no ball has left more of its squared radius along the third
+/// direction than the other two take.
+struct Open {
     static constexpr std::size_t rows = 16 / lanes;
-    std::array<std::array<Bits, rows>, 4> covered{};
-    STIPPLE_INLINE void keep_not_below(std::size_t layer, std::size_t row, V a, V b) {
-        covered[layer][row] |= a < b;
+    std::array<std::array<V, rows>, 4> least;  ///< what they take less what is left
+
+    STIPPLE_INLINE Open() {
+        for (auto& layer : least) layer.fill(same(1));
+    }
+    STIPPLE_INLINE void cover(std::size_t layer, std::size_t row, V taken, float left) {
+        least[layer][row] = smaller(least[layer][row], taken - left);
     }
     [[nodiscard]] STIPPLE_INLINE SubcellBits bits() const {
-        SubcellBits set = 0;
+        SubcellBits covered = 0;
         for (std::size_t layer = 0; layer < 4; ++layer)
             for (std::size_t row = 0; row < rows; ++row)
-                set |= SubcellBits{set_in(covered[layer][row])} << (16 * layer + lanes * row);
-        return ~set;
+                covered |= SubcellBits{set_in((Bits)least[layer][row])}
+                           << (16 * layer + lanes * row);
+        return ~covered;
     }
 };
 
@@ -126,7 +137,7 @@ STIPPLE_INLINE unsigned may_cover(const Pattern& p, V x, V y, V z) {
 
 STIPPLE_INLINE SubcellBits open_gap(const NearBalls& near, const Pattern& p,
                                     const std::array<float, 3>& middle) {
-    Rows open;
+    Open open;
     for (std::size_t i = 0; i < near.size; i += lanes) {
         const V x = load(&near.at[0][i]) - middle[0];
         const V y = load(&near.at[1][i]) - middle[1];
@@ -140,7 +151,7 @@ STIPPLE_INLINE SubcellBits open_gap(const NearBalls& near, const Pattern& p,
             for (std::size_t row = 0; row < Pattern::rows; ++row) {
                 const V sum = far_x + far_square(p.along_y[row], from_y, p.side[1]);
                 for (std::size_t layer = 0; layer < 4; ++layer)
-                    open.keep_not_below(layer, row, sum, same(left[layer]));
+                    open.cover(layer, row, sum, left[layer]);
             }
         }
     }
@@ -280,14 +291,14 @@ struct FarSquares {
     }
 
     /// Parts of a part of a cell that the ball does not cover, of those.
-    STIPPLE_INLINE void uncover(std::size_t j, std::size_t part, Rows& open) const {
+    STIPPLE_INLINE void uncover(std::size_t j, std::size_t part, Open& open) const {
         const V far_x = four_times(&x[j][part % 4 * 4]);
         const float* const far_y = &y[j][part / 4 % 4 * 4];
         const float* const rest = &left[j][part / 16 * 4];
         for (std::size_t row = 0; row < 16 / lanes; ++row) {
             const V sum = far_x + each_four_times(far_y + row * lanes / 4);
             for (std::size_t layer = 0; layer < 4; ++layer)
-                open.keep_not_below(layer, row, sum, same(rest[layer]));
+                open.cover(layer, row, sum, rest[layer]);
         }
     }
 };
@@ -331,7 +342,7 @@ std::size_t open_subcells(const NearBalls& near, const std::array<float, 3>& sca
     }
     std::size_t open_count = 0;
     for (std::size_t p = 0; p < count; ++p) {
-        Rows open;
+        Open open;
         for (std::size_t v = 0; v < vectors; ++v)
             for (unsigned left = found[v][p]; left != 0; left &= left - 1)
                 squares.uncover(v * lanes + static_cast<std::size_t>(std::countr_zero(left)),

@@ -111,7 +111,7 @@ struct SpaceRules {
     std::array<SpaceBits::Layers, all_subcells<3>> masks{};
 };
 
-class SpaceTile : public Tile<3, space_bits, 1> {
+class SpaceTile : public Tile<3, space_bits, 2> {
   public:
     static constexpr int halo = 2;
     static constexpr std::size_t halo_cells = power(std::size_t{space_across}, 3);
