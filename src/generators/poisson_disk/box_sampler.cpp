@@ -59,7 +59,7 @@ class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
     }
 
     /// Whether one of the points is too near to a place of the tile.
-    [[nodiscard]] bool hits(const Point& at) const {
+    [[nodiscard]] bool hits(const Cell&, const Point& at) const {
         return std::ranges::any_of(near_, [&](const Near& p) { return grid_->too_near(at, p.at); });
     }
 
@@ -156,26 +156,19 @@ class BoxSampler {
     void throw_at(const T& tile, const Gap<D>& gap, const PoissonCounts& counts, std::uint64_t key,
                   Workspace& work, const NearDisks<D, Real>& near,
                   NearDisks<D, Real>& reaching) const {
-        constexpr double enough = 2;  // darts after which a gap is better split
         if (rounds_.too_small(gap)) return;
         const Real slack = std::is_same_v<Real, float> ? Real{float_slack} : Real(slack_);
         const SubcellBits open =
             uncovered<D, Real>(near, SubcellGrid<D, Real>(gap, grid_.scales), slack, reaching);
         if (open == 0) return;
-        const auto count = static_cast<std::size_t>(std::popcount(open));
-        const Cell cell = T::cell_at(gap.place);
         SplitMix64 mixer = stream_of(key, gap);
-        for (std::uint64_t left = counts.draw(count, mixer); left > 0; --left) {
-            const Point place = place_in(gap, open, count, mixer);
+        throw_at_gap(gap, open, counts, mixer, work.gaps, [&](const Point& place) {
             std::array<Real, D> off;
             for (std::size_t k = 0; k < D; ++k)
                 off[k] = static_cast<Real>(place[k] * grid_.scales[k]);
-            const Hit hit = hits<D, Real>(reaching, off, slack);
-            PendingDart<D> dart{{}, static_cast<std::uint32_t>(mixer.next() >> 32), gap.place};
-            if (hit == Hit::yes || !tile.locate(grid_, cell, place, dart.at)) continue;
-            if (hit == Hit::no || !tile.hits(dart.at)) work.pending.push_back(dart);
-        }
-        narrow(gap, open, counts.mean(count) >= enough, work.gaps);
+            add_pending(tile, grid_, T::cell_at(gap.place), place,
+                        hits<D, Real>(reaching, off, slack), mixer.next(), work.pending);
+        });
     }
 
     const Grid<D>& grid_;

@@ -12,7 +12,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 #include <vector>
 
 #include "core/rng.hpp"
@@ -56,25 +55,14 @@ inline std::size_t nth_bit(SubcellBits bits, std::size_t n) {
     return shift + nth_in_byte[(bits >> shift & 0xff) * 8 + n - before];
 }
 
-/// @tparam Length of the corner: double, in cells; or uint16, in 2^-16 of a cell
-template <std::size_t D, class Length = double>
+template <std::size_t D>
 struct Gap {
-    using Unit = std::conditional_t<std::is_integral_v<Length>, std::uint32_t, double>;
-
-    std::array<Length, D> corner;  ///< the lowest, from that of the cell
+    std::array<double, D> corner;  ///< the lowest, from that of the cell, in cells
     std::uint16_t place;           ///< the cell's number in its tile
     std::uint8_t level;            ///< the side is 2^-level of the cell's
 
-    [[nodiscard]] Unit side() const {
-        if constexpr (std::is_integral_v<Length>)
-            return 0x10000U >> level;
-        else
-            return 1 / static_cast<double>(std::uint64_t{1} << level);
-    }
-    [[nodiscard]] Unit subcell_side() const { return side() / Unit{subcells<D>}; }
-
-    /// Moves the corner along a direction.
-    void move(std::size_t k, Unit by) { corner[k] = static_cast<Length>(corner[k] + by); }
+    [[nodiscard]] double side() const { return 1 / static_cast<double>(std::uint64_t{1} << level); }
+    [[nodiscard]] double subcell_side() const { return side() / double{subcells<D>}; }
 };
 
 /// The smallest box of sub-cells around those with a bit: its lowest corner and its longest side.
@@ -99,8 +87,8 @@ struct Extent {
 };
 
 /// Adds the halves along every direction in which something is open.
-template <std::size_t D, class Length>
-void split(const Gap<D, Length>& gap, SubcellBits open, std::vector<Gap<D, Length>>& out) {
+template <std::size_t D>
+void split(const Gap<D>& gap, SubcellBits open, std::vector<Gap<D>>& out) {
     constexpr std::size_t p = subcells<D>;
     constexpr SubcellBits lowest = [] {  // of the halves
         SubcellBits bits = 0;
@@ -116,31 +104,30 @@ void split(const Gap<D, Length>& gap, SubcellBits open, std::vector<Gap<D, Lengt
         for (std::size_t k = 0, stride = p / 2; k < D; ++k, stride *= p)
             shift += (child >> k & 1) * stride;
         if ((open >> shift & lowest) == 0) continue;
-        Gap<D, Length> half = gap;
+        Gap<D> half = gap;
         ++half.level;
         for (std::size_t k = 0; k < D; ++k)
-            if ((child >> k & 1) != 0) half.move(k, half.side());
+            if ((child >> k & 1) != 0) half.corner[k] += half.side();
         out.push_back(half);
     }
 }
 
 /// Adds what is left of a gap, of which something is open: a smaller one where that fits. One that
 /// is open from end to end is split if it may be, and else stays as it is.
-template <std::size_t D, class Length>
-void narrow(const Gap<D, Length>& gap, SubcellBits open, bool may_split,
-            std::vector<Gap<D, Length>>& out) {
+template <std::size_t D>
+void narrow(const Gap<D>& gap, SubcellBits open, bool may_split, std::vector<Gap<D>>& out) {
     constexpr std::size_t p = subcells<D>;
     const Extent<D> extent(open);
     if (extent.longest > p / 2) {
         if (may_split) return split(gap, open, out);
         return out.push_back(gap);
     }
-    Gap<D, Length> smaller = gap;
+    Gap<D> smaller = gap;
     std::size_t fit = p;
     for (; fit > 1 && fit / 2 >= extent.longest; fit /= 2) ++smaller.level;
     for (std::size_t k = 0; k < D; ++k)
-        smaller.move(k, gap.subcell_side() * static_cast<typename Gap<D, Length>::Unit>(
-                                                 std::min(extent.low[k], p - fit)));
+        smaller.corner[k] +=
+            gap.subcell_side() * static_cast<double>(std::min(extent.low[k], p - fit));
     out.push_back(smaller);
 }
 

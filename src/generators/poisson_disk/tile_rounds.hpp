@@ -23,6 +23,7 @@
 #include "core/rng.hpp"
 #include "generators/poisson_disk/gaps.hpp"
 #include "generators/poisson_disk/grid.hpp"
+#include "generators/poisson_disk/near_disks.hpp"
 #include "generators/poisson_disk/pending_darts.hpp"
 #include "generators/poisson_disk/poisson_counts.hpp"
 #include "stipple/points.hpp"
@@ -98,6 +99,18 @@ class Tile {
         return inside;
     }
 
+    /// Where a point near the tile is, in cells from its first. @param cell of the point, also so
+    [[nodiscard]] Point from_first(const Grid<D>& grid, const Point& p, const Cell& cell) const {
+        Point along;
+        for (std::size_t k = 0; k < D; ++k) {
+            along[k] = (p[k] - grid.low[k]) / grid.widths[k] - first_[k];
+            if (std::abs(along[k] - cell[k]) > 2)  // around the torus
+                along[k] +=
+                    along[k] < cell[k] ? grid.cells[k] : -static_cast<double>(grid.cells[k]);
+        }
+        return along;
+    }
+
     /// A little more points than there mostly are, in the tile and `more` cells beyond each face.
     [[nodiscard]] std::size_t typical_points(const Grid<D>& grid, int more = 0) const {
         double mean = saturated_density[D];
@@ -120,6 +133,45 @@ class Tile {
     Cell size_{};
     std::vector<double> points_;
 };
+
+/// Lists the points about a cell of a tile, from its corner. The tile has
+///     for_about(cell, visit)   calls visit(point, its cell) for them, as long as that is true.
+template <class T, std::size_t D>
+void gather_exactly(const T& tile, const Grid<D>& grid, const TileCell<D>& own,
+                    NearDisks<D, double>& near) {
+    near.clear();
+    tile.for_about(own, [&](const std::array<double, D>& p, const TileCell<D>& cell) {
+        std::array<double, D> off = tile.from_first(grid, p, cell);
+        for (std::size_t k = 0; k < D; ++k) off[k] = (off[k] - own[k]) * grid.scales[k];
+        near.add(off);
+        return true;
+    });
+    near.close();
+}
+
+/// Makes a dart pending, unless it hit a point or is rounded up to a face. The tile has
+///     hits(cell, point)   whether a place of a cell is too near to a point.
+template <class T, std::size_t D>
+void add_pending(const T& tile, const Grid<D>& grid, const TileCell<D>& cell,
+                 const std::array<double, D>& place, Hit hit, std::uint64_t random,
+                 std::vector<PendingDart<D>>& pending) {
+    if (hit == Hit::yes) return;
+    PendingDart<D> dart{{}, static_cast<std::uint32_t>(random >> 32), T::place_of(cell)};
+    if (!tile.locate(grid, cell, place, dart.at)) return;
+    if (hit == Hit::no || !tile.hits(cell, dart.at)) pending.push_back(dart);
+}
+
+/// Draws darts on what is open of a gap: draw(place in its cell) for each. Adds what is left of the
+/// gap to `left`.
+template <std::size_t D, class Draw>
+void throw_at_gap(const Gap<D>& gap, SubcellBits open, const PoissonCounts& counts,
+                  SplitMix64& mixer, std::vector<Gap<D>>& left, const Draw& draw) {
+    constexpr double enough = 2;  // darts after which a gap is better split
+    const auto count = static_cast<std::size_t>(std::popcount(open));
+    for (std::uint64_t darts = counts.draw(count, mixer); darts > 0; --darts)
+        draw(place_in(gap, open, count, mixer));
+    narrow(gap, open, counts.mean(count) >= enough, left);
+}
 
 /// @tparam T a tile @tparam Workspace what one thread needs to work on a tile, with `pending`
 template <class T, class Workspace>

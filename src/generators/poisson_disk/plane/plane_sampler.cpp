@@ -278,25 +278,21 @@ class PlaneSampler {
     /// Draws darts on what is open of a gap; what is left of it goes to the workspace.
     void draw_on_gap(const PlaneTile& tile, const Gap<2>& gap, const PoissonCounts& counts,
                      std::uint64_t key, PlaneWorkspace& work) const {
-        constexpr double enough = 2;  // darts after which a gap is better split
         const Cell cell = PlaneTile::cell_at(gap.place);
         if (tile.taken(PlaneTile::number_of(cell)) || rounds_.too_small(gap)) return;
         const SubcellBits open =
             gap.level < deep ? roughly_open(tile, gap, work) : exactly_open(tile, gap, work);
         if (open == 0) return;
-        const auto count = static_cast<std::size_t>(std::popcount(open));
         SplitMix64 mixer = stream_of(key, gap);
-        for (std::uint64_t left = counts.draw(count, mixer); left > 0; --left) {
-            Point place = place_in(gap, open, count, mixer);
-            if (!(place[0] < 1 && place[1] < 1)) continue;  // rounded up
+        throw_at_gap(gap, open, counts, mixer, work.gaps, [&](Point place) {
+            if (!(place[0] < 1 && place[1] < 1)) return;  // rounded up
             for (std::size_t k = 0; k < 2; ++k) place[k] += cell[k];
             work.darts.push_back({static_cast<std::uint32_t>(place[0] * cell_unit),
                                   static_cast<std::uint32_t>(place[1] * cell_unit),
                                   static_cast<std::uint32_t>(mixer.next() >> 32),
                                   static_cast<std::uint32_t>(work.places.size())});
             work.places.push_back(place);
-        }
-        narrow(gap, open, counts.mean(count) >= enough, work.gaps);
+        });
     }
 
     /// Sub-cells of a gap that no disk covers alone, as far as fixed positions tell.
@@ -310,21 +306,7 @@ class PlaneSampler {
 
     /// The same for small gaps.
     SubcellBits exactly_open(const PlaneTile& tile, const Gap<2>& gap, PlaneWorkspace& work) const {
-        const Cell own = PlaneTile::cell_at(gap.place);
-        work.exactly_near.clear();
-        tile.for_about(own, [&](const Point& p, const Cell& cell) {
-            Point off;
-            for (std::size_t k = 0; k < 2; ++k) {
-                double along = (p[k] - grid_.low[k]) / grid_.widths[k] - tile.first()[k];
-                if (std::abs(along - cell[k]) > 2)  // around the torus
-                    along +=
-                        along < cell[k] ? grid_.cells[k] : -static_cast<double>(grid_.cells[k]);
-                off[k] = (along - own[k]) * grid_.scales[k];
-            }
-            work.exactly_near.add(off);
-            return true;
-        });
-        work.exactly_near.close();
+        gather_exactly(tile, grid_, PlaneTile::cell_at(gap.place), work.exactly_near);
         return uncovered<2, double>(work.exactly_near, {gap, grid_.scales}, slack_,
                                     work.exactly_reaching);
     }

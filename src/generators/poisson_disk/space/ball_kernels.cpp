@@ -20,25 +20,25 @@ namespace {
 }  // namespace
 
 void open_gaps(const NearBalls& near, const std::array<float, 3>& scales,
-               std::span<const CubeGap> gaps, SubcellBits* out) {
+               std::span<const Gap<3>> gaps, SubcellBits* out) {
     pick_vectors(&anywhere::open_gaps, &fours::open_gaps, &eights::open_gaps)(near, scales, gaps,
                                                                               out);
 }
 
-std::size_t open_subcells(const NearBalls& near, const std::array<float, 3>& scales,
-                          SubcellBits some, OpenSubcell* out) {
-    return pick_vectors(&anywhere::open_subcells, &fours::open_subcells, &eights::open_subcells)(
+void open_subcells(const NearBalls& near, const std::array<float, 3>& scales, SubcellBits some,
+                   SubcellBits* out) {
+    pick_vectors(&anywhere::open_subcells, &fours::open_subcells, &eights::open_subcells)(
         near, scales, some, out);
+}
+
+Hit find_hit(const NearBalls& near, const std::array<float, 3>& place) {
+    return pick_vectors(&anywhere::find_hit, &fours::find_hit, &eights::find_hit)(near, place);
 }
 
 void cover_lines(const std::array<float, 3>& scales, std::span<const PlacedBall> balls,
                  std::uint32_t* lines) {
     pick_vectors(&anywhere::cover_lines, &fours::cover_lines, &eights::cover_lines)(scales, balls,
                                                                                     lines);
-}
-
-void find_hits(const NearBalls& near, std::span<const std::array<float, 3>> places, Hit* out) {
-    pick_vectors(&anywhere::find_hits, &fours::find_hits, &eights::find_hits)(near, places, out);
 }
 
 }  // namespace stipple::poisson_disk

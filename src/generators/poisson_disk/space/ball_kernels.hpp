@@ -33,26 +33,16 @@ struct NearBalls {
     }
 };
 
-/// A gap that is not small.
-using CubeGap = Gap<3, std::uint16_t>;
-
 /// Sub-cells that no ball covers alone, of each gap of a cell.
 /// @param scales sides of a cell
 void open_gaps(const NearBalls& near, const std::array<float, 3>& scales,
-               std::span<const CubeGap> gaps, SubcellBits* out);
+               std::span<const Gap<3>> gaps, SubcellBits* out);
 
-/// A sub-cell of a cell, and those of its own 64 sub-cells that no ball covers alone.
-struct OpenSubcell {
-    SubcellBits open;
-    std::uint8_t number;
-};
+/// The same for some sub-cells of a cell, in the order of their bits.
+void open_subcells(const NearBalls& near, const std::array<float, 3>& scales, SubcellBits some,
+                   SubcellBits* out);
 
-/// The same for some sub-cells of a cell; returns how many have something open, which `out`, of 65,
-/// begins with.
-std::size_t open_subcells(const NearBalls& near, const std::array<float, 3>& scales,
-                          SubcellBits some, OpenSubcell* out);
-
-/// Whether a ball covers the place, for each.
-void find_hits(const NearBalls& near, std::span<const std::array<float, 3>> places, Hit* out);
+/// Whether a ball covers a place.
+Hit find_hit(const NearBalls& near, const std::array<float, 3>& place);
 
 }  // namespace stipple::poisson_disk

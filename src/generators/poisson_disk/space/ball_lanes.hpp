@@ -38,29 +38,6 @@ STIPPLE_INLINE unsigned set_in(Bits set) {
 /// A bit for each lane in which a is less than b.
 STIPPLE_INLINE unsigned below(V a, V b) { return set_in(a < b); }
 
-STIPPLE_INLINE void store(V v, float* to) { std::memcpy(to, &v, sizeof v); }
-
-/// Four numbers again and again; each of the next ones four times.
-STIPPLE_INLINE V four_times(const float* from) {
-#if STIPPLE_VECTOR_BITS == 512
-    return _mm512_maskz_broadcast_f32x4(0xffff, _mm_loadu_ps(from));
-#elif STIPPLE_VECTOR_BITS == 256
-    return _mm256_broadcast_ps(reinterpret_cast<const __m128*>(from));
-#else
-    return load(from);
-#endif
-}
-STIPPLE_INLINE V each_four_times(const float* from) {
-#if STIPPLE_VECTOR_BITS == 512
-    const __m512i lane = _mm512_set_epi32(3, 3, 3, 3, 2, 2, 2, 2, 1, 1, 1, 1, 0, 0, 0, 0);
-    return _mm512_maskz_permutexvar_ps(0xffff, lane, _mm512_castps128_ps512(_mm_loadu_ps(from)));
-#elif STIPPLE_VECTOR_BITS == 256
-    return _mm256_set_m128(_mm_set1_ps(from[1]), _mm_set1_ps(from[0]));
-#else
-    return same(from[0]);
-#endif
-}
-
 /// What is open of 64 sub-cells: where no ball has left more of its squared radius along the third
 /// direction than the other two take.
 struct Open {
@@ -83,23 +60,7 @@ struct Open {
     }
 };
 
-Hit hit(const NearBalls& near, const std::array<float, 3>& place) {
-    V least = same(2);
-    for (std::size_t i = 0; i < near.size; i += lanes) {
-        const V x = load(&near.at[0][i]) - place[0];
-        const V y = load(&near.at[1][i]) - place[1];
-        const V z = load(&near.at[2][i]) - place[2];
-        least = smaller(least, x * x + y * y + z * z);
-    }
-    if (below(least, same(1 - float_slack)) != 0) return Hit::yes;
-    return below(least, same(1 + float_slack)) != 0 ? Hit::unsure : Hit::no;
-}
-
-void find_hits(const NearBalls& near, std::span<const std::array<float, 3>> places, Hit* out) {
-    for (const auto& place : places) *out++ = hit(near, place);
-}
-
-/// Where the parts of windows of a size lie, from their middle: lane x + 4 y of a row of vectors.
+/// Where the sub-cells of gaps of a size lie, from their middle: lane x + 4 y of a row of vectors.
 struct Pattern {
     static constexpr std::size_t rows = 16 / lanes;
     std::array<float, 3> side;  ///< of a sub-cell
@@ -120,14 +81,14 @@ struct Pattern {
     }
 };
 
-/// Squared distance to the far side of a part along one direction.
-STIPPLE_INLINE V far_square(V along, V from, float part) {
-    const V far = absolute(along - from) + part / 2;
+/// Squared distance to the far side of a sub-cell along one direction.
+STIPPLE_INLINE V far_square(V along, V from, float side) {
+    const V far = absolute(along - from) + side / 2;
     return far * far;
 }
 
-/// Disks that may cover a part: the square of the distance to the farthest corner of the nearest
-/// part is at least this, which is exact beyond its middle.
+/// Balls that may cover a sub-cell: the square of the distance to the farthest corner of the nearest
+/// one is at least this, which is exact beyond its middle.
 STIPPLE_INLINE unsigned may_cover(const Pattern& p, V x, V y, V z) {
     const V far_x = larger(absolute(x) - p.side[0], same(p.side[0] / 2));
     const V far_y = larger(absolute(y) - p.side[1], same(p.side[1] / 2));
@@ -253,103 +214,39 @@ void cover_lines(const std::array<float, 3>& scales, std::span<const PlacedBall>
 }
 
 void open_gaps(const NearBalls& near, const std::array<float, 3>& scales,
-               std::span<const CubeGap> gaps, SubcellBits* out) {
+               std::span<const Gap<3>> gaps, SubcellBits* out) {
     for (std::size_t i = 0; i < gaps.size();) {
         const unsigned level = gaps[i].level;
         const Pattern pattern(scales, level);
         for (; i < gaps.size() && gaps[i].level == level; ++i) {
             std::array<float, 3> middle;
             for (std::size_t k = 0; k < 3; ++k)
-                middle[k] = static_cast<float>(gaps[i].corner[k]) * 0x1p-16F * scales[k] +
-                            2 * pattern.side[k];
+                middle[k] = static_cast<float>(gaps[i].corner[k]) * scales[k] + 2 * pattern.side[k];
             *out++ = open_gap(near, pattern, middle);
         }
     }
 }
 
-/// Squared distances of balls to the far sides of the sixteenths of a cell, along each direction;
-/// what is left of them for the other two, along the last.
-struct FarSquares {
-    alignas(64) std::array<std::array<float, 16>, NearBalls::room> x;
-    alignas(64) std::array<std::array<float, 16>, NearBalls::room> y;
-    alignas(64) std::array<std::array<float, 16>, NearBalls::room> left;
-
-    STIPPLE_INLINE FarSquares(const NearBalls& near, const std::array<float, 3>& scales) {
-        V ramp;
-        for (std::size_t l = 0; l < lanes; ++l) ramp[l] = static_cast<float>(l) + 0.5F;
-        for (std::size_t j = 0; j < near.size; ++j)
-            for (std::size_t l = 0; l < 16; l += lanes) {
-                const V along = ramp + static_cast<float>(l);
-                const auto square = [&](std::size_t k) STIPPLE_LAMBDA {
-                    return far_square(along * (scales[k] / 16), same(near.at[k][j]),
-                                      scales[k] / 16);
-                };
-                store(square(0), &x[j][l]);
-                store(square(1), &y[j][l]);
-                store((1 - float_slack) - square(2), &left[j][l]);
-            }
+void open_subcells(const NearBalls& near, const std::array<float, 3>& scales, SubcellBits some,
+                   SubcellBits* out) {
+    const Pattern pattern(scales, 2);
+    for (; some != 0; some &= some - 1) {
+        const int number = std::countr_zero(some);
+        std::array<float, 3> middle;
+        for (std::size_t k = 0; k < 3; ++k)
+            middle[k] = static_cast<float>((number >> (2 * k) & 3) * 4 + 2) * pattern.side[k];
+        *out++ = open_gap(near, pattern, middle);
     }
+}
 
-    /// Parts of a part of a cell that the ball does not cover, of those.
-    STIPPLE_INLINE void uncover(std::size_t j, std::size_t part, Open& open) const {
-        const V far_x = four_times(&x[j][part % 4 * 4]);
-        const float* const far_y = &y[j][part / 4 % 4 * 4];
-        const float* const rest = &left[j][part / 16 * 4];
-        for (std::size_t row = 0; row < 16 / lanes; ++row) {
-            const V sum = far_x + each_four_times(far_y + row * lanes / 4);
-            for (std::size_t layer = 0; layer < 4; ++layer)
-                open.cover(layer, row, sum, rest[layer]);
-        }
+Hit find_hit(const NearBalls& near, const std::array<float, 3>& place) {
+    V least = same(2);
+    for (std::size_t i = 0; i < near.size; i += lanes) {
+        const V x = load(&near.at[0][i]) - place[0];
+        const V y = load(&near.at[1][i]) - place[1];
+        const V z = load(&near.at[2][i]) - place[2];
+        least = smaller(least, x * x + y * y + z * z);
     }
-};
-
-/// For parts of a cell, which of up to `lanes` balls may cover a part of theirs.
-struct Choice {
-    std::array<std::array<V, 4>, 3> least;
-
-    STIPPLE_INLINE Choice(const NearBalls& near, std::size_t i,
-                          const std::array<float, 3>& scales) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const float step = scales[k] / 16;
-            for (std::size_t p = 0; p < 4; ++p) {
-                const float middle = static_cast<float>(4 * p + 2) * step;
-                const V far =
-                    larger(absolute(load(&near.at[k][i]) - middle) - step, same(step / 2));
-                least[k][p] = far * far;
-            }
-        }
-    }
-
-    [[nodiscard]] STIPPLE_INLINE unsigned of(std::size_t part) const {
-        return below(least[0][part % 4] + least[1][part / 4 % 4] + least[2][part / 16], same(1));
-    }
-};
-
-std::size_t open_subcells(const NearBalls& near, const std::array<float, 3>& scales,
-                          SubcellBits some, OpenSubcell* out) {
-    const FarSquares squares(near, scales);
-    constexpr std::size_t most = NearBalls::room / lanes;
-    std::array<std::array<std::uint16_t, 64>, most> found;
-    std::array<std::uint8_t, 64> numbers;
-    std::size_t count = 0;
-    for (SubcellBits left = some; left != 0; left &= left - 1)
-        numbers[count++] = static_cast<std::uint8_t>(std::countr_zero(left));
-    std::size_t vectors = 0;
-    for (std::size_t i = 0; i < near.size; i += lanes, ++vectors) {
-        const Choice choice(near, i, scales);
-        for (std::size_t p = 0; p < count; ++p)
-            found[vectors][p] = static_cast<std::uint16_t>(choice.of(numbers[p]));
-    }
-    std::size_t open_count = 0;
-    for (std::size_t p = 0; p < count; ++p) {
-        Open open;
-        for (std::size_t v = 0; v < vectors; ++v)
-            for (unsigned left = found[v][p]; left != 0; left &= left - 1)
-                squares.uncover(v * lanes + static_cast<std::size_t>(std::countr_zero(left)),
-                                numbers[p], open);
-        const SubcellBits bits = open.bits();
-        out[open_count] = {bits, numbers[p]};
-        open_count += bits != 0 ? 1 : 0;
-    }
-    return open_count;
+    if (below(least, same(1 - float_slack)) != 0) return Hit::yes;
+    return below(least, same(1 + float_slack)) != 0 ? Hit::unsure : Hit::no;
 }

@@ -3,33 +3,121 @@
 
 #include <bit>
 #include <cmath>
+#include <cstring>
 
 #include "core/large_pages.hpp"
+#include "core/wide.hpp"
 #include "generators/poisson_disk/space/space_tile.hpp"
-#include "generators/poisson_disk/space/subcell_darts.hpp"
 
 namespace stipple::poisson_disk {
 namespace {
 
 using Cell = TileCell<3>;
 using Point = Grid<3>::Point;
+using Quad = SpaceRules::Quad;
 using Counts = std::vector<PoissonCounts>;
+
+/// A dart on a sub-cell, as it is drawn.
+struct SubcellDart {
+    using Digits [[gnu::vector_size(16)]] = std::int32_t;
+    Digits digits;         ///< in the cell, 2^-23 of its sides
+    std::uint64_t detail;  ///< what else is drawn for it
+    std::uint16_t place;   ///< of the cell
+    std::uint8_t subcell;
+};
 
 /// What one thread needs to work on a tile.
 struct SpaceWorkspace {
     std::vector<PendingDart<3>> pending;
+    std::vector<SubcellDart> drawn;  ///< on a layer of cells
     NearBalls near;
-    std::vector<SubcellDart> subcell_darts;
-    std::vector<DrawnDart> drawn;              ///< on a cell
-    std::vector<std::array<float, 3>> places;  ///< the same, in radii
-    std::vector<Hit> hits;
-    std::vector<CubeGap> of_cell;
-    std::vector<SubcellBits> open;
-    std::vector<CubeGap> cubes;
+    std::vector<Gap<3>> of_cell;
+    std::vector<SubcellBits> open;  ///< of these
     std::vector<Gap<3>> gaps;
     NearDisks<3, double> exactly_near;
     NearDisks<3, double> exactly_reaching;
 };
+
+/// Sub-cells that share a Poisson number: two lines of 32 in each of four layers. One sub-cell more
+/// or less changes all their darts, so that they are few: sets for radii that hardly differ are to
+/// be nearly the same.
+constexpr std::size_t together = 4 * 64;
+
+/// Draws darts on those of them that no ball covers alone.
+/// @param first their first one in the tile, along each direction
+[[gnu::always_inline]] inline void draw_on_lines(const SpaceTile& tile,
+                                                 const std::array<std::size_t, 3>& first,
+                                                 const PoissonCounts& counts, std::uint64_t key,
+                                                 std::vector<SubcellDart>& drawn) {
+    const std::uint32_t* lines = tile.lines() + BallLines::at(first[0] / 32, first[1], first[2]);
+    std::array<SubcellBits, 4> open;
+    std::array<std::size_t, 5> before{};
+    for (std::size_t z = 0; z < 4; ++z, lines += BallLines::layer) {
+        std::memcpy(&open[z], lines, sizeof open[z]);
+        open[z] = ~open[z];
+        before[z + 1] = before[z] + static_cast<std::size_t>(std::popcount(open[z]));
+    }
+    const std::size_t count = before.back();
+    if (count == 0) return;
+    SplitMix64 mixer(key + BallLines::at(first[0] / 32, first[1], first[2]));
+    for (std::uint64_t left = counts.draw(count, mixer); left > 0; --left) {
+        const std::uint64_t which = mixer.next();
+        const std::uint64_t where = mixer.next();
+        const std::size_t n = (which >> 32) * count >> 32;
+        const std::size_t z =
+            (n >= before[1] ? 1U : 0U) + (n >= before[2] ? 1U : 0U) + (n >= before[3] ? 1U : 0U);
+        const std::size_t bit = nth_bit(open[z], n - before[z]);
+        const std::array<std::size_t, 3> at{first[0] + bit % 32, first[1] + bit / 32, first[2] + z};
+        const auto digits = [&](std::size_t k) {
+            return static_cast<std::int32_t>(at[k] % 4 << 21 | (where >> (21 * k) & 0x1fffff));
+        };
+        const Cell cell{static_cast<int>(at[0] / 4), static_cast<int>(at[1] / 4),
+                        static_cast<int>(at[2] / 4)};
+        drawn.push_back({SubcellDart::Digits{digits(0), digits(1), digits(2), 0},
+                         which << 32 ^ where, SpaceTile::place_of(cell),
+                         static_cast<std::uint8_t>(at[0] % 4 + at[1] % 4 * 4 + at[2] % 4 * 16)});
+    }
+}
+
+/// Makes a dart on a sub-cell pending, unless it hit a ball.
+[[gnu::always_inline]] inline void try_dart(const SpaceRules& rules, const SpaceTile& tile,
+                                            const SubcellDart& dart, Quad to_radii,
+                                            std::vector<PendingDart<3>>& pending) {
+    const Cell cell = SpaceTile::cell_at(dart.place);
+    const Hit hit =
+        tile.hit(cell, dart.subcell, __builtin_convertvector(dart.digits, Quad) * to_radii);
+    if (hit == Hit::yes) return;
+    SplitMix64 mixer(dart.detail);
+    Point place;
+    for (std::size_t k = 0; k < 3; ++k)
+        place[k] = (dart.digits[k] + to_unit(mixer.next())) * SpaceRules::digit;
+    add_pending(tile, rules.grid, cell, place, hit, mixer.next(), pending);
+}
+
+/// Throws darts at the sub-cells that no ball covers alone.
+STIPPLE_WIDE void throw_at_subcells(const SpaceRules& rules, const SpaceTile& tile,
+                                    const PoissonCounts& counts, std::uint64_t key,
+                                    SpaceWorkspace& work) {
+    const Quad to_radii = Quad{rules.scales[0], rules.scales[1], rules.scales[2], 0} *
+                          static_cast<float>(SpaceRules::digit);
+    for (std::size_t column = 0; column < space_side * BallLines::words; ++column) {
+        // What a dart hits is hard to foresee; where the next ones fall does not wait for that.
+        work.drawn.clear();
+        for (std::size_t y = 0; y < BallLines::along; y += 2)
+            draw_on_lines(tile, {column % BallLines::words * 32, y, column / BallLines::words * 4},
+                          counts, key, work.drawn);
+        for (const SubcellDart& dart : work.drawn)
+            try_dart(rules, tile, dart, to_radii, work.pending);
+    }
+}
+
+/// The sub-cell of a place in a cell.
+std::size_t subcell_at(const Point& place) {
+    std::size_t subcell = 0;
+    for (std::size_t k = 3; k-- > 0;)
+        subcell = 4 * subcell + std::min(static_cast<std::size_t>(4 * place[k]), std::size_t{3});
+    return subcell;
+}
 
 class SpaceSampler {
   public:
@@ -44,22 +132,21 @@ class SpaceSampler {
     }
 
     Rows sample() {
-        for (const double density : {1.25, 1.25, 8.0, 24.0, 72.0, 216.0, 648.0})
-            throw_at_subcells(density);
-        // Gaps are split once a dart or so was thrown at each, into eight, so that more would be in
-        // vain.
+        for (const double density : {1.0, 1.0, 2.0, 8.0, 24.0, 72.0, 216.0, 648.0}) {
+            const PoissonCounts counts(Rounds::to_a_subcell(density), together);
+            rounds_.round([&](SpaceTile& tile, std::uint64_t key, SpaceWorkspace& work) {
+                throw_at_subcells(rules_, tile, counts, key, work);
+            });
+        }
         constexpr double growth = 6;
         rounds_.close_gaps(1944, growth,
                            [&](SpaceTile& tile, const Counts& counts, std::uint64_t key,
                                SpaceWorkspace& work, bool first) {
                                work.gaps.clear();
-                               work.cubes.clear();
                                if (first)
-                                   throw_at_open_subcells(tile, counts, key, work);
+                                   throw_at_first_gaps(tile, counts, key, work);
                                else
-                                   throw_at_cubes(tile, counts, key, work);
-                               throw_at_gaps(tile, counts, key, work);
-                               tile.cubes = std::vector(work.cubes.begin(), work.cubes.end());
+                                   throw_at_gaps(tile, counts, key, work);
                                tile.gaps = std::vector(work.gaps.begin(), work.gaps.end());
                            });
         lines_.reset();
@@ -70,78 +157,35 @@ class SpaceSampler {
   private:
     using Rounds = TileRounds<SpaceTile, SpaceWorkspace>;
 
-    /// Gaps of this level and beyond are too small for floats.
+    /// What is open of gaps of this level and beyond is looked at again in doubles.
     static constexpr std::uint8_t deep = 11;
 
-    void throw_at_subcells(double density) {
-        const PoissonCounts counts(Rounds::to_a_subcell(density), words_together * 64);
-        rounds_.round([&](SpaceTile& tile, std::uint64_t key, SpaceWorkspace& work) {
-            poisson_disk::throw_at_subcells(rules_, tile, counts, key, work.subcell_darts,
-                                            work.pending);
-        });
-    }
-
-    static void start_cell(SpaceWorkspace& work) {
-        work.drawn.clear();
-        work.places.clear();
-    }
-
-    /// Draws a dart on one of the open sub-cells of a gap.
-    void draw(const Point& corner, double side, SubcellBits open, std::size_t count,
-              SplitMix64& mixer, SpaceWorkspace& work) const {
-        const std::uint64_t which = mixer.next();
-        const std::uint64_t where = mixer.next();
-        const std::size_t subcell = nth_bit(open, (which >> 32) * count >> 32);
-        DrawnDart dart{{}, side * 0x1p-21, which << 32 ^ where};
-        std::array<float, 3> place;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint64_t digits =
-                (subcell >> (2 * k) & 3) << 21 | (where >> (21 * k) & 0x1fffff);
-            dart.place[k] = corner[k] + static_cast<double>(digits) * dart.grain;
-            place[k] = static_cast<float>(dart.place[k]) * rules_.scales[k];
-        }
-        work.drawn.push_back(dart);
-        work.places.push_back(place);
-    }
-
-    /// Makes the darts on a cell pending that hit no ball.
-    void insert_all(const SpaceTile& tile, const Cell& cell, SpaceWorkspace& work) const {
-        work.hits.resize(work.places.size());
-        find_hits(work.near, work.places, work.hits.data());
-        for (std::size_t i = 0; i < work.hits.size(); ++i)
-            insert(rules_, tile, cell, work.drawn[i], work.hits[i], work.pending);
-    }
-
     /// The first gaps are the sub-cells that no ball covers alone.
-    void throw_at_open_subcells(const SpaceTile& tile, const Counts& counts, std::uint64_t key,
-                                SpaceWorkspace& work) const {
+    void throw_at_first_gaps(const SpaceTile& tile, const Counts& counts, std::uint64_t key,
+                             SpaceWorkspace& work) const {
+        work.open.resize(all_subcells<3>);
         std::array<SubcellBits, 8> eight;
         for (std::uint16_t place = 0; place < power(std::size_t{space_side}, 3); ++place) {
             const Cell cell = SpaceTile::cell_at(place);
             if (place % 8 == 0) eight = subcells_of_eight(tile.lines(), cell);
-            const SubcellBits open = ~eight[place % 8U];
-            if (open == 0) continue;
-            tile.gather(cell, open, work.near);
-            std::array<OpenSubcell, 65> found;
-            const std::size_t count = open_subcells(work.near, rules_.scales, open, found.data());
-            start_cell(work);
+            SubcellBits some = ~eight[place % 8U];
+            if (some == 0 || tile.taken(cell)) continue;
+            tile.gather(cell, some, work.near);
+            open_subcells(work.near, rules_.scales, some, work.open.data());
             SplitMix64 mixer(key + place);
-            for (std::size_t i = 0; i < count; ++i) {
-                const unsigned number = found[i].number;
-                const CubeGap gap{{static_cast<std::uint16_t>((number & 3) << 14),
-                                   static_cast<std::uint16_t>((number >> 2 & 3) << 14),
-                                   static_cast<std::uint16_t>(number >> 4 << 14)},
-                                  place,
-                                  2};
-                throw_at_cube(gap, found[i].open, counts, mixer, work);
+            for (std::size_t i = 0; some != 0; some &= some - 1, ++i) {
+                if (work.open[i] == 0) continue;
+                const int number = std::countr_zero(some);
+                const Point corner{(number & 3) * 0.25, (number >> 2 & 3) * 0.25,
+                                   (number >> 4) * 0.25};
+                throw_at({corner, place, 2}, tile, cell, work.open[i], counts, mixer, work);
             }
-            if (!work.places.empty()) insert_all(tile, cell, work);
         }
     }
 
-    void throw_at_cubes(const SpaceTile& tile, const Counts& counts, std::uint64_t key,
-                        SpaceWorkspace& work) const {
-        const auto& all = tile.cubes;
+    void throw_at_gaps(const SpaceTile& tile, const Counts& counts, std::uint64_t key,
+                       SpaceWorkspace& work) const {
+        const auto& all = tile.gaps;
         for (std::size_t i = 0; i < all.size();) {
             const std::uint16_t place = all[i].place;
             const Cell cell = SpaceTile::cell_at(place);
@@ -149,9 +193,7 @@ class SpaceSampler {
             SubcellBits some = 0;
             work.of_cell.clear();
             for (; i < all.size() && all[i].place == place; ++i) {
-                const auto& c = all[i].corner;
-                const SubcellBits its = SubcellBits{1}
-                                        << (c[0] >> 14 | c[1] >> 14 << 2 | c[2] >> 14 << 4);
+                const SubcellBits its = SubcellBits{1} << subcell_at(all[i].corner);
                 if ((covered & its) != 0) continue;
                 some |= its;
                 work.of_cell.push_back(all[i]);
@@ -166,85 +208,32 @@ class SpaceSampler {
         tile.gather(cell, some, work.near);
         work.open.resize(work.of_cell.size());
         open_gaps(work.near, rules_.scales, work.of_cell, work.open.data());
-        start_cell(work);
         SplitMix64 mixer(key + work.of_cell[0].place);
-        for (std::size_t i = 0; i < work.of_cell.size(); ++i)
-            if (work.open[i] != 0)
-                throw_at_cube(work.of_cell[i], work.open[i], counts, mixer, work);
-        if (!work.places.empty()) insert_all(tile, cell, work);
-    }
-
-    void throw_at_cube(const CubeGap& gap, SubcellBits open, const Counts& counts,
-                       SplitMix64& mixer, SpaceWorkspace& work) const {
-        constexpr double enough = 1;  // darts after which a gap is better split
-        const auto count = static_cast<std::size_t>(std::popcount(open));
-        const PoissonCounts& of_level = counts[gap.level];
-        const double side = gap.subcell_side() * 0x1p-16;
-        for (std::uint64_t left = of_level.draw(count, mixer); left > 0; --left)
-            draw(corner_of(gap), side, open, count, mixer, work);
-        narrow(gap, open, of_level.mean(count) >= enough, work.cubes);
-        while (!work.cubes.empty() && work.cubes.back().level >= deep) {
-            const CubeGap& small = work.cubes.back();
-            work.gaps.push_back({corner_of(small), small.place, small.level});
-            work.cubes.pop_back();
+        for (std::size_t i = 0; i < work.of_cell.size(); ++i) {
+            const Gap<3>& gap = work.of_cell[i];
+            SubcellBits open = work.open[i];
+            if (open != 0 && gap.level >= deep) open = exactly_open(tile, cell, gap, work);
+            if (open != 0 && !rounds_.too_small(gap))
+                throw_at(gap, tile, cell, open, counts, mixer, work);
         }
     }
 
-    /// In cells.
-    static Point corner_of(const CubeGap& gap) {
-        return {gap.corner[0] * 0x1p-16, gap.corner[1] * 0x1p-16, gap.corner[2] * 0x1p-16};
-    }
-
-    /// The same for gaps that are small.
-    void throw_at_gaps(const SpaceTile& tile, const Counts& counts, std::uint64_t key,
-                       SpaceWorkspace& work) const {
-        const auto& all = tile.gaps;
-        for (std::size_t i = 0; i < all.size();) {
-            const std::uint16_t place = all[i].place;
-            const Cell cell = SpaceTile::cell_at(place);
-            const bool taken = tile.taken(cell);
-            if (!taken) gather_exactly(tile, cell, work.exactly_near);
-            for (; i < all.size() && all[i].place == place; ++i)
-                if (!taken) throw_at_gap(tile, cell, all[i], counts[all[i].level], key, work);
-        }
-    }
-
-    void throw_at_gap(const SpaceTile& tile, const Cell& cell, const Gap<3>& gap,
-                      const PoissonCounts& counts, std::uint64_t key, SpaceWorkspace& work) const {
-        constexpr double enough = 2;
-        if (rounds_.too_small(gap)) return;
-        const SubcellBits open = uncovered<3, double>(work.exactly_near, {gap, grid_.scales},
-                                                      slack_, work.exactly_reaching);
-        if (open == 0) return;
-        const auto count = static_cast<std::size_t>(std::popcount(open));
-        SplitMix64 mixer = stream_of(key, gap);
-        for (std::uint64_t left = counts.draw(count, mixer); left > 0; --left) {
-            const Point place = place_in(gap, open, count, mixer);
-            Point off;
-            for (std::size_t k = 0; k < 3; ++k) off[k] = place[k] * grid_.scales[k];
-            const Hit hit = hits<3, double>(work.exactly_reaching, off, slack_);
-            insert(rules_, tile, cell, {place, 0, mixer.next()}, hit, work.pending);
-        }
-        narrow(gap, open, counts.mean(count) >= enough, work.gaps);
-    }
-
-    /// Points about a cell, from its corner.
-    void gather_exactly(const SpaceTile& tile, const Cell& cell, NearDisks<3, double>& near) const {
-        near.clear();
-        tile.for_about(cell, [&](const Point& p, const Cell& steps) {
-            Point off;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const double own = static_cast<double>(tile.first()[k]) + cell[k];
-                double along = (p[k] - grid_.low[k]) / grid_.widths[k] - own;
-                if (std::abs(along - steps[k]) > 2)  // around the torus
-                    along +=
-                        along < steps[k] ? grid_.cells[k] : -static_cast<double>(grid_.cells[k]);
-                off[k] = along * grid_.scales[k];
-            }
-            near.add(off);
-            return true;
+    void throw_at(const Gap<3>& gap, const SpaceTile& tile, const Cell& cell, SubcellBits open,
+                  const Counts& counts, SplitMix64& mixer, SpaceWorkspace& work) const {
+        throw_at_gap(gap, open, counts[gap.level], mixer, work.gaps, [&](const Point& place) {
+            std::array<float, 3> off;
+            for (std::size_t k = 0; k < 3; ++k)
+                off[k] = static_cast<float>(place[k]) * rules_.scales[k];
+            add_pending(tile, grid_, cell, place, find_hit(work.near, off), mixer.next(),
+                        work.pending);
         });
-        near.close();
+    }
+
+    SubcellBits exactly_open(const SpaceTile& tile, const Cell& cell, const Gap<3>& gap,
+                             SpaceWorkspace& work) const {
+        gather_exactly(tile, grid_, cell, work.exactly_near);
+        return uncovered<3, double>(work.exactly_near, {gap, grid_.scales}, slack_,
+                                    work.exactly_reaching);
     }
 
     const Grid<3>& grid_;

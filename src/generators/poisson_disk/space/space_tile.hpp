@@ -70,6 +70,9 @@ class SpaceBits {
 struct SpaceRules {
     using Quad [[gnu::vector_size(16)]] = float;
 
+    static constexpr double digit =
+        0x1p-23;  ///< of a cell, to which darts on sub-cells are drawn first
+
     explicit SpaceRules(const Grid<3>& box_grid) : grid(box_grid) {
         for (std::size_t b = 0; b < about.size(); ++b) {
             const std::array<std::size_t, 3> along{b % 8, b % 40 / 8, b / 40};
@@ -144,23 +147,23 @@ class SpaceTile : public Tile<3, space_bits, 2> {
         cover_lines(rules_->scales, balls, lines_);
     }
 
-    [[nodiscard]] bool has_gaps() const { return !cubes.empty() || !gaps.empty(); }
+    [[nodiscard]] bool has_gaps() const { return !gaps.empty(); }
 
     /// Points that reach into some sub-cells of a cell, and some more.
     void gather(const TileCell<3>& cell, SubcellBits some, NearBalls& near) const {
-        using Quad = SpaceRules::Quad;
-        std::array<Quad, 128> found_at;
-        std::size_t n = 0;
         const std::uint16_t* numbers = &numbers_[number_of(cell)];
         const SpaceBits::Layers masks = reaching(some);
+        near.size = 0;
         for (std::size_t z = 0; z < SpaceBits::layers; ++z) {
             std::uint64_t found = taken_.layer(cell, z) & masks[z];
             for (; found != 0; found &= found - 1) {
                 const std::size_t b = 40 * z + static_cast<std::size_t>(std::countr_zero(found));
-                found_at[n++] = places_[numbers[rules_->cells[b]]] + rules_->about[b];
+                const SpaceRules::Quad at = places_[numbers[rules_->cells[b]]] + rules_->about[b];
+                for (std::size_t k = 0; k < 3; ++k) near.at[k][near.size] = at[k];
+                ++near.size;
             }
         }
-        transpose(found_at.data(), n, near);
+        near.close();
     }
 
     /// Whether a point covers a place in a sub-cell of a cell.
@@ -187,7 +190,7 @@ class SpaceTile : public Tile<3, space_bits, 2> {
         return least < 1 + float_slack ? Hit::unsure : Hit::no;
     }
 
-    /// Calls visit(point, steps) for the points of the cells about one, as long as that is true.
+    /// Calls visit(point, cell) for the points of the cells about one, as long as that is true.
     template <class Visit>
     void for_about(const TileCell<3>& cell, const Visit& visit) const {
         for (std::size_t z = 0; z < SpaceBits::layers; ++z) {
@@ -196,7 +199,9 @@ class SpaceTile : public Tile<3, space_bits, 2> {
                 const std::size_t b = 40 * z + static_cast<std::size_t>(std::countr_zero(found));
                 const std::size_t number = numbers_[static_cast<std::size_t>(
                     static_cast<int>(number_of(cell)) + rules_->cells[b])];
-                if (!visit(exact(places_[number][3]), rules_->steps[b])) return;
+                const auto& steps = rules_->steps[b];
+                const Cell there{cell[0] + steps[0], cell[1] + steps[1], cell[2] + steps[2]};
+                if (!visit(exact(places_[number][3]), there)) return;
             }
         }
     }
@@ -211,8 +216,7 @@ class SpaceTile : public Tile<3, space_bits, 2> {
         return hit;
     }
 
-    std::vector<CubeGap> cubes;
-    std::vector<Gap<3>> gaps;  ///< too small for floats
+    std::vector<Gap<3>> gaps;
 
     void drop() {
         places_ = {};
@@ -275,25 +279,6 @@ class SpaceTile : public Tile<3, space_bits, 2> {
             for (std::size_t z = 0; z < SpaceBits::layers; ++z) all[z] |= one[z];
         }
         return all;
-    }
-
-    static void transpose(const SpaceRules::Quad* from, std::size_t n, NearBalls& near) {
-        using Quad = SpaceRules::Quad;
-        using Pick [[gnu::vector_size(16)]] = int;
-        for (std::size_t i = 0; i < n; i += 4) {
-            const Quad ab = __builtin_shuffle(from[i], from[i + 1], Pick{0, 4, 1, 5});
-            const Quad cd = __builtin_shuffle(from[i + 2], from[i + 3], Pick{0, 4, 1, 5});
-            const Quad ab_z = __builtin_shuffle(from[i], from[i + 1], Pick{2, 6, 3, 7});
-            const Quad cd_z = __builtin_shuffle(from[i + 2], from[i + 3], Pick{2, 6, 3, 7});
-            const Quad x = __builtin_shuffle(ab, cd, Pick{0, 1, 4, 5});
-            const Quad y = __builtin_shuffle(ab, cd, Pick{2, 3, 6, 7});
-            const Quad z = __builtin_shuffle(ab_z, cd_z, Pick{0, 1, 4, 5});
-            std::memcpy(&near.at[0][i], &x, sizeof x);
-            std::memcpy(&near.at[1][i], &y, sizeof y);
-            std::memcpy(&near.at[2][i], &z, sizeof z);
-        }
-        near.size = n;
-        near.close();
     }
 
     const SpaceRules* rules_ = nullptr;

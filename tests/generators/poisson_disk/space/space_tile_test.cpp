@@ -92,10 +92,8 @@ TEST(SpaceTile, TellWhatPointsCoverInTheTileAndBeyondItsFaces) {
             }
             NearBalls near;
             scene.tile.gather(cell, SubcellBits{1} << subcell, near);
-            const std::array<float, 3> from{off[0], off[1], off[2]};
-            Hit hit;
-            find_hits(near, {&from, 1}, &hit);
-            EXPECT_EQ(hit, scene.tile.hit(cell, subcell, off)) << i;
+            EXPECT_EQ(find_hit(near, {off[0], off[1], off[2]}), scene.tile.hit(cell, subcell, off))
+                << i;
             ++counts[nearest < 1 ? 1 : 0];
         }
         EXPECT_GT(counts[0], 15);
@@ -107,7 +105,7 @@ TEST(SpaceTile, KnowTheirPointsToTheLastDigit) {
     const Scene scene(3, 9);
     const TileCell<3> cell{5, 0, scene.tile.size(2) - 1};
     std::size_t found = 0;
-    scene.tile.for_about(cell, [&](const Grid<3>::Point& p, const TileCell<3>& steps) {
+    scene.tile.for_about(cell, [&](const Grid<3>::Point& p, const TileCell<3>& at) {
         ++found;
         bool known = false;
         for (const auto& place : scene.places) {
@@ -118,7 +116,7 @@ TEST(SpaceTile, KnowTheirPointsToTheLastDigit) {
                                      : place[k] >= all ? place[k] - all
                                                        : place[k];
                 same = same && std::abs(along * scene.grid.widths[k] - p[k]) < 1e-12 &&
-                       static_cast<int>(std::floor(place[k])) == cell[k] + steps[k];
+                       static_cast<int>(std::floor(place[k])) == at[k];
             }
             known = known || same;
         }
