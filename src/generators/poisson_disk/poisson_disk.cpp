@@ -25,7 +25,8 @@
 // Cost    see maximal_disks.hpp; --count takes some ten runs.
 // Promise sum_k d_k^2 >= radius^2 for every pair, in float64, from the coordinates as stored;
 //         d_k = |x_k - y_k|, on the torus min(d_k, side_k - d_k). No place of the box is as far as
-//         the radius from all points. The provenance has the radius.
+//         the radius from all points, unless the user is told that some were removed. The
+//         provenance has the radius.
 // Source  R. L. Cook, ACM Trans. Graph. 5 (1986) 51-72, doi:10.1145/7529.8927 (the process).
 
 #include <cmath>
