@@ -1,10 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "generators/poisson_disk/box_sampler.hpp"
+//
+// maximal_disks (generators/poisson_disk/maximal_disks.hpp) in any dimension and any box: also in
+// those of fewer than five cells along a direction.
+//
+// Tiles know the points that reach into them, and go through all of them for each cell. Gaps are
+// cells in the beginning, and are cut down round by round (generators/poisson_disk/gaps.hpp).
+//
+// Shape   D = 2 ... 6.
+// Cost    O(n) time; see maximal_disks.hpp. Beside plane_sampler.hpp and space_sampler.hpp for D = 2
+//         and 3, which are 2.6 and 4.6 times as fast.
 
 #include <cmath>
 #include <type_traits>
 
 #include "generators/poisson_disk/near_disks.hpp"
+#include "generators/poisson_disk/samplers.hpp"
+#include "generators/poisson_disk/tile_rounds.hpp"
 
 namespace stipple::poisson_disk {
 namespace {
@@ -22,11 +33,10 @@ class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
 
     void take(std::span<const Addition<D>> additions) {
         for (const Addition<D>& a : additions) {
-            Near p{{}, a.at};
+            Near p{this->in_cell(*grid_, a.at, a.cell), a.at, a.cell};
             double squared = 0;  // distance from the tile, in radii
             for (std::size_t k = 0; k < D; ++k) {
-                const double in_cell = (a.at[k] - grid_->low[k]) / grid_->widths[k] - a.in_box[k];
-                p.place[k] = a.cell[k] + in_cell;
+                p.place[k] += a.cell[k];
                 const double out = std::max({-p.place[k], p.place[k] - this->size(k), 0.0});
                 squared += out * out * grid_->scales[k] * grid_->scales[k];
             }
@@ -58,9 +68,11 @@ class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
         near.close();
     }
 
-    /// Whether one of the points is too near to a place of the tile.
-    [[nodiscard]] bool hits(const Cell&, const Point& at) const {
-        return std::ranges::any_of(near_, [&](const Near& p) { return grid_->too_near(at, p.at); });
+    /// Calls visit(point, its cell) for all points, as long as that is true.
+    template <class Visit>
+    void for_about(const Cell&, const Visit& visit) const {
+        for (const Near& p : near_)
+            if (!visit(p.at, p.cell)) return;
     }
 
     std::vector<Gap<D>> gaps;
@@ -72,6 +84,7 @@ class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
     struct Near {
         Point place;  ///< in cells, from the tile's first
         Point at;
+        Cell cell;
     };
 
     const Grid<D>* grid_ = nullptr;

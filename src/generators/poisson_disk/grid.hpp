@@ -30,12 +30,6 @@ constexpr std::size_t power(std::size_t base, std::size_t exponent) {
 template <std::size_t D>
 using TileCell = std::array<int, D>;
 
-/// Whether a radius leads across two of the cells along a direction, and there are five or more.
-inline bool fine_cells(double cells, double extent, double radius) {
-    const double across = radius / (extent / cells) * (1 + 1e-6);
-    return cells > 4 && across >= 1 && across < 2;
-}
-
 template <std::size_t D>
 struct Grid {
     using Point = std::array<double, D>;

@@ -6,11 +6,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
-#include "generators/poisson_disk/box_sampler.hpp"
-#include "generators/poisson_disk/plane/plane_sampler.hpp"
-#include "generators/poisson_disk/plane/plane_tile.hpp"
-#include "generators/poisson_disk/space/ball_lines.hpp"
-#include "generators/poisson_disk/space/space_sampler.hpp"
+#include "generators/poisson_disk/samplers.hpp"
 
 namespace stipple::poisson_disk {
 namespace {
@@ -18,8 +14,10 @@ namespace {
 /// Whether a radius leads across two cells along every direction, and there are five or more.
 bool is_fine(const BoxSpace& space, const std::vector<double>& cells, double radius) {
     bool fine = cells.size() <= 3;
-    for (std::size_t k = 0; k < cells.size(); ++k)
-        fine = fine && fine_cells(cells[k], space.box.extent(k), radius);
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        const double across = radius / (space.box.extent(k) / cells[k]) * (1 + 1e-6);
+        fine = fine && cells[k] > 4 && across >= 1 && across < 2;
+    }
     return fine;
 }
 
@@ -27,11 +25,11 @@ template <std::size_t D>
 Rows sample(const BoxSpace& space, double radius, double cell_radius, std::uint64_t seed,
             const RunContext& run) {
     const bool fine = is_fine(space, cells_along(space.box, cell_radius), radius);
-    const int side = !fine ? 1 << box_tile_bits<D> : D == 2 ? plane_side : space_side;
+    const unsigned bits = !fine ? box_tile_bits<D> : D == 2 ? plane_tile_bits : space_tile_bits;
     const double seconds_a_point = !fine ? 1e-5 : D == 2 ? 6e-7 : 2.5e-6;  // far more for D > 3
     const double expected = expected_disks(space, radius);
     const RunContext on = worth_threads(run, expected * seconds_a_point);
-    const Grid<D> grid(space, radius, cell_radius, static_cast<std::uint32_t>(side));
+    const Grid<D> grid(space, radius, cell_radius, 1U << bits);
     const double slack = 0x1p-49 * (space.largest_coordinate() / radius + 8);
     const Task<D> task{grid, slack, static_cast<std::uint64_t>(expected), seed};
     if constexpr (D == 2)
@@ -50,7 +48,7 @@ double memory_for(const std::vector<double>& along, bool fine, double points) {
         return plane_tile_memory(along[0], along[1]) + 45 * points + 4 * cells;
     if (fine) {  // what tiles know; a point, its copy, what others know of it; gaps
         double tiles = 1;
-        for (const double count : along) tiles *= std::ceil(count / space_side);
+        for (const double count : along) tiles *= std::ceil(count / (1U << space_tile_bits));
         return space_tile_memory(tiles) + 140 * points;
     }
     // A point, its copies; gaps, to begin with one a cell.

@@ -26,12 +26,13 @@
 #include "generators/poisson_disk/near_disks.hpp"
 #include "generators/poisson_disk/pending_darts.hpp"
 #include "generators/poisson_disk/poisson_counts.hpp"
+#include "generators/poisson_disk/samplers.hpp"
 #include "stipple/points.hpp"
 #include "stipple/run.hpp"
 
 namespace stipple::poisson_disk {
 
-/// Volume of the ball of radius 1.
+/// Volume of the ball of radius 1 in 0 ... 6 dimensions.
 inline constexpr std::array<double, 7> unit_ball{1,
                                                  2,
                                                  3.141592653589793,
@@ -40,29 +41,21 @@ inline constexpr std::array<double, 7> unit_ball{1,
                                                  5.263789013914325,
                                                  5.167712780049970};
 
-/// What all samplers work with.
-template <std::size_t D>
-struct Task {
-    const Grid<D>& grid;
-    double slack;            ///< of distances that doubles hold, in radii
-    std::uint64_t expected;  ///< number of points
-    std::uint64_t seed;
-};
-
 /// A point that a tile takes over.
 template <std::size_t D>
 struct Addition {
     std::array<double, D> at;
-    TileCell<D> cell;                     ///< from the tile's first on
-    std::array<std::uint32_t, D> in_box;  ///< the cell that `at` lies in
-    bool own;                             ///< whether it is one of the tile's points()
+    TileCell<D> cell;  ///< from the tile's first on
+    bool own;          ///< whether it is one of the tile's points()
 };
 
 /// What every tile has: its cells, neighbours, pending darts and points. A tile of a sampler derives
 /// from it and has
 ///     take(additions)   adds points that were accepted, the own ones in the order of points();
 ///     has_gaps()        whether anything may be uncovered, once gaps are known;
-///     drop()            gives back its own memory, but that of the points.
+///     drop()            gives back its own memory, but that of the points;
+///     for_about(cell, visit)   calls visit(point, its cell) for points that may reach into a cell,
+///                       as long as that is true.
 template <std::size_t D, unsigned side_bits, unsigned block_bits>
 class Tile {
   public:
@@ -99,16 +92,18 @@ class Tile {
         return inside;
     }
 
-    /// Where a point near the tile is, in cells from its first. @param cell of the point, also so
-    [[nodiscard]] Point from_first(const Grid<D>& grid, const Point& p, const Cell& cell) const {
-        Point along;
+    /// Where in its cell a point near the tile is, in cells. @param cell of the point, from the
+    /// tile's first on; on the torus maybe beyond its faces
+    [[nodiscard]] Point in_cell(const Grid<D>& grid, const Point& p, const Cell& cell) const {
+        Point place;
         for (std::size_t k = 0; k < D; ++k) {
-            along[k] = (p[k] - grid.low[k]) / grid.widths[k] - first_[k];
-            if (std::abs(along[k] - cell[k]) > 2)  // around the torus
-                along[k] +=
-                    along[k] < cell[k] ? grid.cells[k] : -static_cast<double>(grid.cells[k]);
+            const auto cells = std::int64_t{grid.cells[k]};
+            std::int64_t in_box = std::int64_t{first_[k]} + cell[k];
+            while (in_box < 0) in_box += cells;
+            while (in_box >= cells) in_box -= cells;
+            place[k] = (p[k] - grid.low[k]) / grid.widths[k] - static_cast<double>(in_box);
         }
-        return along;
+        return place;
     }
 
     /// A little more points than there mostly are, in the tile and `more` cells beyond each face.
@@ -134,23 +129,33 @@ class Tile {
     std::vector<double> points_;
 };
 
-/// Lists the points about a cell of a tile, from its corner. The tile has
-///     for_about(cell, visit)   calls visit(point, its cell) for them, as long as that is true.
+/// Lists the points about a cell of a tile, from its corner.
 template <class T, std::size_t D>
 void gather_exactly(const T& tile, const Grid<D>& grid, const TileCell<D>& own,
                     NearDisks<D, double>& near) {
     near.clear();
     tile.for_about(own, [&](const std::array<double, D>& p, const TileCell<D>& cell) {
-        std::array<double, D> off = tile.from_first(grid, p, cell);
-        for (std::size_t k = 0; k < D; ++k) off[k] = (off[k] - own[k]) * grid.scales[k];
+        std::array<double, D> off = tile.in_cell(grid, p, cell);
+        for (std::size_t k = 0; k < D; ++k) off[k] = (off[k] + cell[k] - own[k]) * grid.scales[k];
         near.add(off);
         return true;
     });
     near.close();
 }
 
-/// Makes a dart pending, unless it hit a point or is rounded up to a face. The tile has
-///     hits(cell, point)   whether a place of a cell is too near to a point.
+/// Whether a place of a cell is too near to a point.
+template <class T, std::size_t D>
+bool hits_point(const T& tile, const Grid<D>& grid, const TileCell<D>& cell,
+                const std::array<double, D>& at) {
+    bool hit = false;
+    tile.for_about(cell, [&](const std::array<double, D>& p, const TileCell<D>&) {
+        hit = grid.too_near(p, at);
+        return !hit;
+    });
+    return hit;
+}
+
+/// Makes a dart pending, unless it hit a point or is rounded up to a face.
 template <class T, std::size_t D>
 void add_pending(const T& tile, const Grid<D>& grid, const TileCell<D>& cell,
                  const std::array<double, D>& place, Hit hit, std::uint64_t random,
@@ -158,7 +163,7 @@ void add_pending(const T& tile, const Grid<D>& grid, const TileCell<D>& cell,
     if (hit == Hit::yes) return;
     PendingDart<D> dart{{}, static_cast<std::uint32_t>(random >> 32), T::place_of(cell)};
     if (!tile.locate(grid, cell, place, dart.at)) return;
-    if (hit == Hit::no || !tile.hits(cell, dart.at)) pending.push_back(dart);
+    if (hit == Hit::no || !hits_point(tile, grid, cell, dart.at)) pending.push_back(dart);
 }
 
 /// Draws darts on what is open of a gap: draw(place in its cell) for each. Adds what is left of the
@@ -353,11 +358,10 @@ class TileRounds {
             }
             of_round(other, last).any(low, high, [&](const Dart& d) {
                 if (d.status() != Status::accepted) return false;
-                Addition<D> added{d.at, T::cell_at(d.place), other.first(), own};
+                Addition<D> added{d.at, T::cell_at(d.place), own};
                 bool in = true;
                 for (std::size_t k = 0; k < D; ++k) {
                     in = in && added.cell[k] >= low[k] && added.cell[k] <= high[k];
-                    added.in_box[k] += static_cast<std::uint32_t>(added.cell[k]);
                     added.cell[k] += steps[k];
                 }
                 if (in) additions.push_back(added);

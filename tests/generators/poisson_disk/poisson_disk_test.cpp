@@ -154,8 +154,7 @@ TEST(PoissonDisk, DensityIsThatOfRandomSequentialAddition) {
 // Estimates of memory and first radii rest on them. In few points of many dimensions the torus
 // itself moves the numbers by some percent.
 TEST(PoissonDisk, SaturatedDensitiesHoldInAllDimensions) {
-    for (const auto& [d, radius] :
-         {std::pair{2U, 0.02}, {3, 0.06}, {4, 0.2}, {5, 0.4}, {6, 0.6}}) {
+    for (const auto& [d, radius] : {std::pair{2U, 0.02}, {3, 0.06}, {4, 0.2}, {5, 0.4}, {6, 0.6}}) {
         const double sets = 2;
         double count = 0;
         for (std::uint64_t seed = 1; seed <= 2; ++seed)

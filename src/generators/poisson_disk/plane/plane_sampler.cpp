@@ -1,5 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "generators/poisson_disk/plane/plane_sampler.hpp"
+//
+// maximal_disks (generators/poisson_disk/maximal_disks.hpp) in the plane, for boxes of five cells or
+// more along each direction.
+//
+// First darts are thrown at the sub-cells that no disk covers by itself; then at gaps, which are cut
+// down to their open sub-cells round by round. Darts of a tile are sorted by time, and tried one
+// after the other: one that keeps its distance is a point at once. Pending are only those within two
+// cells of the tile's edge, which a dart of another tile may come before, and those too near to such
+// a one.
+//
+// Cost    O(n) time; on one core 0.4 us a point. Memory: 75 bytes a point; more in boxes fewer
+//         than 64 cells wide.
 
 #include <bit>
 #include <cmath>
@@ -8,6 +19,7 @@
 #include "core/wide.hpp"
 #include "generators/poisson_disk/near_disks.hpp"
 #include "generators/poisson_disk/plane/plane_tile.hpp"
+#include "generators/poisson_disk/samplers.hpp"
 
 namespace stipple::poisson_disk {
 
@@ -97,7 +109,7 @@ class Thrower {
             __builtin_prefetch(reinterpret_cast<const char*>(mask) + 64 * line);
         PendingDart<2> dart{{}, d.time, PlaneTile::place_of(cell)};
         if (!tile_.locate(rules_.grid, {0, 0}, place_of(d), dart.at)) return;
-        if (hit == Hit::unsure && tile_.hits(cell, dart.at)) return;
+        if (hit == Hit::unsure && hits_point(tile_, rules_.grid, cell, dart.at)) return;
         if (!waits(cell, dart.at)) return tile_.add(cell, position, dart.at, mask);
         work_.waiting[static_cast<std::size_t>(cell[1] + 2)] |= std::uint64_t{1} << cell[0];
         work_.pending.push_back(dart);

@@ -21,8 +21,7 @@
 namespace stipple::poisson_disk {
 
 /// Cells along each side of a tile.
-inline constexpr unsigned plane_bits = 6;
-inline constexpr int plane_side = 1 << plane_bits;
+inline constexpr int plane_side = 1 << plane_tile_bits;
 
 /// Units of a dart's place to a cell.
 inline constexpr double cell_unit = 0x1p26;
@@ -44,7 +43,7 @@ struct CellRoom {
     std::uint16_t* indices;
 };
 
-class PlaneTile : public Tile<2, plane_bits, 2> {
+class PlaneTile : public Tile<2, plane_tile_bits, 2> {
   public:
     PlaneTile() = default;
     /// @param room for FixedPositions::needed(rows of the tile) of each
@@ -91,16 +90,6 @@ class PlaneTile : public Tile<2, plane_bits, 2> {
             }
     }
 
-    /// Whether a place of a cell is nearer than the radius to a point.
-    [[nodiscard]] bool hits(const Cell& cell, const Point& p) const {
-        bool hit = false;
-        for_about(cell, [&](const Point& q, const Cell&) {
-            hit = rules_->grid.too_near(p, q);
-            return !hit;
-        });
-        return hit;
-    }
-
     /// Adds a point of this tile's own.
     /// @param mask what it covers
     void add(const Cell& cell, FixedPosition position, const Point& at,
@@ -145,12 +134,10 @@ class PlaneTile : public Tile<2, plane_bits, 2> {
 
     void take(const Addition<2>& a) {
         constexpr double below_one = 1 - 0x1p-32;
-        Point place;  // in cells, from the tile's first
+        Point place = in_cell(rules_->grid, a.at, a.cell);
         std::array<std::uint32_t, 2> digits;
         for (std::size_t k = 0; k < 2; ++k) {
-            const Grid<2>& grid = rules_->grid;
-            const double in_cell = (a.at[k] - grid.low[k]) / grid.widths[k] - a.in_box[k];
-            const double kept = std::clamp(in_cell, 0.0, below_one);
+            const double kept = std::clamp(place[k], 0.0, below_one);
             place[k] = a.cell[k] + kept;
             digits[k] = static_cast<std::uint32_t>(kept * 0x1p32);
         }

@@ -18,12 +18,12 @@
 #include <span>
 
 #include "generators/poisson_disk/gaps.hpp"
+#include "generators/poisson_disk/samplers.hpp"
 
 namespace stipple::poisson_disk {
 
 /// Cells along each side of a tile.
-inline constexpr unsigned space_bits = 5;
-inline constexpr int space_side = 1 << space_bits;
+inline constexpr int space_side = 1 << space_tile_bits;
 
 struct BallLines {
     static constexpr std::size_t along = 4 * space_side;  ///< sub-cells along each direction

@@ -1,5 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "generators/poisson_disk/space/space_sampler.hpp"
+//
+// maximal_disks (generators/poisson_disk/maximal_disks.hpp) in space, for boxes of five cells or
+// more along each direction.
+//
+// First darts are thrown at the sub-cells that no ball covers by itself (space/ball_lines.hpp). What
+// is left open of a sub-cell is mostly covered by several balls together, which shows when it is cut
+// into 64 smaller ones; those that are not are gaps (space/ball_kernels.hpp), at which darts are
+// thrown until none is left.
+//
+// Cost    O(n) time; on one core 2 us a point. Memory: 230 bytes a point.
 
 #include <bit>
 #include <cmath>
@@ -7,6 +16,7 @@
 
 #include "core/large_pages.hpp"
 #include "core/wide.hpp"
+#include "generators/poisson_disk/samplers.hpp"
 #include "generators/poisson_disk/space/space_tile.hpp"
 
 namespace stipple::poisson_disk {

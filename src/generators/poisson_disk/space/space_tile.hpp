@@ -88,7 +88,6 @@ struct SpaceRules {
                 if (reaches(b, i)) masks[i][b / 40] |= std::uint64_t{1} << (b % 40);
         for (std::size_t k = 0; k < 3; ++k) {
             scales[k] = static_cast<float>(grid.scales[k]);
-            per_width[k] = 1 / grid.widths[k];
         }
     }
 
@@ -106,7 +105,6 @@ struct SpaceRules {
 
     const Grid<3>& grid;
     std::array<float, 3> scales{};
-    std::array<double, 3> per_width{};
     std::array<Quad, 200> about;  ///< corners of the 5 x 5 x 5 cells about one, in radii
     std::array<int, 200> cells{};
     std::array<std::array<int, 3>, 200> steps{};
@@ -114,7 +112,7 @@ struct SpaceRules {
     std::array<SpaceBits::Layers, all_subcells<3>> masks{};
 };
 
-class SpaceTile : public Tile<3, space_bits, 2> {
+class SpaceTile : public Tile<3, space_tile_bits, 2> {
   public:
     static constexpr int halo = 2;
     static constexpr std::size_t halo_cells = power(std::size_t{space_across}, 3);
@@ -206,16 +204,6 @@ class SpaceTile : public Tile<3, space_bits, 2> {
         }
     }
 
-    /// Whether a point is too near to one in the cell, to the last digit.
-    [[nodiscard]] bool hits(const Cell& cell, const Point& p) const {
-        bool hit = false;
-        for_about(cell, [&](const Point& q, const Cell&) {
-            hit = rules_->grid.too_near(p, q);
-            return !hit;
-        });
-        return hit;
-    }
-
     std::vector<Gap<3>> gaps;
 
     void drop() {
@@ -235,11 +223,9 @@ class SpaceTile : public Tile<3, space_bits, 2> {
     /// Adds a point; what it covers is left to be added.
     PlacedBall add(const Addition<3>& a) {
         PlacedBall added{a.cell, {}};
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double along = (a.at[k] - rules_->grid.low[k]) * rules_->per_width[k];
-            added.off[k] =
-                static_cast<float>(std::max(along - a.in_box[k], 0.0) * rules_->grid.scales[k]);
-        }
+        const Point place = in_cell(rules_->grid, a.at, a.cell);
+        for (std::size_t k = 0; k < 3; ++k)
+            added.off[k] = static_cast<float>(std::max(place[k], 0.0) * rules_->grid.scales[k]);
         taken_.set({a.cell[0] + halo, a.cell[1] + halo, a.cell[2] + halo});
         numbers_[number_of(a.cell)] = static_cast<std::uint16_t>(places_.size());
         const auto known = a.own ? static_cast<float>(own_++) : -1 - static_cast<float>(beyond_++);

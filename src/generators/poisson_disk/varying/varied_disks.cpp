@@ -12,7 +12,6 @@
 #include "core/text.hpp"
 #include "generators/poisson_disk/poisson_counts.hpp"
 #include "generators/varied_index.hpp"
-#include "math/functions/exponential.hpp"
 #include "math/functions/splitmix64.hpp"
 
 namespace stipple::poisson_disk {
@@ -47,13 +46,6 @@ class VariedSampler {
           index_(space, scale * field.least(), static_cast<std::size_t>(expected_)),
           buckets_(bucket_count) {
         finest_ = space.largest_coordinate() * 0x1p-48;
-        double none = exponential(-most_darts);
-        double sum = none;
-        for (std::size_t k = 1; sum < one_minus_ulp && k < 40; ++k) {
-            at_most_.push_back(sum);
-            none *= most_darts / static_cast<double>(k);
-            sum += none;
-        }
     }
 
     Rows sample() {
@@ -172,8 +164,7 @@ class VariedSampler {
     /// more.
     void throw_darts(const VariedGap& gap, std::size_t first, double mean, double least) {
         SplitMix64 mixer(round_key_ ^ gap.key);
-        const double u = to_unit(mixer.next());
-        for (std::size_t i = 0; i < at_most_.size() && u >= at_most_[i]; ++i) {
+        for (std::uint64_t left = counts_.draw(1, mixer); left > 0; --left) {
             TimedDart dart{};
             for (std::size_t k = 0; k < 2; ++k)
                 dart.disk.at[k] = gap.low[k] + to_unit(mixer.next()) * (gap.high[k] - gap.low[k]);
@@ -252,7 +243,7 @@ class VariedSampler {
     double density_ = 0;  ///< darts to r^2, r by dart_scale_
     double fastest_ = 0;  ///< the largest rate of the gaps
     std::uint64_t round_key_ = 0;
-    std::vector<double> at_most_;  ///< probability of at most so many darts, their mean most_darts
+    PoissonCounts counts_{most_darts, 1};
     std::deque<VariedGap> gaps_;
     std::vector<Disk> near_;
     std::size_t divided_ = 0;

@@ -65,7 +65,7 @@ struct Scene {
             for (int image = 0; image < (space.torus ? 9 : 1); ++image) {
                 const int around[2] = {image % 3 == 2 ? -1 : image % 3,
                                        image / 3 == 2 ? -1 : image / 3};
-                Addition<2> a{points[i], {}, cells[i], true};
+                Addition<2> a{points[i], {}, true};
                 bool near = true;
                 for (std::size_t k = 0; k < 2; ++k) {
                     a.cell[k] = static_cast<int>(cells[i][k]) - static_cast<int>(tile.first()[k]) +
@@ -112,7 +112,7 @@ TEST(PlaneTile, CoversAndHitsWhatOneWholeDoes) {
                                                        (row + 0.8) * grid.widths[1]};
                         const bool near = std::ranges::any_of(
                             scene.points, [&](const auto& p) { return grid.too_near(at, p); });
-                        EXPECT_EQ(tile.hits({x, y}, at), near);
+                        EXPECT_EQ(hits_point(tile, grid, TileCell<2>{x, y}, at), near);
                     }
             }
         }

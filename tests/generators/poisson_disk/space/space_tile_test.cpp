@@ -27,7 +27,7 @@ struct Scene {
         std::set<TileCell<3>> taken;
         for (std::uint64_t i = 0; i < (side < 10 ? 1500 : 9000); ++i) {
             TileCell<3> cell;
-            Addition<3> a{{}, {}, {}, true};
+            Addition<3> a{{}, {}, true};
             std::array<double, 3> place;
             bool near = true;
             for (std::size_t k = 0; k < 3; ++k) {
@@ -35,7 +35,6 @@ struct Scene {
                 cell[k] = a.cell[k] = static_cast<int>(std::floor(place[k]));
                 const int all = static_cast<int>(grid.cells[k]);
                 const int in_box = (cell[k] + all) % all;
-                a.in_box[k] = static_cast<std::uint32_t>(in_box);
                 a.at[k] = (place[k] - cell[k] + in_box) * grid.widths[k];
                 a.own = a.own && cell[k] >= 0 && cell[k] < tile.size(k);
                 near = near && cell[k] < tile.size(k) + 2;
