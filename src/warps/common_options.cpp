@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/spec.hpp"
 #include "math/functions/running_sums.hpp"
 
 namespace stipple::warps {
@@ -44,16 +43,6 @@ std::vector<double> sums_to_1(const std::vector<double>& weights) {
     const double total = sums.back();
     for (double& sum : sums) sum = sum == total ? 1 : sum;
     return sums;
-}
-
-std::string domain_spec(std::string_view name, const Values& options, const Schema& schema,
-                        std::initializer_list<std::string_view> which) {
-    Values law = schema.defaults();
-    for (const std::string_view option : which) {
-        const auto& item = options.find(option);
-        law.put(option, item.value, item.given);
-    }
-    return format_spec(name, law, schema);
 }
 
 }  // namespace stipple::warps

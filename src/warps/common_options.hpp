@@ -3,9 +3,6 @@
 // What warps of all kinds do with their options.
 #pragma once
 
-#include <initializer_list>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/options.hpp"
@@ -27,9 +24,5 @@ std::vector<double> checked_weights(const Param<Numbers>& option, std::vector<do
 
 /// Running sums of such weights, the last of them 1.
 std::vector<double> sums_to_1(const std::vector<double>& weights);
-
-/// The spec of a domain that these options alone decide on; all else is how points are made.
-std::string domain_spec(std::string_view name, const Values& options, const Schema& schema,
-                        std::initializer_list<std::string_view> which);
 
 }  // namespace stipple::warps

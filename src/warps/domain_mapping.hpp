@@ -8,7 +8,6 @@
 #include <memory>
 #include <utility>
 
-#include "warps/inside.hpp"
 #include "warps/warp.hpp"
 
 namespace stipple::warps {
@@ -16,24 +15,23 @@ namespace stipple::warps {
 template <class Known>
 class DomainMapping final : public Mapping {
   public:
-    explicit DomainMapping(std::shared_ptr<const Known> domain) : domain_(std::move(domain)) {}
+    explicit DomainMapping(const std::shared_ptr<const Known>& domain)
+        : Mapping(domain), known_(*domain) {}
 
-    DomainPtr domain() const override { return domain_; }
-    std::size_t cube_dimension() const override { return domain_->cube_dimension(); }
     void forward(std::span<const double> cube, std::span<double> image,
                  std::span<std::uint8_t> /*keep*/) const override {
-        domain_->from_cube(cube, image);
-    }
-    void inverse(std::span<const double> image, std::span<double> cube) const override {
-        const std::size_t d = domain_->cube_dimension();
-        const std::size_t m = domain_->dimension();
-        expect_inside(*domain_, image);
-        for (std::size_t i = 0; i < image.size() / m; ++i)
-            domain_->to_cube(image.subspan(m * i, m), cube.subspan(d * i, d));
+        known_.from_cube(cube, image);
     }
 
   private:
-    std::shared_ptr<const Known> domain_;
+    const Known& known_;
 };
+
+/// The mapping onto the domain that is made of these.
+template <class Known, class... Args>
+std::unique_ptr<Mapping> domain_mapping(Args&&... args) {
+    return std::make_unique<DomainMapping<Known>>(
+        std::make_shared<const Known>(std::forward<Args>(args)...));
+}
 
 }  // namespace stipple::warps

@@ -19,9 +19,8 @@
 #include <array>
 #include <utility>
 
-#include "core/error.hpp"
 #include "core/wide.hpp"
-#include "warps/inside.hpp"
+#include "warps/named_domain.hpp"
 #include "warps/warp.hpp"
 
 namespace stipple::warps {
@@ -78,64 +77,61 @@ STIPPLE_WIDE [[gnu::flatten]] void map_rows(const Method method, std::span<const
     }
 }
 
-template <class Method>
+template <class Known, class Method>
 class RowMapping final : public Mapping {
   public:
-    RowMapping(DomainPtr domain, Method method)
-        : domain_(std::move(domain)), method_(std::move(method)) {}
+    RowMapping(const std::shared_ptr<Known>& domain, Method method)
+        : Mapping(domain, why_no_way_back()), known_(*domain), method_(std::move(method)) {}
 
-    DomainPtr domain() const override { return domain_; }
     std::size_t cube_dimension() const override { return d; }
     bool drops() const override { return DropsPoints<Method>; }
 
     void forward(std::span<const double> cube, std::span<double> image,
                  std::span<std::uint8_t> keep) const override {
         map_rows(method_, cube, image);
-        if constexpr (DropsPoints<Method>) {
-            for (std::size_t i = 0; i < keep.size(); ++i) {
-                std::array<double, d> xi;
-                std::copy_n(&cube[d * i], d, xi.begin());
-                keep[i] = method_.keeps(xi);
-            }
-        }
+        if constexpr (DropsPoints<Method>)
+            for (std::size_t i = 0; i < keep.size(); ++i)
+                keep[i] = method_.keeps(row_of<d>(cube, i));
     }
 
     void inverse(std::span<const double> image, std::span<double> cube) const override {
-        if constexpr (requires { &Method::inverse; }) {
-            for (std::size_t i = 0; i < image.size() / m; ++i) {
-                const auto point = image.subspan(m * i, m);
-                if (!domain_->contains(point)) refuse_outside(point, *domain_);
-                const std::array<double, d> xi = method_.inverse(point);
-                for (std::size_t k = 0; k < d; ++k) cube[d * i + k] = std::clamp(xi[k], 0.0, 1.0);
-            }
-        } else if constexpr (requires { Method::no_way_back; }) {
-            fail(ErrorKind::usage, "--inverse: {}", Method::no_way_back);
-        } else {
-            expect_inside(*domain_, image);
-            for (std::size_t i = 0; i < image.size() / m; ++i)
-                domain_->to_cube(image.subspan(m * i, m), cube.subspan(d * i, d));
+        check_way_back();
+        for (std::size_t i = 0; i < image.size() / m; ++i) {
+            const auto point = image.subspan(m * i, m);
+            if (!known_.contains(point)) refuse_outside(point);
+            if constexpr (requires { &Method::inverse; })
+                put_clamped(method_.inverse(point), cube.subspan(d * i, d));
+            else
+                known_.to_cube(point, cube.subspan(d * i, d));
         }
     }
 
     double density(std::span<const double> point) const override {
         if constexpr (requires { &Method::density; })
-            return domain_->contains(point) ? method_.density(point) : 0;
+            return known_.contains(point) ? method_.density(point) : 0;
         else
-            return domain_->density(point);
+            return known_.density(point);
     }
 
   private:
     static constexpr std::size_t d = ArityOf<Method>::cube;
     static constexpr std::size_t m = ArityOf<Method>::image;
 
-    DomainPtr domain_;
+    static const char* why_no_way_back() {
+        if constexpr (requires { Method::no_way_back; })
+            return Method::no_way_back;
+        else
+            return "";
+    }
+
+    const Known& known_;
     Method method_;
 };
 
 /// A mapping by `method` onto `domain`.
-template <class Method>
-std::unique_ptr<Mapping> row_mapping(DomainPtr domain, Method method) {
-    return std::make_unique<RowMapping<Method>>(std::move(domain), std::move(method));
+template <class Known, class Method>
+std::unique_ptr<Mapping> row_mapping(const std::shared_ptr<Known>& domain, Method method) {
+    return std::make_unique<RowMapping<Known, Method>>(domain, std::move(method));
 }
 
 }  // namespace stipple::warps

@@ -6,9 +6,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/domain.hpp"
@@ -20,17 +23,16 @@ namespace stipple {
 /// A map from the unit cube [0, 1)^cube_dimension() to a domain; safe to use from several threads.
 class Mapping {
   public:
-    Mapping() = default;
     Mapping(const Mapping&) = delete;
     Mapping& operator=(const Mapping&) = delete;
     virtual ~Mapping() = default;
 
     /// What the image lives on. The image's numbers a point are domain()->dimension(). Its density
     /// is the one that the warp is for; a biased method makes another.
-    [[nodiscard]] virtual DomainPtr domain() const = 0;
+    [[nodiscard]] const DomainPtr& domain() const { return domain_; }
 
     /// Unit coordinates that make one point.
-    [[nodiscard]] virtual std::size_t cube_dimension() const = 0;
+    [[nodiscard]] virtual std::size_t cube_dimension() const { return domain_->cube_dimension(); }
 
     /// Maps point after point: `cube` holds count x cube_dimension() numbers, `image` takes
     /// count x domain()->dimension(). Where drops(), keep[i] = 0 marks a point that has no image;
@@ -41,14 +43,45 @@ class Mapping {
     /// Whether some points may have no image.
     [[nodiscard]] virtual bool drops() const { return false; }
 
-    /// The way back, into the closed unit cube. @throws Error(usage) where there is none.
+    /// The way back, into the closed unit cube: the domain's own to_cube(), unless a method has
+    /// another. @throws Error(usage) where there is none; Error(input) naming a point outside
     virtual void inverse(std::span<const double> image, std::span<double> cube) const;
 
     /// Density of the image of a uniform point with respect to the domain's measure: the domain's,
     /// save where the method is biased.
     [[nodiscard]] virtual double density(std::span<const double> point) const {
-        return domain()->density(point);
+        return domain_->density(point);
     }
+
+  protected:
+    /// @param no_way_back why there is no inverse; empty where there is one
+    explicit Mapping(DomainPtr domain, std::string no_way_back = {})
+        : domain_(std::move(domain)), no_way_back_(std::move(no_way_back)) {}
+
+    /// @throws Error(usage) where there is no way back.
+    void check_way_back() const;
+    /// The same, and holds that the domain contains all points.
+    void expect_inside(std::span<const double> image) const;
+    [[noreturn]] void refuse_outside(std::span<const double> point) const;
+
+  private:
+    DomainPtr domain_;
+    std::string no_way_back_;
+};
+
+struct Warp;
+
+/// What a mapping is made from.
+struct WarpRequest {
+    const Warp& warp;
+    const Values& options;
+    std::size_t given;  ///< coordinates at hand
+    const RunContext& run;
+
+    /// The spec of a domain that the options decide on.
+    [[nodiscard]] std::string spec() const;
+    /// The same for those of them that do; all others are how points are made.
+    [[nodiscard]] std::string spec(std::initializer_list<std::string_view> which) const;
 };
 
 struct WarpTraits {
@@ -71,11 +104,15 @@ struct Warp {
     /// tests/contract/golden.txt).
     std::uint64_t stream_version = 1;
 
+    std::function<std::unique_ptr<Mapping>(const WarpRequest&)> mapping;
+
     /// The map for these options. `given` is the number of coordinates at hand: a warp of fixed
     /// dimension ignores it. @throws Error(usage); of warps that read a file, also what reading
     /// throws, and Error(limit)
-    std::function<std::unique_ptr<Mapping>(const Values&, std::size_t given, const RunContext&)>
-        make;
+    std::unique_ptr<Mapping> make(const Values& values, std::size_t given,
+                                  const RunContext& run) const {
+        return mapping({*this, values, given, run});
+    }
 };
 
 namespace warps {

@@ -38,24 +38,17 @@ namespace {
 constexpr Param<double> ball_radius{
     .name = "radius", .fallback = 1, .low = 1e-90, .high = 1e90, .help = "Radius, above 0"};
 
-const Schema& schema() {
-    static const Schema options(ball_radius, center);
-    return options;
-}
-
 /// The shares of the volume within, above and before a point of the unit ball.
 std::array<double, 3> shares(const Vector3& v) {
     const double r = length(v);
     return {std::min(r * r * r, 1.0), 0.5 * one_minus_cos(v), turns_of(v[0], v[1])};
 }
 
-class BallDomain final : public Domain, public Weighable {
+class BallDomain final : public NamedDomain, public Weighable {
   public:
     BallDomain(const Sphere& sphere, std::string spec)
-        : sphere_(sphere), spec_(std::move(spec)), slack_(sphere.rounding()) {}
+        : NamedDomain(std::move(spec), 3, 3), sphere_(sphere), slack_(sphere.rounding()) {}
 
-    std::string spec() const override { return spec_; }
-    std::size_t dimension() const override { return 3; }
     double measure() const override {
         const double r = sphere_.radius;
         return 4 * std::numbers::pi / 3 * r * r * r;
@@ -117,7 +110,6 @@ class BallDomain final : public Domain, public Weighable {
 
   private:
     Sphere sphere_;
-    std::string spec_;
     double slack_;
 };
 
@@ -130,12 +122,10 @@ struct ByVolume {
     }
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
-                              const RunContext& /*run*/) {
-    const double r = options[ball_radius];
-    const Sphere sphere{r, center_of(options, r)};
-    const auto domain = std::make_shared<BallDomain>(
-        sphere, domain_spec("ball", options, schema(), {ball_radius.name, center.name}));
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    const double r = want.options[ball_radius];
+    const Sphere sphere{r, center_of(want.options, r)};
+    const auto domain = std::make_shared<BallDomain>(sphere, want.spec());
     return row_mapping(domain, ByVolume{sphere});
 }
 
@@ -149,8 +139,8 @@ Warp unit() {
                 "xi1 is the share of the volume within the radius, xi2 falls from the north "
                 "to the south pole, xi3 is the longitude; all as they are",
             .traits = {},
-            .options = schema(),
-            .make = make};
+            .options = Schema(ball_radius, center),
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::ball

@@ -24,7 +24,7 @@
 #include <limits>
 #include <numbers>
 
-#include "core/spec.hpp"
+#include "core/error.hpp"
 #include "math/functions/trigonometry.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "warps/curved/placement.hpp"
@@ -43,11 +43,6 @@ constexpr Param<Choice> method{
 
 constexpr Param<Numbers> middle{{.name = "center", .fallback = "0,0", .help = "Centre: x,y"}};
 
-const Schema& schema() {
-    static const Schema options(method, radius, middle);
-    return options;
-}
-
 using Pair = std::array<double, 2>;
 
 struct Ring {
@@ -63,18 +58,15 @@ struct Ring {
     }
 };
 
-class CircleDomain final : public Domain {
+class CircleDomain final : public NamedDomain {
   public:
     CircleDomain(const Ring& ring, std::string spec)
-        : ring_(ring),
-          spec_(std::move(spec)),
+        : NamedDomain(std::move(spec), 2, 1),
+          ring_(ring),
           slack_(8 * std::numeric_limits<double>::epsilon() *
                  (1 + std::max(std::abs(ring.center[0]), std::abs(ring.center[1])) / ring.radius)) {
     }
 
-    std::string spec() const override { return spec_; }
-    std::size_t dimension() const override { return 2; }
-    std::size_t cube_dimension() const override { return 1; }
     double measure() const override { return 2 * std::numbers::pi * ring_.radius; }
 
     /// Up to 8 epsilon (R + largest |c|) away from the circle: the rounding of a point that was
@@ -99,7 +91,6 @@ class CircleDomain final : public Domain {
 
   private:
     Ring ring_;
-    std::string spec_;
     double slack_;
 };
 
@@ -135,17 +126,15 @@ struct BySquare {
     }
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
-                              const RunContext& /*run*/) {
-    const double r = options[radius];
-    const auto at = options[middle];
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    const double r = want.options[radius];
+    const auto at = want.options[middle];
     if (at.size() != 2)
         fail(ErrorKind::usage, "--center: 2 numbers are needed, x,y; {} given", at.size());
     for (const double x : at) refuse_far(x, r);
     const Ring ring{r, {at[0] + 0.0, at[1] + 0.0}};  // -0 would show in points
-    const auto circle = std::make_shared<CircleDomain>(
-        ring, domain_spec("circle", options, schema(), {radius.name, middle.name}));
-    if (options[method] == "angle") return row_mapping(circle, ByAngle{ring});
+    const auto circle = std::make_shared<CircleDomain>(ring, want.spec({radius.name, middle.name}));
+    if (want.options[method] == "angle") return row_mapping(circle, ByAngle{ring});
     return row_mapping(circle, BySquare{ring});
 }
 
@@ -157,8 +146,8 @@ Warp unit() {
             .source = "Devroye 1986, doi:10.1007/978-1-4613-8643-8, chapter V.4",
             .strata = "xi1 turns from the x axis towards the y axis, as it is",
             .traits = {.invertible = true, .drops = true, .biased = true},
-            .options = schema(),
-            .make = make};
+            .options = Schema(method, radius, middle),
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::circle

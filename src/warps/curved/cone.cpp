@@ -23,6 +23,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/error.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "math/geometry/polar_direction.hpp"
 #include "math/geometry/zone_integral.hpp"
@@ -38,11 +39,6 @@ constexpr Param<double> half_angle{.name = "half-angle",
                                    .high = 180,
                                    .unit = "degrees",
                                    .help = "Angle between the axis and the rim"};
-
-const Schema& schema() {
-    static const Schema options(half_angle, axis);
-    return options;
-}
 
 /// The part of the sphere within an angle of an axis.
 struct Cap {
@@ -64,16 +60,13 @@ struct Cap {
     }
 };
 
-class ConeDomain final : public Domain, public Discontinuous {
+class ConeDomain final : public NamedDomain, public Discontinuous {
   public:
     ConeDomain(const Cap& cap, std::string spec)
-        : cap_(cap),
-          spec_(std::move(spec)),
+        : NamedDomain(std::move(spec), 3, 2),
+          cap_(cap),
           rim_slack_(slack * (cap.frame.z[2] == 1 ? std::min(2 * cap.half.sin, 1.0) : 1)) {}
 
-    std::string spec() const override { return spec_; }
-    std::size_t dimension() const override { return 3; }
-    std::size_t cube_dimension() const override { return 2; }
     double measure() const override { return 2 * std::numbers::pi * cap_.rim_minus(); }
 
     /// Up to 8 epsilon beyond the rim, and as much longer or shorter than 1: the rounding of a
@@ -101,9 +94,7 @@ class ConeDomain final : public Domain, public Discontinuous {
         return box;
     }
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
-        const auto [within, longitude] = cap_.shares(point);
-        cube[0] = std::clamp(within, 0.0, 1.0);
-        cube[1] = longitude;
+        put_clamped(cap_.shares(point), cube);
     }
     Discontinuities discontinuities() const override {
         return {.circles = {{cap_.frame.z, cap_.rim.cos}}};
@@ -124,7 +115,6 @@ class ConeDomain final : public Domain, public Discontinuous {
     static constexpr double slack = 8 * std::numeric_limits<double>::epsilon();
 
     Cap cap_;
-    std::string spec_;
     double rim_slack_;
 };
 
@@ -138,10 +128,9 @@ struct ByHeight {
     }
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
-                              const RunContext& /*run*/) {
-    const double degrees = options[half_angle];
-    const Frame frame = frame_of(options);
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    const double degrees = want.options[half_angle];
+    const Frame frame = frame_of(want.options);
     const bool along = std::ranges::count_if(frame.z, [](double x) { return x != 0; }) == 1;
     // Directions about a slanted axis are rounded by some 1e-14 degrees, along all coordinates.
     if (!along && degrees < 1e-10)
@@ -149,8 +138,7 @@ std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
              "--half-angle: {} is below 1e-10, the least about an axis that is no coordinate axis",
              degrees);
     const Cap cap{frame, cos_sin_turns(degrees / 360), cos_sin_turns(degrees / 720)};
-    const auto cone = std::make_shared<ConeDomain>(
-        cap, domain_spec("cone", options, schema(), {half_angle.name, axis.name}));
+    const auto cone = std::make_shared<ConeDomain>(cap, want.spec());
     return row_mapping(cone, ByHeight{cap});
 }
 
@@ -164,9 +152,9 @@ Warp unit() {
                 "xi1 falls from the axis to the rim, as the share of the solid angle; xi2 is "
                 "the longitude; both as they are",
             .traits = {},
-            .options = schema(),
+            .options = Schema(half_angle, axis),
             .aliases = {"spherical-cap"},
-            .make = make};
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::cone

@@ -42,11 +42,6 @@ constexpr Param<double> height{.name = "height",
 
 constexpr Param<bool> caps{.name = "caps", .help = "The ends, too: the whole surface"};
 
-const Schema& schema() {
-    static const Schema options(radius, height, center, axis, caps);
-    return options;
-}
-
 /// Where a point is around the axis: distance from it, height, angle.
 struct Polar {
     double distance;
@@ -91,14 +86,11 @@ struct Cylinder {
     }
 };
 
-class CylinderDomain final : public Domain {
+class CylinderDomain final : public NamedDomain {
   public:
     CylinderDomain(const Cylinder& shape, std::string spec)
-        : shape_(shape), spec_(std::move(spec)) {}
+        : NamedDomain(std::move(spec), 3, 2), shape_(shape) {}
 
-    std::string spec() const override { return spec_; }
-    std::size_t dimension() const override { return 3; }
-    std::size_t cube_dimension() const override { return 2; }
     double measure() const override { return shape_.area(); }
 
     /// Up to 16 epsilon (R + H + largest |c|) away from the surface: the rounding of a point that
@@ -122,9 +114,7 @@ class CylinderDomain final : public Domain {
         return box;
     }
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
-        const auto [below, turns] = shape_.shares(point);
-        cube[0] = std::clamp(below, 0.0, 1.0);
-        cube[1] = turns;
+        put_clamped(shape_.shares(point), cube);
     }
     std::optional<Moments> moments() const override {
         const double rr = shape_.radius * shape_.radius;
@@ -140,7 +130,6 @@ class CylinderDomain final : public Domain {
 
   private:
     Cylinder shape_;
-    std::string spec_;
 };
 
 struct Side {
@@ -166,15 +155,12 @@ struct Whole {
     }
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
-                              const RunContext& /*run*/) {
-    const double r = options[radius];
-    const double h = options[height];
-    const Cylinder shape{r, h, center_of(options, std::min(r, h)), frame_of(options),
-                         options[caps]};
-    const auto surface = std::make_shared<CylinderDomain>(
-        shape, domain_spec("cylinder", options, schema(),
-                           {radius.name, height.name, center.name, axis.name, caps.name}));
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    const double r = want.options[radius];
+    const double h = want.options[height];
+    const Cylinder shape{r, h, center_of(want.options, std::min(r, h)), frame_of(want.options),
+                         want.options[caps]};
+    const auto surface = std::make_shared<CylinderDomain>(shape, want.spec());
     if (shape.caps) return row_mapping(surface, Whole{shape});
     return row_mapping(surface, Side{shape});
 }
@@ -189,8 +175,8 @@ Warp unit() {
                 "xi1 rises from the lower to the upper end (with --caps from centre to centre "
                 "of the caps), as the share of the area; xi2 is the angle; both as they are",
             .traits = {},
-            .options = schema(),
-            .make = make};
+            .options = Schema(radius, height, center, axis, caps),
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::cylinder

@@ -61,11 +61,6 @@ constexpr Param<Choice> disk_map{
     .choices = "polar|concentric",
     .help = "Of method cosine: the map from the square to the disk below the hemisphere"};
 
-const Schema& schema() {
-    static const Schema options(method, exponent, axis, disk_map);
-    return options;
-}
-
 /// The law of the angle from the axis: cos^k theta, with the share of the directions that are
 /// nearer to the axis. Directions are in the frame of the axis.
 struct CosineLaw {
@@ -87,14 +82,11 @@ struct CosineLaw {
     }
 };
 
-class HemisphereDomain final : public Domain, public Discontinuous, public Directional {
+class HemisphereDomain final : public NamedDomain, public Discontinuous, public Directional {
   public:
     HemisphereDomain(const Frame& frame, const CosineLaw& law, std::string spec)
-        : frame_(frame), law_(law), spec_(std::move(spec)) {}
+        : NamedDomain(std::move(spec), 3, 2), frame_(frame), law_(law) {}
 
-    std::string spec() const override { return spec_; }
-    std::size_t dimension() const override { return 3; }
-    std::size_t cube_dimension() const override { return 2; }
     double measure() const override { return 2 * std::numbers::pi; }
 
     /// Up to 8 epsilon below the horizon, and as much longer or shorter than 1: the rounding of a
@@ -117,8 +109,7 @@ class HemisphereDomain final : public Domain, public Discontinuous, public Direc
     }
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         const Vector3 v = frame_.in(vector_of(point));
-        cube[0] = std::clamp(law_.share(v), 0.0, 1.0);
-        cube[1] = turns_of(v[0], v[1]);
+        put_clamped<2>({law_.share(v), turns_of(v[0], v[1])}, cube);
     }
     Discontinuities discontinuities() const override {
         return {.circles = {{frame_.z, 0}}, .level = law_.power == 0};
@@ -144,7 +135,6 @@ class HemisphereDomain final : public Domain, public Discontinuous, public Direc
 
     Frame frame_;
     CosineLaw law_;
-    std::string spec_;
 };
 
 struct Uniform {
@@ -207,20 +197,17 @@ struct CosineConcentric {
     }
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
-                              const RunContext& /*run*/) {
-    const Frame frame = frame_of(options);
-    const std::string how = options[method];
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    const Frame frame = frame_of(want.options);
+    const std::string how = want.options[method];
     const bool powered = how == "cosine-power";
-    const CosineLaw law{powered ? options[exponent] : (how == "cosine" ? 1.0 : 0.0)};
-    std::string spec =
-        powered
-            ? domain_spec("hemisphere", options, schema(), {method.name, exponent.name, axis.name})
-            : domain_spec("hemisphere", options, schema(), {method.name, axis.name});
+    const CosineLaw law{powered ? want.options[exponent] : (how == "cosine" ? 1.0 : 0.0)};
+    std::string spec = powered ? want.spec({method.name, exponent.name, axis.name})
+                               : want.spec({method.name, axis.name});
     const auto domain = std::make_shared<HemisphereDomain>(frame, law, std::move(spec));
     if (powered) return row_mapping(domain, CosinePower{frame, law.power});
     if (how == "uniform") return row_mapping(domain, Uniform{frame});
-    if (options[disk_map] == "polar") return row_mapping(domain, Cosine{frame});
+    if (want.options[disk_map] == "polar") return row_mapping(domain, Cosine{frame});
     return row_mapping(domain, CosineConcentric{frame});
 }
 
@@ -237,8 +224,8 @@ Warp unit() {
                 "the longitude; with --disk concentric squares about the centre become rings; "
                 "all as they are",
             .traits = {},
-            .options = schema(),
-            .make = make};
+            .options = Schema(method, exponent, axis, disk_map),
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::hemisphere

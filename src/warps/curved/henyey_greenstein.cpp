@@ -37,11 +37,6 @@ constexpr Param<double> asymmetry{
     .high = 0.999999,
     .help = "Mean cosine of the angle from the axis: above 0 forward, below 0 backward"};
 
-const Schema& schema() {
-    static const Schema options(asymmetry, axis);
-    return options;
-}
-
 struct Phase {
     double g;
 
@@ -80,11 +75,8 @@ struct Phase {
     }
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
-                              const RunContext& /*run*/) {
-    return lobe_mapping(
-        Phase{options[asymmetry]}, frame_of(options),
-        domain_spec("henyey-greenstein", options, schema(), {asymmetry.name, axis.name}));
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    return lobe_mapping(Phase{want.options[asymmetry]}, frame_of(want.options), want.spec());
 }
 
 }  // namespace
@@ -97,8 +89,8 @@ Warp unit() {
                 "xi1 is the probability of the cone about the axis, 0 on it; xi2 turns about it; "
                 "both as they are",
             .traits = {},
-            .options = schema(),
-            .make = make};
+            .options = Schema(asymmetry, axis),
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::henyey_greenstein

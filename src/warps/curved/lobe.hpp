@@ -37,14 +37,11 @@ struct Tilt {
 };
 
 template <class Lobe>
-class LobeDomain final : public Domain, public Discontinuous, public Directional {
+class LobeDomain final : public NamedDomain, public Discontinuous, public Directional {
   public:
     LobeDomain(const Lobe& lobe, const Frame& frame, std::string spec)
-        : lobe_(lobe), frame_(frame), spec_(std::move(spec)) {}
+        : NamedDomain(std::move(spec), 3, 2), lobe_(lobe), frame_(frame) {}
 
-    std::string spec() const override { return spec_; }
-    std::size_t dimension() const override { return 3; }
-    std::size_t cube_dimension() const override { return 2; }
     double measure() const override { return 4 * std::numbers::pi; }
 
     /// Unit vectors, up to 8 epsilon: the rounding of one that was made.
@@ -61,8 +58,7 @@ class LobeDomain final : public Domain, public Discontinuous, public Directional
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         const Vector3 local = frame_.in({point[0], point[1], point[2]});
         const double u = lobe_.fraction(one_minus_cos(local), one_plus_cos(local));
-        cube[0] = std::clamp(u, 0.0, 1.0);
-        cube[1] = turns_of(local[0], local[1]);
+        put_clamped<2>({u, turns_of(local[0], local[1])}, cube);
     }
     /// No edges, but where nearly all or nearly nothing is nearer to the axis: peaks are not
     /// missed.
@@ -84,7 +80,6 @@ class LobeDomain final : public Domain, public Discontinuous, public Directional
   private:
     Lobe lobe_;
     Frame frame_;
-    std::string spec_;
 };
 
 /// Directions by a lobe about the z axis of a frame.

@@ -52,11 +52,6 @@ constexpr Param<Choice> attributes{
         "counter-clockwise; barycentric: and the number of the triangle from 0 and its three "
         "barycentrics"};
 
-const Schema& schema() {
-    static const Schema options(mesh_file, attributes);
-    return options;
-}
-
 using Pair = std::array<double, 2>;
 
 enum class Gives { position, normal, barycentric };
@@ -111,23 +106,20 @@ Vector3 weighted(const std::array<Vector3, 3>& v, const std::array<double, 3>& w
             w[0] * v[0][2] + w[1] * v[1][2] + w[2] * v[2][2] + 0.0};
 }
 
-class MeshDomain final : public Domain {
+class MeshDomain final : public NamedDomain {
   public:
     MeshDomain(TriangleMesh mesh, Gives gives, const std::string& name, std::string spec,
                const RunContext& run)
-        : mesh_(std::move(mesh)),
+        : NamedDomain(std::move(spec), size_of(gives), 2),
+          mesh_(std::move(mesh)),
           shares_(mesh_, name, run),
           tree_(mesh_, run),
-          gives_(gives),
-          spec_(std::move(spec)) {
+          gives_(gives) {
         const Box box = positions();
         for (std::size_t k = 0; k < 3; ++k)
             size_ = std::max({size_, std::abs(box.low[k]), std::abs(box.high[k])});
     }
 
-    std::string spec() const override { return spec_; }
-    std::size_t dimension() const override { return size_of(gives_); }
-    std::size_t cube_dimension() const override { return 2; }
     double measure() const override { return shares_.area(); }
 
     /// Up to 16 epsilon of the largest coordinate away from a triangle: the rounding of a point
@@ -262,59 +254,54 @@ class MeshDomain final : public Domain {
     Shares shares_;
     TriangleTree tree_;
     Gives gives_;
-    std::string spec_;
     double size_ = 0;
 };
 
 class Mesh final : public Mapping {
   public:
-    explicit Mesh(std::shared_ptr<const MeshDomain> domain) : domain_(std::move(domain)) {}
-
-    DomainPtr domain() const override { return domain_; }
-    std::size_t cube_dimension() const override { return 2; }
+    explicit Mesh(const std::shared_ptr<const MeshDomain>& domain)
+        : Mapping(domain), surface_(*domain) {}
 
     void forward(std::span<const double> cube, std::span<double> image,
                  std::span<std::uint8_t> /*keep*/) const override {
-        const std::size_t m = domain_->dimension();
+        const std::size_t m = surface_.dimension();
         for (std::size_t i = 0; i < cube.size() / 2; ++i)
-            write(domain_->place(cube[2 * i], cube[2 * i + 1]), image.subspan(m * i, m));
+            write(surface_.place(cube[2 * i], cube[2 * i + 1]), image.subspan(m * i, m));
     }
 
     void inverse(std::span<const double> image, std::span<double> cube) const override {
-        const std::size_t m = domain_->dimension();
+        const std::size_t m = surface_.dimension();
         for (std::size_t i = 0; i < image.size() / m; ++i) {
-            const auto point = image.subspan(m * i, m);
-            const auto found = domain_->find(point);
-            if (!found) refuse_outside(point, *domain_);
+            const auto found = surface_.find(image.subspan(m * i, m));
+            if (!found) refuse_outside(image.subspan(m * i, m));
             std::ranges::copy(*found, cube.subspan(2 * i, 2).begin());
         }
     }
 
   private:
     void write(const MeshDomain::Place& at, std::span<double> image) const {
-        std::ranges::copy(domain_->position(at), image.begin());
-        if (domain_->gives() == Gives::normal)
-            std::ranges::copy(domain_->normal(at.triangle), image.begin() + 3);
-        if (domain_->gives() == Gives::barycentric) {
+        std::ranges::copy(surface_.position(at), image.begin());
+        if (surface_.gives() == Gives::normal)
+            std::ranges::copy(surface_.normal(at.triangle), image.begin() + 3);
+        if (surface_.gives() == Gives::barycentric) {
             image[3] = static_cast<double>(at.triangle);
             std::ranges::copy(at.weights, image.begin() + 4);
         }
     }
 
-    std::shared_ptr<const MeshDomain> domain_;
+    const MeshDomain& surface_;
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/, const RunContext& run) {
-    if (!options.given(mesh_file))
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    if (!want.options.given(mesh_file))
         fail(ErrorKind::usage, "--file: name a PLY or OBJ file with a triangle mesh");
-    const std::string how = options[attributes];
+    const std::string how = want.options[attributes];
     const Gives gives = how == "normal"        ? Gives::normal
                         : how == "barycentric" ? Gives::barycentric
                                                : Gives::position;
-    const std::string path = options[mesh_file];
-    return std::make_unique<Mesh>(std::make_shared<MeshDomain>(
-        read_mesh(path, run), gives, path,
-        domain_spec("mesh", options, schema(), {mesh_file.name, attributes.name}), run));
+    const std::string path = want.options[mesh_file];
+    return std::make_unique<Mesh>(std::make_shared<MeshDomain>(read_mesh(path, want.run), gives,
+                                                               path, want.spec(), want.run));
 }
 
 }  // namespace
@@ -328,8 +315,8 @@ Warp unit() {
                 "each from its first corner to the opposite edge; xi2 runs along that edge; "
                 "both as they are",
             .traits = {},
-            .options = schema(),
-            .make = make};
+            .options = Schema(mesh_file, attributes),
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::mesh

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "core/spec.hpp"
 
 namespace stipple::warps {
 

@@ -50,19 +50,11 @@ constexpr Param<double> inner{
     .high = 0.99,
     .help = "Of method rejection: drops points nearer to the centre, whose direction is coarse"};
 
-const Schema& schema() {
-    static const Schema options(method, radius, center, inner);
-    return options;
-}
-
-class SphereDomain final : public Domain {
+class SphereDomain final : public NamedDomain {
   public:
     SphereDomain(const Sphere& sphere, std::string spec)
-        : sphere_(sphere), spec_(std::move(spec)), slack_(sphere.rounding()) {}
+        : NamedDomain(std::move(spec), 3, 2), sphere_(sphere), slack_(sphere.rounding()) {}
 
-    std::string spec() const override { return spec_; }
-    std::size_t dimension() const override { return 3; }
-    std::size_t cube_dimension() const override { return 2; }
     double measure() const override {
         return 4 * std::numbers::pi * sphere_.radius * sphere_.radius;
     }
@@ -87,7 +79,6 @@ class SphereDomain final : public Domain {
 
   private:
     Sphere sphere_;
-    std::string spec_;
     double slack_;
 };
 
@@ -139,13 +130,12 @@ struct ByRejection {
     }
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
-                              const RunContext& /*run*/) {
-    const Sphere sphere{options[radius], center_of(options, options[radius])};
-    const auto domain = std::make_shared<SphereDomain>(
-        sphere, domain_spec("sphere", options, schema(), {radius.name, center.name}));
-    const std::string how = options[method];
-    if (how == "rejection") return row_mapping(domain, ByRejection{sphere, options[inner]});
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    const Sphere sphere{want.options[radius], center_of(want.options, want.options[radius])};
+    const auto domain =
+        std::make_shared<SphereDomain>(sphere, want.spec({radius.name, center.name}));
+    const std::string how = want.options[method];
+    if (how == "rejection") return row_mapping(domain, ByRejection{sphere, want.options[inner]});
     if (how == "naive-lat-long") return row_mapping(domain, ByLatitude{sphere});
     return row_mapping(domain, ByHeight{sphere});
 }
@@ -160,8 +150,8 @@ Warp unit() {
                 "xi1 falls from the north pole z = R to the south pole, as the share of the "
                 "area; xi2 is the longitude; both as they are",
             .traits = {.invertible = true, .drops = true, .biased = true},
-            .options = schema(),
-            .make = make};
+            .options = Schema(method, radius, center, inner),
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::sphere

@@ -37,6 +37,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/error.hpp"
 #include "math/geometry/polar_direction.hpp"
 #include "math/geometry/spherical_polygon.hpp"
 #include "warps/curved/placement.hpp"
@@ -57,11 +58,6 @@ constexpr Param<Points> edges{
 
 constexpr Param<Numbers> origin{
     {.name = "origin", .fallback = "0,0,0", .help = "Point o that looks at the rectangle: x,y,z"}};
-
-const Schema& schema() {
-    static const Schema options(corner, edges, origin);
-    return options;
-}
 
 /// A rectangle seen from 0: corner (x0, y0, z) in a frame along its edges, z > 0.
 struct Rectangle {
@@ -213,14 +209,13 @@ class Urena {
     CosSin both_{};  ///< of their sum
 };
 
-class RectangleDomain final : public Domain, public Discontinuous {
+class RectangleDomain final : public NamedDomain, public Discontinuous {
   public:
     RectangleDomain(const Rectangle& rectangle, std::string spec)
-        : polygon_(rectangle.corners()), cells_(rectangle.transposed()), spec_(std::move(spec)) {}
+        : NamedDomain(std::move(spec), 3, 2),
+          polygon_(rectangle.corners()),
+          cells_(rectangle.transposed()) {}
 
-    std::string spec() const override { return spec_; }
-    std::size_t dimension() const override { return 3; }
-    std::size_t cube_dimension() const override { return 2; }
     double measure() const override { return cells_.solid_angle(); }
 
     /// Up to 16 epsilon beyond the planes through o and the edges, and as much longer or shorter
@@ -234,8 +229,7 @@ class RectangleDomain final : public Domain, public Discontinuous {
     /// strata.
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         const auto [v, u] = cells_.inverse(point);
-        cube[0] = std::clamp(u, 0.0, 1.0);
-        cube[1] = std::clamp(v, 0.0, 1.0);
+        put_clamped<2>({u, v}, cube);
     }
     Discontinuities discontinuities() const override { return {.circles = polygon_.edges()}; }
     std::optional<Moments> moments() const override {
@@ -248,7 +242,6 @@ class RectangleDomain final : public Domain, public Discontinuous {
   private:
     SphericalPolygon polygon_;
     Urena cells_;
-    std::string spec_;
 };
 
 /// @throws Error(usage) when these are not the edges of a rectangle.
@@ -299,12 +292,9 @@ Rectangle rectangle_of(const Values& options) {
     return seen;
 }
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
-                              const RunContext& /*run*/) {
-    const Rectangle rectangle = rectangle_of(options);
-    const auto domain = std::make_shared<RectangleDomain>(
-        rectangle, domain_spec("spherical-rectangle", options, schema(),
-                               {corner.name, edges.name, origin.name}));
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    const Rectangle rectangle = rectangle_of(want.options);
+    const auto domain = std::make_shared<RectangleDomain>(rectangle, want.spec());
     return row_mapping(domain, Urena(rectangle));
 }
 
@@ -318,8 +308,8 @@ Warp unit() {
                 "xi1 is the share of the solid angle along the first edge, xi2 the place "
                 "along the second, as the sine of the elevation; both as they are",
             .traits = {},
-            .options = schema(),
-            .make = make};
+            .options = Schema(corner, edges, origin),
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::spherical_rectangle

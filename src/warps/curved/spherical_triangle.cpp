@@ -25,6 +25,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/error.hpp"
 #include "math/geometry/polar_direction.hpp"
 #include "math/geometry/spherical_polygon.hpp"
 #include "warps/curved/placement.hpp"
@@ -39,11 +40,6 @@ constexpr Param<Points> vertices{
     {.name = "vertices",
      .fallback = "1,0,0 0,1,0 0,0,1",
      .help = "Three directions a b c, of any length; xi0 = 0 is the edge ab, xi1 = 0 is b"}};
-
-const Schema& schema() {
-    static const Schema options(vertices);
-    return options;
-}
 
 /// The map for the corners in this order.
 class Arvo {
@@ -114,22 +110,19 @@ class Arvo {
 
 using Corners = std::array<Vector3, 3>;
 
-class TriangleDomain final : public Domain, public Discontinuous {
+class TriangleDomain final : public NamedDomain, public Discontinuous {
   public:
     TriangleDomain(const Corners& v, std::string spec)
-        : polygon_({v[0], v[1], v[2]}),
+        : NamedDomain(std::move(spec), 3, 2),
+          polygon_({v[0], v[1], v[2]}),
           cells_(v[1], v[2], v[0]),
-          area_(4 * std::numbers::pi * half_area_turns(v[0], v[1], v[2])),
-          spec_(std::move(spec)) {
+          area_(4 * std::numbers::pi * half_area_turns(v[0], v[1], v[2])) {
         const double opening =
             std::min({1.0, from_opposite(v[0], v[1], v[2]), from_opposite(v[1], v[2], v[0]),
                       from_opposite(v[2], v[0], v[1])});
         slack_ = 16 * epsilon / opening;
     }
 
-    std::string spec() const override { return spec_; }
-    std::size_t dimension() const override { return 3; }
-    std::size_t cube_dimension() const override { return 2; }
     double measure() const override { return area_; }
 
     /// Up to 16 epsilon beyond the planes of the edges, and as much longer or shorter than 1: the
@@ -143,9 +136,7 @@ class TriangleDomain final : public Domain, public Discontinuous {
     /// Arvo's map back, but about the next corner, so that cells do not line up with the warp's
     /// strata.
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
-        const auto [u, v] = cells_.inverse(point);
-        cube[0] = std::clamp(u, 0.0, 1.0);
-        cube[1] = std::clamp(v, 0.0, 1.0);
+        put_clamped(cells_.inverse(point), cube);
     }
     Discontinuities discontinuities() const override { return {.circles = polygon_.edges()}; }
     std::optional<Moments> moments() const override { return polygon_.moments(area_); }
@@ -167,7 +158,6 @@ class TriangleDomain final : public Domain, public Discontinuous {
     SphericalPolygon polygon_;
     Arvo cells_;
     double area_;
-    std::string spec_;
     double slack_ = 0;
 };
 
@@ -200,11 +190,9 @@ Corners corners_of(const Table& table) {
     return corners;
 }
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
-                              const RunContext& /*run*/) {
-    const Corners v = corners_of(options[vertices]);
-    const auto domain = std::make_shared<TriangleDomain>(
-        v, domain_spec("spherical-triangle", options, schema(), {vertices.name}));
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    const Corners v = corners_of(want.options[vertices]);
+    const auto domain = std::make_shared<TriangleDomain>(v, want.spec());
     return row_mapping(domain, Arvo(v[0], v[1], v[2]));
 }
 
@@ -218,8 +206,8 @@ Warp unit() {
                 "xi1 is the share of the area from the edge of the first two corners towards "
                 "the third, xi2 the share on the way from the second corner; both as they are",
             .traits = {},
-            .options = schema(),
-            .make = make};
+            .options = Schema(vertices),
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::spherical_triangle

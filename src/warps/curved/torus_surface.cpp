@@ -29,6 +29,7 @@
 #include <limits>
 #include <numbers>
 
+#include "core/error.hpp"
 #include "math/functions/roots.hpp"
 #include "math/functions/trigonometry.hpp"
 #include "math/geometry/law_moments.hpp"
@@ -52,11 +53,6 @@ constexpr Param<double> minor_radius{.name = "minor-radius",
                                      .low = 1e-150,
                                      .high = 1e150,
                                      .help = "Radius r of the tube, at most the major radius"};
-
-const Schema& schema() {
-    static const Schema options(major_radius, minor_radius, center, axis);
-    return options;
-}
 
 /// E - sin E for E in [0, pi], to its last digits.
 inline double less_sine(double angle, double sine) {
@@ -157,13 +153,11 @@ struct Torus {
     }
 };
 
-class TorusDomain final : public Domain {
+class TorusDomain final : public NamedDomain {
   public:
-    TorusDomain(const Torus& torus, std::string spec) : torus_(torus), spec_(std::move(spec)) {}
+    TorusDomain(const Torus& torus, std::string spec)
+        : NamedDomain(std::move(spec), 3, 2), torus_(torus) {}
 
-    std::string spec() const override { return spec_; }
-    std::size_t dimension() const override { return 3; }
-    std::size_t cube_dimension() const override { return 2; }
     double measure() const override { return two_pi * torus_.major * (two_pi * torus_.minor); }
 
     /// Up to 16 epsilon (R + r + largest |c|) away from the surface: the rounding of a point that
@@ -183,9 +177,7 @@ class TorusDomain final : public Domain {
         return box;
     }
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
-        const auto [tube, around] = torus_.shares(point);
-        cube[0] = std::clamp(tube, 0.0, 1.0);
-        cube[1] = around;
+        put_clamped(torus_.shares(point), cube);
     }
     std::optional<Moments> moments() const override {
         const double e = torus_.minor / torus_.major;
@@ -198,7 +190,6 @@ class TorusDomain final : public Domain {
 
   private:
     Torus torus_;
-    std::string spec_;
 };
 
 struct ByArea {
@@ -216,18 +207,15 @@ struct ByArea {
     }
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
-                              const RunContext& /*run*/) {
-    const double major = options[major_radius];
-    const double minor = options[minor_radius];
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    const double major = want.options[major_radius];
+    const double minor = want.options[minor_radius];
     if (minor > major)
         fail(ErrorKind::usage,
              "--minor-radius: {} is above the major radius {}; the tube would cross itself", minor,
              major);
-    const Torus torus{major, minor, center_of(options, minor), frame_of(options)};
-    const auto surface = std::make_shared<TorusDomain>(
-        torus, domain_spec("torus-surface", options, schema(),
-                           {major_radius.name, minor_radius.name, center.name, axis.name}));
+    const Torus torus{major, minor, center_of(want.options, minor), frame_of(want.options)};
+    const auto surface = std::make_shared<TorusDomain>(torus, want.spec());
     return row_mapping(surface, ByArea{torus});
 }
 
@@ -241,9 +229,9 @@ Warp unit() {
                 "xi1 turns around the tube from its outermost point upwards, as the share of "
                 "the area; xi2 turns around the axis; both as they are",
             .traits = {},
-            .options = schema(),
+            .options = Schema(major_radius, minor_radius, center, axis),
             .aliases = {"torus"},
-            .make = make};
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::torus_surface

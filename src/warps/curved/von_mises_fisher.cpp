@@ -41,11 +41,6 @@ constexpr Param<double> concentration{
         "Concentration: 0 is uniform; large ones are normal about the axis, with a standard "
         "deviation of 1 / sqrt(kappa) radians along each tangent"};
 
-const Schema& schema() {
-    static const Schema options(concentration, axis);
-    return options;
-}
-
 class Fisher {
   public:
     explicit Fisher(double kappa) : kappa_(std::max(kappa, 1e-17)) {
@@ -108,11 +103,8 @@ class Fisher {
     double last_ = 2;          ///< 1 - cos of xi = 1
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
-                              const RunContext& /*run*/) {
-    return lobe_mapping(
-        Fisher(options[concentration]), frame_of(options),
-        domain_spec("von-mises-fisher", options, schema(), {concentration.name, axis.name}));
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    return lobe_mapping(Fisher(want.options[concentration]), frame_of(want.options), want.spec());
 }
 
 }  // namespace
@@ -125,9 +117,9 @@ Warp unit() {
                 "xi1 is the probability of the cone about the axis, 0 on it; xi2 turns about it; "
                 "both as they are",
             .traits = {},
-            .options = schema(),
+            .options = Schema(concentration, axis),
             .aliases = {"vmf"},
-            .make = make};
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::von_mises_fisher

@@ -48,11 +48,6 @@ constexpr Param<Choice> method{
 constexpr Param<bool> normalize{.name = "normalize",
                                 .help = "Divide the probabilities by their sum"};
 
-const Schema& schema() {
-    static const Schema options(probabilities, outcomes, method, normalize);
-    return options;
-}
-
 /// What all methods know; shared by the coordinates.
 struct Outcomes {
     std::vector<double> probability;
@@ -202,20 +197,18 @@ OutcomesPtr outcomes_of(const Values& options) {
 }
 
 template <class Law>
-std::unique_ptr<Mapping> mapping_by(const Values& options, std::size_t given,
-                                    std::string no_way_back) {
+std::unique_ptr<Mapping> mapping_by(const WarpRequest& want, std::string no_way_back) {
     Law law;
-    law.of = outcomes_of(options);
-    return line_mapping(std::vector{law}, given,
-                        domain_spec("discrete", options, schema(),
-                                    {probabilities.name, outcomes.name, normalize.name}),
+    law.of = outcomes_of(want.options);
+    return line_mapping(std::vector{law}, want.given,
+                        want.spec({probabilities.name, outcomes.name, normalize.name}),
                         "outcome, (i + 1/2) / m", std::move(no_way_back));
 }
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t given, const RunContext& /*run*/) {
-    if (std::string(options[method]) == "alias")
-        return mapping_by<ByAlias>(options, given, "discrete by method alias has no inverse");
-    return mapping_by<ByInversion>(options, given, {});
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    if (std::string(want.options[method]) == "alias")
+        return mapping_by<ByAlias>(want, "discrete by method alias has no inverse");
+    return mapping_by<ByInversion>(want, {});
 }
 
 }  // namespace
@@ -228,8 +221,8 @@ Warp unit() {
                 "inversion: outcomes lie side by side in their order, xi as it is; alias: strata "
                 "are kept only within a slot",
             .traits = {.discrete = true},
-            .options = schema(),
-            .make = make};
+            .options = Schema(probabilities, outcomes, method, normalize),
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::discrete

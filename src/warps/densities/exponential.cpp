@@ -30,11 +30,6 @@ constexpr Param<Numbers> rate{
      .fallback = "1",
      .help = "Rate lambda, 1 / mean, above 0: one number for all coordinates, or one for each"}};
 
-const Schema& schema() {
-    static const Schema options(rate);
-    return options;
-}
-
 struct Decay final : LineDistribution {
     explicit Decay(double lambda) : rate(lambda) {}
 
@@ -56,17 +51,15 @@ struct Decay final : LineDistribution {
     std::pair<double, double> range() const override { return {0, 10 / rate}; }
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t given, const RunContext& /*run*/) {
-    const std::vector<double> rates = options[rate];
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    const std::vector<double> rates = want.options[rate];
     std::vector<Decay> laws;
     for (const double lambda : rates) {
         if (!(lambda >= 1e-300 && lambda <= 1e300))
             fail(ErrorKind::usage, "--rate: {} is outside [1e-300, 1e+300]", lambda);
         laws.emplace_back(lambda);
     }
-    return line_mapping(std::move(laws), given,
-                        domain_spec("exponential", options, schema(), {rate.name}),
-                        "probability 1 - exp(-rate x)");
+    return line_mapping(std::move(laws), want.given, want.spec(), "probability 1 - exp(-rate x)");
 }
 
 }  // namespace
@@ -77,8 +70,8 @@ Warp unit() {
             .source = "Inverse of the distribution function 1 - exp(-rate x)",
             .strata = "xi is the probability below x, as it is: small xi is near 0",
             .traits = {},
-            .options = schema(),
-            .make = make};
+            .options = Schema(rate),
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::exponential

@@ -28,6 +28,7 @@
 #include "math/densities/quadrature.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "warps/domain_mapping.hpp"
+#include "warps/named_domain.hpp"
 
 namespace stipple::warps::expression_1d {
 namespace {
@@ -48,11 +49,6 @@ constexpr Param<double> tolerance{.name = "tolerance",
                                   .high = 0.1,
                                   .help = "What any probability may be off by"};
 
-const Schema& schema() {
-    static const Schema options(density, range, breaks, tolerance);
-    return options;
-}
-
 LineRange range_of(const Values& options) {
     const auto ends = options[range];
     if (ends.size() != 2 || !(ends[0] < ends[1]) || !std::isfinite(ends[1] - ends[0]))
@@ -67,10 +63,11 @@ LineRange range_of(const Values& options) {
     return out;
 }
 
-class FormulaDomain final : public Domain, public Gapped, public Weighable {
+class FormulaDomain final : public NamedDomain, public Gapped, public Weighable {
   public:
-    FormulaDomain(Values options, const LineRange& ends, Expression f, const RunContext& run)
-        : options_(std::move(options)),
+    FormulaDomain(std::string spec, double within, const LineRange& ends, Expression f,
+                  const RunContext& run)
+        : NamedDomain(std::move(spec), 1, 1),
           low_(ends.low),
           high_(ends.high),
           f_(std::move(f)),
@@ -79,7 +76,7 @@ class FormulaDomain final : public Domain, public Gapped, public Weighable {
               [this](std::span<const double> at, std::span<double> values) {
                   f_.evaluate(at, values);
               },
-              ends, options_[tolerance], run)) {
+              ends, within, run)) {
         for (const LinePiece& piece : table_.pieces()) {
             before_.push_back(total_.value);
             total_.value += piece.integral.value;
@@ -88,8 +85,6 @@ class FormulaDomain final : public Domain, public Gapped, public Weighable {
         before_.push_back(total_.value);
     }
 
-    std::string spec() const override { return format_spec("expression-1d", options_, schema()); }
-    std::size_t dimension() const override { return 1; }
     double measure() const override { return high_ - low_; }
     bool contains(std::span<const double> point) const override {
         return point[0] >= low_ && point[0] <= high_;
@@ -172,7 +167,6 @@ class FormulaDomain final : public Domain, public Gapped, public Weighable {
                                 .value;
     }
 
-    Values options_;
     double low_;
     double high_;
     Expression f_;
@@ -181,15 +175,15 @@ class FormulaDomain final : public Domain, public Gapped, public Weighable {
     Estimate total_ = {};
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/, const RunContext& run) {
-    if (!options.given(density))
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    if (!want.options.given(density))
         fail(ErrorKind::usage, "--density: give a formula in x, such as 'exp(-x)'");
-    const LineRange ends = range_of(options);
-    Expression f(density.name, options[density], 1);
-    Values plain = options;  // without blanks: the spec is one word
+    const LineRange ends = range_of(want.options);
+    Expression f(density.name, want.options[density], 1);
+    Values plain = want.options;  // without blanks: the spec is one word
     plain.put(density.name, f.text());
-    return std::make_unique<DomainMapping<FormulaDomain>>(
-        std::make_shared<FormulaDomain>(std::move(plain), ends, std::move(f), run));
+    return domain_mapping<FormulaDomain>(format_spec(want.warp.name, plain, want.warp.options),
+                                         want.options[tolerance], ends, std::move(f), want.run);
 }
 
 }  // namespace
@@ -202,9 +196,9 @@ Warp unit() {
                 "Random Variate Generation (1986), ch. II and VIII",
             .strata = "xi1 is the share of the mass below x, as it is",
             .traits = {},
-            .options = schema(),
+            .options = Schema(density, range, breaks, tolerance),
             .aliases = {"formula-1d"},
-            .make = make};
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::expression_1d

@@ -24,7 +24,6 @@
 #include "core/spec.hpp"
 #include "math/densities/strip_table.hpp"
 #include "warps/densities/formula_box.hpp"
-#include "warps/inside.hpp"
 #include "warps/warp.hpp"
 
 namespace stipple::warps::expression_2d {
@@ -44,24 +43,16 @@ constexpr Param<double> tolerance{.name = "tolerance",
                                   .high = 0.1,
                                   .help = "What any probability may be off by"};
 
-const Schema& schema() {
-    static const Schema options(density, bounds, tolerance);
-    return options;
-}
-
 class Formula final : public Mapping {
   public:
-    Formula(std::shared_ptr<const FormulaBox> box, double within, const RunContext& run)
-        : box_(std::move(box)),
+    Formula(const std::shared_ptr<const FormulaBox>& box, double within, const RunContext& run)
+        : Mapping(box),
           table_(tabulate_strips(
-              "--density: " + box_->formula().text(),
-              [this](std::span<const double> at, std::span<double> values) {
-                  box_->formula().evaluate(at, values);
+              "--density: " + box->formula().text(),
+              [&](std::span<const double> at, std::span<double> values) {
+                  box->formula().evaluate(at, values);
               },
-              box_->box(), within, run)) {}
-
-    DomainPtr domain() const override { return box_; }
-    std::size_t cube_dimension() const override { return 2; }
+              box->box(), within, run)) {}
 
     void forward(std::span<const double> cube, std::span<double> image,
                  std::span<std::uint8_t> /*keep*/) const override {
@@ -73,7 +64,7 @@ class Formula final : public Mapping {
     }
 
     void inverse(std::span<const double> image, std::span<double> cube) const override {
-        expect_inside(*box_, image);
+        expect_inside(image);
         for (std::size_t i = 0; i + 1 < image.size(); i += 2) {
             const auto [u, v] = table_.fraction(image[i], image[i + 1]);
             cube[i] = u;
@@ -82,21 +73,20 @@ class Formula final : public Mapping {
     }
 
   private:
-    std::shared_ptr<const FormulaBox> box_;
     StripTable table_;
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/, const RunContext& run) {
-    if (!options.given(density))
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    if (!want.options.given(density))
         fail(ErrorKind::usage, "--density: give a formula in x and y, such as 'x + y'");
-    const Box box = parse_box(options[bounds], 2);
-    Expression f(density.name, options[density], 2);
-    Values plain = options;  // without blanks: the spec is one word
+    const Box box = parse_box(want.options[bounds], 2);
+    Expression f(density.name, want.options[density], 2);
+    Values plain = want.options;  // without blanks: the spec is one word
     plain.put(density.name, f.text());
     return std::make_unique<Formula>(
-        std::make_shared<FormulaBox>(format_spec("expression-2d", plain, schema()), std::move(f),
-                                     box),
-        options[tolerance], run);
+        std::make_shared<FormulaBox>(format_spec(want.warp.name, plain, want.warp.options),
+                                     std::move(f), box),
+        want.options[tolerance], want.run);
 }
 
 }  // namespace
@@ -111,9 +101,9 @@ Warp unit() {
                 "xi1 is the share of the mass left of x, xi2 the share below y of what is "
                 "at that x, both as they are",
             .traits = {},
-            .options = schema(),
+            .options = Schema(density, bounds, tolerance),
             .aliases = {"formula-2d"},
-            .make = make};
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::expression_2d

@@ -33,7 +33,9 @@ Effort effort_for_moments(std::size_t dimension) {
 }  // namespace
 
 FormulaBox::FormulaBox(std::string spec, Expression f, Box box)
-    : spec_(std::move(spec)), f_(std::move(f)), box_(std::move(box)) {}
+    : NamedDomain(std::move(spec), box.dimension(), box.dimension()),
+      f_(std::move(f)),
+      box_(std::move(box)) {}
 
 Estimate FormulaBox::integral() const {
     std::call_once(once_, [this] {

@@ -11,15 +11,14 @@
 #include "core/domain.hpp"
 #include "core/support.hpp"
 #include "math/densities/expression.hpp"
+#include "warps/named_domain.hpp"
 
 namespace stipple::warps {
 
-class FormulaBox final : public Domain, public Gapped, public Weighable {
+class FormulaBox final : public NamedDomain, public Gapped, public Weighable {
   public:
     FormulaBox(std::string spec, Expression f, Box box);
 
-    std::string spec() const override { return spec_; }
-    std::size_t dimension() const override { return box_.dimension(); }
     double measure() const override;
     bool contains(std::span<const double> point) const override;
     Box bounding_box() const override { return box_; }
@@ -47,7 +46,6 @@ class FormulaBox final : public Domain, public Gapped, public Weighable {
     Estimate integral() const;
 
   private:
-    std::string spec_;
     Expression f_;
     Box box_;
     mutable std::once_flag once_;

@@ -24,11 +24,11 @@
 
 #include "core/domain.hpp"
 #include "core/error.hpp"
-#include "core/spec.hpp"
 #include "core/support.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "media/density_map.hpp"
 #include "warps/domain_mapping.hpp"
+#include "warps/named_domain.hpp"
 
 namespace stipple::warps::image {
 namespace {
@@ -40,18 +40,12 @@ constexpr Param<Path> file{
 constexpr Param<bool> invert{.name = "invert",
                              .help = "Points where the picture is dark, as ink on paper"};
 
-const Schema& schema() {
-    static const Schema options(file, invert);
-    return options;
-}
-
-class ImageDomain final : public Domain, public Gapped, public Weighable {
+class ImageDomain final : public NamedDomain, public Gapped, public Weighable {
   public:
-    ImageDomain(Values options, const RunContext& run)
-        : options_(std::move(options)), map_(read_density(options_[file], options_[invert], run)) {}
+    explicit ImageDomain(const WarpRequest& want)
+        : NamedDomain(want.spec(), 2, 2),
+          map_(read_density(want.options[file], want.options[invert], want.run)) {}
 
-    std::string spec() const override { return format_spec("image", options_, schema()); }
-    std::size_t dimension() const override { return 2; }
     double measure() const override { return 1; }
     bool contains(std::span<const double> point) const override {
         return point[0] >= 0 && point[0] <= 1 && point[1] >= 0 && point[1] <= 1;
@@ -114,15 +108,13 @@ class ImageDomain final : public Domain, public Gapped, public Weighable {
     }
 
   private:
-    Values options_;
     DensityMap map_;
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/, const RunContext& run) {
-    if (!options.given(file))
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    if (!want.options.given(file))
         fail(ErrorKind::usage, "--file: name a picture (PNG, PFM) or an array (NPY)");
-    return std::make_unique<DomainMapping<ImageDomain>>(
-        std::make_shared<ImageDomain>(options, run));
+    return domain_mapping<ImageDomain>(want);
 }
 
 }  // namespace
@@ -137,9 +129,9 @@ Warp unit() {
                 "xi2 is the share of the mass below y, xi1 the share of that row's mass left "
                 "of x, both as they are",
             .traits = {},
-            .options = schema(),
+            .options = Schema(file, invert),
             .aliases = {"picture", "density-map"},
-            .make = make};
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::image

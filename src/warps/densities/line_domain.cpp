@@ -6,14 +6,13 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/error.hpp"
-#include "warps/inside.hpp"
-
 namespace stipple::warps {
 
 LineDomain::LineDomain(std::vector<std::shared_ptr<const LineDistribution>> distributions,
                        std::string spec, std::string what)
-    : axes_(std::move(distributions)), spec_(std::move(spec)), what_(std::move(what)) {}
+    : NamedDomain(std::move(spec), distributions.size(), distributions.size()),
+      axes_(std::move(distributions)),
+      what_(std::move(what)) {}
 
 double LineDomain::measure() const {
     double product = 1;
@@ -93,15 +92,9 @@ Support LineDomain::support() const {
 
 void LineDomain::inverse(std::span<const double> image, std::span<double> cube) const {
     const std::size_t d = axes_.size();
-    expect_inside(*this, image);
     for (std::size_t i = 0; i < image.size(); i += d)
         for (std::size_t k = 0; k < d; ++k)
             cube[i + k] = std::clamp(axes_[k]->inverse(image[i + k]), 0.0, 1.0);
-}
-
-void LineMappingBase::inverse(std::span<const double> image, std::span<double> cube) const {
-    if (!no_way_back_.empty()) fail(ErrorKind::usage, "--inverse: {}", no_way_back_);
-    domain_->inverse(image, cube);
 }
 
 }  // namespace stipple::warps

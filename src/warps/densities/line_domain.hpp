@@ -25,6 +25,7 @@
 #include "core/support.hpp"
 #include "core/wide.hpp"
 #include "math/geometry/law_moments.hpp"
+#include "warps/named_domain.hpp"
 #include "warps/warp.hpp"
 
 namespace stipple::warps {
@@ -62,15 +63,13 @@ class LineDistribution {
     LineDistribution& operator=(const LineDistribution&) = default;
 };
 
-class LineDomain final : public Domain, public Gapped, public Weighable {
+class LineDomain final : public NamedDomain, public Gapped, public Weighable {
   public:
     /// @param distributions one for each coordinate
     /// @param what what the coordinates of the cube are, for people
     LineDomain(std::vector<std::shared_ptr<const LineDistribution>> distributions, std::string spec,
                std::string what);
 
-    std::string spec() const override { return spec_; }
-    std::size_t dimension() const override { return axes_.size(); }
     double measure() const override;
     bool contains(std::span<const double> point) const override;
     Box bounding_box() const override;
@@ -84,29 +83,12 @@ class LineDomain final : public Domain, public Gapped, public Weighable {
     Support support() const override;
     bool shows_gaps() const override { return true; }
 
-    /// The way back, point after point. @throws Error(input) naming a point that is outside
+    /// The distributions' ways back, point after point, of points that it contains.
     void inverse(std::span<const double> image, std::span<double> cube) const;
 
   private:
     std::vector<std::shared_ptr<const LineDistribution>> axes_;
-    std::string spec_;
     std::string what_;
-};
-
-/// A mapping onto a LineDomain, but for the way forward.
-class LineMappingBase : public Mapping {
-  public:
-    /// @param no_way_back why there is no inverse; empty where there is one
-    LineMappingBase(std::shared_ptr<const LineDomain> domain, std::string no_way_back)
-        : domain_(std::move(domain)), no_way_back_(std::move(no_way_back)) {}
-
-    DomainPtr domain() const override { return domain_; }
-    std::size_t cube_dimension() const override { return domain_->dimension(); }
-    void inverse(std::span<const double> image, std::span<double> cube) const override;
-
-  private:
-    std::shared_ptr<const LineDomain> domain_;
-    std::string no_way_back_;
 };
 
 // The distribution is taken by value: what is written cannot change it, so that its constants stay
@@ -117,17 +99,21 @@ STIPPLE_WIDE [[gnu::flatten]] void map_numbers(const Law law, std::span<double> 
 }
 
 template <class Law>
-class LineMapping final : public LineMappingBase {
+class LineMapping final : public Mapping {
   public:
-    LineMapping(std::vector<Law> laws, std::shared_ptr<const LineDomain> domain,
+    LineMapping(std::vector<Law> laws, const std::shared_ptr<const LineDomain>& domain,
                 std::string no_way_back)
-        : LineMappingBase(std::move(domain), std::move(no_way_back)), laws_(std::move(laws)) {}
+        : Mapping(domain, std::move(no_way_back)), laws_(std::move(laws)), line_(*domain) {}
 
     void forward(std::span<const double> cube, std::span<double> image,
                  std::span<std::uint8_t> /*keep*/) const override {
         std::ranges::copy(cube, image.begin());
         if (laws_.size() == 1) return apply(laws_[0], image);
         for (std::size_t k = 0; k < laws_.size(); ++k) map_column(k, image);
+    }
+    void inverse(std::span<const double> image, std::span<double> cube) const override {
+        expect_inside(image);
+        line_.inverse(image, cube);
     }
 
   private:
@@ -152,18 +138,20 @@ class LineMapping final : public LineMappingBase {
     }
 
     std::vector<Law> laws_;  ///< one for all coordinates, or one for each
+    const LineDomain& line_;
 };
 
 /// The mapping of d coordinates by one distribution for all, or by one for each.
+/// @param no_way_back why there is no inverse; empty where there is one
 template <class Law>
 std::unique_ptr<Mapping> line_mapping(std::vector<Law> laws, std::size_t d, std::string spec,
                                       std::string what, std::string no_way_back = {}) {
     std::vector<std::shared_ptr<const LineDistribution>> axes;
     for (const Law& law : laws) axes.push_back(std::make_shared<Law>(law));
     if (laws.size() == 1) axes.resize(d, axes[0]);
-    auto domain = std::make_shared<LineDomain>(std::move(axes), std::move(spec), std::move(what));
-    return std::make_unique<LineMapping<Law>>(std::move(laws), std::move(domain),
-                                              std::move(no_way_back));
+    const auto domain =
+        std::make_shared<const LineDomain>(std::move(axes), std::move(spec), std::move(what));
+    return std::make_unique<LineMapping<Law>>(std::move(laws), domain, std::move(no_way_back));
 }
 
 }  // namespace stipple::warps

@@ -24,7 +24,6 @@
 //         components. The same bits on every machine, where the components have them.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -32,6 +31,7 @@
 #include "core/rng.hpp"
 #include "core/spec.hpp"
 #include "core/text.hpp"
+#include "math/densities/guide_table.hpp"
 #include "warps/common_options.hpp"
 #include "warps/densities/mixture_domain.hpp"
 #include "warps/warp.hpp"
@@ -51,46 +51,44 @@ constexpr Param<Text> components{
 
 constexpr Param<bool> normalize{.name = "normalize", .help = "Divide the weights by their sum"};
 
-const Schema& schema() {
-    static const Schema options(weights, components, normalize);
-    return options;
-}
-
 struct Component {
     std::string spec;
     double weight = 0;
     std::unique_ptr<Mapping> mapping;
 };
 
+DomainPtr domain_of(const std::vector<Component>& parts, std::string spec) {
+    std::vector<DomainPtr> domains;
+    std::vector<double> weights_of_them;
+    for (const Component& part : parts) {
+        domains.push_back(part.mapping->domain());
+        weights_of_them.push_back(part.weight);
+    }
+    return mixture_domain(std::move(domains), std::move(weights_of_them), std::move(spec));
+}
+
 class Mixture final : public Mapping {
   public:
+    /// @param sums of the weights; the last is 1
     Mixture(std::vector<Component> parts, std::vector<double> sums, std::string spec)
-        : parts_(std::move(parts)), sums_(std::move(sums)) {
-        std::vector<DomainPtr> domains;
-        std::vector<double> shares;
-        for (const Component& part : parts_) {
-            domains.push_back(part.mapping->domain());
-            shares.push_back(part.weight);
-        }
-        domain_ = mixture_domain(std::move(domains), std::move(shares), std::move(spec));
-        double before = 0;
-        for (const double sum : sums_) {
-            shares_.push_back({before, sum - before});
-            before = sum;
-        }
-    }
+        : Mapping(domain_of(parts, std::move(spec)), "this warp has no inverse"),
+          parts_(std::move(parts)),
+          shares_(std::move(sums), 2 * parts_.size()) {}
 
-    DomainPtr domain() const override { return domain_; }
-    std::size_t cube_dimension() const override { return parts_[0].mapping->cube_dimension(); }
-
+    /// Rows go through by component, some at a time: few enough to stay in the nearest caches.
     void forward(std::span<const double> cube, std::span<double> image,
                  std::span<std::uint8_t> /*keep*/) const override {
+        constexpr std::size_t some = 512;
         const std::size_t d = cube_dimension();
-        const std::size_t m = domain_->dimension();
-        Work work(parts_.size(), d, m);
-        for (std::size_t first = 0; first < cube.size() / d; first += some) {
-            const std::size_t size = std::min(some, cube.size() / d - first);
-            move(cube.subspan(first * d, size * d), image.subspan(first * m, size * m), work);
+        const std::size_t count = cube.size() / d;
+        std::vector<std::vector<std::size_t>> rows_of(parts_.size());
+        Work work;
+        for (std::size_t first = 0; first < count; first += some) {
+            for (auto& rows : rows_of) rows.clear();
+            for (std::size_t i = first; i < std::min(first + some, count); ++i)
+                rows_of[shares_.at(cube[i * d])].push_back(i);
+            for (std::size_t c = 0; c < parts_.size(); ++c)
+                if (!rows_of[c].empty()) move(c, rows_of[c], cube, image, work);
         }
     }
 
@@ -101,89 +99,32 @@ class Mixture final : public Mapping {
     }
 
   private:
-    /// Rows that go through at a time: few enough to stay in the nearest caches.
-    static constexpr std::size_t some = 512;
-
-    /// Rows of one component after those of another, each in their order.
+    /// Rows of one component.
     struct Work {
-        std::array<std::uint32_t, some> which;  ///< component of each row
-        std::array<std::uint32_t, some> place;  ///< of each row among them
-        std::array<std::uint8_t, some> keep;
-        std::vector<std::uint32_t> begin;  ///< of each component's rows, and their end
-        std::vector<std::uint32_t> next;
         std::vector<double> from;
         std::vector<double> to;
-
-        Work(std::size_t parts, std::size_t d, std::size_t m)
-            : begin(parts + 1), next(parts + 1), from(some * d), to(some * m) {
-            keep.fill(1);
-        }
+        std::vector<std::uint8_t> keep;
     };
 
-    void move(std::span<const double> cube, std::span<double> image, Work& work) const {
+    void move(std::size_t c, std::span<const std::size_t> rows, std::span<const double> cube,
+              std::span<double> image, Work& work) const {
         const std::size_t d = cube_dimension();
-        const std::size_t m = domain_->dimension();
-        const std::size_t count = cube.size() / d;
-        choose(cube, work.which);
-        sort(count, work);
-        for (std::size_t i = 0; i < count; ++i) {
-            const Share& share = shares_[work.which[i]];
-            const double u = (cube[i * d] - share.before) / share.width;
-            double* row = &work.from[work.place[i] * d];
-            row[0] = std::max(0.0, std::min(u, one_minus_ulp));
-            for (std::size_t k = 1; k < d; ++k) row[k] = cube[i * d + k];
+        const std::size_t m = domain()->dimension();
+        work.from.resize(rows.size() * d);
+        work.to.resize(rows.size() * m);
+        work.keep.assign(rows.size(), 1);
+        for (std::size_t j = 0; j < rows.size(); ++j) {
+            std::copy_n(&cube[rows[j] * d], d, &work.from[j * d]);
+            const double u = (work.from[j * d] - shares_.begin(c)) / shares_.width(c);
+            work.from[j * d] = std::clamp(u, 0.0, one_minus_ulp);
         }
-        for (std::size_t c = 0; c < parts_.size(); ++c) {
-            const std::size_t first = work.begin[c];
-            const std::size_t size = work.begin[c + 1] - first;
-            if (size > 0)
-                parts_[c].mapping->forward(std::span(work.from).subspan(first * d, size * d),
-                                           std::span(work.to).subspan(first * m, size * m),
-                                           std::span(work.keep).first(size));
-        }
-        for (std::size_t i = 0; i < count; ++i)
-            for (std::size_t k = 0; k < m; ++k) image[i * m + k] = work.to[work.place[i] * m + k];
-    }
-
-    void sort(std::size_t count, Work& work) const {
-        auto& [which, place, keep, begin, next, from, to] = work;
-        std::ranges::fill(begin, 0);
-        for (std::size_t i = 0; i < count; ++i) ++begin[which[i] + 1];
-        for (std::size_t c = 0; c < parts_.size(); ++c) begin[c + 1] += begin[c];
-        next = begin;
-        for (std::size_t i = 0; i < count; ++i) place[i] = next[which[i]]++;
-    }
-
-    /// Where a component's part of the first coordinate begins, and how wide it is.
-    struct Share {
-        double before;
-        double width;
-    };
-
-    /// For each row the first component whose running weight is above its first coordinate.
-    void choose(std::span<const double> cube, std::array<std::uint32_t, some>& which) const {
-        const std::size_t d = cube_dimension();
-        const std::size_t count = cube.size() / d;
-        constexpr std::size_t few = 16;
-        if (sums_.size() > few) {
-            for (std::size_t i = 0; i < count; ++i) {
-                const double u = std::min(cube[i * d], one_minus_ulp);
-                const auto above = std::ranges::upper_bound(sums_, u);
-                which[i] = static_cast<std::uint32_t>(above - sums_.begin());
-            }
-            return;
-        }
-        // Counted, since branches would be guessed wrong.
-        std::fill_n(which.begin(), count, 0);
-        for (const double sum : std::span(sums_).first(sums_.size() - 1))
-            for (std::size_t i = 0; i < count; ++i)
-                which[i] += sum <= std::min(cube[i * d], one_minus_ulp) ? 1 : 0;
+        parts_[c].mapping->forward(work.from, work.to, work.keep);
+        for (std::size_t j = 0; j < rows.size(); ++j)
+            std::copy_n(&work.to[j * m], m, &image[rows[j] * m]);
     }
 
     std::vector<Component> parts_;
-    std::vector<double> sums_;  ///< of the weights; the last is 1
-    std::vector<Share> shares_;
-    DomainPtr domain_;
+    GuideTable shares_;  ///< of the components, side by side
 };
 
 /// The parts between | outside of brackets.
@@ -252,19 +193,19 @@ Component component_of(const std::string& text, std::size_t given, const RunCont
     return part;
 }
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t given, const RunContext& run) {
-    const std::vector<double> given_weights = options[weights];
-    const auto texts = parts_of(options[components]);
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    const std::vector<double> given_weights = want.options[weights];
+    const auto texts = parts_of(want.options[components]);
     if (given_weights.size() != texts.size())
         fail(ErrorKind::usage, "--weights: {} given for {} component{}; one for each is needed",
              given_weights.size(), texts.size(), texts.size() == 1 ? "" : "s");
-    const auto shares = checked_weights(weights, given_weights, options[normalize]);
+    const auto shares = checked_weights(weights, given_weights, want.options[normalize]);
 
     std::vector<Component> parts;
     std::string first;
     for (std::size_t i = 0; i < texts.size(); ++i) {
         std::string space;
-        parts.push_back(component_of(texts[i], given, run, space));
+        parts.push_back(component_of(texts[i], want.given, want.run, space));
         parts.back().weight = shares[i];
         if (i == 0) first = space;
         if (space != first ||
@@ -275,8 +216,7 @@ std::unique_ptr<Mapping> make(const Values& options, std::size_t given, const Ru
                  texts[0], first, parts[0].mapping->cube_dimension(), texts[i], space,
                  parts[i].mapping->cube_dimension());
     }
-    return std::make_unique<Mixture>(std::move(parts), sums_to_1(shares),
-                                     format_spec("mixture", options, schema()));
+    return std::make_unique<Mixture>(std::move(parts), sums_to_1(shares), want.spec());
 }
 
 }  // namespace
@@ -289,8 +229,8 @@ Warp unit() {
                 "xi1 is cut by the weights, in order, and stretched for the component's own use; "
                 "all else is as the components have it",
             .traits = {.invertible = false},
-            .options = schema(),
-            .make = make};
+            .options = Schema(weights, components, normalize),
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::mixture

@@ -14,14 +14,17 @@
 #include "math/functions/trigonometry.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "math/geometry/zone_integral.hpp"
+#include "warps/named_domain.hpp"
 
 namespace stipple::warps {
 namespace {
 
-class MixtureDomain final : public Domain, public Gapped, public Weighable {
+class MixtureDomain final : public NamedDomain, public Gapped, public Weighable {
   public:
     MixtureDomain(std::vector<DomainPtr> parts, std::vector<double> shares, std::string spec)
-        : parts_(std::move(parts)), weights_(std::move(shares)), spec_(std::move(spec)) {
+        : NamedDomain(std::move(spec), parts[0]->dimension(), parts[0]->cube_dimension()),
+          parts_(std::move(parts)),
+          weights_(std::move(shares)) {
         box_ = parts_[0]->bounding_box();
         for (const DomainPtr& part : parts_) {
             const Box box = part->bounding_box();
@@ -32,9 +35,6 @@ class MixtureDomain final : public Domain, public Gapped, public Weighable {
         });
     }
 
-    std::string spec() const override { return spec_; }
-    std::size_t dimension() const override { return parts_[0]->dimension(); }
-    std::size_t cube_dimension() const override { return parts_[0]->cube_dimension(); }
     /// That of all directions where a part has them all, and of the box that each part fills; else
     /// what the parts cover together is not known, and it is taken as a part of all space.
     double measure() const override {
@@ -97,7 +97,7 @@ class MixtureDomain final : public Domain, public Gapped, public Weighable {
         return weighted([&](const Domain& part) {
             const auto* weighable = dynamic_cast<const Weighable*>(&part);
             if (!weighable)
-                fail(ErrorKind::limit, "{}: the probabilities of boxes of {} are not known", spec_,
+                fail(ErrorKind::limit, "{}: the probabilities of boxes of {} are not known", spec(),
                      part.spec());
             return weighable->box_mass(box);
         });
@@ -169,7 +169,6 @@ class MixtureDomain final : public Domain, public Gapped, public Weighable {
 
     std::vector<DomainPtr> parts_;
     std::vector<double> weights_;
-    std::string spec_;
     Box box_;
     bool fills_box_ = false;  ///< each part does
 };

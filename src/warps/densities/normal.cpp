@@ -20,8 +20,6 @@
 // Source  M. Rosenblatt, Annals of Mathematical Statistics 23 (1952) 470-472,
 //         doi:10.1214/aoms/1177729394. Phi^-1: Wichura 1988, see math/functions/normal_quantile.hpp.
 
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,7 +28,6 @@
 
 #include "core/domain.hpp"
 #include "core/error.hpp"
-#include "core/spec.hpp"
 #include "core/wide.hpp"
 #include "math/densities/quadrature.hpp"
 #include "math/functions/cholesky.hpp"
@@ -39,6 +36,7 @@
 #include "math/functions/normal_distribution.hpp"
 #include "math/functions/normal_quantile.hpp"
 #include "warps/common_options.hpp"
+#include "warps/named_domain.hpp"
 #include "warps/warp.hpp"
 
 namespace stipple::warps::normal {
@@ -57,11 +55,6 @@ constexpr Param<Numbers> covariance{
     {.name = "covariance",
      .fallback = {},
      .help = "Covariance matrix in place of deviations: d x d numbers, row after row: 2,1 1,2"}};
-
-const Schema& schema() {
-    static const Schema options(mean, deviation, covariance);
-    return options;
-}
 
 /// Mean and lower factor; a diagonal factor is its diagonal alone.
 struct Shape {
@@ -85,15 +78,15 @@ double Shape::covariance(std::size_t i, std::size_t j) const {
     return sum;
 }
 
-class NormalDomain final : public Domain, public Weighable {
+class NormalDomain final : public NamedDomain, public Weighable {
   public:
-    NormalDomain(Shape shape, std::string spec) : shape_(std::move(shape)), spec_(std::move(spec)) {
+    NormalDomain(Shape shape, std::string spec)
+        : NamedDomain(std::move(spec), shape.dimension(), shape.dimension()),
+          shape_(std::move(shape)) {
         for (std::size_t k = 0; k < shape_.dimension(); ++k)
             log_peak_ -= logarithm(shape_.scale(k)) + 0.5 * logarithm(2 * std::numbers::pi);
     }
 
-    std::string spec() const override { return spec_; }
-    std::size_t dimension() const override { return shape_.dimension(); }
     double measure() const override { return std::numeric_limits<double>::infinity(); }
     bool contains(std::span<const double> point) const override {
         for (const double x : point)
@@ -188,7 +181,6 @@ class NormalDomain final : public Domain, public Weighable {
     }
 
     Shape shape_;
-    std::string spec_;
     double log_peak_ = 0;
 };
 
@@ -225,20 +217,17 @@ STIPPLE_WIDE void mix(const double* middle, const double* factor, std::size_t gi
 
 class Normal final : public Mapping {
   public:
-    explicit Normal(std::shared_ptr<const NormalDomain> domain) : domain_(std::move(domain)) {}
-
-    DomainPtr domain() const override { return domain_; }
-    std::size_t cube_dimension() const override { return domain_->dimension(); }
+    explicit Normal(const std::shared_ptr<const NormalDomain>& domain)
+        : Mapping(domain), shape_(domain->shape()) {}
 
     void forward(std::span<const double> cube, std::span<double> image,
                  std::span<std::uint8_t> /*keep*/) const override {
         std::ranges::copy(cube, image.begin());
         bounded_normal_quantiles(image);
-        const Shape& shape = domain_->shape();
-        const std::size_t d = shape.dimension();
-        const double* middle = shape.mean.data();
-        const double* factor = shape.factor.data();
-        if (shape.diagonal())
+        const std::size_t d = shape_.dimension();
+        const double* middle = shape_.mean.data();
+        const double* factor = shape_.factor.data();
+        if (shape_.diagonal())
             spread(middle, factor, d, image);
         else if (d == 2)
             mix<2>(middle, factor, d, image);
@@ -248,18 +237,8 @@ class Normal final : public Mapping {
             mix<0>(middle, factor, d, image);
     }
 
-    void inverse(std::span<const double> image, std::span<double> cube) const override {
-        const std::size_t d = domain_->dimension();
-        for (std::size_t i = 0; i < image.size(); i += d) {
-            const auto point = image.subspan(i, d);
-            if (!domain_->contains(point))
-                fail(ErrorKind::input, "the point ({}) is not finite", fmt::join(point, ", "));
-            domain_->to_cube(point, cube.subspan(i, d));
-        }
-    }
-
   private:
-    std::shared_ptr<const NormalDomain> domain_;
+    const Shape& shape_;
 };
 
 std::vector<double> deviations_of(const Values& options, std::size_t d) {
@@ -297,20 +276,19 @@ std::size_t root_of(std::size_t n) {
     return d;
 }
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t given, const RunContext& /*run*/) {
-    const bool correlated = options.given(covariance);
-    if (correlated && options.given(deviation))
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    const bool correlated = want.options.given(covariance);
+    if (correlated && want.options.given(deviation))
         fail(ErrorKind::usage, "--deviation: --covariance is given, too; one of them is allowed");
-    const std::vector<double> matrix = options[covariance];
-    std::size_t d = given;
-    if (options[deviation].size() > 1) d = options[deviation].size();
+    const std::vector<double> matrix = want.options[covariance];
+    std::size_t d = want.given;
+    if (want.options[deviation].size() > 1) d = want.options[deviation].size();
     if (matrix.size() > 1) d = root_of(matrix.size());
-    if (options[mean].size() > 1) d = options[mean].size();
-    Shape shape{.mean = one_for_each(mean, options[mean], d),
-                .factor = correlated ? factor_of(matrix, d) : deviations_of(options, d)};
+    if (want.options[mean].size() > 1) d = want.options[mean].size();
+    Shape shape{.mean = one_for_each(mean, want.options[mean], d),
+                .factor = correlated ? factor_of(matrix, d) : deviations_of(want.options, d)};
     for (double& m : shape.mean) m += 0.0;  // -0 would show in points
-    return std::make_unique<Normal>(
-        std::make_shared<NormalDomain>(std::move(shape), format_spec("normal", options, schema())));
+    return std::make_unique<Normal>(std::make_shared<NormalDomain>(std::move(shape), want.spec()));
 }
 
 }  // namespace
@@ -323,9 +301,9 @@ Warp unit() {
                 "xi_k is the probability below x_k given those before it, as it is: small xi is "
                 "far below the mean",
             .traits = {},
-            .options = schema(),
+            .options = Schema(mean, deviation, covariance),
             .aliases = {"gaussian"},
-            .make = make};
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::normal

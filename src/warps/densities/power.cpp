@@ -52,11 +52,6 @@ constexpr Param<double> exponent{
 constexpr Param<Numbers> range{
     {.name = "range", .fallback = "0,1", .help = "The interval: a,b with a < b"}};
 
-const Schema& schema() {
-    static const Schema options(exponent, range);
-    return options;
-}
-
 /// How x^p is undone; by logarithms on one side of 0 where x^p hardly changes.
 enum class Root { none, square, cube, other, logarithm };
 
@@ -213,15 +208,12 @@ struct TwoSided final : PowerLaw {
 };
 
 template <class Law>
-std::unique_ptr<Mapping> mapping_by(const Law& law, std::size_t given, const Values& options) {
-    return line_mapping(std::vector{law}, given,
-                        domain_spec("power", options, schema(), {exponent.name, range.name}),
-                        "probability below x");
+std::unique_ptr<Mapping> mapping_by(const Law& law, const WarpRequest& want) {
+    return line_mapping(std::vector{law}, want.given, want.spec(), "probability below x");
 }
 
 template <Root root>
-std::unique_ptr<Mapping> one_sided(const Interval& interval, std::size_t given,
-                                   const Values& options) {
+std::unique_ptr<Mapping> one_sided(const Interval& interval, const WarpRequest& want) {
     OneSided<root> law(interval);
     const bool mirrored = interval.b <= 0;
     const double from = std::abs(mirrored ? interval.b : interval.a);
@@ -244,29 +236,26 @@ std::unique_ptr<Mapping> one_sided(const Interval& interval, std::size_t given,
     law.unit = law.heavy;
     law.peak = (interval.p == 0 ? 1 / std::abs(law.log_ratio) : std::abs(interval.p / law.less)) /
                law.heavy;
-    return mapping_by(law, given, options);
+    return mapping_by(law, want);
 }
 
 template <Root root>
-std::unique_ptr<Mapping> two_sided(const Interval& interval, std::size_t given,
-                                   const Values& options) {
+std::unique_ptr<Mapping> two_sided(const Interval& interval, const WarpRequest& want) {
     TwoSided<root> law(interval);
     law.low = -real_power(-interval.a / interval.size, interval.p);
     law.high = real_power(interval.b / interval.size, interval.p);
     law.inverse_p = 1 / interval.p;
     law.peak = interval.p / (law.high - law.low) / interval.size;
-    return mapping_by(law, given, options);
+    return mapping_by(law, want);
 }
 
 template <Root root>
-std::unique_ptr<Mapping> mapping_of(const Interval& interval, std::size_t given,
-                                    const Values& options) {
-    if (interval.a < 0 && interval.b > 0) return two_sided<root>(interval, given, options);
+std::unique_ptr<Mapping> mapping_of(const Interval& interval, const WarpRequest& want) {
+    if (interval.a < 0 && interval.b > 0) return two_sided<root>(interval, want);
     const double small = std::min(std::abs(interval.a), std::abs(interval.b));
     const bool narrow =
         small > 0 && std::abs(interval.p) * logarithm(interval.size / small) < std::numbers::ln2;
-    return narrow ? one_sided<Root::logarithm>(interval, given, options)
-                  : one_sided<root>(interval, given, options);
+    return narrow ? one_sided<Root::logarithm>(interval, want) : one_sided<root>(interval, want);
 }
 
 /// A range from 0 on needs numbers for all but a share of 1e-14 of its mass: x^-0.99 has a good
@@ -313,17 +302,17 @@ Interval interval_of(const Values& options) {
     return {.a = a, .b = b, .p = k + 1, .size = size};
 }
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t given, const RunContext& /*run*/) {
-    const Interval interval = interval_of(options);
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    const Interval interval = interval_of(want.options);
     switch (root_for(interval.p)) {
         case Root::none:
-            return mapping_of<Root::none>(interval, given, options);
+            return mapping_of<Root::none>(interval, want);
         case Root::square:
-            return mapping_of<Root::square>(interval, given, options);
+            return mapping_of<Root::square>(interval, want);
         case Root::cube:
-            return mapping_of<Root::cube>(interval, given, options);
+            return mapping_of<Root::cube>(interval, want);
         default:
-            return mapping_of<Root::other>(interval, given, options);
+            return mapping_of<Root::other>(interval, want);
     }
 }
 
@@ -335,8 +324,8 @@ Warp unit() {
             .source = "Inverse of the distribution function, a power or a logarithm",
             .strata = "xi is the probability below x, as it is: xi = 0 is the lower end",
             .traits = {},
-            .options = schema(),
-            .make = make};
+            .options = Schema(exponent, range),
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::power

@@ -40,31 +40,25 @@ constexpr Param<Text> bounds{{.name = "bounds",
                               .help = "The box: lo..hi,lo..hi, a range for each coordinate, 1 to "
                                       "3"}};
 
-const Schema& schema() {
-    static const Schema options(density, bound, bounds);
-    return options;
-}
-
 class Rejection final : public Mapping {
   public:
-    Rejection(std::shared_ptr<const FormulaBox> box, double top)
-        : box_(std::move(box)), bound_(top) {}
+    Rejection(const std::shared_ptr<const FormulaBox>& box, double top)
+        : Mapping(box, "this warp has no inverse"), density_(*box), bound_(top) {}
 
-    DomainPtr domain() const override { return box_; }
-    std::size_t cube_dimension() const override { return box_->dimension() + 1; }
+    std::size_t cube_dimension() const override { return density_.dimension() + 1; }
     bool drops() const override { return true; }
 
     void forward(std::span<const double> cube, std::span<double> image,
                  std::span<std::uint8_t> keep) const override {
-        const std::size_t d = box_->dimension();
-        const Box& box = box_->box();
+        const std::size_t d = density_.dimension();
+        const Box& box = density_.box();
         for (std::size_t i = 0; i < keep.size(); ++i)
             for (std::size_t k = 0; k < d; ++k) {
                 const double x = box.low[k] + cube[i * (d + 1) + k] * box.extent(k);
                 image[i * d + k] = x < box.high[k] ? x : std::nextafter(box.high[k], box.low[k]);
             }
         std::vector<double> values(keep.size());
-        box_->formula().evaluate(image.first(d * keep.size()), values);
+        density_.formula().evaluate(image.first(d * keep.size()), values);
         for (std::size_t i = 0; i < keep.size(); ++i) {
             check(image.subspan(i * d, d), values[i]);
             keep[i] = cube[i * (d + 1) + d] * bound_ < values[i];
@@ -74,28 +68,28 @@ class Rejection final : public Mapping {
   private:
     void check(std::span<const double> place, double value) const {
         if (value >= 0 && value <= bound_) return;
-        require_density("--density: " + box_->formula().text(), place, value);
+        require_density("--density: " + density_.formula().text(), place, value);
         if (value > bound_)
             fail(ErrorKind::usage, "--bound: the density is {} at {}, above the bound {}", value,
                  place_text(place), bound_);
     }
 
-    std::shared_ptr<const FormulaBox> box_;
+    const FormulaBox& density_;
     double bound_;
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
-                              const RunContext& /*run*/) {
-    if (!options.given(density))
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    if (!want.options.given(density))
         fail(ErrorKind::usage, "--density: give a formula, such as 'exp(-x*x - y*y)'");
-    const Box box = formula_bounds(options[bounds], 3);
-    Expression f(density.name, options[density], box.dimension());
-    Values law = schema().defaults();  // the bound is the method's, not the law's
+    const Box box = formula_bounds(want.options[bounds], 3);
+    Expression f(density.name, want.options[density], box.dimension());
+    Values law = want.warp.options.defaults();  // the bound is the method's, not the law's
     law.put(density.name, f.text());
-    law.put(bounds.name, options[bounds]);
+    law.put(bounds.name, want.options[bounds]);
     return std::make_unique<Rejection>(
-        std::make_shared<FormulaBox>(format_spec("rejection", law, schema()), std::move(f), box),
-        options[bound]);
+        std::make_shared<FormulaBox>(format_spec(want.warp.name, law, want.warp.options),
+                                     std::move(f), box),
+        want.options[bound]);
 }
 
 }  // namespace
@@ -108,8 +102,8 @@ Warp unit() {
                 "coordinates stay as they are, less the points dropped; one more decides "
                 "which",
             .traits = {.invertible = false, .drops = true},
-            .options = schema(),
-            .make = make};
+            .options = Schema(density, bound, bounds),
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::rejection

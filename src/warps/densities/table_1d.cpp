@@ -21,7 +21,6 @@
 #include <cstdint>
 
 #include "core/error.hpp"
-#include "core/spec.hpp"
 #include "math/densities/line_table.hpp"
 #include "media/points_file.hpp"
 #include "warps/densities/line_domain.hpp"
@@ -43,11 +42,6 @@ constexpr Param<Choice> interpolation{
     .fallback = "linear",
     .choices = "linear|constant",
     .help = "linear: straight between rows; constant: each density holds up to the next x"};
-
-const Schema& schema() {
-    static const Schema options(rows, file, interpolation);
-    return options;
-}
 
 struct Tabulated final : LineDistribution {
     explicit Tabulated(std::shared_ptr<const LineTable> pieces) : table(std::move(pieces)) {}
@@ -162,9 +156,9 @@ std::shared_ptr<const LineTable> table_from(const Values& options, const RunCont
     return std::make_shared<LineTable>(std::move(pieces));
 }
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t given, const RunContext& run) {
-    return line_mapping(std::vector{Tabulated(table_from(options, run))}, given,
-                        format_spec("table-1d", options, schema()), "probability below x");
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    return line_mapping(std::vector{Tabulated(table_from(want.options, want.run))}, want.given,
+                        want.spec(), "probability below x");
 }
 
 }  // namespace
@@ -175,9 +169,9 @@ Warp unit() {
             .source = "Inverse of a distribution function of straight or parabolic pieces",
             .strata = "xi is the probability below x, as it is: xi = 0 is the lower end",
             .traits = {},
-            .options = schema(),
+            .options = Schema(rows, file, interpolation),
             .stream_version = 2,
-            .make = make};
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::table_1d

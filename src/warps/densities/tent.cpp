@@ -23,7 +23,6 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "core/spec.hpp"
 #include "warps/common_options.hpp"
 #include "warps/densities/line_domain.hpp"
 
@@ -39,11 +38,6 @@ constexpr Param<Numbers> center{
     {.name = "center",
      .fallback = "0",
      .help = "Where the tent is highest: one number for all coordinates, or one for each"}};
-
-const Schema& schema() {
-    static const Schema options(radius, center);
-    return options;
-}
 
 struct Tent final : LineDistribution {
     Tent(double half_width, double middle) : r(half_width), c(middle) {}
@@ -75,12 +69,12 @@ struct Tent final : LineDistribution {
     LineMoments moments() const override { return {c, r * r / 6, 0}; }
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t given, const RunContext&) {
-    const auto radii = one_for_each(radius, options[radius], given);
-    const auto centers = one_for_each(center, options[center], given);
-    const bool same = options[radius].size() == 1 && options[center].size() == 1;
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    const auto radii = one_for_each(radius, want.options[radius], want.given);
+    const auto centers = one_for_each(center, want.options[center], want.given);
+    const bool same = want.options[radius].size() == 1 && want.options[center].size() == 1;
     std::vector<Tent> axes;
-    for (std::size_t k = 0; k < (same ? 1 : given); ++k) {
+    for (std::size_t k = 0; k < (same ? 1 : want.given); ++k) {
         const double r = radii[k];
         const double c = centers[k] + 0.0;  // -0 would show in points
         if (!(r >= 1e-150 && r <= 1e150))
@@ -90,8 +84,7 @@ std::unique_ptr<Mapping> make(const Values& options, std::size_t given, const Ru
                  c, r);
         axes.emplace_back(r, c);
     }
-    return line_mapping(std::move(axes), given, format_spec("tent", options, schema()),
-                        "share of the tent left");
+    return line_mapping(std::move(axes), want.given, want.spec(), "share of the tent left");
 }
 
 }  // namespace
@@ -102,9 +95,9 @@ Warp unit() {
             .source = "the inverse of the distribution function of the triangle density",
             .strata = "each xi is the share of the tent on the left, as it is; strata become boxes",
             .traits = {},
-            .options = schema(),
+            .options = Schema(radius, center),
             .aliases = {"triangle-filter"},
-            .make = make};
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::tent

@@ -17,7 +17,6 @@
 //         the centre of a disk. The same bits on every machine.
 
 #include "core/error.hpp"
-#include "core/spec.hpp"
 #include "warps/planar/placed_shape.hpp"
 #include "warps/planar/ring_sector.hpp"
 
@@ -33,21 +32,15 @@ constexpr Param<double> inner{.name = "inner",
 constexpr Param<double> radius{
     .name = "radius", .fallback = 1, .low = 1e-150, .high = 1e150, .help = "Outer radius, above 0"};
 
-const Schema& schema() {
-    static const Schema options(inner, radius, shape_center);
-    return options;
-}
-
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
-                              const RunContext& /*run*/) {
-    const auto ring = RingSector::between(options[inner], options[radius], 1);
-    const double width = options[radius] - options[inner];
-    if (!(width > lost_in_rounding * options[radius]))
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    const auto ring = RingSector::between(want.options[inner], want.options[radius], 1);
+    const double width = want.options[radius] - want.options[inner];
+    if (!(width > lost_in_rounding * want.options[radius]))
         fail(ErrorKind::usage,
-             "--inner: {} is not below --radius {}, or lost in rounding beside it", options[inner],
-             options[radius]);
-    const auto at = place(options[shape_center], options[radius], 0, width, "a ring");
-    return placed(format_spec("annulus", options, schema()), ring, at);
+             "--inner: {} is not below --radius {}, or lost in rounding beside it",
+             want.options[inner], want.options[radius]);
+    const auto at = place(want.options[shape_center], want.options[radius], 0, width, "a ring");
+    return placed(want.spec(), ring, at);
 }
 
 }  // namespace
@@ -60,9 +53,9 @@ Warp unit() {
                 "xi1 is the share of the area within the radius, xi2 the angle, both as they "
                 "are",
             .traits = {},
-            .options = schema(),
+            .options = Schema(inner, radius, shape_center),
             .aliases = {"ring"},
-            .make = make};
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::annulus

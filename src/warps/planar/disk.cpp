@@ -52,11 +52,6 @@ constexpr Param<double> radius{.name = "radius",
                                .high = 1e150,
                                .help = "Radius of the disk, above 0"};
 
-const Schema& schema() {
-    static const Schema options(method, radius, shape_center);
-    return options;
-}
-
 // The methods on the unit disk. Those that are uniform have the domain's density.
 
 struct Rejection {
@@ -88,14 +83,13 @@ struct ByNaive : PlacedMethod<Naive> {
     }
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
-                              const RunContext& /*run*/) {
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
     constexpr double any = std::numeric_limits<double>::infinity();
-    for (const double x : options[shape_center]) refuse_far(x, options[radius]);
-    const auto at = place(options[shape_center], options[radius], 0, any, "a radius");
+    for (const double x : want.options[shape_center]) refuse_far(x, want.options[radius]);
+    const auto at = place(want.options[shape_center], want.options[radius], 0, any, "a radius");
     const auto disk = std::make_shared<PlacedDomain<RingSector>>(
-        domain_spec("disk", options, schema(), {radius.name, shape_center.name}), RingSector{}, at);
-    const std::string how = options[method];
+        want.spec({radius.name, shape_center.name}), RingSector{}, at);
+    const std::string how = want.options[method];
     if (how == "concentric")
         return row_mapping(disk, PlacedMethod<ConcentricDisk>{.shape = {}, .at = at});
     if (how == "rejection") return row_mapping(disk, ByRejection{{.shape = {}, .at = at}});
@@ -113,9 +107,9 @@ Warp unit() {
                 "polar: xi1 is the share of the area within the radius, xi2 the angle, both as "
                 "they are; concentric: squares about the centre become rings, left stays left",
             .traits = {.invertible = true, .drops = true, .biased = true},
-            .options = schema(),
+            .options = Schema(method, radius, shape_center),
             .aliases = {"disc"},
-            .make = make};
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::disk

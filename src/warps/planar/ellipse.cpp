@@ -21,7 +21,6 @@
 #include <numbers>
 
 #include "core/error.hpp"
-#include "core/spec.hpp"
 #include "math/geometry/disk_maps.hpp"
 #include "warps/planar/placed_shape.hpp"
 
@@ -46,11 +45,6 @@ constexpr Param<double> rotation{
     .high = 360,
     .unit = "degrees",
     .help = "Angle of the first axis, from the x axis towards the y axis"};
-
-const Schema& schema() {
-    static const Schema options(method, axes, rotation, shape_center);
-    return options;
-}
 
 /// The ellipse with semi-axes a and b, the longer one 1.
 template <class Disk>
@@ -96,9 +90,8 @@ struct Ellipse {
     }
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
-                              const RunContext& /*run*/) {
-    const auto lengths = options[axes];
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    const auto lengths = want.options[axes];
     if (lengths.size() != 2)
         fail(ErrorKind::usage, "--axes: 2 numbers are needed, a,b; {} given", lengths.size());
     const double a = lengths[0];
@@ -109,14 +102,12 @@ std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
     const double longer = std::max(a, b);
     if (!(std::min(a, b) > lost_in_rounding * longer))
         fail(ErrorKind::usage, "--axes: {} is lost in rounding beside {}", std::min(a, b), longer);
-    const auto at =
-        place(options[shape_center], longer, options[rotation], std::min(a, b), "a semi-axis");
-    Values shape = options;
-    shape.put(method.name, std::string(method.fallback), false);
+    const auto at = place(want.options[shape_center], longer, want.options[rotation],
+                          std::min(a, b), "a semi-axis");
     const Ellipse<PolarDisk> polar{a / longer, b / longer};
     auto domain = std::make_shared<PlacedDomain<Ellipse<PolarDisk>>>(
-        format_spec("ellipse", shape, schema()), polar, at);
-    if (options[method] == "concentric") {
+        want.spec({axes.name, rotation.name, shape_center.name}), polar, at);
+    if (want.options[method] == "concentric") {
         const Ellipse<ConcentricDisk> concentric{polar.a, polar.b};
         return row_mapping(domain, PlacedMethod<Ellipse<ConcentricDisk>>{concentric, at});
     }
@@ -134,9 +125,9 @@ Warp unit() {
                 "angle from the first axis, both as they are; concentric: squares about the centre "
                 "become ellipses",
             .traits = {},
-            .options = schema(),
+            .options = Schema(method, axes, rotation, shape_center),
             .stream_version = 2,
-            .make = make};
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::ellipse

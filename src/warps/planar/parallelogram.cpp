@@ -18,7 +18,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/spec.hpp"
 #include "math/geometry/edge_frame.hpp"
 #include "warps/planar/area_share.hpp"
 #include "warps/row_mapping.hpp"
@@ -36,11 +35,6 @@ constexpr Param<Points> edges{
      .help = "The two edges a b as vectors from the corner, in 2 or 3 dimensions; xi1 runs along "
              "a, xi2 along b"}};
 
-const Schema& schema() {
-    static const Schema options(corner, edges);
-    return options;
-}
-
 /// The corner, or the origin where none was given. @throws Error(usage) when dimensions differ.
 std::vector<double> corner_of(const Values& options, std::size_t d) {
     if (!options.given(corner)) return std::vector<double>(d, 0.0);
@@ -52,18 +46,17 @@ std::vector<double> corner_of(const Values& options, std::size_t d) {
     return at;
 }
 
-class ParallelogramDomain final : public Domain, public Weighable {
+class ParallelogramDomain final : public NamedDomain, public Weighable {
   public:
     /// @throws Error(usage) when the options are not those of a parallelogram.
-    explicit ParallelogramDomain(const Values& options)
-        : spec_(format_spec("parallelogram", options, schema())) {
-        const Table sides = options[edges];
+    explicit ParallelogramDomain(const WarpRequest& want)
+        : NamedDomain(want.spec(), want.options[edges][0].size(), 2) {
+        const Table sides = want.options[edges];
         if (sides.size() != 2 || sides[0].size() < 2 || sides[0].size() > 3)
             fail(ErrorKind::usage,
                  "--edges: {} vectors of dimension {}; 2 vectors of dimension 2 or 3 are needed",
                  sides.size(), sides[0].size());
-        dimension_ = sides[0].size();
-        corner_ = space_point(corner_of(options, dimension_));
+        corner_ = space_point(corner_of(want.options, dimension()));
         edges_ = {space_point(sides[0]), space_point(sides[1])};
         double size = 0;  // largest coordinate there can be
         for (std::size_t k = 0; k < 3; ++k)
@@ -78,9 +71,6 @@ class ParallelogramDomain final : public Domain, public Weighable {
                  format_value(sides));
     }
 
-    std::string spec() const override { return spec_; }
-    std::size_t dimension() const override { return dimension_; }
-    std::size_t cube_dimension() const override { return 2; }
     double measure() const override { return frame_.area(); }
 
     /// Up to 16 epsilon (largest coordinate) (longest edge / smallest height) away from the
@@ -95,7 +85,7 @@ class ParallelogramDomain final : public Domain, public Weighable {
 
     Box bounding_box() const override {
         Box box;
-        for (std::size_t k = 0; k < dimension_; ++k) {
+        for (std::size_t k = 0; k < dimension(); ++k) {
             const double a = edges_[0][k];
             const double b = edges_[1][k];
             box.low.push_back(corner_[k] + std::min(a, 0.0) + std::min(b, 0.0));
@@ -107,8 +97,7 @@ class ParallelogramDomain final : public Domain, public Weighable {
     /// The coordinates along the edges.
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         const auto [s, t] = frame_.coordinates(space_point(point));
-        cube[0] = std::clamp(s, 0.0, 1.0);
-        cube[1] = std::clamp(t, 0.0, 1.0);
+        put_clamped<2>({s, t}, cube);
     }
     /// In the plane.
     Estimate box_mass(const Box& box) const override {
@@ -124,7 +113,7 @@ class ParallelogramDomain final : public Domain, public Weighable {
         });
     }
     std::optional<Moments> moments() const override {
-        const std::size_t d = dimension_;
+        const std::size_t d = dimension();
         Moments m{std::vector<double>(d), std::vector<double>(d * d), std::vector<double>(d)};
         for (std::size_t k = 0; k < d; ++k) {
             m.mean[k] = corner_[k] + 0.5 * (edges_[0][k] + edges_[1][k]);
@@ -142,8 +131,6 @@ class ParallelogramDomain final : public Domain, public Weighable {
     const std::array<Vector3, 2>& sides() const { return edges_; }
 
   private:
-    std::string spec_;
-    std::size_t dimension_ = 2;
     Vector3 corner_{};
     std::array<Vector3, 2> edges_{};
     EdgeFrame frame_;
@@ -162,9 +149,8 @@ struct OnParallelogram {
     }
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
-                              const RunContext& /*run*/) {
-    const auto shape = std::make_shared<ParallelogramDomain>(options);
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    const auto shape = std::make_shared<ParallelogramDomain>(want);
     if (shape->dimension() == 2)
         return row_mapping(shape, OnParallelogram<2>{shape->start(), shape->sides()});
     return row_mapping(shape, OnParallelogram<3>{shape->start(), shape->sides()});
@@ -180,8 +166,8 @@ Warp unit() {
                 "xi1 is the place along the first edge, xi2 along the second, both as they "
                 "are; strata become parallelograms",
             .traits = {},
-            .options = schema(),
-            .make = make};
+            .options = Schema(corner, edges),
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::parallelogram

@@ -22,10 +22,8 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/spec.hpp"
 #include "core/wide.hpp"
 #include "math/geometry/plane_point.hpp"
-#include "warps/inside.hpp"
 #include "warps/warp.hpp"
 
 namespace stipple::warps::pixel {
@@ -38,11 +36,6 @@ constexpr Param<Numbers> pixel_index{
     {.name = "pixel",
      .help = "Puts all points into this pixel of the image: i,j from 0,0; default: all over the "
              "image"}};
-
-const Schema& schema() {
-    static const Schema options(resolution, pixel_index);
-    return options;
-}
 
 /// The part of the image that takes the points: `size` pixels from `corner`.
 struct Window {
@@ -69,13 +62,9 @@ STIPPLE_WIDE void scale_rows(std::span<const double> cube, std::span<double> ima
 class Pixel final : public Mapping {
   public:
     explicit Pixel(const Window& window)
-        : window_(window),
-          domain_(
-              box_domain({{window.corner.x, window.corner.y},
-                          {window.corner.x + window.size.x, window.corner.y + window.size.y}})) {}
-
-    DomainPtr domain() const override { return domain_; }
-    std::size_t cube_dimension() const override { return 2; }
+        : Mapping(box_domain({{window.corner.x, window.corner.y},
+                              {window.corner.x + window.size.x, window.corner.y + window.size.y}})),
+          window_(window) {}
 
     void forward(std::span<const double> cube, std::span<double> image,
                  std::span<std::uint8_t> /*keep*/) const override {
@@ -87,15 +76,8 @@ class Pixel final : public Mapping {
         }
     }
 
-    void inverse(std::span<const double> image, std::span<double> cube) const override {
-        expect_inside(*domain_, image);
-        for (std::size_t i = 0; i + 1 < image.size(); i += 2)
-            domain_->to_cube(image.subspan(i, 2), cube.subspan(i, 2));
-    }
-
   private:
     Window window_;
-    DomainPtr domain_;
 };
 
 /// The pixel that --pixel names. @throws Error(usage) when it is not one of the image.
@@ -113,16 +95,16 @@ Window window_at(const std::vector<double>& at, std::int64_t width, std::int64_t
     return {.corner = {at[0] + 0.0, at[1] + 0.0}};
 }
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
-                              const RunContext& /*run*/) {
-    const auto extents = options[resolution];
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    const auto extents = want.options[resolution];
     if (extents.size() != 2)
         fail(ErrorKind::usage, "--resolution: 2 numbers are needed, WxH; {} given", extents.size());
     for (const std::int64_t side : extents)
         if (side > most_pixels)
             fail(ErrorKind::usage, "--resolution: {} is outside [1, {}]", side, most_pixels);
-    if (options.given(pixel_index))
-        return std::make_unique<Pixel>(window_at(options[pixel_index], extents[0], extents[1]));
+    if (want.options.given(pixel_index))
+        return std::make_unique<Pixel>(
+            window_at(want.options[pixel_index], extents[0], extents[1]));
     return std::make_unique<Pixel>(
         Window{.size = {static_cast<double>(extents[0]), static_cast<double>(extents[1])}});
 }
@@ -137,8 +119,8 @@ Warp unit() {
                 "xi1 is the place along the rows, xi2 along the columns, both as they are; "
                 "an N W x N H grid of strata is N x N in each pixel",
             .traits = {},
-            .options = schema(),
-            .make = make};
+            .options = Schema(resolution, pixel_index),
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::pixel

@@ -72,16 +72,14 @@ Placement place(const std::vector<double>& center, double size, double degrees, 
 double turn_of_degrees(double degrees);
 
 template <class Shape>
-class PlacedDomain final : public Domain, public Weighable {
+class PlacedDomain final : public NamedDomain, public Weighable {
   public:
     PlacedDomain(std::string spec, Shape shape, const Placement& at)
-        : spec_(std::move(spec)), shape_(std::move(shape)), at_(at) {
+        : NamedDomain(std::move(spec), 2, 2), shape_(std::move(shape)), at_(at) {
         slack_ = 16 * std::numeric_limits<double>::epsilon() *
                  (1 + (std::abs(at.center.x) + std::abs(at.center.y)) / at.size);
     }
 
-    std::string spec() const override { return spec_; }
-    std::size_t dimension() const override { return 2; }
     double measure() const override { return shape_.area() * at_.size * at_.size; }
 
     bool contains(std::span<const double> point) const override {
@@ -103,8 +101,7 @@ class PlacedDomain final : public Domain, public Weighable {
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         const auto [x, y] = at_.to_frame(point[0], point[1]);
         const auto [u, v] = shape_.inverse(x, y);
-        cube[0] = std::clamp(u, 0.0, 1.0);
-        cube[1] = std::clamp(v, 0.0, 1.0);
+        put_clamped<2>({u, v}, cube);
     }
     Estimate box_mass(const Box& box) const override {
         return area_share(box, *this, [&](Polygon window) {
@@ -121,7 +118,6 @@ class PlacedDomain final : public Domain, public Weighable {
     std::vector<std::string> cube_axes() const override { return shape_.axes(); }
 
   private:
-    std::string spec_;
     Shape shape_;
     Placement at_;
     double slack_;

@@ -29,7 +29,6 @@
 #include <limits>
 
 #include "core/error.hpp"
-#include "core/spec.hpp"
 #include "core/text.hpp"
 #include "math/geometry/polygon_rows.hpp"
 #include "media/points_file.hpp"
@@ -49,11 +48,6 @@ constexpr Param<Path> file{
     {.name = "file",
      .help = "Reads the corners from this file, x,y a line; a blank line or one with # begins "
              "another ring"}};
-
-const Schema& schema() {
-    static const Schema options(vertices, file);
-    return options;
-}
 
 /// Where rings come from, for messages.
 struct Source {
@@ -147,13 +141,11 @@ std::vector<Ring> rings_of(const Values& options, const Source& source, const Ru
     return rings;
 }
 
-class PolygonDomain final : public Domain, public Weighable {
+class PolygonDomain final : public NamedDomain, public Weighable {
   public:
     PolygonDomain(std::string spec, PolygonRows rows)
-        : spec_(std::move(spec)), rows_(std::move(rows)) {}
+        : NamedDomain(std::move(spec), 2, 2), rows_(std::move(rows)) {}
 
-    std::string spec() const override { return spec_; }
-    std::size_t dimension() const override { return 2; }
     double measure() const override { return rows_.area(); }
     bool contains(std::span<const double> point) const override {
         return rows_.contains({point[0], point[1]});
@@ -179,22 +171,20 @@ class PolygonDomain final : public Domain, public Weighable {
     }
 
   private:
-    std::string spec_;
     PolygonRows rows_;
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/, const RunContext& run) {
-    const bool from_file = options.given(file);
-    if (from_file && options.given(vertices))
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    const bool from_file = want.options.given(file);
+    if (from_file && want.options.given(vertices))
         fail(ErrorKind::usage, "--file: --vertices is given, too; one of them is allowed");
     const Source source{from_file ? ErrorKind::input : ErrorKind::usage,
-                        from_file ? options[file] : "--vertices"};
-    PolygonRows rows(rings_of(options, source, run), run);
+                        from_file ? want.options[file] : "--vertices"};
+    PolygonRows rows(rings_of(want.options, source, want.run), want.run);
     const double extent = std::max(rows.box().extent(0), rows.box().extent(1));
     if (!(extent > 1e-140 && rows.area() > 4 * rows.slack() * extent))
         source.refuse("the polygon has no area, or one that is lost in rounding");
-    return std::make_unique<DomainMapping<PolygonDomain>>(std::make_shared<PolygonDomain>(
-        format_spec("polygon", options, schema()), std::move(rows)));
+    return domain_mapping<PolygonDomain>(want.spec(), std::move(rows));
 }
 
 }  // namespace
@@ -209,8 +199,8 @@ Warp unit() {
                 "xi1 is the share of the area below, xi2 the place along the row, both as "
                 "they are; strata become pieces of horizontal bands",
             .traits = {},
-            .options = schema(),
-            .make = make};
+            .options = Schema(vertices, file),
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::polygon

@@ -23,7 +23,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/spec.hpp"
 #include "warps/planar/placed_shape.hpp"
 
 namespace stipple::warps::regular_polygon {
@@ -45,11 +44,6 @@ constexpr Param<double> rotation{
     .high = 360,
     .unit = "degrees",
     .help = "Angle of the first vertex, from the x axis towards the y axis"};
-
-const Schema& schema() {
-    static const Schema options(sides, radius, rotation, shape_center);
-    return options;
-}
 
 /// The polygon with vertices on the unit circle, the first one on the x axis.
 class RegularPolygon {
@@ -126,12 +120,11 @@ class RegularPolygon {
     std::shared_ptr<std::vector<PlanePoint>> normals_;   ///< of the sides, towards the outside
 };
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
-                              const RunContext& /*run*/) {
-    const RegularPolygon polygon(static_cast<std::size_t>(options[sides]));
-    const auto at = place(options[shape_center], options[radius], options[rotation],
-                          options[radius], "a radius");
-    return placed(format_spec("regular-polygon", options, schema()), polygon, at);
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    const RegularPolygon polygon(static_cast<std::size_t>(want.options[sides]));
+    const auto at = place(want.options[shape_center], want.options[radius], want.options[rotation],
+                          want.options[radius], "a radius");
+    return placed(want.spec(), polygon, at);
 }
 
 }  // namespace
@@ -144,8 +137,8 @@ Warp unit() {
                 "xi1 is the share of the area within a polygon of the same shape, xi2 the "
                 "way around it from the first vertex, both as they are",
             .traits = {},
-            .options = schema(),
-            .make = make};
+            .options = Schema(sides, radius, rotation, shape_center),
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::regular_polygon

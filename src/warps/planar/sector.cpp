@@ -21,7 +21,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/spec.hpp"
 #include "warps/planar/placed_shape.hpp"
 #include "warps/planar/ring_sector.hpp"
 
@@ -44,11 +43,6 @@ constexpr Param<double> inner{.name = "inner",
 constexpr Param<double> radius{
     .name = "radius", .fallback = 1, .low = 1e-150, .high = 1e150, .help = "Outer radius, above 0"};
 
-const Schema& schema() {
-    static const Schema options(angles, inner, radius, shape_center);
-    return options;
-}
-
 struct Span {
     double first;
     double degrees;
@@ -68,17 +62,17 @@ Span span_of(const std::vector<double>& ends) {
     return {ends[0], degrees};
 }
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
-                              const RunContext& /*run*/) {
-    const auto [first, angle] = span_of(options[angles]);
-    const double width = options[radius] - options[inner];
-    if (!(width > lost_in_rounding * options[radius]))
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    const auto [first, angle] = span_of(want.options[angles]);
+    const double width = want.options[radius] - want.options[inner];
+    if (!(width > lost_in_rounding * want.options[radius]))
         fail(ErrorKind::usage,
-             "--inner: {} is not below --radius {}, or lost in rounding beside it", options[inner],
-             options[radius]);
-    const auto shape = RingSector::between(options[inner], options[radius], angle / 360);
-    const auto at = place(options[shape_center], options[radius], first, width, "a sector");
-    return placed(format_spec("sector", options, schema()), shape, at);
+             "--inner: {} is not below --radius {}, or lost in rounding beside it",
+             want.options[inner], want.options[radius]);
+    const auto shape = RingSector::between(want.options[inner], want.options[radius], angle / 360);
+    const auto at =
+        place(want.options[shape_center], want.options[radius], first, width, "a sector");
+    return placed(want.spec(), shape, at);
 }
 
 }  // namespace
@@ -91,9 +85,9 @@ Warp unit() {
                 "xi1 is the share of the area within the radius, xi2 the place between the "
                 "two angles, both as they are",
             .traits = {},
-            .options = schema(),
+            .options = Schema(angles, inner, radius, shape_center),
             .stream_version = 2,
-            .make = make};
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::sector

@@ -33,7 +33,6 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/spec.hpp"
 #include "math/geometry/edge_frame.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "math/geometry/plane_point.hpp"
@@ -56,21 +55,17 @@ constexpr Param<Points> vertices{
      .fallback = "0,0 1,0 0,1",
      .help = "Three corners v0 v1 v2, in 2 or 3 dimensions; xi1 = xi2 = 0 is v0"}};
 
-const Schema& schema() {
-    static const Schema options(method, vertices);
-    return options;
-}
-
 struct Barycentrics {
     double l0;
     double l1;
     double l2;
 };
 
-class TriangleDomain final : public Domain, public Weighable {
+class TriangleDomain final : public NamedDomain, public Weighable {
   public:
     /// @throws Error(usage) when the corners are not those of a triangle.
-    explicit TriangleDomain(const Table& corners) : corners_(corners) {
+    TriangleDomain(const Table& corners, std::string spec)
+        : NamedDomain(std::move(spec), corners[0].size(), 2), corners_(corners) {
         if (corners.size() != 3 || corners[0].size() < 2 || corners[0].size() > 3)
             fail(ErrorKind::usage,
                  "--vertices: {} points of dimension {}; 3 points of dimension 2 or 3 are needed",
@@ -90,13 +85,6 @@ class TriangleDomain final : public Domain, public Weighable {
         heights_ = {frame_.area() / across, frame_.area() / f, frame_.area() / e};
     }
 
-    std::string spec() const override {
-        Values values = schema().defaults();
-        values.put(vertices.name, corners_);
-        return format_spec("triangle", values, schema());
-    }
-    std::size_t dimension() const override { return corners_[0].size(); }
-    std::size_t cube_dimension() const override { return 2; }
     double measure() const override { return 0.5 * frame_.area(); }
 
     /// Up to 16 epsilon (largest coordinate) (longest edge / smallest height) away from the
@@ -199,17 +187,17 @@ struct OnTriangle {
 };
 
 template <class Method>
-std::unique_ptr<Mapping> mapping_by(const Table& corners) {
-    const auto triangle = std::make_shared<TriangleDomain>(corners);
+std::unique_ptr<Mapping> mapping_by(const WarpRequest& want) {
+    const auto triangle =
+        std::make_shared<TriangleDomain>(want.options[vertices], want.spec({vertices.name}));
     if (triangle->dimension() == 2)
         return row_mapping(triangle, OnTriangle<Method, 2>{triangle->corners(), triangle->frame()});
     return row_mapping(triangle, OnTriangle<Method, 3>{triangle->corners(), triangle->frame()});
 }
 
-std::unique_ptr<Mapping> make(const Values& options, std::size_t /*given*/,
-                              const RunContext& /*run*/) {
-    if (options[method] == "low-distortion") return mapping_by<LowDistortion>(options[vertices]);
-    return mapping_by<Roots>(options[vertices]);
+std::unique_ptr<Mapping> make(const WarpRequest& want) {
+    if (want.options[method] == "low-distortion") return mapping_by<LowDistortion>(want);
+    return mapping_by<Roots>(want);
 }
 
 }  // namespace
@@ -225,8 +213,8 @@ Warp unit() {
                 "opposite side, xi2 the place along it, both as they are; low-distortion: the "
                 "diagonal becomes the median from the first vertex, linear on either side",
             .traits = {},
-            .options = schema(),
-            .make = make};
+            .options = Schema(method, vertices),
+            .mapping = make};
 }
 
 }  // namespace stipple::warps::triangle

@@ -159,7 +159,7 @@ TEST(Normal, RefusesWhatIsNoCovariance) {
     EXPECT_EQ(error_of([] {
                   inverse_of(*mapping("normal"), {NAN, 0});
               }),
-              "input: the point (nan, 0) is not finite");
+              "input: the point (nan, 0) is outside the domain normal");
 }
 
 }  // namespace stipple::testing::normal_test
