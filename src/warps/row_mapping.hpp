@@ -77,6 +77,41 @@ STIPPLE_WIDE [[gnu::flatten]] void map_rows(const Method method, std::span<const
     }
 }
 
+/// The way back of a point of the domain: the method's, or else the domain's.
+template <class Known, class Method, std::size_t m>
+auto row_back(const Known& domain, const Method& method, const std::array<double, m>& point) {
+    std::array<double, ArityOf<Method>::cube> xi{};
+    if constexpr (requires { &Method::inverse; })
+        put_clamped(method.inverse(point), xi);
+    else
+        domain.to_cube(point, xi);
+    return xi;
+}
+
+/// Rows back into the cube, as map_rows(); false where one is not in the domain.
+template <class Known, class Method>
+STIPPLE_WIDE [[gnu::flatten]] bool map_rows_back(const Known& domain, const Method& method,
+                                                 std::span<const double> image,
+                                                 std::span<double> cube) {
+    constexpr std::size_t d = ArityOf<Method>::cube;
+    constexpr std::size_t m = ArityOf<Method>::image;
+    std::array<std::array<double, rows_at_once>, d> columns;
+    for (std::size_t first = 0; first < image.size() / m; first += rows_at_once) {
+        const std::size_t size = std::min(rows_at_once, image.size() / m - first);
+        bool inside = true;
+        for (std::size_t i = 0; i < size; ++i)
+            inside &= domain.contains(row_of<m>(image, first + i));
+        if (!inside) return false;
+        for (std::size_t i = 0; i < size; ++i) {
+            const auto xi = row_back(domain, method, row_of<m>(image, first + i));
+            for (std::size_t k = 0; k < d; ++k) columns[k][i] = xi[k];
+        }
+        for (std::size_t i = 0; i < size; ++i)
+            for (std::size_t k = 0; k < d; ++k) cube[d * (first + i) + k] = columns[k][i];
+    }
+    return true;
+}
+
 template <class Known, class Method>
 class RowMapping final : public Mapping {
   public:
@@ -96,14 +131,7 @@ class RowMapping final : public Mapping {
 
     void inverse(std::span<const double> image, std::span<double> cube) const override {
         check_way_back();
-        for (std::size_t i = 0; i < image.size() / m; ++i) {
-            const auto point = image.subspan(m * i, m);
-            if (!known_.contains(point)) refuse_outside(point);
-            if constexpr (requires { &Method::inverse; })
-                put_clamped(method_.inverse(point), cube.subspan(d * i, d));
-            else
-                known_.to_cube(point, cube.subspan(d * i, d));
-        }
+        if (!map_rows_back(known_, method_, image, cube)) expect_inside(image);
     }
 
     double density(std::span<const double> point) const override {
