@@ -10,15 +10,11 @@
 namespace stipple {
 namespace {
 
-class BinarySequence final : public Sequence {
-  public:
-    explicit BinarySequence(BinaryNet net) : net_(std::move(net)) {}
-
-    void fill(std::uint64_t first, std::span<double> rows) override { net_.fill(first, rows); }
-
-  private:
-    BinaryNet net_;
-};
+std::unique_ptr<Sequence> plain_sequence(BinaryNet net) {
+    return sequence_of([net = std::move(net)](std::uint64_t first, std::span<double> rows) {
+        net.fill(first, rows);
+    });
+}
 
 /// Nested uniform scrambling is no linear map: it takes fractions, coordinate by coordinate.
 class OwenBinarySequence final : public Sequence {
@@ -86,9 +82,9 @@ std::unique_ptr<Sequence> binary_sequence(BinaryMatrices matrices, const Plan& p
     if (options[binary_order] == "gray") matrices = in_gray_order(std::move(matrices));
     const std::string scramble = options[binary_scramble];
     if (scramble == "owen") return owen_sequence(matrices, plan.seed);
-    if (scramble == "none") return std::make_unique<BinarySequence>(BinaryNet(matrices));
+    if (scramble == "none") return plain_sequence(BinaryNet(matrices));
     if (scramble == "matrix") matrices = scrambled(std::move(matrices), plan.seed);
-    return std::make_unique<BinarySequence>(BinaryNet(matrices, shifts(plan.dimension, plan.seed)));
+    return plain_sequence(BinaryNet(matrices, shifts(plan.dimension, plan.seed)));
 }
 
 std::unique_ptr<Sequence> owen_sequence(const BinaryMatrices& matrices, std::uint64_t seed) {

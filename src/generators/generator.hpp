@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/options.hpp"
@@ -44,6 +45,20 @@ class Sequence {
     /// False for a sequential engine: going on is cheap, any other step costs a walk to it.
     [[nodiscard]] virtual bool random_access() const { return true; }
 };
+
+/// The sequence whose points `fill(first, rows)` writes, which several threads may call at once.
+template <class Fill>
+std::unique_ptr<Sequence> sequence_of(Fill fill) {
+    class Filled final : public Sequence {
+      public:
+        explicit Filled(Fill given) : fill_(std::move(given)) {}
+        void fill(std::uint64_t first, std::span<double> rows) override { fill_(first, rows); }
+
+      private:
+        Fill fill_;
+    };
+    return std::make_unique<Filled>(std::move(fill));
+}
 
 struct GeneratorTraits {
     std::size_t min_dimension = 1;

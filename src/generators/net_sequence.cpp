@@ -23,15 +23,6 @@ BinaryMatrices binary(const std::vector<DigitMatrix>& matrices) {
     return packed;
 }
 
-class NetSequence final : public Sequence {
-  public:
-    explicit NetSequence(BaseNet net) : net_(std::move(net)) {}
-    void fill(std::uint64_t first, std::span<double> rows) override { net_.fill(first, rows); }
-
-  private:
-    BaseNet net_;
-};
-
 /// Indices that differ in their t low digits only, t being the most with b^t <= 1024.
 struct LowDigits {
     explicit LowDigits(std::uint32_t base) : block(base), count(1) {
@@ -173,7 +164,9 @@ std::unique_ptr<Sequence> net_sequence(std::uint32_t base, std::vector<DigitMatr
     }
     if (scramble == "owen")
         return std::make_unique<OwenNetSequence>(std::move(net), matrices, base, plan.seed);
-    return std::make_unique<NetSequence>(std::move(net));
+    return sequence_of([net = std::move(net)](std::uint64_t first, std::span<double> points) {
+        net.fill(first, points);
+    });
 }
 
 }  // namespace stipple

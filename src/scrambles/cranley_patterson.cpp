@@ -17,24 +17,17 @@
 namespace stipple::scrambles::cranley_patterson {
 namespace {
 
-class Rotation final : public CoordinateWise {
-  public:
-    explicit Rotation(const ScrambleRequest& request) : CoordinateWise(request.coordinates.size()) {
-        const Rng rng = scramble_numbers(request.seed, ScrambleStream::rotation);
-        for (const std::size_t k : request.coordinates) offsets_.push_back(rng.uniform(k));
-    }
-
-  private:
-    void move(std::size_t k, std::span<double> x) const override {
-        const double offset = offsets_[k];
+std::unique_ptr<Randomization> make(const Values&, const ScrambleRequest& request) {
+    const Rng rng = scramble_numbers(request.seed, ScrambleStream::rotation);
+    std::vector<double> offsets;
+    for (const std::size_t k : request.coordinates) offsets.push_back(rng.uniform(k));
+    return coordinate_wise(offsets.size(), [offsets](std::size_t k, std::span<double> x) {
         for (double& value : x) {
-            const double sum = value + offset;
+            const double sum = value + offsets[k];
             value = sum < 1 ? sum : sum - 1;
         }
-    }
-
-    std::vector<double> offsets_;
-};
+    });
+}
 
 }  // namespace
 
@@ -44,8 +37,7 @@ Scramble unit() {
             .source = "Cranley, Patterson 1976, doi:10.1137/0713071",
             .options = Schema(scramble_seed),
             .aliases = {"rotation", "random-shift"},
-            .make = [](const Values&, const ScrambleRequest& request)
-                -> std::unique_ptr<Randomization> { return std::make_unique<Rotation>(request); }};
+            .make = make};
 }
 
 }  // namespace stipple::scrambles::cranley_patterson

@@ -15,49 +15,35 @@
 
 namespace stipple {
 
+/// For Scramble::make.
 /// @param Binary has apply(fractions), in place (math/digital/binary_scramble.hpp)
 /// @param General has of(digits), the image of a point (math/digital/base_scramble.hpp)
 /// Both are made from a seed and the number of a coordinate, General from its base, too.
-template <class Binary, class General>
-class DigitScramble final : public CoordinateWise {
-  public:
-    DigitScramble(const ScrambleRequest& request, const std::vector<std::uint32_t>& bases)
-        : CoordinateWise(bases.size()), bases_(bases) {
-        for (std::size_t k = 0; k < bases.size(); ++k) {
-            const std::size_t coordinate = request.coordinates[k];
-            if (bases[k] == 2)
-                maps_.emplace_back(Binary(request.seed, coordinate));
-            else
-                maps_.emplace_back(General(request.seed, coordinate, bases[k]));
-        }
-    }
-
-  private:
-    void move(std::size_t k, std::span<double> x) const override {
-        if (const auto* binary = std::get_if<Binary>(&maps_[k])) {
-            std::array<std::uint64_t, longest> fractions;
-            for (std::size_t i = 0; i < x.size(); ++i) fractions[i] = unit_to_fraction(x[i]);
-            binary->apply(std::span(fractions).first(x.size()));
-            for (std::size_t i = 0; i < x.size(); ++i) x[i] = fraction_to_unit(fractions[i]);
-            return;
-        }
-        const General& map = std::get<General>(maps_[k]);
-        for (double& value : x) value = map.of(reversed_digits(value, bases_[k]));
-    }
-
-    std::vector<std::uint32_t> bases_;
-    std::vector<std::variant<Binary, General>> maps_;
-};
-
-/// For Scramble::make.
 /// @param base the option, which must outlive the unit
 /// @param prime whether bases must be primes
 template <class Binary, class General>
 auto digit_scramble(const Param<Numbers>& base, bool prime) {
-    return [&base, prime](const Values& options,
-                          const ScrambleRequest& request) -> std::unique_ptr<Randomization> {
-        return std::make_unique<DigitScramble<Binary, General>>(
-            request, bases_for(options[base], request.coordinates.size(), prime));
+    return [&base, prime](const Values& options, const ScrambleRequest& request) {
+        const auto bases = bases_for(options[base], request.coordinates.size(), prime);
+        std::vector<std::variant<Binary, General>> maps;
+        for (std::size_t k = 0; k < bases.size(); ++k) {
+            const std::size_t coordinate = request.coordinates[k];
+            if (bases[k] == 2)
+                maps.emplace_back(Binary(request.seed, coordinate));
+            else
+                maps.emplace_back(General(request.seed, coordinate, bases[k]));
+        }
+        return coordinate_wise(bases.size(), [bases, maps](std::size_t k, std::span<double> x) {
+            if (const auto* binary = std::get_if<Binary>(&maps[k])) {
+                std::array<std::uint64_t, most_moved> fractions;
+                for (std::size_t i = 0; i < x.size(); ++i) fractions[i] = unit_to_fraction(x[i]);
+                binary->apply(std::span(fractions).first(x.size()));
+                for (std::size_t i = 0; i < x.size(); ++i) x[i] = fraction_to_unit(fractions[i]);
+                return;
+            }
+            const General& map = std::get<General>(maps[k]);
+            for (double& value : x) value = map.of(reversed_digits(value, bases[k]));
+        });
     };
 }
 

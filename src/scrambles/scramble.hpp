@@ -61,23 +61,12 @@ struct Scramble {
 std::vector<std::uint32_t> bases_for(const std::vector<double>& given, std::size_t coordinates,
                                      bool prime);
 
-/// A randomization that moves every coordinate by a function of its own.
-class CoordinateWise : public Randomization {
-  public:
-    void apply(std::uint64_t first, std::span<double> rows) const final;
+/// Numbers that a coordinate-wise randomization moves at a time, at most.
+inline constexpr std::size_t most_moved = 512;
 
-  protected:
-    /// At most so many points are moved at a time.
-    static constexpr std::size_t longest = 512;
-
-    explicit CoordinateWise(std::size_t dimension) : dimension_(dimension) {}
-
-    /// Moves the k-th coordinate of consecutive points.
-    virtual void move(std::size_t k, std::span<double> x) const = 0;
-
-  private:
-    std::size_t dimension_;
-};
+/// The randomization that moves the k-th coordinate of consecutive points by move(k, numbers).
+std::unique_ptr<Randomization> coordinate_wise(
+    std::size_t dimension, std::function<void(std::size_t k, std::span<double>)> move);
 
 namespace scrambles {
 /// All scrambles, in alphabetical order.

@@ -23,36 +23,24 @@
 namespace stipple::generators::hexagonal {
 namespace {
 
-class Hexagonal final : public Sequence {
-  public:
-    explicit Hexagonal(std::uint64_t count)
-        : packing_(densest_torus_packing(count)),
-          gap_(count / packing_.row_points),
-          count_(static_cast<double>(count)) {}
-
-    void fill(std::uint64_t first, std::span<double> rows) override {
-        std::uint64_t row = first / packing_.row_points;
-        std::uint64_t column = first % packing_.row_points;
-        auto start = static_cast<std::uint64_t>(Wide{row} * packing_.shift % gap_);
+std::unique_ptr<Sequence> make(const Plan& plan, const Values&, const RunContext&) {
+    const TorusPacking packing = densest_torus_packing(plan.count);
+    const std::uint64_t gap = plan.count / packing.row_points;  // of neighbours in a row, over n
+    return sequence_of([packing, gap, n = static_cast<double>(plan.count)](std::uint64_t first,
+                                                                           std::span<double> rows) {
+        std::uint64_t row = first / packing.row_points;
+        std::uint64_t column = first % packing.row_points;
+        auto start = static_cast<std::uint64_t>(Wide{row} * packing.shift % gap);
         for (std::size_t k = 0; k < rows.size(); k += 2) {
-            rows[k] = static_cast<double>(start + column * gap_) / count_;
-            rows[k + 1] = static_cast<double>(row * packing_.row_points) / count_;
-            if (++column < packing_.row_points) continue;
+            rows[k] = static_cast<double>(start + column * gap) / n;
+            rows[k + 1] = static_cast<double>(row * packing.row_points) / n;
+            if (++column < packing.row_points) continue;
             column = 0;
             ++row;
-            start += packing_.shift;
-            if (start >= gap_) start -= gap_;
+            start += packing.shift;
+            if (start >= gap) start -= gap;
         }
-    }
-
-  private:
-    TorusPacking packing_;
-    std::uint64_t gap_;  ///< between neighbours of a row, of the unit 1 / count
-    double count_;
-};
-
-std::unique_ptr<Sequence> make(const Plan& plan, const Values&, const RunContext&) {
-    return std::make_unique<Hexagonal>(plan.count);
+    });
 }
 
 }  // namespace

@@ -60,30 +60,6 @@ Inverse inverse(std::size_t k, std::string_view how, std::uint64_t seed) {
     return RadicalInverse(b);
 }
 
-class Halton final : public Sequence {
-  public:
-    Halton(const Plan& plan, const Values& options)
-        : leap_(static_cast<std::uint64_t>(options[leap])) {
-        for (std::size_t k = 0; k < plan.dimension; ++k)
-            inverses_.push_back(inverse(k, options[scramble], plan.seed));
-    }
-    void fill(std::uint64_t first, std::span<double> rows) override {
-        const std::size_t d = inverses_.size();
-        const std::size_t count = rows.size() / d;
-        const auto fill = [&](std::size_t k, const auto& inverse) {
-            if (leap_ == 1) return inverse.fill(first, count, rows.data() + k, d);
-            for (std::size_t j = 0; j < count; ++j)
-                rows[j * d + k] = inverse.of((first + j) * leap_);
-        };
-        for (std::size_t k = 0; k < d; ++k)
-            std::visit([&](const auto& inverse) { fill(k, inverse); }, inverses_[k]);
-    }
-
-  private:
-    std::uint64_t leap_;
-    std::vector<Inverse> inverses_;
-};
-
 Plan plan(const Request& request, const Values& options) {
     const Plan plan = default_plan(request);
     const auto step = static_cast<std::uint64_t>(options[leap]);
@@ -103,7 +79,22 @@ Plan plan(const Request& request, const Values& options) {
 }
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
-    return std::make_unique<Halton>(plan, options);
+    std::vector<Inverse> inverses;
+    for (std::size_t k = 0; k < plan.dimension; ++k)
+        inverses.push_back(inverse(k, options[scramble], plan.seed));
+    const auto step = static_cast<std::uint64_t>(options[leap]);
+    return sequence_of(
+        [inverses = std::move(inverses), step](std::uint64_t first, std::span<double> rows) {
+            const std::size_t d = inverses.size();
+            const std::size_t count = rows.size() / d;
+            const auto fill = [&](std::size_t k, const auto& one) {
+                if (step == 1) return one.fill(first, count, rows.data() + k, d);
+                for (std::size_t j = 0; j < count; ++j)
+                    rows[j * d + k] = one.of((first + j) * step);
+            };
+            for (std::size_t k = 0; k < d; ++k)
+                std::visit([&](const auto& one) { fill(k, one); }, inverses[k]);
+        });
 }
 
 bool random_digits(const Values& options) {

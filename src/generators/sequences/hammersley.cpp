@@ -32,31 +32,20 @@ constexpr Param<Choice> offset{.name = "offset",
                                    "Where the sweep starts: i / n, or half a step further, "
                                    "(i + 1/2) / n"};
 
-class Hammersley final : public Sequence {
-  public:
-    Hammersley(const Plan& plan, const Values& options)
-        : last_(options[sweep] == "last"), half_(options[offset] == "half"), count_(plan.count) {
-        for (std::size_t k = 0; k + 1 < plan.dimension; ++k) inverses_.emplace_back(primes[k]);
-    }
-    void fill(std::uint64_t first, std::span<double> rows) override {
-        const std::size_t dimension = inverses_.size() + 1;
-        const std::size_t count = rows.size() / dimension;
-        const std::uint64_t scale = half_ ? 2 : 1;
-        fill_ratios(scale * first + (half_ ? 1 : 0), scale, scale * count_, count,
-                    rows.data() + (last_ ? dimension - 1 : 0), dimension);
-        for (std::size_t k = 0; k + 1 < dimension; ++k)
-            inverses_[k].fill(first, count, rows.data() + k + (last_ ? 0 : 1), dimension);
-    }
-
-  private:
-    bool last_;
-    bool half_;
-    std::uint64_t count_;
-    std::vector<RadicalInverse> inverses_;
-};
-
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
-    return std::make_unique<Hammersley>(plan, options);
+    const bool last = options[sweep] == "last";
+    const bool half = options[offset] == "half";
+    std::vector<RadicalInverse> inverses;
+    for (std::size_t k = 0; k + 1 < plan.dimension; ++k) inverses.emplace_back(primes[k]);
+    return sequence_of([=, n = plan.count](std::uint64_t first, std::span<double> rows) {
+        const std::size_t dimension = inverses.size() + 1;
+        const std::size_t count = rows.size() / dimension;
+        const std::uint64_t scale = half ? 2 : 1;
+        fill_ratios(scale * first + (half ? 1 : 0), scale, scale * n, count,
+                    rows.data() + (last ? dimension - 1 : 0), dimension);
+        for (std::size_t k = 0; k + 1 < dimension; ++k)
+            inverses[k].fill(first, count, rows.data() + k + (last ? 0 : 1), dimension);
+    });
 }
 
 }  // namespace

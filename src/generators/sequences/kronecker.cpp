@@ -40,26 +40,18 @@ constexpr Param<double> offset{.name = "offset",
                                .high = one_minus_ulp,
                                .help = "Every coordinate of point 0; 0.5 is M. Roberts' choice"};
 
-class Kronecker final : public Sequence {
-  public:
-    /// Both in fractions of 127 bits.
-    Kronecker(std::vector<Wide> alphas, Wide origin)
-        : alphas_(std::move(alphas)), offset_(origin) {}
-
-    void fill(std::uint64_t first, std::span<double> rows) override {
+/// @param alphas and the offset in fractions of 127 bits
+std::unique_ptr<Sequence> multiples(const std::vector<Wide>& alphas, Wide begin) {
+    return sequence_of([=](std::uint64_t first, std::span<double> rows) {
         std::vector<Wide> point;
-        for (const Wide a : alphas_) point.push_back(offset_ + a * first);
+        for (const Wide a : alphas) point.push_back(begin + a * first);
         for (std::size_t at = 0; at < rows.size(); at += point.size())
             for (std::size_t k = 0; k < point.size(); ++k) {
                 rows[at + k] = fraction_to_unit(static_cast<std::uint64_t>(point[k] >> 63));
-                point[k] += alphas_[k];
+                point[k] += alphas[k];
             }
-    }
-
-  private:
-    std::vector<Wide> alphas_;
-    Wide offset_;
-};
+    });
+}
 
 /// The high half of the product of two fractions of 128 bits.
 Wide times(Wide a, Wide b) {
@@ -120,7 +112,7 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
     const Wide g = options.given(alpha) ? 0 : golden(plan.dimension);
     for (Wide next = g; steps.size() < plan.dimension; next = times(next, g))
         steps.push_back(options.given(alpha) ? fraction(given[steps.size()]) : next >> 1);
-    return std::make_unique<Kronecker>(std::move(steps), fraction(options[offset]));
+    return multiples(steps, fraction(options[offset]));
 }
 
 }  // namespace

@@ -31,32 +31,6 @@ constexpr Param<Choice> engine{
         "Engine; all but philox are legacy ones, and these are sequential (one thread; --start "
         "and --shard walk to their place) except for drand48"};
 
-class Philox final : public Sequence {
-  public:
-    explicit Philox(const Plan& plan) : rng_(plan.seed), dimension_(plan.dimension) {}
-    void fill(std::uint64_t first, std::span<double> rows) override {
-        rng_.fill(first * dimension_, rows);
-    }
-
-  private:
-    Rng rng_;
-    std::uint64_t dimension_;
-};
-
-class Congruential final : public Sequence {
-  public:
-    explicit Congruential(const Plan& plan) : seeded_(plan.seed), dimension_(plan.dimension) {}
-    void fill(std::uint64_t first, std::span<double> rows) override {
-        Drand48 numbers = seeded_;
-        numbers.discard(first * dimension_);
-        for (double& x : rows) x = numbers.next();
-    }
-
-  private:
-    Drand48 seeded_;
-    std::uint64_t dimension_;
-};
-
 template <class Engine>
 class Sequential final : public Sequence {
   public:
@@ -85,12 +59,21 @@ class Sequential final : public Sequence {
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
     const std::string name = options[engine];
+    const std::uint64_t d = plan.dimension;
     if (name == "mt19937-64") return std::make_unique<Sequential<MersenneTwister>>(plan);
-    if (name == "drand48") return std::make_unique<Congruential>(plan);
+    if (name == "drand48")
+        return sequence_of(
+            [seeded = Drand48(plan.seed), d](std::uint64_t first, std::span<double> rows) {
+                Drand48 numbers = seeded;
+                numbers.discard(first * d);
+                for (double& x : rows) x = numbers.next();
+            });
     if (name == "ranlux48") return std::make_unique<Sequential<Ranlux48>>(plan);
     if (name == "ranmar") return std::make_unique<Sequential<Ranmar>>(plan);
     if (name == "random") return std::make_unique<Sequential<AdditiveFeedback>>(plan);
-    return std::make_unique<Philox>(plan);
+    return sequence_of([rng = Rng(plan.seed), d](std::uint64_t first, std::span<double> rows) {
+        rng.fill(first * d, rows);
+    });
 }
 
 std::uint64_t max_seed(const Values& options) {

@@ -23,21 +23,13 @@ constexpr Param<std::int64_t> base{.name = "base",
                                    .high = 65536,
                                    .help = "Base of the digits; any, not only a prime"};
 
-class VanDerCorput final : public Sequence {
-  public:
-    explicit VanDerCorput(std::uint32_t b) : inverse_(b) {}
-    void fill(std::uint64_t first, std::span<double> rows) override {
-        inverse_.fill(first, rows.size(), rows.data(), 1);
-    }
-
-  private:
-    RadicalInverse inverse_;
-};
-
 Plan plan(const Request& request, const Values&) { return default_plan(request, 1024, 1); }
 
 std::unique_ptr<Sequence> make(const Plan&, const Values& options, const RunContext&) {
-    return std::make_unique<VanDerCorput>(static_cast<std::uint32_t>(options[base]));
+    const RadicalInverse inverse(static_cast<std::uint32_t>(options[base]));
+    return sequence_of([inverse](std::uint64_t first, std::span<double> rows) {
+        inverse.fill(first, rows.size(), rows.data(), 1);
+    });
 }
 
 }  // namespace

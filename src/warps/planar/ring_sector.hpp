@@ -42,8 +42,8 @@ struct RingSector {
         const double angle = turns_of(x, y);
         // Rounding may turn a point of the first side backwards, to nearly a whole turn.
         const double wrapped = 0.5 * (1 + width) < angle;
-        const double share = inner > 0 ? (r - inner) * (r + inner) / spread : square;
-        return {share, (angle - wrapped) / width};
+        const double share = (r - inner) * (r + inner) / spread;
+        return {inner > 0 ? share : square, (angle - wrapped) / width};
     }
 
     [[nodiscard]] double area() const;
