@@ -54,7 +54,7 @@ Columns choose_columns(std::vector<std::string> names, std::size_t width,
         pick(columns, names, options, place);
     } else {
         for (std::size_t c = 0; c < width; ++c)
-            if (c == strength || measures_points(names[c]))
+            if (c == strength || (measures_points(names[c]) && !options.all_columns))
                 columns.role[c] = Columns::checked;
             else if (columns.role[c] != Columns::set_number)
                 columns.role[c] = columns.dimension++;

@@ -205,4 +205,14 @@ std::vector<PointSet> read_points(const std::string& path, const ReadOptions& op
     return read_sets(input.bytes(), path, options, run, format);
 }
 
+PointSet read_given(std::string_view option, const std::string& path, const ReadOptions& options,
+                    const RunContext& run) {
+    if (path == "-")
+        fail(ErrorKind::usage, "--{}: standard input cannot be read again; give a file", option);
+    std::vector<PointSet> sets = read_points(path, options, run);
+    if (sets.size() != 1)
+        fail(ErrorKind::input, "{}: {} sets of points; expected one", path, sets.size());
+    return std::move(sets.front());
+}
+
 }  // namespace stipple::io

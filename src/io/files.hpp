@@ -92,4 +92,9 @@ std::vector<PointSet> read_sets(std::string_view bytes, const std::string& path,
 std::vector<PointSet> read_points(const std::string& path, const ReadOptions& options,
                                   const RunContext& run, const Format* format = nullptr);
 
+/// The one set of the file that an option of a unit names.
+/// @throws Error as read_points; Error(usage) for standard input, which could not be read again
+PointSet read_given(std::string_view option, const std::string& path, const ReadOptions& options,
+                    const RunContext& run);
+
 }  // namespace stipple::io

@@ -50,6 +50,7 @@ struct ReadOptions {
     std::string source = "-";                   ///< for messages and reports
     std::optional<std::size_t> dimension = {};  ///< needed by bin; checked by the others
     std::vector<std::string> columns = {};  ///< names, or numbers from 1; empty: all coordinates
+    bool all_columns = false;               ///< those called pdf or weight are coordinates, too
     bool single = false;                    ///< bin holds float32
     std::string strengths = {};             ///< column that becomes a number behind the coordinates
 };

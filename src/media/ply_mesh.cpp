@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <memory>
 #include <string_view>
 
 #include "core/error.hpp"
+#include "core/raw_numbers.hpp"
 #include "core/text.hpp"
 #include "media/token_file.hpp"
 #include "media/triangle_mesh.hpp"
@@ -15,15 +14,11 @@
 namespace stipple {
 namespace {
 
-static_assert(std::endian::native == std::endian::little);
-
-enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-
 struct Property {
     std::string name;
-    Type type;
+    RawType type;
     bool list = false;
-    Type length = Type::uint8;
+    RawType length = {};
 };
 
 struct Element {
@@ -37,15 +32,17 @@ struct Header {
     std::vector<Element> elements;
 };
 
-Type type_of(TokenFile& file) {
+RawType type_of(TokenFile& file) {
     const Token token = file.next("a type");
-    constexpr std::pair<std::string_view, Type> names[] = {
-        {"char", Type::int8},      {"int8", Type::int8},       {"uchar", Type::uint8},
-        {"uint8", Type::uint8},    {"short", Type::int16},     {"int16", Type::int16},
-        {"ushort", Type::uint16},  {"uint16", Type::uint16},   {"int", Type::int32},
-        {"int32", Type::int32},    {"uint", Type::uint32},     {"uint32", Type::uint32},
-        {"float", Type::float32},  {"float32", Type::float32}, {"double", Type::float64},
-        {"float64", Type::float64}};
+    constexpr RawType int8{RawType::integer, 1}, uint8{RawType::natural, 1};
+    constexpr RawType int16{RawType::integer, 2}, uint16{RawType::natural, 2};
+    constexpr RawType int32{RawType::integer, 4}, uint32{RawType::natural, 4};
+    constexpr RawType float32{RawType::floating, 4}, float64{RawType::floating, 8};
+    constexpr std::pair<std::string_view, RawType> names[] = {
+        {"char", int8},     {"int8", int8},       {"uchar", uint8},    {"uint8", uint8},
+        {"short", int16},   {"int16", int16},     {"ushort", uint16},  {"uint16", uint16},
+        {"int", int32},     {"int32", int32},     {"uint", uint32},    {"uint32", uint32},
+        {"float", float32}, {"float32", float32}, {"double", float64}, {"float64", float64}};
     for (const auto& [name, type] : names)
         if (token.text == name) return type;
     file.refuse(token, fmt::format("{} is not a type; expected char, uchar, short, ushort, int, "
@@ -63,7 +60,7 @@ bool is_ascii(TokenFile& file) {
 }
 
 Property property_of(TokenFile& file) {
-    Property property{.name = {}, .type = Type::float32};
+    Property property{.name = {}, .type = {}};
     if (file.peek().text == "list") {
         file.next("list");
         property.list = true;
@@ -121,7 +118,7 @@ class Body {
     }
 
     /// The next number. @throws Error(input) when there is none.
-    virtual double next(Type type) = 0;
+    virtual double next(const RawType& type) = 0;
     /// Complains about the last number.
     [[noreturn]] virtual void refuse(const std::string& what) = 0;
     /// Holds that nothing is left.
@@ -137,7 +134,7 @@ class AsciiBody final : public Body {
   public:
     explicit AsciiBody(TokenFile& file) : file_(file) {}
 
-    double next(Type /*type*/) override {
+    double next(const RawType& /*type*/) override {
         if (file_.at_end()) file_.next(what());
         last_ = file_.next("a number");
         const auto value = parse_number(last_.text);
@@ -163,26 +160,15 @@ class BinaryBody final : public Body {
     BinaryBody(std::string_view bytes, std::size_t at, std::string name)
         : bytes_(bytes), at_(at), name_(std::move(name)) {}
 
-    double next(Type type) override {
-        switch (type) {
-            case Type::int8:
-                return take<std::int8_t>();
-            case Type::uint8:
-                return take<std::uint8_t>();
-            case Type::int16:
-                return take<std::int16_t>();
-            case Type::uint16:
-                return take<std::uint16_t>();
-            case Type::int32:
-                return take<std::int32_t>();
-            case Type::uint32:
-                return take<std::uint32_t>();
-            case Type::float32:
-                return static_cast<double>(take<float>());
-            case Type::float64:
-                return take<double>();
-        }
-        return 0;
+    double next(const RawType& type) override {
+        last_ = at_;
+        if (bytes_.size() - at_ < type.size)
+            fail(ErrorKind::input, "{}: byte {}: the file ends here; expected {}", name_,
+                 bytes_.size() + 1, what());
+        double value = 0;
+        take_raw(bytes_.substr(at_, type.size), type, {&value, 1});
+        at_ += type.size;
+        return value;
     }
     [[noreturn]] void refuse(const std::string& what) override {
         fail(ErrorKind::input, "{}: byte {}: {}", name_, last_ + 1, what);
@@ -194,18 +180,6 @@ class BinaryBody final : public Body {
     }
 
   private:
-    template <class T>
-    T take() {
-        last_ = at_;
-        if (bytes_.size() - at_ < sizeof(T))
-            fail(ErrorKind::input, "{}: byte {}: the file ends here; expected {}", name_,
-                 bytes_.size() + 1, what());
-        T value;
-        std::memcpy(&value, bytes_.data() + at_, sizeof(T));
-        at_ += sizeof(T);
-        return value;
-    }
-
     std::string_view bytes_;
     std::size_t at_;
     std::size_t last_ = 0;  ///< where the last number began

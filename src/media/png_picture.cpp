@@ -18,10 +18,27 @@ namespace {
 
 /// libpng reports errors by a long jump. The functions that set its target hold no objects with
 /// destructors, which the jump would pass over.
-class Decoder {
+class ErrorText {
+  public:
+    [[nodiscard]] const char* error() const { return text_.data(); }
+
+  protected:
+    [[noreturn]] static void take_error(png_structp png, png_const_charp message) {
+        auto& self = *static_cast<ErrorText*>(png_get_error_ptr(png));
+        std::strncpy(self.text_.data(), message, self.text_.size() - 1);
+        png_longjmp(png, 1);
+    }
+    static void ignore_warning(png_structp, png_const_charp) {}
+
+  private:
+    std::array<char, 128> text_{"libpng cannot be used"};
+};
+
+class Decoder : public ErrorText {
   public:
     explicit Decoder(std::string_view bytes) : bytes_(bytes) {
-        png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, take_error, ignore_warning);
+        ErrorText* const errors = this;
+        png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, errors, take_error, ignore_warning);
         if (png_ != nullptr) info_ = png_create_info_struct(png_);
     }
     Decoder(const Decoder&) = delete;
@@ -53,17 +70,8 @@ class Decoder {
     [[nodiscard]] std::size_t channels() const { return png_get_channels(png_, info_); }
     [[nodiscard]] std::size_t sample_bytes() const { return png_get_bit_depth(png_, info_) / 8U; }
     [[nodiscard]] std::size_t row_bytes() const { return png_get_rowbytes(png_, info_); }
-    [[nodiscard]] const char* error() const { return error_.data(); }
 
   private:
-    [[noreturn]] static void take_error(png_structp png, png_const_charp message) {
-        auto& self = *static_cast<Decoder*>(png_get_error_ptr(png));
-        std::strncpy(self.error_.data(), message, self.error_.size() - 1);
-        png_longjmp(png, 1);
-    }
-
-    static void ignore_warning(png_structp, png_const_charp) {}
-
     static void give_bytes(png_structp png, png_bytep out, std::size_t size) {
         auto& self = *static_cast<Decoder*>(png_get_io_ptr(png));
         if (self.bytes_.size() < size) png_error(png, "the file ends too soon");
@@ -74,14 +82,14 @@ class Decoder {
     std::string_view bytes_;
     png_structp png_ = nullptr;
     png_infop info_ = nullptr;
-    std::array<char, 128> error_{"libpng cannot be used"};
 };
 
 /// The same the other way: bytes are taken as libpng gives them.
-class Encoder {
+class Encoder : public ErrorText {
   public:
     Encoder() {
-        png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, this, take_error, ignore_warning);
+        ErrorText* const errors = this;
+        png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, errors, take_error, ignore_warning);
         if (png_ != nullptr) info_ = png_create_info_struct(png_);
     }
     Encoder(const Encoder&) = delete;
@@ -106,17 +114,8 @@ class Encoder {
     }
 
     [[nodiscard]] std::string take() { return std::move(bytes_); }
-    [[nodiscard]] const char* error() const { return error_.data(); }
 
   private:
-    [[noreturn]] static void take_error(png_structp png, png_const_charp message) {
-        auto& self = *static_cast<Encoder*>(png_get_error_ptr(png));
-        std::strncpy(self.error_.data(), message, self.error_.size() - 1);
-        png_longjmp(png, 1);
-    }
-
-    static void ignore_warning(png_structp, png_const_charp) {}
-
     /// No exception may pass through libpng.
     [[nodiscard]] bool append(const char* bytes, std::size_t size) noexcept {
         try {
@@ -136,7 +135,6 @@ class Encoder {
     std::string bytes_;
     png_structp png_ = nullptr;
     png_infop info_ = nullptr;
-    std::array<char, 128> error_{"libpng cannot be used"};
 };
 
 /// Samples of an expanded picture, each of one byte, or two with the high one first.

@@ -3,11 +3,18 @@
 // What warps of all kinds do with their options.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "core/options.hpp"
 
 namespace stipple::warps {
+
+/// An option for a length above 0.
+constexpr Param<double> length_option(std::string_view name, double fallback,
+                                      std::string_view help) {
+    return {.name = name, .fallback = fallback, .low = 1e-150, .high = 1e150, .help = help};
+}
 
 /// @throws Error(usage) when a centre's coordinate is so far that the shape is lost in rounding.
 void refuse_far(double x, double reach);

@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "core/text.hpp"
-#include "generators/points_from.hpp"
+#include "io/files.hpp"
 #include "math/functions/powers.hpp"
 
 namespace stipple {
@@ -55,7 +55,7 @@ std::vector<double> random_rows(std::uint64_t n, const Rng& rng) {
 /// Points of a file, seen from the lower corner of the box.
 std::vector<double> rows_of_file(const std::string& path, const Planar& planar,
                                  const RunContext& run) {
-    const PointSet points = points_from(path, run);
+    const PointSet points = io::read_given(planar::from.name, path, {}, run);
     if (points.dimension() != 2)
         fail(ErrorKind::input, "{}: points of {} coordinates; expected 2", path,
              points.dimension());

@@ -39,7 +39,7 @@
 #include "generators/box_space.hpp"
 #include "generators/density_options.hpp"
 #include "generators/generator.hpp"
-#include "generators/points_from.hpp"
+#include "io/files.hpp"
 #include "math/functions/draws.hpp"
 
 namespace stipple::generators::sample_elimination {
@@ -86,7 +86,7 @@ struct Crowd {
 };
 
 PointSet points_of_file(const Values& options, const RunContext& run) {
-    PointSet points = points_from(options[from], run);
+    PointSet points = io::read_given(from.name, options[from], {}, run);
     if (points.dimension() > most_directions)
         fail(ErrorKind::input, "{}: {} coordinates a point; sample-elimination takes up to {}",
              options[from], points.dimension(), most_directions);

@@ -31,96 +31,61 @@ constexpr Param<Choice> cell{.name = "cell",
                              .choices = "random|center",
                              .help = "Where in its cell a point is"};
 
-class Jittered : public Sequence {
-  public:
-    Jittered(const Plan& plan, bool centered)
-        : count_(plan.count), dimension_(plan.dimension), centered_(centered), rng_(plan.seed) {}
+/// Brings numbers from [0, 1) into their cells, or to the middles.
+void place(bool centered, const Strata& strata, double* x, std::size_t stride) {
+    centered ? place_in_middles(strata, x, stride) : place_in_strata(strata, x, stride);
+}
 
-    void fill(std::uint64_t first, std::span<double> rows) override {
-        if (!centered_) rng_.fill(first * dimension_, rows);
-        place_all(first, rows);
+/// Points first, first + 1, ... of n in the plane.
+void place_in_rows(std::uint64_t n, bool centered, std::uint64_t first, std::span<double> rows) {
+    const std::uint64_t row_count = rounded_root(n);
+    const auto row_begin = [&](std::uint64_t row) {
+        return static_cast<std::uint64_t>(Wide{row} * n / row_count);
+    };
+    // s_r <= i holds for r < (i + 1) R / n.
+    auto row = static_cast<std::uint64_t>((Wide{first + 1} * row_count - 1) / n);
+    std::vector<double> low;
+    for (std::size_t offset = 0; offset < rows.size(); ++row) {
+        const std::uint64_t begin = row_begin(row);
+        const std::uint64_t cells = row_begin(row + 1) - begin;
+        const std::uint64_t column = first - begin;
+        low.resize(std::min<std::size_t>((rows.size() - offset) / 2, cells - column));
+        std::iota(low.begin(), low.end(), static_cast<double>(column));
+        place(centered, {.low = low, .parts = cells}, rows.data() + offset, 2);
+        std::ranges::fill(low, static_cast<double>(begin));
+        place(centered, {.low = low, .width = cells, .parts = n}, rows.data() + offset + 1, 2);
+        first += low.size();
+        offset += 2 * low.size();
     }
+}
 
-  protected:
-    /// Brings all coordinates from [0, 1) into their cells, or to the middles.
-    virtual void place_all(std::uint64_t first, std::span<double> rows) const = 0;
+/// The cells of points first, first + 1, ... of a cube cut alike along all sides.
+void find_cells(std::span<const std::uint64_t> shape, std::uint64_t first,
+                std::span<double> cells) {
+    const std::size_t d = shape.size();
+    for_each_lattice_row(shape, first, cells.size() / d,
+                         [&](auto start, std::size_t offset, std::size_t length) {
+                             double* const at = cells.data() + offset * d;
+                             for (std::size_t i = 0; i < length; ++i) {
+                                 for (std::size_t c = 0; c < d; ++c)
+                                     at[i * d + c] = static_cast<double>(start[c]);
+                                 at[i * d] += static_cast<double>(i);
+                             }
+                         });
+}
 
-    void place(const Strata& strata, double* x, std::size_t stride) const {
-        centered_ ? place_in_middles(strata, x, stride) : place_in_strata(strata, x, stride);
+void place_in_cubes(std::span<const std::uint64_t> shape, bool centered, std::uint64_t first,
+                    std::span<double> rows) {
+    const std::size_t d = shape.size();
+    const std::size_t portion = (1 + 4096 / d) * d;
+    std::vector<double> cells;
+    for (std::size_t at = 0; at < rows.size(); at += portion) {
+        const auto some = rows.subspan(at, std::min(portion, rows.size() - at));
+        cells.resize(some.size());
+        find_cells(shape, first + at / d, cells);
+        place(centered, {.low = cells, .parts = shape[0]}, some.data(), 1);
     }
-
-    std::uint64_t count_;
-    std::size_t dimension_;
-
-  private:
-    bool centered_;
-    Rng rng_;
-};
-
-class JitteredRows final : public Jittered {
-  public:
-    JitteredRows(const Plan& plan, bool centered)
-        : Jittered(plan, centered), row_count_(rounded_root(count_)) {}
-
-  private:
-    void place_all(std::uint64_t first, std::span<double> rows) const override {
-        // s_r <= i holds for r < (i + 1) R / n.
-        auto row = static_cast<std::uint64_t>((Wide{first + 1} * row_count_ - 1) / count_);
-        for (std::size_t offset = 0; offset < rows.size(); ++row) {
-            const std::uint64_t begin = row_begin(row);
-            const std::uint64_t cells = row_begin(row + 1) - begin;
-            const std::uint64_t column = first - begin;
-            const auto length = std::min<std::size_t>((rows.size() - offset) / 2, cells - column);
-            std::vector<double> low(length);
-            std::iota(low.begin(), low.end(), static_cast<double>(column));
-            place({.low = low, .parts = cells}, rows.data() + offset, 2);
-            std::ranges::fill(low, static_cast<double>(begin));
-            place({.low = low, .width = cells, .parts = count_}, rows.data() + offset + 1, 2);
-            first += length;
-            offset += 2 * length;
-        }
-    }
-
-    [[nodiscard]] std::uint64_t row_begin(std::uint64_t row) const {
-        return static_cast<std::uint64_t>(Wide{row} * count_ / row_count_);
-    }
-
-    std::uint64_t row_count_;
-};
-
-class JitteredCubes final : public Jittered {
-  public:
-    JitteredCubes(const Plan& plan, bool centered)
-        : Jittered(plan, centered),
-          shape_(plan.dimension, exact_root(plan.count, plan.dimension, "jittered")) {}
-
-  private:
-    void place_all(std::uint64_t first, std::span<double> rows) const override {
-        const std::size_t portion = 1 + 4096 / dimension_;
-        std::vector<double> cells;
-        for (std::size_t at = 0; at < rows.size(); at += portion * dimension_) {
-            const auto some = rows.subspan(at, std::min(portion * dimension_, rows.size() - at));
-            cells.resize(some.size());
-            find_cells(first + at / dimension_, cells);
-            place({.low = cells, .parts = shape_[0]}, some.data(), 1);
-        }
-    }
-
-    /// The cells of points first, first + 1...
-    void find_cells(std::uint64_t first, std::span<double> cells) const {
-        const auto find_row = [&](auto start, std::size_t offset, std::size_t length) {
-            double* const first_cell = cells.data() + offset * dimension_;
-            for (std::size_t i = 0; i < length; ++i) {
-                for (std::size_t c = 0; c < dimension_; ++c)
-                    first_cell[i * dimension_ + c] = static_cast<double>(start[c]);
-                first_cell[i * dimension_] += static_cast<double>(i);
-            }
-        };
-        for_each_lattice_row(shape_, first, cells.size() / dimension_, find_row);
-    }
-
-    std::vector<std::uint64_t> shape_;
-};
+}
 
 Plan plan(const Request& request, const Values&) {
     const std::size_t dimension = request.dimension.value_or(2);
@@ -132,8 +97,15 @@ Plan plan(const Request& request, const Values&) {
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
     const bool centered = options[cell] == "center";
-    if (plan.dimension == 2) return std::make_unique<JitteredRows>(plan, centered);
-    return std::make_unique<JitteredCubes>(plan, centered);
+    const bool in_rows = plan.dimension == 2;
+    const std::uint64_t side = in_rows ? 0 : exact_root(plan.count, plan.dimension, "jittered");
+    return sequence_of(
+        [=, n = plan.count, rng = Rng(plan.seed), shape = std::vector(plan.dimension, side)](
+            std::uint64_t first, std::span<double> rows) {
+            if (!centered) rng.fill(first * shape.size(), rows);
+            in_rows ? place_in_rows(n, centered, first, rows)
+                    : place_in_cubes(shape, centered, first, rows);
+        });
 }
 
 }  // namespace

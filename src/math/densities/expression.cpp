@@ -5,6 +5,7 @@
 #include <muParserBase.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -120,24 +121,10 @@ double greatest(const double* x, int n) { return *std::max_element(x, x + n); }
 
 int read_number(const char* text, int* at, double* value) {
     const std::string_view rest(text);
-    std::size_t size = 0;
-    const auto digit = [&](std::size_t i) {
-        return i < rest.size() && rest[i] >= '0' && rest[i] <= '9';
-    };
-    while (digit(size)) ++size;
-    if (size < rest.size() && rest[size] == '.' && (size > 0 || digit(1)))
-        for (++size; digit(size);) ++size;
-    if (size == 0) return 0;
-    if (size < rest.size() && (rest[size] == 'e' || rest[size] == 'E')) {
-        const std::size_t signs =
-            size + 1 < rest.size() && (rest[size + 1] == '+' || rest[size + 1] == '-');
-        if (digit(size + 1 + signs))
-            for (size += 1 + signs; digit(size);) ++size;
-    }
-    const auto number = parse_number(rest.substr(0, size));
-    if (!number) return 0;
-    *value = *number;
-    *at += static_cast<int>(size);
+    if (rest.empty() || rest.find_first_of("0123456789.") != 0) return 0;  // no sign, no word
+    const auto [end, error] = std::from_chars(text, text + rest.size(), *value);
+    if (error != std::errc()) return 0;
+    *at += static_cast<int>(end - text);
     return 1;
 }
 

@@ -15,6 +15,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "math/functions/horner.hpp"
+
 namespace stipple {
 
 namespace detail {
@@ -38,19 +40,10 @@ struct Exponential {
     const double low = k * tail;
     const double r = high - low;
 
-    double q = 1 / 87178291200.0;  // 1/14!, then 1/13!, ...
-    q = q * r + 1 / 6227020800.0;
-    q = q * r + 1 / 479001600.0;
-    q = q * r + 1 / 39916800.0;
-    q = q * r + 1 / 3628800.0;
-    q = q * r + 1 / 362880.0;
-    q = q * r + 1 / 40320.0;
-    q = q * r + 1 / 5040.0;
-    q = q * r + 1 / 720.0;
-    q = q * r + 1 / 120.0;
-    q = q * r + 1 / 24.0;
-    q = q * r + 1 / 6.0;
-    q = q * r + 0.5;
+    // 1/14!, then 1/13!, ...
+    const double q = horner(r, 1 / 87178291200.0, 1 / 6227020800.0, 1 / 479001600.0, 1 / 39916800.0,
+                            1 / 3628800.0, 1 / 362880.0, 1 / 40320.0, 1 / 5040.0, 1 / 720.0,
+                            1 / 120.0, 1 / 24.0, 1 / 6.0, 0.5);
     return {std::bit_cast<double>((std::bit_cast<std::uint64_t>(sum) + 1023) << 52), high, low,
             r * r * q};
 }

@@ -19,6 +19,7 @@
 #include <cstdint>
 
 #include "math/functions/double_double.hpp"
+#include "math/functions/horner.hpp"
 
 namespace stipple {
 
@@ -52,16 +53,8 @@ inline Fraction fraction_of(double x) {
     const auto [k, f] = fraction_of(x);
     const double s = f / (2 + f);
     const double z = s * s;
-    double r = 2 / 21.0;
-    r = r * z + 2 / 19.0;
-    r = r * z + 2 / 17.0;
-    r = r * z + 2 / 15.0;
-    r = r * z + 2 / 13.0;
-    r = r * z + 2 / 11.0;
-    r = r * z + 2 / 9.0;
-    r = r * z + 2 / 7.0;
-    r = r * z + 2 / 5.0;
-    r = r * z + 2 / 3.0;
+    const double r = horner(z, 2 / 21.0, 2 / 19.0, 2 / 17.0, 2 / 15.0, 2 / 13.0, 2 / 11.0, 2 / 9.0,
+                            2 / 7.0, 2 / 5.0, 2 / 3.0);
     const double half = 0.5 * f * f;
     return k * log_2_head - ((half - (s * (half + z * r) + (k * log_2_tail + rest))) - f);
 }
@@ -89,16 +82,9 @@ inline Fraction fraction_of(double x) {
     const double s_rest = (((f - back) - back_rest) - s * below_rest) / below;
     const auto [z, z_rest] = split_product(s, s);
 
-    double r = 2 / 23.0;  // z (2/5 + (2/7) z + ...) needs no second part
-    r = r * z + 2 / 21.0;
-    r = r * z + 2 / 19.0;
-    r = r * z + 2 / 17.0;
-    r = r * z + 2 / 15.0;
-    r = r * z + 2 / 13.0;
-    r = r * z + 2 / 11.0;
-    r = r * z + 2 / 9.0;
-    r = r * z + 2 / 7.0;
-    r = r * z + 2 / 5.0;
+    // z (2/5 + (2/7) z + ...) needs no second part
+    const double r = horner(z, 2 / 23.0, 2 / 21.0, 2 / 19.0, 2 / 17.0, 2 / 15.0, 2 / 13.0, 2 / 11.0,
+                            2 / 9.0, 2 / 7.0, 2 / 5.0);
 
     constexpr double third = 2 / 3.0;
     constexpr double third_rest = 0x1.5555555555555p-55;  // 2/3 - third

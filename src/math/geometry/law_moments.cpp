@@ -30,7 +30,7 @@ PlaneMoments about_the_mean(const PlaneMoments& raw) {
     return m;
 }
 
-Moments placed_moments(const PlaneMoments& shape, const PlanePlace& at) {
+Moments placed_moments(const PlaneMoments& shape, const Placement& at) {
     Moments m = sized(2);
     const double center[] = {at.center.x, at.center.y};
     const PlanePoint rows[] = {{at.cos, -at.sin}, {at.sin, at.cos}};

@@ -40,14 +40,8 @@ struct PlaneMoments {
 /// From E x^i y^j: the same, but about 0.
 PlaneMoments about_the_mean(const PlaneMoments& raw);
 
-/// Of c + R (cos a  -sin a; sin a  cos a) q.
-struct PlanePlace {
-    PlanePoint center = {};
-    double size = 1;
-    double cos = 1;
-    double sin = 0;
-};
-Moments placed_moments(const PlaneMoments& shape, const PlanePlace& at);
+/// Of a shape that is put at a place.
+Moments placed_moments(const PlaneMoments& shape, const Placement& at);
 
 /// Of a law in space that is round about the z axis.
 struct AxialMoments {

@@ -2,11 +2,9 @@
 #include "math/geometry/polygon_rows.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
-#include "core/wide.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "math/geometry/planar_area.hpp"
 
@@ -46,43 +44,6 @@ double height_share(double f, double w0, double w1) {
     const double root = std::sqrt((1 - f) * w0 * w0 + f * w1 * w1);
     const double null = f == 0;  // where w0 = 0, too, this is 0 / 0
     return f * (w0 + w1) / (w0 + root + null);
-}
-
-constexpr std::size_t batch_size = 128;
-
-/// What the rows of some points are worked out from, and their rows; in columns, so that loops over
-/// them are widened.
-struct Batch {
-    using Column = std::array<double, batch_size>;
-    std::array<std::uint32_t, batch_size> slab;
-    Column bottom, top, area, width_bottom, width_top;  ///< of the slab
-    Column passed;      ///< the area from the nearer end of the region up to the slab
-    Column near, away;  ///< widths of the slab there and at its other end, the greater one is 1
-    Column y;           ///< the row
-    Column t;           ///< its place in the slab
-    Column way;         ///< the length to go along it
-};
-
-/// The row in the slab that has the share u of the whole area below it, from the end of the slab
-/// that u is nearer to. Written without branches, since they would be guessed wrong half of the
-/// time.
-STIPPLE_WIDE [[gnu::flatten]] void find_rows(Batch& of, const double* cube, double whole,
-                                             std::size_t size) {
-    for (std::size_t i = 0; i < size; ++i) {
-        const double u = cube[2 * i];
-        const bool up = u < 0.5;
-        const double height = of.top[i] - of.bottom[i];
-        const double rest = (up ? u : 1 - u) * whole - of.passed[i];
-        const double f = std::max(0.0, std::min(rest / of.area[i], 1.0));
-        const double step = height_share(f, of.near[i], of.away[i]) * height;
-        const double row = up ? of.bottom[i] + step : of.top[i] - step;
-        const double y = std::max(of.bottom[i], std::min(row, of.top[i]));
-        const double t = (y - of.bottom[i]) / height;  // of the row as it is rounded
-        of.y[i] = y;
-        of.t[i] = t;
-        of.way[i] =
-            cube[2 * i + 1] * (of.width_bottom[i] + t * (of.width_top[i] - of.width_bottom[i]));
-    }
 }
 
 /// The way back: the share of the area that has the share t of the height.
@@ -227,38 +188,20 @@ Moments PolygonRows::moments() const {
     return all.moments();
 }
 
+/// From the end of the slab that u is nearer to. Written without branches, since they would be
+/// guessed wrong half of the time.
 PlanePoint PolygonRows::forward(double u, double v) const {
-    const std::array<double, 2> cube{u, v};
-    std::array<double, 2> image;
-    forward_all(cube, image);
-    return {image[0], image[1]};
-}
-
-void PolygonRows::forward_all(std::span<const double> cube, std::span<double> image) const {
-    Batch batch;
-    for (std::size_t first = 0; first < cube.size() / 2; first += batch_size) {
-        const std::size_t size = std::min(batch_size, cube.size() / 2 - first);
-        const double* in = cube.data() + 2 * first;
-        double* out = image.data() + 2 * first;
-        for (std::size_t i = 0; i < size; ++i) {
-            batch.slab[i] = static_cast<std::uint32_t>(areas_.at(in[2 * i] * area_));
-            const Slab& slab = slabs_[batch.slab[i]];
-            const bool up = in[2 * i] < 0.5;
-            batch.bottom[i] = slab.bottom;
-            batch.top[i] = slab.top;
-            batch.area[i] = slab.area;
-            batch.passed[i] = up ? slab.area_below : slab.area_above;
-            batch.near[i] = up ? slab.share_bottom : slab.share_top;
-            batch.away[i] = up ? slab.share_top : slab.share_bottom;
-            batch.width_bottom[i] = slab.width_bottom;
-            batch.width_top[i] = slab.width_top;
-        }
-        find_rows(batch, in, area_, size);
-        for (std::size_t i = 0; i < size; ++i) {
-            out[2 * i] = along_row(slabs_[batch.slab[i]], batch.t[i], batch.way[i]);
-            out[2 * i + 1] = batch.y[i];
-        }
-    }
+    const Slab& slab = slabs_[areas_.at(u * area_)];
+    const bool up = u < 0.5;
+    const double rest = (up ? u : 1 - u) * area_ - (up ? slab.area_below : slab.area_above);
+    const double f = std::max(0.0, std::min(rest / slab.area, 1.0));
+    const double near = up ? slab.share_bottom : slab.share_top;
+    const double away = up ? slab.share_top : slab.share_bottom;
+    const double step = height_share(f, near, away) * slab.height();
+    const double row = up ? slab.bottom + step : slab.top - step;
+    const double y = std::max(slab.bottom, std::min(row, slab.top));
+    const double t = (y - slab.bottom) / slab.height();  // of the row as it is rounded
+    return {along_row(slab, t, v * slab.width(t)), y};
 }
 
 /// The place in a row, the length `way` from its left end on.

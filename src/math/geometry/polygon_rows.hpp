@@ -56,9 +56,6 @@ class PolygonRows {
 
     [[nodiscard]] PlanePoint forward(double u, double v) const;
 
-    /// The same for rows u, v of `cube`.
-    void forward_all(std::span<const double> cube, std::span<double> image) const;
-
     /// Into the closed square, for points that it contains.
     [[nodiscard]] PlanePoint inverse(PlanePoint p) const;
 

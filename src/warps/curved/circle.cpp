@@ -84,7 +84,7 @@ class CircleDomain final : public NamedDomain {
         cube[0] = turns_of(x, y);
     }
     std::optional<Moments> moments() const override {
-        const PlanePlace at{{ring_.center[0], ring_.center[1]}, ring_.radius};
+        const Placement at{{ring_.center[0], ring_.center[1]}, ring_.radius};
         return placed_moments({.xx = 0.5, .yy = 0.5}, at);
     }
     std::vector<std::string> cube_axes() const override { return {"angle in turns"}; }

@@ -34,11 +34,7 @@
 namespace stipple::warps::cylinder {
 namespace {
 
-constexpr Param<double> height{.name = "height",
-                               .fallback = 1,
-                               .low = 1e-150,
-                               .high = 1e150,
-                               .help = "Height along the axis, above 0"};
+constexpr auto height = length_option("height", 1, "Height along the axis, above 0");
 
 constexpr Param<bool> caps{.name = "caps", .help = "The ends, too: the whole surface"};
 

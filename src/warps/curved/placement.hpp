@@ -13,8 +13,7 @@
 
 namespace stipple::warps {
 
-constexpr Param<double> radius{
-    .name = "radius", .fallback = 1, .low = 1e-150, .high = 1e150, .help = "Radius, above 0"};
+constexpr auto radius = length_option("radius", 1, "Radius, above 0");
 
 constexpr Param<Numbers> center{{.name = "center", .fallback = "0,0,0", .help = "Centre: x,y,z"}};
 

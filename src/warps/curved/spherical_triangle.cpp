@@ -16,9 +16,9 @@
 //         b, as the share of the area on its way; both as they are, not as 1 - xi. Strata become
 //         quadrilaterals between arcs through b, triangles where they touch it.
 // Cost    O(1) a point; on one core about 11 ns forward, 46 ns back.
-// Promise density 1 / A. Directions lie in the triangle up to the rounding stated at contains().
+// Promise density 1 / A. Directions lie in the triangle up to the rounding stated at slack_of().
 //         Forward and back again is the same direction within 1e-14; nearly hemispheres, within
-//         that over the distance at contains(). The same bits on every machine.
+//         that over the distance stated there. The same bits on every machine.
 // Source  J. Arvo, "Stratified sampling of spherical triangles", SIGGRAPH 95, 437-438,
 //         doi:10.1145/218380.218500.
 
@@ -27,8 +27,7 @@
 
 #include "core/error.hpp"
 #include "math/geometry/polar_direction.hpp"
-#include "math/geometry/spherical_polygon.hpp"
-#include "warps/curved/placement.hpp"
+#include "warps/curved/spherical_domain.hpp"
 #include "warps/row_mapping.hpp"
 
 namespace stipple::warps::spherical_triangle {
@@ -110,56 +109,22 @@ class Arvo {
 
 using Corners = std::array<Vector3, 3>;
 
-class TriangleDomain final : public NamedDomain, public Discontinuous {
-  public:
-    TriangleDomain(const Corners& v, std::string spec)
-        : NamedDomain(std::move(spec), 3, 2),
-          polygon_({v[0], v[1], v[2]}),
-          cells_(v[1], v[2], v[0]),
-          area_(4 * std::numbers::pi * half_area_turns(v[0], v[1], v[2])) {
-        const double opening =
-            std::min({1.0, from_opposite(v[0], v[1], v[2]), from_opposite(v[1], v[2], v[0]),
-                      from_opposite(v[2], v[0], v[1])});
-        slack_ = 16 * epsilon / opening;
-    }
+/// How far the point opposite of a corner is from the edge from p to q.
+double from_opposite(const Vector3& corner, const Vector3& p, const Vector3& q) {
+    const Vector3 normal = normalized(cross(p, minus(q, p)));
+    const double height = dot(normal, corner);
+    const Vector3 foot = minus(times(normal, height), corner);
+    const bool beside = dot(cross(p, foot), normal) > 0 && dot(cross(foot, q), normal) > 0;
+    return beside ? std::abs(height) : std::min(length(plus(p, corner)), length(plus(q, corner)));
+}
 
-    double measure() const override { return area_; }
-
-    /// Up to 16 epsilon beyond the planes of the edges, and as much longer or shorter than 1: the
-    /// rounding of a direction that was made. More for a triangle that is nearly a hemisphere,
-    /// where a point opposite of a corner is near the opposite edge: over its distance from it.
-    bool contains(std::span<const double> point) const override {
-        return polygon_.contains(vector_of(point), slack_);
-    }
-    Box bounding_box() const override { return polygon_.bounding_box(); }
-
-    /// Arvo's map back, but about the next corner, so that cells do not line up with the warp's
-    /// strata.
-    void to_cube(std::span<const double> point, std::span<double> cube) const override {
-        put_clamped(cells_.inverse(point), cube);
-    }
-    Discontinuities discontinuities() const override { return {.circles = polygon_.edges()}; }
-    std::optional<Moments> moments() const override { return polygon_.moments(area_); }
-    std::vector<std::string> cube_axes() const override {
-        return {"share of the area next to bc", "share on the way from c"};
-    }
-
-  private:
-    /// How far the point opposite of a corner is from the edge from p to q.
-    static double from_opposite(const Vector3& corner, const Vector3& p, const Vector3& q) {
-        const Vector3 normal = normalized(cross(p, minus(q, p)));
-        const double height = dot(normal, corner);
-        const Vector3 foot = minus(times(normal, height), corner);
-        const bool beside = dot(cross(p, foot), normal) > 0 && dot(cross(foot, q), normal) > 0;
-        return beside ? std::abs(height)
-                      : std::min(length(plus(p, corner)), length(plus(q, corner)));
-    }
-
-    SphericalPolygon polygon_;
-    Arvo cells_;
-    double area_;
-    double slack_ = 0;
-};
+/// 16 epsilon; more for a triangle that is nearly a hemisphere, where a point opposite of a corner
+/// is near the opposite edge: over its distance from it.
+double slack_of(const Corners& v) {
+    return 16 * epsilon /
+           std::min({1.0, from_opposite(v[0], v[1], v[2]), from_opposite(v[1], v[2], v[0]),
+                     from_opposite(v[2], v[0], v[1])});
+}
 
 /// @throws Error(usage) when they are not the corners of a triangle.
 Corners corners_of(const Table& table) {
@@ -192,7 +157,11 @@ Corners corners_of(const Table& table) {
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const Corners v = corners_of(want.options[vertices]);
-    const auto domain = std::make_shared<TriangleDomain>(v, want.spec());
+    // Cells are Arvo's map back about the next corner.
+    const auto domain = std::make_shared<SphericalDomain<Arvo>>(
+        want.spec(), SphericalPolygon({v[0], v[1], v[2]}), Arvo(v[1], v[2], v[0]),
+        4 * std::numbers::pi * half_area_turns(v[0], v[1], v[2]), slack_of(v),
+        std::vector<std::string>{"share of the area next to bc", "share on the way from c"});
     return row_mapping(domain, Arvo(v[0], v[1], v[2]));
 }
 

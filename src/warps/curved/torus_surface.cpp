@@ -30,6 +30,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "math/functions/horner.hpp"
 #include "math/functions/roots.hpp"
 #include "math/functions/trigonometry.hpp"
 #include "math/geometry/law_moments.hpp"
@@ -42,28 +43,18 @@ namespace {
 constexpr double two_pi = 2 * std::numbers::pi;
 constexpr double least = 1e-150;  ///< in place of a divisor that is 0
 
-constexpr Param<double> major_radius{.name = "major-radius",
-                                     .fallback = 1,
-                                     .low = 1e-150,
-                                     .high = 1e150,
-                                     .help = "Radius R of the circle in the middle of the tube"};
+constexpr auto major_radius =
+    length_option("major-radius", 1, "Radius R of the circle in the middle of the tube");
 
-constexpr Param<double> minor_radius{.name = "minor-radius",
-                                     .fallback = 0.4,
-                                     .low = 1e-150,
-                                     .high = 1e150,
-                                     .help = "Radius r of the tube, at most the major radius"};
+constexpr auto minor_radius =
+    length_option("minor-radius", 0.4, "Radius r of the tube, at most the major radius");
 
 /// E - sin E for E in [0, pi], to its last digits.
 inline double less_sine(double angle, double sine) {
     const double z = angle * angle;
-    double sum = -1 / 1307674368000.0;  // 1/15!, then 1/13!, ...
-    sum = sum * z + 1 / 6227020800.0;
-    sum = sum * z - 1 / 39916800.0;
-    sum = sum * z + 1 / 362880.0;
-    sum = sum * z - 1 / 5040.0;
-    sum = sum * z + 1 / 120.0;
-    sum = sum * z - 1 / 6.0;
+    // 1/15!, then 1/13!, ...
+    const double sum = horner(z, -1 / 1307674368000.0, 1 / 6227020800.0, -1 / 39916800.0,
+                              1 / 362880.0, -1 / 5040.0, 1 / 120.0, -1 / 6.0);
     const double series = 0 - angle * z * sum;
     return angle >= 0.5 ? angle - sine : series;
 }

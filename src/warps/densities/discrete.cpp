@@ -108,13 +108,13 @@ struct Drawn : LineDistribution {
         return m;
     }
     /// Probability of the outcomes whose cube coordinates are in [low, high).
-    double probability(double low, double high) const override {
+    Estimate probability(double low, double high) const override {
         double sum = 0;
         for (std::size_t i = 0; i < of->count(); ++i) {
             const double at = (static_cast<double>(i) + 0.5) / static_cast<double>(of->count());
             if (at >= low && at < high) sum += of->probability[i];
         }
-        return sum;
+        return {sum, 0};
     }
 };
 

@@ -16,19 +16,15 @@
 //         the ratio of largest and mean density; no point where f is 0 beside a jump.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/domain.hpp"
 #include "core/error.hpp"
 #include "core/spec.hpp"
-#include "core/support.hpp"
 #include "math/densities/expression.hpp"
 #include "math/densities/line_table.hpp"
 #include "math/densities/quadrature.hpp"
-#include "math/geometry/law_moments.hpp"
-#include "warps/domain_mapping.hpp"
-#include "warps/named_domain.hpp"
+#include "warps/densities/line_domain.hpp"
 
 namespace stipple::warps::expression_1d {
 namespace {
@@ -63,116 +59,94 @@ LineRange range_of(const Values& options) {
     return out;
 }
 
-class FormulaDomain final : public NamedDomain, public Gapped, public Weighable {
-  public:
-    FormulaDomain(std::string spec, double within, const LineRange& ends, Expression f,
-                  const RunContext& run)
-        : NamedDomain(std::move(spec), 1, 1),
-          low_(ends.low),
-          high_(ends.high),
-          f_(std::move(f)),
-          table_(tabulate_line(
-              "--density: " + f_.text(),
+/// The formula and its table, which all copies of the distribution share.
+struct Tabulated {
+    Tabulated(Expression formula, const LineRange& ends, double within, const RunContext& run)
+        : f(std::move(formula)),
+          table(tabulate_line(
+              "--density: " + f.text(),
               [this](std::span<const double> at, std::span<double> values) {
-                  f_.evaluate(at, values);
+                  f.evaluate(at, values);
               },
               ends, within, run)) {
-        for (const LinePiece& piece : table_.pieces()) {
-            before_.push_back(total_.value);
-            total_.value += piece.integral.value;
-            total_.error += piece.integral.error;
+        for (const LinePiece& piece : table.pieces()) {
+            before.push_back(total.value);
+            total.value += piece.integral.value;
+            total.error += piece.integral.error;
         }
-        before_.push_back(total_.value);
     }
 
-    double measure() const override { return high_ - low_; }
-    bool contains(std::span<const double> point) const override {
-        return point[0] >= low_ && point[0] <= high_;
-    }
-    Box bounding_box() const override { return {{low_}, {high_}}; }
-    double density(std::span<const double> point) const override {
-        return contains(point) ? f_.at(point) / total_.value : 0;
+    double at(double x) const { return f.at({&x, 1}); }
+
+    /// Integral of f up to x.
+    double mass_below(double x) const {
+        if (x >= table.pieces().back().x_high) return total.value;
+        const std::size_t i = table.piece_of(x);
+        const double from = table.pieces()[i].x_low;
+        if (!(from < x)) return before[i];
+        return before[i] + gauss_kronrod_15([this](double y) { return at(y); }, from, x).value;
     }
 
-    /// By the table: cells of nearly equal mass, whose true one probability() gives.
-    void to_cube(std::span<const double> point, std::span<double> cube) const override {
-        cube[0] = table_.fraction(point[0]);
+    Expression f;
+    LineTable table;
+    std::vector<double> before;  ///< integral of f up to each piece
+    Estimate total = {};
+};
+
+/// Cells are of nearly equal mass, by the table; probability() gives their true one.
+struct ByFormula final : LineDistribution {
+    explicit ByFormula(std::shared_ptr<const Tabulated> shared) : of(std::move(shared)) {}
+
+    std::shared_ptr<const Tabulated> of;
+
+    void forward_all(std::span<double> numbers) const { of->table.quantiles(numbers); }
+    double inverse(double x) const override { return of->table.fraction(x); }
+    double density(double x) const override {
+        return contains(x) ? of->at(x) / of->total.value : 0;
+    }
+    bool contains(double x) const override { return x >= range().first && x <= range().second; }
+    double measure() const override { return range().second - range().first; }
+    std::pair<double, double> range() const override {
+        return {of->table.pieces().front().x_low, of->table.pieces().back().x_high};
     }
     bool even() const override { return false; }
-    Estimate probability(const Box& cell) const override {
-        const double below = mass_below(edge(cell.low[0]));
-        const double above = mass_below(edge(cell.high[0]));
-        return {std::max(above - below, 0.0) / total_.value, 2 * total_.error / total_.value};
+    Estimate probability(double low, double high) const override {
+        const auto mass = [&](double share) {
+            if (share <= 0 || share >= 1) return share <= 0 ? 0 : of->total.value;
+            return of->mass_below(of->table.quantile(share));
+        };
+        const double total = of->total.value;
+        return {std::max(mass(high) - mass(low), 0.0) / total, 2 * of->total.error / total};
     }
-    Estimate box_mass(const Box& box) const override { return box_mass_by_axes(*this, box); }
-    std::vector<std::string> cube_axes() const override { return {"share of the mass below x"}; }
 
     /// By a rule on each piece of the table, as exact as the integral of f.
-    std::optional<Moments> moments() const override {
-        const double middle = low_ + 0.5 * (high_ - low_);
+    LineMoments moments() const override {
+        const double middle = range().first + 0.5 * measure();
         const auto expect = [&](double about, int power) {
+            const auto integrand = [&](double x) { return of->at(x) * std::pow(x - about, power); };
             double sum = 0;
-            for (const LinePiece& piece : table_.pieces())
-                sum += gauss_kronrod_15(
-                           [&](double x) {
-                               return f_.at({&x, 1}) * std::pow(x - about, power);
-                           },
-                           piece.x_low, piece.x_high)
-                           .value;
-            return sum / total_.value;
+            for (const LinePiece& piece : of->table.pieces())
+                sum += gauss_kronrod_15(integrand, piece.x_low, piece.x_high).value;
+            return sum / of->total.value;
         };
         const double mean = middle + expect(middle, 1);
-        return independent_moments(std::array{LineMoments{mean, expect(mean, 2), expect(mean, 3)}});
+        return {mean, expect(mean, 2), expect(mean, 3)};
     }
 
     /// Pieces of the table without mass are gaps; their ends are as near as the tolerance asks.
-    Support support() const override {
-        Support all{.measure = Estimate{0, 0}, .boxes = {}};
-        for (const LinePiece& piece : table_.pieces()) {
-            const bool empty = !(piece.f_low + piece.f_high > 0) && !(piece.integral.value > 0);
-            all.whole = all.whole && !empty;
-            if (empty) continue;
-            all.measure->value += piece.x_high - piece.x_low;
-            if (!all.boxes.empty() && all.boxes.back().high[0] == piece.x_low)
-                all.boxes.back().high[0] = piece.x_high;
+    Positive positive() const override {
+        Positive found{{}, 0};
+        auto& intervals = found.intervals;
+        for (const LinePiece& piece : of->table.pieces()) {
+            if (!(piece.f_low + piece.f_high > 0) && !(piece.integral.value > 0)) continue;
+            if (!intervals.empty() && intervals.back().second == piece.x_low)
+                intervals.back().second = piece.x_high;
             else
-                all.boxes.push_back({{piece.x_low}, {piece.x_high}});
+                intervals.emplace_back(piece.x_low, piece.x_high);
         }
-        if (all.whole) all.measure->value = measure();
-        return all;
+        for (const auto& [low, high] : intervals) found.length += high - low;
+        return found;
     }
-
-    bool shows_gaps() const override { return true; }
-
-    void from_cube(std::span<const double> cube, std::span<double> image) const {
-        std::ranges::copy(cube, image.begin());
-        table_.quantiles(image);
-    }
-
-  private:
-    [[nodiscard]] double edge(double share) const {
-        return share <= 0 ? low_ : (share >= 1 ? high_ : table_.quantile(share));
-    }
-
-    [[nodiscard]] double mass_below(double x) const {
-        if (x >= high_) return total_.value;
-        const std::size_t i = table_.piece_of(x);
-        const double from = table_.pieces()[i].x_low;
-        if (!(from < x)) return before_[i];
-        return before_[i] + gauss_kronrod_15(
-                                [this](double at) {
-                                    return f_.at({&at, 1});
-                                },
-                                from, x)
-                                .value;
-    }
-
-    double low_;
-    double high_;
-    Expression f_;
-    LineTable table_;
-    std::vector<double> before_;  ///< integral of f up to each piece
-    Estimate total_ = {};
 };
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
@@ -182,8 +156,11 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     Expression f(density.name, want.options[density], 1);
     Values plain = want.options;  // without blanks: the spec is one word
     plain.put(density.name, f.text());
-    return domain_mapping<FormulaDomain>(format_spec(want.warp.name, plain, want.warp.options),
-                                         want.options[tolerance], ends, std::move(f), want.run);
+    const auto table =
+        std::make_shared<const Tabulated>(std::move(f), ends, want.options[tolerance], want.run);
+    return line_mapping(std::vector{ByFormula(table)}, 1,
+                        format_spec(want.warp.name, plain, want.warp.options),
+                        "share of the mass below x");
 }
 
 }  // namespace

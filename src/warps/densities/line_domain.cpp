@@ -48,10 +48,13 @@ void LineDomain::to_cube(std::span<const double> point, std::span<double> cube) 
 }
 
 Estimate LineDomain::probability(const Box& cell) const {
-    double product = 1;
-    for (std::size_t k = 0; k < axes_.size(); ++k)
-        product *= axes_[k]->probability(cell.low[k], cell.high[k]);
-    return {product, 0};
+    Estimate product{1, 0};
+    for (std::size_t k = 0; k < axes_.size(); ++k) {
+        const Estimate one = axes_[k]->probability(cell.low[k], cell.high[k]);
+        product = {product.value * one.value,
+                   product.error * one.value + product.value * one.error};
+    }
+    return product;
 }
 
 std::optional<Moments> LineDomain::moments() const {
@@ -76,7 +79,7 @@ Support LineDomain::support() const {
         all.whole = all.whole && length >= axis->measure();
         all.measure->value *= length;
         std::vector<Box> boxes;
-        if (all.boxes.size() * intervals.size() <= most_boxes)
+        if (axes_.size() == 1 || all.boxes.size() * intervals.size() <= most_boxes)
             for (const Box& before : all.boxes)
                 for (const auto& [low, high] : intervals) {
                     boxes.push_back(before);

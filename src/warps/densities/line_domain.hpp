@@ -48,7 +48,9 @@ class LineDistribution {
 
     /// Coordinate in the cube, and the probability between two of them, where not even().
     [[nodiscard]] virtual double cube_coordinate(double x) const { return inverse(x); }
-    [[nodiscard]] virtual double probability(double low, double high) const { return high - low; }
+    [[nodiscard]] virtual Estimate probability(double low, double high) const {
+        return {high - low, 0};
+    }
 
     /// Where the density is not 0: intervals side by side, and their length.
     struct Positive {

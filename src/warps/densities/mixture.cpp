@@ -81,14 +81,16 @@ class Mixture final : public Mapping {
         constexpr std::size_t some = 512;
         const std::size_t d = cube_dimension();
         const std::size_t count = cube.size() / d;
-        std::vector<std::vector<std::size_t>> rows_of(parts_.size());
+        std::vector<std::vector<std::uint32_t>> rows_of(parts_.size());
         Work work;
         for (std::size_t first = 0; first < count; first += some) {
             for (auto& rows : rows_of) rows.clear();
-            for (std::size_t i = first; i < std::min(first + some, count); ++i)
-                rows_of[shares_.at(cube[i * d])].push_back(i);
+            const auto from = cube.subspan(first * d);
+            for (std::uint32_t i = 0; i < std::min(some, count - first); ++i)
+                rows_of[shares_.at(from[i * d])].push_back(i);
             for (std::size_t c = 0; c < parts_.size(); ++c)
-                if (!rows_of[c].empty()) move(c, rows_of[c], cube, image, work);
+                if (!rows_of[c].empty())
+                    move(c, rows_of[c], from, image.subspan(first * domain()->dimension()), work);
         }
     }
 
@@ -106,21 +108,24 @@ class Mixture final : public Mapping {
         std::vector<std::uint8_t> keep;
     };
 
-    void move(std::size_t c, std::span<const std::size_t> rows, std::span<const double> cube,
+    void move(std::size_t c, std::span<const std::uint32_t> rows, std::span<const double> cube,
               std::span<double> image, Work& work) const {
         const std::size_t d = cube_dimension();
         const std::size_t m = domain()->dimension();
+        const double before = shares_.begin(c);
+        const double width = shares_.width(c);
         work.from.resize(rows.size() * d);
         work.to.resize(rows.size() * m);
         work.keep.assign(rows.size(), 1);
         for (std::size_t j = 0; j < rows.size(); ++j) {
-            std::copy_n(&cube[rows[j] * d], d, &work.from[j * d]);
-            const double u = (work.from[j * d] - shares_.begin(c)) / shares_.width(c);
-            work.from[j * d] = std::clamp(u, 0.0, one_minus_ulp);
+            const double* const row = &cube[rows[j] * d];
+            const double u = (row[0] - before) / width;
+            work.from[j * d] = std::max(0.0, std::min(u, one_minus_ulp));
+            for (std::size_t k = 1; k < d; ++k) work.from[j * d + k] = row[k];
         }
         parts_[c].mapping->forward(work.from, work.to, work.keep);
         for (std::size_t j = 0; j < rows.size(); ++j)
-            std::copy_n(&work.to[j * m], m, &image[rows[j] * m]);
+            for (std::size_t k = 0; k < m; ++k) image[rows[j] * m + k] = work.to[j * m + k];
     }
 
     std::vector<Component> parts_;

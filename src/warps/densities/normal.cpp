@@ -21,7 +21,6 @@
 //         doi:10.1214/aoms/1177729394. Phi^-1: Wichura 1988, see math/functions/normal_quantile.hpp.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -184,29 +183,16 @@ class NormalDomain final : public NamedDomain, public Weighable {
     double log_peak_ = 0;
 };
 
-/// m + s z in place, column by column.
+/// m + s z in place.
 STIPPLE_WIDE void spread(const double* middle, const double* scale, std::size_t d,
                          std::span<double> rows) {
-    // As many numbers as make whole rows, so that the inner loop is long enough to be widened.
-    constexpr std::size_t most = 64;
-    std::array<double, most> means, deviations;
-    const std::size_t size = d < most ? most / d * d : 0;
-    for (std::size_t i = 0; i < size; ++i) {
-        means[i] = middle[i % d];
-        deviations[i] = scale[i % d];
-    }
-    std::size_t i = 0;
-    for (; size > 0 && i + size <= rows.size(); i += size)
-        for (std::size_t k = 0; k < size; ++k) rows[i + k] = means[k] + deviations[k] * rows[i + k];
-    for (; i < rows.size(); i += d)
+    for (std::size_t i = 0; i < rows.size(); i += d)
         for (std::size_t k = 0; k < d; ++k) rows[i + k] = middle[k] + scale[k] * rows[i + k];
 }
 
 /// m + L z in place, each row from its last coordinate to its first.
-template <std::size_t fixed>
-STIPPLE_WIDE void mix(const double* middle, const double* factor, std::size_t given,
+STIPPLE_WIDE void mix(const double* middle, const double* factor, std::size_t d,
                       std::span<double> rows) {
-    const std::size_t d = fixed > 0 ? fixed : given;
     for (std::size_t i = 0; i < rows.size(); i += d)
         for (std::size_t k = d; k-- > 0;) {
             double sum = 0;
@@ -227,14 +213,7 @@ class Normal final : public Mapping {
         const std::size_t d = shape_.dimension();
         const double* middle = shape_.mean.data();
         const double* factor = shape_.factor.data();
-        if (shape_.diagonal())
-            spread(middle, factor, d, image);
-        else if (d == 2)
-            mix<2>(middle, factor, d, image);
-        else if (d == 3)
-            mix<3>(middle, factor, d, image);
-        else
-            mix<0>(middle, factor, d, image);
+        (shape_.diagonal() ? spread : mix)(middle, factor, d, image);
     }
 
   private:

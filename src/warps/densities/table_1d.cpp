@@ -21,8 +21,8 @@
 #include <cstdint>
 
 #include "core/error.hpp"
+#include "io/files.hpp"
 #include "math/densities/line_table.hpp"
-#include "media/points_file.hpp"
 #include "warps/densities/line_domain.hpp"
 
 namespace stipple::warps::table_1d {
@@ -104,7 +104,7 @@ Table table_of(const Values& options, const std::string& name, const RunContext&
     if (options.given(file)) {
         if (options.given(rows))
             fail(ErrorKind::usage, "--rows: --file is given, too; one of them is allowed");
-        const PointSet read = read_points(options[file], run);
+        const PointSet read = io::read_given(file.name, options[file], {.all_columns = true}, run);
         table.clear();
         for (std::size_t i = 0; i < read.count(); ++i)
             table.emplace_back(read[i].begin(), read[i].end());

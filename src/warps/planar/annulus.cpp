@@ -29,16 +29,11 @@ constexpr Param<double> inner{.name = "inner",
                               .high = 1e150,
                               .help = "Inner radius, below the outer one; 0: the disk"};
 
-constexpr Param<double> radius{
-    .name = "radius", .fallback = 1, .low = 1e-150, .high = 1e150, .help = "Outer radius, above 0"};
+constexpr auto radius = length_option("radius", 1, "Outer radius, above 0");
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const auto ring = RingSector::between(want.options[inner], want.options[radius], 1);
     const double width = want.options[radius] - want.options[inner];
-    if (!(width > lost_in_rounding * want.options[radius]))
-        fail(ErrorKind::usage,
-             "--inner: {} is not below --radius {}, or lost in rounding beside it",
-             want.options[inner], want.options[radius]);
     const auto at = place(want.options[shape_center], want.options[radius], 0, width, "a ring");
     return placed(want.spec(), ring, at);
 }

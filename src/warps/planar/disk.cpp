@@ -46,11 +46,7 @@ constexpr Param<Choice> method{
         "rejection: drops the points of the square that are outside; naive: r = R xi0, BIASED "
         "towards the centre, kept to show the bias"};
 
-constexpr Param<double> radius{.name = "radius",
-                               .fallback = 1,
-                               .low = 1e-150,
-                               .high = 1e150,
-                               .help = "Radius of the disk, above 0"};
+constexpr auto radius = length_option("radius", 1, "Radius of the disk, above 0");
 
 // The methods on the unit disk. Those that are uniform have the domain's density.
 

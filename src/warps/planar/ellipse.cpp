@@ -38,13 +38,8 @@ constexpr Param<Choice> method{
 constexpr Param<Numbers> axes{
     {.name = "axes", .fallback = "1,0.5", .help = "Lengths of the two semi-axes, above 0: a,b"}};
 
-constexpr Param<double> rotation{
-    .name = "rotation",
-    .fallback = 0,
-    .low = -360,
-    .high = 360,
-    .unit = "degrees",
-    .help = "Angle of the first axis, from the x axis towards the y axis"};
+constexpr auto rotation =
+    rotation_option("Angle of the first axis, from the x axis towards the y axis");
 
 /// The ellipse with semi-axes a and b, the longer one 1.
 template <class Disk>

@@ -18,8 +18,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "math/geometry/edge_frame.hpp"
-#include "warps/planar/area_share.hpp"
+#include "warps/planar/flat_domain.hpp"
 #include "warps/row_mapping.hpp"
 
 namespace stipple::warps::parallelogram {
@@ -35,106 +34,44 @@ constexpr Param<Points> edges{
      .help = "The two edges a b as vectors from the corner, in 2 or 3 dimensions; xi1 runs along "
              "a, xi2 along b"}};
 
-/// The corner, or the origin where none was given. @throws Error(usage) when dimensions differ.
-std::vector<double> corner_of(const Values& options, std::size_t d) {
-    if (!options.given(corner)) return std::vector<double>(d, 0.0);
-    auto at = options[corner];
-    if (at.size() != d)
-        fail(ErrorKind::usage, "--corner: {} numbers are needed, as the edges have; {} given", d,
-             at.size());
-    for (double& x : at) x += 0.0;  // -0 would show in points
-    return at;
-}
-
-class ParallelogramDomain final : public NamedDomain, public Weighable {
+class ParallelogramDomain final : public FlatDomain {
   public:
-    /// @throws Error(usage) when the options are not those of a parallelogram.
-    explicit ParallelogramDomain(const WarpRequest& want)
-        : NamedDomain(want.spec(), want.options[edges][0].size(), 2) {
-        const Table sides = want.options[edges];
-        if (sides.size() != 2 || sides[0].size() < 2 || sides[0].size() > 3)
-            fail(ErrorKind::usage,
-                 "--edges: {} vectors of dimension {}; 2 vectors of dimension 2 or 3 are needed",
-                 sides.size(), sides[0].size());
-        corner_ = space_point(corner_of(want.options, dimension()));
-        edges_ = {space_point(sides[0]), space_point(sides[1])};
-        double size = 0;  // largest coordinate there can be
-        for (std::size_t k = 0; k < 3; ++k)
-            size = std::max(size,
-                            std::abs(corner_[k]) + std::abs(edges_[0][k]) + std::abs(edges_[1][k]));
-        if (size > 1e150)
-            fail(ErrorKind::usage,
-                 "--edges: the parallelogram reaches out of [-1e150, 1e150]; it must stay inside");
-        frame_ = EdgeFrame(corner_, edges_[0], edges_[1], size);
-        if (frame_.flat())
-            fail(ErrorKind::usage, "--edges: the parallelogram of {} has no area",
-                 format_value(sides));
-    }
-
-    double measure() const override { return frame_.area(); }
-
-    /// Up to 16 epsilon (largest coordinate) (longest edge / smallest height) away from the
-    /// parallelogram or its plane: the rounding of a point that was made.
-    bool contains(std::span<const double> point) const override {
-        const auto [s, t] = frame_.coordinates(space_point(point));
-        const double along = frame_.slack() * frame_.lengths()[1] / frame_.area();
-        const double across = frame_.slack() * frame_.lengths()[0] / frame_.area();
-        return s >= -along && s <= 1 + along && t >= -across && t <= 1 + across &&
-               frame_.off_plane(space_point(point)) <= frame_.slack();
-    }
-
-    Box bounding_box() const override {
-        Box box;
-        for (std::size_t k = 0; k < dimension(); ++k) {
-            const double a = edges_[0][k];
-            const double b = edges_[1][k];
-            box.low.push_back(corner_[k] + std::min(a, 0.0) + std::min(b, 0.0));
-            box.high.push_back(corner_[k] + std::max(a, 0.0) + std::max(b, 0.0));
-        }
-        return box;
-    }
+    using FlatDomain::FlatDomain;
 
     /// The coordinates along the edges.
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
-        const auto [s, t] = frame_.coordinates(space_point(point));
+        const auto [s, t] = frame().coordinates(space_point(point));
         put_clamped<2>({s, t}, cube);
-    }
-    /// In the plane.
-    Estimate box_mass(const Box& box) const override {
-        return area_share(box, *this, [&](const Polygon& window) {
-            const auto& [a, b] = edges_;
-            const double x = corner_[0];
-            const double y = corner_[1];
-            return shared_area({{x, y},
-                                {x + a[0], y + a[1]},
-                                {x + a[0] + b[0], y + a[1] + b[1]},
-                                {x + b[0], y + b[1]}},
-                               window);
-        });
     }
     std::optional<Moments> moments() const override {
         const std::size_t d = dimension();
+        const auto& v = corners();
         Moments m{std::vector<double>(d), std::vector<double>(d * d), std::vector<double>(d)};
+        const auto edges_in = [&](std::size_t k, std::size_t j) {
+            return (v[1][k] - v[0][k]) * (v[1][j] - v[0][j]) +
+                   (v[3][k] - v[0][k]) * (v[3][j] - v[0][j]);
+        };
         for (std::size_t k = 0; k < d; ++k) {
-            m.mean[k] = corner_[k] + 0.5 * (edges_[0][k] + edges_[1][k]);
-            for (std::size_t j = 0; j < d; ++j)
-                m.covariance[k * d + j] =
-                    (edges_[0][k] * edges_[0][j] + edges_[1][k] * edges_[1][j]) / 12;
+            m.mean[k] = 0.5 * (v[0][k] + v[2][k]);
+            for (std::size_t j = 0; j < d; ++j) m.covariance[k * d + j] = edges_in(k, j) / 12;
         }
         return m;
     }
     std::vector<std::string> cube_axes() const override {
         return {"place along the first edge", "place along the second edge"};
     }
-
-    const Vector3& start() const { return corner_; }
-    const std::array<Vector3, 2>& sides() const { return edges_; }
-
-  private:
-    Vector3 corner_{};
-    std::array<Vector3, 2> edges_{};
-    EdgeFrame frame_;
 };
+
+/// The corner, or the origin where none was given. @throws Error(usage) when dimensions differ.
+Vector3 corner_of(const Values& options, std::size_t d) {
+    if (!options.given(corner)) return {};
+    auto at = options[corner];
+    if (at.size() != d)
+        fail(ErrorKind::usage, "--corner: {} numbers are needed, as the edges have; {} given", d,
+             at.size());
+    for (double& x : at) x += 0.0;  // -0 would show in points
+    return space_point(at);
+}
 
 template <std::size_t d>
 struct OnParallelogram {
@@ -150,10 +87,30 @@ struct OnParallelogram {
 };
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
-    const auto shape = std::make_shared<ParallelogramDomain>(want);
-    if (shape->dimension() == 2)
-        return row_mapping(shape, OnParallelogram<2>{shape->start(), shape->sides()});
-    return row_mapping(shape, OnParallelogram<3>{shape->start(), shape->sides()});
+    const Table table = want.options[edges];
+    if (table.size() != 2 || table[0].size() < 2 || table[0].size() > 3)
+        fail(ErrorKind::usage,
+             "--edges: {} vectors of dimension {}; 2 vectors of dimension 2 or 3 are needed",
+             table.size(), table[0].size());
+    const std::size_t d = table[0].size();
+    const Vector3 c = corner_of(want.options, d);
+    const Vector3 a = space_point(table[0]);
+    const Vector3 b = space_point(table[1]);
+    double size = 0;  // largest coordinate there can be
+    for (std::size_t k = 0; k < 3; ++k)
+        size = std::max(size, std::abs(c[k]) + std::abs(a[k]) + std::abs(b[k]));
+    if (size > 1e150)
+        fail(ErrorKind::usage,
+             "--edges: the parallelogram reaches out of [-1e150, 1e150]; it must stay inside");
+    const EdgeFrame frame(c, a, b, size);
+    if (frame.flat())
+        fail(ErrorKind::usage, "--edges: the parallelogram of {} has no area", format_value(table));
+    Table corners;
+    for (const Vector3& v : {c, plus(c, a), plus(plus(c, a), b), plus(c, b)})
+        corners.emplace_back(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(d));
+    const auto shape = std::make_shared<ParallelogramDomain>(want.spec(), corners, frame);
+    if (d == 2) return row_mapping(shape, OnParallelogram<2>{c, {a, b}});
+    return row_mapping(shape, OnParallelogram<3>{c, {a, b}});
 }
 
 }  // namespace

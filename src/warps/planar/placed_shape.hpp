@@ -33,6 +33,7 @@
 #include "math/functions/trigonometry.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "math/geometry/plane_point.hpp"
+#include "warps/common_options.hpp"
 #include "warps/planar/area_share.hpp"
 #include "warps/row_mapping.hpp"
 
@@ -42,23 +43,10 @@ namespace stipple::warps {
 inline constexpr Param<Numbers> shape_center{
     {.name = "center", .fallback = "0,0", .help = "Centre of the shape: x,y"}};
 
-struct Placement {
-    PlanePoint center;
-    double size = 1;  ///< R
-    double turn = 0;  ///< in turns, in [0, 1)
-    double cos = 1;
-    double sin = 0;
-
-    [[nodiscard]] PlanePoint to_world(PlanePoint q) const {
-        return {center.x + size * (cos * q.x - sin * q.y),
-                center.y + size * (sin * q.x + cos * q.y)};
-    }
-    [[nodiscard]] PlanePoint to_frame(double px, double py) const {
-        const double x = (px - center.x) / size;
-        const double y = (py - center.y) / size;
-        return {cos * x + sin * y, cos * y - sin * x};
-    }
-};
+/// The option of those that are turned.
+constexpr Param<double> rotation_option(std::string_view help) {
+    return {.name = "rotation", .low = -360, .high = 360, .unit = "degrees", .help = help};
+}
 
 /// Lengths below this share of a shape's coordinates cannot be told from rounding.
 inline constexpr double lost_in_rounding = 64 * std::numeric_limits<double>::epsilon();
@@ -113,7 +101,7 @@ class PlacedDomain final : public NamedDomain, public Weighable {
         });
     }
     std::optional<Moments> moments() const override {
-        return placed_moments(shape_.moments(), {at_.center, at_.size, at_.cos, at_.sin});
+        return placed_moments(shape_.moments(), at_);
     }
     std::vector<std::string> cube_axes() const override { return shape_.axes(); }
 

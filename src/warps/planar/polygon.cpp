@@ -29,9 +29,10 @@
 #include <limits>
 
 #include "core/error.hpp"
+#include "core/file_bytes.hpp"
 #include "core/text.hpp"
+#include "io/delimited.hpp"
 #include "math/geometry/polygon_rows.hpp"
-#include "media/points_file.hpp"
 #include "warps/domain_mapping.hpp"
 #include "warps/planar/area_share.hpp"
 
@@ -81,10 +82,26 @@ std::vector<Ring> parse_rings(std::string_view text, const Source& source) {
     return rings;
 }
 
+/// The text with `#` in place of the first line of those that end a ring, as between the sets of a
+/// file, and without all other comments.
+std::string with_marks(std::string_view text) {
+    std::string marked;
+    bool in_ring = false;
+    for (const auto line : split(text, '\n')) {
+        const auto content = line.substr(0, line.find('#'));
+        const bool blank = trim(content).empty();
+        marked += blank ? (in_ring ? "#" : "") : content;
+        marked += '\n';
+        in_ring = !blank;
+    }
+    marked.erase(marked.find_last_not_of("#\n") + 1);  // the last ring ends with the file
+    return marked;
+}
+
 std::vector<Ring> read_rings(const std::string& path, const Source& source, const RunContext& run) {
     std::vector<Ring> rings;
-    TokenFile text(path);
-    for (const PointSet& group : read_point_groups(text, run)) {
+    const ReadOptions options{.source = path, .all_columns = true};
+    for (const PointSet& group : io::read_delimited(with_marks(read_file(path)), options, run)) {
         if (group.dimension() != 2)
             source.refuse("{} coordinates a line; 2 are needed, x,y", group.dimension());
         Ring ring;
@@ -167,7 +184,11 @@ class PolygonDomain final : public NamedDomain, public Weighable {
     }
 
     void from_cube(std::span<const double> cube, std::span<double> image) const {
-        rows_.forward_all(cube, image);
+        for (std::size_t i = 0; i + 1 < cube.size(); i += 2) {
+            const auto [x, y] = rows_.forward(cube[i], cube[i + 1]);
+            image[i] = x;
+            image[i + 1] = y;
+        }
     }
 
   private:

@@ -31,19 +31,11 @@ namespace {
 constexpr Param<std::int64_t> sides{
     .name = "sides", .fallback = 6, .low = 3, .high = 10'000, .help = "Sides of the polygon"};
 
-constexpr Param<double> radius{.name = "radius",
-                               .fallback = 1,
-                               .low = 1e-150,
-                               .high = 1e150,
-                               .help = "Distance of its vertices from the centre, above 0"};
+constexpr auto radius =
+    length_option("radius", 1, "Distance of its vertices from the centre, above 0");
 
-constexpr Param<double> rotation{
-    .name = "rotation",
-    .fallback = 0,
-    .low = -360,
-    .high = 360,
-    .unit = "degrees",
-    .help = "Angle of the first vertex, from the x axis towards the y axis"};
+constexpr auto rotation =
+    rotation_option("Angle of the first vertex, from the x axis towards the y axis");
 
 /// The polygon with vertices on the unit circle, the first one on the x axis.
 class RegularPolygon {

@@ -5,6 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/error.hpp"
+#include "warps/planar/placed_shape.hpp"
+
 namespace stipple::warps {
 namespace {
 
@@ -12,6 +15,14 @@ namespace {
 double beyond_side(double x, double y) { return x > 0 ? std::abs(y) : std::sqrt(x * x + y * y); }
 
 }  // namespace
+
+RingSector RingSector::between(double inner, double outer, double width) {
+    if (!(outer - inner > lost_in_rounding * outer))
+        fail(ErrorKind::usage,
+             "--inner: {} is not below --radius {}, or lost in rounding beside it", inner, outer);
+    const double q = inner / outer;
+    return {.inner = q, .spread = (outer - inner) / outer * (1 + q), .width = width};
+}
 
 double RingSector::area() const { return std::numbers::pi * spread * width; }
 

@@ -24,11 +24,8 @@ struct RingSector {
     double spread = 1;  ///< 1 - q^2, told apart for rings that are thin
     double width = 1;   ///< w, in (0, 1] turns
 
-    /// Radii with inner < outer, and an angle in turns.
-    static RingSector between(double inner, double outer, double width) {
-        const double q = inner / outer;
-        return {.inner = q, .spread = (outer - inner) / outer * (1 + q), .width = width};
-    }
+    /// Of the options --inner and --radius, and an angle in turns. @throws Error(usage)
+    static RingSector between(double inner, double outer, double width);
 
     [[nodiscard]] PlanePoint forward(double u, double v) const {
         const double r = std::sqrt(inner * inner + u * spread);

@@ -40,8 +40,7 @@ constexpr Param<double> inner{.name = "inner",
                               .high = 1e150,
                               .help = "Inner radius, below the outer one; 0: whole to the centre"};
 
-constexpr Param<double> radius{
-    .name = "radius", .fallback = 1, .low = 1e-150, .high = 1e150, .help = "Outer radius, above 0"};
+constexpr auto radius = length_option("radius", 1, "Outer radius, above 0");
 
 struct Span {
     double first;
@@ -65,10 +64,6 @@ Span span_of(const std::vector<double>& ends) {
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const auto [first, angle] = span_of(want.options[angles]);
     const double width = want.options[radius] - want.options[inner];
-    if (!(width > lost_in_rounding * want.options[radius]))
-        fail(ErrorKind::usage,
-             "--inner: {} is not below --radius {}, or lost in rounding beside it",
-             want.options[inner], want.options[radius]);
     const auto shape = RingSector::between(want.options[inner], want.options[radius], angle / 360);
     const auto at =
         place(want.options[shape_center], want.options[radius], first, width, "a sector");

@@ -33,10 +33,9 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "math/geometry/edge_frame.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "math/geometry/plane_point.hpp"
-#include "warps/planar/area_share.hpp"
+#include "warps/planar/flat_domain.hpp"
 #include "warps/row_mapping.hpp"
 
 namespace stipple::warps::triangle {
@@ -61,86 +60,27 @@ struct Barycentrics {
     double l2;
 };
 
-class TriangleDomain final : public NamedDomain, public Weighable {
+class TriangleDomain final : public FlatDomain {
   public:
-    /// @throws Error(usage) when the corners are not those of a triangle.
-    TriangleDomain(const Table& corners, std::string spec)
-        : NamedDomain(std::move(spec), corners[0].size(), 2), corners_(corners) {
-        if (corners.size() != 3 || corners[0].size() < 2 || corners[0].size() > 3)
-            fail(ErrorKind::usage,
-                 "--vertices: {} points of dimension {}; 3 points of dimension 2 or 3 are needed",
-                 corners.size(), corners[0].size());
-        double size = 0;  // largest coordinate
-        for (const auto& corner : corners)
-            for (const double x : corner) size = std::max(size, std::abs(x));
-        if (size > 1e150)
-            fail(ErrorKind::usage, "--vertices: a coordinate is outside [-1e150, 1e150]");
-        for (std::size_t k = 0; k < 3; ++k) vertices_[k] = space_point(corners[k]);
-        frame_ = EdgeFrame(vertices_[0], minus(vertices_[1], vertices_[0]),
-                           minus(vertices_[2], vertices_[0]), size);
-        if (frame_.flat())
-            fail(ErrorKind::usage, "--vertices: the triangle {} has no area",
-                 format_value(corners_));
-        const auto [e, f, across] = frame_.lengths();
-        heights_ = {frame_.area() / across, frame_.area() / f, frame_.area() / e};
-    }
-
-    double measure() const override { return 0.5 * frame_.area(); }
-
-    /// Up to 16 epsilon (largest coordinate) (longest edge / smallest height) away from the
-    /// triangle or its plane: the rounding of a point that was made.
-    bool contains(std::span<const double> point) const override {
-        const auto [l0, l1, l2] = barycentrics(point);
-        const double slack = frame_.slack();
-        return l0 * heights_[0] >= -slack && l1 * heights_[1] >= -slack &&
-               l2 * heights_[2] >= -slack && frame_.off_plane(space_point(point)) <= slack;
-    }
-
-    Box bounding_box() const override {
-        Box box{corners_[0], corners_[0]};
-        for (const auto& corner : corners_) box = stipple::bounding_box(corner, box);
-        return box;
-    }
+    using FlatDomain::FlatDomain;
 
     /// Area left between v1 and the line through the point parallel to the edge v0 v2, and the
     /// place on that line. From v1, where the warp starts from v0, so that equal areas are known
     /// without it, and cells do not line up with its strata.
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
-        const auto [l0, l1, l2] = barycentrics(point);
-        const double from_0 = std::max(l0, 0.0);
+        const auto [l1, l2] = frame().coordinates(space_point(point));
+        const double from_0 = std::max(1 - l1 - l2, 0.0);
         const double from_2 = std::max(l2, 0.0);
         const double rest = std::min(from_0 + from_2, 1.0);
         cube[0] = rest * rest;
         cube[1] = rest > 0 ? std::min(from_2 / (from_0 + from_2), 1.0) : 0.0;
     }
-    /// In the plane.
-    Estimate box_mass(const Box& box) const override {
-        return area_share(box, *this, [&](const Polygon& window) {
-            Polygon triangle;
-            for (const auto& corner : corners_) triangle.push_back({corner[0], corner[1]});
-            return shared_area(triangle, window);
-        });
-    }
     std::optional<Moments> moments() const override {
-        return triangle_moments({corners_[0], corners_[1], corners_[2]});
+        return triangle_moments({corners()[0], corners()[1], corners()[2]});
     }
     std::vector<std::string> cube_axes() const override {
         return {"area fraction (1 - lambda1)^2", "lambda2 / (lambda0 + lambda2)"};
     }
-
-    Barycentrics barycentrics(std::span<const double> point) const {
-        const auto [l1, l2] = frame_.coordinates(space_point(point));
-        return {1 - l1 - l2, l1, l2};
-    }
-
-    const std::array<Vector3, 3>& corners() const { return vertices_; }
-    const EdgeFrame& frame() const { return frame_; }
-
-  private:
-    Table corners_;
-    std::array<Vector3, 3> vertices_{};
-    EdgeFrame frame_;                  ///< lambda1 and lambda2 are its coordinates
-    std::array<double, 3> heights_{};  ///< of each vertex above the edge opposite
 };
 
 struct Roots {
@@ -186,13 +126,35 @@ struct OnTriangle {
     }
 };
 
+/// @throws Error(usage) when the corners are not those of a triangle.
+std::array<Vector3, 3> corners_of(const Table& table) {
+    if (table.size() != 3 || table[0].size() < 2 || table[0].size() > 3)
+        fail(ErrorKind::usage,
+             "--vertices: {} points of dimension {}; 3 points of dimension 2 or 3 are needed",
+             table.size(), table[0].size());
+    return {space_point(table[0]), space_point(table[1]), space_point(table[2])};
+}
+
+/// @throws Error(usage)
+EdgeFrame frame_of(const std::array<Vector3, 3>& v, const Table& table) {
+    const double size = std::max({largest(v[0]), largest(v[1]), largest(v[2])});
+    if (size > 1e150) fail(ErrorKind::usage, "--vertices: a coordinate is outside [-1e150, 1e150]");
+    const EdgeFrame frame(v[0], minus(v[1], v[0]), minus(v[2], v[0]), size);
+    if (frame.flat())
+        fail(ErrorKind::usage, "--vertices: the triangle {} has no area", format_value(table));
+    return frame;
+}
+
 template <class Method>
 std::unique_ptr<Mapping> mapping_by(const WarpRequest& want) {
+    const Table table = want.options[vertices];
+    const auto corners = corners_of(table);
+    const EdgeFrame frame = frame_of(corners, table);
     const auto triangle =
-        std::make_shared<TriangleDomain>(want.options[vertices], want.spec({vertices.name}));
+        std::make_shared<TriangleDomain>(want.spec({vertices.name}), table, frame);
     if (triangle->dimension() == 2)
-        return row_mapping(triangle, OnTriangle<Method, 2>{triangle->corners(), triangle->frame()});
-    return row_mapping(triangle, OnTriangle<Method, 3>{triangle->corners(), triangle->frame()});
+        return row_mapping(triangle, OnTriangle<Method, 2>{corners, frame});
+    return row_mapping(triangle, OnTriangle<Method, 3>{corners, frame});
 }
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {

@@ -88,6 +88,13 @@ TEST(Table1d, ReadsFiles) {
               "table-1d:file=" + file.path());
     EXPECT_EQ(error_of([&] { mapping("table-1d:rows=[0,1 1,1],file=" + file.path()); }),
               "usage: --rows: --file is given, too; one of them is allowed");
+    const TemporaryFile named("x,pdf\n0,0\n1,2\n2,0\n");
+    EXPECT_DOUBLE_EQ(at("table-1d:file=" + named.path(), 0.125), 0.5);
+    const TemporaryFile two("0,1\n1,1\n#\n0,1\n1,1\n");
+    EXPECT_EQ(error_of([&] { mapping("table-1d:file=" + two.path()); }),
+              "input: " + two.path() + ": 2 sets of points; expected one");
+    EXPECT_EQ(error_of([] { mapping("table-1d:file=-"); }),
+              "usage: --file: standard input cannot be read again; give a file");
     const TemporaryFile bad("0,1\n1,-2\n");
     EXPECT_EQ(error_of([&] { mapping("table-1d:file=" + bad.path()); }),
               "input: " + bad.path() + ": row 2 has the density -2; [0, 1e150] is allowed");

@@ -249,7 +249,7 @@ TEST(Polygon, RefusesWhatHasNoArea) {
 
 TEST(PolygonFile, HoldsRingsBetweenBlankLinesOrComments) {
     const std::string rings = "# a frame\nx,y\n0,0\n4,0\n4,4\n0,4\n";
-    const std::string hole = "1,1\n3 1\n3,3\n1,3\n1,1\n";
+    const std::string hole = "1,1\n3, 1 # right\n3,3\n1,3\n1,1\n";
     const PointSet cube = telling_points();
     const PointSet expected = warped(*mapping(frame), cube);
     for (const std::string between : {"\n", "# the hole\n", "\n\n#\n"}) {
@@ -275,7 +275,7 @@ TEST(PolygonFile, ComplainsByItsName) {
               "that they share only");
     EXPECT_EQ(complaint("0,0,0\n1,0,0\n0,1,0\n"), ": 3 coordinates a line; 2 are needed, x,y");
     EXPECT_EQ(complaint("0,0\n1,0\n0,one\n"),
-              ":3:3: 'one' is not a finite number; expected a coordinate");
+              ":3:3: 'one' is not a number; expected one such as 0.5 or 1e-3");
     EXPECT_EQ(complaint("0,0\n1,0\n"), ": ring 1 has 2 different vertices; at least 3 are needed");
     EXPECT_EQ(error("polygon:file=/nowhere/at/all.csv").substr(0, 4), "io: ");
     EXPECT_EQ(error("polygon:vertices=[0,0 1,0 0,1],file=a.csv"),

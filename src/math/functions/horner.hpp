@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+//
+// Polynomials by Horner's rule.
+#pragma once
+
+namespace stipple {
+
+/// (...(first x + second) x + ...) x + last; no loop, so that compilers vectorise loops of it.
+template <class... Coefficients>
+[[gnu::always_inline]] constexpr double horner(double x, double first, Coefficients... rest) {
+    double sum = first;
+    ((sum = sum * x + rest), ...);
+    return sum;
+}
+
+}  // namespace stipple
