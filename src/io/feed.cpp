@@ -62,6 +62,7 @@ Feed::Feed(const std::string& path, RunContext run)
     // Large enough for a writer's whole block, so that both sides work at the same time.
     if (S_ISFIFO(status.st_mode)) ::fcntl(descriptor_, F_SETPIPE_SZ, 1 << 20);
 #endif
+    if (S_ISREG(status.st_mode)) size_ = static_cast<std::size_t>(status.st_size);
     held_.resize(front_size);
     try {
         held_.resize(fetch(held_));
@@ -113,7 +114,9 @@ std::string Feed::read_all() {
     std::string bytes(front_.substr(taken_));
     taken_ = front_.size();
     if (ends_in_front()) return bytes;
-    for (std::size_t more = front_size;; more = bytes.size()) {
+    // A byte more than a file seems to have shows its end.
+    const std::size_t rest = size_ > bytes.size() ? size_ - bytes.size() + 1 : front_size;
+    for (std::size_t more = rest;; more = bytes.size()) {
         const std::size_t before = bytes.size();
         run_.need_memory(static_cast<double>(before + more), "the bytes of " + name_);
         bytes.resize(before + more);

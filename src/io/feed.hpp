@@ -53,6 +53,7 @@ class Feed {
     std::string name_ = {};
     RunContext run_ = {};
     int descriptor_ = -1;
+    std::size_t size_ = 0;  ///< of a file, as it was when it was opened
     std::string held_;
     std::string_view front_;
     std::size_t taken_ = 0;  ///< bytes of the front that were read

@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <poll.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -63,30 +62,6 @@ const Format& format_for(const std::string& path, std::string_view bytes) {
         if (found.name == "json" || found.name == "jsonl") return found;
     }
     return *named;
-}
-
-Input::Input(const std::string& path, const RunContext& run) {
-    struct stat status {};
-    if (path != "-" && ::stat(path.c_str(), &status) == 0 && S_ISREG(status.st_mode) &&
-        status.st_size > 0) {
-        const auto size = static_cast<std::size_t>(status.st_size);
-        const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-        if (descriptor < 0) refuse(path, errno);
-        const void* const data =
-            ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE | MAP_POPULATE, descriptor, 0);
-        ::close(descriptor);
-        if (data != MAP_FAILED) {
-            bytes_ = {static_cast<const char*>(data), size};
-            return;
-        }
-    }
-    held_ = Feed(path, run).read_all();
-    bytes_ = held_;
-}
-
-Input::~Input() {
-    if (!bytes_.empty() && bytes_.data() != held_.data())
-        ::munmap(const_cast<char*>(bytes_.data()), bytes_.size());
 }
 
 Output::Output(std::string path, std::stop_token stop)

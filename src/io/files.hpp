@@ -19,22 +19,16 @@
 
 namespace stipple::io {
 
-/// The bytes of a file, or of standard input for "-". Files are mapped: reading them costs 1.4 times
-/// as much for a large one.
-/// Beware: a mapped file that another program cuts short while it is read ends this one.
+/// The bytes of a file, or of standard input for "-".
 class Input {
   public:
     /// @throws Error as Feed does; Error(limit)
-    Input(const std::string& path, const RunContext& run);
-    Input(const Input&) = delete;
-    Input& operator=(const Input&) = delete;
-    ~Input();
+    Input(const std::string& path, const RunContext& run) : bytes_(Feed(path, run).read_all()) {}
 
     [[nodiscard]] std::string_view bytes() const { return bytes_; }
 
   private:
-    std::string held_;  ///< what was not mapped
-    std::string_view bytes_;
+    std::string bytes_;
 };
 
 /// A file that comes into being when it is whole, or standard output for "-". Devices and pipes are

@@ -447,9 +447,7 @@ DomainPtr parse_domain(std::string_view text, std::size_t dimension, const RunCo
     if (covered != all_of(dimension))
         fail(ErrorKind::input, "the domain does not cover each of the {} coordinates once",
              dimension);
-    if (factors.size() == 1 && factors[0].coordinates == all_of(dimension))
-        return factors[0].domain;
-    return product_domain(std::move(factors));
+    return filled_up(std::move(factors), dimension);
 }
 
 std::vector<Factor> warped_factors(const DomainPtr& domain, std::span<const std::size_t> boxless,

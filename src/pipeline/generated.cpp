@@ -2,6 +2,7 @@
 #include "pipeline/generated.hpp"
 
 #include <algorithm>
+#include <future>
 #include <utility>
 
 #include "core/error.hpp"
@@ -36,6 +37,31 @@ void tell_notes(const Generator& generator, const Request& request, const Values
 }
 
 }  // namespace
+
+NextRows rows_of(const PointSet& points, std::uint64_t first) {
+    const std::size_t d = points.dimension();
+    return [rest = points.flat().subspan(static_cast<std::size_t>(first) * d),
+            d](std::span<double> rows) mutable {
+        const auto some = rest.first(std::min(rest.size(), rows.size() / d * d));
+        std::ranges::copy(some, rows.begin());
+        rest = rest.subspan(some.size());
+        return some.size() / d;
+    };
+}
+
+bool in_batches(const NextRows& next, std::size_t batch, std::size_t width, const RunContext& run,
+                const std::function<bool(std::span<const double>)>& take) {
+    std::vector<double> rows(batch * width);
+    std::vector<double> ahead(rows.size());
+    const auto policy = run.thread_count() > 1 ? std::launch::async : std::launch::deferred;
+    for (std::size_t count = next(rows); count > 0; rows.swap(ahead)) {
+        run.check_stop();
+        auto fetched = std::async(policy, [&] { return next(ahead); });
+        if (!take(std::span(rows).first(count * width))) return false;
+        count = fetched.get();
+    }
+    return true;
+}
 
 void walk_to(Sequence& sequence, std::uint64_t start, std::size_t dimension,
              const RunContext& run) {
@@ -95,35 +121,39 @@ std::shared_ptr<const WarpChain> GeneratedSets::chain_for(std::uint64_t set,
         ChainSet{.seed = plan_.seed + set, .count = request_.start + plan_.count}, run);
 }
 
-std::unique_ptr<Sequence> GeneratedSets::sequence(std::uint64_t set, const RunContext& run) const {
+std::shared_ptr<Sequence> GeneratedSets::sequence(std::uint64_t set, const RunContext& run) const {
+    if (sequence_ && !uses_seed(generator_, options_)) return sequence_;
     Plan plan = plan_;
     plan.seed += set;
-    return generator_.sequence(plan, options_, run);
+    return sequence_ = generator_.sequence(plan, options_, run);
 }
 
-NextRows GeneratedSets::stream(std::uint64_t set, const RunContext& run, std::uint64_t from) const {
-    const std::shared_ptr<Sequence> points = sequence(set, run);
-    walk_to(*points, request_.start + from, plan_.dimension, run);
+NextRows GeneratedSets::stream(std::uint64_t set, const RunContext& run, std::uint64_t first,
+                               std::uint64_t last) const {
+    const auto points = sequence(set, run);
+    walk_to(*points, request_.start + first, plan_.dimension, run);
     RunContext lane = run;
     lane.progress = {};
     if (!points->random_access()) lane.threads = 1;
-    const auto at = std::make_shared<std::uint64_t>(from);
-    return [=, chain = chain_for(set, run), start = request_.start,
-            count = plan_.count](std::span<double> rows) {
+    return [=, at = request_.start + first, end = request_.start + last, bounds = bounds_,
+            chain = chain_for(set, run)](std::span<double> rows) mutable {
         const std::size_t in = chain->dimension_in();
         const std::size_t out = chain->dimension_out();
-        const std::uint64_t first = start + *at;
         const auto some =
-            static_cast<std::size_t>(std::min<std::uint64_t>(count - *at, rows.size() / out));
+            static_cast<std::size_t>(std::min<std::uint64_t>(end - at, rows.size() / out));
         const std::size_t block = std::max<std::size_t>(1, 8192 / in);
         for_each_block(lane, some, block, [&](const Block& b) {
             const auto place = rows.subspan(b.first * out, (b.last - b.first) * out);
-            if (chain->empty()) return points->fill(first + b.first, place);
+            if (chain->empty()) {
+                points->fill(at + b.first, place);
+                if (bounds) scale_into(*bounds, place);
+                return;
+            }
             std::vector<double> raw((b.last - b.first) * in);
-            points->fill(first + b.first, raw);
-            std::ranges::copy(chain->forward(std::move(raw), first + b.first), place.begin());
+            points->fill(at + b.first, raw);
+            std::ranges::copy(chain->forward(std::move(raw), at + b.first), place.begin());
         });
-        *at += some;
+        at += some;
         return some;
     };
 }

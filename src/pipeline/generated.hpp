@@ -22,6 +22,15 @@ namespace stipple {
 /// Gives a set's next points, as many as fit; fewer only at its end.
 using NextRows = std::function<std::size_t(std::span<double> rows)>;
 
+/// The points of a set in memory, from one on; the set must stay.
+NextRows rows_of(const PointSet& points, std::uint64_t first = 0);
+
+/// Calls take(rows) with all that comes, as long as it gives true, the next batch being fetched
+/// meanwhile. False: it gave false.
+/// @param batch rows at a time @param width numbers of a row
+bool in_batches(const NextRows& next, std::size_t batch, std::size_t width, const RunContext& run,
+                const std::function<bool(std::span<const double>)>& take);
+
 /// Takes a sequential engine to point `start`, in steps between which it may be told to stop; a
 /// sequence with random access needs no walk.
 void walk_to(Sequence& sequence, std::uint64_t start, std::size_t dimension, const RunContext& run);
@@ -43,25 +52,20 @@ class GeneratedSets {
     [[nodiscard]] std::size_t dimension() const { return chain_->dimension_out(); }
     /// What the points are on in the end.
     [[nodiscard]] const DomainPtr& domain() const { return domain_; }
-    /// What scales the unit cube before any warp, where the generator does not do it itself.
-    [[nodiscard]] const std::optional<Box>& bounds() const { return bounds_; }
-
     /// The warps, with the random choices of the first set.
     [[nodiscard]] const WarpChain& chain() const { return *chain_; }
-    /// The warps with the random choices of one set.
-    [[nodiscard]] std::shared_ptr<const WarpChain> chain_for(std::uint64_t set,
-                                                             const RunContext& run) const;
 
     /// Points of a set that come in blocks; nothing where sets must be made in memory.
     [[nodiscard]] std::optional<std::uint64_t> streamed() const;
 
-    /// The points of such a set before its warps.
-    [[nodiscard]] std::unique_ptr<Sequence> sequence(std::uint64_t set,
-                                                     const RunContext& run) const;
-
-    /// What gives the points of such a set, from the one of this number on.
+    /// What gives the points [first, last) of such a set; one at a time where they come in order.
+    [[nodiscard]] NextRows stream(std::uint64_t set, const RunContext& run, std::uint64_t first,
+                                  std::uint64_t last) const;
+    /// All of them from one on.
     [[nodiscard]] NextRows stream(std::uint64_t set, const RunContext& run,
-                                  std::uint64_t from = 0) const;
+                                  std::uint64_t first = 0) const {
+        return stream(set, run, first, plan_.count);
+    }
 
     /// All points of a set.
     [[nodiscard]] PointSet made(std::uint64_t set, const RunContext& run) const;
@@ -70,6 +74,13 @@ class GeneratedSets {
     [[nodiscard]] Provenance provenance(std::uint64_t set, std::uint64_t count) const;
 
   private:
+    /// The warps with the random choices of one set.
+    [[nodiscard]] std::shared_ptr<const WarpChain> chain_for(std::uint64_t set,
+                                                             const RunContext& run) const;
+    /// The points of a set before its warps; the same object for all sets that are the same.
+    [[nodiscard]] std::shared_ptr<Sequence> sequence(std::uint64_t set,
+                                                     const RunContext& run) const;
+
     const Generator& generator_;
     Values options_;
     Request request_;
@@ -78,8 +89,9 @@ class GeneratedSets {
     Plan plan_;
     std::shared_ptr<const WarpChain> chain_;
     DomainPtr domain_;
-    std::optional<Box> bounds_;
+    std::optional<Box> bounds_;  ///< of the points, where the generator does not scale them itself
     std::vector<std::pair<std::string, std::string>> inputs_;
+    mutable std::shared_ptr<Sequence> sequence_;  ///< that was made last
 };
 
 }  // namespace stipple

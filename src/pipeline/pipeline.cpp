@@ -2,7 +2,6 @@
 #include "pipeline/pipeline.hpp"
 
 #include <algorithm>
-#include <future>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -46,18 +45,13 @@ std::uint64_t add_all(Accumulator& measure, const NextRows& next, std::size_t wi
                       const RunContext& run) {
     RunContext quiet = run;
     quiet.progress = {};
-    std::vector<double> rows(arrival_batch(dimension) * width);
-    std::vector<double> ahead(rows.size());
-    const auto policy = run.thread_count() > 1 ? std::launch::async : std::launch::deferred;
     std::uint64_t done = 0;
-    for (std::size_t count = next(rows); count > 0; rows.swap(ahead)) {
-        run.check_stop();
-        auto fetched = std::async(policy, [&] { return next(ahead); });
-        measure.add(std::span(rows).first(count * width), quiet);
-        done += count;
+    in_batches(next, arrival_batch(dimension), width, run, [&](std::span<const double> rows) {
+        measure.add(rows, quiet);
+        done += rows.size() / width;
         if (expected) run.tick(done, *expected);
-        count = fetched.get();
-    }
+        return true;
+    });
     return done;
 }
 

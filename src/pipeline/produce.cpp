@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/int128.hpp"
+#include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "generators/density_options.hpp"
 #include "io/carried_meta.hpp"
@@ -17,18 +18,6 @@
 
 namespace stipple {
 namespace {
-
-/// The rows of a set that is in memory.
-Source source_of(const PointSet& points) {
-    const std::size_t d = points.dimension();
-    return {.count = points.count(),
-            .dimension = d,
-            .fill =
-                [&points, d](std::uint64_t first, std::span<double> rows) {
-                    std::ranges::copy(points.flat().subspan(first * d, rows.size()), rows.begin());
-                },
-            .chain = std::make_shared<WarpChain>(std::span<const Spec>(), d)};
-}
 
 /// @throws Error(limit) when sets that are held together, of so many numbers, do not fit.
 void need_memory_for(std::uint64_t sets, std::uint64_t numbers, const RunContext& run) {
@@ -54,13 +43,18 @@ Provenance common_provenance(const std::vector<PointSet>& sets) {
 void write_images(const std::vector<PointSet>& images, const WarpChain& chain,
                   std::size_t first_set, const Target& target, const RunContext& run,
                   std::optional<std::uint64_t> first_seed = {}) {
-    const std::size_t d = images.front().dimension();
     const bool together = !file_per_set(target.path);
     const Provenance common = common_provenance(images);
     SetsToWrite job{
         .sets = images.size(),
         .first_set = first_set,
-        .source = [&](std::size_t set, const RunContext&) { return source_of(images[set]); },
+        .source =
+            [&](std::size_t set, const RunContext&) {
+                // Without warps, what the points are on is the unit cube, or what it was scaled to.
+                return Source{.next = rows_of(images[set]),
+                              .count = images[set].count(),
+                              .volume = chain.empty() ? images[set].domain->measure() : 1};
+            },
         .provenance = [&](std::size_t set) { return together ? common : images[set].provenance; },
         .first_seed = first_seed,
         .extent =
@@ -71,19 +65,9 @@ void write_images(const std::vector<PointSet>& images, const WarpChain& chain,
             return images[set].side_files;
         },
         .counts = {},
-        .dimension = d,
-        .steps = {}};
+        .dimension = images.front().dimension(),
+        .chain = &chain};
     for (const PointSet& set : images) job.counts.push_back(set.count());
-    PointSet wide;
-    if (target.columns.any())
-        job.source = [&](std::size_t set, const RunContext&) {
-            // Without warps, what the points are on is the unit cube, or what it was scaled to.
-            const double volume = chain.empty() ? images[set].domain->measure() : 1;
-            const RowSteps steps{.columns = target.columns, .volume = volume};
-            wide = PointSet(with_columns(images[set].flat(), chain, steps),
-                            d + target.columns.names().size());
-            return source_of(wide);
-        };
     write_files(job, target, run);
 }
 
@@ -228,6 +212,67 @@ PointSet warped(const PointSet& set, const Warping& warping, const RunContext& r
     return image;
 }
 
+/// The images of the points of a stream.
+class WarpedRows {
+  public:
+    WarpedRows(io::PointStream& stream, const Warping& warping, std::size_t wide,
+               const RunContext& run)
+        : stream_(&stream), warping_(&warping), wide_(wide), run_(run) {
+        run_.progress = {};
+    }
+
+    std::size_t operator()(std::span<double> rows) {
+        const std::size_t d = stream_->dimension();
+        for (;;) {  // until some have an image
+            taken_.resize(rows.size() / wide_ * d);
+            const std::size_t count = stream_->read(taken_);
+            if (count == 0) return end();
+            if (!warping_->inverse)
+                warping_->taken.require_in_cube(std::span(taken_).first(count * d), came_);
+            const std::size_t kept = warped(count, rows);
+            came_ += count;
+            kept_ += kept;
+            if (kept > 0) return kept;
+        }
+    }
+
+  private:
+    std::size_t end() {
+        refuse_second_set(*stream_);
+        if (!warping_->inverse) tell_kept(came_, kept_, *warping_->chain, run_);
+        return 0;
+    }
+
+    /// Puts the images of what was taken into rows; their number.
+    std::size_t warped(std::size_t count, std::span<double> rows) const {
+        const std::size_t d = stream_->dimension();
+        const WarpChain& chain = *warping_->chain;
+        const std::size_t block = std::max<std::size_t>(1, 8192 / d);
+        std::vector<std::size_t> sizes(block_count(count, block));
+        for_each_block(run_, count, block, [&](const Block& b) {
+            const auto from = std::span(taken_).subspan(b.first * d, (b.last - b.first) * d);
+            std::vector<double> part(from.begin(), from.end());
+            part = warping_->inverse ? chain.inverse(std::move(part))
+                                     : chain.forward(std::move(part), came_ + b.first);
+            std::ranges::copy(part, rows.subspan(b.first * wide_).begin());
+            sizes[b.index] = part.size();
+        });
+        std::size_t end = 0;
+        for (std::size_t i = 0; i < sizes.size(); end += sizes[i++])  // close gaps between blocks
+            if (const std::size_t begin = i * block * wide_; end < begin)
+                std::ranges::copy(rows.subspan(begin, sizes[i]), rows.subspan(end).begin());
+        return end / wide_;
+    }
+
+    io::PointStream* stream_;
+    const Warping* warping_;
+    std::size_t wide_;
+    RunContext run_;
+    std::vector<double> taken_;
+    std::uint64_t came_ = 0;
+    std::uint64_t kept_ = 0;
+};
+
 /// Everything about a production that is the same for all its sets.
 class Producer {
   public:
@@ -309,22 +354,12 @@ class Producer {
 
     void stream() {
         const auto [first, last] = part(sets_.plan().count);
-        const std::uint64_t start = job_.request.start + first;
         const std::uint64_t count = last - first;
-        const std::size_t d = sets_.plan().dimension;
-        const bool seeded = uses_seed(generator_, job_.options);
-        std::shared_ptr<Sequence> sequence;
-        const auto source = [&](std::size_t set, const RunContext& run) {
-            if (seeded || !sequence) sequence = sets_.sequence(set, run);
-            walk_to(*sequence, start, d, run);
-            return Source{.count = count,
-                          .dimension = d,
-                          .fill = [sequence = sequence, start](
-                                      std::uint64_t at,
-                                      std::span<double> rows) { sequence->fill(start + at, rows); },
-                          .in_order = !sequence->random_access(),
-                          .chain = sets_.chain_for(set, run_),
-                          .first = start};
+        const double volume = sets_.chain().empty() ? sets_.domain()->measure() : 1;
+        const auto source = [&, first = first, last = last](std::size_t set,
+                                                            const RunContext& run) {
+            return Source{
+                .next = sets_.stream(set, run, first, last), .count = count, .volume = volume};
         };
         write_files(
             {.sets = job_.sets,
@@ -333,10 +368,8 @@ class Producer {
              .extent = [this](std::size_t) { return sets_.domain()->bounding_box(); },
              .counts = std::vector<std::uint64_t>(job_.sets, count),
              .dimension = sets_.dimension(),
-             .steps = {.bounds = sets_.bounds(),
-                       .columns = target_.columns,
-                       .volume = sets_.chain().empty() ? sets_.domain()->measure() : 1,
-                       .starts = true}},
+             .chain = &sets_.chain(),
+             .starts = true},
             target_, run_);
     }
 
@@ -423,37 +456,23 @@ bool can_stream(const io::PointStream& stream, const Target& target) {
 
 void write_warped(io::PointStream& stream, const DomainPtr& on, const Spec& warp, bool inverse,
                   const Target& target, const RunContext& run) {
-    const std::size_t d = stream.dimension();
     const Warping warping(warp, inverse, on, target, run);
     const auto& chain = warping.chain;
-    const std::size_t sets = stream.sets().value_or(1);
-    const auto source = [&](std::size_t /*set*/, const RunContext&) {
-        stream.next_set();
-        auto at = std::make_shared<std::uint64_t>(0);
-        return Source{.dimension = d,
-                      .fill = {},
-                      .read =
-                          [&stream, &warping, d, at](std::span<double> rows) {
-                              const std::size_t count = stream.read(rows);
-                              if (count == 0) refuse_second_set(stream);
-                              if (!warping.inverse)
-                                  warping.taken.require_in_cube(rows.first(count * d), *at);
-                              *at += count;
-                              return count;
-                          },
-                      .chain = chain};
-    };
     const std::size_t wide = inverse ? chain->dimension_in() : chain->dimension_out();
     const DomainPtr domain = inverse ? chain->domain_before(on, run) : chain->domain();
-    write_files(
-        {.sets = sets,
-         .source = source,
-         .provenance = [&](std::size_t) { return stream.provenance(); },
-         .extent = [&](std::size_t) { return domain->bounding_box(); },
-         .counts = std::vector<std::uint64_t>(sets, 0),
-         .dimension = wide,
-         .steps = {.bounds = {}, .columns = target.columns, .volume = 1, .inverse = inverse}},
-        target, run);
+    const std::size_t sets = stream.sets().value_or(1);
+    write_files({.sets = sets,
+                 .source =
+                     [&](std::size_t /*set*/, const RunContext&) {
+                         stream.next_set();
+                         return Source{.next = WarpedRows(stream, warping, wide, run)};
+                     },
+                 .provenance = [&](std::size_t) { return stream.provenance(); },
+                 .extent = [&](std::size_t) { return domain->bounding_box(); },
+                 .counts = std::vector<std::uint64_t>(sets, 0),
+                 .dimension = wide,
+                 .chain = chain.get()},
+                target, run);
 }
 
 void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, std::uint64_t seed,

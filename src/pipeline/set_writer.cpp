@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/set_writer.hpp"
 
-#include <oneapi/tbb/parallel_pipeline.h>
-
 #include <algorithm>
-#include <atomic>
+#include <cmath>
 #include <list>
-#include <memory>
-#include <mutex>
 #include <unordered_map>
 
 #include "core/error.hpp"
@@ -19,142 +15,94 @@
 namespace stipple {
 namespace {
 
-std::vector<double> mapped(std::vector<double> rows, const WarpChain& chain, std::uint64_t first,
-                           const RowSteps& steps) {
-    if (steps.inverse) return chain.inverse(std::move(rows));
-    if (steps.bounds) scale_into(*steps.bounds, rows);
-    rows = chain.forward(std::move(rows), first);
-    return steps.columns.any() ? with_columns(rows, chain, steps) : std::move(rows);
+/// Files hold no infinite numbers: no reader would take them.
+double finite(const char* column, double value, std::span<const double> point, bool starts) {
+    if (std::isfinite(value)) return value;
+    std::vector<std::string> words;
+    for (const double x : point) words.push_back(format_number(x));
+    fail_with_hint(
+        ErrorKind::input,
+        starts ? "--start 1 leaves out a sequence's first point, where coordinates are 0" : "",
+        "--with-{}: it is infinite at the point ({})", column, join(words, ", "));
 }
 
-/// A block of rows and, later, of bytes.
-struct RowBlock {
-    std::uint64_t first = 0;
-    std::uint64_t last = 0;
-    std::vector<double> rows;
-    std::string bytes;
-};
+/// Each row with the columns behind it.
+std::vector<double> with_columns(std::span<const double> rows, const Columns& columns,
+                                 const SetsToWrite& job, double volume) {
+    const std::size_t d = job.dimension;
+    const auto density = job.chain->density(rows);
+    std::vector<double> wide;
+    wide.reserve(rows.size() + 2 * density.size());
+    for (std::size_t i = 0; i < density.size(); ++i) {
+        const auto row = rows.subspan(i * d, d);
+        wide.insert(wide.end(), row.begin(), row.end());
+        const double pdf = density[i] / volume;
+        const double weight = volume / density[i];
+        if (columns.pdf) wide.push_back(finite("pdf", pdf, row, job.starts));
+        if (columns.weight) wide.push_back(finite("weight", weight, row, job.starts));
+    }
+    return wide;
+}
 
-/// The rows of one set through fill, warps and format into the output.
-class RowPipeline {
+/// The rows of one set as bytes of the output, a batch of blocks at a time.
+class RowWriter {
   public:
-    RowPipeline(const Source& source, const RowSteps& steps, const Layout& layout,
-                const Format& format, std::size_t set, io::Output& output, const RunContext& run)
-        : source_(source),
-          steps_(steps),
+    RowWriter(const SetsToWrite& job, const Source& source, const Layout& layout,
+              const Target& target, std::size_t set, io::Output& output, const RunContext& run)
+        : job_(job),
+          source_(source),
           layout_(layout),
-          format_(format),
+          target_(target),
           set_(set),
           output_(output),
           run_(run),
-          block_rows_(std::max<std::uint64_t>(1, 16384 / source.dimension)) {}
+          block_rows_(std::max<std::uint64_t>(1, 16384 / job.dimension)) {}
 
     /// False: the pipe was closed.
     bool go() {
-        if (run_.thread_count() == 1 || (source_.count <= block_rows_ && !source_.read))
-            go_alone();
-        else
-            within_threads(run_, [this] { go_parallel(); });
-        if (source_.read && !closed_ && !steps_.inverse)
-            tell_kept(at_, rows_out_, *source_.chain, run_);
-        return !closed_;
+        const std::uint64_t batch = 8 * block_rows_ * run_.thread_count();
+        const auto rows = static_cast<std::size_t>(std::min(batch, source_.count.value_or(batch)));
+        return in_batches(source_.next, rows, job_.dimension, run_,
+                          [this](std::span<const double> more) { return write(more); });
     }
 
   private:
-    /// The next block in a free block; nullptr at the end. Called by one thread at a time.
-    RowBlock* next() {
-        if (closed_ || (at_ == source_.count && !source_.read)) return nullptr;
-        run_.check_stop();
-        RowBlock& block = take();
-        block.first = at_;
-        if (source_.read) return read(block) ? &block : nullptr;
-        block.last = at_ = at_ + std::min(source_.count - at_, block_rows_);
-        block.bytes.clear();
-        if (source_.in_order) fill(block);
-        return &block;
+    bool write(std::span<const double> rows) {
+        const std::size_t d = job_.dimension;
+        const std::uint64_t count = rows.size() / d;
+        texts_.resize(block_count(count, block_rows_));
+        for_each_block(
+            run_, count, block_rows_,
+            [&](const Block& b) {
+                const auto part = rows.subspan(b.first * d, (b.last - b.first) * d);
+                texts_[b.index].clear();
+                put(part, written_ + b.first, texts_[b.index]);
+            },
+            true);
+        for (const std::string& text : texts_)
+            if (!output_.write(text)) return false;
+        written_ += count;
+        if (source_.count) run_.tick(written_, *source_.count);
+        return true;
     }
 
-    /// False: all rows were read.
-    bool read(RowBlock& block) {
-        block.rows.resize(block_rows_ * source_.dimension);
-        const std::size_t count = source_.read(block.rows);
-        block.rows.resize(count * source_.dimension);
-        block.last = at_ += count;
-        block.bytes.clear();
-        return count > 0;
+    void put(std::span<const double> rows, std::uint64_t first, std::string& text) const {
+        std::vector<double> wide;
+        if (target_.columns.any())
+            rows = wide = with_columns(rows, target_.columns, job_, source_.volume);
+        target_.format->rows(layout_, set_, first, rows, text);
     }
 
-    /// Blocks are owned here and used again: a pipeline that is stopped drops what it holds.
-    RowBlock& take() {
-        const std::lock_guard lock(mutex_);
-        if (free_.empty()) {
-            blocks_.push_back(std::make_unique<RowBlock>());
-            return *blocks_.back();
-        }
-        RowBlock* block = free_.back();
-        free_.pop_back();
-        return *block;
-    }
-
-    void fill(RowBlock& block) const {
-        block.rows.resize((block.last - block.first) * source_.dimension);
-        source_.fill(block.first, block.rows);
-    }
-
-    void work(RowBlock& block) const {
-        if (!source_.in_order && !source_.read) fill(block);
-        block.rows =
-            mapped(std::move(block.rows), *source_.chain, source_.first + block.first, steps_);
-        format_.rows(layout_, set_, block.first, block.rows, block.bytes);
-    }
-
-    void write(RowBlock& block) {
-        if (!closed_ && !output_.write(block.bytes)) closed_ = true;
-        rows_out_ += block.rows.size() / layout_.width();
-        if (!source_.read) run_.tick(block.last, source_.count);
-        const std::lock_guard lock(mutex_);
-        free_.push_back(&block);
-    }
-
-    void go_alone() {
-        while (RowBlock* block = next()) {
-            work(*block);
-            write(*block);
-        }
-    }
-
-    void go_parallel() {
-        const auto first = tbb::make_filter<void, RowBlock*>(tbb::filter_mode::serial_in_order,
-                                                             [this](tbb::flow_control& control) {
-                                                                 RowBlock* block = next();
-                                                                 if (!block) control.stop();
-                                                                 return block;
-                                                             });
-        const auto middle = tbb::make_filter<RowBlock*, RowBlock*>(tbb::filter_mode::parallel,
-                                                                   [this](RowBlock* block) {
-                                                                       work(*block);
-                                                                       return block;
-                                                                   });
-        const auto last = tbb::make_filter<RowBlock*, void>(
-            tbb::filter_mode::serial_in_order, [this](RowBlock* block) { write(*block); });
-        tbb::parallel_pipeline(4 * static_cast<std::size_t>(run_.thread_count()),
-                               first & middle & last);
-    }
-
+    const SetsToWrite& job_;
     const Source& source_;
-    const RowSteps& steps_;
     const Layout& layout_;
-    const Format& format_;
+    const Target& target_;
     std::size_t set_;
     io::Output& output_;
     const RunContext& run_;
     std::uint64_t block_rows_;
-    std::uint64_t at_ = 0;
-    std::uint64_t rows_out_ = 0;
-    std::atomic<bool> closed_ = false;
-    std::mutex mutex_;
-    std::vector<std::unique_ptr<RowBlock>> blocks_;
-    std::vector<RowBlock*> free_;
+    std::uint64_t written_ = 0;
+    std::vector<std::string> texts_;
 };
 
 std::string span_text(std::size_t low, std::size_t high) {
@@ -216,8 +164,7 @@ bool write_points(const SetsToWrite& job, std::size_t first, std::size_t last,
         if (format.begin_set) format.begin_set(layout, set - first, bytes);
         if (!output.write(bytes)) return false;
         bytes.clear();
-        RowPipeline pipeline(source, job.steps, layout, format, set - first, output, part);
-        if (!pipeline.go()) return false;
+        if (!RowWriter(job, source, layout, target, set - first, output, part).go()) return false;
     }
     if (format.tail) format.tail(layout, bytes);
     if (!output.write(bytes)) return false;
@@ -313,36 +260,6 @@ std::vector<std::string> Columns::names() const {
     if (pdf) names.emplace_back("pdf");
     if (weight) names.emplace_back("weight");
     return names;
-}
-
-/// Files hold no infinite numbers: no reader would take them.
-static double finite(const char* column, double value, std::span<const double> point,
-                     const RowSteps& steps) {
-    if (std::isfinite(value)) return value;
-    std::vector<std::string> words;
-    for (const double x : point) words.push_back(format_number(x));
-    fail_with_hint(ErrorKind::input,
-                   steps.starts
-                       ? "--start 1 leaves out a sequence's first point, where coordinates are 0"
-                       : "",
-                   "--with-{}: it is infinite at the point ({})", column, join(words, ", "));
-}
-
-std::vector<double> with_columns(std::span<const double> rows, const WarpChain& chain,
-                                 const RowSteps& steps) {
-    const std::size_t d = chain.dimension_out();
-    const auto density = chain.density(rows);
-    std::vector<double> wide;
-    wide.reserve(rows.size() + 2 * density.size());
-    for (std::size_t i = 0; i < density.size(); ++i) {
-        const auto row = rows.subspan(i * d, d);
-        wide.insert(wide.end(), row.begin(), row.end());
-        const double pdf = density[i] / steps.volume;
-        const double weight = steps.volume / density[i];
-        if (steps.columns.pdf) wide.push_back(finite("pdf", pdf, row, steps));
-        if (steps.columns.weight) wide.push_back(finite("weight", weight, row, steps));
-    }
-    return wide;
 }
 
 }  // namespace stipple

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The way of rows to a file: filled, warped and formatted block by block on all threads, written in
-// order. Memory is a few blocks a thread, whatever the size of the set.
+// The way of rows to a file: formatted block by block on all threads and written in order, while the
+// next ones are made. Memory is a few blocks a thread, whatever the size of the set.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "io/format.hpp"
-#include "pipeline/chain.hpp"
+#include "pipeline/generated.hpp"
 
 namespace stipple {
 
@@ -42,25 +42,9 @@ struct Target {
 
 /// Rows of one set, on their way to the file.
 struct Source {
-    std::uint64_t count = 0;    ///< rows
-    std::size_t dimension = 0;  ///< numbers of a row that `fill` gives
-    /// Gives rows [first, first + k) where `rows` holds k of them.
-    std::function<void(std::uint64_t first, std::span<double> rows)> fill;
-    bool in_order = false;  ///< fill must be called for one block after the other
-    /// In place of fill, where the count is not known: gives the next rows, as many as fit, and
-    /// fewer only at the end.
-    std::function<std::size_t(std::span<double> rows)> read = {};
-    std::shared_ptr<const WarpChain> chain;  ///< that the rows go through
-    std::uint64_t first = 0;                 ///< index of the first row in the whole set
-};
-
-/// What happens to rows before and after their warps.
-struct RowSteps {
-    std::optional<Box> bounds = {};  ///< scales the unit cube to this box first
-    Columns columns = {};            ///< added as last numbers
-    double volume = 1;               ///< measure of what the chain's unit cube was scaled to
-    bool inverse = false;            ///< goes back to the unit cube
-    bool starts = false;             ///< its first point can be left out by --start
+    NextRows next;                            ///< gives the rows, warped
+    std::optional<std::uint64_t> count = {};  ///< of all rows, where it is known before
+    double volume = 1;  ///< measure of what the points were scaled to, where nothing warped them
 };
 
 /// Sets with everything that is needed to write them one after the other.
@@ -74,8 +58,9 @@ struct SetsToWrite {
     /// Files that come with the set, under their final names; empty: none.
     std::function<const std::vector<SideFile>&(std::size_t set)> side_files = {};
     std::vector<std::uint64_t> counts;
-    std::size_t dimension = 0;  ///< numbers of a row that is written, less the columns
-    RowSteps steps;
+    std::size_t dimension = 0;         ///< numbers of a row, less the columns
+    const WarpChain* chain = nullptr;  ///< what gave the rows, for columns of their density
+    bool starts = false;               ///< a set's first point can be left out by --start
 };
 
 /// Whether the path holds {set} or {seed}.
@@ -91,9 +76,5 @@ bool write_files(const SetsToWrite& job, const Target& target, const RunContext&
 
 /// The part of a run's progress that one of several sets is.
 RunContext part_of_run(const RunContext& run, std::size_t set, std::size_t sets);
-
-/// Each row with the steps's columns behind it.
-std::vector<double> with_columns(std::span<const double> rows, const WarpChain& chain,
-                                 const RowSteps& steps);
 
 }  // namespace stipple

@@ -190,13 +190,8 @@ SharedSet shared_in_memory(PointSet points) {
             .count = all->count(),
             .dimension = all->dimension(),
             .from = [all](std::uint64_t first) -> NextRows {
-                return [all, at = static_cast<std::size_t>(first) *
-                                  all->dimension()](std::span<double> rows) mutable {
-                    const auto rest = all->flat().subspan(at);
-                    const std::size_t some = std::min(rest.size(), rows.size());
-                    std::copy_n(rest.begin(), some, rows.begin());
-                    at += some;
-                    return some / all->dimension();
+                return [all, next = rows_of(*all, first)](std::span<double> rows) {
+                    return next(rows);
                 };
             }};
 }

@@ -8,8 +8,8 @@
 // row.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -22,18 +22,15 @@ namespace stipple {
 namespace {
 
 /// Cells of a list; nothing for what is no list.
-std::vector<std::string> list_cells(const Report::Item& item) {
+std::optional<std::vector<std::string>> list_cells(const Report::Item& item) {
     std::vector<std::string> cells;
     if (const auto* curve = std::get_if<Report::Curve>(&item))
         for (const double x : *curve) cells.push_back(format_number(x));
-    if (const auto* list = std::get_if<Report::Integers>(&item))
+    else if (const auto* list = std::get_if<Report::Integers>(&item))
         for (const std::int64_t i : *list) cells.push_back(std::to_string(i));
+    else
+        return std::nullopt;
     return cells;
-}
-
-bool is_list(const Report::Item& item) {
-    return std::holds_alternative<Report::Curve>(item) ||
-           std::holds_alternative<Report::Integers>(item);
 }
 
 std::string single_cell(const Report::Item& item) {
@@ -44,133 +41,111 @@ std::string single_cell(const Report::Item& item) {
     return {};
 }
 
-/// Columns by name, in the order in which they first come.
-class Columns {
+/// The rows of one measurement.
+class ValueRows {
   public:
-    void add(const std::string& name) {
-        if (seen_.insert(name).second) names_.push_back(name);
+    using Column = std::pair<std::string, std::vector<std::string>>;
+
+    explicit ValueRows(const Measurement& m)
+        : single{{"analyzer", m.analyzer},
+                 {"source", m.source},
+                 {"set", m.set ? std::to_string(*m.set) : ""},
+                 {"count", std::to_string(m.count)},
+                 {"dimension", std::to_string(m.dimension)},
+                 {"domain", m.domain}} {
+        for (const auto& key : m.results.keys()) {
+            const Report::Item& item = *m.results.find(key);
+            const auto cells = list_cells(item);
+            if (!cells) continue;
+            Lists& lists = lists_of(key, cells->size());
+            ++lists.count;
+            lists.whole |= std::holds_alternative<Report::Integers>(item);
+        }
+        add(m.results, "", m.dimension);
+        if (m.standard_error) add(*m.standard_error, "standard_error.", m.dimension);
     }
-    [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+
+    std::vector<std::pair<std::string, std::string>> single;  ///< the same on each row
+    std::vector<std::vector<Column>> tables;
 
   private:
-    std::vector<std::string> names_;
-    std::set<std::string> seen_;
-};
-
-/// The rows of one measurement.
-struct ValueRows {
-    std::vector<std::pair<std::string, std::string>> single;  ///< the same on each row
-    std::vector<std::vector<std::pair<std::string, std::vector<std::string>>>> tables;
-
-    /// Lists are curves where those of `like`, under the same keys, are.
-    void add(const Report& report, const Report& like, const std::string& prefix,
-             std::size_t dimension);
-};
-
-/// Sorts the entries of a report into single cells and tables.
-void ValueRows::add(const Report& report, const Report& like, const std::string& prefix,
-                    std::size_t dimension) {
-    const auto keys = report.keys();
-    struct Alike {
-        std::size_t lists = 0;
+    /// Lists of one length in one group of the results.
+    struct Lists {
+        std::size_t count = 0;
         bool whole = false;  ///< one of them holds whole numbers
-
-        [[nodiscard]] bool table(bool more_than_axes) const {
-            return lists > 1 && (more_than_axes || whole);
-        }
+        std::optional<std::size_t> table = {};
     };
-    std::map<std::pair<std::string, std::size_t>, Alike> alike;  // of group and length
-    const auto place = [&](const std::string& key, std::size_t length) {
+
+    Lists& lists_of(const std::string& key, std::size_t length) {
         const auto dot = key.rfind('.');
-        return std::pair(dot == std::string::npos ? "" : key.substr(0, dot), length);
+        return lists_[{dot == std::string::npos ? "" : key.substr(0, dot), length}];
+    }
+
+    void add(const Report& report, const std::string& prefix, std::size_t dimension) {
+        for (const auto& key : report.keys()) {
+            const Report::Item& item = *report.find(key);
+            auto cells = list_cells(item);
+            if (!cells) {
+                single.emplace_back(prefix + key, single_cell(item));
+                continue;
+            }
+            Lists& lists = lists_of(key, cells->size());
+            if (lists.count > 1 && (cells->size() > dimension || lists.whole)) {
+                if (!lists.table) {
+                    lists.table = tables.size();
+                    tables.emplace_back();
+                }
+                tables[*lists.table].emplace_back(prefix + key, std::move(*cells));
+            } else {
+                for (std::size_t i = 0; i < cells->size(); ++i)
+                    single.emplace_back(fmt::format("{}{}.{}", prefix, key, i), (*cells)[i]);
+            }
+        }
+    }
+
+    std::map<std::pair<std::string, std::size_t>, Lists> lists_;
+};
+
+/// The columns of all rows, in the order in which they first come.
+std::vector<std::string> columns_of(const std::vector<ValueRows>& all) {
+    std::vector<std::string> columns;
+    std::set<std::string> seen;
+    const auto add = [&](const std::string& name) {
+        if (seen.insert(name).second) columns.push_back(name);
     };
-    for (const auto& key : like.keys()) {
-        const Report::Item& item = *like.find(key);
-        if (!is_list(item)) continue;
-        Alike& same = alike[place(key, list_cells(item).size())];
-        ++same.lists;
-        same.whole |= std::holds_alternative<Report::Integers>(item);
+    for (const ValueRows& rows : all) {
+        for (const auto& [name, cell] : rows.single) add(name);
+        for (const auto& table : rows.tables)
+            for (const auto& [name, cells] : table) add(name);
     }
-    std::map<std::pair<std::string, std::size_t>, std::size_t> table_of;
-    for (const auto& key : keys) {
-        const Report::Item& item = *report.find(key);
-        if (!is_list(item)) {
-            single.emplace_back(prefix + key, single_cell(item));
-            continue;
-        }
-        auto cells = list_cells(item);
-        const auto at = place(key, cells.size());
-        if (!alike[at].table(cells.size() > dimension)) {
-            for (std::size_t i = 0; i < cells.size(); ++i)
-                single.emplace_back(fmt::format("{}{}.{}", prefix, key, i), std::move(cells[i]));
-            continue;
-        }
-        const auto [table, fresh] = table_of.emplace(at, tables.size());
-        if (fresh) tables.emplace_back();
-        tables[table->second].emplace_back(prefix + key, std::move(cells));
-    }
+    return columns;
 }
 
-/// Standard errors of curves belong to the rows of these curves.
-void join_errors(ValueRows& rows, ValueRows errors, const std::string& prefix) {
-    rows.single.insert(rows.single.end(), errors.single.begin(), errors.single.end());
-    for (auto& table : errors.tables) {
-        const std::string key = table.front().first.substr(prefix.size());
-        const auto same = std::ranges::find_if(rows.tables, [&](const auto& of) {
-            return std::ranges::any_of(of, [&](const auto& column) { return column.first == key; });
-        });
-        auto& target = same != rows.tables.end() ? *same : rows.tables.emplace_back();
-        std::ranges::move(table, std::back_inserter(target));
+std::string row(const std::map<std::string, std::string>& cells,
+                const std::vector<std::string>& columns) {
+    std::vector<std::string> fields;
+    for (const std::string& column : columns) {
+        const auto cell = cells.find(column);
+        fields.push_back(cell == cells.end() ? "" : csv_field(cell->second));
     }
-}
-
-ValueRows rows_of(const Measurement& m) {
-    ValueRows rows;
-    rows.single = {{"analyzer", m.analyzer},
-                   {"source", m.source},
-                   {"set", m.set ? std::to_string(*m.set) : ""},
-                   {"count", std::to_string(m.count)},
-                   {"dimension", std::to_string(m.dimension)},
-                   {"domain", m.domain}};
-    rows.add(m.results, m.results, "", m.dimension);
-    const std::string prefix = "standard_error.";
-    ValueRows errors;
-    if (m.standard_error) errors.add(*m.standard_error, m.results, prefix, m.dimension);
-    join_errors(rows, std::move(errors), prefix);
-    return rows;
-}
-
-void write_row(const std::map<std::string, std::string>& cells,
-               const std::vector<std::string>& columns, std::string& text) {
-    for (std::size_t i = 0; i < columns.size(); ++i) {
-        const auto cell = cells.find(columns[i]);
-        if (i > 0) text += ',';
-        if (cell != cells.end()) text += csv_field(cell->second);
-    }
-    text += '\n';
+    return join(fields, ",") + "\n";
 }
 
 }  // namespace
 
 std::string to_csv(std::span<const Measurement> measurements) {
     if (measurements.empty()) return {};
-    std::vector<ValueRows> all;
-    Columns columns;
-    for (const Measurement& m : measurements) all.push_back(rows_of(m));
-    for (const ValueRows& rows : all) {
-        for (const auto& [name, cell] : rows.single) columns.add(name);
-        for (const auto& table : rows.tables)
-            for (const auto& [name, cells] : table) columns.add(name);
-    }
-    std::string text = join(columns.names(), ",") + "\n";
+    const std::vector<ValueRows> all(measurements.begin(), measurements.end());
+    const auto columns = columns_of(all);
+    std::string text = join(columns, ",") + "\n";
     for (const ValueRows& rows : all) {
         const std::map<std::string, std::string> single(rows.single.begin(), rows.single.end());
-        if (rows.tables.empty()) write_row(single, columns.names(), text);
+        if (rows.tables.empty()) text += row(single, columns);
         for (const auto& table : rows.tables)
             for (std::size_t i = 0; i < table.front().second.size(); ++i) {
                 auto cells = single;
                 for (const auto& [name, list] : table) cells[name] = list[i];
-                write_row(cells, columns.names(), text);
+                text += row(cells, columns);
             }
     }
     return text;

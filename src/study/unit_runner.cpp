@@ -76,17 +76,6 @@ RunContext silent(RunContext run) {
     return run;
 }
 
-/// Whether a measure takes such points.
-bool takes_points(const Chosen<Analyzer>& measure, PointSet points, const RunContext& run) {
-    try {
-        (void)analyze(*measure.unit, points, measure.values, silent(run));
-    } catch (const Error& e) {
-        if (e.kind() == ErrorKind::cancelled) throw;
-        return e.kind() != ErrorKind::input && e.kind() != ErrorKind::usage;
-    }
-    return true;
-}
-
 PointSet cube_of(std::size_t dimension, std::size_t count = 64) {
     return {some_points(dimension, count), dimension};
 }
@@ -97,21 +86,25 @@ PointSet image_of(const WarpChain& chain, std::size_t count = 64) {
     return image;
 }
 
-/// What a measure has against its options when it sees such points, if it says so soon.
+/// What a measure has against such points, if it says so within so many seconds.
 std::optional<Error> refusal(const Chosen<Analyzer>& measure, const PointSet& points,
-                             const RunContext& run) {
-    constexpr double soon = 0.2;  // seconds
+                             const RunContext& run, std::optional<double> limit = {}) {
     try {
-        over_time(silent(run), soon, [&](const RunContext& limited) {
+        over_time(silent(run), limit, [&](const RunContext& limited) {
             (void)analyze(*measure.unit, points, measure.values, limited);
         });
     } catch (const Error& e) {
         if (e.kind() == ErrorKind::cancelled) throw;
-        if (e.kind() == ErrorKind::usage) return e;
+        return e;
     } catch (const std::exception&) {
         return std::nullopt;  // the rows will say what is wrong
     }
     return std::nullopt;
+}
+
+bool takes_points(const Chosen<Analyzer>& measure, const PointSet& points, const RunContext& run) {
+    const auto error = refusal(measure, points, run);
+    return !error || (error->kind() != ErrorKind::input && error->kind() != ErrorKind::usage);
 }
 
 /// Whether a measure looks at what the warps made: where it can, and where it cannot take points of
@@ -348,18 +341,18 @@ std::span<const Spec> UnitRunner::warps_behind_scrambles() const {
 
 std::optional<Error> UnitRunner::refusal_of(std::size_t measure, std::size_t dimension,
                                             std::size_t count, const RunContext& run) const {
-    const auto& chosen = sweep_.measures()[measure];
+    constexpr double soon = 0.2;  // seconds
+    PointSet points = cube_of(dimension, count);
     const auto warps = warps_behind_scrambles();
-    if (warps.empty() || !takes_image(dimension, measure, run))
-        return refusal(chosen, cube_of(dimension, count), run);
-    std::optional<WarpChain> chain;
     try {
-        chain.emplace(warps, dimension, ChainSet{}, run);
+        if (!warps.empty() && takes_image(dimension, measure, run))
+            points = image_of(WarpChain(warps, dimension, {}, run), count);
     } catch (const Error& e) {
         if (e.kind() == ErrorKind::cancelled) throw;
         return std::nullopt;  // the rows will say what is wrong
     }
-    return refusal(chosen, image_of(*chain, count), run);
+    auto error = refusal(sweep_.measures()[measure], points, run, soon);
+    return error && error->kind() == ErrorKind::usage ? error : std::nullopt;
 }
 
 bool UnitRunner::takes_image(std::size_t dimension, std::size_t measure,
