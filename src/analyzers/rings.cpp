@@ -158,6 +158,23 @@ double effective_nyquist(const Grid& power, const Rings& rings, const RunContext
     return 0;
 }
 
+namespace {
+
+/// Mean over the frequencies of some rings, of each of which weighted(cells, power) is the sum.
+template <class Weighted>
+double mean_of(const Rings& rings, std::size_t first, std::size_t last, const Weighted& weighted) {
+    double sum = 0;
+    double cells = 0;
+    for (std::size_t i = first; i <= last; ++i) {
+        const auto weight = static_cast<double>(rings.cells[i]);
+        sum += weighted(weight, rings.power[i]);
+        cells += weight;
+    }
+    return sum / cells;
+}
+
+}  // namespace
+
 Oscillation oscillation(const Rings& rings, double regular_nyquist) {
     const auto& power = rings.power;
     auto first = std::ranges::find_if(power, [](double p) { return p >= 0.98; });
@@ -167,25 +184,13 @@ Oscillation oscillation(const Rings& rings, double regular_nyquist) {
     const double reach = static_cast<double>(a) + std::round(10 * regular_nyquist);
     const bool cut = reach >= static_cast<double>(power.size());
     const std::size_t b = cut ? power.size() - 1 : static_cast<std::size_t>(reach);
-    double sum = 0;
-    double cells = 0;
-    for (std::size_t i = a; i <= b; ++i) {
-        const auto weight = static_cast<double>(rings.cells[i]);
-        sum += weight * (power[i] - 1) * (power[i] - 1);
-        cells += weight;
-    }
-    return {10 * std::sqrt(sum / cells), reached && !cut};
+    const auto square = [](double weight, double p) { return weight * (p - 1) * (p - 1); };
+    return {10 * std::sqrt(mean_of(rings, a, b, square)), reached && !cut};
 }
 
 double total_variation(const Rings& rings) {
-    double sum = 0;
-    double cells = 0;
-    for (std::size_t i = 0; i < rings.power.size(); ++i) {
-        const auto weight = static_cast<double>(rings.cells[i]);
-        sum += weight * std::abs(rings.power[i] - 1);
-        cells += weight;
-    }
-    return sum / cells / 2;
+    const auto size = [](double weight, double p) { return weight * std::abs(p - 1); };
+    return mean_of(rings, 0, rings.power.size() - 1, size) / 2;
 }
 
 std::optional<double> low_frequency_exponent(const Rings& rings, double regular_nyquist,

@@ -42,20 +42,11 @@ std::optional<std::int64_t> power(std::string_view base_text, std::string_view e
     return value;
 }
 
+/// 0 where it is none.
 double suffix_factor(char suffix) {
-    switch (suffix) {
-        case 'k':
-        case 'K':
-            return 0x1p10;
-        case 'M':
-            return 0x1p20;
-        case 'G':
-            return 0x1p30;
-        case 'T':
-            return 0x1p40;
-        default:
-            return 0;
-    }
+    constexpr std::string_view letters = "KMGT";
+    const auto place = letters.find(suffix == 'k' ? 'K' : suffix);
+    return place == letters.npos ? 0 : std::ldexp(1.0, 10 * static_cast<int>(place + 1));
 }
 
 /// Letters to add, take away, replace, or swap with the next one.

@@ -287,21 +287,22 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     return results;
 }
 
+/// Of sets with different radii. @throws Error(usage)
+[[noreturn]] void refuse_mean() {
+    fail_with_hint(ErrorKind::usage, "give them one --min-radius and --max-radius",
+                   "--average: the sets have windows of different radii, as they have different "
+                   "numbers of points");
+}
+
 /// A mean of slopes is not the slope of the mean variance, which scatters less.
 void refine(Report& mean, std::size_t, const Values&) {
-    if (!mean.find("radius"))
-        fail_with_hint(ErrorKind::usage, "give them one --min-radius and --max-radius",
-                       "--average: the sets have windows of different radii, as they have "
-                       "different numbers of points");
+    if (!mean.find("radius")) refuse_mean();
     add_exponent(mean);
 }
 
 /// Nor is a mean over different radii any.
 void combine(Report&, std::span<const Report> sets, const Values&) {
-    if (!alike(sets, "fit_from") || !alike(sets, "fit_to"))
-        fail_with_hint(ErrorKind::usage, "give them one --min-radius and --max-radius",
-                       "--average: the sets have windows of different radii, as they have "
-                       "different numbers of points");
+    if (!alike(sets, "fit_from") || !alike(sets, "fit_to")) refuse_mean();
 }
 
 }  // namespace

@@ -30,6 +30,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "analyzers/analyzer.hpp"
 #include "analyzers/distances/distances.hpp"
@@ -49,36 +50,18 @@ double packing_distance(const Box& box, double n) {
            std::pow(volume_of(box) / (n * std::sqrt(packing[d - 1])), 1 / static_cast<double>(d));
 }
 
-/// Sums over points, added up block by block.
-struct Sums {
-    double distance = 0;
-    double deviation = 0;  ///< squared, from the mean
-    double farthest = 0;
-    std::uint64_t duplicates = 0;
-};
-
-Sums sum_up(const std::vector<Neighbor>& neighbors, double mean, const RunContext& run) {
+/// Sum of term(distance) over points, block by block.
+template <class Term>
+double sum_up(const std::vector<Neighbor>& neighbors, const RunContext& run, const Term& term) {
     constexpr std::uint64_t size = 65536;
-    std::vector<Sums> parts(block_count(neighbors.size(), size));
+    std::vector<double> parts(block_count(neighbors.size(), size));
     for_each_block(silent(run), neighbors.size(), size, [&](const Block& b) {
-        Sums& part = parts[b.index];
-        for (std::uint64_t i = b.first; i < b.last; ++i) {
-            const double squared = neighbors[i].squared;
-            const double distance = std::sqrt(squared);
-            part.distance += distance;
-            part.deviation += (distance - mean) * (distance - mean);
-            part.farthest = std::max(part.farthest, squared);
-            part.duplicates += squared == 0 ? 1 : 0;
-        }
+        double sum = 0;
+        for (std::uint64_t i = b.first; i < b.last; ++i)
+            sum += term(std::sqrt(neighbors[i].squared));
+        parts[b.index] = sum;
     });
-    Sums all;
-    for (const Sums& part : parts) {
-        all.distance += part.distance;
-        all.deviation += part.deviation;
-        all.farthest = std::max(all.farthest, part.farthest);
-        all.duplicates += part.duplicates;
-    }
-    return all;
+    return std::accumulate(parts.begin(), parts.end(), 0.0);
 }
 
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
@@ -88,19 +71,20 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     const auto neighbors = nearest_neighbors(points, distances, run);
     const ClosestPair closest = closest_pair(neighbors);
     const auto n = static_cast<double>(points.count());
-    const double mean = sum_up(neighbors, 0, run).distance / n;
-    const Sums sums = sum_up(neighbors, mean, run);
+    const double mean = sum_up(neighbors, run, [](double distance) { return distance; }) / n;
+    const double deviations =
+        sum_up(neighbors, run, [&](double d) { return (d - mean) * (d - mean); });
     const double minimum = std::sqrt(closest.second.squared);
     Report results;
     results.add("minimum", minimum);
     results.add("mean", mean);
-    results.add("maximum", std::sqrt(sums.farthest));
-    results.add("standard_deviation", std::sqrt(sums.deviation / n));
+    results.add("maximum", std::sqrt(std::ranges::max(neighbors, {}, &Neighbor::squared).squared));
+    results.add("standard_deviation", std::sqrt(deviations / n));
     if (distances.box && points.dimension() <= packing.size())
         results.add("relative_radius", minimum / packing_distance(*distances.box, n));
     results.add("pair", Report::Integers{static_cast<std::int64_t>(closest.first),
                                          static_cast<std::int64_t>(closest.second.index)});
-    results.add("duplicates", sums.duplicates);
+    results.add("duplicates", std::int64_t{std::ranges::count(neighbors, 0.0, &Neighbor::squared)});
     results.add("metric", distances.name());
     return results;
 }
