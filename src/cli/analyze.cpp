@@ -84,17 +84,13 @@ void check_side_files(const Values& options, const std::string& output) {
     }
 }
 
-enum class ReportStyle { text, json, csv };
-
-ReportStyle report_style(const Arguments& arguments, const std::string& path) {
-    const auto format = arguments.get("format");
-    if (format == "text") return ReportStyle::text;
-    if (format == "json") return ReportStyle::json;
-    if (format == "csv") return ReportStyle::csv;
-    if (path.ends_with(".csv")) return ReportStyle::csv;
-    if (path.ends_with(".txt")) return ReportStyle::text;
-    // A launcher gives the process that speaks for all a terminal of its own.
-    return is_terminal(path) && launched_ranks() == 1 ? ReportStyle::text : ReportStyle::json;
+/// text, json or csv
+std::string report_format(const Arguments& arguments, const std::string& path) {
+    if (const auto format = arguments.get("format")) return *format;
+    if (path.ends_with(".csv")) return "csv";
+    // A launcher gives the process that prints for all a terminal of its own.
+    const bool people = is_terminal(path) && launched_ranks() == 1;
+    return people || path.ends_with(".txt") ? "text" : "json";
 }
 
 /// What sets are from; joined ones are from all at once.
@@ -115,7 +111,7 @@ class Analysis {
           joined_(arguments.has("concat")),
           inputs_(inputs_of(arguments)),
           path_(output_of(arguments)),
-          style_(report_style(arguments, path_)),
+          format_(report_format(arguments, path_)),
           averaged_(arguments.has("average")),
           strengths_(text_of(analyzer_.strengths).value_or("")),
           batch_(
@@ -520,9 +516,9 @@ class Analysis {
     }
 
     void print() const {
-        write_text(path_, style_ == ReportStyle::json  ? to_json(measurements_)
-                          : style_ == ReportStyle::csv ? to_csv(measurements_)
-                                                       : to_text(measurements_));
+        write_text(path_, format_ == "json"  ? to_json(measurements_)
+                          : format_ == "csv" ? to_csv(measurements_)
+                                             : to_text(measurements_));
     }
 
     const Arguments& arguments_;
@@ -533,7 +529,7 @@ class Analysis {
     bool joined_;  ///< all inputs are one set
     std::vector<std::string> inputs_;
     std::string path_;
-    ReportStyle style_;
+    std::string format_;
     bool averaged_;
     std::string strengths_;  ///< the column of strengths that was asked for
     std::vector<Check> checks_;

@@ -20,8 +20,6 @@
 namespace stipple::testing::page_test {
 
 using namespace page;
-using plot::base64;
-using plot::html_json;
 using plot::html_text;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -54,23 +52,6 @@ const Measure& measure_of(const Set& set, const std::string& name) {
 }
 
 }  // namespace
-
-TEST(HtmlText, LeavesNoLetterThatMeansSomethingElse) {
-    EXPECT_EQ(html_text("a<b>&\"c\" 'd' é"), "a&lt;b&gt;&amp;&quot;c&quot; 'd' é");
-    EXPECT_EQ(html_text("<script>alert(1)</script>"), "&lt;script&gt;alert(1)&lt;/script&gt;");
-    EXPECT_THAT(html_text("\xff\x01"), Not(HasSubstr("\x01")));
-    EXPECT_EQ(html_json("{\"a\":\"</script>\"}"), "{\"a\":\"\\u003c/script>\"}");
-}
-
-// RFC 4648, section 10.
-TEST(HtmlText, Base64AsPrinted) {
-    EXPECT_EQ(base64(""), "");
-    EXPECT_EQ(base64("f"), "Zg==");
-    EXPECT_EQ(base64("fo"), "Zm8=");
-    EXPECT_EQ(base64("foo"), "Zm9v");
-    EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
-    EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
-}
 
 TEST(Best, IsTheLowestOrTheHighestByTheMeasure) {
     const Compared values = {exactly(2), exactly(1), exactly(3)};

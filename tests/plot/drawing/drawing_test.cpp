@@ -9,6 +9,7 @@
 #include <regex>
 
 #include "media/png_picture.hpp"
+#include "plot/drawing/html_text.hpp"
 #include "plot/drawing/letters.hpp"
 #include "plot/drawing/panel.hpp"
 #include "plot/drawing/ticks.hpp"
@@ -19,6 +20,7 @@ using namespace plot;
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 namespace {
 
@@ -301,6 +303,23 @@ TEST(Panel, MendsAxesWithoutExtent) {
             EXPECT_TRUE(!log || axis.low > 0);
             EXPECT_FALSE(axis.ticks(300, false).numbers.empty());
         }
+}
+
+TEST(HtmlText, LeavesNoLetterThatMeansSomethingElse) {
+    EXPECT_EQ(html_text("a<b>&\"c\" 'd' é"), "a&lt;b&gt;&amp;&quot;c&quot; 'd' é");
+    EXPECT_EQ(html_text("<script>alert(1)</script>"), "&lt;script&gt;alert(1)&lt;/script&gt;");
+    EXPECT_THAT(html_text("\xff\x01"), Not(HasSubstr("\x01")));
+    EXPECT_EQ(html_json("{\"a\":\"</script>\"}"), "{\"a\":\"\\u003c/script>\"}");
+}
+
+// RFC 4648, section 10.
+TEST(HtmlText, Base64AsPrinted) {
+    EXPECT_EQ(base64(""), "");
+    EXPECT_EQ(base64("f"), "Zg==");
+    EXPECT_EQ(base64("fo"), "Zm8=");
+    EXPECT_EQ(base64("foo"), "Zm9v");
+    EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+    EXPECT_EQ(base64("\xff\xfe\xfd"), "//79");
 }
 
 }  // namespace stipple::testing::drawing_test
