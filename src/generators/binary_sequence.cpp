@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <bit>
 
 #include "math/digital/binary_scramble.hpp"
@@ -16,40 +17,18 @@ std::unique_ptr<Sequence> plain_sequence(BinaryNet net) {
     });
 }
 
-/// Nested uniform scrambling is no linear map: it takes fractions, coordinate by coordinate.
-class OwenBinarySequence final : public Sequence {
-  public:
-    OwenBinarySequence(BinaryNet net, std::uint64_t seed) : net_(std::move(net)) {
-        for (std::size_t k = 0; k < net_.dimension(); ++k) scrambles_.emplace_back(seed, k);
-    }
+/// Points a block at a time: Owen's scrambling takes the fractions of one coordinate.
+constexpr std::size_t block_words = 2048;
 
-    void fill(std::uint64_t first, std::span<double> rows) override {
-        const std::size_t d = net_.dimension();
-        const std::size_t step = std::max<std::size_t>(1, block_words / d);
-        std::vector<std::uint64_t> block(std::min(rows.size(), step * d));
-        std::vector<std::uint64_t> column(block.size() / d);
-        for (std::size_t at = 0; at < rows.size(); at += block.size()) {
-            const std::size_t words = std::min(block.size(), rows.size() - at);
-            net_.fill(first + at / d, std::span(block).first(words));
-            for (std::size_t k = 0; k < d; ++k)
-                scramble(block, k, std::span(column).first(words / d), rows.data() + at + k);
-        }
-    }
-
-  private:
-    static constexpr std::size_t block_words = 2048;
-
-    void scramble(const std::vector<std::uint64_t>& block, std::size_t k,
-                  std::span<std::uint64_t> column, double* out) const {
-        const std::size_t d = net_.dimension();
-        for (std::size_t i = 0; i < column.size(); ++i) column[i] = block[i * d + k];
-        scrambles_[k].apply(column);
-        for (std::size_t i = 0; i < column.size(); ++i) out[i * d] = fraction_to_unit(column[i]);
-    }
-
-    BinaryNet net_;
-    std::vector<BinaryOwen> scrambles_;
-};
+/// Scrambles the k-th coordinate of some points.
+void scramble_column(const BinaryOwen& owen, std::span<const std::uint64_t> block, std::size_t d,
+                     std::size_t k, double* out) {
+    std::array<std::uint64_t, block_words> column;
+    const std::size_t count = block.size() / d;
+    for (std::size_t i = 0; i < count; ++i) column[i] = block[i * d + k];
+    owen.apply(std::span(column).first(count));
+    for (std::size_t i = 0; i < count; ++i) out[i * d + k] = fraction_to_unit(column[i]);
+}
 
 /// Columns of the product of each coordinate's random matrix and its generating matrix.
 BinaryMatrices scrambled(BinaryMatrices matrices, std::uint64_t seed) {
@@ -88,7 +67,19 @@ std::unique_ptr<Sequence> binary_sequence(BinaryMatrices matrices, const Plan& p
 }
 
 std::unique_ptr<Sequence> owen_sequence(const BinaryMatrices& matrices, std::uint64_t seed) {
-    return std::make_unique<OwenBinarySequence>(BinaryNet(matrices), seed);
+    std::vector<BinaryOwen> owen;
+    for (std::size_t k = 0; k < matrices.dimension; ++k) owen.emplace_back(seed, k);
+    return sequence_of(
+        [net = BinaryNet(matrices), owen](std::uint64_t first, std::span<double> rows) {
+            const std::size_t d = net.dimension();
+            std::vector<std::uint64_t> words(std::max<std::size_t>(1, block_words / d) * d);
+            for (std::size_t at = 0; at < rows.size(); at += words.size()) {
+                const auto block = std::span(words).first(std::min(words.size(), rows.size() - at));
+                net.fill(first + at / d, block);
+                for (std::size_t k = 0; k < d; ++k)
+                    scramble_column(owen[k], block, d, k, rows.data() + at);
+            }
+        });
 }
 
 bool binary_uses_seed(const Values& options) { return options[binary_scramble] != "none"; }

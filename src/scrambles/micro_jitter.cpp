@@ -35,29 +35,22 @@ std::uint64_t interval_of(double x, std::uint64_t count) {
     return std::min(k, count - 1);
 }
 
-class MicroJitter final : public Randomization {
-  public:
-    MicroJitter(const ScrambleRequest& request, std::uint64_t count)
-        : coordinates_(request.coordinates),
-          rng_(scramble_numbers(request.seed, ScrambleStream::micro_jitter)),
-          count_(count) {}
-
-    void apply(std::uint64_t first, std::span<double> rows) const override {
-        // A stride that depends on nothing but the coordinate keeps one choice for one coordinate.
-        constexpr std::uint64_t stride = std::uint64_t{1} << 20;
-        const std::size_t d = coordinates_.size();
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            const auto low = static_cast<double>(interval_of(rows[i], count_));
-            rows[i] = rng_.uniform((first + i / d) * stride + coordinates_[i % d]);
-            place_in_strata({.low = {&low, 1}, .parts = count_}, &rows[i], 1);
-        }
-    }
-
-  private:
-    std::vector<std::size_t> coordinates_;
-    Rng rng_;
-    std::uint64_t count_;
-};
+std::unique_ptr<Randomization> make(const Values& options, const ScrambleRequest& request) {
+    const std::uint64_t count =
+        options.given(cells) ? static_cast<std::uint64_t>(options[cells]) : request.count;
+    const Rng rng = scramble_numbers(request.seed, ScrambleStream::micro_jitter);
+    return randomization_of(
+        [count, rng, which = request.coordinates](std::uint64_t first, std::span<double> rows) {
+            // A stride that depends on nothing but the coordinate keeps one choice for one coordinate.
+            constexpr std::uint64_t stride = std::uint64_t{1} << 20;
+            const std::size_t d = which.size();
+            for (std::size_t i = 0; i < rows.size(); ++i) {
+                const auto low = static_cast<double>(interval_of(rows[i], count));
+                rows[i] = rng.uniform((first + i / d) * stride + which[i % d]);
+                place_in_strata({.low = {&low, 1}, .parts = count}, &rows[i], 1);
+            }
+        });
+}
 
 }  // namespace
 
@@ -66,12 +59,7 @@ Scramble unit() {
             .summary = "Every coordinate to a random place in its interval of length 1 / N",
             .source = "Standard construction",
             .options = Schema(cells, scramble_seed),
-            .make = [](const Values& options,
-                       const ScrambleRequest& request) -> std::unique_ptr<Randomization> {
-                const auto count = options.given(cells) ? static_cast<std::uint64_t>(options[cells])
-                                                        : request.count;
-                return std::make_unique<MicroJitter>(request, count);
-            }};
+            .make = make};
 }
 
 }  // namespace stipple::scrambles::micro_jitter

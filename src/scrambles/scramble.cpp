@@ -25,28 +25,16 @@ std::uint32_t base_of(double number, bool prime) {
     return base;
 }
 
-class CoordinateWise final : public Randomization {
+class Randomizing final : public Randomization {
   public:
-    CoordinateWise(std::size_t dimension, std::function<void(std::size_t, std::span<double>)> move)
-        : dimension_(dimension), move_(std::move(move)) {}
-
-    void apply(std::uint64_t, std::span<double> rows) const override {
-        std::array<double, most_moved> column;
-        const std::size_t count = rows.size() / dimension_;
-        for (std::size_t begin = 0; begin < count; begin += column.size()) {
-            const std::size_t length = std::min(column.size(), count - begin);
-            for (std::size_t k = 0; k < dimension_; ++k) {
-                double* x = rows.data() + begin * dimension_ + k;
-                for (std::size_t i = 0; i < length; ++i) column[i] = x[i * dimension_];
-                move_(k, std::span(column).first(length));
-                for (std::size_t i = 0; i < length; ++i) x[i * dimension_] = column[i];
-            }
-        }
+    explicit Randomizing(std::function<void(std::uint64_t, std::span<double>)> function)
+        : function_(std::move(function)) {}
+    void apply(std::uint64_t first, std::span<double> rows) const override {
+        function_(first, rows);
     }
 
   private:
-    std::size_t dimension_;
-    std::function<void(std::size_t, std::span<double>)> move_;
+    std::function<void(std::uint64_t, std::span<double>)> function_;
 };
 
 }  // namespace
@@ -62,9 +50,27 @@ std::vector<std::uint32_t> bases_for(const std::vector<double>& given, std::size
     return bases;
 }
 
+std::unique_ptr<Randomization> randomization_of(
+    std::function<void(std::uint64_t, std::span<double>)> apply) {
+    return std::make_unique<Randomizing>(std::move(apply));
+}
+
 std::unique_ptr<Randomization> coordinate_wise(
     std::size_t dimension, std::function<void(std::size_t, std::span<double>)> move) {
-    return std::make_unique<CoordinateWise>(dimension, std::move(move));
+    return randomization_of(
+        [dimension, move = std::move(move)](std::uint64_t, std::span<double> rows) {
+            std::array<double, most_moved> column;
+            const std::size_t count = rows.size() / dimension;
+            for (std::size_t begin = 0; begin < count; begin += column.size()) {
+                const std::size_t length = std::min(column.size(), count - begin);
+                for (std::size_t k = 0; k < dimension; ++k) {
+                    double* x = rows.data() + begin * dimension + k;
+                    for (std::size_t i = 0; i < length; ++i) column[i] = x[i * dimension];
+                    move(k, std::span(column).first(length));
+                    for (std::size_t i = 0; i < length; ++i) x[i * dimension] = column[i];
+                }
+            }
+        });
 }
 
 }  // namespace stipple

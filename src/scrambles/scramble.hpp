@@ -61,6 +61,10 @@ struct Scramble {
 std::vector<std::uint32_t> bases_for(const std::vector<double>& given, std::size_t coordinates,
                                      bool prime);
 
+/// The randomization whose apply() is a function.
+std::unique_ptr<Randomization> randomization_of(
+    std::function<void(std::uint64_t first, std::span<double> rows)> apply);
+
 /// Numbers that a coordinate-wise randomization moves at a time, at most.
 inline constexpr std::size_t most_moved = 512;
 

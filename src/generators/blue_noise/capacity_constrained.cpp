@@ -38,12 +38,7 @@ namespace {
 
 using planar::from;
 
-constexpr Param<std::int64_t> iterations{.name = "iterations",
-                                         .fallback = 60,
-                                         .low = 0,
-                                         .high = 1'000'000'000,
-                                         .unit = "iterations",
-                                         .help = "How often every point moves"};
+constexpr auto iterations = planar::iterations_option(60, "How often every point moves");
 constexpr Param<bool> crystals{.name = "crystals",
                                .help = "Leave hexagons that form as they are; do not shake them"};
 

@@ -39,12 +39,7 @@
 namespace stipple::generators::farthest_point {
 namespace {
 
-constexpr Param<std::int64_t> iterations{.name = "iterations",
-                                         .fallback = 50,
-                                         .low = 0,
-                                         .high = 1'000'000'000,
-                                         .unit = "iterations",
-                                         .help = "How often every point moves, at most"};
+constexpr auto iterations = planar::iterations_option(50, "How often every point moves, at most");
 
 constexpr Param<Choice> initial{.name = planar::initial.name,
                                 .fallback = "random",
@@ -200,8 +195,6 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     return planar_points(plan, planar, std::move(rows));
 }
 
-bool uses_seed(const Values& options) { return !options.given(planar::from); }
-
 }  // namespace
 
 Generator unit() {
@@ -215,7 +208,7 @@ Generator unit() {
             .aliases = {"fpo", "farthest-point-optimization"},
             .plan = planar_plan,
             .set = make,
-            .uses_seed = uses_seed};
+            .uses_seed = planar::uses_seed};
 }
 
 }  // namespace stipple::generators::farthest_point

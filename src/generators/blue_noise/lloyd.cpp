@@ -33,12 +33,7 @@ namespace {
 
 using planar::from;
 
-constexpr Param<std::int64_t> iterations{.name = "iterations",
-                                         .fallback = 50,
-                                         .low = 0,
-                                         .high = 1'000'000'000,
-                                         .unit = "iterations",
-                                         .help = "How often every point moves"};
+constexpr auto iterations = planar::iterations_option(50, "How often every point moves");
 
 class Lloyd {
   public:
@@ -117,8 +112,6 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     return planar_points(plan, start.planar, lloyd.rows());
 }
 
-bool uses_seed(const Values& options) { return !options.given(from); }
-
 }  // namespace
 
 Generator unit() {
@@ -131,7 +124,7 @@ Generator unit() {
             .aliases = {"cvt", "centroidal-voronoi"},
             .plan = planar_plan,
             .set = make,
-            .uses_seed = uses_seed};
+            .uses_seed = planar::uses_seed};
 }
 
 }  // namespace stipple::generators::lloyd

@@ -29,6 +29,18 @@ constexpr Param<Choice> initial{.name = "initial",
                                 .fallback = "jittered",
                                 .choices = "jittered|random",
                                 .help = "Points to start from"};
+
+constexpr Param<std::int64_t> iterations_option(std::int64_t usual, std::string_view help) {
+    return {.name = "iterations",
+            .fallback = usual,
+            .low = 0,
+            .high = 1'000'000'000,
+            .unit = "iterations",
+            .help = help};
+}
+
+/// For Generator::uses_seed, of those that need no random numbers but to begin with.
+inline bool uses_seed(const Values& options) { return !options.given(from); }
 }  // namespace planar
 
 /// The rectangle of a plan; points are worked on from its lower corner.

@@ -76,6 +76,13 @@ inline double normal_quantile(double q, double m) {
     return std::abs(q) <= 0.425 ? middle : tail;
 }
 
+/// The same for m of at least exp(-25) = 1.39e-11, without the far tail.
+[[gnu::always_inline]] inline double near_normal_quantile(double q, double m) {
+    const double middle = q * quantile_middle(0.180625 - q * q);
+    const double tail = std::copysign(quantile_tail(std::sqrt(-logarithm(m)) - 1.6), q);
+    return std::abs(q) <= 0.425 ? middle : tail;
+}
+
 /// p, but at least 2^-54, or its complement, but at least 2^-55.
 inline double bounded_tail(double p) {
     const double least = p < 0.5 ? 0x1p-54 : 0x1p-55;
@@ -95,7 +102,7 @@ inline double bounded_normal_quantile(double p) {
     return detail::normal_quantile(p - 0.5, detail::bounded_tail(p));
 }
 
-/// The same for many numbers p, in place.
+/// The same for many numbers p, in place; the far tails, where few are, by themselves.
 void bounded_normal_quantiles(std::span<double> p);
 
 }  // namespace stipple

@@ -24,19 +24,14 @@
 //         doi:10.1080/10867651.1997.10487479 (concentric); T. Malley, M.Sc. thesis, University of
 //         Utah (1988).
 
-#include <limits>
 #include <numbers>
 
-#include "core/directional.hpp"
 #include "math/functions/exponential.hpp"
 #include "math/functions/logarithm.hpp"
 #include "math/functions/real_power.hpp"
 #include "math/geometry/disk_maps.hpp"
-#include "math/geometry/law_moments.hpp"
-#include "math/geometry/polar_direction.hpp"
-#include "math/geometry/zone_integral.hpp"
+#include "warps/curved/lobe.hpp"
 #include "warps/curved/placement.hpp"
-#include "warps/row_mapping.hpp"
 
 namespace stipple::warps::hemisphere {
 namespace {
@@ -64,6 +59,7 @@ constexpr Param<Choice> disk_map{
 /// The law of the angle from the axis: cos^k theta, with the share of the directions that are
 /// nearer to the axis. Directions are in the frame of the axis.
 struct CosineLaw {
+    static constexpr bool hemisphere = true;
     double power;
 
     double density(const Vector3& v) const {
@@ -71,7 +67,7 @@ struct CosineLaw {
         return (power + 1) * 0.5 * std::numbers::inv_pi * real_power(z, power);
     }
 
-    double share(const Vector3& v) const {
+    double fraction(const Vector3& v) const {
         const double rr = v[0] * v[0] + v[1] * v[1];
         const double zz = v[2] * v[2];
         if (power == 0) return one_minus_cos(v);
@@ -80,61 +76,17 @@ struct CosineLaw {
         const double log = rr < zz ? 0.5 * log_1p(0 - rr / (rr + zz)) : logarithm(v[2]);
         return 0 - exp_minus_1((power + 1) * log);
     }
-};
 
-class HemisphereDomain final : public NamedDomain, public Discontinuous, public Directional {
-  public:
-    HemisphereDomain(const Frame& frame, const CosineLaw& law, std::string spec)
-        : NamedDomain(std::move(spec), 3, 2), frame_(frame), law_(law) {}
-
-    double measure() const override { return 2 * std::numbers::pi; }
-
-    /// Up to 8 epsilon below the horizon, and as much longer or shorter than 1: the rounding of a
-    /// direction that was made.
-    bool contains(std::span<const double> point) const override {
-        const Vector3 v = vector_of(point);
-        return std::abs(length(v) - 1) <= slack && dot(v, frame_.z) >= -slack;
-    }
-    Box bounding_box() const override {
-        Box box;
-        for (const double z : frame_.z) {
-            const double across = std::sqrt(std::max(0.0, 1 - z * z));  // on the horizon
-            box.low.push_back(z <= 0 ? -1 : -across);
-            box.high.push_back(z >= 0 ? 1 : across);
-        }
-        return box;
-    }
-    double density(std::span<const double> point) const override {
-        return contains(point) ? law_.density(frame_.in(vector_of(point))) : 0;
-    }
-    void to_cube(std::span<const double> point, std::span<double> cube) const override {
-        const Vector3 v = frame_.in(vector_of(point));
-        put_clamped<2>({law_.share(v), turns_of(v[0], v[1])}, cube);
-    }
-    Discontinuities discontinuities() const override {
-        return {.circles = {{frame_.z, 0}}, .level = law_.power == 0};
-    }
-    std::optional<Moments> moments() const override {
-        // The height is z = u^(1/p) with p = k + 1: Beta(p, 1).
-        const double p = law_.power + 1;
+    /// The height is z = u^(1/p) with p = k + 1: Beta(p, 1).
+    AxialMoments moments() const {
+        const double p = power + 1;
         const double all = (p + 1) * (p + 2) * (p + 3);
-        const AxialMoments round{.along = {p / (p + 1), p / ((p + 1) * (p + 1) * (p + 2)),
-                                           2 * p * (1 - p) / ((p + 1) * (p + 1) * all)},
-                                 .across = 1 / (p + 2),
-                                 .across_along = -p / all};
-        return axial_moments(round, frame_);
+        return {.along = {p / (p + 1), p / ((p + 1) * (p + 1) * (p + 2)),
+                          2 * p * (1 - p) / ((p + 1) * (p + 1) * all)},
+                .across = 1 / (p + 2),
+                .across_along = -p / all};
     }
-    Vector3 axis() const override { return frame_.z; }
-    bool is_hemisphere() const override { return true; }
-    std::vector<std::string> cube_axes() const override {
-        return {"share of the directions nearer to the axis", "longitude in turns"};
-    }
-
-  private:
-    static constexpr double slack = 8 * std::numeric_limits<double>::epsilon();
-
-    Frame frame_;
-    CosineLaw law_;
+    bool level() const { return power == 0; }
 };
 
 struct Uniform {
@@ -204,7 +156,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const CosineLaw law{powered ? want.options[exponent] : (how == "cosine" ? 1.0 : 0.0)};
     std::string spec = powered ? want.spec({method.name, exponent.name, axis.name})
                                : want.spec({method.name, axis.name});
-    const auto domain = std::make_shared<HemisphereDomain>(frame, law, std::move(spec));
+    const auto domain = std::make_shared<LobeDomain<CosineLaw>>(law, frame, std::move(spec));
     if (powered) return row_mapping(domain, CosinePower{frame, law.power});
     if (how == "uniform") return row_mapping(domain, Uniform{frame});
     if (want.options[disk_map] == "polar") return row_mapping(domain, Cosine{frame});

@@ -38,6 +38,7 @@ constexpr Param<double> asymmetry{
     .help = "Mean cosine of the angle from the axis: above 0 forward, below 0 backward"};
 
 struct Phase {
+    static constexpr bool hemisphere = false;
     double g;
 
     Tilt forward(double u) const {
@@ -56,7 +57,9 @@ struct Phase {
         const double square = g > 0 ? (1 - g) * (1 - g) + 2 * g * v : (1 + g) * (1 + g) - 2 * g * c;
         return std::sqrt(square);
     }
-    double fraction(double v, double c) const {
+    double fraction(const Vector3& w) const {
+        const double v = one_minus_cos(w);
+        const double c = one_plus_cos(w);
         const double t = distance(v, c);
         const double near = (1 + g) * v / (t * (t + (1 - g)));
         const double far = (1 - g) * c / (t * (t + (1 + g)));
@@ -69,8 +72,8 @@ struct Phase {
                 .across = rest / 3,
                 .across_along = -2 / 15.0 * g * rest};
     }
-    double density(double v, double c) const {
-        const double t = distance(v, c);
+    double density(const Vector3& w) const {
+        const double t = distance(one_minus_cos(w), one_plus_cos(w));
         return (1 - g) * (1 + g) / (4 * std::numbers::pi * t * t * t);
     }
 };

@@ -4,14 +4,13 @@
 // probability of the cone about the axis that the direction is on the rim of, and theta its angle,
 //
 //     struct Lobe {
-//         Tilt forward(double u) const;                // cosine and sine of theta
-//         double fraction(double v, double c) const;   // u, from v = 1 - cos theta and
-//                                                      // c = 1 + cos theta
-//         double density(double v, double c) const;    // by solid angle
+//         static constexpr bool hemisphere;          // no direction is beyond a right angle
+//         double fraction(const Vector3& w) const;   // u of a direction in the frame of the axis
+//         double density(const Vector3& w) const;    // by solid angle
 //         AxialMoments moments() const;
+//         Tilt forward(double u) const;              // cosine and sine of theta, for lobe_mapping()
+//         bool level() const;                        // of a hemisphere: whether it is uniform
 //     };
-//
-// v and c are both given since each loses digits where the other is small.
 #pragma once
 
 #include <cmath>
@@ -42,42 +41,62 @@ class LobeDomain final : public NamedDomain, public Discontinuous, public Direct
     LobeDomain(const Lobe& lobe, const Frame& frame, std::string spec)
         : NamedDomain(std::move(spec), 3, 2), lobe_(lobe), frame_(frame) {}
 
-    double measure() const override { return 4 * std::numbers::pi; }
+    double measure() const override { return (Lobe::hemisphere ? 2 : 4) * std::numbers::pi; }
 
-    /// Unit vectors, up to 8 epsilon: the rounding of one that was made.
+    /// Unit vectors, up to 8 epsilon, and as much below the horizon of a hemisphere: the rounding
+    /// of one that was made.
     bool contains(std::span<const double> point) const override {
         constexpr double slack = 8 * std::numeric_limits<double>::epsilon();
-        return std::abs(length({point[0], point[1], point[2]}) - 1) <= slack;
+        const Vector3 v{point[0], point[1], point[2]};
+        return std::abs(length(v) - 1) <= slack &&
+               (!Lobe::hemisphere || dot(v, frame_.z) >= -slack);
     }
-    Box bounding_box() const override { return {{-1, -1, -1}, {1, 1, 1}}; }
+    Box bounding_box() const override {
+        Box box{{-1, -1, -1}, {1, 1, 1}};
+        for (std::size_t k = 0; k < 3 && Lobe::hemisphere; ++k) {
+            const double z = frame_.z[k];
+            const double across = std::sqrt(std::max(0.0, 1 - z * z));  // on the horizon
+            if (z > 0)
+                box.low[k] = -across;
+            else
+                box.high[k] = across;
+        }
+        return box;
+    }
     double density(std::span<const double> point) const override {
         if (!contains(point)) return 0;
         const Vector3 local = frame_.in({point[0], point[1], point[2]});
-        return lobe_.density(one_minus_cos(local), one_plus_cos(local));
+        return lobe_.density(local);
     }
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         const Vector3 local = frame_.in({point[0], point[1], point[2]});
-        const double u = lobe_.fraction(one_minus_cos(local), one_plus_cos(local));
-        put_clamped<2>({u, turns_of(local[0], local[1])}, cube);
+        put_clamped<2>({lobe_.fraction(local), turns_of(local[0], local[1])}, cube);
     }
-    /// No edges, but where nearly all or nearly nothing is nearer to the axis: peaks are not
-    /// missed.
+    /// The horizon of a hemisphere; else where nearly all or nearly nothing is nearer to the axis,
+    /// so that peaks are not missed.
     Discontinuities discontinuities() const override {
-        Discontinuities found{.circles = {}, .level = false};
-        for (const double u : {0.01, 0.5, 0.99, 1 - 1e-6, 1 - 1e-12})
-            found.circles.push_back({frame_.z, lobe_.forward(u).cos});
-        return found;
+        if constexpr (Lobe::hemisphere)
+            return {.circles = {{frame_.z, 0}}, .level = lobe_.level()};
+        else
+            return steep_circles();
     }
     std::optional<Moments> moments() const override {
         return axial_moments(lobe_.moments(), frame_);
     }
     Vector3 axis() const override { return frame_.z; }
-    bool is_hemisphere() const override { return false; }
+    bool is_hemisphere() const override { return Lobe::hemisphere; }
     std::vector<std::string> cube_axes() const override {
         return {"probability of the cone about the axis", "longitude in turns"};
     }
 
   private:
+    Discontinuities steep_circles() const {
+        Discontinuities found{.circles = {}, .level = false};
+        for (const double u : {0.01, 0.5, 0.99, 1 - 1e-6, 1 - 1e-12})
+            found.circles.push_back({frame_.z, lobe_.forward(u).cos});
+        return found;
+    }
+
     Lobe lobe_;
     Frame frame_;
 };

@@ -36,6 +36,7 @@
 
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "core/error.hpp"
 #include "math/geometry/polar_direction.hpp"
@@ -78,21 +79,19 @@ class Urena {
   public:
     explicit Urena(const Rectangle& rectangle) : seen_(rectangle) {
         // Turned so that the digits are kept: mostly x <= 0 and y >= 0.
+        const auto turn = [](double& low, double& high, Vector3& along) {
+            low = -std::exchange(high, -low);
+            along = times(along, -1);
+        };
         if (seen_.x0 + seen_.x1 > 0) {
             from_x_ = 1;
             sign_x_ = -1;
-            std::swap(seen_.x0, seen_.x1);
-            seen_.x0 = -seen_.x0;
-            seen_.x1 = -seen_.x1;
-            seen_.frame.x = times(seen_.frame.x, -1);
+            turn(seen_.x0, seen_.x1, seen_.frame.x);
         }
         if (seen_.y0 + seen_.y1 < 0) {
             from_y_ = 1;
             sign_y_ = -1;
-            std::swap(seen_.y0, seen_.y1);
-            seen_.y0 = -seen_.y0;
-            seen_.y1 = -seen_.y1;
-            seen_.frame.y = times(seen_.frame.y, -1);
+            turn(seen_.y0, seen_.y1, seen_.frame.y);
         }
         const double z = seen_.z;
         w0_ = std::sqrt(seen_.y0 * seen_.y0 + z * z);

@@ -43,6 +43,8 @@ constexpr Param<double> concentration{
 
 class Fisher {
   public:
+    static constexpr bool hemisphere = false;
+
     explicit Fisher(double kappa) : kappa_(std::max(kappa, 1e-17)) {
         constexpr double most = 55 * 0.6931471805599453;  // -log 2^-55
         // Below 1e-17, the density is uniform to the last bit; above 20, 1 + cos keeps its digits
@@ -61,13 +63,15 @@ class Fisher {
         const double small = u < 1 ? size : last_;
         return {near ? 1 - small : small - 1, std::sqrt(small * (2 - small))};
     }
-    double fraction(double v, double c) const {
+    double fraction(const Vector3& w) const {
+        const double v = one_minus_cos(w);
+        const double c = one_plus_cos(w);
         if (v < c || far_factor_ == 0) return exp_minus_1(-kappa_ * v) / near_factor_;
         return 1 - exp_minus_1(kappa_ * c) / far_factor_;
     }
-    double density(double v, double /*c*/) const {
+    double density(const Vector3& w) const {
         constexpr double around = 2 * std::numbers::pi;
-        return kappa_ * stipple::exponential(-kappa_ * v) / (around * -near_factor_);
+        return kappa_ * stipple::exponential(-kappa_ * one_minus_cos(w)) / (around * -near_factor_);
     }
 
     /// Along the axis, the cumulants are the derivatives of log(sinh kappa / kappa).

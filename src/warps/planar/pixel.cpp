@@ -22,9 +22,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "core/wide.hpp"
-#include "math/geometry/plane_point.hpp"
-#include "warps/warp.hpp"
+#include "warps/row_mapping.hpp"
 
 namespace stipple::warps::pixel {
 namespace {
@@ -37,12 +35,6 @@ constexpr Param<Numbers> pixel_index{
      .help = "Puts all points into this pixel of the image: i,j from 0,0; default: all over the "
              "image"}};
 
-/// The part of the image that takes the points: `size` pixels from `corner`.
-struct Window {
-    PlanePoint corner = {};
-    PlanePoint size = {1, 1};
-};
-
 constexpr std::int64_t most_pixels = std::int64_t{1} << 31;  // along one side
 
 /// corner + x rounded towards the corner, so that x < size stays inside; x >= 0.
@@ -51,37 +43,26 @@ double offset_from(double corner, double x) {
     return sum - corner > x ? std::nextafter(sum, 0) : sum;
 }
 
-STIPPLE_WIDE void scale_rows(std::span<const double> cube, std::span<double> image,
-                             PlanePoint size) {
-    for (std::size_t i = 0; i + 1 < cube.size(); i += 2) {
-        image[i] = size.x * cube[i];
-        image[i + 1] = size.y * cube[i + 1];
+struct OnImage {
+    double width;
+    double height;
+
+    std::array<double, 2> forward(const std::array<double, 2>& xi) const {
+        return {width * xi[0], height * xi[1]};
     }
-}
+};
 
-class Pixel final : public Mapping {
-  public:
-    explicit Pixel(const Window& window)
-        : Mapping(box_domain({{window.corner.x, window.corner.y},
-                              {window.corner.x + window.size.x, window.corner.y + window.size.y}})),
-          window_(window) {}
+struct InPixel {
+    double i;
+    double j;
 
-    void forward(std::span<const double> cube, std::span<double> image,
-                 std::span<std::uint8_t> /*keep*/) const override {
-        scale_rows(cube, image, window_.size);
-        if (window_.corner == PlanePoint{}) return;
-        for (std::size_t i = 0; i + 1 < image.size(); i += 2) {
-            image[i] = offset_from(window_.corner.x, image[i]);
-            image[i + 1] = offset_from(window_.corner.y, image[i + 1]);
-        }
+    std::array<double, 2> forward(const std::array<double, 2>& xi) const {
+        return {offset_from(i, xi[0]), offset_from(j, xi[1])};
     }
-
-  private:
-    Window window_;
 };
 
 /// The pixel that --pixel names. @throws Error(usage) when it is not one of the image.
-Window window_at(const std::vector<double>& at, std::int64_t width, std::int64_t height) {
+InPixel pixel_at(const std::vector<double>& at, std::int64_t width, std::int64_t height) {
     if (at.size() != 2)
         fail(ErrorKind::usage, "--pixel: 2 numbers are needed, i,j; {} given", at.size());
     const auto w = static_cast<double>(width);
@@ -92,7 +73,7 @@ Window window_at(const std::vector<double>& at, std::int64_t width, std::int64_t
         fail_with_hint(ErrorKind::usage, "--resolution WxH says how large the image is",
                        "--pixel: {},{} is outside the image of {}x{} pixels, which count from 0,0",
                        at[0], at[1], width, height);
-    return {.corner = {at[0] + 0.0, at[1] + 0.0}};
+    return {at[0] + 0.0, at[1] + 0.0};
 }
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
@@ -102,11 +83,12 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     for (const std::int64_t side : extents)
         if (side > most_pixels)
             fail(ErrorKind::usage, "--resolution: {} is outside [1, {}]", side, most_pixels);
-    if (want.options.given(pixel_index))
-        return std::make_unique<Pixel>(
-            window_at(want.options[pixel_index], extents[0], extents[1]));
-    return std::make_unique<Pixel>(
-        Window{.size = {static_cast<double>(extents[0]), static_cast<double>(extents[1])}});
+    if (want.options.given(pixel_index)) {
+        const InPixel pixel = pixel_at(want.options[pixel_index], extents[0], extents[1]);
+        return row_mapping(box_domain({{pixel.i, pixel.j}, {pixel.i + 1, pixel.j + 1}}), pixel);
+    }
+    const OnImage image{static_cast<double>(extents[0]), static_cast<double>(extents[1])};
+    return row_mapping(box_domain({{0, 0}, {image.width, image.height}}), image);
 }
 
 }  // namespace
