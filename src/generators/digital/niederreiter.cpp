@@ -10,7 +10,8 @@
 // e ones on: the Laurent series of some g / p_k^(Q+1).
 //
 // Shape   n x d for d <= 1000; indices below 2^52, or the largest power of b up to 2^50.
-// Cost    O(n d), in base 2 at the speed of the cache: see math/digital/binary_net.hpp and base_net.hpp.
+// Cost    O(n d), in base 2 at the speed of the cache: see math/digital/binary_net.hpp and
+//         base_net.hpp.
 // Promise coordinates are exact to their first 53 digits (nearest doubles in bases other than 2),
 //         and below 1. Any b^m points from a multiple of b^m on are a (t,m,d)-net in base b,
 //         t = sum_k (deg p_k - 1), as far as there are digits; scrambled, too.

@@ -11,9 +11,9 @@
 //
 // Coordinate 0 of point i is the radical inverse of i, coordinate 1 a random binary matrix, another
 // one for every seed, times the digits of i; then both get nested uniform scrambling, which moves
-// elementary intervals onto each other. The promises are those of the matrix's minors: with r_m, c_m for
-// the first rows and the last of the first m columns, the r x r block of rows 1..r and columns
-// m-r+1..m is regular for r = m (strips) and for r = m/2 (squares), or both r = (m-1)/2 and
+// elementary intervals onto each other. The promises are those of the matrix's minors: with r_m,
+// c_m for the first rows and the last of the first m columns, the r x r block of rows 1..r and
+// columns m-r+1..m is regular for r = m (strips) and for r = m/2 (squares), or both r = (m-1)/2 and
 // (m+1)/2 (opposite quarters) for odd m. Given the columns before, each of these conditions is that
 // one sum of the new column's entries is 1, and they do not contradict each other; the column is
 // drawn until they hold, 8 times on average at most.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Integrals by the rules of Gauss and Kronrod: one rule, functions that are smooth but for the ends,
-// and any function over intervals and boxes, the interval with the largest error halved first; over
-// boxes, one coordinate inside the other.
+// Integrals by the rules of Gauss and Kronrod: one rule, functions that are smooth but for the
+// ends, and any function over intervals and boxes, the interval with the largest error halved
+// first; over boxes, one coordinate inside the other.
 //
 //     error of an interval = |Kronrod - Gauss| + 1/200 of it times what f at its ends, which the
 //                            rule does not look at, differs from a parabola through the nodes there

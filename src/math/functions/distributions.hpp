@@ -2,7 +2,8 @@
 //
 // Distribution functions and quantiles of test statistics.
 //
-// Promise to nearly the last digit; where that is out of reach, far out in a tail, no error is raised.
+// Promise to nearly the last digit; where that is out of reach, far out in a tail, no error is
+//         raised.
 #pragma once
 
 namespace stipple {
@@ -11,8 +12,8 @@ namespace stipple {
 double chi_square_below(double statistic, double freedom);
 double chi_square_above(double statistic, double freedom);
 
-/// The noncentrality with which chi-square has the probability `miss` not to exceed what the central
-/// one exceeds with the probability `level`.
+/// The noncentrality with which chi-square has the probability `miss` not to exceed what the
+/// central one exceeds with the probability `level`.
 double noncentrality_for(double freedom, double level, double miss);
 
 /// What Student's t with these degrees of freedom exceeds with the probability `above`.

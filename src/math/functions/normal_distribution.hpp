@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Distribution function of the standard normal law, without the C library's erfc, whose results
-// differ from machine to machine:
+// Distribution function of the standard normal distribution, without the C library's erfc, whose
+// results differ from machine to machine:
 //
 //     Phi(z) = erfc(-z / sqrt(2)) / 2,    x = |z| / sqrt(2):
 //

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// Exact moments of laws, from those of a shape in a frame of its own: of a shape that is put at a
-// place, of one that is round about an axis, of triangles, of coordinates that do not depend on
-// each other, and of laws that are mixed by weights.
+// Exact moments of distributions, from those of a shape in a frame of its own: of a shape that is
+// put at a place, of one that is round about an axis, of triangles, of coordinates that do not
+// depend on each other, and of distributions that are mixed by weights.
 //
 // Central moments about the mean m throughout, so that shapes far from 0 lose no digits:
 //
@@ -30,7 +30,7 @@ struct LineMoments {
     double third = 0;
 };
 
-/// Of a law on the plane.
+/// Of a distribution on the plane.
 struct PlaneMoments {
     PlanePoint mean = {};
     double xx = 0, xy = 0, yy = 0;
@@ -43,7 +43,7 @@ PlaneMoments about_the_mean(const PlaneMoments& raw);
 /// Of a shape that is put at a place.
 Moments placed_moments(const PlaneMoments& shape, const Placement& at);
 
-/// Of a law in space that is round about the z axis.
+/// Of a distribution in space that is round about the z axis.
 struct AxialMoments {
     LineMoments along = {};   ///< z
     double across = 0;        ///< E x^2 = E y^2
@@ -60,10 +60,10 @@ Moments axial_moments(const AxialMoments& shape, const Frame& frame, const Vecto
 /// Of coordinates that do not depend on each other.
 Moments independent_moments(std::span<const LineMoments> coordinates);
 
-/// Of the uniform law on a triangle in any number of dimensions.
+/// Of the uniform distribution on a triangle in any number of dimensions.
 Moments triangle_moments(const std::array<std::vector<double>, 3>& corners);
 
-/// Of x = sum of weights w_i times laws, which need not add up to 1.
+/// Of x = sum of weights w_i times distributions, which need not add up to 1.
 class MixedMoments {
   public:
     /// @param about a point near all of them

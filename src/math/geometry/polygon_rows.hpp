@@ -51,7 +51,7 @@ class PolygonRows {
     /// The area within a finite box.
     [[nodiscard]] double area_in(const Box& box) const;
 
-    /// Of the uniform law.
+    /// Of the uniform distribution.
     [[nodiscard]] Moments moments() const;
 
     [[nodiscard]] PlanePoint forward(double u, double v) const;

@@ -5,8 +5,8 @@
 //
 //     tan(area / 2) = |a . (b - a) x (c - a)| / (1 + a.b + b.c + c.a)
 //
-// Moments of the uniform law on a polygon of area A, whose edges e have inward unit normals n_e,
-// from those about an axis w, by Stokes's theorem:
+// Moments of the uniform distribution on a polygon of area A, whose edges e have inward unit
+// normals n_e, from those about an axis w, by Stokes's theorem:
 //
 //     T_k(w) = integral of (w . v)^k over it,    T_0 = A,
 //     (k + 1) T_k(w) = (k - 1) w . w T_(k-2)(w) + sum_e w . n_e integral of (w . v)^(k-1) along e
@@ -45,8 +45,8 @@ class SphericalPolygon {
     /// The smallest axis-parallel box around it.
     [[nodiscard]] Box bounding_box() const;
 
-    /// Of the uniform law, within 1e-8 of their size; none for areas below 1e-3, where differences
-    /// lose too many digits.
+    /// Of the uniform distribution, within 1e-8 of their size; none for areas below 1e-3, where
+    /// differences lose too many digits.
     [[nodiscard]] std::optional<Moments> moments(double area) const;
 
   private:

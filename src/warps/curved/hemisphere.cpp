@@ -56,8 +56,8 @@ constexpr Param<Choice> disk_map{
     .choices = "polar|concentric",
     .help = "Of method cosine: the map from the square to the disk below the hemisphere"};
 
-/// The law of the angle from the axis: cos^k theta, with the share of the directions that are
-/// nearer to the axis. Directions are in the frame of the axis.
+/// The distribution of the angle from the axis: cos^k theta, with the share of the directions that
+/// are nearer to the axis. Directions are in the frame of the axis.
 struct CosineLaw {
     static constexpr bool hemisphere = true;
     double power;

@@ -8,8 +8,8 @@
 //         double fraction(const Vector3& w) const;   // u of a direction in the frame of the axis
 //         double density(const Vector3& w) const;    // by solid angle
 //         AxialMoments moments() const;
-//         Tilt forward(double u) const;              // cosine and sine of theta, for lobe_mapping()
-//         bool level() const;                        // of a hemisphere: whether it is uniform
+//         Tilt forward(double u) const;   // cosine and sine of theta; for lobe_mapping()
+//         bool level() const;             // of a hemisphere: whether it is uniform
 //     };
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// A convex polygon of directions, uniform in solid angle. Its cells are the way back of a map, other
-// than the warp's own, so that they do not line up with its strata.
+// A convex polygon of directions, uniform in solid angle. Its cells are the way back of a map,
+// other than the warp's own, so that they do not line up with its strata.
 #pragma once
 
 #include <string>

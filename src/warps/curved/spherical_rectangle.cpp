@@ -26,11 +26,11 @@
 // Strata  xi0 runs along ex, xi1 along ey, from s, both as they are, not as 1 - xi. Strata become
 //         quadrilaterals between planes through o and a parallel of ey.
 // Cost    O(1) a point; on one core about 14 ns forward, 62 ns back.
-// Promise density 1 / (solid angle). Directions meet the rectangle up to 16 epsilon beyond the planes
-//         through o and its edges. Forward and back again is the same xi within 4e-15, however flat the
-//         rectangle is seen, and the same direction within 1e-14, save above the rectangle itself:
-//         next to its sides an ulp of xi is a direction that is 1e-16 / (angle) further. The same
-//         bits on every machine.
+// Promise density 1 / (solid angle). Directions meet the rectangle up to 16 epsilon beyond the
+//         planes through o and its edges. Forward and back again is the same xi within 4e-15,
+//         however flat the rectangle is seen, and the same direction within 1e-14, save above the
+//         rectangle itself: next to its sides an ulp of xi is a direction that is 1e-16 / (angle)
+//         further. The same bits on every machine.
 // Source  C. Urena, M. Fajardo, A. King, "An area-preserving parametrization for spherical
 //         rectangles", Computer Graphics Forum 32(4) (2013) 59-66, doi:10.1111/cgf.12151.
 

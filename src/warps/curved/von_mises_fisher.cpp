@@ -88,7 +88,8 @@ class Fisher {
     }
 
   private:
-    /// E z^n = sum kappa^j / j! m(n + j) over sum kappa^j / j! m(j), m those of the uniform law.
+    /// E z^n = sum kappa^j / j! m(n + j) over sum kappa^j / j! m(j), m those of the uniform
+    /// distribution.
     AxialMoments series_moments() const {
         std::array<double, 4> sums{};
         double term = 1;

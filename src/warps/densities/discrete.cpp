@@ -7,7 +7,7 @@
 //     alias      slot i = floor(m xi): outcome i where m xi - i < q_i, else its alias a_i; the m
 //                slots hold p_i m = q_i + sum over a_j = i of (1 - q_j)
 //
-// Two coordinates of the same law are two dice: 1/36 each pair.
+// Two coordinates of the same distribution are two dice: 1/36 each pair.
 //
 // Shape   any number of coordinates; 1 to 2^24 outcomes.
 // Strata  inversion: xi is taken as it is, and outcomes come in order, so that n strata give each

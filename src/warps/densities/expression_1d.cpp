@@ -4,8 +4,8 @@
 //
 //     p(x) = f(x) / integral of f,    x = F^-1(xi0)
 //
-// where F is the integral of a table of f, linear on pieces (math/densities/line_table.hpp), inverted
-// exactly.
+// where F is the integral of a table of f, linear on pieces (math/densities/line_table.hpp),
+// inverted exactly.
 //
 // Shape   1 unit coordinate, 1 coordinate in the range.
 // Strata  xi0 is taken as it is: small xi0 is at the lower end. Strata are intervals of equal mass.

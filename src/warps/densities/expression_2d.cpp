@@ -5,7 +5,8 @@
 //
 //     p(x) = integral of p(x, y) dy from xi0,    p(y | x) = p(x, y) / p(x) from xi1,
 //
-// of a table of f that is bilinear on patches (math/densities/strip_table.hpp); both are inverted exactly.
+// of a table of f that is bilinear on patches (math/densities/strip_table.hpp); both are inverted
+// exactly.
 //
 // Shape   2 unit coordinates, 2 coordinates in the box.
 // Strata  xi0 and xi1 are taken as they are: small xi0 is left, small xi1 below, for each x. Strata

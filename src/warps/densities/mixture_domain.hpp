@@ -2,8 +2,8 @@
 //
 // What a mixture lives on: see mixture.cpp for its cells. Their probabilities are sums over the
 // components of weight times probability: of a box, the exact share of the area for shapes of the
-// plane and by the distribution functions for laws of each coordinate; of a zone of the sphere, by
-// quadrature cut at the component's rim (math/geometry/zone_integral.hpp).
+// plane and by the distribution functions for distributions of each coordinate; of a zone of the
+// sphere, by quadrature cut at the component's rim (math/geometry/zone_integral.hpp).
 #pragma once
 
 #include <string>

@@ -18,7 +18,8 @@
 //         itself where it is at least 2^-54; with a covariance, times its condition number's root.
 //         Both ways and the density give the same bits on every machine.
 // Source  M. Rosenblatt, Annals of Mathematical Statistics 23 (1952) 470-472,
-//         doi:10.1214/aoms/1177729394. Phi^-1: Wichura 1988, see math/functions/normal_quantile.hpp.
+//         doi:10.1214/aoms/1177729394. Phi^-1: Wichura 1988, see
+//         math/functions/normal_quantile.hpp.
 
 #include <algorithm>
 #include <cmath>

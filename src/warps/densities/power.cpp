@@ -14,9 +14,10 @@
 //
 // the second form where r > 1/2, which takes k = -1 as a limit.
 //
-// Shape   any number of coordinates, each by the same law. An interval with negative numbers needs
-//         an even k; one that contains 0 needs k > -1, and one that ends there k above about
-//         -0.954, so that what is below the smallest number has no more than 1e-14 of the mass.
+// Shape   any number of coordinates, each by the same distribution. An interval with negative
+//         numbers needs an even k; one that contains 0 needs k > -1, and one that ends there k
+//         above about -0.954, so that what is below the smallest number has no more than 1e-14 of
+//         the mass.
 // Strata  xi is taken as it is, not as 1 - xi: xi = 0 is a, and strata become intervals of equal
 //         probability in the same order.
 // Cost    O(1) a coordinate; on one core about 1 ns for k = 1, 4 for k = 2, 5 for others.

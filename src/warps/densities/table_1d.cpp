@@ -8,13 +8,14 @@
 //
 // Densities may have any scale: they are divided by their integral.
 //
-// Shape   any number of coordinates by the same law; 2 rows or more, x rising. Where linear, two
-//         rows may have the same x: a jump.
+// Shape   any number of coordinates by the same distribution; 2 rows or more, x rising. Where
+//         linear, two rows may have the same x: a jump.
 // Strata  xi is the probability below x, taken as it is, not as 1 - xi; strata become intervals of
 //         equal probability in the same order.
 // Cost    O(1) a coordinate expected, by a guide table; about 5 ns on one core.
-// Promise x in [first, last], the last only for xi = 1; never inside a piece of mass 0. Forward and back again is the same xi
-//         within 1e-14, times max|x| / h of the piece. The same bits on every machine.
+// Promise x in [first, last], the last only for xi = 1; never inside a piece of mass 0. Forward and
+//         back again is the same xi within 1e-14, times max|x| / h of the piece. The same bits on
+//         every machine.
 
 #include <array>
 #include <cmath>

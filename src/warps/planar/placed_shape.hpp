@@ -13,7 +13,7 @@
 //     double beyond(double x, double y) const          distance from it, at most 0 inside
 //     std::vector<PlanePoint> hull(double turn) const  points whose box is the shape's, once it is
 //                                                      turned by so many turns
-//     PlaneMoments moments() const                     of its uniform law, in its own frame
+//     PlaneMoments moments() const                     when uniform, in its own frame
 //     std::vector<std::string> axes() const            what its coordinates u and v mean
 //
 // Promise points lie in the closed shape up to 16 epsilon (R + |cx| + |cy|): the rounding of a

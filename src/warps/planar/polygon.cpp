@@ -7,8 +7,8 @@
 //     xi0 = A(y) / A,    xi1 = L(x, y) / L(y)
 //
 // with A(y) the area below y, L(y) the length of the row and L(x, y) its length up to x
-// (math/geometry/polygon_rows.hpp): first the marginal of y, then x given y. So the whole polygon is one
-// piece, and strata are not cut as the triangles of a triangulation would cut them.
+// (math/geometry/polygon_rows.hpp): first the marginal of y, then x given y. So the whole polygon
+// is one piece, and strata are not cut as the triangles of a triangulation would cut them.
 //
 // Shape   2 unit coordinates, 2 coordinates; any number of vertices.
 // Strata  xi0 and xi1 are taken as they are, not as 1 - xi: small xi0 is below, small xi1 left.
