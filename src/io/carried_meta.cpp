@@ -38,11 +38,7 @@ std::size_t ply_header(std::string_view bytes, const Take& take) {
 std::optional<CarriedMeta> of_lines(std::string of, std::string_view text) {
     CarriedMeta meta{.of = std::move(of)};
     bool found = false;
-    for (std::size_t at = 0; at < text.size();) {
-        const auto end = std::min(text.find('\n', at), text.size());
-        found |= take_comment_line(text.substr(at, end - at), meta.provenance);
-        at = end + 1;
-    }
+    for (const auto line : split(text, '\n')) found |= take_comment_line(line, meta.provenance);
     return found ? std::optional(meta) : std::nullopt;
 }
 
@@ -147,13 +143,7 @@ std::string png_with_meta(std::string_view png, const CarriedMeta& meta) {
 }
 
 std::string svg_metadata(const Provenance& provenance) {
-    std::string text = to_comment_lines(provenance);
-    std::string lines;
-    for (std::size_t at = 0; at < text.size();) {  // without "# "
-        const auto end = text.find('\n', at) + 1;
-        lines.append(text, at + 2, end - at - 2);
-        at = end;
-    }
+    std::string lines = to_comment_lines(provenance, "");
     replace_all(lines, "&", "&amp;");
     replace_all(lines, "<", "&lt;");
     replace_all(lines, ">", "&gt;");

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "io/binary.hpp"
 #include "io/columns.hpp"
 #include "io/files.hpp"
+#include "io/formats/binary.hpp"
 #include "io/source_text.hpp"
 
 namespace stipple::io {
@@ -121,9 +121,7 @@ class RawStream final : public PointStream {
     /// Bytes end within a point, or before those that were promised.
     [[noreturn]] void refuse_end() {
         if (shape_.count) PointStream::skip(1);
-        fail(ErrorKind::input,
-             "{}: the last point is cut off; expected whole points, {} float{} each", source_,
-             shape_.width, 8 * shape_.type.size);
+        refuse_part(source_);
     }
 
     /// Looks whether the bytes may end here.
@@ -136,10 +134,13 @@ class RawStream final : public PointStream {
                  "{}: byte {}: the file ends too soon; expected {} bytes of "
                  "numbers, found {}",
                  source_, all, shape_.sets * *shape_.count * point, all - shape_.offset);
-        if (bytes_.size() % point != 0)
-            fail(ErrorKind::input,
-                 "{}: byte {}: the last point is cut off; expected whole points, {} float{} each",
-                 source_, all, shape_.width, 8 * shape_.type.size);
+        if (bytes_.size() % point != 0) refuse_part(fmt::format("{}: byte {}", source_, all));
+    }
+
+    [[noreturn]] void refuse_part(const std::string& place) const {
+        fail(ErrorKind::input,
+             "{}: the last point is cut off; expected whole points, {} float{} each", place,
+             shape_.width, 8 * shape_.type.size);
     }
 
     /// Behind the last of a known number of points nothing may follow.

@@ -115,12 +115,12 @@ Provenance provenance_from(const Json& meta) {
     return provenance;
 }
 
-std::string to_comment_lines(const Provenance& provenance) {
+std::string to_comment_lines(const Provenance& provenance, std::string_view begin) {
     std::string lines;
     const Json meta = to_json(provenance);
     // Bytes that are not UTF-8 (a file's name in the command) are replaced, not refused.
     for (const auto& [key, value] : meta.items())
-        lines += fmt::format("# {}: {}\n", key,
+        lines += fmt::format("{}{}: {}\n", begin, key,
                              value.dump(-1, ' ', false, Json::error_handler_t::replace));
     return lines;
 }

@@ -19,8 +19,9 @@ nlohmann::ordered_json to_json(const Provenance& provenance);
 /// Takes what it knows and ignores the rest.
 Provenance provenance_from(const nlohmann::ordered_json& meta);
 
-/// Lines "# key: value" (value as JSON), each with its newline.
-std::string to_comment_lines(const Provenance& provenance);
+/// Lines "# key: value" (value as JSON), each with its newline, or with what begins a comment in
+/// another format.
+std::string to_comment_lines(const Provenance& provenance, std::string_view begin = "# ");
 
 /// The way back from such lines ("key: value" without "# "); false: not such a line.
 bool take_comment_line(std::string_view line, Provenance& provenance);

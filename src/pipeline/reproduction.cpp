@@ -9,7 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "io/binary.hpp"
+#include "io/formats/binary.hpp"
 #include "io/decimal.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/pipeline.hpp"

@@ -9,7 +9,7 @@
 #include <functional>
 #include <numeric>
 
-#include "io/disk_size.hpp"
+#include "io/formats/disk_size.hpp"
 #include "io/format.hpp"
 #include "plot/domain_outline.hpp"
 #include "plot/drawing/colour_bar.hpp"

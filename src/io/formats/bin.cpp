@@ -5,7 +5,7 @@
 //
 // Promise float32 is cut toward zero: what was below 1 stays below 1.
 #include "core/error.hpp"
-#include "io/binary.hpp"
+#include "io/formats/binary.hpp"
 #include "io/columns.hpp"
 #include "io/format.hpp"
 #include "io/point_stream.hpp"

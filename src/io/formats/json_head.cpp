@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/json_head.hpp"
+#include "io/formats/json_head.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

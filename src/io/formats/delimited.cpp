@@ -7,7 +7,7 @@
 //
 // Cost    45 ns a number of 17 digits on one core; memory for the points beside the file's bytes.
 // Promise the same points, and the same error, for any number of threads.
-#include "io/delimited.hpp"
+#include "io/formats/delimited.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 // Promise what was written reads back to the same doubles.
 // Source  the format of UTK and other sampling programs; what gnuplot and numpy.loadtxt read.
 #include "io/decimal.hpp"
-#include "io/delimited.hpp"
+#include "io/formats/delimited.hpp"
 #include "io/format.hpp"
 #include "io/provenance.hpp"
 

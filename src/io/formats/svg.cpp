@@ -22,7 +22,7 @@
 #include "core/text.hpp"
 #include "io/carried_meta.hpp"
 #include "io/decimal.hpp"
-#include "io/disk_size.hpp"
+#include "io/formats/disk_size.hpp"
 #include "io/format.hpp"
 
 namespace stipple::io::svg {

@@ -10,9 +10,9 @@
 #include <algorithm>
 #include <numeric>
 
-#include "io/binary.hpp"
 #include "io/decimal.hpp"
 #include "io/format.hpp"
+#include "io/formats/binary.hpp"
 #include "io/provenance.hpp"
 
 namespace stipple::io::ply {
@@ -20,15 +20,7 @@ namespace {
 
 void head(const Layout& layout, std::string& out) {
     out += layout.precision ? "ply\nformat ascii 1.0\n" : "ply\nformat binary_little_endian 1.0\n";
-    if (layout.meta) {
-        const std::string lines = to_comment_lines(layout.provenance);
-        for (std::size_t at = 0; at < lines.size();) {
-            const auto end = lines.find('\n', at) + 1;
-            out += "comment";
-            out.append(lines, at + 1, end - at - 1);
-            at = end;
-        }
-    }
+    if (layout.meta) out += to_comment_lines(layout.provenance, "comment ");
     const auto count =
         std::accumulate(layout.counts.begin(), layout.counts.end(), std::uint64_t{0});
     out += "element vertex " + std::to_string(count) + "\n";

@@ -16,9 +16,9 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/decimal.hpp"
-#include "io/delimited.hpp"
+#include "io/formats/delimited.hpp"
 #include "io/format.hpp"
-#include "io/json_head.hpp"
+#include "io/formats/json_head.hpp"
 
 namespace stipple::io::jsonl {
 namespace {

@@ -26,7 +26,7 @@
 #include "io/columns.hpp"
 #include "io/decimal.hpp"
 #include "io/format.hpp"
-#include "io/json_head.hpp"
+#include "io/formats/json_head.hpp"
 #include "io/source_text.hpp"
 
 namespace stipple::io::json {

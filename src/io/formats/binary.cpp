@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/binary.hpp"
+#include "io/formats/binary.hpp"
 
 #include <algorithm>
 #include <bit>

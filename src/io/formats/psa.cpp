@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/decimal.hpp"
-#include "io/delimited.hpp"
+#include "io/formats/delimited.hpp"
 #include "io/format.hpp"
 
 namespace stipple::io::psa {
