@@ -7,26 +7,6 @@
 #include "core/text.hpp"
 
 namespace stipple {
-namespace {
-
-/// A set in memory, given to an accumulator in batches.
-Report accumulated(const Analyzer& analyzer, const PointSet& points, const Values& options,
-                   const RunContext& run) {
-    const std::size_t d = points.dimension();
-    const auto measure =
-        accumulator_for(analyzer, {points.domain, points.count()}, d, options, run);
-    RunContext quiet = run;
-    quiet.progress = {};
-    const std::size_t batch = arrival_batch(d);
-    for (std::size_t first = 0; first < points.count(); first += batch) {
-        const std::size_t count = std::min(batch, points.count() - first);
-        measure->add(points.flat().subspan(first * d, count * d), quiet);
-        run.tick(first + count, points.count());
-    }
-    return measure->report(quiet);
-}
-
-}  // namespace
 
 Found analyze(const Analyzer& analyzer, const Arrival& arrival, std::size_t dimension,
               const NextRows& next, const Values& options, const RunContext& run) {
@@ -46,7 +26,9 @@ std::uint64_t add_all(Accumulator& measure, const NextRows& next, std::size_t wi
     RunContext quiet = run;
     quiet.progress = {};
     std::uint64_t done = 0;
-    in_batches(next, arrival_batch(dimension), width, run, [&](std::span<const double> rows) {
+    const std::uint64_t batch = arrival_batch(dimension);
+    const auto rows_at_once = static_cast<std::size_t>(std::min(batch, expected.value_or(batch)));
+    in_batches(next, rows_at_once, width, run, [&](std::span<const double> rows) {
         measure.add(rows, quiet);
         done += rows.size() / width;
         if (expected) run.tick(done, *expected);
@@ -96,8 +78,10 @@ Report analyze(const Analyzer& analyzer, const PointSet& points, const Values& o
         return analyze(analyzer, on_cube, options, run);
     }
     if (analyzer.traits.unit_cube) require_unit_cube(points);
-    return analyzer.accumulate ? accumulated(analyzer, points, options, run)
-                               : analyzer.analyze(points, options, run);
+    if (!analyzer.accumulate) return analyzer.analyze(points, options, run);
+    return analyze(analyzer, {points.domain, points.count()}, points.dimension(), rows_of(points),
+                   options, run)
+        .report;
 }
 
 }  // namespace stipple

@@ -105,13 +105,14 @@ void keep_labels(Report& mean, const Report& report) {
     }
 }
 
-/// The report without words, flags and grids.
-Report without_words(const Report& report) {
+/// The entries of a report, and of its groups, whose values are wanted.
+template <class Wanted>
+Report filtered(const Report& report, const Wanted& wanted) {
     Report out;
     for (const auto& entry : report.entries()) {
         if (const auto* group = std::get_if<Report>(&entry.value))
-            out.add(entry.name, without_words(*group));
-        else if (numbers(entry.value) && !std::holds_alternative<Grid>(entry.value))
+            out.add(entry.name, filtered(*group, wanted));
+        else if (wanted(entry.value))
             out.entries().push_back(entry);
     }
     return out;
@@ -154,22 +155,18 @@ void ReportAverage::add(const Report& report) {
 }
 
 Report numbers_only(const Report& report) {
-    Report out;
-    for (const auto& entry : report.entries()) {
-        if (const auto* group = std::get_if<Report>(&entry.value))
-            out.add(entry.name, numbers_only(*group));
-        else if (std::holds_alternative<double>(entry.value) ||
-                 std::holds_alternative<std::int64_t>(entry.value))
-            out.entries().push_back(entry);
-    }
-    return out;
+    return filtered(report, [](const Item& item) {
+        return std::holds_alternative<double>(item) || std::holds_alternative<std::int64_t>(item);
+    });
 }
 
 Report ReportAverage::standard_error() const {
     if (count_ < 2) return {};
     const auto k = static_cast<double>(count_);
-    return without_words(
-        mapped(squares_, [k](double sum) { return std::sqrt(sum / (k * (k - 1))); }));
+    const auto error = [k](double sum) { return std::sqrt(sum / (k * (k - 1))); };
+    return filtered(mapped(squares_, error), [](const Item& item) {
+        return numbers(item) && !std::holds_alternative<Grid>(item);
+    });
 }
 
 Report only_of(const Report& mean, const Report& errors) {

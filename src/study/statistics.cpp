@@ -41,9 +41,9 @@ MeanTest tested(double difference, double error, double degrees) {
         return test;
     }
     test.t = difference / error;
-    const boost::math::students_t law(degrees);
-    test.p_value =
-        std::min(1.0, 2 * boost::math::cdf(boost::math::complement(law, std::abs(test.t))));
+    const boost::math::students_t distribution(degrees);
+    test.p_value = std::min(
+        1.0, 2 * boost::math::cdf(boost::math::complement(distribution, std::abs(test.t))));
     return test;
 }
 
@@ -74,9 +74,10 @@ SampleSummary summarize(std::span<const double> sample) {
 
 Interval t_interval(const SampleSummary& sample, double confidence) {
     if (sample.count < 2 || !std::isfinite(sample.standard_error)) return {unknown, unknown};
-    const boost::math::students_t law(static_cast<double>(sample.count - 1));
-    const double reach = boost::math::quantile(boost::math::complement(law, (1 - confidence) / 2)) *
-                         sample.standard_error;
+    const boost::math::students_t distribution(static_cast<double>(sample.count - 1));
+    const double reach =
+        boost::math::quantile(boost::math::complement(distribution, (1 - confidence) / 2)) *
+        sample.standard_error;
     return {sample.mean - reach, sample.mean + reach};
 }
 

@@ -67,6 +67,12 @@ void cut_to(int descriptor, std::uint64_t size, const std::string& path) {
 /// The whole line that comes next; false at the end and where it has no end.
 bool whole_line(std::istream& in, std::string& line) { return std::getline(in, line) && !in.eof(); }
 
+[[noreturn]] void refuse_place(const std::string& path, std::uint64_t line) {
+    fail(ErrorKind::input,
+         "{}:{}: this row is not where the study has it; it was moved or rows are missing", path,
+         line);
+}
+
 std::vector<std::string> keys_of(const std::vector<StudyRow>& rows) {
     std::vector<std::string> keys;
     for (const StudyRow& row : rows) keys.push_back(row.key);
@@ -235,11 +241,7 @@ void StudyFile::read_rows(const RunContext& run) {
         if (!row) fail(ErrorKind::input, "{}:{}: is no row of a study", path_, number);
         if (row->study != sweep_.fingerprint()) refuse_other({});
         if (!is_of(*row, next_)) {
-            if (rows.empty() || !is_of(*row, next_ + 1))
-                fail(ErrorKind::input,
-                     "{}:{}: this row is not where the study has it; it was moved or rows are "
-                     "missing",
-                     path_, number);
+            if (rows.empty() || !is_of(*row, next_ + 1)) refuse_place(path_, number);
             take_unit();
         }
         rows.push_back(*row);

@@ -5,7 +5,7 @@
 //
 // Promise  depends on the rows alone, which come in the order of the study.
 // Beware   p-values are corrected over the pairs of generators for one dimension, count, measure
-//          and key; who looks at several of these must correct for that himself.
+//          and key alone: conclusions from several of these need a further correction.
 #pragma once
 
 #include <cstdint>

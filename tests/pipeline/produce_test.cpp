@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include "pipeline/pipeline.hpp"
+#include "stipple/warp.hpp"
 #include "support/temporary_file.hpp"
 #include "support/units.hpp"
 
@@ -47,6 +50,27 @@ TEST(WriteSets, TakesPointsWithoutADomainForThoseOfTheCube) {
     PointSet more = generate("random", {.count = 100, .dimension = 2});
     more.domain = nullptr;
     EXPECT_GT(analyze("chi-square", more).number("p_value"), 0);
+}
+
+// Blocks that are warped side by side lose points each; those that are left stand together, in order.
+TEST(WriteWarped, DropsPointsOfAStreamAsOfASetInMemory) {
+    const PointSet points = generate("random", {.count = 300'000, .dimension = 2});
+    const TemporaryFile file("", ".f64");
+    write_sets({points}, {.path = file.path()}, {});
+    const auto stream = io::open_points(file.path(), {.dimension = 2}, {});
+    ASSERT_FALSE(stream->held());
+    std::string bytes;
+    Target target{.format = &io::format_named("bin")};
+    target.sink = [&](std::string_view more) {
+        bytes += more;
+        return true;
+    };
+    const Spec spec = parse_spec("disk:method=rejection");
+    write_warped(*stream, unit_cube(2), spec, false, target, {.threads = 3});
+    const PointSet image = warp("disk:method=rejection", points);
+    EXPECT_LT(image.count(), points.count());
+    ASSERT_EQ(bytes.size(), image.flat().size_bytes());
+    EXPECT_EQ(std::memcmp(bytes.data(), image.flat().data(), bytes.size()), 0);
 }
 
 // A file that is written of them tells how they were made.
