@@ -9,8 +9,8 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "io/formats/binary.hpp"
 #include "io/decimal.hpp"
+#include "io/formats/binary.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/pipeline.hpp"
 

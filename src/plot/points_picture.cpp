@@ -9,7 +9,6 @@
 #include <functional>
 #include <numeric>
 
-#include "io/formats/disk_size.hpp"
 #include "io/format.hpp"
 #include "plot/domain_outline.hpp"
 #include "plot/drawing/colour_bar.hpp"

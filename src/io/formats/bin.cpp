@@ -5,9 +5,9 @@
 //
 // Promise float32 is cut toward zero: what was below 1 stays below 1.
 #include "core/error.hpp"
-#include "io/formats/binary.hpp"
 #include "io/columns.hpp"
 #include "io/format.hpp"
+#include "io/formats/binary.hpp"
 #include "io/point_stream.hpp"
 #include "io/source_text.hpp"
 

@@ -14,8 +14,8 @@
 // Promise what was written reads back to the same doubles.
 // Source  Y. Shafranovich, RFC 4180, 2005 (comments and the other separators are not in it).
 #include "io/decimal.hpp"
-#include "io/formats/delimited.hpp"
 #include "io/format.hpp"
+#include "io/formats/delimited.hpp"
 #include "io/provenance.hpp"
 
 #include "core/text.hpp"

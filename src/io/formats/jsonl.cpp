@@ -16,8 +16,8 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/decimal.hpp"
-#include "io/formats/delimited.hpp"
 #include "io/format.hpp"
+#include "io/formats/delimited.hpp"
 #include "io/formats/json_head.hpp"
 
 namespace stipple::io::jsonl {

@@ -10,9 +10,9 @@
 // Source  numpy.lib.format, NEP 1 (https://numpy.org/neps/nep-0001-npy-format.html).
 #include "core/error.hpp"
 #include "core/npy_header.hpp"
-#include "io/formats/binary.hpp"
 #include "io/columns.hpp"
 #include "io/format.hpp"
+#include "io/formats/binary.hpp"
 #include "io/point_stream.hpp"
 #include "io/source_text.hpp"
 

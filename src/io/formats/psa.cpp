@@ -8,8 +8,8 @@
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/decimal.hpp"
-#include "io/formats/delimited.hpp"
 #include "io/format.hpp"
+#include "io/formats/delimited.hpp"
 
 namespace stipple::io::psa {
 namespace {

@@ -22,8 +22,8 @@
 #include "core/text.hpp"
 #include "io/carried_meta.hpp"
 #include "io/decimal.hpp"
-#include "io/formats/disk_size.hpp"
 #include "io/format.hpp"
+#include "io/formats/disk_size.hpp"
 
 namespace stipple::io::svg {
 namespace {

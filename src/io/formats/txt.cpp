@@ -6,8 +6,8 @@
 // Promise what was written reads back to the same doubles.
 // Source  the format of UTK and other sampling programs; what gnuplot and numpy.loadtxt read.
 #include "io/decimal.hpp"
-#include "io/formats/delimited.hpp"
 #include "io/format.hpp"
+#include "io/formats/delimited.hpp"
 #include "io/provenance.hpp"
 
 namespace stipple::io::txt {
