@@ -18,23 +18,40 @@ namespace anywhere {
 #undef STIPPLE_VECTOR_BITS
 
 #ifdef STIPPLE_PICKS_VECTORS
+#ifdef __clang__
+#pragma clang attribute push(__attribute__((target("avx2,fma,bmi"))), apply_to = function)
+#else
 #pragma GCC push_options
 #pragma GCC target("avx2,fma,bmi")
+#endif
 #define STIPPLE_VECTOR_BITS 256
 namespace fours {
 #include STIPPLE_KERNELS
 }
 #undef STIPPLE_VECTOR_BITS
+#ifdef __clang__
+#pragma clang attribute pop
+#else
 #pragma GCC pop_options
+#endif
 
+#ifdef __clang__
+#pragma clang attribute push( \
+    __attribute__((target("avx512f,avx512dq,avx512bw,avx512vl,fma,bmi"))), apply_to = function)
+#else
 #pragma GCC push_options
 #pragma GCC target("avx512f,avx512dq,avx512bw,avx512vl,fma,bmi,prefer-vector-width=512")
+#endif
 #define STIPPLE_VECTOR_BITS 512
 namespace eights {
 #include STIPPLE_KERNELS
 }
 #undef STIPPLE_VECTOR_BITS
+#ifdef __clang__
+#pragma clang attribute pop
+#else
 #pragma GCC pop_options
+#endif
 #else
 namespace fours = anywhere;
 namespace eights = anywhere;

@@ -7,8 +7,7 @@
 
 #include <algorithm>
 
-// Other compilers have no pragma for the instructions of a part of a file.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
+#if defined(__x86_64__) && defined(__GNUC__)
 #include <immintrin.h>
 #define STIPPLE_PICKS_VECTORS
 #endif

@@ -71,14 +71,11 @@ class RowWriter {
         const std::size_t d = job_.dimension;
         const std::uint64_t count = rows.size() / d;
         texts_.resize(block_count(count, block_rows_));
-        for_each_block(
-            run_, count, block_rows_,
-            [&](const Block& b) {
-                const auto part = rows.subspan(b.first * d, (b.last - b.first) * d);
-                texts_[b.index].clear();
-                put(part, written_ + b.first, texts_[b.index]);
-            },
-            true);
+        for_each_block(silent(run_), count, block_rows_, [&](const Block& b) {
+            const auto part = rows.subspan(b.first * d, (b.last - b.first) * d);
+            texts_[b.index].clear();
+            put(part, written_ + b.first, texts_[b.index]);
+        });
         for (const std::string& text : texts_)
             if (!output_.write(text)) return false;
         written_ += count;

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "io/format.hpp"
+#include "io/formats/disk_size.hpp"
 #include "plot/domain_outline.hpp"
 #include "plot/drawing/colour_bar.hpp"
 #include "plot/drawing/letters.hpp"

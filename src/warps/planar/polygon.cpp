@@ -31,7 +31,7 @@
 #include "core/error.hpp"
 #include "core/file_bytes.hpp"
 #include "core/text.hpp"
-#include "io/delimited.hpp"
+#include "io/formats/delimited.hpp"
 #include "math/geometry/polygon_rows.hpp"
 #include "warps/domain_mapping.hpp"
 #include "warps/planar/area_share.hpp"
