@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Gaps: cubes within a cell in which something may be uncovered. A gap, like a cell, is cut into
-// P^D sub-cells, and a word has a bit for each of them: bit sum_k i_k P^k for the one with index i_k
-// along direction k. Gaps shrink to what is open of them, or are split, until nothing is.
+// P^D sub-cells, and a word has a bit for each of them: bit sum_k i_k P^k for the one with index
+// i_k along direction k. Gaps shrink to what is open of them, or are split, until nothing is.
 //
 // Shape   P = 8 (D = 2), 4 (3), 2 (4 ... 6).
 #pragma once

@@ -3,8 +3,8 @@
 // The cells in which maximal disk sets are kept: boxes with a diagonal of at most a radius, so that
 // one holds one point at most, in tiles that are worked on as a whole.
 //
-// "In radii" below means: in units of the radius, from the corner of a cell. Such numbers are small,
-// so that floats hold them well.
+// "In radii" below means: in units of the radius, from the corner of a cell. Such numbers are
+// small, so that floats hold them well.
 //
 // Shape   D directions, m_k cells along each, fewer than 2^32 in all.
 #pragma once

@@ -72,19 +72,21 @@ template <std::size_t D, class Real>
         half[k] = grid.sides[k] * (Real{subcells<D>} / 2);
         middle[k] = grid.corner[k] + half[k];
     }
-    reaching.start_over(near);
+    reaching.clear();
     for (std::size_t i = 0; i < near.size(); i += lanes) {
-        std::int32_t chosen[lanes];
-        for (std::size_t l = 0; l < lanes; ++l) {
-            Real squared = 0;
+        Real squared[lanes] = {};
+        for (std::size_t l = 0; l < lanes; ++l)
             for (std::size_t k = 0; k < D; ++k) {
                 const Real out =
                     std::max(std::abs(near.along(k)[i + l] - middle[k]) - half[k], Real{0});
-                squared += out * out;
+                squared[l] += out * out;
             }
-            chosen[l] = squared < 1 + slack ? 1 : 0;
+        for (std::size_t l = 0; l < lanes; ++l) {
+            if (squared[l] >= 1 + slack) continue;
+            std::array<Real, D> center;
+            for (std::size_t k = 0; k < D; ++k) center[k] = near.along(k)[i + l];
+            reaching.add(center);
         }
-        reaching.take(near, i, chosen);
     }
     reaching.close();
 }

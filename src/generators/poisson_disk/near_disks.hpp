@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// The few disks about a place, and which sub-cells of a gap they cover. Lengths are in radii, so that
-// a disk about p covers where sum_k (x_k - p_k)^2 < 1.
+// The few disks about a place, and which sub-cells of a gap they cover. Lengths are in radii, so
+// that a disk about p covers where sum_k (x_k - p_k)^2 < 1.
 //
 // Of a line of sub-cells along the first direction a disk covers those between two ends, which one
 // root gives:
@@ -47,20 +47,6 @@ class NearDisks {
         for (std::size_t k = 0; k < D; ++k)
             std::fill_n(at_.begin() + static_cast<std::ptrdiff_t>(k * room_ + size_), lanes,
                         Real{1e9});
-    }
-
-    /// Makes these the disks of `all` that are chosen: start_over(), take() for each eight,
-    /// close().
-    void start_over(const NearDisks& all) {
-        make_room(all.size() + 2 * lanes);
-        size_ = 0;
-    }
-    [[gnu::always_inline]] void take(const NearDisks& all, std::size_t i,
-                                     const std::int32_t (&chosen)[lanes]) {
-        for (std::size_t l = 0; l < lanes; ++l) {
-            for (std::size_t k = 0; k < D; ++k) at_[k * room_ + size_] = all.along(k)[i + l];
-            size_ += static_cast<std::size_t>(chosen[l]);
-        }
     }
 
     [[nodiscard]] std::size_t size() const { return size_; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Darts that no older point rules out, until it is decided which of them stay: those of one round on
-// one tile, sorted into blocks of cells, so that those near a place are found.
+// Darts that no older point rules out, until it is decided which of them stay: those of one round
+// on one tile, sorted into blocks of cells, so that those near a place are found.
 #pragma once
 
 #include <algorithm>
@@ -84,8 +84,8 @@ class PendingDarts {
         stipple::fetch(std::span<const std::uint16_t>(first_));
     }
 
-    /// Calls visit(dart) for those in the blocks of the cells from low to high along each direction,
-    /// and maybe beyond the tile, until that is true; returns whether it ever was.
+    /// Calls visit(dart) for those in the blocks of the cells from low to high along each
+    /// direction, and maybe beyond the tile, until that is true; returns whether it ever was.
     template <class Visit>
     bool any(Cell low, Cell high, const Visit& visit) const {
         for (std::size_t k = 0; k < D; ++k) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Poisson-disk set: points thrown at random, none nearer than a radius to any other, until no further
-// point fits (generators/poisson_disk/maximal_disks.hpp).
+// Poisson-disk set: points thrown at random, none nearer than a radius to any other, until no
+// further point fits (generators/poisson_disk/maximal_disks.hpp).
 //
 // --radius R   as many points as fit.
 // --n-approx N about N points: as many as fit with the radius that gives N in the mean.
@@ -13,9 +13,9 @@
 //              tried; of eight in vain, which may happen with a few points only, the surplus of the
 //              best set is removed: then the set is not maximal, and the user is told.
 //
-// In 2-D radii may change from place to place (generators/poisson_disk/varying/varied_disks.hpp); two
-// points then keep the smaller of their radii, and every place where points may lie is nearer than
-// the smaller of its radius and a point's to that point:
+// In 2-D radii may change from place to place (generators/poisson_disk/varying/varied_disks.hpp);
+// two points then keep the smaller of their radii, and every place where points may lie is nearer
+// than the smaller of its radius and a point's to that point:
 //
 // --density    r(x) = radius * sqrt(largest density / density(x)), no points where it is 0.
 // --radius-map r(x) as given; scaled to a least radius with --radius, --count and --n-approx.

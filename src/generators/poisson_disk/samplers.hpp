@@ -32,7 +32,8 @@ inline constexpr unsigned space_tile_bits = 5;
 template <std::size_t D>
 Rows box_sample(const Task<D>& task, const RunContext& run);
 
-/// The same where a radius leads across two cells, and there are five or more, along each direction.
+/// The same where a radius leads across two cells, and there are five or more, along each
+/// direction.
 Rows plane_sample(const Task<2>& task, const RunContext& run);
 Rows space_sample(const Task<3>& task, const RunContext& run);
 

@@ -6,8 +6,8 @@
 // A tile is changed by one thread alone. In each round it first takes over the darts of the last
 // round that were accepted, its own and those near its faces; then darts are thrown at it, of which
 // those that no point rules out are pending. When all tiles have got so far, pending darts are
-// decided: one stays unless an earlier one that is too near to it stays, which is asked from dart to
-// dart, across tiles. That has one answer, whatever the order of asking, so that threads don't
+// decided: one stays unless an earlier one that is too near to it stays, which is asked from dart
+// to dart, across tiles. That has one answer, whatever the order of asking, so that threads don't
 // matter.
 #pragma once
 
@@ -32,15 +32,6 @@
 
 namespace stipple::poisson_disk {
 
-/// Volume of the ball of radius 1 in 0 ... 6 dimensions.
-inline constexpr std::array<double, 7> unit_ball{1,
-                                                 2,
-                                                 3.141592653589793,
-                                                 4.188790204786391,
-                                                 4.934802200544679,
-                                                 5.263789013914325,
-                                                 5.167712780049970};
-
 /// A point that a tile takes over.
 template <std::size_t D>
 struct Addition {
@@ -49,8 +40,8 @@ struct Addition {
     bool own;          ///< whether it is one of the tile's points()
 };
 
-/// What every tile has: its cells, neighbours, pending darts and points. A tile of a sampler derives
-/// from it and has
+/// What every tile has: its cells, neighbours, pending darts and points. A tile of a sampler
+/// derives from it and has
 ///     take(additions)   adds points that were accepted, the own ones in the order of points();
 ///     has_gaps()        whether anything may be uncovered, once gaps are known;
 ///     drop()            gives back its own memory, but that of the points;
@@ -228,7 +219,7 @@ class TileRounds {
 
     /// Rounds until no tile has gaps: draw(tile, counts, key, workspace, first), counts for gaps of
     /// each level, `first` while gaps are not known yet.
-    /// @param density of darts to the volume of a ball, `growth` times as many in each next round
+    /// @param density of darts to r^D, `growth` times as many in each next round
     template <class Draw>
     void close_gaps(double density, double growth, const Draw& draw) {
         for (bool first = true; !open_.empty(); first = false, density *= growth) {
@@ -244,10 +235,10 @@ class TileRounds {
         }
     }
 
-    /// Darts to a sub-cell of a cell, when `density` of them fall on a ball, and cells are as large
-    /// as they may be.
+    /// Darts to a sub-cell of a cell, when there are `density` to r^D, and cells are as large as they
+    /// may be.
     static double to_a_subcell(double density) {
-        return density / (unit_ball[D] * std::sqrt(static_cast<double>(power(D, D)))) /
+        return density / std::sqrt(static_cast<double>(power(D, D))) /
                static_cast<double>(all_subcells<D>);
     }
 

@@ -464,18 +464,18 @@ TEST(PoissonDisk, IsPlainDartThrowingInFewCells) { expect_plain_dart_throwing(0.
 namespace {
 
 const Space unit_cube{{{0, 0, 0}, {1, 1, 1}}, true};
-using Spot3 = std::array<double, 3>;
+using Place3 = std::array<double, 3>;
 
 /// Oracle: darts thrown one by one at boxes of equal size, until all lie within one ball each.
 /// Boxes are cut into eight when as many darts as there are boxes were in vain.
-std::vector<Spot3> thrown_in_space(double radius, std::uint64_t seed) {
+std::vector<Place3> thrown_in_space(double radius, std::uint64_t seed) {
     const Rng rng(seed, 7);
     std::uint64_t drawn = 0;
-    std::vector<Spot3> kept;
+    std::vector<Place3> kept;
     double side = 1;
-    std::vector<Spot3> boxes{{0, 0, 0}};
-    const auto open = [&](const Spot3& low) {
-        for (const Spot3& p : kept) {
+    std::vector<Place3> boxes{{0, 0, 0}};
+    const auto open = [&](const Place3& low) {
+        for (const Place3& p : kept) {
             double squared = 0;
             for (std::size_t k = 0; k < 3; ++k) {
                 const double off = std::abs(low[k] + side / 2 - p[k]);
@@ -489,7 +489,7 @@ std::vector<Spot3> thrown_in_space(double radius, std::uint64_t seed) {
     while (!boxes.empty() && side > 1e-5) {
         std::size_t in_vain = 0;
         while (in_vain < boxes.size()) {
-            Spot3 p = boxes[rng.below(drawn++, boxes.size())];
+            Place3 p = boxes[rng.below(drawn++, boxes.size())];
             for (double& x : p) x += side * rng.uniform(drawn++);
             bool fits = true;
             for (std::size_t j = 0; j < kept.size() && fits; ++j)
@@ -498,13 +498,13 @@ std::vector<Spot3> thrown_in_space(double radius, std::uint64_t seed) {
             if (!fits) continue;
             kept.push_back(p);
             in_vain = 0;
-            std::erase_if(boxes, [&](const Spot3& low) { return !open(low); });
+            std::erase_if(boxes, [&](const Place3& low) { return !open(low); });
         }
         side /= 2;
-        std::vector<Spot3> smaller;
-        for (const Spot3& low : boxes)
+        std::vector<Place3> smaller;
+        for (const Place3& low : boxes)
             for (unsigned child = 0; child < 8; ++child) {
-                Spot3 corner = low;
+                Place3 corner = low;
                 for (std::size_t k = 0; k < 3; ++k) corner[k] += side * (child >> k & 1);
                 if (open(corner)) smaller.push_back(corner);
             }

@@ -2,8 +2,8 @@
 //
 // What a disk covers of the 5 x 5 cells about its own: a bit for each of 8 x 8 sub-cells, looked up
 // by where in its cell the centre lies, to one of Q^2 places. What has its bit set is covered for
-// every centre in that place. So whether a dart can stay is mostly known from one bit, and whether a
-// cell is covered from one word.
+// every centre in that place. So whether a dart can stay is mostly known from one bit, and whether
+// a cell is covered from one word.
 //
 // Shape   grids where a radius leads across two cells along both directions.
 // Cost    25 words a disk; 200 kB for a table.

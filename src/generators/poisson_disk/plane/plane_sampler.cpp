@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// maximal_disks (generators/poisson_disk/maximal_disks.hpp) in the plane, for boxes of five cells or
-// more along each direction.
+// maximal_disks (generators/poisson_disk/maximal_disks.hpp) in the plane, for boxes of five cells
+// or more along each direction.
 //
-// First darts are thrown at the sub-cells that no disk covers by itself; then at gaps, which are cut
-// down to their open sub-cells round by round. Darts of a tile are sorted by time, and tried one
-// after the other: one that keeps its distance is a point at once. Pending are only those within two
-// cells of the tile's edge, which a dart of another tile may come before, and those too near to such
-// a one.
+// First darts are thrown at the sub-cells that no disk covers by itself; then at gaps, which are
+// cut down to their open sub-cells round by round. Darts of a tile are sorted by time, and tried
+// one after the other: one that keeps its distance is a point at once. Pending are only those
+// within two cells of the tile's edge, which a dart of another tile may come before, and those too
+// near to such a one.
 //
 // Cost    O(n) time; on one core 0.4 us a point. Memory: 75 bytes a point; more in boxes fewer
 //         than 64 cells wide.
 
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 #include "core/large_pages.hpp"
 #include "core/wide.hpp"
@@ -228,10 +229,12 @@ class PlaneSampler {
     }
 
     Rows sample() {
-        for (const double density : {1.5, 1.5, 6.0, 20.0, 60.0, 200.0}) throw_at_subcells(density);
+        constexpr double disk = std::numbers::pi;  // of radius 1
+        for (const double to_a_disk : {1.5, 1.5, 6.0, 20.0, 60.0, 200.0})
+            throw_at_subcells(to_a_disk / disk);
         constexpr double growth = 4;
         rounds_.close_gaps(
-            600, growth,
+            600 / disk, growth,
             [&](PlaneTile& tile, const Counts& counts, std::uint64_t key, PlaneWorkspace& work,
                 bool first) { throw_at_gaps(tile, counts, key, work, first); });
         positions_.reset();

@@ -87,8 +87,8 @@ STIPPLE_INLINE V far_square(V along, V from, float side) {
     return far * far;
 }
 
-/// Balls that may cover a sub-cell: the square of the distance to the farthest corner of the nearest
-/// one is at least this, which is exact beyond its middle.
+/// Balls that may cover a sub-cell: the square of the distance to the farthest corner of the
+/// nearest one is at least this, which is exact beyond its middle.
 STIPPLE_INLINE unsigned may_cover(const Pattern& p, V x, V y, V z) {
     const V far_x = larger(absolute(x) - p.side[0], same(p.side[0] / 2));
     const V far_y = larger(absolute(y) - p.side[1], same(p.side[1] / 2));
@@ -125,24 +125,24 @@ STIPPLE_INLINE V square_root(V x) {
     return roots;
 }
 
-/// Sixteen lines of parts beside each other that a ball reaches, for each layer of them.
+/// Sixteen lines of sub-cells beside each other that a ball reaches, for each layer of them.
 struct LineCover {
     static constexpr std::size_t rows = 16 / lanes;
-    /// A ball reaches seven parts to each side, and into an eighth.
+    /// A ball reaches seven sub-cells to each side, and into an eighth.
     static constexpr int reach = 8;
     static constexpr int words = static_cast<int>(BallLines::words);
     static constexpr int along = static_cast<int>(BallLines::along);
 
     int first;                  ///< line, from the cell's corner
     std::array<V, rows> far_y;  ///< squared distances to the far sides of the lines
-    float x;                    ///< of the centre, from `reach` parts before the cell, in parts
-    float per_part;
+    float x;                    ///< of the centre, from `reach` sub-cells before the cell, in these
+    float per_side;
     int word;        ///< with the first bit
     unsigned shift;  ///< of that
 
     STIPPLE_INLINE LineCover(const std::array<float, 3>& scales, const PlacedBall& ball) {
-        const float part = scales[1] / 4;
-        first = std::min(static_cast<int>(ball.off[1] / part), 3) - (reach - 1);
+        const float side = scales[1] / 4;
+        first = std::min(static_cast<int>(ball.off[1] / side), 3) - (reach - 1);
         V ramp;
         for (std::size_t l = 0; l < lanes; ++l) ramp[l] = static_cast<float>(l) + 0.5F;
         for (std::size_t row = 0; row < rows; ++row) {
@@ -150,20 +150,20 @@ struct LineCover {
             // Lines beyond the tile are far away.
             const V from_tile = absolute(middle + static_cast<float>(4 * ball.cell[1] - along / 2));
             const V beyond = larger(from_tile - static_cast<float>(along / 2), V{});
-            const V far = absolute(middle * part - ball.off[1]) + part / 2 + beyond * 16;
+            const V far = absolute(middle * side - ball.off[1]) + side / 2 + beyond * 16;
             far_y[row] = far * far;
         }
-        per_part = 4 / scales[0];
-        x = ball.off[0] * per_part + reach;
+        per_side = 4 / scales[0];
+        x = ball.off[0] * per_side + reach;
         const int bit = 4 * ball.cell[0] - reach;
         word = bit >> 5;
         shift = static_cast<unsigned>(bit & 31);
     }
 
-    /// Bits, from the first one on, of the parts that are not farther than that.
+    /// Bits, from the first one on, of the sub-cells that are not farther than that.
     /// @param left what is left of the squared radius
     [[nodiscard]] STIPPLE_INLINE Bits of(std::size_t row, float left) const {
-        const V half = square_root(larger(left - far_y[row], V{})) * per_part;
+        const V half = square_root(larger(left - far_y[row], V{})) * per_side;
         const Bits from = __builtin_convertvector(x - half, Bits) + 1;
         const Bits to = __builtin_convertvector(x + half, Bits);
         const Bits one = Bits{} + 1;
@@ -188,14 +188,14 @@ STIPPLE_INLINE void cover_ball(const std::array<float, 3>& scales, const PlacedB
     const bool in_first = cover.word >= 0 && cover.word < LineCover::words;
     const bool in_next =
         cover.shift > 12 && cover.word + 1 >= 0 && cover.word + 1 < LineCover::words;
-    const float part = scales[2] / 4;
-    const int middle = static_cast<int>(ball.off[2] / part);
+    const float side = scales[2] / 4;
+    const int middle = static_cast<int>(ball.off[2] / side);
     const int above = 4 * ball.cell[2];
     const int low = std::max(middle - (reach - 1), -above);
     const int high = std::min(middle + reach, along - above);
     lines += static_cast<int>(BallLines::pad) + cover.word * along + 4 * ball.cell[1] + cover.first;
     for (int z = low; z < high; ++z) {
-        const float far = std::abs((static_cast<float>(z) + 0.5F) * part - ball.off[2]) + part / 2;
+        const float far = std::abs((static_cast<float>(z) + 0.5F) * side - ball.off[2]) + side / 2;
         const float left = (1 - float_slack) - far * far;
         if (left <= 0) continue;
         std::uint32_t* const to = lines + (above + z) * static_cast<int>(BallLines::layer);

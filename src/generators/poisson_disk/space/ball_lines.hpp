@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 //
-// What balls cover of a tile of cells in space, told for each quarter of a cell along each direction:
-// lines of such sub-cells along the first direction, a bit for each of 32 in a word, words of lines
-// beside each other one after the other.
+// What balls cover of a tile of cells in space, told for each quarter of a cell along each
+// direction: lines of such sub-cells along the first direction, a bit for each of 32 in a word,
+// words of lines beside each other one after the other.
 //
-// A ball covers a sub-cell if it covers the corner that is farthest from its centre; of a line, what
-// is between two places, which a square root tells for many lines side by side.
+// A ball covers a sub-cell if it covers the corner that is farthest from its centre; of a line,
+// what is between two places, which a square root tells for many lines side by side.
 //
 // Cost    0.25 us for a ball.
 // Promise what has its bit set is covered by one ball alone, and not within float_slack of its rim;

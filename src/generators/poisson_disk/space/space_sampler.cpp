@@ -3,10 +3,10 @@
 // maximal_disks (generators/poisson_disk/maximal_disks.hpp) in space, for boxes of five cells or
 // more along each direction.
 //
-// First darts are thrown at the sub-cells that no ball covers by itself (space/ball_lines.hpp). What
-// is left open of a sub-cell is mostly covered by several balls together, which shows when it is cut
-// into 64 smaller ones; those that are not are gaps (space/ball_kernels.hpp), at which darts are
-// thrown until none is left.
+// First darts are thrown at the sub-cells that no ball covers by itself (space/ball_lines.hpp).
+// What is left open of a sub-cell is mostly covered by several balls together, which shows when it
+// is cut into 64 smaller ones; those that are not are gaps (space/ball_kernels.hpp), at which darts
+// are thrown until none is left.
 //
 // Cost    O(n) time; on one core 2 us a point. Memory: 230 bytes a point.
 
@@ -142,14 +142,14 @@ class SpaceSampler {
     }
 
     Rows sample() {
-        for (const double density : {1.0, 1.0, 2.0, 8.0, 24.0, 72.0, 216.0, 648.0}) {
+        for (const double density : {0.25, 0.25, 0.5, 2.0, 6.0, 18.0, 54.0, 160.0}) {
             const PoissonCounts counts(Rounds::to_a_subcell(density), together);
             rounds_.round([&](SpaceTile& tile, std::uint64_t key, SpaceWorkspace& work) {
                 throw_at_subcells(rules_, tile, counts, key, work);
             });
         }
         constexpr double growth = 6;
-        rounds_.close_gaps(1944, growth,
+        rounds_.close_gaps(480, growth,
                            [&](SpaceTile& tile, const Counts& counts, std::uint64_t key,
                                SpaceWorkspace& work, bool first) {
                                work.gaps.clear();
