@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/packed.hpp"
+#include "core/bytes/packed.hpp"
 #include "core/point_set.hpp"
 
 namespace stipple::analyzers {

@@ -11,8 +11,8 @@
 
 #include "cli/inputs.hpp"
 #include "cli/verbs.hpp"
+#include "core/bytes/npy_header.hpp"
 #include "core/error.hpp"
-#include "core/npy_header.hpp"
 #include "core/text.hpp"
 #include "io/files.hpp"
 #include "io/provenance.hpp"

@@ -10,9 +10,9 @@
 
 #include "cli/original.hpp"
 #include "cli/verbs.hpp"
+#include "core/bytes/file_bytes.hpp"
+#include "core/bytes/fingerprint.hpp"
 #include "core/error.hpp"
-#include "core/file_bytes.hpp"
-#include "core/fingerprint.hpp"
 #include "core/json.hpp"
 #include "core/text.hpp"
 #include "io/carried_meta.hpp"

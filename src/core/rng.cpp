@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "core/int128.hpp"
-#include "core/wide.hpp"
+#include "core/machine/int128.hpp"
+#include "core/machine/wide.hpp"
 
 namespace stipple {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "stipple/points.hpp"
 
-#include "core/large_pages.hpp"
+#include "core/machine/large_pages.hpp"
 
 namespace stipple {
 

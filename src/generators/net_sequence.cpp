@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "math/combinatorics/primes.hpp"
 #include "math/digital/base_scramble.hpp"
 #include "math/digital/radical_inverse.hpp"
 #include "math/functions/powers.hpp"
-#include "math/functions/primes.hpp"
 
 namespace stipple {
 namespace {

@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "generators/box_space.hpp"
-#include "math/functions/splitmix64.hpp"
+#include "math/combinatorics/splitmix64.hpp"
 #include "math/neighbors/spaced_points.hpp"
 
 namespace stipple {

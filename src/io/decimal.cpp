@@ -13,7 +13,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "core/int128.hpp"
+#include "core/machine/int128.hpp"
 
 namespace stipple::io {
 namespace {

@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <cerrno>
 
+#include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
-#include "core/file_bytes.hpp"
 #include "io/source_text.hpp"
 
 namespace stipple::io {

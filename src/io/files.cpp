@@ -11,8 +11,8 @@
 #include <cerrno>
 #include <system_error>
 
+#include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
-#include "core/file_bytes.hpp"
 #include "core/text.hpp"
 #include "io/feed.hpp"
 #include "io/source_text.hpp"

@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "core/bytes/raw_numbers.hpp"
 #include "core/point_set.hpp"
-#include "core/raw_numbers.hpp"
 #include "io/feed.hpp"
 #include "io/format.hpp"
 #include "stipple/run.hpp"

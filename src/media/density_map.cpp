@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/bytes/file_bytes.hpp"
+#include "core/bytes/npy_header.hpp"
 #include "core/error.hpp"
-#include "core/file_bytes.hpp"
-#include "core/large_pages.hpp"
-#include "core/npy_header.hpp"
+#include "core/machine/large_pages.hpp"
 #include "core/rng.hpp"
 #include "core/text.hpp"
 #include "media/pfm_picture.hpp"

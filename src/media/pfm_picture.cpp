@@ -6,8 +6,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "core/bytes/raw_numbers.hpp"
 #include "core/error.hpp"
-#include "core/raw_numbers.hpp"
 #include "core/text.hpp"
 
 namespace stipple {

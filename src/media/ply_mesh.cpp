@@ -5,8 +5,8 @@
 #include <memory>
 #include <string_view>
 
+#include "core/bytes/raw_numbers.hpp"
 #include "core/error.hpp"
-#include "core/raw_numbers.hpp"
 #include "core/text.hpp"
 #include "media/token_file.hpp"
 #include "media/triangle_mesh.hpp"

@@ -5,8 +5,8 @@
 #include <charconv>
 #include <system_error>
 
+#include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
-#include "core/file_bytes.hpp"
 
 namespace stipple {
 namespace {

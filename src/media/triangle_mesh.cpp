@@ -6,8 +6,8 @@
 #include <optional>
 #include <string_view>
 
+#include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
-#include "core/file_bytes.hpp"
 #include "core/text.hpp"
 #include "media/token_file.hpp"
 

@@ -7,9 +7,9 @@
 #include <iterator>
 #include <numeric>
 
+#include "core/bytes/file_bytes.hpp"
+#include "core/bytes/fingerprint.hpp"
 #include "core/error.hpp"
-#include "core/file_bytes.hpp"
-#include "core/fingerprint.hpp"
 #include "core/parallel.hpp"
 #include "core/rng.hpp"
 #include "core/text.hpp"

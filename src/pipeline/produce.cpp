@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
-#include "core/int128.hpp"
+#include "core/machine/int128.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "generators/density_options.hpp"

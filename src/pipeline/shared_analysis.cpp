@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "core/bytes/packed.hpp"
 #include "core/error.hpp"
-#include "core/packed.hpp"
 
 namespace stipple {
 namespace {

@@ -9,8 +9,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/bytes/npy_header.hpp"
 #include "core/error.hpp"
-#include "core/npy_header.hpp"
 #include "core/text.hpp"
 #include "media/png_picture.hpp"
 

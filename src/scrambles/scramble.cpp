@@ -7,7 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "math/functions/primes.hpp"
+#include "math/combinatorics/primes.hpp"
 
 namespace stipple {
 namespace {

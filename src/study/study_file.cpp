@@ -12,8 +12,8 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
-#include "core/file_bytes.hpp"
 #include "core/json.hpp"
 #include "core/text.hpp"
 

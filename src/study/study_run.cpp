@@ -9,8 +9,8 @@
 #include <mutex>
 #include <thread>
 
+#include "core/bytes/packed.hpp"
 #include "core/error.hpp"
-#include "core/packed.hpp"
 #include "study/work_queue.hpp"
 
 namespace stipple {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "core/bytes/fingerprint.hpp"
 #include "core/error.hpp"
-#include "core/fingerprint.hpp"
 #include "core/text.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/pipeline.hpp"

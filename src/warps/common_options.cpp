@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "math/functions/running_sums.hpp"
+#include "math/arithmetic/running_sums.hpp"
 
 namespace stipple::warps {
 

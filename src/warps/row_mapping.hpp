@@ -19,7 +19,7 @@
 #include <array>
 #include <utility>
 
-#include "core/wide.hpp"
+#include "core/machine/wide.hpp"
 #include "warps/named_domain.hpp"
 #include "warps/warp.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <sstream>
 
-#include "cli/parsing/arguments.hpp"
 #include "cli/help/guide.hpp"
+#include "cli/parsing/arguments.hpp"
 #include "support/program.hpp"
 
 namespace stipple::testing::topics_test {

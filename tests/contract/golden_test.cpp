@@ -17,7 +17,7 @@
 #include <map>
 #include <sstream>
 
-#include "core/fingerprint.hpp"
+#include "core/bytes/fingerprint.hpp"
 #include "core/text.hpp"
 #include "pipeline/chain.hpp"
 #include "places.hpp"

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <memory>
 
+#include "core/bytes/packed.hpp"
 #include "core/error.hpp"
-#include "core/packed.hpp"
 #include "io/files.hpp"
 #include "report/document.hpp"
 #include "support/temporary_file.hpp"

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <bit>
 
-#include "core/large_pages.hpp"
+#include "core/machine/large_pages.hpp"
 #include "core/parallel.hpp"
-#include "math/functions/radix_sort.hpp"
+#include "math/combinatorics/radix_sort.hpp"
 
 namespace stipple::discrepancy {
 namespace {

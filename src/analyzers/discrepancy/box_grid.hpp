@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "core/point_set.hpp"
-#include "math/functions/dyadic.hpp"
+#include "math/arithmetic/dyadic.hpp"
 #include "stipple/run.hpp"
 
 namespace stipple::discrepancy {

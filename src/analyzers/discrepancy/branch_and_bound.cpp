@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/bytes/packed.hpp"
 #include "core/error.hpp"
-#include "core/packed.hpp"
 #include "core/parallel.hpp"
 
 namespace stipple::discrepancy {

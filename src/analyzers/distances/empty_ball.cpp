@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
-#include "math/functions/radix_sort.hpp"
+#include "math/combinatorics/radix_sort.hpp"
 #include "math/neighbors/covering_bound.hpp"
 #include "math/neighbors/kd_tree.hpp"
 

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/machine/wide.hpp"
 #include "core/parallel.hpp"
-#include "core/wide.hpp"
 #include "math/neighbors/point_grid.hpp"
 
 namespace stipple::analyzers {

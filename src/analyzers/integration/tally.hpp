@@ -11,7 +11,7 @@
 
 #include <cmath>
 
-#include "math/functions/double_double.hpp"
+#include "math/arithmetic/double_double.hpp"
 
 namespace stipple::analyzers {
 

@@ -11,7 +11,7 @@
 #include <cstdint>
 
 #include "analyzers/l2/kinds.hpp"
-#include "math/functions/double_double.hpp"
+#include "math/arithmetic/double_double.hpp"
 
 namespace stipple::analyzers::l2 {
 

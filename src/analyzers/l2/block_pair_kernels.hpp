@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Factors of L2 kernels for as many pairs of points as a vector V holds, each a double and an error
-// term, their products and their sums. This is no header of its own: core/vector_widths.hpp
+// term, their products and their sums. This is no header of its own: core/machine/vector_widths.hpp
 // includes it in block_pairs.cpp for STIPPLE_VECTOR_BITS.
 //
 // The factors are those of pair_sums.hpp, with parabolas about their vertices:

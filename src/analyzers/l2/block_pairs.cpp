@@ -71,7 +71,7 @@ struct PairKernel {
 };
 
 #define STIPPLE_KERNELS "analyzers/l2/block_pair_kernels.hpp"
-#include "core/vector_widths.hpp"
+#include "core/machine/vector_widths.hpp"
 
 PairKernel kernel_of(PairForm form, Vectors widest) {
     return pick_vectors(&anywhere::kernel_for, &fours::kernel_for, &eights::kernel_for,

@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/vectors.hpp"
-#include "math/functions/double_double.hpp"
+#include "core/machine/vectors.hpp"
+#include "math/arithmetic/double_double.hpp"
 #include "stipple/run.hpp"
 
 namespace stipple::analyzers::l2 {

@@ -11,7 +11,7 @@
 
 #include "analyzers/l2/axis_factor.hpp"
 #include "analyzers/l2/fixed_point.hpp"
-#include "core/int128.hpp"
+#include "core/machine/int128.hpp"
 #include "core/parallel.hpp"
 
 namespace stipple::analyzers::l2 {

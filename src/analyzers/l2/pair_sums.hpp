@@ -35,8 +35,8 @@
 #include <cstddef>
 
 #include "analyzers/l2/kinds.hpp"
+#include "core/machine/vectors.hpp"
 #include "core/point_set.hpp"
-#include "core/vectors.hpp"
 #include "stipple/run.hpp"
 
 namespace stipple::analyzers::l2 {

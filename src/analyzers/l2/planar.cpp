@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "analyzers/l2/fixed_point.hpp"
-#include "core/int128.hpp"
+#include "core/machine/int128.hpp"
 #include "core/parallel.hpp"
-#include "math/functions/radix_sort.hpp"
+#include "math/combinatorics/radix_sort.hpp"
 
 namespace stipple::analyzers::l2 {
 namespace {

@@ -32,8 +32,8 @@
 #include "analyzers/analyzer.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "math/combinatorics/combinations.hpp"
 #include "math/digital/equidistribution.hpp"
-#include "math/functions/combinations.hpp"
 #include "math/functions/powers.hpp"
 
 namespace stipple::analyzers::t_value {

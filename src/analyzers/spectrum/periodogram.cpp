@@ -58,9 +58,9 @@
 #include "analyzers/rings.hpp"
 #include "analyzers/spectrum/periodogram_power.hpp"
 #include "core/error.hpp"
+#include "core/machine/wide.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
-#include "core/wide.hpp"
 #include "math/fourier/nufft.hpp"
 
 namespace stipple::analyzers::periodogram {

@@ -3,7 +3,7 @@
 
 #include <complex>
 
-#include "core/large_pages.hpp"
+#include "core/machine/large_pages.hpp"
 
 namespace stipple::analyzers {
 namespace {

@@ -42,7 +42,7 @@
 #include "analyzers/uniformity/verdict.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "math/functions/radix_sort.hpp"
+#include "math/combinatorics/radix_sort.hpp"
 
 namespace stipple::analyzers::kolmogorov_smirnov {
 namespace {

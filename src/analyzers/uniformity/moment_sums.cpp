@@ -6,7 +6,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "math/functions/double_double.hpp"
+#include "math/arithmetic/double_double.hpp"
 
 namespace stipple::analyzers {
 namespace {

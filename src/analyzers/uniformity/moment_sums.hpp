@@ -21,7 +21,7 @@
 #include <span>
 #include <vector>
 
-#include "core/packed.hpp"
+#include "core/bytes/packed.hpp"
 
 #include "stipple/run.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "analyzers/uniformity/cell_grid.hpp"
 #include "core/error.hpp"
-#include "core/int128.hpp"
+#include "core/machine/int128.hpp"
 #include "math/functions/distributions.hpp"
 
 namespace stipple::analyzers {

@@ -7,8 +7,8 @@
 #include <limits>
 #include <span>
 
-#include "core/wide.hpp"
-#include "math/functions/splitmix64.hpp"
+#include "core/machine/wide.hpp"
+#include "math/combinatorics/splitmix64.hpp"
 
 namespace stipple {
 namespace {

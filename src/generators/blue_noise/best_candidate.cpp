@@ -34,8 +34,8 @@
 #include "generators/blue_noise/all_candidates.hpp"
 #include "generators/box_space.hpp"
 #include "generators/generator.hpp"
+#include "math/combinatorics/splitmix64.hpp"
 #include "math/functions/roots.hpp"
-#include "math/functions/splitmix64.hpp"
 #include "math/neighbors/covering_bound.hpp"
 #include "math/neighbors/point_grid.hpp"
 

@@ -29,8 +29,8 @@
 
 #include "core/rng.hpp"
 #include "core/text.hpp"
-#include "generators/blue_noise/equal_cells.hpp"
 #include "generators/blue_noise/planar_start.hpp"
+#include "generators/blue_noise/relaxation/equal_cells.hpp"
 #include "generators/generator.hpp"
 
 namespace stipple::generators::capacity_constrained {

@@ -35,7 +35,7 @@
 #include "generators/density_options.hpp"
 #include "generators/generator.hpp"
 #include "generators/varied_index.hpp"
-#include "math/functions/draws.hpp"
+#include "math/combinatorics/draws.hpp"
 #include "math/neighbors/point_grid.hpp"
 
 namespace stipple::generators::dart_throwing {

@@ -25,8 +25,8 @@
 
 #include "core/error.hpp"
 #include "core/rng.hpp"
-#include "generators/blue_noise/density_relaxation.hpp"
-#include "generators/blue_noise/gaussian_relaxation.hpp"
+#include "generators/blue_noise/relaxation/density_relaxation.hpp"
+#include "generators/blue_noise/relaxation/gaussian_relaxation.hpp"
 #include "generators/box_space.hpp"
 #include "generators/density_options.hpp"
 #include "generators/generator.hpp"

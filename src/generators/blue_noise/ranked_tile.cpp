@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/rng.hpp"
-#include "generators/blue_noise/gaussian_relaxation.hpp"
+#include "generators/blue_noise/relaxation/gaussian_relaxation.hpp"
 #include "math/functions/exponential.hpp"
 
 namespace stipple {

@@ -40,7 +40,7 @@
 #include "generators/density_options.hpp"
 #include "generators/generator.hpp"
 #include "io/files.hpp"
-#include "math/functions/draws.hpp"
+#include "math/combinatorics/draws.hpp"
 
 namespace stipple::generators::sample_elimination {
 namespace {

@@ -43,8 +43,8 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/int128.hpp"
-#include "core/wide.hpp"
+#include "core/machine/int128.hpp"
+#include "core/machine/wide.hpp"
 #include "generators/blue_noise/ranked_tile.hpp"
 #include "generators/blue_noise/thinned_tiles.hpp"
 #include "generators/box_space.hpp"

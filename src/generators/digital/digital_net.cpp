@@ -24,8 +24,8 @@
 #include "generators/digital/matrix_file.hpp"
 #include "generators/generator.hpp"
 #include "generators/net_sequence.hpp"
+#include "math/arithmetic/ratio.hpp"
 #include "math/functions/powers.hpp"
-#include "math/functions/ratio.hpp"
 
 namespace stipple::generators::digital_net {
 namespace {

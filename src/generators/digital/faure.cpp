@@ -20,7 +20,7 @@
 #include "core/error.hpp"
 #include "generators/generator.hpp"
 #include "generators/net_sequence.hpp"
-#include "math/functions/primes.hpp"
+#include "math/combinatorics/primes.hpp"
 
 namespace stipple::generators::faure {
 namespace {

@@ -7,8 +7,8 @@
 #include <bit>
 
 #include "core/text.hpp"
+#include "math/combinatorics/primes.hpp"
 #include "math/functions/powers.hpp"
-#include "math/functions/primes.hpp"
 
 namespace stipple {
 namespace {

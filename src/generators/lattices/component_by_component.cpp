@@ -24,9 +24,9 @@
 #include <numeric>
 
 #include "core/error.hpp"
-#include "core/wide.hpp"
+#include "core/machine/wide.hpp"
 #include "generators/lattices/component_search.hpp"
-#include "math/functions/ratio.hpp"
+#include "math/arithmetic/ratio.hpp"
 
 namespace stipple {
 namespace {

@@ -17,7 +17,7 @@
 // Source  the bound: J. L. Lagrange 1773; A. Thue 1910 (for any points in the plane).
 
 #include "generators/generator.hpp"
-#include "math/functions/ratio.hpp"
+#include "math/arithmetic/ratio.hpp"
 #include "math/geometry/torus_packing.hpp"
 
 namespace stipple::generators::hexagonal {

@@ -27,12 +27,12 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/machine/wide.hpp"
 #include "core/text.hpp"
-#include "core/wide.hpp"
 #include "generators/generator.hpp"
 #include "generators/lattices/component_by_component.hpp"
 #include "generators/lattices/product_weights.hpp"
-#include "math/functions/ratio.hpp"
+#include "math/arithmetic/ratio.hpp"
 #include "media/token_file.hpp"
 
 namespace stipple::generators::rank1_lattice {

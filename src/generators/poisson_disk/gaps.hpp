@@ -16,7 +16,7 @@
 
 #include "core/rng.hpp"
 #include "generators/poisson_disk/grid.hpp"
-#include "math/functions/splitmix64.hpp"
+#include "math/combinatorics/splitmix64.hpp"
 
 namespace stipple::poisson_disk {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/wide.hpp"
+#include "core/machine/wide.hpp"
 
 namespace stipple::poisson_disk {
 namespace {

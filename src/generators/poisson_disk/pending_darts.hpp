@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "core/fetch.hpp"
+#include "core/machine/fetch.hpp"
 #include "generators/poisson_disk/grid.hpp"
 
 namespace stipple::poisson_disk {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/rng.hpp"
-#include "math/functions/splitmix64.hpp"
+#include "math/combinatorics/splitmix64.hpp"
 
 namespace stipple::poisson_disk {
 

@@ -43,8 +43,8 @@
 #include "generators/poisson_disk/varying/radius_field.hpp"
 #include "generators/poisson_disk/varying/varied_disks.hpp"
 #include "generators/spread_order.hpp"
-#include "math/functions/draws.hpp"
-#include "math/functions/permutation.hpp"
+#include "math/combinatorics/draws.hpp"
+#include "math/combinatorics/permutation.hpp"
 #include "math/neighbors/kd_tree.hpp"
 
 namespace stipple::generators::poisson_disk {

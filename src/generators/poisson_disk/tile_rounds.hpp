@@ -276,9 +276,8 @@ class TileRounds {
     /// Calls work(tile, number) for tiles with gaps, on several threads.
     template <class Work>
     void for_open(const Work& work) {
-        for_each_block(silent(run_), open_.size(), 1, [&](const Block& b) {
-            work(tiles_[open_[b.first]], open_[b.first]);
-        });
+        for_each_block(silent(run_), open_.size(), 1,
+                       [&](const Block& b) { work(tiles_[open_[b.first]], open_[b.first]); });
     }
 
     /// Tiles along one direction from which a radius leads into one, and the cells to their first.

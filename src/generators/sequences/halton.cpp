@@ -25,10 +25,10 @@
 
 #include "core/error.hpp"
 #include "generators/generator.hpp"
+#include "math/combinatorics/primes.hpp"
 #include "math/digital/base_scramble.hpp"
 #include "math/digital/digit_permutations.hpp"
 #include "math/digital/radical_inverse.hpp"
-#include "math/functions/primes.hpp"
 
 namespace stipple::generators::halton {
 namespace {

@@ -14,9 +14,9 @@
 //         doi:10.1111/j.1749-6632.1960.tb42846.x.
 
 #include "generators/generator.hpp"
+#include "math/arithmetic/ratio.hpp"
+#include "math/combinatorics/primes.hpp"
 #include "math/digital/radical_inverse.hpp"
-#include "math/functions/primes.hpp"
-#include "math/functions/ratio.hpp"
 
 namespace stipple::generators::hammersley {
 namespace {

@@ -24,8 +24,8 @@
 #include "core/error.hpp"
 #include "core/rng.hpp"
 #include "generators/generator.hpp"
-#include "math/functions/bits.hpp"
-#include "math/functions/ratio.hpp"
+#include "math/arithmetic/bits.hpp"
+#include "math/arithmetic/ratio.hpp"
 
 namespace stipple::generators::kronecker {
 namespace {

@@ -22,7 +22,7 @@
 
 #include "generators/stratified/jitter_grid.hpp"
 #include "generators/stratified/stratified.hpp"
-#include "math/functions/permutation_family.hpp"
+#include "math/combinatorics/permutation_family.hpp"
 
 namespace stipple::generators::correlated_multi_jittered {
 namespace {

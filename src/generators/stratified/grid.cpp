@@ -12,8 +12,8 @@
 #include "core/error.hpp"
 #include "generators/generator.hpp"
 #include "generators/stratified/jitter_grid.hpp"
+#include "math/arithmetic/ratio.hpp"
 #include "math/functions/powers.hpp"
-#include "math/functions/ratio.hpp"
 #include "math/geometry/lattice.hpp"
 
 namespace stipple::generators::grid {

@@ -18,9 +18,9 @@
 
 #include "core/rng.hpp"
 #include "generators/generator.hpp"
+#include "math/arithmetic/ratio.hpp"
 #include "math/digital/stratum.hpp"
 #include "math/functions/powers.hpp"
-#include "math/functions/ratio.hpp"
 #include "math/geometry/lattice.hpp"
 
 namespace stipple::generators::jittered {

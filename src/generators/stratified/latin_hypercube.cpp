@@ -4,7 +4,7 @@
 // exactly one point, anywhere in it or in its middle.
 //
 //     strength 1   coordinate k of point i is in stratum pi_k(i), the pi_k being independent random
-//                  permutations (math/functions/permutation.hpp)
+//                  permutations (math/combinatorics/permutation.hpp)
 //     strength 2   for n = p^2, p prime, and d <= p + 1: a Latin hypercube in which besides, for
 //                  any two coordinates, each of the p x p squares holds exactly one point. It is
 //                  made from an orthogonal array (orthogonal_points.hpp).
@@ -17,7 +17,7 @@
 //         doi:10.1080/01621459.1993.10476423.
 
 #include "generators/stratified/orthogonal_points.hpp"
-#include "math/functions/permutation.hpp"
+#include "math/combinatorics/permutation.hpp"
 
 namespace stipple::generators::latin_hypercube {
 namespace {

@@ -25,8 +25,8 @@
 
 #include "generators/stratified/jitter_grid.hpp"
 #include "generators/stratified/stratified.hpp"
-#include "math/functions/permutation.hpp"
-#include "math/functions/permutation_family.hpp"
+#include "math/combinatorics/permutation.hpp"
+#include "math/combinatorics/permutation_family.hpp"
 
 namespace stipple::generators::multi_jittered {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "math/combinatorics/primes.hpp"
 #include "math/functions/powers.hpp"
-#include "math/functions/primes.hpp"
 
 namespace stipple::generators {
 namespace {

@@ -29,7 +29,7 @@
 #include <vector>
 
 #include "generators/stratified/stratified.hpp"
-#include "math/functions/permutation_family.hpp"
+#include "math/combinatorics/permutation_family.hpp"
 
 namespace stipple::generators {
 

@@ -14,7 +14,7 @@
 #include "core/options.hpp"
 #include "core/rng.hpp"
 #include "generators/generator.hpp"
-#include "math/functions/permutation.hpp"
+#include "math/combinatorics/permutation.hpp"
 
 namespace stipple::generators {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/raw_numbers.hpp"
+#include "core/bytes/raw_numbers.hpp"
 
 namespace stipple::io {
 

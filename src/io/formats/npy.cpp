@@ -8,8 +8,8 @@
 // Shape   (n, d), or (R, n, d) for R sets; extras count as coordinates. The reader also takes (n,),
 //         versions 2 and 3, both byte orders, column-major order, float32 and integers.
 // Source  numpy.lib.format, NEP 1 (https://numpy.org/neps/nep-0001-npy-format.html).
+#include "core/bytes/npy_header.hpp"
 #include "core/error.hpp"
-#include "core/npy_header.hpp"
 #include "io/columns.hpp"
 #include "io/format.hpp"
 #include "io/formats/binary.hpp"

@@ -8,7 +8,7 @@
 #include <queue>
 
 #include "core/error.hpp"
-#include "core/wide.hpp"
+#include "core/machine/wide.hpp"
 #include "math/densities/expression.hpp"
 
 namespace stipple {

@@ -5,11 +5,11 @@
 #include <array>
 #include <cmath>
 
-#include "core/wide.hpp"
+#include "core/machine/wide.hpp"
+#include "math/arithmetic/bits.hpp"
+#include "math/arithmetic/ratio.hpp"
 #include "math/digital/radical_inverse.hpp"
 #include "math/digital/scramble_stream.hpp"
-#include "math/functions/bits.hpp"
-#include "math/functions/ratio.hpp"
 
 namespace stipple {
 namespace {

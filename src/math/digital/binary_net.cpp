@@ -5,8 +5,8 @@
 #include <bit>
 #include <cassert>
 
-#include "core/wide.hpp"
-#include "math/functions/bits.hpp"
+#include "core/machine/wide.hpp"
+#include "math/arithmetic/bits.hpp"
 
 namespace stipple {
 namespace {

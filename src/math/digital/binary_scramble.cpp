@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/wide.hpp"
+#include "core/machine/wide.hpp"
 #include "math/digital/scramble_stream.hpp"
 
 namespace stipple {

@@ -23,7 +23,7 @@
 #include <cstdint>
 #include <span>
 
-#include "math/functions/bits.hpp"
+#include "math/arithmetic/bits.hpp"
 
 namespace stipple {
 

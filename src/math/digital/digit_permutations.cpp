@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "math/arithmetic/ratio.hpp"
 #include "math/digital/radical_inverse.hpp"
-#include "math/functions/ratio.hpp"
 
 namespace stipple {
 namespace {

@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 
+#include "core/machine/wide.hpp"
 #include "core/parallel.hpp"
-#include "core/wide.hpp"
+#include "math/combinatorics/primes.hpp"
 #include "math/functions/powers.hpp"
-#include "math/functions/primes.hpp"
 
 namespace stipple::equidistribution {
 namespace {

@@ -11,7 +11,7 @@
 #include <numeric>
 #include <vector>
 
-#include "math/functions/primes.hpp"
+#include "math/combinatorics/primes.hpp"
 
 namespace stipple::gf2 {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "math/functions/ratio.hpp"
+#include "math/arithmetic/ratio.hpp"
 
 namespace stipple {
 namespace {

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/wide.hpp"
-#include "math/functions/ratio.hpp"
+#include "core/machine/wide.hpp"
+#include "math/arithmetic/ratio.hpp"
 
 namespace stipple {
 namespace {

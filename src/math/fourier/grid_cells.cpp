@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <new>
 
-#include "core/large_pages.hpp"
+#include "core/machine/large_pages.hpp"
 
 namespace stipple {
 

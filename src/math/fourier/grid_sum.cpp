@@ -5,8 +5,8 @@
 #include <bit>
 #include <cmath>
 
+#include "core/machine/wide.hpp"
 #include "core/parallel.hpp"
-#include "core/wide.hpp"
 
 namespace stipple {
 namespace {

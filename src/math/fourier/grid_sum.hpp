@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "core/packed.hpp"
+#include "core/bytes/packed.hpp"
 #include "stipple/run.hpp"
 
 namespace stipple {

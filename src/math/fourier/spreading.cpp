@@ -8,8 +8,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/machine/wide.hpp"
 #include "core/parallel.hpp"
-#include "core/wide.hpp"
 #include "math/fourier/grid_cells.hpp"
 #include "math/fourier/window_spreading.hpp"
 

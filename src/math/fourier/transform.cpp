@@ -7,9 +7,9 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
-#include "core/file_bytes.hpp"
-#include "core/large_pages.hpp"
+#include "core/machine/large_pages.hpp"
 #include "core/parallel.hpp"
 #include "math/fourier/fftw.hpp"
 #include "math/functions/powers.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The work of window_spreading.hpp for as many numbers at once as a vector V holds. This is no
-// header of its own: core/vector_widths.hpp includes it in window_spreading.cpp for
+// header of its own: core/machine/vector_widths.hpp includes it in window_spreading.cpp for
 // STIPPLE_VECTOR_BITS.
 
 constexpr std::size_t lanes = STIPPLE_VECTOR_BITS == 512 ? 8 : 4;

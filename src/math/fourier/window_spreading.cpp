@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t chunk = 16;
 
 #define STIPPLE_KERNELS "math/fourier/window_lanes.hpp"
-#include "core/vector_widths.hpp"
+#include "core/machine/vector_widths.hpp"
 
 }  // namespace
 

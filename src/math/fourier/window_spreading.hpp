@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <span>
 
-#include "core/vectors.hpp"
+#include "core/machine/vectors.hpp"
 #include "math/fourier/interpolator.hpp"
 
 namespace stipple {

@@ -18,7 +18,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "math/functions/double_double.hpp"
+#include "math/arithmetic/double_double.hpp"
 #include "math/functions/horner.hpp"
 
 namespace stipple {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "math/functions/double_double.hpp"
+#include "math/arithmetic/double_double.hpp"
 #include "math/functions/exponential.hpp"
 
 namespace stipple {

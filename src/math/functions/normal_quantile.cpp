@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "core/wide.hpp"
+#include "core/machine/wide.hpp"
 
 namespace stipple {
 namespace {

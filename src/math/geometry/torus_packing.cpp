@@ -5,9 +5,9 @@
 #include <numeric>
 #include <optional>
 
-#include "core/int128.hpp"
+#include "core/machine/int128.hpp"
+#include "math/arithmetic/ratio.hpp"
 #include "math/functions/powers.hpp"
-#include "math/functions/ratio.hpp"
 
 namespace stipple {
 namespace {

@@ -21,7 +21,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "math/functions/draws.hpp"
+#include "math/combinatorics/draws.hpp"
 #include "math/geometry/planar_area.hpp"
 #include "math/geometry/vector3.hpp"
 

@@ -27,8 +27,8 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "math/arithmetic/running_sums.hpp"
 #include "math/densities/guide_table.hpp"
-#include "math/functions/running_sums.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "media/triangle_mesh.hpp"
 #include "warps/curved/placement.hpp"

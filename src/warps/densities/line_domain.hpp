@@ -22,8 +22,8 @@
 #include <vector>
 
 #include "core/domain.hpp"
+#include "core/machine/wide.hpp"
 #include "core/support.hpp"
-#include "core/wide.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "warps/named_domain.hpp"
 #include "warps/warp.hpp"

@@ -28,7 +28,7 @@
 
 #include "core/domain.hpp"
 #include "core/error.hpp"
-#include "core/wide.hpp"
+#include "core/machine/wide.hpp"
 #include "math/densities/quadrature.hpp"
 #include "math/functions/cholesky.hpp"
 #include "math/functions/exponential.hpp"

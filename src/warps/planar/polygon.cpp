@@ -28,8 +28,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
-#include "core/file_bytes.hpp"
 #include "core/text.hpp"
 #include "io/formats/delimited.hpp"
 #include "math/geometry/polygon_rows.hpp"

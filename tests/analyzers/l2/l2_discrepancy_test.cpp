@@ -11,9 +11,9 @@
 
 #include "analyzers/l2/divide_and_conquer.hpp"
 #include "analyzers/l2/pair_sums.hpp"
-#include "core/int128.hpp"
+#include "core/machine/int128.hpp"
 #include "core/rng.hpp"
-#include "math/functions/double_double.hpp"
+#include "math/arithmetic/double_double.hpp"
 #include "support/exact.hpp"
 #include "support/lattices.hpp"
 #include "support/units.hpp"

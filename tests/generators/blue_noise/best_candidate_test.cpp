@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/rng.hpp"
-#include "math/functions/splitmix64.hpp"
+#include "math/combinatorics/splitmix64.hpp"
 #include "support/spacing.hpp"
 
 namespace stipple::testing::best_candidate_test {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <complex>
 
-#include "generators/blue_noise/equal_cells.hpp"
+#include "generators/blue_noise/relaxation/equal_cells.hpp"
 #include "support/pictures.hpp"
 #include "support/units.hpp"
 

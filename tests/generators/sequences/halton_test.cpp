@@ -4,10 +4,10 @@
 #include <cmath>
 #include <set>
 
+#include "math/combinatorics/primes.hpp"
 #include "math/digital/base_scramble.hpp"
 #include "math/digital/digit_permutations.hpp"
 #include "math/digital/radical_inverse.hpp"
-#include "math/functions/primes.hpp"
 #include "support/exact.hpp"
 #include "support/nets.hpp"
 #include "support/sequences.hpp"

@@ -9,7 +9,7 @@
 #include <numeric>
 #include <set>
 
-#include "math/functions/primes.hpp"
+#include "math/combinatorics/primes.hpp"
 
 namespace stipple::testing::digit_permutations_test {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/rng.hpp"
-#include "math/functions/primes.hpp"
+#include "math/combinatorics/primes.hpp"
 #include "support/exact.hpp"
 
 namespace stipple::testing::radical_inverse_test {

@@ -37,7 +37,7 @@
 #include <limits>
 #include <span>
 
-#include "core/wide.hpp"
+#include "core/machine/wide.hpp"
 
 namespace stipple::discrepancy::star {
 namespace {

@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
+#include "math/combinatorics/combinations.hpp"
 #include "math/digital/equidistribution.hpp"
-#include "math/functions/combinations.hpp"
 
 namespace stipple::discrepancy::star {
 namespace {

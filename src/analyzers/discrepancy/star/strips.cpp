@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/large_pages.hpp"
-#include "core/wide.hpp"
+#include "core/machine/large_pages.hpp"
+#include "core/machine/wide.hpp"
 
 namespace stipple::discrepancy::star {
 namespace {

@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
-#include "math/functions/combinations.hpp"
+#include "math/combinatorics/combinations.hpp"
 
 namespace stipple::discrepancy::star {
 namespace {

@@ -17,7 +17,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/large_pages.hpp"
+#include "core/machine/large_pages.hpp"
 #include "generators/poisson_disk/gaps.hpp"
 #include "generators/poisson_disk/grid.hpp"
 #include "generators/poisson_disk/near_disks.hpp"

@@ -16,8 +16,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/large_pages.hpp"
-#include "core/wide.hpp"
+#include "core/machine/large_pages.hpp"
+#include "core/machine/wide.hpp"
 #include "generators/poisson_disk/near_disks.hpp"
 #include "generators/poisson_disk/plane/plane_tile.hpp"
 #include "generators/poisson_disk/samplers.hpp"

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "core/fetch.hpp"
+#include "core/machine/fetch.hpp"
 #include "generators/poisson_disk/plane/coverage_table.hpp"
 #include "generators/poisson_disk/plane/fixed_positions.hpp"
 #include "generators/poisson_disk/tile_rounds.hpp"

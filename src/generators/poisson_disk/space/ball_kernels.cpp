@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/vectors.hpp"
+#include "core/machine/vectors.hpp"
 #include "generators/poisson_disk/space/ball_lines.hpp"
 
 #define STIPPLE_LAMBDA __attribute__((always_inline))
@@ -15,7 +15,7 @@ namespace stipple::poisson_disk {
 namespace {
 
 #define STIPPLE_KERNELS "generators/poisson_disk/space/ball_lanes.hpp"
-#include "core/vector_widths.hpp"
+#include "core/machine/vector_widths.hpp"
 
 }  // namespace
 

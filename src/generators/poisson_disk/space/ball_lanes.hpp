@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Kernels on balls, for as many floats as a vector holds. This is no header of its own:
-// core/vector_widths.hpp includes it for ball_kernels.cpp, once for each width.
+// core/machine/vector_widths.hpp includes it for ball_kernels.cpp, once for each width.
 
 constexpr std::size_t lanes = STIPPLE_VECTOR_BITS / 32;
 using V [[gnu::vector_size(4 * lanes)]] = float;

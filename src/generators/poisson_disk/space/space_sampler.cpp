@@ -14,8 +14,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/large_pages.hpp"
-#include "core/wide.hpp"
+#include "core/machine/large_pages.hpp"
+#include "core/machine/wide.hpp"
 #include "generators/poisson_disk/samplers.hpp"
 #include "generators/poisson_disk/space/space_tile.hpp"
 

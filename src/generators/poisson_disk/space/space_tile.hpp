@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/fetch.hpp"
+#include "core/machine/fetch.hpp"
 #include "generators/poisson_disk/space/ball_kernels.hpp"
 #include "generators/poisson_disk/space/ball_lines.hpp"
 #include "generators/poisson_disk/tile_rounds.hpp"

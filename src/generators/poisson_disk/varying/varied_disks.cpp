@@ -12,7 +12,7 @@
 #include "core/text.hpp"
 #include "generators/poisson_disk/poisson_counts.hpp"
 #include "generators/varied_index.hpp"
-#include "math/functions/splitmix64.hpp"
+#include "math/combinatorics/splitmix64.hpp"
 
 namespace stipple::poisson_disk {
 namespace {

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "core/bytes/file_bytes.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <memory>
+#include <system_error>
+
+#include "core/error.hpp"
+
+namespace stipple {
+namespace {
+
+constexpr std::size_t most_bytes = std::size_t{1} << 30;
+
+}  // namespace
+
+std::string file_trouble(int error) {
+    switch (error) {
+        case ENOENT:
+            return "no such file";
+        case EISDIR:
+            return "is a folder, not a file";
+        case EACCES:
+        case EPERM:
+            return "permission denied";
+        case ENOSPC:
+            return "no space left on the device";
+        case EROFS:
+            return "the file system is read-only";
+        case ENOTDIR:
+            return "a part of its path is not a folder";
+        default:
+            return std::generic_category().message(error);
+    }
+}
+
+std::string read_file(const std::string& path) {
+    const auto reason = [] { return file_trouble(errno); };
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                               &std::fclose);
+    if (!file) fail(ErrorKind::io, "{}: {}", path, reason());
+    std::string bytes;
+    constexpr std::size_t step = std::size_t{1} << 16;
+    for (std::size_t got = step; got == step;) {
+        const std::size_t before = bytes.size();
+        if (before > most_bytes) fail(ErrorKind::io, "{}: the file is larger than 1 GiB", path);
+        bytes.resize(before + step);
+        got = std::fread(bytes.data() + before, 1, step, file.get());
+        bytes.resize(before + got);
+    }
+    if (std::ferror(file.get()) != 0) fail(ErrorKind::io, "{}: {}", path, reason());
+    return bytes;
+}
+
+}  // namespace stipple

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+//
+// Fractions of whole numbers as doubles in [0, 1), correctly rounded.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "core/machine/int128.hpp"
+
+namespace stipple {
+
+using Wide = Uint128;
+
+/// Whole numbers up to this are doubles, and one division of two of them is correctly rounded.
+inline constexpr std::uint64_t exact_limit = std::uint64_t{1} << 53;
+
+namespace detail {
+double wide_ratio(Wide numerator, Wide denominator);
+}
+
+/// numerator / denominator rounded to the nearest double, to even on a tie; 1 - 2^-53 where that
+/// would be 1. Needs numerator < denominator <= 2^72.
+inline double ratio(Wide numerator, Wide denominator) {
+    if (denominator > exact_limit) return detail::wide_ratio(numerator, denominator);
+    return static_cast<double>(static_cast<std::uint64_t>(numerator)) /
+           static_cast<double>(static_cast<std::uint64_t>(denominator));
+}
+
+/// x[j * stride] = ratio(first + j step, whole) for j < count; all are below 1.
+void fill_ratios(std::uint64_t first, std::uint64_t step, std::uint64_t whole, std::size_t count,
+                 double* x, std::size_t stride);
+
+}  // namespace stipple

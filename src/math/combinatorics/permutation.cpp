@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "math/combinatorics/permutation.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "core/machine/wide.hpp"
+#include "math/combinatorics/splitmix64.hpp"
+
+namespace stipple {
+namespace {
+
+using Cipher = Permutation::Cipher;
+
+constexpr std::size_t lanes = 256;
+
+/// The keys in the words that they are used on.
+template <class Word>
+struct Keys {
+    explicit Keys(const Cipher& cipher)
+        : mask(static_cast<Word>((std::uint64_t{1} << cipher.width) - 1)),
+          shift((cipher.width + 1) / 2) {
+        for (std::size_t t = 0; t < Permutation::rounds; ++t) {
+            flips[t] = static_cast<Word>(cipher.flips[t]);
+            factors[t] = static_cast<Word>(cipher.factors[t]);
+        }
+    }
+
+    /// A bijection of the words of cipher.width bits.
+    [[nodiscard]] Word operator()(Word x) const {
+#pragma GCC unroll 12
+        for (std::size_t t = 0; t < Permutation::rounds; ++t) {
+            x = ((x ^ flips[t]) * factors[t]) & mask;
+            x ^= x >> shift;
+        }
+        return x;
+    }
+
+    Word mask;
+    int shift;
+    std::array<Word, Permutation::rounds> flips;
+    std::array<Word, Permutation::rounds> factors;
+};
+
+// The keys are copied so that the compiler sees that the words are not among them.
+STIPPLE_WIDE void encipher(Keys<std::uint32_t> keys, std::uint32_t* x, std::size_t count) {
+    for (std::size_t j = 0; j < count; ++j) x[j] = keys(x[j]);
+}
+
+STIPPLE_WIDE void encipher(Keys<std::uint64_t> keys, std::uint64_t* x, std::size_t count) {
+    for (std::size_t j = 0; j < count; ++j) x[j] = keys(x[j]);
+}
+
+/// Images of first, first + 1, ...; those that fall outside are gathered and go on together.
+template <class Word>
+void images(const Cipher& cipher, std::uint64_t size, std::uint64_t first, std::size_t count,
+            double* out) {
+    Word x[lanes];
+    std::uint8_t place[lanes];
+    for (std::size_t j = 0; j < count; ++j) x[j] = static_cast<Word>(first + j);
+    const Keys<Word> keys(cipher);
+    encipher(keys, x, count);
+    for (std::size_t j = 0; j < count; ++j) out[j] = static_cast<double>(x[j]);
+    const std::uint64_t words = std::uint64_t{1} << cipher.width;
+    if (size == words) return;
+    std::size_t outside = 0;
+    for (std::size_t j = 0; j < count; ++j) {
+        place[outside] = static_cast<std::uint8_t>(j);
+        x[outside] = x[j];
+        outside += x[j] >= size;
+    }
+    while (outside > 0) {
+        encipher(keys, x, outside);
+        std::size_t left = 0;
+        for (std::size_t j = 0; j < outside; ++j) {
+            out[place[j]] = static_cast<double>(x[j]);
+            place[left] = place[j];
+            x[left] = x[j];
+            left += x[j] >= size;
+        }
+        outside = left;
+    }
+}
+
+}  // namespace
+
+Permutation::Permutation(std::uint64_t size, std::uint64_t key) : size_(size) {
+    SplitMix64 stream(key);
+    if (size <= small) {
+        for (std::uint64_t i = 0; i < size; ++i) {
+            const std::uint64_t j = stream.below(i + 1);
+            table_[i] = table_[j];
+            table_[j] = static_cast<std::uint8_t>(i);
+        }
+        return;
+    }
+    cipher_.width = static_cast<int>(std::bit_width(size - 1));
+    for (std::size_t t = 0; t < rounds; ++t) {
+        cipher_.flips[t] = stream.next() >> (64 - cipher_.width);
+        cipher_.factors[t] = stream.next() >> (64 - cipher_.width) | 1;
+    }
+}
+
+std::uint64_t Permutation::operator()(std::uint64_t i) const {
+    if (size_ <= small) return table_[i];
+    const Keys<std::uint64_t> keys(cipher_);
+    do i = keys(i);
+    while (i >= size_);
+    return i;
+}
+
+void Permutation::fill(std::uint64_t first, std::span<double> out) const {
+    if (size_ <= small) {
+        for (std::size_t j = 0; j < out.size(); ++j) out[j] = table_[first + j];
+        return;
+    }
+    for (std::size_t i = 0; i < out.size(); i += lanes) {
+        const std::size_t count = std::min(lanes, out.size() - i);
+        if (cipher_.width <= 32)
+            images<std::uint32_t>(cipher_, size_, first + i, count, out.data() + i);
+        else
+            images<std::uint64_t>(cipher_, size_, first + i, count, out.data() + i);
+    }
+}
+
+}  // namespace stipple
