@@ -555,8 +555,7 @@ void take_mean(Measurement& m, const ReportAverage& average, std::span<const Rep
 }
 
 int analyze(const Arguments& arguments, Session& session) {
-    const auto ranks = launched("analyze", session.run());
-    return Analysis(arguments, session, *ranks).go();
+    return Analysis(arguments, session, launched("analyze", session.run())).go();
 }
 
 }  // namespace stipple::cli

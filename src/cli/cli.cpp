@@ -95,8 +95,10 @@ int list(const Arguments& arguments, const std::vector<Kind>& all) {
     return 0;
 }
 
-int run(int argc, char** argv) {
-    catch_interrupts();
+namespace {
+
+/// The exit code, once what went wrong is said.
+int run_verb(int argc, char** argv) {
     const std::string_view verb = argc > 1 ? argv[1] : "";
     try {
         const auto kinds = catalog();
@@ -113,6 +115,15 @@ int run(int argc, char** argv) {
         return report_error(verb, fmt::format("internal error: {}", e.what()), "",
                             exit_code(ErrorKind::io));
     }
+}
+
+}  // namespace
+
+int run(int argc, char** argv) {
+    catch_interrupts();
+    const int code = run_verb(argc, argv);
+    leave_ranks();
+    return code;
 }
 
 }  // namespace stipple::cli

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <memory>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -18,6 +19,12 @@ std::optional<std::uint64_t> environment(std::initializer_list<const char*> name
             if (const auto number = parse_unsigned(text))
                 most = std::max(most.value_or(0), *number);
     return most;
+}
+
+/// Those that this process has joined.
+std::unique_ptr<Ranks>& joined() {
+    static std::unique_ptr<Ranks> ranks;
+    return ranks;
 }
 
 }  // namespace
@@ -36,19 +43,21 @@ bool is_mute(std::string_view verb) {
     return rank.value_or(0) != 0;
 }
 
-std::unique_ptr<Ranks> launched(std::string_view verb, const RunContext& run) {
+Ranks& launched(std::string_view verb, const RunContext& run) {
     const std::uint64_t started = launched_ranks();
-    if (started == 1) return std::make_unique<Ranks>();
+    if (started == 1) return *(joined() = std::make_unique<Ranks>());
     if (!has_mpi())
         fail_with_hint(ErrorKind::usage, "build it where MPI is installed, or start one process",
                        "{}: an MPI launcher started {} processes, and this build has no MPI", verb,
                        started);
-    auto ranks = join_ranks(run.stop);
-    if (ranks->size() == 1)
+    joined() = join_ranks(run.stop);
+    if (joined()->size() == 1)
         fail_with_hint(ErrorKind::usage, "start them by mpirun, or by srun --mpi=pmix",
                        "{}: a launcher started {} processes, which do not find each other by MPI",
                        verb, started);
-    return ranks;
+    return *joined();
 }
+
+void leave_ranks() { joined().reset(); }
 
 }  // namespace stipple::cli

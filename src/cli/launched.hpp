@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string_view>
 
@@ -19,8 +18,11 @@ std::uint64_t launched_ranks();
 /// this verb. Verbs that ranks do not share speak for themselves, wherever they run.
 bool is_mute(std::string_view verb);
 
-/// Joins the others. @throws Error(usage) where there are others and MPI does not find them, or the
-/// build has none
-std::unique_ptr<Ranks> launched(std::string_view verb, const RunContext& run);
+/// Joins the others, until leave_ranks(). @throws Error(usage) where there are others and MPI does
+/// not find them, or the build has none
+Ranks& launched(std::string_view verb, const RunContext& run);
+
+/// To be called when everything is said: a launcher ends all processes as soon as one has failed.
+void leave_ranks();
 
 }  // namespace stipple::cli

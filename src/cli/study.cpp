@@ -300,11 +300,11 @@ int study(const Arguments& arguments, Session& session) {
         fail(ErrorKind::usage, "study takes no input; '{}' is not understood",
              arguments.inputs.front());
     const Arguments all = with_config(arguments, launched_ranks(), session.run());
-    const auto ranks = launched("study", session.run());
+    Ranks& ranks = launched("study", session.run());
     std::optional<Study> study;
     try {
         check_choices(all);
-        study.emplace(all, session, *ranks);
+        study.emplace(all, session, ranks);
     } catch (const Error& e) {
         refuse_setting(e, arguments);
     }
