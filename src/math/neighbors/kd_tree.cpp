@@ -292,7 +292,11 @@ struct KdTree::Nearest {
     const double* place;
     Choice choice;
     static constexpr double infinity = std::numeric_limits<double>::infinity();
-    Neighbor best{infinity, none};  ///< at a finite distance where nodes are passed over
+    Neighbor best;  ///< at a finite distance where nodes are passed over
+
+    Nearest(const KdTree& in, const Metric& by, const double* from, Choice of,
+            const Neighbor& farthest = {infinity, none})
+        : tree(in), metric(by), place(from), choice(of), best(farthest) {}
 
     [[nodiscard]] double bound(std::size_t node) const {
         return choice.skips_node(node) ? infinity : metric.nearest(tree.box_of(node), place);
@@ -310,7 +314,11 @@ struct KdTree::Several {
     const double* place;
     std::size_t k;
     std::size_t except;
-    std::vector<Neighbor> heap = {};  ///< the farthest on top
+    std::vector<Neighbor> heap;  ///< the farthest on top
+
+    Several(const KdTree& in, const Metric& by, const double* from, std::size_t most,
+            std::size_t but)
+        : tree(in), metric(by), place(from), k(most), except(but) {}
 
     [[nodiscard]] double bound(std::size_t node) const {
         return metric.nearest(tree.box_of(node), place);

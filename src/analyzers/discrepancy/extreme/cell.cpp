@@ -243,7 +243,7 @@ Cell CellBounder::split(Cell& cell) const {
             cell.hi[parts * k + 2] = 0;
             return larger;
         }
-        for (const std::size_t part : {0, 1}) {
+        for (const std::size_t part : {std::size_t{0}, std::size_t{1}}) {
             const double open = openness(grid_, k + 1, ends, part == 0 ? ends.lower : ends.upper);
             if (open <= most) continue;
             most = open;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "core/machine/large_pages.hpp"
@@ -13,9 +14,19 @@ namespace stipple::discrepancy::star {
 namespace {
 
 using Floats = float __attribute__((vector_size(32)));
-using LooseFloats = float __attribute__((vector_size(32), aligned(4), may_alias));
 using Doubles = double __attribute__((vector_size(32)));
-using LooseDoubles = double __attribute__((vector_size(32), aligned(8), may_alias));
+
+/// A vector of numbers that lie anywhere, and back.
+template <class Vector, class T>
+[[gnu::always_inline]] inline Vector load(const T* from) {
+    Vector vector;
+    std::memcpy(&vector, from, sizeof vector);
+    return vector;
+}
+template <class T, class Vector>
+[[gnu::always_inline]] inline void store(T* to, const Vector& vector) {
+    std::memcpy(to, &vector, sizeof vector);
+}
 
 /// Lines of a strip are kept in single precision, w z - c with |w| <= 2 B, c <= B and 0 <= z <= 1,
 /// in rows of whole vectors.
@@ -45,8 +56,8 @@ STIPPLE_WIDE Heights highest(const float* w, const float* c, std::size_t size, f
     Floats low = Floats{} - no_line;
     Floats high = low;
     for (std::size_t i = 0; i < size; i += lanes) {
-        const Floats weight = *reinterpret_cast<const LooseFloats*>(w + i);
-        const Floats points = *reinterpret_cast<const LooseFloats*>(c + i);
+        const auto weight = load<Floats>(w + i);
+        const auto points = load<Floats>(c + i);
         const Floats at_low = weight * z_low - points;
         const Floats at_high = weight * z_high - points;
         low = at_low > low ? at_low : low;
@@ -67,12 +78,10 @@ STIPPLE_WIDE double pass(double* height, const double* y, const double* slope, s
     Doubles best = Doubles{} - std::numeric_limits<double>::infinity();
     std::size_t i = 0;
     for (; i + wide <= size; i += wide) {
-        auto& heights = *reinterpret_cast<LooseDoubles*>(height + i);
-        const Doubles before = heights;
-        const Doubles here = *reinterpret_cast<const LooseDoubles*>(y + i) * p +
-                             *reinterpret_cast<const LooseDoubles*>(slope + i) * x + before;
+        const auto before = load<Doubles>(height + i);
+        const Doubles here = load<Doubles>(y + i) * p + load<Doubles>(slope + i) * x + before;
         best = here > best ? here : best;
-        heights = before + add;
+        store(height + i, before + add);
     }
     double top = std::max(std::max(best[0], best[1]), std::max(best[2], best[3]));
     for (; i < size; ++i) {
@@ -84,7 +93,7 @@ STIPPLE_WIDE double pass(double* height, const double* y, const double* slope, s
 
 /// Adds to whole vectors.
 STIPPLE_WIDE void add_to_vectors(float* c, std::size_t size, float by) {
-    for (std::size_t i = 0; i < size; i += lanes) *reinterpret_cast<LooseFloats*>(c + i) += by;
+    for (std::size_t i = 0; i < size; i += lanes) store(c + i, load<Floats>(c + i) + by);
 }
 
 /// Adds to c[from] and all behind it; `size` is one of whole vectors.
