@@ -34,6 +34,7 @@
 #include "io/formats/delimited.hpp"
 #include "math/geometry/polygon_rows.hpp"
 #include "warps/domain_mapping.hpp"
+#include "warps/named_domain.hpp"
 #include "warps/planar/area_share.hpp"
 
 namespace stipple::warps::polygon {
