@@ -48,59 +48,47 @@ int exponent_of(double size) {
 
 }  // namespace
 
-void GridSum::add(std::span<const double> cells, int exponent, const RunContext& run) {
-    const double factor = std::ldexp(1.0, -exponent);
-    coarse_.resize(cells.size());
-    fine_.resize(cells.size());
-    for_each_block(silent(run), cells.size(), block, [&](const Block& b) {
-        add_cells(cells.data() + b.first, factor, b.last - b.first, coarse_.data() + b.first,
-                  fine_.data() + b.first);
-    });
-}
-
-void GridSum::copy_to(std::span<double> cells, int exponent, const RunContext& run) const {
-    const double factor = std::ldexp(1.0, exponent);
-    for_each_block(silent(run), cells.size(), block, [&](const Block& b) {
-        for (std::uint64_t i = b.first; i < b.last; ++i)
-            cells[i] =
-                (signed_of(coarse_[i]) * coarse_unit + signed_of(fine_[i]) * fine_unit) * factor;
-    });
-}
-
-void GridSum::pack(Packer& to) const { to.put_all(coarse_).put_all(fine_); }
-
-void GridSum::merge(Unpacker& from) {
-    for (auto* mine : {&coarse_, &fine_}) {
-        const auto more = from.take_all<std::uint64_t>();
-        mine->resize(std::max(mine->size(), more.size()));
-        for (std::size_t i = 0; i < more.size(); ++i) (*mine)[i] += more[i];
-    }
-}
-
 void ScaledGridSum::add(std::span<const double> cells, double size, const RunContext& run) {
     const int exponent = exponent_of(size);
-    sums_[exponent].add(cells, exponent, run);
+    const double factor = std::ldexp(1.0, -exponent);
+    Cells& sum = sums_[exponent];
+    sum.coarse.resize(cells.size());
+    sum.fine.resize(cells.size());
+    for_each_block(silent(run), cells.size(), block, [&](const Block& b) {
+        add_cells(cells.data() + b.first, factor, b.last - b.first, sum.coarse.data() + b.first,
+                  sum.fine.data() + b.first);
+    });
 }
 
 void ScaledGridSum::copy_to(std::span<double> cells, const RunContext& run) const {
-    std::vector<double> part;
-    for (const auto& [exponent, sum] : sums_) {
-        const bool first = &sum == &sums_.begin()->second;
-        if (!first) part.resize(cells.size());
-        const std::span<double> here = first ? cells : std::span<double>(part);
-        sum.copy_to(here, exponent, run);
-        for (std::size_t i = 0; i < part.size(); ++i) cells[i] += part[i];
-    }
+    for_each_block(silent(run), cells.size(), block, [&](const Block& b) {
+        const auto here = cells.subspan(b.first, b.last - b.first);
+        std::ranges::fill(here, 0.0);
+        for (const auto& [exponent, sum] : sums_) {
+            const double factor = std::ldexp(1.0, exponent);
+            for (std::size_t i = 0; i < here.size(); ++i)
+                here[i] += (signed_of(sum.coarse[b.first + i]) * coarse_unit +
+                            signed_of(sum.fine[b.first + i]) * fine_unit) *
+                           factor;
+        }
+    });
 }
 
 void ScaledGridSum::pack(Packer& to) const {
     to.put<std::uint64_t>(sums_.size());
-    for (const auto& [exponent, sum] : sums_) sum.pack(to.put(exponent));
+    for (const auto& [exponent, sum] : sums_)
+        to.put(exponent).put_all(sum.coarse).put_all(sum.fine);
 }
 
 void ScaledGridSum::merge(Unpacker& from) {
-    const auto count = from.take<std::uint64_t>();
-    for (std::uint64_t i = 0; i < count; ++i) sums_[from.take<int>()].merge(from);
+    for (auto left = from.take<std::uint64_t>(); left > 0; --left) {
+        auto& [coarse, fine] = sums_[from.take<int>()];
+        for (auto* mine : {&coarse, &fine}) {
+            const auto more = from.take_all<std::uint64_t>();
+            mine->resize(std::max(mine->size(), more.size()));
+            for (std::size_t i = 0; i < more.size(); ++i) (*mine)[i] += more[i];
+        }
+    }
 }
 
 }  // namespace stipple

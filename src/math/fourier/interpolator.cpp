@@ -10,17 +10,6 @@
 namespace stipple {
 namespace {
 
-/// I0(2 sqrt(y)) by its series, all terms of which are positive for y >= 0.
-double bessel_i0(double y) {
-    double term = 1;
-    double sum = 1;
-    for (int k = 1; std::abs(term) > 1e-17 * sum; ++k) {
-        term *= y / (k * k);
-        sum += term;
-    }
-    return sum;
-}
-
 constexpr std::size_t max_nodes = WeightTable::degree_of(Interpolator::max_width) + 1;
 using Square = std::array<std::array<double, max_nodes>, max_nodes>;
 
@@ -61,7 +50,7 @@ Interpolator::Interpolator(std::size_t width, double band, double shape)
     : width_(width),
       band_(band),
       beta_(shape * std::numbers::pi * static_cast<double>(width) * (1 - band)),
-      scale_(1 / bessel_i0(beta_ * beta_ / 4)) {
+      scale_(1 / std::cyl_bessel_i(0.0, beta_)) {
     assert(width >= min_width && width <= max_width && band > 0 && band < 0.5);
     // As Chebyshev nodes of the whole band, so that errors at its ends are no larger.
     for (std::size_t i = 0; i < samples(); ++i)

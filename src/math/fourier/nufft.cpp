@@ -31,7 +31,7 @@ double cost_of(std::uint64_t count, std::size_t dimension, std::size_t side,
     return spreading + transform_seconds(dimension, side) + cells * touching;
 }
 
-/// How many points of a tile are added up in a row, before the sums are folded.
+/// How many points of a tile are added up in a row, before their sums are added to the grid.
 struct Folding {
     std::size_t fold_after;
     double rounding;  ///< of sums over points in one place, a point, which are largest; by trying

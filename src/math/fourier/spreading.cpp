@@ -27,6 +27,7 @@ constexpr std::size_t streams = 2;
 constexpr std::size_t stream_chunk = std::size_t{1} << 15;
 constexpr std::size_t round_of_streams = streams * stream_chunk;
 constexpr std::size_t sorting_block = std::size_t{1} << 12;  // points that the caches hold
+constexpr std::size_t tiles_at_a_time = 128;                 // of a colour
 
 /// Points that are sorted at a time: about as many as cells, but at least 2^20 and at most 2^22.
 std::size_t spreading_batch(const CellGrid& grid) {
@@ -64,6 +65,7 @@ class Spreader::Tiling {
     }
 
     [[nodiscard]] std::size_t count() const { return power(along_); }
+    [[nodiscard]] std::size_t pairs() const { return pairs_; }  ///< of tiles along an axis
     [[nodiscard]] std::size_t colours() const { return power(2); }
     [[nodiscard]] std::size_t count_of_colour() const { return power(pairs_); }
     [[nodiscard]] std::size_t buffer_size() const { return power(common_.extent); }
@@ -91,9 +93,9 @@ class Spreader::Tiling {
         return description;
     }
 
-    /// Adds a tile's buffer to the grid, around its ends; no cell beyond the tile's reach, for
-    /// another thread may be at the next tile of the colour.
-    STIPPLE_WIDE void add_back(const SpreadTile& tile, const double* buffer) const {
+    /// Adds a tile's buffer to the grid, around its ends, and empties it; no cell beyond the tile's
+    /// reach, for another thread may be at the next tile of the colour.
+    STIPPLE_WIDE void add_back(const SpreadTile& tile, double* buffer) const {
         const std::size_t x = wrapped(tile.start[0], 0);
         const std::size_t before_end = std::min(tile.reach[0], grid_.side - x);
         for (std::size_t z = 0; z < tile.reach[2]; ++z)
@@ -104,6 +106,7 @@ class Spreader::Tiling {
                 for (std::size_t i = before_end; i < tile.reach[0]; ++i)
                     row[i - before_end] += from[i];
             }
+        std::fill_n(buffer, buffer_size(), 0.0);
     }
 
   private:
@@ -127,48 +130,6 @@ class Spreader::Tiling {
     std::size_t widest_ = 0;
     std::vector<std::size_t> starts_;
     SpreadTile common_{};
-};
-
-/// Two buffers of a tile: what some points add to it, and their sums.
-class Spreader::TileSums {
-  public:
-    /// @param most points that are added up in a row
-    TileSums(std::size_t cells, std::size_t most) : cells_(cells), most_(most), room_(2 * cells) {}
-
-    void begin() {
-        std::fill_n(points(), cells_, 0.0);
-        several_ = false;
-        count_ = 0;
-    }
-    [[nodiscard]] double* points() { return room_.get(); }
-
-    /// To be called before so many points are added: rounding errors of long sums stay small.
-    void expect(std::size_t count) {
-        if (count_ > 0 && count_ + count > most_) fold();
-        count_ += count;
-    }
-    [[nodiscard]] const double* finish() {
-        if (several_) fold();
-        return several_ ? sums() : points();
-    }
-
-  private:
-    [[nodiscard]] double* sums() { return room_.get() + cells_; }
-    void fold() {
-        if (several_)
-            for (std::size_t i = 0; i < cells_; ++i) sums()[i] += points()[i];
-        else
-            std::copy_n(points(), cells_, sums());
-        std::fill_n(points(), cells_, 0.0);
-        several_ = true;
-        count_ = 0;
-    }
-
-    std::size_t cells_;
-    std::size_t most_;
-    GridCells room_;
-    bool several_ = false;
-    std::size_t count_ = 0;
 };
 
 Spreader::Spreader(const Interpolator& window, const CellGrid& grid, std::uint64_t count,
@@ -204,7 +165,13 @@ void Spreader::add(std::span<const double> rows, const RunContext& run) {
 
 void Spreader::finish(const RunContext& run) {
     if (waits_ == 0) return;
-    for (std::size_t colour = 0; colour < tiling_->colours(); ++colour) spread_colour(colour, run);
+    // Some rows of tiles at a time, so that caches still hold what tiles of several colours add to.
+    const std::size_t tiles = tiling_->count_of_colour();
+    const std::size_t row = tiles / tiling_->pairs();
+    const std::size_t some = (tiles_at_a_time + row - 1) / row * row;
+    for (std::size_t first = 0; first < tiles; first += some)
+        for (std::size_t colour = 0; colour < tiling_->colours(); ++colour)
+            spread_colour(colour, first, std::min(tiles, first + some), run);
     for (TilePoints& points : points_) points.clear();
     waits_ = 0;
 }
@@ -234,16 +201,17 @@ void Spreader::sort(std::span<const double> rows, const RunContext& run) {
     for_each_block(silent(context), points_.size(), 1, sort_stream);
 }
 
-void Spreader::spread_colour(std::size_t colour, const RunContext& run) {
-    const std::size_t tiles = tiling_->count_of_colour();
+/// Spreads the points of a colour's tiles [first, last).
+void Spreader::spread_colour(std::size_t colour, std::size_t first, std::size_t last,
+                             const RunContext& run) {
     // Enough blocks for all threads, but none with less work than handing it over is.
-    const std::size_t block = std::max(1 + tiles / 128, 1024 * tiling_->count() / (waits_ + 1));
-    const auto spread = [&](const Block& b) {
-        TileSums sums(tiling_->buffer_size(), fold_after_);
+    const std::size_t block =
+        std::max(1 + (last - first) / 128, 1024 * tiling_->count() / (waits_ + 1));
+    for_each_block(silent(run), last - first, block, [&](const Block& b) {
+        GridCells buffer(tiling_->buffer_size());
         for (std::size_t i = b.first; i < b.last; ++i)
-            spread_tile(tiling_->tile(colour, i), sums, run);
-    };
-    for_each_block(silent(run), tiles, block, spread);
+            spread_tile(tiling_->tile(colour, first + i), buffer.get(), run);
+    });
 }
 
 template <class Visit>
@@ -254,17 +222,21 @@ void Spreader::visit(std::size_t tile, Visit&& visit) const {
     }
 }
 
-void Spreader::spread_tile(std::size_t number, TileSums& sums, const RunContext& run) const {
-    const auto is_empty = [&](const TilePoints& points) { return points.is_empty(number); };
-    if (std::ranges::all_of(points_, is_empty)) return;
+/// Spreads the points of a tile, by way of a buffer of zeros, which it leaves as it was.
+void Spreader::spread_tile(std::size_t number, double* buffer, const RunContext& run) const {
     const SpreadTile tile = tiling_->describe(number);
-    sums.begin();
+    std::size_t count = 0;  // points in the buffer
+    const auto add_back = [&] {
+        if (count > 0) tiling_->add_back(tile, buffer);
+        count = 0;
+    };
     visit(number, [&](std::span<const double> rows) {
         run.check_stop();
-        sums.expect(rows.size() / width_);
-        spread_points(rows, dimension_, tile, sums.points());
+        if (count + rows.size() / width_ > fold_after_) add_back();
+        count += rows.size() / width_;
+        spread_points(rows, dimension_, tile, buffer);
     });
-    tiling_->add_back(tile, sums.finish());
+    add_back();
 }
 
 }  // namespace stipple

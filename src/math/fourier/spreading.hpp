@@ -43,8 +43,8 @@ struct CellGrid {
 class Spreader {
   public:
     /// @param count points that are expected; more may come.
-    /// @param fold_after points of a tile that are added up in a row, before the sums are folded to
-    /// keep rounding errors small.
+    /// @param fold_after points of a tile that are added up in a row, before their sums are added to
+    /// the grid: rounding errors of long sums stay small.
     /// @param weighted whether a row holds the point's strength behind its coordinates.
     Spreader(const Interpolator& window, const CellGrid& grid, std::uint64_t count,
              std::size_t fold_after, bool weighted = false);
@@ -63,11 +63,11 @@ class Spreader {
 
   private:
     class Tiling;
-    class TileSums;
 
     void sort(std::span<const double> rows, const RunContext& run);
-    void spread_colour(std::size_t colour, const RunContext& run);
-    void spread_tile(std::size_t number, TileSums& sums, const RunContext& run) const;
+    void spread_colour(std::size_t colour, std::size_t first, std::size_t last,
+                       const RunContext& run);
+    void spread_tile(std::size_t number, double* buffer, const RunContext& run) const;
     template <class Visit>
     void visit(std::size_t tile, Visit&& visit) const;
 

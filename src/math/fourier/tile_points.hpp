@@ -27,9 +27,6 @@ class TilePoints {
     /// Adds rows to their tiles.
     void add(const double* rows, const std::uint32_t* tile_of, std::size_t count);
 
-    /// Whether the tile has no points.
-    [[nodiscard]] bool is_empty(std::size_t tile) const { return lists_[tile].end == 0; }
-
     /// Tells the processor that the tile is visited soon.
     void expect(std::size_t tile) const { fetch<3>(lists_[tile].first); }
 

@@ -8,24 +8,24 @@
 namespace stipple::testing::grid_sum_test {
 
 // Whole numbers do not mind in which order they are added; nor do they lose anything that matters.
-TEST(GridSum, ForgetsTheOrder) {
+TEST(ScaledGridSum, ForgetsTheOrder) {
     std::vector<std::vector<double>> grids(5, std::vector<double>(1000));
     for (std::size_t i = 0; i < 5; ++i)
         for (std::size_t k = 0; k < 1000; ++k)
             grids[i][k] = std::ldexp(static_cast<double>((k * 7919 + i * 104'729) % 65'537) - 3e4,
                                      static_cast<int>(k % 40) - 30);
-    GridSum forwards, backwards, part;
-    for (const auto& grid : grids) forwards.add(grid, 0, {});
-    for (std::size_t i = 5; i-- > 2;) backwards.add(grids[i], 0, {});
-    for (std::size_t i = 0; i < 2; ++i) part.add(grids[i], 0, {});
+    ScaledGridSum forwards, backwards, part;
+    for (const auto& grid : grids) forwards.add(grid, 1, {});
+    for (std::size_t i = 5; i-- > 2;) backwards.add(grids[i], 1, {});
+    for (std::size_t i = 0; i < 2; ++i) part.add(grids[i], 1, {});
     Packer packer;
     part.pack(packer);
     const std::string bytes = packer.take();
     Unpacker from(bytes);
     backwards.merge(from);
     std::vector<double> one(1000), other(1000);
-    forwards.copy_to(one, 0, {});
-    backwards.copy_to(other, 0, {});
+    forwards.copy_to(one, {});
+    backwards.copy_to(other, {});
     EXPECT_EQ(one, other);
     for (std::size_t k = 0; k < 1000; ++k) {
         long double sum = 0;

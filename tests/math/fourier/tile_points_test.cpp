@@ -49,10 +49,8 @@ TEST(TilePoints, KeepEachTilesPointsInTheirOrder) {
             points.add(given.rows.data(), given.tile_of.data(), half);
             points.add(given.rows.data() + half * numbers, given.tile_of.data() + half,
                        count - half);
-            for (std::size_t t = 0; t < 5; ++t) {
+            for (std::size_t t = 0; t < 5; ++t)
                 EXPECT_EQ(points_of(points, t), given.wanted[t]) << count << " points, tile " << t;
-                EXPECT_EQ(points.is_empty(t), given.wanted[t].empty());
-            }
         }
 }
 
@@ -68,12 +66,12 @@ TEST(TilePoints, HaveRoomForTheirCapacityWhereverThePointsAre) {
     for (int round = 0; round < 3; ++round) {
         points.add(rows.data(), one.data(), count);
         EXPECT_EQ(points_of(points, 7), rows);
-        EXPECT_TRUE(points.is_empty(8));
+        EXPECT_TRUE(points_of(points, 8).empty());
         points.clear();
         points.add(rows.data(), each.data(), count);
         for (std::size_t t = 0; t < count; ++t) EXPECT_EQ(points_of(points, t), Numbers{rows[t]});
         points.clear();
-        EXPECT_TRUE(points.is_empty(7));
+        EXPECT_TRUE(points_of(points, 7).empty());
     }
 }
 
