@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What follows from a power spectrum by its rings k - 1/2 <= |f| < k + 1/2, k = 1..F, frequency 0
-// being left out everywhere; the formulas are at the top of periodogram.cpp.
+// What follows from a power spectrum, or any grid with P(-f) = P(f), by its rings k - 1/2 <= |f| <
+// k + 1/2, k = 1..F, frequency 0 being left out everywhere; the formulas are at the top of
+// periodogram.cpp.
 #pragma once
 
 #include <cstdint>

@@ -28,6 +28,11 @@ struct Spec {
 /// @throws Error(usage) naming the column at which the text stops being a spec.
 Spec parse_spec(std::string_view text);
 
+/// Specs separated by commas or semicolons, outside of brackets. A comma before OPT= goes on with
+/// the spec before it, so that 'sobol:scramble=owen,seed=3,halton' is two; a semicolon never does.
+/// @throws Error(usage) naming `who` and the column of what is missing.
+std::vector<std::string> split_specs(std::string_view text, std::string_view who);
+
 /// NAME or NAME:OPT=V,... with what differs from the defaults; parses back to the same.
 std::string format_spec(std::string_view name, const Values& values, const Schema& schema);
 

@@ -11,12 +11,6 @@
 namespace stipple {
 namespace {
 
-/// Whether what follows a comma is an option of the spec before: OPT=...
-bool goes_on(std::string_view rest) {
-    const auto end = rest.find_first_of("=,;:@[]");
-    return end != std::string_view::npos && end > 0 && rest[end] == '=';
-}
-
 /// Whether a number is a power of a base of 2 or more.
 bool is_power(std::uint64_t number, std::uint64_t base) {
     while (number > 1 && number % base == 0) number /= base;
@@ -109,31 +103,6 @@ class CountRange {
 };
 
 }  // namespace
-
-std::vector<std::string> split_specs(std::string_view text, std::string_view who) {
-    std::vector<std::string> specs;
-    std::vector<std::size_t> open;
-    std::size_t begin = 0;
-    const auto cut = [&](std::size_t end) {
-        const auto spec = trim(text.substr(begin, end - begin));
-        if (spec.empty()) fail(ErrorKind::usage, "{}, column {}: a name is expected", who, end + 1);
-        specs.emplace_back(spec);
-        begin = end + 1;
-    };
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] == '[') open.push_back(i);
-        if (text[i] == ']' && open.empty())
-            fail(ErrorKind::usage, "{}, column {}: ']' closes nothing", who, i + 1);
-        if (text[i] == ']') open.pop_back();
-        if (!open.empty() || (text[i] != ',' && text[i] != ';')) continue;
-        const bool with_options = text.substr(begin, i - begin).find(':') != std::string::npos;
-        if (text[i] == ';' || !with_options || !goes_on(text.substr(i + 1))) cut(i);
-    }
-    if (!open.empty())
-        fail(ErrorKind::usage, "{}, column {}: this '[' is not closed", who, open.back() + 1);
-    cut(text.size());
-    return specs;
-}
 
 std::vector<std::uint64_t> parse_counts(std::string_view text, std::string_view who,
                                         std::uint64_t low, std::uint64_t high) {

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Several specs in one text, and several counts in one: what a study sweeps over.
+// Several counts in one text: what a study sweeps over.
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <vector>
 
 namespace stipple {
-
-/// Specs separated by commas or semicolons, outside of brackets. A comma before OPT= goes on with
-/// the spec before it, so that 'sobol:scramble=owen,seed=3,halton' is two; a semicolon never does.
-/// @throws Error(usage) naming `who` and the column of what is missing.
-std::vector<std::string> split_specs(std::string_view text, std::string_view who);
 
 /// Whole numbers: lists 16,64,256; ranges by a factor 16..65536*2 or a step 10..50+10; and
 /// 2^4..2^16 or 16..65536, where both ends are powers of one base, all of its powers between. A

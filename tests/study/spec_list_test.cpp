@@ -13,35 +13,11 @@ using ::testing::HasSubstr;
 
 namespace {
 
-using Specs = std::vector<std::string>;
 using Counts = std::vector<std::uint64_t>;
 
 Counts counts(std::string_view text) { return parse_counts(text, "--count", 1, 1'000'000'000); }
 
 }  // namespace
-
-TEST(SplitSpecs, HonoursBracketsAndOptionsWithCommas) {
-    EXPECT_EQ(split_specs("halton", "-g"), Specs{"halton"});
-    EXPECT_EQ(split_specs("random, jittered ,halton", "-g"),
-              (Specs{"random", "jittered", "halton"}));
-    EXPECT_EQ(split_specs("sobol:scramble=owen,start=3,halton", "-g"),
-              (Specs{"sobol:scramble=owen,start=3", "halton"}));
-    EXPECT_EQ(split_specs("a:v=[0,0 1,0],b:w=[x:u=[1,2],y],c", "-g"),
-              (Specs{"a:v=[0,0 1,0]", "b:w=[x:u=[1,2],y]", "c"}));
-    EXPECT_EQ(split_specs("a:x=1,b:y=2,z=3", "-g"), (Specs{"a:x=1", "b:y=2,z=3"}));
-    EXPECT_EQ(split_specs("a:x=1;b;c:y=2", "-g"), (Specs{"a:x=1", "b", "c:y=2"}));
-}
-
-TEST(SplitSpecs, NamesTheColumnOfWhatIsUnbalancedOrMissing) {
-    EXPECT_EQ(error_of([] { split_specs("random,a:v=[0,[1]", "--generators"); }),
-              "usage: --generators, column 12: this '[' is not closed");
-    EXPECT_EQ(error_of([] { split_specs("random],halton", "--generators"); }),
-              "usage: --generators, column 7: ']' closes nothing");
-    EXPECT_EQ(error_of([] { split_specs("random,,halton", "--generators"); }),
-              "usage: --generators, column 8: a name is expected");
-    EXPECT_EQ(error_of([] { split_specs("", "--generators"); }),
-              "usage: --generators, column 1: a name is expected");
-}
 
 TEST(ParseCounts, TakesListsAndRanges) {
     EXPECT_EQ(counts("16,64,256"), (Counts{16, 64, 256}));

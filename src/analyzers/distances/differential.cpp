@@ -199,33 +199,15 @@ Grid densities(const Plan& plan, const Counts& counts, double pairs) {
 
 /// Puts the radial mean and the anisotropy of the image into the report.
 void summarize(Report& report, const Grid& grid, double pixel) {
-    const auto half = static_cast<std::int64_t>(grid.columns / 2);
-    const auto rings = static_cast<std::size_t>(half) + 1;
-    Report::Curve distance(rings), density(rings), anisotropy(rings);
-    Report::Integers cells(rings);
-    // In integers, k - 1/2 <= |x| < k + 1/2 is k^2 - k < |x|^2 <= k^2 + k.
-    const auto for_each = [&](const auto& visit) {
-        for (std::size_t i = 0; i < grid.values.size(); ++i) {
-            const std::int64_t x = static_cast<std::int64_t>(i % grid.columns) - half;
-            const std::int64_t y = static_cast<std::int64_t>(i / grid.columns) - half;
-            const auto square = static_cast<double>(x * x + y * y);
-            const auto ring = static_cast<std::size_t>(std::round(std::sqrt(square)));
-            if (ring < rings) visit(ring, grid.values[i]);
-        }
-    };
-    for_each([&](std::size_t k, double value) {
-        density[k] += value;
-        ++cells[k];
-    });
-    for (std::size_t k = 0; k < rings; ++k) {
-        distance[k] = static_cast<double>(k) * pixel;
-        density[k] /= static_cast<double>(cells[k]);
-    }
-    for_each([&](std::size_t k, double value) {
-        anisotropy[k] += (value - density[k]) * (value - density[k]);
-    });
-    for (std::size_t k = 0; k < rings; ++k) {
-        anisotropy[k] = anisotropy_db(anisotropy[k] / static_cast<double>(cells[k]), density[k]);
+    const Rings rings = rings_of(grid, {});
+    const double middle = grid.values[grid.values.size() / 2];
+    Report::Curve distance{0}, density{middle}, anisotropy{anisotropy_db(0, middle)};
+    Report::Integers cells{1};
+    for (std::size_t i = 0; i < rings.power.size(); ++i) {
+        distance.push_back(static_cast<double>(i + 1) * pixel);
+        density.push_back(rings.power[i]);
+        anisotropy.push_back(anisotropy_db(rings.variance[i], rings.power[i]));
+        cells.push_back(rings.cells[i]);
     }
     Report radial;
     radial.add("distance", std::move(distance), "sqrt(V / n)");

@@ -211,10 +211,7 @@ std::vector<Task> tasks_that_fit(const Domain& domain, const RegionView& view,
 std::vector<Task> tasks_named(const std::string& list, const Domain& domain, const RegionView& view,
                               const Support& support) {
     std::vector<Task> tasks;
-    for (const std::string& text : split_specs(list)) {
-        if (text.empty())
-            fail(ErrorKind::usage, "--integrand: '{}' has an empty name; expected NAME,NAME...",
-                 list);
+    for (const std::string& text : split_specs(list, "--integrand")) {
         const auto [kind, values] = named(text);
         require_fit(kind, domain, view);
         tasks.push_back(task_of(kind, values, domain, view, support));

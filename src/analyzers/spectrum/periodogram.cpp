@@ -146,7 +146,6 @@ constexpr Param<std::int64_t> slice{
     .help = "fz of the plane that --image draws of points in 3 dimensions"};
 
 constexpr double floor_of_floats = 1e-13;
-constexpr std::uint64_t few_points = std::uint64_t{1} << 16;  // quickly copied
 constexpr std::uint64_t buffered_points = std::uint64_t{1} << 20;
 constexpr std::uint64_t most_points = std::uint64_t{1} << 30;  // that larger sets are planned for
 
@@ -221,10 +220,10 @@ class Summation final : public SharedAccumulator {
         check_options();
         if (options.given(wisdom)) read_wisdom(options[wisdom]);
         announced_ = arrival.count.value_or(0);
-        if (announced_ <= few_points) buffer_.reserve(announced_ * numbers_);
-        const std::uint64_t known = std::max<std::uint64_t>(announced_, 1);
-        if (announced_ > buffered_points || fourier_sums_size(d_, frequency_for(known)) > 1e6)
-            need_memory(known, run);
+        if (announced_ > buffered_points)
+            begin(most_points, run);
+        else
+            buffer_.reserve(announced_ * numbers_);
     }
 
     void add(std::span<const double> rows, const RunContext& run) override {
@@ -233,14 +232,11 @@ class Summation final : public SharedAccumulator {
         n_ += points.size() / numbers_;
         if (outside_.count > 0) return;
         const bool began = nufft_ || direct_;
-        if (!began && n_ <= buffered_points && announced_ <= few_points) {
+        if (!began && n_ <= buffered_points) {
             buffer_.insert(buffer_.end(), points.begin(), points.end());
             return;
         }
-        if (!began)
-            begin(
-                announced_ > few_points && announced_ <= buffered_points ? announced_ : most_points,
-                run);
+        if (!began) begin(most_points, run);
         take(points, run);
     }
 
@@ -308,20 +304,6 @@ class Summation final : public SharedAccumulator {
     [[nodiscard]] std::size_t frequency_for(std::uint64_t count) const {
         return options_.given(max_frequency) ? static_cast<std::size_t>(options_[max_frequency])
                                              : default_frequency(count, d_);
-    }
-
-    /// What is known before the points come.
-    void need_memory(std::uint64_t count, const RunContext& run) const {
-        const std::size_t frequency = frequency_for(count);
-        const double sums = 16 * fourier_sums_size(d_, frequency);
-        const std::uint64_t planned = count > buffered_points ? most_points : count;
-        const double transform =
-            options_[method] == "direct"
-                ? sums
-                : Nufft(planned, d_, frequency, options_[tolerance], numbers_ > d_).bytes();
-        const double kept = 8 * static_cast<double>(std::min(count, buffered_points) * numbers_);
-        run.need_memory(std::max(transform + kept, 2 * sums),
-                        fmt::format("--max-frequency {}", frequency));
     }
 
     /// Points of the unit cube, with their strengths where these are not all 1; nothing where that
@@ -405,7 +387,7 @@ class Summation final : public SharedAccumulator {
         const double kept = 8 * static_cast<double>(buffer_.size());
         const std::string cause = fmt::format("--max-frequency {}", frequency_);
         if (options_[method] == "direct") {
-            run.need_memory(sums + kept, cause);
+            run.need_memory(2 * sums + kept, cause);
             direct_ = std::make_unique<DirectSummation>(d_, frequency_, weighted);
         } else {
             nufft_.emplace(count, d_, frequency_, options_[tolerance], weighted);

@@ -126,22 +126,13 @@ std::uint64_t cell_count(const CellGrid& grid) {
     return product;
 }
 
-std::size_t cell_of(std::span<const double> cube, const CellGrid& grid) {
+std::size_t cell_of(std::span<const double> cube, const CellGrid& grid, bool shifted) {
     std::size_t cell = 0;
     for (std::size_t k = 0; k < grid.size(); ++k) {
         if (grid[k] == 1) continue;
-        const auto place = static_cast<std::size_t>(cube[k] * static_cast<double>(grid[k]));
-        cell = cell * grid[k] + std::min(place, grid[k] - 1);
-    }
-    return cell;
-}
-
-std::size_t shifted_cell_of(std::span<const double> cube, const CellGrid& grid) {
-    std::size_t cell = 0;
-    for (std::size_t k = 0; k < grid.size(); ++k) {
-        if (grid[k] == 1) continue;
-        const auto place = static_cast<std::size_t>(cube[k] * static_cast<double>(grid[k]) + 0.5);
-        cell = cell * grid[k] + (place < grid[k] ? place : 0);
+        const double place = cube[k] * static_cast<double>(grid[k]) + (shifted ? 0.5 : 0.0);
+        const auto at = static_cast<std::size_t>(place);
+        cell = cell * grid[k] + (at < grid[k] ? at : shifted ? 0 : grid[k] - 1);
     }
     return cell;
 }

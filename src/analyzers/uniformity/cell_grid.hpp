@@ -34,12 +34,10 @@ CellGrid asked_grid(const std::vector<std::int64_t>& extents, std::size_t axes);
 
 std::uint64_t cell_count(const CellGrid& grid);
 
-/// The cell of a point of the closed cube; coordinates beyond the grid's are not looked at.
-std::size_t cell_of(std::span<const double> cube, const CellGrid& grid);
-
-/// The same in the grid that is shifted by half a cell along every axis it cuts, on the torus: cell
-/// 0 begins half a cell before 0.
-std::size_t shifted_cell_of(std::span<const double> cube, const CellGrid& grid);
+/// The cell of a point of the closed cube; coordinates beyond the grid's are not looked at. A
+/// shifted grid is so by half a cell along every axis it cuts, on the torus: cell 0 begins half a
+/// cell before 0.
+std::size_t cell_of(std::span<const double> cube, const CellGrid& grid, bool shifted);
 
 /// The probabilities of all cells. Their sum is checked to be 1.
 /// @throws Error(limit) when the domain's masses contradict each other

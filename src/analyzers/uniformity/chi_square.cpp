@@ -168,9 +168,9 @@ class Tally {
     /// Takes points of the cube, `width` numbers each, of which the grid looks at the first.
     void add(std::span<const double> cubes, std::size_t width) {
         for (std::size_t i = 0; i < cubes.size(); i += width)
-            ++counts_[cell_of(cubes.subspan(i, width), grid_)];
+            ++counts_[cell_of(cubes.subspan(i, width), grid_, false)];
         for (std::size_t i = 0; i < cubes.size() && !shifted_.empty(); i += width)
-            ++shifted_[shifted_cell_of(cubes.subspan(i, width), grid_)];
+            ++shifted_[cell_of(cubes.subspan(i, width), grid_, true)];
     }
 
     void pack(Packer& to) const { to.put_all(counts_).put_all(shifted_); }

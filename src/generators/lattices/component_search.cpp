@@ -17,9 +17,9 @@ CyclicCorrelation::CyclicCorrelation(const std::vector<int>& shape) {
     for (const int order : shape) size_ *= static_cast<std::size_t>(order);
     const auto last = static_cast<std::size_t>(shape.back());
     halves_ = size_ / last * (last / 2 + 1);
-    values_ = fftw_reals(size_);
-    spectrum_ = fftw_reals(2 * halves_);
-    kernel_ = fftw_reals(2 * halves_);
+    values_ = GridCells(size_);
+    spectrum_ = GridCells(2 * halves_);
+    kernel_ = GridCells(2 * halves_);
     const int rank = static_cast<int>(shape.size());
     const std::lock_guard lock(fftw_planner());
     forward_ = fftw_plan_dft_r2c(rank, shape.data(), values_.get(), as_fftw(spectrum_.get()),

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "math/fourier/fftw.hpp"
+#include "math/fourier/grid_cells.hpp"
 #include "stipple/run.hpp"
 
 namespace stipple {
@@ -49,9 +50,9 @@ class CyclicCorrelation {
   private:
     std::size_t size_ = 1;
     std::size_t halves_ = 1;  ///< complex numbers of a real function's spectrum
-    FftwReals values_;
-    FftwReals spectrum_;
-    FftwReals kernel_;
+    GridCells values_;
+    GridCells spectrum_;
+    GridCells kernel_;
     fftw_plan forward_ = nullptr;
     fftw_plan backward_ = nullptr;
 };

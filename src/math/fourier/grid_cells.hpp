@@ -15,6 +15,7 @@ class GridCells {
     GridCells() = default;
     explicit GridCells(std::size_t count);
     [[nodiscard]] double* get() const { return begin_; }
+    [[nodiscard]] double& operator[](std::size_t i) const { return begin_[i]; }
     void reset() { *this = GridCells(); }
 
   private:

@@ -29,7 +29,7 @@ class LineTransform {
     LineTransform(Kind kind, std::size_t length, Planning planning) : kind_(kind) {
         const auto n = static_cast<int>(length);
         const unsigned effort = planning == Planning::measured ? FFTW_MEASURE : FFTW_ESTIMATE;
-        const FftwReals line = fftw_reals(2 * length + 2);
+        const GridCells line(2 * length + 2);
         double* p = line.get();
         const std::lock_guard lock(fftw_planner());
         plan_ = kind == Kind::real
@@ -44,7 +44,7 @@ class LineTransform {
         fftw_destroy_plan(plan_);
     }
 
-    /// @param line aligned as fftw_reals() does, or a multiple of 8 numbers behind.
+    /// @param line aligned as GridCells are, or a multiple of 8 numbers behind.
     void execute(double* line) const {
         if (kind_ == Kind::real)
             fftw_execute_dft_r2c(plan_, line, as_fftw(line));
@@ -92,7 +92,7 @@ constexpr std::size_t batch_size = 16;  // columns that share the cache lines th
 class Gathered {
   public:
     explicit Gathered(std::size_t side)
-        : side_(side), spacing_(stride_of(2 * side)), lines_(fftw_reals(batch_size * spacing_)) {}
+        : side_(side), spacing_(stride_of(2 * side)), lines_(batch_size * spacing_) {}
 
     void take(const std::complex<double>* from, std::size_t stride, std::size_t count) {
         const auto* rows = reinterpret_cast<const PairInMemory*>(from);
@@ -123,7 +123,7 @@ class Gathered {
   private:
     std::size_t side_;
     std::size_t spacing_;  ///< numbers from one line to the next
-    FftwReals lines_;
+    GridCells lines_;
 };
 
 /// Transforms all columns and keeps their frequencies -F..F, scaled: planes x (2F + 1) x width.

@@ -2,64 +2,43 @@
 #include "math/functions/normal_distribution.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "math/arithmetic/double_double.hpp"
 #include "math/functions/exponential.hpp"
+#include "math/functions/horner.hpp"
 
 namespace stipple {
 namespace {
 
-/// From the highest power down.
-template <std::size_t n>
-double polynomial(const std::array<double, n>& coefficients, double x) {
-    double sum = 0;
-    for (const double c : coefficients) sum = sum * x + c;
-    return sum;
-}
-
 /// erf(x) / x from x^2, for x <= 15/32.
 double central_ratio(double xx) {
-    constexpr std::array above{1.85777706184603153e-1, 3.16112374387056560e0, 1.13864154151050156e2,
-                               3.77485237685302021e2, 3.20937758913846947e3};
-    constexpr std::array below{1.0, 2.36012909523441209e1, 2.44024637934444173e2,
-                               1.28261652607737228e3, 2.84423683343917062e3};
-    return polynomial(above, xx) / polynomial(below, xx);
+    return horner(xx, 1.85777706184603153e-1, 3.16112374387056560e0, 1.13864154151050156e2,
+                  3.77485237685302021e2, 3.20937758913846947e3) /
+           horner(xx, 1.0, 2.36012909523441209e1, 2.44024637934444173e2, 1.28261652607737228e3,
+                  2.84423683343917062e3);
 }
 
 /// erfc(x) exp(x^2) for x in [15/32, 4].
 double middle_ratio(double x) {
-    constexpr std::array above{
-        2.15311535474403846e-8, 5.64188496988670089e-1, 8.88314979438837594e0,
-        6.61191906371416295e1,  2.98635138197400131e2,  8.81952221241769090e2,
-        1.71204761263407058e3,  2.05107837782607147e3,  1.23033935479799725e3};
-    constexpr std::array below{1.0,
-                               1.57449261107098347e1,
-                               1.17693950891312499e2,
-                               5.37181101862009858e2,
-                               1.62138957456669019e3,
-                               3.29079923573345963e3,
-                               4.36261909014324716e3,
-                               3.43936767414372164e3,
-                               1.23033935480374942e3};
-    return polynomial(above, x) / polynomial(below, x);
+    return horner(x, 2.15311535474403846e-8, 5.64188496988670089e-1, 8.88314979438837594e0,
+                  6.61191906371416295e1, 2.98635138197400131e2, 8.81952221241769090e2,
+                  1.71204761263407058e3, 2.05107837782607147e3, 1.23033935479799725e3) /
+           horner(x, 1.0, 1.57449261107098347e1, 1.17693950891312499e2, 5.37181101862009858e2,
+                  1.62138957456669019e3, 3.29079923573345963e3, 4.36261909014324716e3,
+                  3.43936767414372164e3, 1.23033935480374942e3);
 }
 
 /// The same for x >= 4.
 double far_ratio(double x) {
-    constexpr std::array above{1.63153871373020978e-2, 3.05326634961232344e-1,
-                               3.60344899949804439e-1, 1.25781726111229246e-1,
-                               1.60837851487422766e-2, 6.58749161529837803e-4};
-    constexpr std::array below{1.0,
-                               2.56852019228982242e0,
-                               1.87295284992346725e0,
-                               5.27905102951428412e-1,
-                               6.05183413124413191e-2,
-                               2.33520497626869185e-3};
     const double y = 1 / (x * x);
-    return (std::numbers::inv_sqrtpi - y * (polynomial(above, y) / polynomial(below, y))) / x;
+    const double ratio =
+        horner(y, 1.63153871373020978e-2, 3.05326634961232344e-1, 3.60344899949804439e-1,
+               1.25781726111229246e-1, 1.60837851487422766e-2, 6.58749161529837803e-4) /
+        horner(y, 1.0, 2.56852019228982242e0, 1.87295284992346725e0, 5.27905102951428412e-1,
+               6.05183413124413191e-2, 2.33520497626869185e-3);
+    return (std::numbers::inv_sqrtpi - y * ratio) / x;
 }
 
 }  // namespace

@@ -32,24 +32,4 @@ const IntegrandKind& integrand_kind(std::string_view name) {
     fail_with_hint(ErrorKind::usage, suggest(name, names), "'{}' is not an integrand", name);
 }
 
-std::vector<std::string> split_specs(std::string_view list) {
-    std::vector<std::string> specs;
-    int depth = 0;
-    std::size_t first = 0;
-    for (std::size_t i = 0; i <= list.size(); ++i) {
-        if (i < list.size()) {
-            depth += (list[i] == '[') - (list[i] == ']');
-            if (list[i] != ',' || depth > 0) continue;
-        }
-        const std::string_view part = list.substr(first, i - first);
-        const bool goes_on = !specs.empty() && part.find('=') < part.find(':');
-        if (goes_on)
-            specs.back().append(",").append(part);
-        else
-            specs.emplace_back(trim(part));
-        first = i + 1;
-    }
-    return specs;
-}
-
 }  // namespace stipple

@@ -3,7 +3,6 @@
 // All integrands, by their names.
 #pragma once
 
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -16,8 +15,5 @@ const std::vector<IntegrandKind>& integrand_kinds();
 
 /// @throws Error(usage) naming the nearest one.
 const IntegrandKind& integrand_kind(std::string_view name);
-
-/// The specs of a list "NAME[:OPT=V,...],NAME...": a comma that stands before OPT=V ends no spec.
-std::vector<std::string> split_specs(std::string_view list);
 
 }  // namespace stipple

@@ -313,12 +313,10 @@ struct KdTree::Several {
     const Metric& metric;
     const double* place;
     std::size_t k;
-    std::size_t except;
     std::vector<Neighbor> heap;  ///< the farthest on top
 
-    Several(const KdTree& in, const Metric& by, const double* from, std::size_t most,
-            std::size_t but)
-        : tree(in), metric(by), place(from), k(most), except(but) {}
+    Several(const KdTree& in, const Metric& by, const double* from, std::size_t most)
+        : tree(in), metric(by), place(from), k(most) {}
 
     [[nodiscard]] double bound(std::size_t node) const {
         return metric.nearest(tree.box_of(node), place);
@@ -327,20 +325,18 @@ struct KdTree::Several {
         return heap.size() < k || bound < heap.front();
     }
     void visit(std::size_t, const Neighbor& point) {
-        if (!wants(point) || point.index == except) return;
-        if (heap.size() == k) {
-            std::pop_heap(heap.begin(), heap.end());
-            heap.back() = point;
-        } else {
-            heap.push_back(point);
-        }
+        if (!wants(point)) return;
+        heap.push_back(point);
         std::push_heap(heap.begin(), heap.end());
+        if (heap.size() <= k) return;
+        std::pop_heap(heap.begin(), heap.end());
+        heap.pop_back();
     }
 };
 
-Neighbor KdTree::nearest(std::span<const double> place, std::size_t except) const {
+Neighbor KdTree::nearest(std::span<const double> place) const {
     return with_metric([&](const auto metric) {
-        Nearest query{*this, metric, place.data(), AllBut{*this, except}};
+        Nearest query{*this, metric, place.data(), AllBut{*this, none}};
         search(query);
         return query.best;
     });
@@ -370,12 +366,9 @@ Neighbor KdTree::nearest_of_others(std::size_t rank, const Groups& groups, doubl
     });
 }
 
-std::vector<Neighbor> KdTree::nearest_several(std::span<const double> place, std::size_t k,
-                                              std::size_t except) const {
-    if (k == 0) return {};
+std::vector<Neighbor> KdTree::nearest_several(std::span<const double> place, std::size_t k) const {
     return with_metric([&](const auto metric) {
-        Several query{*this, metric, place.data(), std::min(k, count()), except};
-        query.heap.reserve(query.k);
+        Several query{*this, metric, place.data(), k};
         search(query);
         std::sort_heap(query.heap.begin(), query.heap.end());
         return std::move(query.heap);

@@ -66,14 +66,12 @@ class KdTree {
     }
     [[nodiscard]] std::size_t index(std::size_t rank) const { return indices_[rank]; }
 
-    /// The point nearest to the place, other than point `except`; index `none` and an infinite
-    /// distance if there is no point.
-    [[nodiscard]] Neighbor nearest(std::span<const double> place, std::size_t except = none) const;
+    /// The point nearest to the place; index `none` and an infinite distance if there is no point.
+    [[nodiscard]] Neighbor nearest(std::span<const double> place) const;
 
-    /// The up to k nearest points, from the nearest on.
+    /// The up to k nearest points, k >= 1, from the nearest on.
     [[nodiscard]] std::vector<Neighbor> nearest_several(std::span<const double> place,
-                                                        std::size_t k,
-                                                        std::size_t except = none) const;
+                                                        std::size_t k) const;
 
     /// Number of points with distance^2 < squared; whole nodes are counted at once.
     [[nodiscard]] std::size_t count_nearer(std::span<const double> place, double squared) const;
