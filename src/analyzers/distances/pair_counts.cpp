@@ -51,21 +51,16 @@ STIPPLE_WIDE void find_places(const FromPlace& from, std::size_t count, double s
 
 /// What one block of points found.
 struct Tally {
-    static constexpr std::size_t copies = 4;  // so that equal bins in a row don't wait
-    std::vector<std::uint64_t> pairs;         ///< copies x (bins + 1), the last for what is farther
+    std::vector<std::uint64_t> pairs;  ///< of each bin, and the last for what is farther
     std::vector<double> offsets;
     std::vector<double> squared_offsets;
 
     Tally() = default;
     Tally(std::size_t bins, bool with_offsets)
-        : pairs(copies * (bins + 1)),
-          offsets(with_offsets ? bins + 1 : 0),
-          squared_offsets(offsets.size()) {}
+        : pairs(bins + 1), offsets(with_offsets ? bins + 1 : 0), squared_offsets(offsets.size()) {}
 
     void add(const double* places, const std::int32_t* bins, std::size_t count) {
-        const std::size_t stride = pairs.size() / copies;
-        for (std::size_t i = 0; i < count; ++i)
-            ++pairs[i % copies * stride + static_cast<std::size_t>(bins[i])];
+        for (std::size_t i = 0; i < count; ++i) ++pairs[static_cast<std::size_t>(bins[i])];
         if (offsets.empty()) return;
         for (std::size_t i = 0; i < count; ++i) {
             const auto bin = static_cast<std::size_t>(bins[i]);
@@ -144,9 +139,7 @@ class PairCounter {
             all.squared_offsets.resize(bins_);
         }
         for (const Tally& part : parts) {
-            for (std::size_t copy = 0; copy < Tally::copies; ++copy)
-                for (std::size_t i = 0; i < bins_; ++i)
-                    all.pairs[i] += part.pairs[copy * (bins_ + 1) + i];
+            for (std::size_t i = 0; i < bins_; ++i) all.pairs[i] += part.pairs[i];
             for (std::size_t i = 0; i < all.offsets.size(); ++i) {
                 all.offsets[i] += part.offsets[i];
                 all.squared_offsets[i] += part.squared_offsets[i];

@@ -2,6 +2,7 @@
 #include "analyzers/l2/planar.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 #include <vector>
 
@@ -154,19 +155,6 @@ AxisSums axis_sums(const std::vector<Item>& items, bool moments, const RunContex
     return all;
 }
 
-/// Sorts a few items by w, adding t_i (w_i - w_k) for those that pass each other not: k before i.
-void insertion_sort(Item* items, std::size_t n, LongSum& sum) {
-    for (std::size_t i = 1; i < n; ++i) {
-        const Item item = items[i];
-        Uint128 excess = 0;
-        std::size_t k = i;
-        for (; k > 0 && items[k - 1].w > item.w; --k) items[k] = items[k - 1];
-        for (std::size_t below = 0; below < k; ++below) excess += item.w - items[below].w;
-        items[k] = item;
-        sum.add_product(excess, item.t);
-    }
-}
-
 /// Where a merge of two runs is.
 struct Merging {
     const Item* left;
@@ -214,7 +202,6 @@ void merge(const Item* items, std::size_t left, std::size_t n, Item* out, LongSu
 /// Sorts items in order of t by w; gives the sum of t_i (w_i - w_k) over all points k before i with
 /// w_k <= w_i.
 Integer dominance(std::vector<Item>& items, const RunContext& run) {
-    constexpr std::size_t few = 16;
     const std::size_t n = items.size();
     std::vector<Item> other(n);
     const std::size_t blocks = block_count(n, stretch);
@@ -224,14 +211,12 @@ Integer dominance(std::vector<Item>& items, const RunContext& run) {
         Item* from = items.data() + block.first;
         Item* to = other.data() + block.first;
         const std::size_t size = block.last - block.first;
-        for (std::size_t i = 0; i < size; i += few)
-            insertion_sort(from + i, std::min(few, size - i), sum);
-        for (std::size_t width = few; width < stretch; width *= 2, std::swap(from, to))
+        for (std::size_t width = 1; width < stretch; width *= 2, std::swap(from, to))
             for (std::size_t i = 0; i < size; i += 2 * width)
                 merge(from + i, std::min(width, size - i), std::min(2 * width, size - i), to + i,
                       sum, run);
     });
-    static_assert(stretch == few << 10, "sorted blocks are back where they were");
+    static_assert(std::bit_width(stretch) % 2 == 1, "sorted blocks are back where they were");
     Integer total = 0;
     for (const LongSum& sum : sums) total += sum.value();
 
