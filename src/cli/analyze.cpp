@@ -58,18 +58,18 @@ void check_domain(const Arguments& arguments, const Analyzer& analyzer) {
                    analyzer.name, *named);
 }
 
-/// What an analyzer's options name to be written beside its report.
-struct SideFile {
+/// An option of an analyzer that names a file to be written beside its report.
+struct FileOption {
     const char* option;
     const char* extension;  ///< of the one format that is written; empty: any
 };
-constexpr std::array<SideFile, 3> side_files = {
+constexpr std::array<FileOption, 3> file_options = {
     {{"grid", ".npy"}, {"image", ".png"}, {"wisdom", ""}}};
 
 /// @throws Error(usage) for a name that promises another format, or that is given twice.
 void check_side_files(const Values& options, const std::string& output) {
     std::vector<std::pair<std::string, std::string>> taken = {{"output", output}};
-    for (const SideFile& file : side_files) {
+    for (const FileOption& file : file_options) {
         const auto* option = options.try_find(file.option);
         if (option == nullptr || !option->given) continue;
         const auto& path = std::get<std::string>(option->value);
@@ -122,11 +122,6 @@ class Analysis {
               }) {
         for (const auto& text : arguments.all("check"))
             checks_.push_back(check_of(text, analyzer_));
-        for (const Option& option : analyzer_.options.options()) {
-            const auto& item = options_.find(option.name);
-            if (!option.optional || item.given)
-                shown_options_.emplace_back(option.name, format_value(item.value));
-        }
     }
 
     int go() {
@@ -149,8 +144,6 @@ class Analysis {
     }
 
   private:
-    using Clock = std::chrono::steady_clock;
-
     /// One set, by all ranks.
     void share() {
         if (!analyzer_.sharing)
@@ -171,22 +164,15 @@ class Analysis {
     }
 
     void measure_together(const std::string& source) {
-        const auto start = Clock::now();
-        const SharedSet set =
-            arguments_.has("generate")
-                ? shared_generated()
-                : shared_files(arguments_, analyzer_, strengths_, ranks_, own_run());
-        Measurement m = measurement(source, {}, set.count, *set.domain);
-        if (analyzer_.sharing.together) {
-            m.results = searched_together(set);
-        } else {
-            auto found = analyze_shared(analyzer_, set, options_, ranks_, own_run());
-            if (!found) return;
-            m.results = std::move(found->report);
-        }
-        if (ranks_.rank() > 0) return;
-        m.seconds = seconds_since(start);
-        keep(std::move(m), false);
+        SharedSet set;
+        Measurement m = timed(source, {}, set.points.domain, [&] {
+            set = arguments_.has("generate")
+                      ? shared_generated()
+                      : shared_files(arguments_, analyzer_, strengths_, ranks_, own_run());
+            if (analyzer_.sharing.together) return Found{searched_together(set), *set.points.count};
+            return analyze_shared(analyzer_, set, options_, ranks_, own_run()).value_or(Found{});
+        });
+        if (ranks_.rank() == 0) keep(std::move(m), false);
     }
 
     SharedSet shared_generated() {
@@ -198,9 +184,7 @@ class Analysis {
                  "--generate: ranks share sequences; {} makes its points all together",
                  *arguments_.get("generate"));
         if (!count) return shared_in_memory(generated->made(0, run));
-        return {.domain = generated->domain(),
-                .count = *count,
-                .dimension = generated->dimension(),
+        return {.points = {.domain = generated->domain(), .count = *count},
                 .from = [=](std::uint64_t first) { return generated->stream(0, run, first); }};
     }
 
@@ -219,12 +203,14 @@ class Analysis {
         const RunContext run = own_run();
         std::optional<PointSet> points;
         agreed(ranks_, [&] {
-            run.need_memory(8.0 * static_cast<double>(set.count * set.dimension), "the points");
-            std::vector<double> rows(set.count * set.dimension);
+            const std::size_t d = set.points.dimension();
+            const std::size_t size = *set.points.count * d;
+            run.need_memory(8.0 * static_cast<double>(size), "the points");
+            std::vector<double> rows(size);
             set.from(0)(rows);
-            points.emplace(std::move(rows), set.dimension);
-            points->domain = set.domain;
-            check_dimension(analyzer_, set.dimension);
+            points.emplace(std::move(rows), d);
+            points->domain = set.points.domain;
+            check_dimension(analyzer_, d);
             require_unit_cube(*points);
         });
         return analyzer_.sharing.together(*points, options_, ranks_, run);
@@ -255,9 +241,8 @@ class Analysis {
         for (std::uint64_t set = 0; set < sets && !interrupted(); ++set) {
             session_.run().tick(set, sets);
             if (analyzer_.accumulate && count)
-                keep(measured_in_blocks({generated.domain(), count}, generated.dimension(),
-                                        generated.stream(set, quiet), text, number_of(set, sets),
-                                        quiet),
+                keep(measured_in_blocks({generated.domain(), count}, generated.stream(set, quiet),
+                                        text, number_of(set, sets), quiet),
                      sets > 1);
             else
                 batch_.add({of_the_cube(generated.made(set, quiet), analyzer_), text, set, sets});
@@ -278,19 +263,22 @@ class Analysis {
         return of > 1 ? std::optional(set) : std::nullopt;
     }
 
-    static double seconds_since(Clock::time_point start) {
-        return std::chrono::duration<double>(Clock::now() - start).count();
-    }
-
-    [[nodiscard]] Measurement measurement(const std::string& source, std::optional<std::size_t> set,
-                                          std::uint64_t count, const Domain& domain) const {
+    /// What work() finds of a set on the domain, with the time that it takes.
+    template <class Work>
+    [[nodiscard]] Measurement timed(const std::string& source, std::optional<std::size_t> set,
+                                    const DomainPtr& domain, const Work& work) const {
+        const auto start = std::chrono::steady_clock::now();
+        Found found = work();
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         return {.analyzer = analyzer_.name,
                 .source = source,
                 .set = set,
-                .count = count,
-                .dimension = domain.dimension(),
-                .domain = domain.spec(),
-                .options = shown_options_};
+                .count = found.count,
+                .dimension = domain->dimension(),
+                .domain = domain->spec(),
+                .options = typed_settings(options_, analyzer_.options),
+                .results = std::move(found.report),
+                .seconds = seconds.count()};
     }
 
     /// The text of an option of the analyzer, where it is given.
@@ -332,31 +320,27 @@ class Analysis {
         const auto stream = joined_ ? open_joined(arguments_, run, strengths_)
                                     : open_input(input, arguments_, run, strengths_);
         const std::size_t before = measurements_.size();
-        const std::size_t width = stream->dimension();
-        const std::size_t d = width - (strengths_.empty() ? 0 : 1);
         std::size_t sets = 0;
         for (; stream->next_set(); ++sets)
             naming(input, [&] {
                 const NextRows read = [&](std::span<double> rows) { return stream->read(rows); };
-                keep(measured_in_blocks(
-                         arrival_of(*stream, !strengths_.empty(), analyzer_, arguments_, run), d,
-                         within_bounds(read, width, d, 0, analyzer_, arguments_), input, sets, run),
+                const Arrival points =
+                    arrival_of(*stream, !strengths_.empty(), analyzer_, arguments_, run);
+                keep(measured_in_blocks(points,
+                                        within_bounds(read, points, 0, analyzer_, arguments_),
+                                        input, sets, run),
                      inputs_.size() > 1 || sets > 0);
             });
         if (sets == 1 && measurements_.size() == before + 1) measurements_.back().set.reset();
     }
 
     /// Measures a set that comes in blocks.
-    [[nodiscard]] Measurement measured_in_blocks(const Arrival& arrival, std::size_t dimension,
-                                                 const NextRows& next, const std::string& source,
+    [[nodiscard]] Measurement measured_in_blocks(const Arrival& arrival, const NextRows& next,
+                                                 const std::string& source,
                                                  std::optional<std::size_t> set,
                                                  const RunContext& run) const {
-        const auto start = Clock::now();
-        Found found = stipple::analyze(analyzer_, arrival, dimension, next, options_, run);
-        Measurement m = measurement(source, set, found.count, *arrival.domain);
-        m.results = std::move(found.report);
-        m.seconds = seconds_since(start);
-        return m;
+        return timed(source, set, arrival.domain,
+                     [&] { return stipple::analyze(analyzer_, arrival, next, options_, run); });
     }
 
     /// The run, its warnings with the set in front where there are others.
@@ -372,15 +356,13 @@ class Analysis {
     }
 
     [[nodiscard]] Measurement measured(const FoundSet& set, const RunContext& run) const {
-        const auto start = Clock::now();
-        const PointSet& points = set.points;
-        Measurement m =
-            measurement(set.source, number_of(set.number, set.of), points.count(), *points.domain);
         const RunContext named = naming_set(set, run);
-        naming(set.source,
-               [&] { m.results = stipple::analyze(analyzer_, points, options_, named); });
-        m.seconds = seconds_since(start);
-        return m;
+        return timed(set.source, number_of(set.number, set.of), set.points.domain, [&] {
+            return naming(set.source, [&] {
+                return Found{stipple::analyze(analyzer_, set.points, options_, named),
+                             set.points.count()};
+            });
+        });
     }
 
     /// Takes one set's results, `several` if there are others.
@@ -533,7 +515,6 @@ class Analysis {
     bool averaged_;
     std::string strengths_;  ///< the column of strengths that was asked for
     std::vector<Check> checks_;
-    std::vector<std::pair<std::string, std::string>> shown_options_;
     std::vector<Measurement> measurements_;
     std::vector<std::string> unmet_;
     ReportAverage average_;

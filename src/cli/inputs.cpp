@@ -28,7 +28,7 @@ struct Reading {
 Reading reading_of(const std::string& path, const Arguments& arguments) {
     ReadOptions options{.source = path};
     std::string from = arguments.get("from").value_or("");
-    options.single = path.ends_with(".f32") || from == "f32";
+    options.single = from == "f32";
     if (const auto type = arguments.get("dtype"); type && arguments.verb != Verb::convert)
         options.single = *type == "f32";
     if (from == "f32" || from == "f64") from = "bin";
@@ -140,15 +140,9 @@ std::vector<PointSet> read_joined(const Arguments& arguments, const RunContext& 
 
 namespace {
 
-/// The box of the points' extremes.
-Box extremes_of(const PointSet& points) {
-    const std::vector<double> first(points[0].begin(), points[0].end());
-    return bounding_box(points.flat(), {first, first});
-}
-
-/// The same, with a direction that has no extent made as wide as 1.
+/// The box of the points' extremes, with a direction that has no extent made as wide as 1.
 Box box_around(const PointSet& points) {
-    Box box = extremes_of(points);
+    Box box = bounding_box(points.flat(), points.dimension());
     for (std::size_t k = 0; k < box.dimension(); ++k)
         if (!(box.high[k] > box.low[k])) box.high[k] = box.low[k] + 1;
     return box;
@@ -179,7 +173,7 @@ PointSet taken_box(PointSet points, const Box& box, bool to_cube) {
 
 void require_width(const PointSet& points, const std::string& input) {
     constexpr double most = 1e307;  // and room for margins around
-    const Box box = extremes_of(points);
+    const Box box = bounding_box(points.flat(), points.dimension());
     for (std::size_t k = 0; k < box.dimension(); ++k)
         if (box.low[k] < -most || box.high[k] > most)
             fail(ErrorKind::input,
@@ -203,8 +197,7 @@ PointSet of_the_cube(PointSet points, const Analyzer& analyzer) {
         std::ranges::any_of(points.flat(), outside))  // which is said with the first of them
         return points;
     fail_with_hint(ErrorKind::input,
-                   "--rescale or --bounds lo..hi moves points into the cube; --domain unit-cube "
-                   "takes them as they are",
+                   way_to_cube(points) + "; --domain unit-cube takes them as they are",
                    "{} measures points against the unit cube; the domain of these is {}",
                    analyzer.name, domain);
 }
@@ -237,12 +230,13 @@ Arrival arrival_of(const io::PointStream& stream, bool weighted, const Analyzer&
     return {.domain = std::move(domain), .count = stream.count(), .weighted = weighted};
 }
 
-NextRows within_bounds(NextRows next, std::size_t width, std::size_t dimension, std::uint64_t first,
+NextRows within_bounds(NextRows next, const Arrival& arrival, std::uint64_t first,
                        const Analyzer& analyzer, const Arguments& arguments) {
     const auto bounds = arguments.get("bounds");
     if (!bounds) return next;
-    return [next = std::move(next), width, box = parse_box(*bounds, dimension),
-            to_cube = analyzer.traits.unit_cube, at = first](std::span<double> rows) mutable {
+    return [next = std::move(next), width = arrival.width(),
+            box = parse_box(*bounds, arrival.dimension()), to_cube = analyzer.traits.unit_cube,
+            at = first](std::span<double> rows) mutable {
         const std::size_t count = next(rows);
         take_box(rows.first(count * width), width, box, at, to_cube);
         at += count;
@@ -256,16 +250,11 @@ SharedSet shared_files(const Arguments& arguments, const Analyzer& analyzer,
         return open_input(path, arguments, run, strengths);
     };
     const auto files = std::make_shared<SharedFiles>(arguments.inputs, open, ranks);
-    const std::size_t width = files->dimension();
-    const Arrival arrival =
+    Arrival points =
         arrival_of(*open(arguments.inputs.front()), !strengths.empty(), analyzer, arguments, run);
-    const std::size_t d = width - (arrival.weighted ? 1 : 0);
-    return {.domain = arrival.domain,
-            .count = files->count(),
-            .dimension = d,
-            .weighted = arrival.weighted,
-            .from = [=, &analyzer, &arguments](std::uint64_t first) {
-                return within_bounds(files->from(first), width, d, first, analyzer, arguments);
+    points.count = files->count();
+    return {.points = points, .from = [=, &analyzer, &arguments](std::uint64_t first) {
+                return within_bounds(files->from(first), points, first, analyzer, arguments);
             }};
 }
 

@@ -88,7 +88,7 @@ Arrival arrival_of(const io::PointStream& stream, bool weighted, const Analyzer&
                    const Arguments& arguments, const RunContext& run);
 
 /// The rows that `next` gives, mapped as --bounds says; the first one is point `first`.
-NextRows within_bounds(NextRows next, std::size_t width, std::size_t dimension, std::uint64_t first,
+NextRows within_bounds(NextRows next, const Arrival& arrival, std::uint64_t first,
                        const Analyzer& analyzer, const Arguments& arguments);
 
 /// All files of a command as one set that ranks share.

@@ -43,38 +43,38 @@ void refuse_without_points(const std::string& name, std::string_view front) {
     const auto is = [&](const char* format) {
         return (top.starts_with('[') || top.starts_with('{')) && has(fmt::format("\"{}\"", format));
     };
-    const auto refuse = [&name](const char* what, std::string hint) {
-        fail_with_hint(ErrorKind::input, std::move(hint), "{}: {}", name, what);
+    struct Other {
+        bool is;
+        const char* what;
+        const char* hint;
     };
-    if (is("stipple.report") || top.starts_with("analyzer,source,"))
-        refuse(
-            "it holds results of analyze, and names the points that they are of, but not how these "
-            "were made",
-            "reproduce takes files of points");
-    if (is("stipple.comparison") || has("name=\"generator\" content=\"stipple"))
-        refuse("a report about points, which it does not hold",
-               "it names the command that makes it again, and those that make its points");
-    if (is("stipple.study-journal"))
-        refuse("the journal of a study that is not finished, without points",
-               "the same 'stipple study' with --resume goes on");
-    if (is_study(front))
-        refuse("a table of a study, without points",
-               "'stipple generate' with a row's generator, its options, count, dimension, warps "
-               "and seed makes the points of that row again");
-    if (is("stipple.meta"))
-        refuse("it says how the points in the file beside it were made",
-               "reproduce takes the file of points");
-    if (has("<!DOCTYPE html") || has("<html")) refuse("an HTML page, which holds no points", {});
+    const Other others[] = {
+        {is("stipple.report") || top.starts_with("analyzer,source,"),
+         "it holds results of analyze, and names the points that they are of, but not how these "
+         "were made",
+         "reproduce takes files of points"},
+        {is("stipple.comparison") || has("name=\"generator\" content=\"stipple"),
+         "a report about points, which it does not hold",
+         "it names the command that makes it again, and those that make its points"},
+        {is("stipple.study-journal"), "the journal of a study that is not finished, without points",
+         "the same 'stipple study' with --resume goes on"},
+        {is_study(front), "a table of a study, without points",
+         "'stipple generate' with a row's generator, its options, count, dimension, warps and "
+         "seed makes the points of that row again"},
+        {is("stipple.meta"), "it says how the points in the file beside it were made",
+         "reproduce takes the file of points"},
+        {has("<!DOCTYPE html") || has("<html"), "an HTML page, which holds no points", ""}};
+    for (const auto& [is_it, what, hint] : others)
+        if (is_it) fail_with_hint(ErrorKind::input, hint, "{}: {}", name, what);
 }
 
 /// A pipe's bytes in a file of no name, which goes when it is closed.
 std::shared_ptr<std::FILE> spooled(const std::string& pipe, const RunContext& run) {
-    const io::Input input(pipe, run);
+    const std::string bytes = io::read_bytes(pipe, run);
     const auto close = [](std::FILE* open) {
         if (open != nullptr) std::fclose(open);
     };
     std::shared_ptr<std::FILE> file(std::tmpfile(), close);
-    const auto bytes = input.bytes();
     if (file == nullptr || std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size() ||
         std::fflush(file.get()) != 0)
         fail(ErrorKind::io, "{}: no room for its bytes in the folder of temporary files",
@@ -104,12 +104,12 @@ bool take_carried(Original& original, std::string_view front, const RunContext& 
     const bool svg = front.starts_with("<svg") || front.starts_with("<?xml");
     original.drawn = front.starts_with("ply\n") || svg;
     if (picture || original.drawn) {
-        const io::Input whole(original.path, run);
-        if (take_plot(original, whole.bytes())) return true;
-        carried = io::find_carried_meta(whole.bytes(), original.name);
+        const std::string whole = io::read_bytes(original.path, run);
+        if (take_plot(original, whole)) return true;
+        carried = io::find_carried_meta(whole, original.name);
         if (!carried) refuse_without_provenance(original);
     } else if (std::error_code none; std::filesystem::exists(beside, none)) {
-        carried = io::carried_meta(io::Input(beside, run).bytes(), beside);
+        carried = io::carried_meta(io::read_bytes(beside, run), beside);
         original.format = &io::format_named(carried->of);
         if (carried->width > 0) original.width = carried->width;
         original.sets = carried->sets;
@@ -123,12 +123,11 @@ bool take_carried(Original& original, std::string_view front, const RunContext& 
 
 }  // namespace
 
-std::unique_ptr<io::PointStream> open_original(const Original& original,
-                                               const std::vector<std::string>& columns,
+std::unique_ptr<io::PointStream> open_original(const Original& original, ReadOptions options,
                                                const RunContext& run) {
     RunContext reading = run;
     reading.threads = 1;
-    ReadOptions options{.source = original.name, .columns = columns};
+    options.source = original.name;
     options.single = original.meta.single;
     if (original.width) options.dimension = original.width;
     return io::open_points(original.path, options, reading, original.format);

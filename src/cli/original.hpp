@@ -32,8 +32,8 @@ struct Original {
 Original read_original(const std::string& input, const RunContext& run);
 
 /// Its points, by one thread: on the others they are made again.
-std::unique_ptr<io::PointStream> open_original(const Original& original,
-                                               const std::vector<std::string>& columns,
+/// @param options which columns are read
+std::unique_ptr<io::PointStream> open_original(const Original& original, ReadOptions options,
                                                const RunContext& run);
 
 }  // namespace stipple::cli

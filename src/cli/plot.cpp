@@ -142,14 +142,14 @@ class Plot {
 
     void read(const std::string& input) {
         const RunContext& run = session_.run();
-        const io::Input file(input, run);
-        if (!arguments_.has("from") && looks_like_reports(file.bytes())) {
-            for (Measurement& m : read_reports(file.bytes(), io::source_name(input)))
+        const std::string bytes = io::read_bytes(input, run);
+        if (!arguments_.has("from") && looks_like_reports(bytes)) {
+            for (Measurement& m : read_reports(bytes, io::source_name(input)))
                 reports_.push_back(std::move(m));
             return;
         }
         auto sets = naming(
-            input, [&] { return read_input(file.bytes(), input, arguments_, run); },
+            input, [&] { return read_input(bytes, input, arguments_, run); },
             "plot takes points, or the JSON of 'stipple analyze'");
         for (std::size_t i = 0; i < sets.size(); ++i) {
             require_width(sets[i], input);
@@ -157,7 +157,7 @@ class Plot {
             const std::string title = plot::title_of_points(sets[i], input);
             sets_.push_back({std::move(sets[i]), input,
                              sets.size() > 1 ? std::optional(i) : std::nullopt,
-                             file.bytes().starts_with(npy_magic), title});
+                             bytes.starts_with(npy_magic), title});
         }
     }
 

@@ -179,24 +179,6 @@ void check_inputs(const Original& original) {
     }
 }
 
-/// Whether the top of a text names a column.
-bool names_column(std::string_view front, std::string_view name) {
-    const auto top = front.substr(0, std::size_t{1} << 16);
-    if (top.starts_with('{')) {
-        const auto columns = top.find("\"columns\":[");
-        const auto end = top.find(']', columns == std::string_view::npos ? 0 : columns);
-        return columns != std::string_view::npos &&
-               top.substr(columns, end - columns).find(fmt::format("\"{}\"", name)) !=
-                   std::string_view::npos;
-    }
-    for (const auto line : split(top, '\n')) {
-        if (line.starts_with('#')) continue;
-        const auto cells = split(trim(line), ',');
-        return std::ranges::find(cells, name) != cells.end();
-    }
-    return false;
-}
-
 /// What happened, for people and for programs.
 struct Verdict {
     bool identical = false;
@@ -205,7 +187,7 @@ struct Verdict {
 };
 
 /// " in 3 sets", " with 5 digits after the point".
-std::string remarks_on(const Comparison& found, const Written& written) {
+std::string remarks_on(const Comparison& found, const Target& written) {
     std::string text;
     if (found.sets > 1) text += fmt::format(" in {} sets", found.sets);
     if (written.single) text += ", as float32";
@@ -256,11 +238,8 @@ class Reproducer {
     }
 
     Verdict compare_points() {
-        auto stream = open_original(original_, {}, run_);
-        const std::size_t width = find_columns(*stream);
-        if (written_.columns.any() && width != stream->dimension()) {
-            stream = open_original(original_, column_names(stream->dimension()), run_);
-        }
+        const auto stream = open_original(original_, {.all_columns = true}, run_);
+        written_.columns = columns_behind(stream->dimension());
         // Raw numbers do not tell their sets.
         const bool raw = original_.format != nullptr && original_.format->name == "bin";
         const std::size_t sets = raw ? original_.sets : stream->sets().value_or(0);
@@ -284,19 +263,23 @@ class Reproducer {
         return names;
     }
 
-    /// Finds out which columns stand behind the coordinates; numbers of a point with them.
-    std::size_t find_columns(const io::PointStream& stream) {
-        const std::string front(io::Feed(original_.path, run_).front());
-        written_.columns = {.pdf = names_column(front, "pdf"),
-                            .weight = names_column(front, "weight")};
+    /// What stands behind the coordinates, where a point has so many numbers.
+    [[nodiscard]] Columns columns_behind(std::size_t width) const {
         const std::size_t d = original_.meta.dimension;
-        if (written_.columns.any()) return stream.dimension() + written_.columns.names().size();
-        // Without names they look like coordinates.
-        if (stream.dimension() == d + 2) written_.columns = {.pdf = true, .weight = true};
-        if (stream.dimension() == d + 1)
-            written_.columns = {.pdf = !recipe_.typed.has("with-weight"),
-                                .weight = recipe_.typed.has("with-weight")};
-        return stream.dimension();
+        if (width == d + 2) return {.pdf = true, .weight = true};
+        if (width != d + 1) return {};
+        const bool named = names_column("pdf") || names_column("weight");
+        const bool weight = named ? names_column("weight") : recipe_.typed.has("with-weight");
+        return {.pdf = !weight, .weight = weight};
+    }
+
+    [[nodiscard]] bool names_column(const std::string& name) const {
+        try {
+            open_original(original_, {.columns = {name}}, run_);
+        } catch (const Error&) {
+            return false;
+        }
+        return true;
     }
 
     /// Options in the provenance that are not what is worked out today, though the points are.
@@ -364,8 +347,8 @@ class Reproducer {
 
     /// Files that are written only, as their bytes.
     Verdict compare_bytes() {
-        const io::Input input(original_.path, run_);
-        const std::string found = io::without_meta(input.bytes());
+        const std::string bytes = io::read_bytes(original_.path, run_);
+        const std::string found = io::without_meta(bytes);
         const bool ply = found.starts_with("ply\n");
         const auto header = std::string_view(found).substr(0, found.find("end_header"));
         const auto says = [&](std::string_view words) {
@@ -380,7 +363,7 @@ class Reproducer {
         const std::string made = io::without_meta(bytes_of(making(1), target));
         const auto [f, m] = std::ranges::mismatch(found, made);
         if (f == found.end() && m == made.end())
-            return {.identical = true, .sentence = fmt::format("{} bytes", input.bytes().size())};
+            return {.identical = true, .sentence = fmt::format("{} bytes", bytes.size())};
         const auto line = 1 + std::count(found.begin(), f, '\n');
         const auto byte = static_cast<std::size_t>(f - found.begin());
         const bool binary = ply && !says("format ascii") && byte > header.size();
@@ -398,8 +381,8 @@ class Reproducer {
         const PointSet points = make_points(generator, recipe_.job.request, options, run_);
         if (points.side_files.empty())
             fail(ErrorKind::input, "{}: {} makes no such picture", original_.name, generator.name);
-        const io::Input input(original_.path, run_);
-        const PngPicture found = read_png(input.bytes(), original_.name, run_);
+        const std::string bytes = io::read_bytes(original_.path, run_);
+        const PngPicture found = read_png(bytes, original_.name, run_);
         const PngPicture made =
             read_png(points.side_files[0].bytes, "the picture made again", run_);
         if (found.width != made.width || found.height != made.height)
@@ -420,7 +403,7 @@ class Reproducer {
     Recipe recipe_;
     Session& session_;
     RunContext run_;
-    Written written_;
+    Target written_;  ///< how the numbers were
 };
 
 int say(const Original& original, const Verdict& verdict, const std::string& changed,

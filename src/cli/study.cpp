@@ -36,8 +36,7 @@ Arguments with_config(const Arguments& typed, std::uint64_t ranks, const RunCont
     if (!path) return all;
     if (*path == "-" && ranks > 1)
         fail(ErrorKind::usage, "--config: the ranks have no standard input; name a file");
-    const io::Input input(*path, run);
-    for (auto& setting : parse_study_config(input.bytes(), io::source_name(*path)))
+    for (auto& setting : parse_study_config(io::read_bytes(*path, run), io::source_name(*path)))
         if (!typed.has(setting.first)) all.common.push_back(std::move(setting));
     return all;
 }

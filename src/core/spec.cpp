@@ -125,6 +125,17 @@ std::string format_spec(std::string_view name, const Values& values, const Schem
     return spec;
 }
 
+std::vector<std::pair<std::string, std::string>> typed_settings(const Values& values,
+                                                                const Schema& schema) {
+    std::vector<std::pair<std::string, std::string>> settings;
+    for (const Option& option : schema.options()) {
+        const auto& item = values.find(option.name);
+        if (!option.optional || item.given)
+            settings.emplace_back(option.name, format_value(item.value));
+    }
+    return settings;
+}
+
 std::string format_coordinates(const std::vector<std::size_t>& coordinates) {
     std::vector<std::string> parts;
     for (const std::size_t k : coordinates) parts.push_back(std::to_string(k + 1));

@@ -36,6 +36,10 @@ std::vector<std::string> split_specs(std::string_view text, std::string_view who
 /// NAME or NAME:OPT=V,... with what differs from the defaults; parses back to the same.
 std::string format_spec(std::string_view name, const Values& values, const Schema& schema);
 
+/// The options as one types them, less those without a default that were not given.
+std::vector<std::pair<std::string, std::string>> typed_settings(const Values& values,
+                                                                const Schema& schema);
+
 /// Coordinates as they stand behind @, counted from 1: "4,5".
 std::string format_coordinates(const std::vector<std::size_t>& coordinates);
 

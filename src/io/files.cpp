@@ -64,6 +64,10 @@ const Format& format_for(const std::string& path, std::string_view bytes) {
     return *named;
 }
 
+std::string read_bytes(const std::string& path, const RunContext& run) {
+    return Feed(path, run).read_all();
+}
+
 Output::Output(std::string path, std::stop_token stop)
     : path_(std::move(path)), stop_(std::move(stop)) {
     if (const auto standard = standard_descriptor(path_)) {
@@ -176,8 +180,7 @@ std::vector<PointSet> read_sets(std::string_view bytes, const std::string& path,
 
 std::vector<PointSet> read_points(const std::string& path, const ReadOptions& options,
                                   const RunContext& run, const Format* format) {
-    const Input input(path, run);
-    return read_sets(input.bytes(), path, options, run, format);
+    return read_sets(read_bytes(path, run), path, options, run, format);
 }
 
 PointSet read_given(std::string_view option, const std::string& path, const ReadOptions& options,

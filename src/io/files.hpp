@@ -19,17 +19,8 @@
 
 namespace stipple::io {
 
-/// The bytes of a file, or of standard input for "-".
-class Input {
-  public:
-    /// @throws Error as Feed does; Error(limit)
-    Input(const std::string& path, const RunContext& run) : bytes_(Feed(path, run).read_all()) {}
-
-    [[nodiscard]] std::string_view bytes() const { return bytes_; }
-
-  private:
-    std::string bytes_;
-};
+/// The bytes of a file, or of standard input for "-". @throws Error as Feed does; Error(limit)
+std::string read_bytes(const std::string& path, const RunContext& run);
 
 /// A file that comes into being when it is whole, or standard output for "-". Devices and pipes are
 /// written in place; a link's target is replaced, not the link.

@@ -41,13 +41,6 @@ class HeldSets final : public PointStream {
         return size / dimension();
     }
 
-    std::uint64_t skip(std::uint64_t count) override {
-        const std::size_t d = dimension();
-        const auto size = std::min<std::uint64_t>((set().flat().size() - at_) / d, count);
-        at_ += static_cast<std::size_t>(size) * d;
-        return size;
-    }
-
   private:
     const PointSet& set() const { return sets_[std::max<std::size_t>(next_, 1) - 1]; }
 
@@ -186,25 +179,13 @@ class JoinedStream final : public PointStream {
 
     std::size_t read(std::span<double> rows) override {
         const std::size_t d = dimension();
-        std::size_t got = 0;
-        while (got < rows.size() && !ended_) {
-            const std::size_t more = d * part_->read(rows.subspan(got));
-            got += more;
-            ended_ = more == 0 && !next_part();
-        }
-        count_ += got / d;
-        return got / d;
+        return static_cast<std::size_t>(through_parts(rows.size() / d, [&](std::uint64_t got) {
+            return part_->read(rows.subspan(got * d));
+        }));
     }
 
     std::uint64_t skip(std::uint64_t count) override {
-        std::uint64_t got = 0;
-        while (got < count && !ended_) {
-            const std::uint64_t more = part_->skip(count - got);
-            got += more;
-            ended_ = more == 0 && !next_part();
-        }
-        count_ += got;
-        return got;
+        return through_parts(count, [&](std::uint64_t got) { return part_->skip(count - got); });
     }
 
     std::vector<PointSet> read_all(const RunContext& run) override {
@@ -214,6 +195,19 @@ class JoinedStream final : public PointStream {
     }
 
   private:
+    /// Goes on by `count` points, or to the end; step(got) takes some of this part, behind so many.
+    template <class Step>
+    std::uint64_t through_parts(std::uint64_t count, const Step& step) {
+        std::uint64_t got = 0;
+        while (got < count && !ended_) {
+            const std::uint64_t more = step(got);
+            got += more;
+            ended_ = more == 0 && !next_part();
+        }
+        count_ += got;
+        return got;
+    }
+
     void enter() {
         if (!part_->next_set())
             fail(ErrorKind::input, "{}: it holds no points", source_name(paths_[at_]));
@@ -295,7 +289,7 @@ std::vector<PointSet> PointStream::read_all(const RunContext& run) {
     const std::size_t d = dimension();
     const std::size_t step = std::max<std::size_t>(1, (std::size_t{1} << 18) / d) * d;
     while (next_set()) {
-        const std::uint64_t all = d * count().value_or(std::uint64_t{1} << 56);
+        const std::uint64_t all = count() ? d * *count() : ~std::uint64_t{0};
         std::vector<double> rows;
         if (count()) rows.reserve(static_cast<std::size_t>(std::min(all, std::uint64_t{1} << 28)));
         while (rows.size() < all) {

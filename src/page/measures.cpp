@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/error.hpp"
+#include "core/spec.hpp"
 #include "core/text.hpp"
 #include "page/figures.hpp"
 #include "pipeline/pipeline.hpp"
@@ -76,11 +77,7 @@ Measure described(const Planned& plan, const Input& input, std::int64_t work, Va
     };
     if (*plan.kind != '\0') set("kind", plan.kind);
     if (plan.searches) set("max-work", std::to_string(work));
-    for (const Option& option : analyzer.options.options()) {
-        const auto& item = values.find(option.name);
-        if (!option.optional || item.given)
-            measure.options.emplace_back(option.name, format_value(item.value));
-    }
+    measure.options = typed_settings(values, analyzer.options);
     return measure;
 }
 

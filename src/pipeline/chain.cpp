@@ -61,6 +61,12 @@ std::vector<std::size_t> others(std::size_t width, std::span<const std::size_t> 
     return rest;
 }
 
+/// Where the coordinate `from[i]` went, which is to[i].
+std::size_t moved(std::size_t k, std::span<const std::size_t> from,
+                  std::span<const std::size_t> to) {
+    return to[static_cast<std::size_t>(std::ranges::find(from, k) - from.begin())];
+}
+
 /// Where the numbers of an image of `size` go, replacing `taken`: one to one where sizes agree,
 /// else together where the first of them stood.
 std::vector<std::size_t> places(std::span<const std::size_t> taken, std::size_t size) {
@@ -72,12 +78,11 @@ std::vector<std::size_t> places(std::span<const std::size_t> taken, std::size_t 
     return at;
 }
 
-/// Rows made of `part` at the places `at` and of the columns `rest` of `rows` in between.
+/// Rows made of `part` at the places `at`, and of the columns `rest` of `rows` at the places `free`.
 std::vector<double> interleave(std::span<const double> rows, std::size_t width,
                                std::span<const std::size_t> rest, std::span<const double> part,
-                               std::span<const std::size_t> at) {
+                               std::span<const std::size_t> at, std::span<const std::size_t> free) {
     const std::size_t wide = rest.size() + at.size();
-    const auto free = others(wide, at);
     const std::size_t count = rows.size() / width;
     std::vector<double> out(count * wide);
     for (std::size_t i = 0; i < count; ++i) {
@@ -202,6 +207,8 @@ void WarpChain::add_scramble(const Scramble& scramble, const Spec& spec, const C
     Step step{.coordinates = coordinates_of(spec),
               .width_in = dimension_out_,
               .width_out = dimension_out_};
+    step.at = step.coordinates;
+    step.rest = step.others = others(dimension_out_, step.at);
     std::uint64_t seed = set.seed;
     if (values.given(scramble_seed)) {
         const auto own = parse_unsigned(values[scramble_seed]);
@@ -242,12 +249,11 @@ void WarpChain::add_warp(const Warp& warp, const Spec& spec, const RunContext& r
     step.domain = step.mapping->domain();
     const std::size_t gives = step.domain->dimension();
     step.width_out = step.width_in - takes + gives;
-    step.image = places(step.coordinates, gives);
-    const auto rest = others(step.width_in, step.coordinates);
-    const auto moved = others(step.width_out, step.image);
+    step.image = step.at = places(step.coordinates, gives);
+    step.rest = others(step.width_in, step.coordinates);
+    step.others = others(step.width_out, step.at);
     for (Step& earlier : steps_)
-        for (std::size_t& k : earlier.image)
-            k = moved[static_cast<std::size_t>(std::ranges::find(rest, k) - rest.begin())];
+        for (std::size_t& k : earlier.image) k = moved(k, step.rest, step.others);
     remember(warp, spec, values);
     dimension_out_ = step.width_out;
     steps_.push_back(std::move(step));
@@ -264,15 +270,12 @@ DomainPtr WarpChain::domain_before(const DomainPtr& after, const RunContext& run
     std::vector<Factor> factors = warped_factors(after, {}, run);
     for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
         if (!step->mapping) continue;
-        const auto at = places(step->coordinates, step->image.size());
-        const auto rest = others(step->width_in, step->coordinates);
-        const auto moved = others(step->width_out, at);
         std::erase_if(factors, [&](const Factor& factor) {
-            return std::ranges::find_first_of(factor.coordinates, at) != factor.coordinates.end();
+            return std::ranges::find_first_of(factor.coordinates, step->at) !=
+                   factor.coordinates.end();
         });
         for (Factor& factor : factors)
-            for (std::size_t& k : factor.coordinates)
-                k = rest[static_cast<std::size_t>(std::ranges::find(moved, k) - moved.begin())];
+            for (std::size_t& k : factor.coordinates) k = moved(k, step->others, step->rest);
     }
     return filled_up(std::move(factors), dimension_in_);
 }
@@ -293,16 +296,14 @@ std::vector<double> WarpChain::forward(std::vector<double> rows, std::uint64_t f
         const bool drops = step.mapping && step.mapping->drops();
         std::vector<std::uint8_t> keep(drops ? count : 0, 1);
         if (step.mapping) {
-            std::vector<double> image(count * step.image.size());
+            std::vector<double> image(count * step.at.size());
             step.mapping->forward(part, image, keep);
             part = std::move(image);
         } else {
             step.randomization->apply(first, part);
         }
-        const std::size_t gives = step.mapping ? step.image.size() : step.coordinates.size();
         rows = whole ? std::move(part)
-                     : interleave(rows, step.width_in, others(step.width_in, step.coordinates),
-                                  part, places(step.coordinates, gives));
+                     : interleave(rows, step.width_in, step.rest, part, step.at, step.others);
         if (drops) keep_rows(rows, step.width_out, keep);
     }
     return rows;
@@ -313,13 +314,11 @@ std::vector<double> WarpChain::inverse(std::vector<double> rows) const {
         if (!step->mapping)
             fail(ErrorKind::usage, "--inverse: a scramble is random and has no inverse");
         const std::size_t count = rows.size() / step->width_out;
-        const auto at = places(step->coordinates, step->image.size());
         std::vector<double> cube(count * step->coordinates.size());
-        step->mapping->inverse(gather(rows, step->width_out, at), cube);
+        step->mapping->inverse(gather(rows, step->width_out, step->at), cube);
         // A rim is the image of what is just below 1, and the next warp takes nothing else.
         for (double& x : cube) x = std::min(x, one_minus_ulp);
-        rows =
-            interleave(rows, step->width_out, others(step->width_out, at), cube, step->coordinates);
+        rows = interleave(rows, step->width_out, step->others, cube, step->coordinates, step->rest);
     }
     return rows;
 }

@@ -92,6 +92,9 @@ class WarpChain {
         std::unique_ptr<Mapping> mapping = {};
         std::unique_ptr<Randomization> randomization = {};
         std::vector<std::size_t> coordinates = {};  ///< taken from the row before
+        std::vector<std::size_t> rest = {};         ///< of the row before
+        std::vector<std::size_t> at = {};           ///< where its numbers stand in the row after
+        std::vector<std::size_t> others = {};       ///< where the rest stands there
         std::vector<std::size_t> image = {};        ///< where its numbers stand in the last row
         std::size_t width_in = 0;                   ///< numbers of the row before
         std::size_t width_out = 0;                  ///< and after

@@ -11,6 +11,19 @@
 namespace stipple {
 namespace {
 
+/// Takes a sequential engine to point `start`, in steps between which it may be told to stop; a
+/// sequence with random access needs no walk.
+void walk_to(Sequence& sequence, std::uint64_t start, std::size_t dimension,
+             const RunContext& run) {
+    if (sequence.random_access()) return;
+    const std::uint64_t step = 1 + 1'000'000 / dimension;
+    std::vector<double> row(dimension);
+    for (std::uint64_t i = step; i < start; i += step) {
+        run.check_stop();
+        sequence.fill(i, row);
+    }
+}
+
 /// Points of a sequence, block by block on all threads.
 PointSet fill_all(Sequence& sequence, const Plan& plan, std::uint64_t start,
                   const RunContext& run) {
@@ -26,14 +39,6 @@ PointSet fill_all(Sequence& sequence, const Plan& plan, std::uint64_t start,
                                                              (b.last - b.first) * plan.dimension));
     });
     return points;
-}
-
-void tell_notes(const Generator& generator, const Request& request, const Values& options,
-                const RunContext& run) {
-    if (!generator.notes) return;
-    for (const auto& note :
-         generator.notes(request, plan_for(generator, request, options), options))
-        run.tell(note);
 }
 
 }  // namespace
@@ -61,17 +66,6 @@ bool in_batches(const NextRows& next, std::size_t batch, std::size_t width, cons
         count = fetched.get();
     }
     return true;
-}
-
-void walk_to(Sequence& sequence, std::uint64_t start, std::size_t dimension,
-             const RunContext& run) {
-    if (sequence.random_access()) return;
-    const std::uint64_t step = 1 + 1'000'000 / dimension;
-    std::vector<double> row(dimension);
-    for (std::uint64_t i = step; i < start; i += step) {
-        run.check_stop();
-        sequence.fill(i, row);
-    }
 }
 
 PointSet make_points(const Generator& generator, const Request& request, const Values& options,
@@ -105,7 +99,8 @@ GeneratedSets::GeneratedSets(const Generator& generator, Values options, Request
     if (sets_ > 1 && !uses_seed(generator_, options_) && !chain_->seeded())
         run.tell(fmt::format("{} does not use the seed: all {} sets are the same", generator_.name,
                              sets_));
-    tell_notes(generator_, request_, options_, run);
+    if (generator_.notes)
+        for (const auto& note : generator_.notes(request_, plan_, options_)) run.tell(note);
 }
 
 std::optional<std::uint64_t> GeneratedSets::streamed() const {
@@ -181,7 +176,7 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
 Provenance GeneratedSets::provenance(std::uint64_t set, std::uint64_t count) const {
     Provenance meta{.version = STIPPLE_VERSION,
                     .generator = generator_.name,
-                    .options = {},
+                    .options = typed_settings(options_, generator_.options),
                     .seed = plan_.seed + set,
                     .count = count,
                     .dimension = dimension(),
@@ -191,11 +186,6 @@ Provenance GeneratedSets::provenance(std::uint64_t set, std::uint64_t count) con
                     .bounds = {},
                     .shard = {},
                     .command = {}};
-    for (const Option& option : generator_.options.options()) {
-        const auto& item = options_.find(option.name);
-        if (!option.optional || item.given)
-            meta.options.emplace_back(option.name, format_value(item.value));
-    }
     if (request_.bounds) meta.bounds = format_box(*request_.bounds);
     meta.inputs = inputs_;
     if (generator_.stream_version > 1)

@@ -31,10 +31,6 @@ NextRows rows_of(const PointSet& points, std::uint64_t first = 0);
 bool in_batches(const NextRows& next, std::size_t batch, std::size_t width, const RunContext& run,
                 const std::function<bool(std::span<const double>)>& take);
 
-/// Takes a sequential engine to point `start`, in steps between which it may be told to stop; a
-/// sequence with random access needs no walk.
-void walk_to(Sequence& sequence, std::uint64_t start, std::size_t dimension, const RunContext& run);
-
 /// All points of a request, in memory, without notes, bounds and provenance.
 PointSet make_points(const Generator& generator, const Request& request, const Values& options,
                      const RunContext& run);

@@ -8,11 +8,10 @@
 
 namespace stipple {
 
-Found analyze(const Analyzer& analyzer, const Arrival& arrival, std::size_t dimension,
-              const NextRows& next, const Values& options, const RunContext& run) {
-    const auto measure = accumulator_for(analyzer, arrival, dimension, options, run);
-    const std::uint64_t count =
-        add_all(*measure, next, arrival.width(), dimension, arrival.count, run);
+Found analyze(const Analyzer& analyzer, const Arrival& arrival, const NextRows& next,
+              const Values& options, const RunContext& run) {
+    const auto measure = accumulator_for(analyzer, arrival, options, run);
+    const std::uint64_t count = add_all(*measure, arrival, next, run);
     if (count == 0)
         fail(ErrorKind::input, "{} needs at least one point; the set is empty", analyzer.name);
     RunContext quiet = run;
@@ -20,36 +19,46 @@ Found analyze(const Analyzer& analyzer, const Arrival& arrival, std::size_t dime
     return {.report = measure->report(quiet), .count = count};
 }
 
-std::uint64_t add_all(Accumulator& measure, const NextRows& next, std::size_t width,
-                      std::size_t dimension, std::optional<std::uint64_t> expected,
+std::uint64_t add_all(Accumulator& measure, const Arrival& arrival, const NextRows& next,
                       const RunContext& run) {
     RunContext quiet = run;
     quiet.progress = {};
     std::uint64_t done = 0;
-    const std::uint64_t batch = arrival_batch(dimension);
-    const auto rows_at_once = static_cast<std::size_t>(std::min(batch, expected.value_or(batch)));
-    in_batches(next, rows_at_once, width, run, [&](std::span<const double> rows) {
+    const std::uint64_t batch = arrival_batch(arrival.dimension());
+    const auto rows_at_once =
+        static_cast<std::size_t>(std::min(batch, arrival.count.value_or(batch)));
+    in_batches(next, rows_at_once, arrival.width(), run, [&](std::span<const double> rows) {
         measure.add(rows, quiet);
-        done += rows.size() / width;
-        if (expected) run.tick(done, *expected);
+        done += rows.size() / arrival.width();
+        if (arrival.count) run.tick(done, *arrival.count);
         return true;
     });
     return done;
 }
 
 std::unique_ptr<Accumulator> accumulator_for(const Analyzer& analyzer, const Arrival& arrival,
-                                             std::size_t dimension, const Values& options,
-                                             const RunContext& run) {
-    check_dimension(analyzer, dimension);
-    if (arrival.dimension() != dimension)
-        fail(ErrorKind::input, "points of the domain {} have dimension {}; these have {}",
-             arrival.domain->spec(), arrival.dimension(), dimension);
+                                             const Values& options, const RunContext& run) {
+    check_dimension(analyzer, arrival.dimension());
     return analyzer.accumulate(arrival, options, run);
 }
 
 PointSet generate(const Generator& generator, const Request& request, const Values& options,
                   const RunContext& run) {
     return GeneratedSets(generator, options, request, 1, {}, run).made(0, run);
+}
+
+std::string way_to_cube(const PointSet& points) {
+    const auto& warps = points.provenance.warps;
+    const auto last = std::ranges::find_if(
+        warps.rbegin(), warps.rend(), [](const auto& step) { return !step.starts_with("cut:"); });
+    const std::string step = last == warps.rend() ? "" : *last;
+    const std::string name = step.substr(0, step.find_first_of("@:"));
+    const auto warp = std::ranges::find(warps::all(), name, &Warp::name);
+    if (warp == warps::all().end() || !warp->traits.invertible)
+        return "--rescale or --bounds lo..hi moves points into the cube";
+    const char* quote = step.find_first_of(" []") == std::string::npos ? "" : "\"";
+    return fmt::format("'stipple warp {1}{0}{1} --inverse' takes them back to the cube", step,
+                       quote);
 }
 
 void require_unit_cube(const PointSet& points) {
@@ -62,7 +71,7 @@ void require_unit_cube(const PointSet& points) {
     std::vector<std::string> numbers;
     for (const double x : points[first]) numbers.push_back(format_number(x));
     fail_with_hint(
-        ErrorKind::input, "--rescale or --bounds lo..hi moves points into the cube",
+        ErrorKind::input, way_to_cube(points),
         "{} of {} points are outside the unit cube [0, 1]^{}; the first is point {}: ({})", count,
         points.count(), points.dimension(), first, join(numbers, ", "));
 }
@@ -72,16 +81,12 @@ Report analyze(const Analyzer& analyzer, const PointSet& points, const Values& o
     if (points.count() == 0)
         fail(ErrorKind::input, "{} needs at least one point; the set is empty", analyzer.name);
     check_dimension(analyzer, points.dimension());
-    if (!points.domain) {
-        PointSet on_cube = points;
-        on_cube.domain = unit_cube(points.dimension());
-        return analyze(analyzer, on_cube, options, run);
-    }
+    if (points.domain->dimension() != points.dimension())
+        fail(ErrorKind::input, "points of the domain {} have dimension {}; these have {}",
+             points.domain->spec(), points.domain->dimension(), points.dimension());
     if (analyzer.traits.unit_cube) require_unit_cube(points);
     if (!analyzer.accumulate) return analyzer.analyze(points, options, run);
-    return analyze(analyzer, {points.domain, points.count()}, points.dimension(), rows_of(points),
-                   options, run)
-        .report;
+    return analyze(analyzer, {points.domain, points.count()}, rows_of(points), options, run).report;
 }
 
 }  // namespace stipple

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "pipeline/generated.hpp"
@@ -20,11 +21,13 @@ namespace stipple {
 PointSet generate(const Generator& generator, const Request& request, const Values& options,
                   const RunContext& run);
 
-/// What measures points of `dimension` numbers as they come. @throws Error(input) where the
-/// analyzer or the domain does not take them, Error(usage)
+/// What measures points as they come. @throws Error(input) where the analyzer does not take them,
+/// Error(usage)
 std::unique_ptr<Accumulator> accumulator_for(const Analyzer& analyzer, const Arrival& arrival,
-                                             std::size_t dimension, const Values& options,
-                                             const RunContext& run);
+                                             const Values& options, const RunContext& run);
+
+/// A sentence on how points that are on another domain get into the unit cube.
+std::string way_to_cube(const PointSet& points);
 
 /// @throws Error(input) counting the points outside the closed unit cube and naming the first
 void require_unit_cube(const PointSet& points);
@@ -37,9 +40,7 @@ Report analyze(const Analyzer& analyzer, const PointSet& points, const Values& o
 
 /// Gives all that comes to an accumulator, the next block being fetched while one is looked at.
 /// Returns how many points these were.
-/// @param width numbers of a row @param expected points, for the progress
-std::uint64_t add_all(Accumulator& measure, const NextRows& next, std::size_t width,
-                      std::size_t dimension, std::optional<std::uint64_t> expected,
+std::uint64_t add_all(Accumulator& measure, const Arrival& arrival, const NextRows& next,
                       const RunContext& run);
 
 /// What was found of points that came in blocks, and how many they were.
@@ -51,7 +52,7 @@ struct Found {
 /// Measures a set that comes in blocks, by an analyzer that has `accumulate`: the same result as
 /// for the set in memory.
 /// @throws Error(input)
-Found analyze(const Analyzer& analyzer, const Arrival& arrival, std::size_t dimension,
-              const NextRows& next, const Values& options, const RunContext& run);
+Found analyze(const Analyzer& analyzer, const Arrival& arrival, const NextRows& next,
+              const Values& options, const RunContext& run);
 
 }  // namespace stipple

@@ -48,13 +48,7 @@ void write_images(const std::vector<PointSet>& images, const WarpChain& chain,
     SetsToWrite job{
         .sets = images.size(),
         .first_set = first_set,
-        .source =
-            [&](std::size_t set, const RunContext&) {
-                // Without warps, what the points are on is the unit cube, or what it was scaled to.
-                return Source{.next = rows_of(images[set]),
-                              .count = images[set].count(),
-                              .volume = chain.empty() ? images[set].domain->measure() : 1};
-            },
+        .source = [&](std::size_t set, const RunContext&) { return rows_of(images[set]); },
         .provenance = [&](std::size_t set) { return together ? common : images[set].provenance; },
         .first_seed = first_seed,
         .extent =
@@ -66,7 +60,9 @@ void write_images(const std::vector<PointSet>& images, const WarpChain& chain,
         },
         .counts = {},
         .dimension = images.front().dimension(),
-        .chain = &chain};
+        .chain = &chain,
+        // Without warps, what the points are on is the unit cube, or what it was scaled to.
+        .volume = chain.empty() ? images.front().domain->measure() : 1};
     for (const PointSet& set : images) job.counts.push_back(set.count());
     write_files(job, target, run);
 }
@@ -180,13 +176,12 @@ void refuse_second_set(io::PointStream& stream) {
 /// A warp, or the way back through it, for points on a domain.
 struct Warping {
     Warping(const Spec& spec, bool back, const DomainPtr& on, const Target& target,
-            const RunContext& run)
+            const RunContext& run, const ChainSet& set = {})
         : inverse(back), taken(spec, on->dimension()) {
         const std::size_t d = on->dimension();
         if (!inverse) before = warped_factors(on, taken.coordinates(), run);
-        chain = std::make_shared<WarpChain>(std::span(&spec, 1),
-                                            inverse ? dimension_before(spec, d, run) : d,
-                                            ChainSet{}, run, before);
+        chain = std::make_shared<WarpChain>(
+            std::span(&spec, 1), inverse ? dimension_before(spec, d, run) : d, set, run, before);
         if (inverse && target.columns.any())
             fail(ErrorKind::usage,
                  "--with-{}: the inverse gives points of the unit cube, density 1",
@@ -212,66 +207,36 @@ PointSet warped(const PointSet& set, const Warping& warping, const RunContext& r
     return image;
 }
 
-/// The images of the points of a stream.
-class WarpedRows {
-  public:
-    WarpedRows(io::PointStream& stream, const Warping& warping, std::size_t wide,
-               const RunContext& run)
-        : stream_(&stream), warping_(&warping), wide_(wide), run_(run) {
-        run_.progress = {};
-    }
-
-    std::size_t operator()(std::span<double> rows) {
-        const std::size_t d = stream_->dimension();
+/// The images of the points of a stream, each of `wide` numbers.
+NextRows warped_rows(io::PointStream& stream, const Warping& warping, std::size_t wide,
+                     const RunContext& run) {
+    return [&stream, &warping, wide, quiet = silent(run), came = std::uint64_t{0},
+            kept = std::uint64_t{0}](std::span<double> rows) mutable -> std::size_t {
+        const std::size_t d = stream.dimension();
         for (;;) {  // until some have an image
-            taken_.resize(rows.size() / wide_ * d);
-            const std::size_t count = stream_->read(taken_);
-            if (count == 0) return end();
-            if (!warping_->inverse)
-                warping_->taken.require_in_cube(std::span(taken_).first(count * d), came_);
-            const std::size_t kept = warped(count, rows);
-            came_ += count;
-            kept_ += kept;
-            if (kept > 0) return kept;
+            std::vector<double> taken(rows.size() / wide * d);
+            taken.resize(stream.read(taken) * d);
+            if (taken.empty()) break;
+            if (!warping.inverse) warping.taken.require_in_cube(taken, came);
+            const PointSet points(std::move(taken), d);
+            const PointSet image = warping.inverse ? warping.chain->preimage(points, quiet)
+                                                   : warping.chain->image(points, quiet, came);
+            std::ranges::copy(image.flat(), rows.begin());
+            came += points.count();
+            kept += image.count();
+            if (image.count() > 0) return image.count();
         }
-    }
-
-  private:
-    std::size_t end() {
-        refuse_second_set(*stream_);
-        if (!warping_->inverse) tell_kept(came_, kept_, *warping_->chain, run_);
+        refuse_second_set(stream);
+        if (!warping.inverse) tell_kept(came, kept, *warping.chain, quiet);
         return 0;
-    }
+    };
+}
 
-    /// Puts the images of what was taken into rows; their number.
-    std::size_t warped(std::size_t count, std::span<double> rows) const {
-        const std::size_t d = stream_->dimension();
-        const WarpChain& chain = *warping_->chain;
-        const std::size_t block = std::max<std::size_t>(1, 8192 / d);
-        std::vector<std::size_t> sizes(block_count(count, block));
-        for_each_block(run_, count, block, [&](const Block& b) {
-            const auto from = std::span(taken_).subspan(b.first * d, (b.last - b.first) * d);
-            std::vector<double> part(from.begin(), from.end());
-            part = warping_->inverse ? chain.inverse(std::move(part))
-                                     : chain.forward(std::move(part), came_ + b.first);
-            std::ranges::copy(part, rows.subspan(b.first * wide_).begin());
-            sizes[b.index] = part.size();
-        });
-        std::size_t end = 0;
-        for (std::size_t i = 0; i < sizes.size(); end += sizes[i++])  // close gaps between blocks
-            if (const std::size_t begin = i * block * wide_; end < begin)
-                std::ranges::copy(rows.subspan(begin, sizes[i]), rows.subspan(end).begin());
-        return end / wide_;
-    }
-
-    io::PointStream* stream_;
-    const Warping* warping_;
-    std::size_t wide_;
-    RunContext run_;
-    std::vector<double> taken_;
-    std::uint64_t came_ = 0;
-    std::uint64_t kept_ = 0;
-};
+/// The run, its notes left to another part of the set.
+RunContext untold(RunContext run) {
+    run.warn = {};
+    return run;
+}
 
 /// Everything about a production that is the same for all its sets.
 class Producer {
@@ -282,7 +247,7 @@ class Producer {
           target_(target),
           run_(run),
           sets_(generator_, job.options, job.request, job.sets, job.warps,
-                job.shard.index == 0 ? run : silent(run)) {
+                job.shard.index == 0 ? run : untold(run)) {
         if (job_.shard.of > 1 && job_.sets > 1)
             fail(ErrorKind::usage, "--shard and --sets: parts are of one set; choose it by --seed");
         check_columns();
@@ -308,11 +273,6 @@ class Producer {
     }
 
   private:
-    static RunContext silent(RunContext run) {
-        run.warn = {};
-        return run;
-    }
-
     /// Columns of densities must be right.
     void check_columns() const {
         const char* shaped = shaping_option(job_.options);
@@ -355,20 +315,17 @@ class Producer {
     void stream() {
         const auto [first, last] = part(sets_.plan().count);
         const std::uint64_t count = last - first;
-        const double volume = sets_.chain().empty() ? sets_.domain()->measure() : 1;
-        const auto source = [&, first = first, last = last](std::size_t set,
-                                                            const RunContext& run) {
-            return Source{
-                .next = sets_.stream(set, run, first, last), .count = count, .volume = volume};
-        };
         write_files(
             {.sets = job_.sets,
-             .source = source,
+             .source = [&, first = first, last = last](
+                           std::size_t set,
+                           const RunContext& run) { return sets_.stream(set, run, first, last); },
              .provenance = [&](std::size_t set) { return signed_by(sets_.provenance(set, count)); },
              .extent = [this](std::size_t) { return sets_.domain()->bounding_box(); },
              .counts = std::vector<std::uint64_t>(job_.sets, count),
              .dimension = sets_.dimension(),
              .chain = &sets_.chain(),
+             .volume = sets_.chain().empty() ? sets_.domain()->measure() : 1,
              .starts = true},
             target_, run_);
     }
@@ -465,7 +422,7 @@ void write_warped(io::PointStream& stream, const DomainPtr& on, const Spec& warp
                  .source =
                      [&](std::size_t /*set*/, const RunContext&) {
                          stream.next_set();
-                         return Source{.next = WarpedRows(stream, warping, wide, run)};
+                         return warped_rows(stream, warping, wide, run);
                      },
                  .provenance = [&](std::size_t) { return stream.provenance(); },
                  .extent = [&](std::size_t) { return domain->bounding_box(); },
@@ -484,20 +441,13 @@ void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, st
     for (const PointSet& set : sets) numbers += set.flat().size();
     need_memory_for(sets.size() * replications, numbers / sets.size(), run);
     std::vector<PointSet> images;
-    const Taken taken(scramble, sets.front().dimension());
-    const auto before = warped_factors(sets.front().domain, taken.coordinates(), run);
-    for (const PointSet& set : sets) {
-        taken.require_in_cube(set);
-        const bool said = others_in_cube(set, taken, before);
+    for (const PointSet& set : sets)
         for (std::uint64_t r = 0; r < replications; ++r) {
             Spec spec = scramble;
             spec.settings.emplace_back(scramble_seed.name, std::to_string(seed + images.size()));
-            const WarpChain chain({&spec, 1}, set.dimension(), {.count = set.count()}, run, before);
-            images.push_back(image_of(set, chain, run));
-            record_warp(images.back(), chain, false, fingerprints(chain.files()));
-            if (!said) images.back().provenance.domain.clear();
+            const Warping scrambling(spec, false, set.domain, {}, run, {.count = set.count()});
+            images.push_back(warped(set, scrambling, run));
         }
-    }
     const WarpChain nothing({}, images.front().dimension());
     write_images(images, nothing, 0, target, run, seed);
 }

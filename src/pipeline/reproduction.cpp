@@ -39,16 +39,15 @@ std::vector<double> numbers_in(std::string_view bytes) {
     return numbers;
 }
 
-Target target_for(const Format& format, const Written& written, decltype(Target::sink) sink) {
-    return {.format = &format,
-            .single = written.single,
-            .precision = written.precision,
-            .columns = written.columns,
-            .sink = std::move(sink)};
+/// Numbers that are written so, but to a sink.
+Target redirected(Target written, const Format& format, decltype(Target::sink) sink) {
+    written.format = &format;
+    written.sink = std::move(sink);
+    return written;
 }
 
 /// All sets, in memory.
-std::vector<PointSet> collect(const Making& making, const Written& written, const RunContext& run) {
+std::vector<PointSet> collect(const Making& making, const Target& written, const RunContext& run) {
     std::vector<std::vector<double>> sets;
     Layout layout;
     const Format format{
@@ -60,7 +59,7 @@ std::vector<PointSet> collect(const Making& making, const Written& written, cons
         .head = [&](const Layout& of, std::string&) { layout = of; },
         .begin_set = [&](const Layout&, std::size_t, std::string&) { sets.emplace_back(); },
         .rows = rows_as_read};
-    making(target_for(format, written, [&](std::string_view bytes) {
+    making(redirected(written, format, [&](std::string_view bytes) {
         const auto numbers = numbers_in(bytes);
         run.need_memory(8 * static_cast<double>(sets.back().size() + numbers.size()),
                         "the points before their last warp");
@@ -176,7 +175,7 @@ Making making_of(Production production, const RunContext& run) {
 Making after_step(Making before, const std::string& step, std::uint64_t replications,
                   const RunContext& run) {
     if (step == cut_to_single || step.starts_with(cut_to_digits)) {
-        Written cut{.single = step == cut_to_single};
+        Target cut{.single = step == cut_to_single};
         if (!cut.single) {
             const auto digits = parse_integer(std::string_view(step).substr(cut_to_digits.size()));
             cut.precision = static_cast<int>(std::clamp<std::int64_t>(digits.value_or(0), 0, 1000));
@@ -199,7 +198,7 @@ Making after_step(Making before, const std::string& step, std::uint64_t replicat
     };
 }
 
-Comparison compare(const Making& making, const Written& written, io::PointStream& file,
+Comparison compare(const Making& making, const Target& written, io::PointStream& file,
                    bool unmarked) {
     Comparer comparer(file, unmarked);
     const Format format{.name = "comparison",
@@ -211,7 +210,7 @@ Comparison compare(const Making& making, const Written& written, io::PointStream
                                          std::string&) { comparer.begin(layout); },
                         .rows = rows_as_read};
     making(
-        target_for(format, written, [&](std::string_view bytes) { return comparer.take(bytes); }));
+        redirected(written, format, [&](std::string_view bytes) { return comparer.take(bytes); }));
     return comparer.finish();
 }
 

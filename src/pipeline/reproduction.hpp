@@ -19,13 +19,6 @@ namespace stipple {
 /// Something that writes sets to a target.
 using Making = std::function<void(const Target&)>;
 
-/// What writing did to the numbers.
-struct Written {
-    std::optional<int> precision = {};  ///< digits after the point that were kept
-    bool single = false;                ///< cut to float32, before the digits
-    Columns columns = {};
-};
-
 /// The sets of a production. Owns it.
 Making making_of(Production production, const RunContext& run);
 
@@ -53,10 +46,11 @@ struct Comparison {
     [[nodiscard]] bool identical() const { return !difference && mismatch.empty(); }
 };
 
-/// Compares with a file at its front; a file of one set may be the first of many. `unmarked`: the
-/// file does not tell where a set ends.
-Comparison compare(const Making& making, const Written& written, io::PointStream& file,
-                   bool unmarked = false);
+/// Compares with a file at its front; a file of one set may be the first of many.
+/// @param written what writing did to the numbers: single, then precision; and the columns behind
+/// @param unmarked the file does not tell where a set ends
+Comparison compare(const Making& making, const Target& written, io::PointStream& file,
+                   bool unmarked);
 
 /// All bytes that would be written.
 std::string bytes_of(const Making& making, Target target);

@@ -28,7 +28,7 @@ double finite(const char* column, double value, std::span<const double> point, b
 
 /// Each row with the columns behind it.
 std::vector<double> with_columns(std::span<const double> rows, const Columns& columns,
-                                 const SetsToWrite& job, double volume) {
+                                 const SetsToWrite& job) {
     const std::size_t d = job.dimension;
     const auto density = job.chain->density(rows);
     std::vector<double> wide;
@@ -36,71 +36,42 @@ std::vector<double> with_columns(std::span<const double> rows, const Columns& co
     for (std::size_t i = 0; i < density.size(); ++i) {
         const auto row = rows.subspan(i * d, d);
         wide.insert(wide.end(), row.begin(), row.end());
-        const double pdf = density[i] / volume;
-        const double weight = volume / density[i];
+        const double pdf = density[i] / job.volume;
+        const double weight = job.volume / density[i];
         if (columns.pdf) wide.push_back(finite("pdf", pdf, row, job.starts));
         if (columns.weight) wide.push_back(finite("weight", weight, row, job.starts));
     }
     return wide;
 }
 
-/// The rows of one set as bytes of the output, a batch of blocks at a time.
-class RowWriter {
-  public:
-    RowWriter(const SetsToWrite& job, const Source& source, const Layout& layout,
-              const Target& target, std::size_t set, io::Output& output, const RunContext& run)
-        : job_(job),
-          source_(source),
-          layout_(layout),
-          target_(target),
-          set_(set),
-          output_(output),
-          run_(run),
-          block_rows_(std::max<std::uint64_t>(1, 16384 / job.dimension)) {}
-
-    /// False: the pipe was closed.
-    bool go() {
-        const std::uint64_t batch = 8 * block_rows_ * run_.thread_count();
-        const auto rows = static_cast<std::size_t>(std::min(batch, source_.count.value_or(batch)));
-        return in_batches(source_.next, rows, job_.dimension, run_,
-                          [this](std::span<const double> more) { return write(more); });
-    }
-
-  private:
-    bool write(std::span<const double> rows) {
-        const std::size_t d = job_.dimension;
-        const std::uint64_t count = rows.size() / d;
-        texts_.resize(block_count(count, block_rows_));
-        for_each_block(silent(run_), count, block_rows_, [&](const Block& b) {
-            const auto part = rows.subspan(b.first * d, (b.last - b.first) * d);
-            texts_[b.index].clear();
-            put(part, written_ + b.first, texts_[b.index]);
+/// The rows of one set as bytes of the output, a batch of blocks at a time; `set` is its number in
+/// the file. False: the pipe was closed.
+bool write_rows(const NextRows& next, const SetsToWrite& job, const Layout& layout,
+                const Target& target, std::size_t set, io::Output& output, const RunContext& run) {
+    const std::size_t d = job.dimension;
+    const std::uint64_t block = std::max<std::uint64_t>(1, 16384 / d);
+    const std::uint64_t count = layout.counts[set];
+    std::uint64_t written = 0;
+    std::vector<std::string> texts;
+    const auto write = [&](std::span<const double> rows) {
+        texts.resize(block_count(rows.size() / d, block));
+        for_each_block(silent(run), rows.size() / d, block, [&](const Block& b) {
+            auto part = rows.subspan(b.first * d, (b.last - b.first) * d);
+            std::vector<double> wide;
+            if (target.columns.any()) part = wide = with_columns(part, target.columns, job);
+            texts[b.index].clear();
+            target.format->rows(layout, set, written + b.first, part, texts[b.index]);
         });
-        for (const std::string& text : texts_)
-            if (!output_.write(text)) return false;
-        written_ += count;
-        if (source_.count) run_.tick(written_, *source_.count);
+        for (const std::string& text : texts)
+            if (!output.write(text)) return false;
+        written += rows.size() / d;
+        if (count > 0) run.tick(written, count);
         return true;
-    }
-
-    void put(std::span<const double> rows, std::uint64_t first, std::string& text) const {
-        std::vector<double> wide;
-        if (target_.columns.any())
-            rows = wide = with_columns(rows, target_.columns, job_, source_.volume);
-        target_.format->rows(layout_, set_, first, rows, text);
-    }
-
-    const SetsToWrite& job_;
-    const Source& source_;
-    const Layout& layout_;
-    const Target& target_;
-    std::size_t set_;
-    io::Output& output_;
-    const RunContext& run_;
-    std::uint64_t block_rows_;
-    std::uint64_t written_ = 0;
-    std::vector<std::string> texts_;
-};
+    };
+    const std::uint64_t batch = 8 * block * run.thread_count();
+    const auto at_once = static_cast<std::size_t>(count > 0 ? std::min(batch, count) : batch);
+    return in_batches(next, at_once, d, run, write);
+}
 
 std::string span_text(std::size_t low, std::size_t high) {
     return low == high ? std::to_string(low) : fmt::format("{} to {}", low, high);
@@ -149,19 +120,19 @@ bool write_points(const SetsToWrite& job, std::size_t first, std::size_t last,
     check_format(format, layout);
     // What is wrong with the first source shall be known before anything is written.
     RunContext part = part_of_run(run, first, job.sets).rising();
-    Source source = job.source(first, part);
+    NextRows next = job.source(first, part);
     io::Output output = target.sink ? io::Output(target.sink) : io::Output(path, run.stop);
     std::string bytes;
     if (format.head) format.head(layout, bytes);
     for (std::size_t set = first; set < last; ++set) {
         if (set > first) {
             part = part_of_run(run, set, job.sets).rising();
-            source = job.source(set, part);
+            next = job.source(set, part);
         }
         if (format.begin_set) format.begin_set(layout, set - first, bytes);
         if (!output.write(bytes)) return false;
         bytes.clear();
-        if (!RowWriter(job, source, layout, target, set - first, output, part).go()) return false;
+        if (!write_rows(next, job, layout, target, set - first, output, part)) return false;
     }
     if (format.tail) format.tail(layout, bytes);
     if (!output.write(bytes)) return false;

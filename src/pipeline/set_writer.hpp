@@ -40,27 +40,21 @@ struct Target {
     std::function<bool(std::string_view bytes)> sink = {};
 };
 
-/// Rows of one set, on their way to the file.
-struct Source {
-    NextRows next;                            ///< gives the rows, warped
-    std::optional<std::uint64_t> count = {};  ///< of all rows, where it is known before
-    double volume = 1;  ///< measure of what the points were scaled to, where nothing warped them
-};
-
 /// Sets with everything that is needed to write them one after the other.
 struct SetsToWrite {
     std::size_t sets = 1;
     std::size_t first_set = 0;  ///< number of the first one among all
-    std::function<Source(std::size_t set, const RunContext&)> source;
+    std::function<NextRows(std::size_t set, const RunContext&)> source;  ///< gives the rows, warped
     std::function<Provenance(std::size_t set)> provenance;
     std::optional<std::uint64_t> first_seed = {};  ///< of {seed} in names; else the provenance says
     std::function<Box(std::size_t set)> extent;    ///< what a picture of the set shows
     /// Files that come with the set, under their final names; empty: none.
     std::function<const std::vector<SideFile>&(std::size_t set)> side_files = {};
-    std::vector<std::uint64_t> counts;
-    std::size_t dimension = 0;         ///< numbers of a row, less the columns
-    const WarpChain* chain = nullptr;  ///< what gave the rows, for columns of their density
-    bool starts = false;               ///< a set's first point can be left out by --start
+    std::vector<std::uint64_t> counts;  ///< of points; 0: known only in the end
+    std::size_t dimension = 0;          ///< numbers of a row, less the columns
+    const WarpChain* chain = nullptr;   ///< what gave the rows, for columns of their density
+    double volume = 1;    ///< measure of what the points were scaled to, where nothing warped them
+    bool starts = false;  ///< a set's first point can be left out by --start
 };
 
 /// Whether the path holds {set} or {seed}.

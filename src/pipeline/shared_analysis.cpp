@@ -46,74 +46,48 @@ Stretch stretch_of(std::uint64_t count, std::uint64_t grain, const Peers& peers)
     return {begin(rank), begin(rank + 1)};
 }
 
-/// One rank's part of an analysis.
-class Share {
-  public:
-    Share(const Analyzer& analyzer, const SharedSet& set, const Values& options, Ranks& ranks,
-          const RunContext& run)
-        : analyzer_(analyzer), set_(set), options_(options), ranks_(ranks), run_(run) {
-        run_.threads = threads_of(ranks, run);
-        run_.max_memory = run.max_memory / static_cast<std::uint64_t>(ranks.on_machine());
+/// What has looked at this rank's part of the set; nothing where it has none.
+std::shared_ptr<SharedAccumulator> counted_in(const Analyzer& analyzer, const SharedSet& set,
+                                              const Values& options, const Ranks& ranks,
+                                              const RunContext& run) {
+    const std::uint64_t grain = analyzer.sharing.grain(set.points, options);
+    const Stretch mine = stretch_of(*set.points.count, grain, ranks);
+    if (mine.first == mine.last && ranks.rank() > 0) return nullptr;
+    const std::shared_ptr<Accumulator> made = accumulator_for(analyzer, set.points, options, run);
+    auto measure = std::dynamic_pointer_cast<SharedAccumulator>(made);
+    if (!measure) throw std::logic_error(analyzer.name + " takes no parts of a set");
+    const std::size_t width = set.points.width();
+    if (mine.first > 0) {
+        std::vector<double> head(arrival_batch(set.points.dimension()) * width);
+        head.resize(set.from(0)(head) * width);
+        measure->begin_at(mine.first, head);
     }
+    const auto next = [from = set.from(mine.first), left = mine.last - mine.first,
+                       width](std::span<double> rows) mutable {
+        const auto some =
+            static_cast<std::size_t>(std::min<std::uint64_t>(left, rows.size() / width));
+        if (some > 0 && from(rows.first(some * width)) < some)
+            fail(ErrorKind::input, "the input became shorter while it was read");
+        left -= some;
+        return some;
+    };
+    Arrival part = set.points;
+    part.count = mine.last - mine.first;
+    add_all(*measure, part, next, run);
+    return measure;
+}
 
-    std::optional<Found> go() {
-        agreed(ranks_, [this] { count_in(); });
-        run_.progress = {};
-        merge();
-        if (ranks_.rank() != 0) return std::nullopt;
-        return Found{measure_->report(run_), set_.count};
+/// Ranks whose number has `step` as its lowest bit give what they know to those `step` before.
+void merge(SharedAccumulator* measure, Ranks& ranks, const RunContext& run) {
+    const int rank = ranks.rank();
+    for (int step = 1; step < ranks.size(); step *= 2) {
+        if (rank % (2 * step) != 0)
+            return ranks.give(rank - step, measure ? measure->state(run) : std::string());
+        if (rank + step >= ranks.size()) continue;
+        const std::string more = ranks.take(rank + step);
+        if (!more.empty()) measure->merge(more, run);
     }
-
-  private:
-    void count_in() {
-        Arrival arrival{.domain = set_.domain, .count = set_.count, .weighted = set_.weighted};
-        const std::uint64_t grain = analyzer_.sharing.grain(arrival, options_);
-        const Stretch mine = stretch_of(set_.count, grain, ranks_);
-        if (mine.first == mine.last && ranks_.rank() > 0) return;
-        const std::shared_ptr<Accumulator> made =
-            accumulator_for(analyzer_, arrival, set_.dimension, options_, run_);
-        measure_ = std::dynamic_pointer_cast<SharedAccumulator>(made);
-        if (!measure_) throw std::logic_error(analyzer_.name + " takes no parts of a set");
-        if (mine.first > 0) {
-            std::vector<double> head(batch() * width());
-            head.resize(set_.from(0)(head) * width());
-            measure_->begin_at(mine.first, head);
-        }
-        const auto next = [from = set_.from(mine.first), left = mine.last - mine.first,
-                           width = width()](std::span<double> rows) mutable {
-            const auto some =
-                static_cast<std::size_t>(std::min<std::uint64_t>(left, rows.size() / width));
-            if (some > 0 && from(rows.first(some * width)) < some)
-                fail(ErrorKind::input, "the input became shorter while it was read");
-            left -= some;
-            return some;
-        };
-        add_all(*measure_, next, width(), set_.dimension, mine.last - mine.first, run_);
-    }
-
-    [[nodiscard]] std::size_t batch() const { return arrival_batch(set_.dimension); }
-    [[nodiscard]] std::size_t width() const { return set_.dimension + (set_.weighted ? 1 : 0); }
-
-    /// Ranks whose number has `step` as its lowest bit give what they know to those `step` before.
-    void merge() {
-        const int rank = ranks_.rank();
-        for (int step = 1; step < ranks_.size(); step *= 2) {
-            if (rank % (2 * step) != 0)
-                return ranks_.give(rank - step, measure_ ? measure_->state(run_) : std::string());
-            if (rank + step >= ranks_.size()) continue;
-            const std::string more = ranks_.take(rank + step);
-            if (more.empty()) continue;
-            measure_->merge(more, run_);
-        }
-    }
-
-    const Analyzer& analyzer_;
-    const SharedSet& set_;
-    const Values& options_;
-    Ranks& ranks_;
-    RunContext run_;
-    std::shared_ptr<SharedAccumulator> measure_;
-};
+}
 
 }  // namespace
 
@@ -186,9 +160,7 @@ NextRows SharedFiles::from(std::uint64_t first) const {
 
 SharedSet shared_in_memory(PointSet points) {
     const auto all = std::make_shared<const PointSet>(std::move(points));
-    return {.domain = all->domain,
-            .count = all->count(),
-            .dimension = all->dimension(),
+    return {.points = {.domain = all->domain, .count = all->count()},
             .from = [all](std::uint64_t first) -> NextRows {
                 return [all, next = rows_of(*all, first)](std::span<double> rows) {
                     return next(rows);
@@ -198,9 +170,17 @@ SharedSet shared_in_memory(PointSet points) {
 
 std::optional<Found> analyze_shared(const Analyzer& analyzer, const SharedSet& set,
                                     const Values& options, Ranks& ranks, const RunContext& run) {
-    if (set.count == 0)
+    if (set.points.count == 0U)
         fail(ErrorKind::input, "{} needs at least one point; the set is empty", analyzer.name);
-    return Share(analyzer, set, options, ranks, run).go();
+    RunContext mine = run;
+    mine.threads = threads_of(ranks, run);
+    mine.max_memory = run.max_memory / static_cast<std::uint64_t>(ranks.on_machine());
+    std::shared_ptr<SharedAccumulator> measure;
+    agreed(ranks, [&] { measure = counted_in(analyzer, set, options, ranks, mine); });
+    mine.progress = {};
+    merge(measure.get(), ranks, mine);
+    if (ranks.rank() != 0) return std::nullopt;
+    return Found{measure->report(mine), *set.points.count};
 }
 
 }  // namespace stipple

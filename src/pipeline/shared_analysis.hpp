@@ -25,10 +25,7 @@ namespace stipple {
 
 /// A set of which each rank can take any stretch.
 struct SharedSet {
-    DomainPtr domain;
-    std::uint64_t count = 0;
-    std::size_t dimension = 1;
-    bool weighted = false;  ///< rows hold a strength behind the coordinates
+    Arrival points;                                     ///< with their count
     std::function<NextRows(std::uint64_t first)> from;  ///< gives its points from this one on
 };
 

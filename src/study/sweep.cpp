@@ -25,11 +25,7 @@ Chosen<Unit> chosen(const Unit& unit, const Spec& spec, std::string_view who) {
         throw Error(e.kind(), fmt::format("{}: {}: {}", who, unit.name, e.what()), e.hint());
     }
     c.spec = format_spec(unit.name, c.values, unit.options);
-    for (const Option& option : unit.options.options()) {
-        const auto& item = c.values.find(option.name);
-        if (!option.optional || item.given)
-            c.options.emplace_back(option.name, format_value(item.value));
-    }
+    c.options = typed_settings(c.values, unit.options);
     return c;
 }
 

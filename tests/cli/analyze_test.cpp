@@ -97,6 +97,22 @@ TEST(Analyze, ChiSquareKnowsTheDisk) {
     EXPECT_EQ(verdict("stipple generate jittered -n 1e5 -w disk"), "stratified");
 }
 
+TEST(Analyze, NamesTheWayBackOfWarpedPoints) {
+    const Sandbox box;
+    ASSERT_EQ(box.shell("stipple generate halton -n 100 -w disk -o disk.json").code, 0);
+    const auto refused = box.run({"analyze", "star-discrepancy", "disk.json"});
+    EXPECT_EQ(refused.code, 3);
+    EXPECT_THAT(refused.err, HasSubstr("'stipple warp disk --inverse' takes them back"));
+    report_of(
+        box.shell("stipple warp disk --inverse disk.json -f json | "
+                  "stipple analyze star-discrepancy"));
+    const auto inside = box.shell(
+        "stipple generate halton -n 100 -w 'triangle:vertices=[0,0 .5,0 0,.5]' -f json | "
+        "stipple analyze star-discrepancy");
+    EXPECT_THAT(inside.err, HasSubstr("'stipple warp \"triangle:vertices=[0,0 0.5,0 0,0.5]\" "
+                                      "--inverse' takes them back to the cube; --domain"));
+}
+
 TEST(Analyze, ChecksAndExpectationsSetTheExitCode) {
     const Sandbox box;
     box.write("h.csv", box.run({"generate", "halton", "-n", "1000"}).out);

@@ -49,7 +49,7 @@ TEST_P(EveryAnalyzer, GivesTheSameForPointsThatComeInBlocks) {
         };
         Arrival arrival{.domain = set.domain};
         if (told) arrival.count = set.count();
-        const Found found = analyze(unit, arrival, dimension, next, options, {});
+        const Found found = analyze(unit, arrival, next, options, {});
         EXPECT_EQ(found.report, analyze(unit, set, options, {})) << told;
     }
 }

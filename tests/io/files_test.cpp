@@ -43,7 +43,7 @@ class Files : public ::testing::Test {
             std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
     }
     std::string input_error(const std::string& name) const {
-        return error_of([&] { io::Input(path(name), {}); });
+        return error_of([&] { io::read_bytes(path(name), {}); });
     }
     std::string output_error(const std::string& name) const {
         return error_of([&] { io::Output{path(name)}; });
@@ -56,10 +56,10 @@ class Files : public ::testing::Test {
 
 TEST_F(Files, InputGivesTheBytes) {
     put("a", "bytes\n");
-    EXPECT_EQ(io::Input(path("a"), {}).bytes(), "bytes\n");
+    EXPECT_EQ(io::read_bytes(path("a"), {}), "bytes\n");
     put("empty", "");
-    EXPECT_EQ(io::Input(path("empty"), {}).bytes(), "");
-    EXPECT_FALSE(io::Input("/proc/self/status", {}).bytes().empty());  // says its size is 0
+    EXPECT_EQ(io::read_bytes(path("empty"), {}), "");
+    EXPECT_FALSE(io::read_bytes("/proc/self/status", {}).empty());  // says its size is 0
 }
 
 TEST_F(Files, InputSaysWhyNot) {
@@ -77,7 +77,7 @@ TEST_F(Files, InputReadsPipesToTheirEnd) {
     ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
     const std::string bytes(3'000'000, 'x');
     std::jthread writer([&] { std::ofstream(path("pipe")) << bytes; });
-    EXPECT_EQ(io::Input(path("pipe"), {}).bytes(), bytes);
+    EXPECT_EQ(io::read_bytes(path("pipe"), {}), bytes);
 }
 
 // A pipe that nobody writes to: without a look at the stop token this would wait for ever.
@@ -88,12 +88,13 @@ TEST_F(Files, InputStopsWaitingWhenAsked) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         stop.request_stop();
     });
-    EXPECT_EQ(error_of([&] { io::Input(path("pipe"), {.stop = stop.get_token()}); }),
+    EXPECT_EQ(error_of([&] { io::read_bytes(path("pipe"), {.stop = stop.get_token()}); }),
               "cancelled: interrupted");
 }
 
 TEST_F(Files, InputHonoursTheMemoryLimit) {
-    const std::string error = error_of([] { io::Input("/dev/zero", {.max_memory = 1 << 20}); });
+    const std::string error =
+        error_of([] { io::read_bytes("/dev/zero", {.max_memory = 1 << 20}); });
     EXPECT_TRUE(error.starts_with("limit: the bytes of /dev/zero needs")) << error;
 }
 

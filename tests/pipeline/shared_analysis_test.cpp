@@ -104,7 +104,7 @@ TEST(SharedAnalysis, AddsGridsOfStrongAndWeakPointsToTheLastBit) {
         };
     };
     const auto alone = [&](const Settings& settings) {
-        return analyze(unit, {.domain = bare.domain, .count = n, .weighted = true}, 2, from(0),
+        return analyze(unit, {.domain = bare.domain, .count = n, .weighted = true}, from(0),
                        values_of(unit, settings), {.threads = 2})
             .report;
     };
@@ -112,8 +112,8 @@ TEST(SharedAnalysis, AddsGridsOfStrongAndWeakPointsToTheLastBit) {
     const Report one = alone(few);
     std::string shared;
     with_ranks(2, [&](Ranks& mine) {
-        const SharedSet set{
-            .domain = bare.domain, .count = n, .dimension = 2, .weighted = true, .from = from};
+        const SharedSet set{.points = {.domain = bare.domain, .count = n, .weighted = true},
+                            .from = from};
         const auto found = analyze_shared(unit, set, values_of(unit, few), mine, {.threads = 1});
         if (found) shared = text_of(found->report);
     });

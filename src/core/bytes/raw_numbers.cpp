@@ -24,29 +24,25 @@ void convert(std::string_view bytes, bool swapped, std::span<double> numbers) {
     }
 }
 
-template <class One, class Two, class Four, class Eight>
-void convert_whole(std::string_view bytes, const RawType& type, std::span<double> numbers) {
-    if (type.size == 1) return convert<One>(bytes, type.big_endian, numbers);
-    if (type.size == 2) return convert<Two>(bytes, type.big_endian, numbers);
-    if (type.size == 4) return convert<Four>(bytes, type.big_endian, numbers);
-    convert<Eight>(bytes, type.big_endian, numbers);
+/// Of the type that has the size.
+template <class... Stored>
+void convert_sized(std::string_view bytes, const RawType& type, std::span<double> numbers) {
+    const auto convert_if = [&]<class One>(One) {
+        if (sizeof(One) == type.size) convert<One>(bytes, type.big_endian, numbers);
+    };
+    (convert_if(Stored{}), ...);
 }
 
 }  // namespace
 
 void take_raw(std::string_view bytes, const RawType& type, std::span<double> numbers) {
-    switch (type.kind) {
-        case RawType::integer:
-            return convert_whole<std::int8_t, std::int16_t, std::int32_t, std::int64_t>(bytes, type,
-                                                                                        numbers);
-        case RawType::natural:
-            return convert_whole<std::uint8_t, std::uint16_t, std::uint32_t, std::uint64_t>(
-                bytes, type, numbers);
-        case RawType::floating:
-            break;
-    }
-    if (type.size == 4) return convert<float>(bytes, type.big_endian, numbers);
-    convert<double>(bytes, type.big_endian, numbers);
+    using std::int16_t, std::int32_t, std::int64_t, std::int8_t;
+    using std::uint16_t, std::uint32_t, std::uint64_t, std::uint8_t;
+    if (type.kind == RawType::floating) convert_sized<float, double>(bytes, type, numbers);
+    if (type.kind == RawType::integer)
+        convert_sized<int8_t, int16_t, int32_t, int64_t>(bytes, type, numbers);
+    if (type.kind == RawType::natural)
+        convert_sized<uint8_t, uint16_t, uint32_t, uint64_t>(bytes, type, numbers);
 }
 
 }  // namespace stipple

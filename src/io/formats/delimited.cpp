@@ -104,9 +104,8 @@ std::string trouble_with(const Field& field, double& value) {
 /// Rows of one text.
 class RowReader {
   public:
-    RowReader(const SourceText& text, const char* model, const Columns& columns,
-              const Dialect& dialect)
-        : text_(text), model_(model), columns_(columns), dialect_(dialect) {}
+    RowReader(const SourceText& text, const Columns& columns, const Dialect& dialect)
+        : text_(text), columns_(columns), dialect_(dialect) {}
 
     /// The fewest bytes that a row takes, with its line's end.
     [[nodiscard]] std::uint64_t least_bytes() const {
@@ -231,10 +230,9 @@ class RowReader {
             more ? fields[width].at : line.data() + line.size(),
             fmt::format("the row has {} field{}; expected {}", fields.size(),
                         fields.size() == 1 ? "" : "s", width) +
-                (model_line() > 0 ? fmt::format(", as line {} has", model_line()) : std::string()));
+                (dialect_.model_line > 0 ? fmt::format(", as line {} has", dialect_.model_line)
+                                         : std::string()));
     }
-
-    std::size_t model_line() const { return model_ ? text_.line_of(model_) : dialect_.model_line; }
 
     std::string_view inside_brackets(std::string_view line) const {
         const std::string_view row = trim(line);
@@ -250,7 +248,6 @@ class RowReader {
     }
 
     const SourceText& text_;
-    const char* model_;
     const Columns& columns_;
     Dialect dialect_;
 };
@@ -340,9 +337,9 @@ std::string_view line_at(const SourceText& text, const char* begin) {
     return {begin, static_cast<std::size_t>(end - begin)};
 }
 
-Rows read_rows(const SourceText& text, const char* body, const char* model, const Columns& columns,
+Rows read_rows(const SourceText& text, const char* body, const Columns& columns,
                const Dialect& dialect, const RunContext& run) {
-    const RowReader reader(text, model, columns, dialect);
+    const RowReader reader(text, columns, dialect);
     std::vector<Piece> pieces = cut_at_lines(text, body, reader, run);
     const std::uint64_t room = pieces.empty() ? 0 : pieces.back().begin + pieces.back().room;
     run.need_memory(static_cast<double>(room) * static_cast<double>(columns.dimension) * 8,
@@ -432,17 +429,12 @@ std::vector<PointSet> gather_sets(Rows rows, std::size_t dimension, const Proven
     return result;
 }
 
-}  // namespace
-
-namespace {
-
 /// What the top of a table tells.
 struct TableHead {
     Top top;
     Dialect dialect;
     Columns columns;
     bool names = false;          ///< the first line is a header
-    std::size_t line = 0;        ///< the first line that is no comment
     const char* body = nullptr;  ///< where rows begin
 };
 
@@ -455,9 +447,9 @@ TableHead read_head(const SourceText& text, const ReadOptions& options) {
     if (is_header(fields))
         for (const Field& field : fields) names.emplace_back(field.text);
     head.names = !names.empty();
-    head.line = text.line_of(head.top.first);
+    head.dialect.model_line = text.line_of(head.top.first);
     head.columns = choose_columns(names, fields.size(), options,
-                                  fmt::format("{}:{}", text.source(), head.line));
+                                  fmt::format("{}:{}", text.source(), head.dialect.model_line));
     head.body = head.names ? head.top.next : head.top.first;
     return head;
 }
@@ -475,7 +467,6 @@ class DelimitedStream final : public PointStream {
           provenance_(head.top.provenance),
           names_(head.names),
           newline_(front.newline()) {
-        dialect_.model_line = head.line;
         const auto skipped = static_cast<std::size_t>(head.body - feed_->front().data());
         lines_ = front.line_of(head.body) - 1;
         text_.resize(skipped);
@@ -560,7 +551,7 @@ class DelimitedStream final : public PointStream {
     void parse() {
         part_begin_ = at_;
         const SourceText text(std::string_view(text_).substr(0, used_), source_, newline_, lines_);
-        rows_ = read_rows(text, text.begin(), nullptr, columns_, dialect_, run_);
+        rows_ = read_rows(text, text.begin(), columns_, dialect_, run_);
         if (numbered()) cut_at_numbers(text);
         for (const Mark& mark : rows_.marks) {
             if (numbered()) break;
@@ -627,12 +618,12 @@ std::vector<PointSet> read_delimited(std::string_view bytes, const ReadOptions& 
     const SourceText text(bytes, options.source);
     const TableHead head = read_head(text, options);
     const Columns& columns = head.columns;
-    Rows rows = read_rows(text, head.body, head.top.first, columns, head.dialect, run);
+    Rows rows = read_rows(text, head.body, columns, head.dialect, run);
     if (rows.numbers.empty())
         text.refuse_whole(
             fmt::format("the file holds only a header (line {}); expected points "
                         "below it, one a line",
-                        head.line));
+                        head.dialect.model_line));
     if (columns.has(Columns::set_number))
         return gather_sets(std::move(rows), columns.dimension, head.top.provenance);
     const auto starts = set_starts(text, rows, columns.dimension);

@@ -21,7 +21,7 @@ namespace stipple::io {
 struct Dialect {
     char separator = ' ';        ///< a blank stands for any run of blanks and tabs
     bool brackets = false;       ///< a row is [x,y]; lines that begin with { stand between rows
-    std::size_t model_line = 0;  ///< that decided what the columns are, in an earlier part; or 0
+    std::size_t model_line = 0;  ///< that decided what the columns are; 0: none did
 };
 
 /// A line between rows at which a new set may begin.
@@ -36,11 +36,11 @@ struct Rows {
     std::vector<Mark> marks;
 };
 
-/// Reads rows from `body`, the start of a line, to the end of the text. `model` is the line that
-/// decided what the columns are, null where none did. Blank lines and comments are passed over.
+/// Reads rows from `body`, the start of a line, to the end of the text. Blank lines and comments are
+/// passed over.
 /// @throws Error(input), the first in the text whatever the threads; Error(limit),
 /// Error(cancelled).
-Rows read_rows(const SourceText& text, const char* body, const char* model, const Columns& columns,
+Rows read_rows(const SourceText& text, const char* body, const Columns& columns,
                const Dialect& dialect, const RunContext& run);
 
 /// Where sets begin: at the marks behind the first row.

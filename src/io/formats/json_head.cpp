@@ -85,6 +85,7 @@ Columns json_columns(const SourceText& text, const JsonHead& head, std::size_t w
     ReadOptions inner = options;
     if (head.dimension && options.columns.empty()) {
         inner.dimension.reset();
+        inner.all_columns = false;
         const Columns columns = choose_columns(head.columns, width, inner, text.source());
         if (columns.dimension != *head.dimension)
             text.refuse(

@@ -63,8 +63,8 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
     const std::string_view row = line_at(text, model);
     const auto width = static_cast<std::size_t>(std::ranges::count(row, ',')) + 1;
     const Columns columns = json_columns(text, head, width, options);
-    Rows rows =
-        read_rows(text, top.first, model, columns, {.separator = ',', .brackets = true}, run);
+    const Dialect dialect{.separator = ',', .brackets = true, .model_line = text.line_of(model)};
+    Rows rows = read_rows(text, top.first, columns, dialect, run);
 
     const std::vector<std::uint64_t> starts = set_starts(text, rows, columns.dimension);
     std::vector<PointSet> sets =

@@ -34,7 +34,7 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
     if (!count)
         text.refuse(line.data(), shown(line) + " is not a number of points; psa begins with one");
     const Columns columns = choose_columns({}, 2, options, text.source());
-    Rows rows = read_rows(text, top.next, nullptr, columns, {.separator = ' '}, run);
+    Rows rows = read_rows(text, top.next, columns, {.separator = ' '}, run);
     const std::size_t found = rows.numbers.size() / columns.dimension;
     if (!rows.marks.empty()) text.refuse(rows.marks[0].at, "'#' begins another set; psa holds one");
     if (found != *count || found == 0)

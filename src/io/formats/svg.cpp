@@ -33,17 +33,17 @@ constexpr double longer_side = 1000;
 
 /// The panel of two coordinates: where it stands, and how points are scaled into it.
 struct Panel {
-    std::size_t i = 0;
-    std::size_t j = 1;
-    double left = margin;
-    double top = margin;
-    double width = longer_side;
-    double height = longer_side;
-    double room = longer_side;  ///< for words below it
-    double low_x = 0;
-    double high_y = 1;
-    double scale_x = 1;
-    double scale_y = 1;
+    std::size_t i;
+    std::size_t j;
+    double left;
+    double top;
+    double width;
+    double height;
+    double room;  ///< for words below it
+    double low_x;
+    double high_y;
+    double scale_x;
+    double scale_y;
 };
 
 /// All panels, and the size of a disk.
@@ -71,18 +71,7 @@ Box box_of(const Layout& layout) {
     return {std::vector<double>(d, 0.0), std::vector<double>(d, 1.0)};
 }
 
-/// One panel that shows lengths along x and y alike.
-Panel only_panel(const Box& box) {
-    const double side = std::max(box.extent(0), box.extent(1));
-    const double scale = longer_side / (side > 0 ? side : 1);
-    return {.width = box.extent(0) * scale,
-            .height = box.extent(1) * scale,
-            .low_x = box.low[0],
-            .high_y = box.high[1],
-            .scale_x = scale,
-            .scale_y = scale};
-}
-
+/// @param alike lengths along all coordinates are
 Panel panel_of(const Box& box, std::size_t i, std::size_t j, bool alike) {
     const auto columns = static_cast<double>(box.dimension() - 1);
     const double side = (longer_side - (columns - 1) * margin) / columns;
@@ -108,15 +97,11 @@ Panel panel_of(const Box& box, std::size_t i, std::size_t j, bool alike) {
 Sheet sheet_of(const Layout& layout) {
     const Box box = box_of(layout);
     Sheet sheet;
-    if (box.dimension() == 2) {
-        sheet.panels.push_back(only_panel(box));
-    } else {
-        const std::string& domain = layout.provenance.domain;
-        const bool one = !domain.empty() && domain.find(" x ") == std::string::npos;
-        const bool alike = one && domain != "unit-cube";
-        for (std::size_t j = 1; j < box.dimension(); ++j)
-            for (std::size_t i = 0; i < j; ++i) sheet.panels.push_back(panel_of(box, i, j, alike));
-    }
+    const std::string& domain = layout.provenance.domain;
+    const bool one = !domain.empty() && domain.find(" x ") == std::string::npos;
+    const bool alike = box.dimension() == 2 || (one && domain != "unit-cube");
+    for (std::size_t j = 1; j < box.dimension(); ++j)
+        for (std::size_t i = 0; i < j; ++i) sheet.panels.push_back(panel_of(box, i, j, alike));
     for (const Panel& panel : sheet.panels) {
         sheet.width = std::max(sheet.width, panel.left + panel.width + margin);
         sheet.height = std::max(sheet.height, panel.top + panel.height + margin);

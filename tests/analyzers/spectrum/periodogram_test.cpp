@@ -558,7 +558,7 @@ Report weighted(const std::vector<std::vector<double>>& rows, Settings settings)
         return rows.size();
     };
     const std::size_t d = rows.front().size() - 1;
-    return analyze(unit, {unit_cube(d), {}, true}, d, next, values, {}).report;
+    return analyze(unit, {unit_cube(d), {}, true}, next, values, {}).report;
 }
 
 // Strengths 2 and -1 at 0 and 1/2: |2 - (-1)^f|^2 / 5 = 1/5 at even f, 9/5 at odd f.
@@ -680,7 +680,7 @@ TEST(Periodogram, LargeSetsComeInPieces) {
         at += some;
         return some;
     };
-    EXPECT_EQ(analyze(unit, {unit_cube(1)}, 1, next, values, {}).report, whole);
+    EXPECT_EQ(analyze(unit, {unit_cube(1)}, next, values, {}).report, whole);
     const FourierSums truth = fourier_sums_directly(set.flat(), 1, 8, {.threads = 2});
     for (std::int64_t f = 1; f <= 8; ++f) {
         const double sum = std::abs(truth.at({f, 0, 0})) / std::sqrt(1.1e6);

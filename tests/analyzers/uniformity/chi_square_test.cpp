@@ -741,8 +741,7 @@ Report streamed(const PointSet& points, const Settings& settings = {}, unsigned 
         at += size;
         return size / points.dimension();
     };
-    const Found found =
-        analyze(unit, {points.domain}, points.dimension(), next, options, {.threads = threads});
+    const Found found = analyze(unit, {points.domain}, next, options, {.threads = threads});
     EXPECT_EQ(found.count, points.count());
     return found.report;
 }
