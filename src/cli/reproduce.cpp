@@ -245,7 +245,7 @@ class Reproducer {
         const std::size_t sets = raw ? original_.sets : stream->sets().value_or(0);
         if (sets == 1) recipe_.job.sets = 1;
         const Comparison found =
-            compare(making(std::max<std::size_t>(sets, 1)), written_, *stream, raw);
+            compare(making(std::max<std::size_t>(sets, 1)), written_, *stream, raw, run_);
         tell_differences(found.made);
         Verdict verdict = verdict_on(found, stream->dimension());
         const std::string wrong = verdict.identical ? contradiction(found.made) : "";

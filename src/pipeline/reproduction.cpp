@@ -4,166 +4,121 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <memory>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/decimal.hpp"
-#include "io/formats/binary.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/pipeline.hpp"
 
 namespace stipple {
 namespace {
 
-/// Rows as the numbers that come back when they were written and read.
-void rows_as_read(const Layout& layout, std::size_t, std::uint64_t, std::span<const double> numbers,
-                  std::string& out) {
-    if (!layout.single && !layout.precision) return io::append_raw(out, numbers, false);
-    std::vector<double> read(numbers.begin(), numbers.end());
+std::string name_of_set(std::size_t set) { return set > 0 ? fmt::format("set {}", set) : "it"; }
+
+/// Calls take(rows) with the rows of a set, as long as it gives true: as the numbers that come back
+/// when they were written and read. False: it gave false.
+bool each_batch(const SetsToWrite& job, std::size_t set, const Target& written,
+                const RunContext& run, const std::function<bool(std::span<const double>)>& take) {
+    const RunContext part = part_of_run(run, set, job.sets).rising();
+    const std::size_t batch = std::max<std::size_t>(1, (std::size_t{1} << 18) / job.dimension);
+    std::uint64_t done = 0;
     std::string text;
-    for (double& number : read) {
-        if (layout.single) number = io::to_single(number);
-        if (!layout.precision) continue;
-        text.clear();
-        io::append_number(text, number, layout.precision);
-        io::read_number(text.data(), text.data() + text.size(), number);
-    }
-    io::append_raw(out, read, false);
-}
-
-std::vector<double> numbers_in(std::string_view bytes) {
-    std::vector<double> numbers(bytes.size() / sizeof(double));
-    std::memcpy(numbers.data(), bytes.data(), bytes.size());
-    return numbers;
-}
-
-/// Numbers that are written so, but to a sink.
-Target redirected(Target written, const Format& format, decltype(Target::sink) sink) {
-    written.format = &format;
-    written.sink = std::move(sink);
-    return written;
+    return in_batches(job.source(set, part), batch, job.dimension, part, [&](auto rows) {
+        auto numbers = written.columns.any() ? with_columns(rows, written.columns, job)
+                                             : std::vector<double>(rows.begin(), rows.end());
+        for (double& number : numbers) {
+            if (written.single) number = io::to_single(number);
+            if (!written.precision) continue;
+            text.clear();
+            io::append_number(text, number, written.precision);
+            io::read_number(text.data(), text.data() + text.size(), number);
+        }
+        part.tick(done += rows.size() / job.dimension, job.counts[set]);
+        return take(numbers);
+    });
 }
 
 /// All sets, in memory.
-std::vector<PointSet> collect(const Making& making, const Target& written, const RunContext& run) {
-    std::vector<std::vector<double>> sets;
-    Layout layout;
-    const Format format{
-        .name = "memory",
-        .summary = {},
-        .source = {},
-        .extensions = {},
-        .traits = {},
-        .head = [&](const Layout& of, std::string&) { layout = of; },
-        .begin_set = [&](const Layout&, std::size_t, std::string&) { sets.emplace_back(); },
-        .rows = rows_as_read};
-    making(redirected(written, format, [&](std::string_view bytes) {
-        const auto numbers = numbers_in(bytes);
-        run.need_memory(8 * static_cast<double>(sets.back().size() + numbers.size()),
-                        "the points before their last warp");
-        sets.back().insert(sets.back().end(), numbers.begin(), numbers.end());
-        return true;
-    }));
-    std::vector<PointSet> out;
-    DomainPtr domain = unit_cube(layout.width());
-    if (const std::string& text = layout.provenance.domain; !text.empty() && text != "unit-cube")
-        domain = parse_domain(text, layout.width(), run);
-    for (auto& rows : sets) {
-        out.emplace_back(std::move(rows), layout.width());
-        out.back().domain = domain;
-        out.back().provenance = layout.provenance;
-    }
-    return out;
+std::vector<PointSet> collect(const Making& making, Target written, const RunContext& run) {
+    std::vector<PointSet> sets;
+    written.take = [&](const SetsToWrite& job) {
+        const Provenance meta = job.provenance(0);
+        DomainPtr domain = unit_cube(job.dimension);
+        if (!meta.domain.empty() && meta.domain != "unit-cube")
+            domain = parse_domain(meta.domain, job.dimension, run);
+        for (std::size_t set = 0; set < job.sets; ++set) {
+            std::vector<double> numbers;
+            each_batch(job, set, written, run, [&](std::span<const double> rows) {
+                run.need_memory(8 * static_cast<double>(numbers.size() + rows.size()),
+                                "the points before their last warp");
+                numbers.insert(numbers.end(), rows.begin(), rows.end());
+                return true;
+            });
+            sets.emplace_back(std::move(numbers), job.dimension);
+            sets.back().domain = domain;
+            sets.back().provenance = meta;
+        }
+    };
+    making(written);
+    return sets;
 }
 
-/// Made-again points on one side, the file's on the other.
-class Comparer {
-  public:
-    Comparer(io::PointStream& file, bool unmarked) : file_(file), unmarked_(unmarked) {}
-
-    /// Goes to the next set on both sides.
-    void begin(const Layout& layout) {
-        if (result_.sets == 0) result_.made = layout.provenance;
-        const std::size_t width = layout.width();
-        if (result_.sets == 0 && file_.dimension() != width)
-            return end(fmt::format("its points have {} numbers; made again they have {}",
-                                   file_.dimension(), width));
-        if (result_.sets > 0 && unmarked_) {
-            count_ = layout.counts.at(result_.sets++);
-            at_ = 0;
-            return;
-        }
-        if (result_.sets > 0) expect_end_of_set();
-        if (done_) return;
-        const bool there = file_.next_set();
-        // A file of one set may be one of many that were written together.
-        if (!there && result_.sets == 1) done_ = true;
-        if (!there && result_.sets > 1)
-            end(fmt::format("it has {} sets; made again there are {}", result_.sets,
-                            layout.counts.size()));
-        if (!there) return;
-        count_ = layout.counts.at(result_.sets++);
-        at_ = 0;
-    }
-
-    /// The next rows of the set that began. False: all is known.
-    bool take(std::string_view bytes) {
-        if (done_) return false;
-        const auto made = numbers_in(bytes);
-        const std::size_t width = file_.dimension();
-        std::vector<double> found(made.size());
-        const std::size_t got = file_.read(found) * width;
-        const auto [m, f] = std::mismatch(
-            made.begin(), made.begin() + static_cast<std::ptrdiff_t>(got), found.begin());
-        const auto place = static_cast<std::size_t>(m - made.begin());
-        result_.points += place / width;
+/// Whether the points of a set, made again, are those of the file's; else tells how they differ.
+bool same_points(const SetsToWrite& job, std::size_t set, const Target& written,
+                 io::PointStream& file, Comparison& result, const RunContext& run) {
+    const std::size_t width = file.dimension();
+    std::uint64_t at = 0;
+    std::vector<double> found;
+    return each_batch(job, set, written, run, [&](std::span<const double> made) {
+        found.resize(made.size());
+        const std::size_t got = file.read(found) * width;
+        const auto differs = std::ranges::mismatch(made.first(got), std::span(found).first(got));
+        const auto place = static_cast<std::size_t>(differs.in1 - made.begin());
+        result.points += place / width;
         if (place < got) {
-            result_.difference = {.set = result_.sets - 1,
-                                  .point = at_ + place / width,
-                                  .column = place % width,
-                                  .found = *f,
-                                  .made = *m};
-            done_ = true;
+            result.difference = {.set = set,
+                                 .point = at + place / width,
+                                 .column = place % width,
+                                 .found = found[place],
+                                 .made = made[place]};
             return false;
         }
-        at_ += got / width;
+        at += got / width;
         if (got < made.size())
-            end(fmt::format("{} has {} points; made again it has {}", set_name(), at_, count_));
-        return !done_;
-    }
+            result.mismatch = fmt::format("{} has {} points; made again it has {}",
+                                          name_of_set(set), at, job.counts[set]);
+        return got == made.size();
+    });
+}
 
-    Comparison finish() {
-        if (!done_) expect_end_of_set();
-        if (!done_ && file_.next_set())
-            end(fmt::format("it has more sets than {}, which are made again", result_.sets));
-        return std::move(result_);
+Comparison compared(const SetsToWrite& job, const Target& written, io::PointStream& file,
+                    bool unmarked, const RunContext& run) {
+    Comparison result{.made = job.provenance(0)};
+    const std::size_t width = job.dimension + written.columns.names().size();
+    if (file.dimension() != width)
+        result.mismatch = fmt::format("its points have {} numbers; made again they have {}",
+                                      file.dimension(), width);
+    std::vector<double> more(file.dimension());
+    for (std::size_t set = 0; set < job.sets && result.mismatch.empty(); ++set) {
+        const bool there = (unmarked && set > 0) || file.next_set();
+        // A file of one set may be one of many that were written together.
+        if (!there && set > 1)
+            result.mismatch = fmt::format("it has {} sets; made again there are {}", set, job.sets);
+        if (!there) return result;
+        ++result.sets;
+        if (!same_points(job, set, written, file, result, run)) return result;
+        if ((!unmarked || set + 1 == job.sets) && file.read(more) > 0)
+            result.mismatch = fmt::format("{} has more than {} points, which are made again",
+                                          name_of_set(set), job.counts[set]);
     }
-
-  private:
-    void end(std::string mismatch) {
-        result_.mismatch = std::move(mismatch);
-        done_ = true;
-    }
-
-    [[nodiscard]] std::string set_name() const {
-        return result_.sets > 1 ? fmt::format("set {}", result_.sets - 1) : "it";
-    }
-
-    void expect_end_of_set() {
-        std::vector<double> row(file_.dimension());
-        if (file_.read(row) > 0)
-            end(fmt::format("{} has more than {} points, which are made again", set_name(), at_));
-    }
-
-    io::PointStream& file_;
-    bool unmarked_;
-    Comparison result_;
-    std::uint64_t count_ = 0;  ///< points of this set, made again
-    std::uint64_t at_ = 0;     ///< of these, compared
-    bool done_ = false;
-};
+    if (result.mismatch.empty() && file.next_set())
+        result.mismatch =
+            fmt::format("it has more sets than {}, which are made again", result.sets);
+    return result;
+}
 
 }  // namespace
 
@@ -198,20 +153,14 @@ Making after_step(Making before, const std::string& step, std::uint64_t replicat
     };
 }
 
-Comparison compare(const Making& making, const Target& written, io::PointStream& file,
-                   bool unmarked) {
-    Comparer comparer(file, unmarked);
-    const Format format{.name = "comparison",
-                        .summary = {},
-                        .source = {},
-                        .extensions = {},
-                        .traits = {},
-                        .begin_set = [&](const Layout& layout, std::size_t,
-                                         std::string&) { comparer.begin(layout); },
-                        .rows = rows_as_read};
-    making(
-        redirected(written, format, [&](std::string_view bytes) { return comparer.take(bytes); }));
-    return comparer.finish();
+Comparison compare(const Making& making, Target written, io::PointStream& file, bool unmarked,
+                   const RunContext& run) {
+    Comparison result;
+    written.take = [&](const SetsToWrite& job) {
+        result = compared(job, written, file, unmarked, run);
+    };
+    making(written);
+    return result;
 }
 
 std::string bytes_of(const Making& making, Target target) {

@@ -49,8 +49,8 @@ struct Comparison {
 /// Compares with a file at its front; a file of one set may be the first of many.
 /// @param written what writing did to the numbers: single, then precision; and the columns behind
 /// @param unmarked the file does not tell where a set ends
-Comparison compare(const Making& making, const Target& written, io::PointStream& file,
-                   bool unmarked);
+Comparison compare(const Making& making, Target written, io::PointStream& file, bool unmarked,
+                   const RunContext& run);
 
 /// All bytes that would be written.
 std::string bytes_of(const Making& making, Target target);

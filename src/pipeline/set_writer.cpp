@@ -26,24 +26,6 @@ double finite(const char* column, double value, std::span<const double> point, b
         "--with-{}: it is infinite at the point ({})", column, join(words, ", "));
 }
 
-/// Each row with the columns behind it.
-std::vector<double> with_columns(std::span<const double> rows, const Columns& columns,
-                                 const SetsToWrite& job) {
-    const std::size_t d = job.dimension;
-    const auto density = job.chain->density(rows);
-    std::vector<double> wide;
-    wide.reserve(rows.size() + 2 * density.size());
-    for (std::size_t i = 0; i < density.size(); ++i) {
-        const auto row = rows.subspan(i * d, d);
-        wide.insert(wide.end(), row.begin(), row.end());
-        const double pdf = density[i] / job.volume;
-        const double weight = job.volume / density[i];
-        if (columns.pdf) wide.push_back(finite("pdf", pdf, row, job.starts));
-        if (columns.weight) wide.push_back(finite("weight", weight, row, job.starts));
-    }
-    return wide;
-}
-
 /// The rows of one set as bytes of the output, a batch of blocks at a time; `set` is its number in
 /// the file. False: the pipe was closed.
 bool write_rows(const NextRows& next, const SetsToWrite& job, const Layout& layout,
@@ -197,6 +179,23 @@ bool write_file(const SetsToWrite& job, std::size_t first, std::size_t last,
 
 }  // namespace
 
+std::vector<double> with_columns(std::span<const double> rows, const Columns& columns,
+                                 const SetsToWrite& job) {
+    const std::size_t d = job.dimension;
+    const auto density = job.chain->density(rows);
+    std::vector<double> wide;
+    wide.reserve(rows.size() + 2 * density.size());
+    for (std::size_t i = 0; i < density.size(); ++i) {
+        const auto row = rows.subspan(i * d, d);
+        wide.insert(wide.end(), row.begin(), row.end());
+        const double pdf = density[i] / job.volume;
+        const double weight = job.volume / density[i];
+        if (columns.pdf) wide.push_back(finite("pdf", pdf, row, job.starts));
+        if (columns.weight) wide.push_back(finite("weight", weight, row, job.starts));
+    }
+    return wide;
+}
+
 bool file_per_set(const std::string& path) {
     return path.find("{set}") != std::string::npos || path.find("{seed}") != std::string::npos;
 }
@@ -208,6 +207,10 @@ std::string path_of_set(std::string path, std::size_t set, std::uint64_t seed) {
 }
 
 bool write_files(const SetsToWrite& job, const Target& asked, const RunContext& run) {
+    if (asked.take) {
+        asked.take(job);
+        return true;
+    }
     Target target = asked;
     if (target.format == nullptr) target.format = io::format_of_extension(target.path);
     if (target.format == nullptr) target.format = &io::format_named("csv");

@@ -27,6 +27,8 @@ struct Columns {
     [[nodiscard]] std::vector<std::string> names() const;
 };
 
+struct SetsToWrite;
+
 /// Where points go, and how they are written.
 struct Target {
     std::string path = "-";          ///< may hold {set} and {seed}: a file for each set
@@ -38,6 +40,8 @@ struct Target {
     Columns columns = {};
     /// Takes the bytes in place of a file; false: it wants no more.
     std::function<bool(std::string_view bytes)> sink = {};
+    /// Takes the sets, in place of all writing.
+    std::function<void(const SetsToWrite&)> take = {};
 };
 
 /// Sets with everything that is needed to write them one after the other.
@@ -56,6 +60,10 @@ struct SetsToWrite {
     double volume = 1;    ///< measure of what the points were scaled to, where nothing warped them
     bool starts = false;  ///< a set's first point can be left out by --start
 };
+
+/// Each row with the columns behind it. @throws Error(input) where a number is infinite
+std::vector<double> with_columns(std::span<const double> rows, const Columns& columns,
+                                 const SetsToWrite& job);
 
 /// Whether the path holds {set} or {seed}.
 bool file_per_set(const std::string& path);
