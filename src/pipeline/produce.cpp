@@ -207,24 +207,46 @@ PointSet warped(const PointSet& set, const Warping& warping, const RunContext& r
     return image;
 }
 
+/// Puts images of rows that begin with point `first` into `images`, each of `wide` numbers; how many
+/// there are.
+std::size_t put_images(std::span<const double> rows, std::uint64_t first, const Warping& warping,
+                       std::span<double> images, std::size_t wide, const RunContext& run) {
+    const std::size_t d =
+        warping.inverse ? warping.chain->dimension_out() : warping.chain->dimension_in();
+    const std::size_t block = std::max<std::size_t>(1, 8192 / d);
+    std::vector<std::size_t> sizes(block_count(rows.size() / d, block));
+    for_each_block(run, rows.size() / d, block, [&](const Block& b) {
+        const auto from = rows.subspan(b.first * d, (b.last - b.first) * d);
+        std::vector<double> part(from.begin(), from.end());
+        part = warping.inverse ? warping.chain->inverse(std::move(part))
+                               : warping.chain->forward(std::move(part), first + b.first);
+        std::ranges::copy(part, images.subspan(b.first * wide).begin());
+        sizes[b.index] = part.size();
+    });
+    std::size_t end = 0;
+    for (std::size_t i = 0; i < sizes.size(); end += sizes[i++])  // close gaps between blocks
+        if (const std::size_t begin = i * block * wide; end < begin)
+            std::ranges::copy(images.subspan(begin, sizes[i]), images.subspan(end).begin());
+    return end / wide;
+}
+
 /// The images of the points of a stream, each of `wide` numbers.
 NextRows warped_rows(io::PointStream& stream, const Warping& warping, std::size_t wide,
                      const RunContext& run) {
-    return [&stream, &warping, wide, quiet = silent(run), came = std::uint64_t{0},
+    return [&stream, &warping, wide, quiet = silent(run), taken = std::vector<double>(),
+            came = std::uint64_t{0},
             kept = std::uint64_t{0}](std::span<double> rows) mutable -> std::size_t {
         const std::size_t d = stream.dimension();
         for (;;) {  // until some have an image
-            std::vector<double> taken(rows.size() / wide * d);
-            taken.resize(stream.read(taken) * d);
-            if (taken.empty()) break;
-            if (!warping.inverse) warping.taken.require_in_cube(taken, came);
-            const PointSet points(std::move(taken), d);
-            const PointSet image = warping.inverse ? warping.chain->preimage(points, quiet)
-                                                   : warping.chain->image(points, quiet, came);
-            std::ranges::copy(image.flat(), rows.begin());
-            came += points.count();
-            kept += image.count();
-            if (image.count() > 0) return image.count();
+            taken.resize(rows.size() / wide * d);
+            const std::size_t count = stream.read(taken);
+            if (count == 0) break;
+            const auto points = std::span(taken).first(count * d);
+            if (!warping.inverse) warping.taken.require_in_cube(points, came);
+            const std::size_t found = put_images(points, came, warping, rows, wide, quiet);
+            came += count;
+            kept += found;
+            if (found > 0) return found;
         }
         refuse_second_set(stream);
         if (!warping.inverse) tell_kept(came, kept, *warping.chain, quiet);
