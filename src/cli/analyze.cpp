@@ -532,7 +532,7 @@ void take_mean(Measurement& m, const ReportAverage& average, std::span<const Rep
     m.results = average.mean();
     if (analyzer.refine) analyzer.refine(m.results, average.count(), options);
     if (analyzer.combine) analyzer.combine(m.results, sets, options);
-    if (average.count() > 1) m.standard_error = only_of(m.results, average.standard_error());
+    if (average.count() > 1) m.standard_error = average.standard_error(m.results);
 }
 
 int analyze(const Arguments& arguments, Session& session) {

@@ -39,31 +39,6 @@ Report& Report::put(std::string_view name, Item value, std::string_view unit) {
     return *this;
 }
 
-Report& Report::add(std::string_view name, bool value) { return put(name, value, {}); }
-Report& Report::add(std::string_view name, std::int64_t value, std::string_view unit) {
-    return put(name, value, unit);
-}
-Report& Report::add(std::string_view name, std::uint64_t value, std::string_view unit) {
-    return put(name, static_cast<std::int64_t>(value), unit);
-}
-Report& Report::add(std::string_view name, double value, std::string_view unit) {
-    return put(name, value, unit);
-}
-Report& Report::add(std::string_view name, const char* value) {
-    return put(name, std::string(value), {});
-}
-Report& Report::add(std::string_view name, std::string value) {
-    return put(name, std::move(value), {});
-}
-Report& Report::add(std::string_view name, Curve value, std::string_view unit) {
-    return put(name, std::move(value), unit);
-}
-Report& Report::add(std::string_view name, Integers value, std::string_view unit) {
-    return put(name, std::move(value), unit);
-}
-Report& Report::add(std::string_view name, Grid value) { return put(name, std::move(value), {}); }
-Report& Report::add(std::string_view name, Report value) { return put(name, std::move(value), {}); }
-
 const Report::Item* Report::find(std::string_view key) const {
     const auto dot = key.find('.');
     const auto it = std::ranges::find(entries_, key.substr(0, dot), &Entry::name);

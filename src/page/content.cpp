@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "plot/drawing/ticks.hpp"
-#include "plot/report_charts.hpp"
+#include "report/document.hpp"
 
 namespace stipple::page {
 
@@ -119,11 +119,11 @@ std::optional<Known> known_under(const Set& set, std::string_view key) {
     const Report* found = set.results(key.substr(0, dot));
     if (found == nullptr || dot == std::string_view::npos) return std::nullopt;
     const std::string_view path = key.substr(dot + 1);
-    const auto value = plot::number_at(*found, path);
+    const auto value = number_at(*found, path);
     if (!value || std::isnan(*value)) return std::nullopt;
     if (path != "value") return Known{*value, *value, *value};
-    return Known{*value, plot::number_at(*found, "lower").value_or(*value),
-                 plot::number_at(*found, "upper").value_or(*value)};
+    return Known{*value, number_at(*found, "lower").value_or(*value),
+                 number_at(*found, "upper").value_or(*value)};
 }
 
 std::vector<bool> best_of(std::span<const std::optional<Known>> values, Better better) {

@@ -10,6 +10,7 @@
 #include "core/text.hpp"
 #include "page/figures.hpp"
 #include "plot/drawing/html_text.hpp"
+#include "report/document.hpp"
 
 namespace stipple::page {
 
@@ -129,35 +130,18 @@ std::string comparison_of(std::span<const Set> sets) {
 
 constexpr std::size_t most_listed = 8;  ///< numbers of a list that a table shows
 
-/// A result as a table shows it; empty for long lists and pictures.
-std::string shown_item(const Report::Item& item) {
-    return std::visit(
-        []<class T>(const T& value) -> std::string {
-            if constexpr (std::is_same_v<T, bool>) {
-                return value ? "yes" : "no";
-            } else if constexpr (std::is_same_v<T, double>) {
-                return shown_number(value);
-            } else if constexpr (std::is_same_v<T, std::int64_t>) {
-                return std::to_string(value);
-            } else if constexpr (std::is_same_v<T, std::string>) {
-                return value;
-            } else if constexpr (requires { value.size(); }) {
-                std::vector<std::string> shown;
-                for (const auto x : value) shown.push_back(shown_number(static_cast<double>(x)));
-                return shown.size() > most_listed ? "" : join(shown, ", ");
-            } else {
-                return {};
-            }
-        },
-        item);
-}
-
-std::string row_of(const std::string& key, const Report::Item& item) {
-    const std::string shown = shown_item(item);
+std::string row_of(const std::string& key, const Report& results) {
+    std::string shown = text_of(*results.find(key));
+    std::string whole;
+    if (const auto list = list_at(results, key)) {
+        std::vector<std::string> numbers;
+        for (const double x : *list) numbers.push_back(shown_number(x));
+        shown = list->size() > most_listed ? "" : join(numbers, ", ");
+    } else if (const auto* number = std::get_if<double>(results.find(key))) {
+        shown = shown_number(*number);
+        whole = fmt::format(" title=\"{}\"", format_number(*number));
+    }
     if (shown.empty()) return {};
-    const auto* number = std::get_if<double>(&item);
-    const std::string whole =
-        number == nullptr ? "" : fmt::format(" title=\"{}\"", format_number(*number));
     return fmt::format("<tr><th scope=\"row\">{}</th><td class=\"number\"{}>{}</td></tr>\n",
                        html_text(key), whole, html_text(shown));
 }
@@ -165,8 +149,7 @@ std::string row_of(const std::string& key, const Report::Item& item) {
 std::string measure_of(const Measure& measure) {
     std::string out = fmt::format("<div class=\"measure\">\n<h3>{}</h3>\n<table><tbody>\n",
                                   html_text(measure.title));
-    for (const std::string& key : measure.results->keys())
-        out += row_of(key, *measure.results->find(key));
+    for (const std::string& key : measure.results->keys()) out += row_of(key, *measure.results);
     return out +
            fmt::format("</tbody></table>\n<pre>{}</pre>\n</div>\n", html_text(measure.command));
 }

@@ -12,25 +12,17 @@ namespace {
 
 Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
-/// Results and options as `stipple analyze` prints them, less what it measured of time.
-Json json_of(const Measure& measure, const Set& set) {
-    const Measurement m{.analyzer = measure.analyzer,
-                        .source = {},
-                        .set = set.number,
-                        .count = set.count,
-                        .dimension = set.dimension,
-                        .domain = set.domain,
-                        .options = measure.options,
-                        .results = measure.results.value_or(Report())};
-    const Json whole = Json::parse(to_json(std::span(&m, 1)));
-    Json object = {
-        {"name", measure.name}, {"analyzer", measure.analyzer}, {"options", whole["options"]}};
+/// Results and options as `stipple analyze` prints them.
+Json json_of(const Measure& measure) {
+    Json object = {{"name", measure.name},
+                   {"analyzer", measure.analyzer},
+                   {"options", stipple::json_of(measure.options)}};
     if (!measure.results) {
         object["left_out"] = measure.left_out;
         return object;
     }
     object["command"] = measure.command;
-    object["results"] = whole["results"];
+    object["results"] = stipple::json_of(*measure.results);
     const std::string words = verdict_in_words(measure);
     if (!words.empty()) object["in_words"] = words;
     return object;
@@ -45,7 +37,7 @@ Json json_of(const Set& set) {
     if (!set.command.empty()) object["command"] = set.command;
     if (!set.provenance.generator.empty()) object["meta"] = io::to_json(set.provenance);
     object["measures"] = Json::array();
-    for (const Measure& measure : set.measures) object["measures"].push_back(json_of(measure, set));
+    for (const Measure& measure : set.measures) object["measures"].push_back(json_of(measure));
     return object;
 }
 

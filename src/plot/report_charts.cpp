@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -25,8 +27,8 @@ constexpr double log_floor = 1e-4;  ///< of that axis: what is lower is rounding
 std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
 /// "halton.csv", "halton.csv, set 3", "10 sets: halton.csv"
-std::string name_of_input(const Measurement& m) {
-    std::string name = m.source == "-" ? "" : file_name(m.source);
+std::string name_of_input(const Measurement& m, bool whole_path = false) {
+    std::string name = m.source == "-" ? "" : whole_path ? m.source : file_name(m.source);
     if (m.set) name += fmt::format("{}set {}", name.empty() ? "" : ", ", *m.set);
     if (m.sets > 1) name = fmt::format("{} sets{}{}", m.sets, name.empty() ? "" : ": ", name);
     return name;
@@ -35,26 +37,21 @@ std::string name_of_input(const Measurement& m) {
 /// Names that tell inputs apart: file names without their folders, where these do.
 std::vector<std::string> names_of_inputs(Measurements ms) {
     std::vector<std::string> names;
-    std::set<std::string> distinct;
-    for (const Measurement& m : ms) distinct.insert(names.emplace_back(name_of_input(m)));
-    if (distinct.size() == ms.size()) return names;
+    for (const Measurement& m : ms) names.push_back(name_of_input(m));
+    if (std::set(names.begin(), names.end()).size() == ms.size()) return names;
     for (std::size_t i = 0; i < ms.size(); ++i) {
-        if (ms[i].source != "-") names[i] = ms[i].source;
-        if (ms[i].set)
-            names[i] += fmt::format("{}set {}", names[i].empty() ? "" : ", ", *ms[i].set);
+        names[i] = name_of_input(ms[i], true);
         if (names[i].empty()) names[i] = fmt::format("input {}", i + 1);
     }
     return names;
 }
 
-/// A list of numbers under a key; nothing where there is none.
-std::optional<Curve> curve_at(const Report& report, std::string_view key) {
-    const Report::Item* item = report.find(key);
-    if (item == nullptr) return std::nullopt;
-    if (const auto* curve = std::get_if<Curve>(item)) return *curve;
-    if (const auto* whole = std::get_if<Report::Integers>(item))
-        return Curve(whole->begin(), whole->end());
-    return std::nullopt;
+/// Whether all measurements are alike in a property of theirs.
+template <class Property>
+bool alike(Measurements ms, const Property& property) {
+    return std::ranges::all_of(ms, [&](const Measurement& m) {
+        return std::invoke(property, m) == std::invoke(property, ms[0]);
+    });
 }
 
 Curve plus(const Curve& a, const Curve& b, double sign) {
@@ -67,7 +64,7 @@ Curve plus(const Curve& a, const Curve& b, double sign) {
 void add_band(Series& series, const Measurement& m, const std::string& group,
               const std::string& key) {
     if (m.standard_error) {
-        const auto error = curve_at(*m.standard_error, group + key);
+        const auto error = list_at(*m.standard_error, group + key);
         if (error && error->size() == series.y.size()) {
             series.low = plus(series.y, *error, -1);
             series.high = plus(series.y, *error, 1);
@@ -75,8 +72,8 @@ void add_band(Series& series, const Measurement& m, const std::string& group,
         }
     }
     if (key != "value") return;
-    const auto low = curve_at(m.results, group + "lower");
-    const auto high = curve_at(m.results, group + "upper");
+    const auto low = list_at(m.results, group + "lower");
+    const auto high = list_at(m.results, group + "upper");
     if (!low || !high || low == high || low->size() != series.y.size()) return;
     series.low = *low;
     series.high = *high;
@@ -88,8 +85,8 @@ std::vector<Series> series_of(Measurements ms, const std::string& group, const s
     const auto names = names_of_inputs(ms);
     std::vector<Series> found;
     for (std::size_t i = 0; i < ms.size(); ++i) {
-        const auto xs = curve_at(ms[i].results, group + x);
-        const auto ys = curve_at(ms[i].results, group + y);
+        const auto xs = list_at(ms[i].results, group + x);
+        const auto ys = list_at(ms[i].results, group + y);
         if (!xs || !ys || xs->empty() || xs->size() != ys->size()) continue;
         Series series{.name = names[i], .x = *xs, .y = *ys};
         series.measurement = i;
@@ -103,9 +100,8 @@ std::vector<Series> series_of(Measurements ms, const std::string& group, const s
 std::string size_of(Measurements ms) {
     const Measurement& first = ms[0];
     std::string text;
-    if (std::ranges::all_of(ms, [&](const auto& m) { return m.count == first.count; }))
-        text = fmt::format("n = {}", first.count);
-    if (std::ranges::all_of(ms, [&](const auto& m) { return m.dimension == first.dimension; }))
+    if (alike(ms, &Measurement::count)) text = fmt::format("n = {}", first.count);
+    if (alike(ms, &Measurement::dimension))
         text += fmt::format("{}d = {}", text.empty() ? "" : ", ", first.dimension);
     return text;
 }
@@ -113,33 +109,33 @@ std::string size_of(Measurements ms) {
 /// "Radial power of halton.csv", and of how many points.
 Chart titled(const std::string& what, Measurements ms) {
     const std::string name = name_of_input(ms[0]);
-    Chart chart{.title = ms.size() > 1 || name.empty() ? what : fmt::format("{} of {}", what, name),
-                .subtitle = size_of(ms),
-                .panels = {}};
-    return chart;
+    return {.title = ms.size() > 1 || name.empty() ? what : fmt::format("{} of {}", what, name),
+            .subtitle = size_of(ms),
+            .panels = {}};
 }
 
 std::string noted(const std::string& subtitle, const std::string& more) {
     return subtitle.empty() ? more : more.empty() ? subtitle : subtitle + " · " + more;
 }
 
-bool finite_in(const std::vector<Series>& all, double& top) {
-    top = -std::numeric_limits<double>::infinity();
+/// The finite numbers of all curves: least and largest; infinite where there are none.
+std::pair<double, double> range_of(const std::vector<Series>& all) {
+    std::pair range{HUGE_VAL, -HUGE_VAL};
     for (const Series& series : all)
         for (const double y : series.y)
-            if (std::isfinite(y)) top = std::max(top, y);
-    return std::isfinite(top);
+            if (std::isfinite(y)) range = {std::min(range.first, y), std::max(range.second, y)};
+    return range;
 }
 
 /// The band of white noise, where one holds for all measurements.
 std::vector<Band> noise_band(Measurements ms) {
-    const auto cells = curve_at(ms[0].results, "radial.cells");
-    const bool same = std::ranges::all_of(ms, [&](const Measurement& m) {
-        return m.sets == ms[0].sets && curve_at(m.results, "radial.cells") == cells;
-    });
+    const auto cells = list_at(ms[0].results, "radial.cells");
+    const bool same = alike(ms, &Measurement::sets) && alike(ms, [](const Measurement& m) {
+                          return list_at(m.results, "radial.cells");
+                      });
     if (!same || !cells) return {};
     Band band{.name = "white noise, 95 %",
-              .x = *curve_at(ms[0].results, "radial.frequency"),
+              .x = *list_at(ms[0].results, "radial.frequency"),
               .low = {},
               .high = {}};
     for (const double ring : *cells) {
@@ -157,9 +153,8 @@ Guide noise_anisotropy(Measurements ms) {
         const double pairs = number_at(m.results, "expected_differences").value_or(1);
         return -10 * std::log10(pairs * static_cast<double>(m.sets)) + 0.0;
     };
+    if (!alike(ms, expected_of)) return {};
     const double expected = expected_of(ms[0]);
-    if (!std::ranges::all_of(ms, [&](const auto& m) { return expected_of(m) == expected; }))
-        return {};
     return {
         .name = fmt::format("white noise: {} dB", rounded(expected, 3)), .x = {}, .y = {expected}};
 }
@@ -243,7 +238,7 @@ std::optional<CurveGroup> curves_in(const Report& group, const std::string& pref
     CurveGroup found{.prefix = prefix, .x = {}, .ys = {}};
     std::size_t size = 0;
     for (const auto& entry : group.entries()) {
-        const auto curve = curve_at(group, entry.name);
+        const auto curve = list_at(group, entry.name);
         if (!curve) continue;
         const bool first = found.x.empty();
         if (first && curve->size() > 1 && rises(*curve) &&
@@ -257,12 +252,15 @@ std::optional<CurveGroup> curves_in(const Report& group, const std::string& pref
     return found.ys.empty() ? std::nullopt : std::optional(found);
 }
 
-void collect_groups(const Report& report, const std::string& prefix,
-                    std::vector<CurveGroup>& found) {
+/// The curves of the report and of the groups in it.
+std::vector<CurveGroup> groups_of(const Report& report, const std::string& prefix = {}) {
+    std::vector<CurveGroup> found;
     if (auto group = curves_in(report, prefix)) found.push_back(*std::move(group));
     for (const auto& entry : report.entries())
         if (const auto* inner = std::get_if<Report>(&entry.value))
-            collect_groups(*inner, prefix + entry.name + ".", found);
+            std::ranges::move(groups_of(*inner, prefix + entry.name + "."),
+                              std::back_inserter(found));
+    return found;
 }
 
 bool has(const CurveGroup& group, const char* y) {
@@ -302,33 +300,14 @@ std::vector<Guide> slopes(const std::vector<Series>& all) {
     return guides;
 }
 
-bool positive(const std::vector<Series>& all) {
-    return std::ranges::none_of(all, [](const Series& series) {
-        return std::ranges::any_of(series.y, [](double y) { return y <= 0; });
-    });
-}
-
-/// Over more than a decade: what is seen on a logarithmic axis only.
-bool wants_log(const std::vector<Series>& all) {
-    double low = std::numeric_limits<double>::infinity();
-    double high = 0;
-    for (const Series& series : all)
-        for (const double y : series.y) {
-            if (!std::isfinite(y)) continue;
-            low = std::min(low, y);
-            high = std::max(high, y);
-        }
-    return high > 10 * low;
-}
-
 /// What independent points have, where it is the same for all.
 std::vector<Guide> references(Measurements ms, const CurveGroup& group, const std::string& y) {
     if (y == "density" || y == "power" || y == "dispersion")
         return {{.name = "independent points", .x = {}, .y = {1}}};
     if (y == "anisotropy_db") return {noise_anisotropy(ms)};
     if (y != "variance" || !has(group, "mean")) return {};
-    const auto x = curve_at(ms[0].results, group.prefix + group.x);
-    const auto mean = curve_at(ms[0].results, group.prefix + "mean");
+    const auto x = list_at(ms[0].results, group.prefix + group.x);
+    const auto mean = list_at(ms[0].results, group.prefix + "mean");
     return {{.name = "independent points: the mean", .x = *x, .y = *mean, .reached = true}};
 }
 
@@ -370,8 +349,8 @@ void make_power(ChartPanel& panel, Measurements ms) {
     panel.reach_y = 1.4;
     panel.least_y = log_floor;
     panel.share = 1.5;
-    double top = 0;
-    if (!finite_in(panel.series, top)) panel.series.clear();
+    const double top = range_of(panel.series).second;
+    if (!std::isfinite(top)) panel.series.clear();
     panel.log_y = top > log_above;
 }
 
@@ -384,10 +363,10 @@ void make_pair_correlation(ChartPanel& panel, Measurements ms) {
     if (ms.size() > 1) return;
     const double width = 2 / std::sqrt(static_cast<double>(ms[0].sets));
     Band band{.name = "uniform points, ± 2 deviations",
-              .x = *curve_at(ms[0].results, "distance"),
+              .x = *list_at(ms[0].results, "distance"),
               .low = {},
               .high = {}};
-    const auto deviation = curve_at(ms[0].results, "deviation");
+    const auto deviation = list_at(ms[0].results, "deviation");
     for (const double s : *deviation) {
         band.low.push_back(std::max(0.0, 1 - width * s));
         band.high.push_back(1 + width * s);
@@ -404,8 +383,7 @@ ChartPanel curve_panel(Measurements ms, const CurveGroup& group, const std::stri
     if (y == "anisotropy_db") {
         panel.y_name = "anisotropy (dB)";
         make_gaps(panel.series);
-        double top = 0;
-        if (!finite_in(panel.series, top)) panel.series.clear();
+        if (!std::isfinite(range_of(panel.series).second)) panel.series.clear();
     }
     panel.from_zero = y == "density" || y == "power" || y == "dispersion";
     if (panel.from_zero) panel.reach_y = 1.2;
@@ -416,8 +394,10 @@ ChartPanel curve_panel(Measurements ms, const CurveGroup& group, const std::stri
     if (power || pairs) return panel;
     const bool counts = group.x == "count" || group.x == "n";
     panel.log_x = counts || y == "variance" || y == "dispersion";
-    const bool steep = counts || y == "variance" || wants_log(panel.series);
-    panel.log_y = panel.log_x && steep && positive(panel.series);
+    // What ranges over more than a decade is seen on a logarithmic axis only.
+    const auto [low, high] = range_of(panel.series);
+    const bool steep = counts || y == "variance" || high > 10 * low;
+    panel.log_y = panel.log_x && steep && low > 0;
     for (Series& series : panel.series) series.marks = series.x.size() <= 40;
     if (counts && panel.log_y && !panel.series.empty()) panel.guides = slopes(panel.series);
     if (group.x == "neighbors" && !panel.series.empty()) make_bars(panel);
@@ -440,13 +420,11 @@ std::string sentence_case(std::string text) {
 
 std::optional<Chart> curves_chart(Measurements ms, const std::string& key) {
     constexpr std::size_t most_panels = 4;
-    std::vector<CurveGroup> groups;
-    collect_groups(ms[0].results, "", groups);
-    const bool spectrum = curve_at(ms[0].results, "radial.power").has_value();
+    const bool spectrum = list_at(ms[0].results, "radial.power").has_value();
     Chart chart = titled(spectrum ? "Power spectrum" : sentence_case(words_of(ms[0].analyzer)), ms);
     if (spectrum) chart.subtitle = noted(chart.subtitle, notes_of_spectrum(ms));
     std::string x;
-    for (const CurveGroup& group : groups)
+    for (const CurveGroup& group : groups_of(ms[0].results))
         for (const std::string& y : group.ys) {
             const bool fits = x.empty() || x == group.prefix + group.x;
             if (!wanted(ms, group, y, key) || !fits || chart.panels.size() == most_panels) continue;
@@ -516,7 +494,7 @@ Chart number_over_count(Measurements ms, const std::string& key) {
     if (errors) panel.y_name += ", root mean square";
     for (const std::string& family : families)
         panel.series.push_back(series_over_count(family, errors, found[family]));
-    panel.log_y = positive(panel.series);
+    panel.log_y = range_of(panel.series).first > 0;
     if (panel.log_y) panel.guides = slopes(panel.series);
     Chart chart = titled(sentence_case(words_of(ms[0].analyzer)), ms);
     chart.panels.push_back(std::move(panel));
@@ -528,17 +506,13 @@ Chart number_histogram(Measurements ms, const std::string& key) {
     for (const Measurement& m : ms)
         if (const auto value = number_at(m.results, key); value && std::isfinite(*value))
             values.push_back(*value);
-    auto [low, high] = std::ranges::minmax(values);
-    if (!(low < high)) {
-        Axis axis{.low = low, .high = high};
-        axis.make_valid();
-        low = axis.low;
-        high = axis.high;
-    }
+    const auto [low, high] = std::ranges::minmax(values);
+    Axis axis{.low = low, .high = high};
+    axis.make_valid();
     // Bins as wide as Sturges has them, for some ten to some thousand values.
     const auto bins =
         static_cast<std::size_t>(std::ceil(std::log2(static_cast<double>(values.size())))) + 3;
-    Bars bars = histogram_of(values, low, high, bins);
+    Bars bars = histogram_of(values, axis.low, axis.high, bins);
     const double width = bars.edges[1] - bars.edges[0];
     for (double& height : bars.heights)
         height = std::round(height * width * static_cast<double>(values.size()));
@@ -554,10 +528,8 @@ Chart number_histogram(Measurements ms, const std::string& key) {
 
 /// Keys under which there is something to draw.
 std::vector<std::string> drawable(Measurements ms) {
-    std::vector<CurveGroup> groups;
-    collect_groups(ms[0].results, "", groups);
     std::vector<std::string> keys;
-    for (const CurveGroup& group : groups)
+    for (const CurveGroup& group : groups_of(ms[0].results))
         for (const std::string& y : group.ys)
             if (!accompanies(group, y)) keys.push_back(group.prefix + y);
     if (ms.size() == 1) return keys;
@@ -579,14 +551,6 @@ std::vector<std::string> drawable(Measurements ms) {
 }
 
 }  // namespace
-
-std::optional<double> number_at(const Report& report, std::string_view key) {
-    const Report::Item* item = report.find(key);
-    if (item == nullptr) return std::nullopt;
-    if (const auto* number = std::get_if<double>(item)) return *number;
-    if (const auto* whole = std::get_if<std::int64_t>(item)) return static_cast<double>(*whole);
-    return std::nullopt;
-}
 
 std::pair<double, double> white_noise_band(double cells, double sets) {
     const double spread = 2 / (9 * std::max(1.0, cells * sets));
@@ -610,9 +574,8 @@ Chart chart_of(Measurements ms, const std::string& key) {
         return value && std::isfinite(*value);
     };
     if (std::ranges::count_if(ms, has_number) < 2) refuse(ms, key);
-    const bool same_count =
-        std::ranges::all_of(ms, [&](const Measurement& m) { return m.count == ms[0].count; });
-    return same_count ? number_histogram(ms, number) : number_over_count(ms, number);
+    return alike(ms, &Measurement::count) ? number_histogram(ms, number)
+                                          : number_over_count(ms, number);
 }
 
 }  // namespace stipple::plot

@@ -30,9 +30,6 @@ namespace stipple::plot {
 /// there is; Error(usage) for a key that is none.
 Chart chart_of(std::span<const Measurement> measurements, const std::string& key = {});
 
-/// The number under a key of a report; nothing where there is none.
-std::optional<double> number_at(const Report& report, std::string_view key);
-
 /// 2.5 and 97.5 % points of the mean power of a ring of so many frequencies, over so many sets of
 /// white noise.
 std::pair<double, double> white_noise_band(double cells, double sets);

@@ -40,7 +40,7 @@ Item shaped(Curve values, const Item& like) {
     return values.front();
 }
 
-/// Merges one report's entries into the running means; false: the entry has to go.
+/// Merges one report's entry into the running means; false: the entry has to go.
 bool merge(Item& mean, Item& squares, const Item& item, double k);
 
 void merge_groups(Report& mean, Report& squares, const Report& report, double k) {
@@ -63,59 +63,21 @@ bool merge(Item& mean, Item& squares, const Item& item, double k) {
         if (other) merge_groups(*group, std::get<Report>(squares), *other, k);
         return other != nullptr;
     }
-    // Labels, such as the counts of prefixes: their mean is what they are.
-    if (std::holds_alternative<Report::Integers>(mean) && mean == item) return true;
     const auto values = numbers(item);
     auto means = numbers(mean);
     auto sums = numbers(squares);
     if (!values || !means) return mean == item;
     if (values->size() != means->size()) return false;
-    for (std::size_t i = 0; i < values->size(); ++i)
-        accumulate((*values)[i], k, (*means)[i], (*sums)[i]);
-    mean = shaped(std::move(*means), item);
+    if (k == 1)
+        sums->assign(sums->size(), 0);
+    else
+        for (std::size_t i = 0; i < values->size(); ++i)
+            accumulate((*values)[i], k, (*means)[i], (*sums)[i]);
     squares = shaped(std::move(*sums), item);
+    // Labels, such as the counts of prefixes: their mean is what they are.
+    const bool label = std::holds_alternative<Report::Integers>(mean) && mean == item;
+    if (!label) mean = shaped(std::move(*means), item);
     return true;
-}
-
-/// The report with every number replaced by f(number); words and flags stay. What the report did
-/// not meet is its own.
-template <class F>
-Report mapped(const Report& report, const F& f) {
-    Report out;
-    out.entries() = report.entries();
-    for (auto& entry : out.entries()) {
-        if (auto* group = std::get_if<Report>(&entry.value)) {
-            entry.value = mapped(*group, f);
-        } else if (auto values = numbers(entry.value); values && !values->empty()) {
-            std::ranges::transform(*values, values->begin(), f);
-            entry.value = shaped(std::move(*values), entry.value);
-        }
-    }
-    return out;
-}
-
-/// Lists of whole numbers stay what they are in a report for as long as others have the same.
-void keep_labels(Report& mean, const Report& report) {
-    for (auto& entry : mean.entries()) {
-        const Item* item = report.find(entry.name);
-        if (const auto* group = std::get_if<Report>(item))
-            keep_labels(std::get<Report>(entry.value), *group);
-        else if (std::holds_alternative<Report::Integers>(*item))
-            entry.value = *item;
-    }
-}
-
-/// The entries of a report, and of its groups, whose values are wanted.
-template <class Wanted>
-Report filtered(const Report& report, const Wanted& wanted) {
-    Report out;
-    for (const auto& entry : report.entries()) {
-        if (const auto* group = std::get_if<Report>(&entry.value))
-            out.add(entry.name, filtered(*group, wanted));
-        else if (wanted(entry.value))
-            out.entries().push_back(entry);
-    }
-    return out;
 }
 
 /// What is not a measured value of each set (the value it should have, and what stands for the
@@ -141,48 +103,48 @@ bool is_no_mean(std::string_view name) {
     return std::ranges::find(names, name) != names.end();
 }
 
+/// The errors of what `mean` has, by the sums of squares.
+Report errors_of(const Report& mean, const Report& squares, double divisor) {
+    Report out;
+    for (const auto& [name, value, unit] : squares.entries()) {
+        const Item* item = mean.find(name);
+        const bool label = item && std::holds_alternative<Report::Integers>(*item);
+        if (item == nullptr || label || is_no_mean(name)) continue;
+        const auto* group = std::get_if<Report>(&value);
+        const auto* means = std::get_if<Report>(item);
+        if (group && means) {
+            Report part = errors_of(*means, *group, divisor);
+            if (!part.entries().empty()) out.add(name, std::move(part));
+        } else if (auto sums = numbers(value); sums && !std::holds_alternative<Grid>(value)) {
+            for (double& sum : *sums) sum = std::sqrt(sum / divisor);
+            out.entries().push_back({name, shaped(std::move(*sums), value), unit});
+        }
+    }
+    return out;
+}
+
 }  // namespace
 
 void ReportAverage::add(const Report& report) {
-    ++count_;
-    if (count_ == 1) {
-        mean_ = mapped(report, [](double x) { return x; });
-        keep_labels(mean_, report);
-        squares_ = mapped(report, [](double) { return 0.0; });
-        return;
-    }
+    if (++count_ == 1) mean_ = squares_ = report;
     merge_groups(mean_, squares_, report, static_cast<double>(count_));
 }
 
-Report numbers_only(const Report& report) {
-    return filtered(report, [](const Item& item) {
-        return std::holds_alternative<double>(item) || std::holds_alternative<std::int64_t>(item);
-    });
-}
-
-Report ReportAverage::standard_error() const {
+Report ReportAverage::standard_error(const Report& mean) const {
     if (count_ < 2) return {};
     const auto k = static_cast<double>(count_);
-    const auto error = [k](double sum) { return std::sqrt(sum / (k * (k - 1))); };
-    return filtered(mapped(squares_, error), [](const Item& item) {
-        return numbers(item) && !std::holds_alternative<Grid>(item);
-    });
+    return errors_of(mean, squares_, k * (k - 1));
 }
 
-Report only_of(const Report& mean, const Report& errors) {
+Report numbers_only(const Report& report) {
     Report out;
-    for (const auto& entry : errors.entries()) {
-        const Item* item = mean.find(entry.name);
-        const bool label = item && std::holds_alternative<Report::Integers>(*item);
-        if (item == nullptr || label || is_no_mean(entry.name)) continue;
-        const auto* group = std::get_if<Report>(&entry.value);
-        const auto* means = std::get_if<Report>(item);
-        if (group && means) {
-            Report part = only_of(*means, *group);
-            if (!part.entries().empty()) out.add(entry.name, std::move(part));
-        } else {
+    for (const auto& entry : report.entries()) {
+        const auto& [name, value, unit] = entry;
+        if (const auto* group = std::get_if<Report>(&value))
+            out.add(name, numbers_only(*group));
+        else if (std::holds_alternative<double>(value) ||
+                 std::holds_alternative<std::int64_t>(value))
             out.entries().push_back(entry);
-        }
     }
     return out;
 }

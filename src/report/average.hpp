@@ -25,8 +25,11 @@ class ReportAverage {
     [[nodiscard]] std::size_t count() const { return count_; }
     [[nodiscard]] const Report& mean() const { return mean_; }
 
-    /// Standard errors of the mean, under the same names; empty for fewer than two reports.
-    [[nodiscard]] Report standard_error() const;
+    /// The standard errors, under the same names, of what `mean` has: an analyzer may take out of it
+    /// what has no mean; nor have exact values, chances and errors one, nor what follows from the
+    /// mean and scatters in its own way, such as an anisotropy. Empty for fewer than two reports.
+    [[nodiscard]] Report standard_error(const Report& mean) const;
+    [[nodiscard]] Report standard_error() const { return standard_error(mean_); }
 
   private:
     std::size_t count_ = 0;
@@ -36,10 +39,5 @@ class ReportAverage {
 
 /// A report's numbers, without words, flags, curves and grids.
 Report numbers_only(const Report& report);
-
-/// The standard errors of what `mean` has: an analyzer may take out of it what has no mean; nor
-/// have exact values, chances and errors one, nor what follows from the mean and scatters in its
-/// own way, such as an anisotropy.
-Report only_of(const Report& mean, const Report& errors);
 
 }  // namespace stipple

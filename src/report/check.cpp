@@ -2,25 +2,26 @@
 #include "report/check.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "report/document.hpp"
 
 namespace stipple {
 namespace {
 
-bool compare(double a, const std::string& op, double b) {
-    if (op == "<") return a < b;
-    if (op == "<=") return a <= b;
-    if (op == ">") return a > b;
-    if (op == ">=") return a >= b;
-    if (op == "==") return a == b;
-    return a != b;
+constexpr std::array<std::string_view, 6> operators = {"<", "<=", ">", ">=", "==", "!="};
+
+bool compare(double a, std::string_view op, double b) {
+    if (op == "!=") return a != b;
+    return (op[0] == '<' && a < b) || (op[0] == '>' && a > b) || (op.ends_with('=') && a == b);
 }
 
 /// What is wrong with a condition.
@@ -32,28 +33,19 @@ template <class... Args>
 /// The number that a key means: "value" or, of several, "mean[0]".
 double number_of(const Check& check, const Report& report, std::string_view key) {
     const auto open = key.find('[');
-    const Report::Item* item = report.find(key.substr(0, open));
-    if (item == nullptr)
-        fail_with_hint(ErrorKind::usage, suggest(key.substr(0, open), report.keys()),
+    const std::string_view name = key.substr(0, open);
+    if (report.find(name) == nullptr)
+        fail_with_hint(ErrorKind::usage, suggest(name, report.keys()),
                        "{}: there is no result '{}'", check.option, key);
-    const auto refuse_list = [&](const auto& numbers) {
-        refuse(check, "'{}' has {} numbers; one of them is {}[0]", key, numbers.size(), key);
-    };
-    if (open == std::string_view::npos) {
-        if (const auto* curve = std::get_if<Report::Curve>(item)) refuse_list(*curve);
-        if (const auto* whole = std::get_if<Report::Integers>(item)) refuse_list(*whole);
-    }
-    if (open == std::string_view::npos || !key.ends_with(']')) return report.number(key);
+    const auto list = list_at(report, name);
+    if (list && open == std::string_view::npos)
+        refuse(check, "'{}' has {} numbers; one of them is {}[0]", key, list->size(), key);
+    if (!list || !key.ends_with(']')) return report.number(key);
     const auto index = parse_unsigned(key.substr(open + 1, key.size() - open - 2));
-    const auto pick = [&](const auto& numbers) {
-        if (!index || *index >= numbers.size())
-            refuse(check, "'{}' is no key; {} has {} numbers, [0] to [{}]", key,
-                   key.substr(0, open), numbers.size(), numbers.size() - 1);
-        return static_cast<double>(numbers[*index]);
-    };
-    if (const auto* curve = std::get_if<Report::Curve>(item)) return pick(*curve);
-    if (const auto* whole = std::get_if<Report::Integers>(item)) return pick(*whole);
-    return report.number(key);
+    if (!index || *index >= list->size())
+        refuse(check, "'{}' is no key; {} has {} numbers, [0] to [{}]", key, name, list->size(),
+               list->size() - 1);
+    return (*list)[*index];
 }
 
 struct Range {
@@ -76,8 +68,8 @@ std::optional<Range> bounds_of(const Check& check, const Report& report) {
 double bounded(const Check& check, const Report& report, double found) {
     const auto range = bounds_of(check, report);
     if (!range) return found;
-    if (check.op == "<" || check.op == "<=") return range->upper;
-    if (check.op == ">" || check.op == ">=") return range->lower;
+    if (check.op[0] == '<') return range->upper;
+    if (check.op[0] == '>') return range->lower;
     if (range->lower == range->upper) return found;
     refuse(check,
            "'{}' is only known to be between {} and {}; compare it with <, <=, > or >=", check.key,
@@ -104,12 +96,8 @@ std::string_view meant_by(std::string_view op) {
 
 /// "uniform, non-uniform or stratified"
 std::string listed(const std::vector<std::string_view>& words) {
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        if (i > 0) text += i + 1 < words.size() ? ", " : " or ";
-        text += words[i];
-    }
-    return text;
+    const std::span most = std::span(words).first(words.size() - 1);
+    return fmt::format("{} or {}", fmt::join(most, ", "), words.back());
 }
 
 }  // namespace
@@ -123,8 +111,7 @@ Check parse_check(std::string_view text, const std::string& option) {
         check.op = text.substr(at, last - at);
         check.value = trim(text.substr(last));
     }
-    const bool known = check.op == "<" || check.op == "<=" || check.op == ">" || check.op == ">=" ||
-                       check.op == "==" || check.op == "!=";
+    const bool known = std::ranges::find(operators, check.op) != operators.end();
     const auto meant = meant_by(check.op);
     if (check.key.empty() || check.value.empty() || !known)
         fail_with_hint(ErrorKind::usage,

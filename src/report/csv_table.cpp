@@ -10,7 +10,6 @@
 
 #include <map>
 #include <optional>
-#include <set>
 #include <utility>
 #include <vector>
 
@@ -41,18 +40,26 @@ std::string single_cell(const Report::Item& item) {
     return {};
 }
 
-/// The rows of one measurement.
-class ValueRows {
-  public:
-    using Column = std::pair<std::string, std::vector<std::string>>;
+using Cells = std::vector<std::pair<std::string, std::string>>;  // column, cell
 
-    explicit ValueRows(const Measurement& m)
-        : single{{"analyzer", m.analyzer},
-                 {"source", m.source},
-                 {"set", m.set ? std::to_string(*m.set) : ""},
-                 {"count", std::to_string(m.count)},
-                 {"dimension", std::to_string(m.dimension)},
-                 {"domain", m.domain}} {
+/// Lists of one length in one group of the results.
+struct Lists {
+    std::size_t count = 0;
+    bool whole = false;            ///< one of them holds whole numbers
+    std::vector<Cells> rows = {};  ///< where they are curves: of each entry
+};
+
+/// The cells of one measurement.
+class MeasurementCells {
+  public:
+    explicit MeasurementCells(const Measurement& m)
+        : dimension_(m.dimension),
+          single_{{"analyzer", m.analyzer},
+                  {"source", m.source},
+                  {"set", m.set ? std::to_string(*m.set) : ""},
+                  {"count", std::to_string(m.count)},
+                  {"dimension", std::to_string(m.dimension)},
+                  {"domain", m.domain}} {
         for (const auto& key : m.results.keys()) {
             const Report::Item& item = *m.results.find(key);
             const auto cells = list_cells(item);
@@ -61,92 +68,71 @@ class ValueRows {
             ++lists.count;
             lists.whole |= std::holds_alternative<Report::Integers>(item);
         }
-        add(m.results, "", m.dimension);
-        if (m.standard_error) add(*m.standard_error, "standard_error.", m.dimension);
+        add(m.results, "");
+        if (m.standard_error) add(*m.standard_error, "standard_error.");
     }
 
-    std::vector<std::pair<std::string, std::string>> single;  ///< the same on each row
-    std::vector<std::vector<Column>> tables;
+    [[nodiscard]] std::vector<Cells> rows() const {
+        if (tables_.empty()) return {single_};
+        std::vector<Cells> rows;
+        for (const Lists* table : tables_)
+            for (const Cells& row : table->rows) {
+                rows.push_back(single_);
+                rows.back().insert(rows.back().end(), row.begin(), row.end());
+            }
+        return rows;
+    }
 
   private:
-    /// Lists of one length in one group of the results.
-    struct Lists {
-        std::size_t count = 0;
-        bool whole = false;  ///< one of them holds whole numbers
-        std::optional<std::size_t> table = {};
-    };
-
     Lists& lists_of(const std::string& key, std::size_t length) {
         const auto dot = key.rfind('.');
         return lists_[{dot == std::string::npos ? "" : key.substr(0, dot), length}];
     }
 
-    void add(const Report& report, const std::string& prefix, std::size_t dimension) {
+    void add(const Report& report, const std::string& prefix) {
         for (const auto& key : report.keys()) {
             const Report::Item& item = *report.find(key);
-            auto cells = list_cells(item);
+            const auto cells = list_cells(item);
             if (!cells) {
-                single.emplace_back(prefix + key, single_cell(item));
+                single_.emplace_back(prefix + key, single_cell(item));
                 continue;
             }
             Lists& lists = lists_of(key, cells->size());
-            if (lists.count > 1 && (cells->size() > dimension || lists.whole)) {
-                if (!lists.table) {
-                    lists.table = tables.size();
-                    tables.emplace_back();
-                }
-                tables[*lists.table].emplace_back(prefix + key, std::move(*cells));
-            } else {
-                for (std::size_t i = 0; i < cells->size(); ++i)
-                    single.emplace_back(fmt::format("{}{}.{}", prefix, key, i), (*cells)[i]);
-            }
+            const bool curve = lists.count > 1 && (cells->size() > dimension_ || lists.whole);
+            if (curve && lists.rows.empty()) tables_.push_back(&lists);
+            if (curve) lists.rows.resize(cells->size());
+            for (std::size_t i = 0; i < cells->size(); ++i)
+                if (curve)
+                    lists.rows[i].emplace_back(prefix + key, (*cells)[i]);
+                else
+                    single_.emplace_back(fmt::format("{}{}.{}", prefix, key, i), (*cells)[i]);
         }
     }
 
+    std::size_t dimension_;
+    Cells single_;  ///< the same on each row
     std::map<std::pair<std::string, std::size_t>, Lists> lists_;
+    std::vector<const Lists*> tables_;  ///< in the order in which they come
 };
-
-/// The columns of all rows, in the order in which they first come.
-std::vector<std::string> columns_of(const std::vector<ValueRows>& all) {
-    std::vector<std::string> columns;
-    std::set<std::string> seen;
-    const auto add = [&](const std::string& name) {
-        if (seen.insert(name).second) columns.push_back(name);
-    };
-    for (const ValueRows& rows : all) {
-        for (const auto& [name, cell] : rows.single) add(name);
-        for (const auto& table : rows.tables)
-            for (const auto& [name, cells] : table) add(name);
-    }
-    return columns;
-}
-
-std::string row(const std::map<std::string, std::string>& cells,
-                const std::vector<std::string>& columns) {
-    std::vector<std::string> fields;
-    for (const std::string& column : columns) {
-        const auto cell = cells.find(column);
-        fields.push_back(cell == cells.end() ? "" : csv_field(cell->second));
-    }
-    return join(fields, ",") + "\n";
-}
 
 }  // namespace
 
 std::string to_csv(std::span<const Measurement> measurements) {
-    if (measurements.empty()) return {};
-    const std::vector<ValueRows> all(measurements.begin(), measurements.end());
-    const auto columns = columns_of(all);
-    std::string text = join(columns, ",") + "\n";
-    for (const ValueRows& rows : all) {
-        const std::map<std::string, std::string> single(rows.single.begin(), rows.single.end());
-        if (rows.tables.empty()) text += row(single, columns);
-        for (const auto& table : rows.tables)
-            for (std::size_t i = 0; i < table.front().second.size(); ++i) {
-                auto cells = single;
-                for (const auto& [name, list] : table) cells[name] = list[i];
-                text += row(cells, columns);
-            }
+    std::vector<Cells> rows;
+    std::vector<std::string> columns;  // of all rows, in the order in which they first come
+    std::map<std::string, std::size_t> places;
+    for (const Measurement& m : measurements)
+        for (Cells& row : MeasurementCells(m).rows()) {
+            for (const auto& [name, cell] : row)
+                if (places.try_emplace(name, columns.size()).second) columns.push_back(name);
+            rows.push_back(std::move(row));
+        }
+    std::string text = columns.empty() ? "" : join(columns, ",") + "\n";
+    for (const Cells& row : rows) {
+        std::vector<std::string> fields(columns.size());
+        for (const auto& [name, cell] : row)
+            if (std::string& field = fields[places[name]]; field.empty()) field = csv_field(cell);
+        text += join(fields, ",") + "\n";
     }
     return text;
 }

@@ -17,27 +17,6 @@ namespace {
 
 Json number_json(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
-Json to_json(const Report& report) {
-    struct {
-        Json operator()(bool b) const { return b; }
-        Json operator()(std::int64_t i) const { return i; }
-        Json operator()(double x) const { return number_json(x); }
-        Json operator()(const std::string& s) const { return s; }
-        Json operator()(const Report::Curve& curve) const {
-            Json array = Json::array();
-            for (const double x : curve) array.push_back(number_json(x));
-            return array;
-        }
-        Json operator()(const Report::Integers& list) const { return list; }
-        Json operator()(const Grid&) const { return {}; }
-        Json operator()(const Report& group) const { return to_json(group); }
-    } convert;
-    Json object = Json::object();
-    for (const auto& [name, value, unit] : report.entries())
-        if (!std::holds_alternative<Grid>(value)) object[name] = std::visit(convert, value);
-    return object;
-}
-
 /// Option values as JSON numbers and booleans where they are such.
 Json option_json(const std::string& text) {
     if (text == "true" || text == "false") return text == "true";
@@ -47,9 +26,7 @@ Json option_json(const std::string& text) {
     return text;
 }
 
-Json to_json(const Measurement& m) {
-    Json options = Json::object();
-    for (const auto& [name, text] : m.options) options[name] = option_json(text);
+Json measurement_json(const Measurement& m) {
     Json input = {{"source", m.source}};
     if (m.set) input["set"] = *m.set;
     if (m.sets > 1) input["sets"] = m.sets;
@@ -57,10 +34,10 @@ Json to_json(const Measurement& m) {
     if (m.largest_count > 0) input["largest_count"] = m.largest_count;
     input["dimension"] = m.dimension;
     input["domain"] = m.domain;
-    Json object = {{"format", "stipple.report"}, {"version", 1},
-                   {"analyzer", m.analyzer},     {"input", input},
-                   {"options", options},         {"results", to_json(m.results)}};
-    if (m.standard_error) object["standard_error"] = to_json(*m.standard_error);
+    Json object = {{"format", "stipple.report"},    {"version", 1},
+                   {"analyzer", m.analyzer},        {"input", input},
+                   {"options", json_of(m.options)}, {"results", json_of(m.results)}};
+    if (m.standard_error) object["standard_error"] = json_of(*m.standard_error);
     object["seconds"] = m.seconds;
     return object;
 }
@@ -68,26 +45,9 @@ Json to_json(const Measurement& m) {
 std::string shortened(const Report::Curve& curve) {
     constexpr std::size_t shown = 6;
     const std::size_t some = std::min(curve.size(), shown);
-    std::string text;
-    for (std::size_t i = 0; i < some; ++i) text += fmt::format("{}{:.6g}", i ? " " : "", curve[i]);
+    std::string text = fmt::format("{:.6g}", fmt::join(std::span(curve).first(some), " "));
     if (curve.size() > some) text += fmt::format(" ... ({} values)", curve.size());
     return text;
-}
-
-std::string text_of(const Report::Item& item) {
-    struct {
-        std::string operator()(bool b) const { return b ? "yes" : "no"; }
-        std::string operator()(std::int64_t i) const { return std::to_string(i); }
-        std::string operator()(double x) const { return format_number(x); }
-        std::string operator()(const std::string& s) const { return s; }
-        std::string operator()(const Report::Curve& curve) const { return shortened(curve); }
-        std::string operator()(const Report::Integers& list) const {
-            return shortened(Report::Curve(list.begin(), list.end()));
-        }
-        std::string operator()(const Grid&) const { return {}; }
-        std::string operator()(const Report&) const { return {}; }
-    } text;
-    return std::visit(text, item);
 }
 
 const std::string& unit_of(const Report& report, std::string_view dotted_key) {
@@ -125,10 +85,67 @@ std::string to_text(const Measurement& m) {
 
 }  // namespace
 
+std::string text_of(const Report::Item& item) {
+    struct {
+        std::string operator()(bool b) const { return b ? "yes" : "no"; }
+        std::string operator()(std::int64_t i) const { return std::to_string(i); }
+        std::string operator()(double x) const { return format_number(x); }
+        std::string operator()(const std::string& s) const { return s; }
+        std::string operator()(const Report::Curve& curve) const { return shortened(curve); }
+        std::string operator()(const Report::Integers& list) const {
+            return shortened(Report::Curve(list.begin(), list.end()));
+        }
+        std::string operator()(const Grid&) const { return {}; }
+        std::string operator()(const Report&) const { return {}; }
+    } text;
+    return std::visit(text, item);
+}
+
+Json json_of(const Report& report) {
+    Json object = Json::object();
+    const auto convert = []<class T>(const T& value) -> Json {
+        if constexpr (std::is_same_v<T, double>) return number_json(value);
+        if constexpr (std::is_same_v<T, Report>) return json_of(value);
+        if constexpr (std::is_same_v<T, Report::Curve>) {
+            Json array = Json::array();
+            for (const double x : value) array.push_back(number_json(x));
+            return array;
+        }
+        if constexpr (std::is_constructible_v<Json, T>) return value;
+        return {};
+    };
+    for (const auto& [name, value, unit] : report.entries())
+        if (!std::holds_alternative<Grid>(value)) object[name] = std::visit(convert, value);
+    return object;
+}
+
+Json json_of(const std::vector<std::pair<std::string, std::string>>& options) {
+    Json object = Json::object();
+    for (const auto& [name, text] : options) object[name] = option_json(text);
+    return object;
+}
+
+std::optional<double> number_at(const Report& report, std::string_view key) {
+    const Report::Item* item = report.find(key);
+    if (item == nullptr) return std::nullopt;
+    if (const auto* number = std::get_if<double>(item)) return *number;
+    if (const auto* whole = std::get_if<std::int64_t>(item)) return static_cast<double>(*whole);
+    return std::nullopt;
+}
+
+std::optional<Report::Curve> list_at(const Report& report, std::string_view key) {
+    const Report::Item* item = report.find(key);
+    if (item == nullptr) return std::nullopt;
+    if (const auto* curve = std::get_if<Report::Curve>(item)) return *curve;
+    if (const auto* whole = std::get_if<Report::Integers>(item))
+        return Report::Curve(whole->begin(), whole->end());
+    return std::nullopt;
+}
+
 std::string to_json(std::span<const Measurement> measurements) {
-    if (measurements.size() == 1) return to_json(measurements[0]).dump(2) + "\n";
+    if (measurements.size() == 1) return measurement_json(measurements[0]).dump(2) + "\n";
     Json array = Json::array();
-    for (const Measurement& m : measurements) array.push_back(to_json(m));
+    for (const Measurement& m : measurements) array.push_back(measurement_json(m));
     return array.dump(2) + "\n";
 }
 

@@ -7,9 +7,11 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "core/json.hpp"
 #include "stipple/report.hpp"
 
 namespace stipple {
@@ -31,8 +33,22 @@ struct Measurement {
     double seconds = 0;
 };
 
+/// The number under a key of a report; nothing where there is none.
+std::optional<double> number_at(const Report& report, std::string_view key);
+
+/// The list of numbers under a key; nothing where there is none.
+std::optional<Report::Curve> list_at(const Report& report, std::string_view key);
+
+/// An item for people: long lists are cut short and say so; nothing for grids and groups.
+std::string text_of(const Report::Item& item);
+
+/// An object; numbers that JSON cannot hold (infinities) become null.
+Json json_of(const Report& report);
+
+/// An object of options, numbers and flags as such.
+Json json_of(const std::vector<std::pair<std::string, std::string>>& options);
+
 /// One object for one measurement, an array for several; ends with a newline.
-/// Numbers that JSON cannot hold (infinities) become null.
 std::string to_json(std::span<const Measurement> measurements);
 
 /// Names, values and units in aligned columns; long curves are cut short and say so.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "core/error.hpp"
 #include "core/json.hpp"
@@ -87,51 +88,6 @@ Measurement measurement_of(const Json& object, const std::string& source) {
     return m;
 }
 
-/// Ends of the JSON texts that follow each other at the front of the bytes: the place after each.
-class Texts {
-  public:
-    Texts(std::string_view bytes, const std::string& source) : rest_(bytes), source_(source) {}
-
-    /// The next text; false: there is none.
-    bool next(Json& value) {
-        const auto first = rest_.find_first_not_of(" \t\r\n");
-        if (first == std::string_view::npos) return false;
-        rest_.remove_prefix(first);
-        const std::size_t size = length();
-        try {
-            value = Json::parse(rest_.substr(0, size));
-        } catch (const Json::parse_error& e) {
-            fail(ErrorKind::input, "{}: no whole JSON, byte {} of a report; {}", source_, e.byte,
-                 wanted);
-        }
-        rest_.remove_prefix(size);
-        return true;
-    }
-
-  private:
-    /// Bytes up to the bracket that closes the first one; all, where none does.
-    [[nodiscard]] std::size_t length() const {
-        int depth = 0;
-        bool quoted = false;
-        for (std::size_t i = 0; i < rest_.size(); ++i) {
-            const char c = rest_[i];
-            if (quoted && c == '\\') {
-                ++i;
-                continue;
-            }
-            if (c == '"') quoted = !quoted;
-            if (quoted) continue;
-            if (c == '{' || c == '[') ++depth;
-            if (c == '}' || c == ']') --depth;
-            if (depth <= 0) return i + 1;
-        }
-        return rest_.size();
-    }
-
-    std::string_view rest_;
-    const std::string& source_;
-};
-
 }  // namespace
 
 bool looks_like_reports(std::string_view bytes) {
@@ -145,12 +101,16 @@ bool looks_like_reports(std::string_view bytes) {
 
 std::vector<Measurement> read_reports(std::string_view bytes, const std::string& source) {
     std::vector<Measurement> found;
-    Texts texts(bytes, source);
-    for (Json text; texts.next(text);) {
-        if (!text.is_array()) {
-            found.push_back(measurement_of(text, source));
-            continue;
+    std::istringstream in{std::string(bytes)};
+    while (in >> std::ws, !in.eof()) {
+        Json text;
+        try {
+            in >> text;
+        } catch (const Json::parse_error& e) {
+            fail(ErrorKind::input, "{}: no whole JSON, byte {} of a report; {}", source, e.byte,
+                 wanted);
         }
+        if (!text.is_array()) text = Json::array({std::move(text)});
         for (const Json& object : text) found.push_back(measurement_of(object, source));
     }
     if (found.empty()) fail(ErrorKind::input, "{}: holds no report; {}", source, wanted);

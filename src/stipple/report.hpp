@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -30,17 +32,17 @@ class Report {
 
     Report() = default;
 
-    /// Adds a value under `name`; an entry that is there already is replaced. A unit may be named.
-    Report& add(std::string_view name, bool value);
-    Report& add(std::string_view name, std::int64_t value, std::string_view unit = {});
-    Report& add(std::string_view name, std::uint64_t value, std::string_view unit = {});
-    Report& add(std::string_view name, double value, std::string_view unit = {});
-    Report& add(std::string_view name, const char* value);
-    Report& add(std::string_view name, std::string value);
-    Report& add(std::string_view name, Curve value, std::string_view unit = {});
-    Report& add(std::string_view name, Integers value, std::string_view unit = {});
-    Report& add(std::string_view name, Grid value);
-    Report& add(std::string_view name, Report value);
+    /// Adds a value under `name`: a flag, a number, a text or any other item. An entry that is there
+    /// already is replaced. A unit may be named.
+    template <class T>
+    Report& add(std::string_view name, T value, std::string_view unit = {}) {
+        if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
+            return put(name, static_cast<std::int64_t>(value), unit);
+        else if constexpr (std::is_convertible_v<T, std::string>)
+            return put(name, std::string(std::move(value)), unit);
+        else
+            return put(name, std::move(value), unit);
+    }
 
     [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
     [[nodiscard]] std::vector<Entry>& entries() { return entries_; }

@@ -51,7 +51,7 @@ std::map<std::string, Scatter> scatter_of(const char* words, const char* generat
                                 options, {}));
         Report mean = average.mean();
         unit.refine(mean, sets, options);
-        const Report errors = only_of(mean, average.standard_error());
+        const Report errors = average.standard_error(mean);
         for (const std::string& key : errors.keys()) {
             values[key].push_back(numbers_at(mean, key));
             for (const double error : numbers_at(errors, key))
@@ -111,12 +111,11 @@ TEST(ReportAverage, StandardErrorsOfWhatIsNotInTheMeanAreLeftOut) {
     for (const double x : {1.0, 2.0}) average.add(sample(x, 1, "same"));
     Report mean;
     mean.add("count", 1.0).add("inner", Report());
-    const Report errors = only_of(mean, average.standard_error());
+    const Report errors = average.standard_error(mean);
     EXPECT_EQ(errors.find("value"), nullptr);
     EXPECT_EQ(errors.find("inner.curve"), nullptr);
     EXPECT_EQ(errors.number("count"), 0);
-    EXPECT_EQ(only_of(average.mean(), average.standard_error()).curve("inner.curve"),
-              (Report::Curve{0.5, 1}));
+    EXPECT_EQ(average.standard_error().curve("inner.curve"), (Report::Curve{0.5, 1}));
 }
 
 TEST(ReportAverage, WhatIsNoMeanHasNoStandardError) {
@@ -129,8 +128,7 @@ TEST(ReportAverage, WhatIsNoMeanHasNoStandardError) {
         report.add("one", Report().add("exact", 1.0).add("standard_error", x).add("error", x));
         average.add(report);
     }
-    EXPECT_EQ(only_of(average.mean(), average.standard_error()).keys(),
-              (std::vector<std::string>{"estimate", "one.error"}));
+    EXPECT_EQ(average.standard_error().keys(), (std::vector<std::string>{"estimate", "one.error"}));
 }
 
 // A standard deviation of 60 values has an error of 9 %.
