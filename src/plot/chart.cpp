@@ -128,7 +128,7 @@ std::size_t colour_of(const ChartPanel& panel, std::size_t series) {
 std::vector<LegendEntry> legend_of(const ChartPanel& panel, bool sets_named, const Theme& theme) {
     std::vector<LegendEntry> entries;
     const std::size_t curves = panel.series.size() + panel.bars.size();
-    const bool named = curves > 1 && (!sets_named || !panel.colours_by_set);
+    const bool named = curves > 1 && !sets_named;
     for (std::size_t i = 0; named && i < panel.series.size(); ++i)
         entries.push_back({.kind = LegendEntry::Kind::line,
                            .name = panel.series[i].name,
@@ -146,10 +146,11 @@ std::vector<LegendEntry> legend_of(const ChartPanel& panel, bool sets_named, con
                            .colour = theme.background});
     }
     for (const Band& band : panel.bands)
-        if (!band.name.empty()) entries.push_back({LegendEntry::Kind::band, band.name, theme.band});
+        if (!band.name.empty()) entries.push_back({LegendEntry::Kind::box, band.name, theme.band});
     for (const Guide& guide : panel.guides)
         if (!guide.name.empty())
-            entries.push_back({LegendEntry::Kind::guide, guide.name, theme.guide});
+            entries.push_back(
+                {LegendEntry::Kind::line, guide.name, theme.guide, Dash::dashed, 1.2});
     return entries;
 }
 
@@ -248,7 +249,7 @@ void draw_series(Drawing& drawing, const Panel& panel, const Series& series, Col
         if (series.marks || alone)
             drawing.add(
                 Disks{.centres = piece, .radius = series.marks ? 2.6 : 2, .colour = colour});
-        if (series.line && !alone)
+        if (!alone)
             drawing.add(
                 Line{.vertices = std::move(piece), .colour = colour, .width = 1.6, .dash = dash});
     }
@@ -334,11 +335,11 @@ void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Posi
         const LegendEntry& entry = entries[i];
         const double x = top_left.x + places[i].x;
         const double y = top_left.y + places[i].y + legend_row / 2;
-        if (entry.kind == Kind::line || entry.kind == Kind::guide)
+        if (entry.kind == Kind::line)
             drawing.add(Line{.vertices = {{x, y}, {x + swatch, y}},
                              .colour = entry.colour,
-                             .width = entry.kind == Kind::line ? 2.0 : 1.2,
-                             .dash = entry.kind == Kind::line ? entry.dash : Dash::dashed});
+                             .width = entry.width,
+                             .dash = entry.dash});
         else if (entry.kind == Kind::disk)
             drawing.add(
                 Disks{.centres = {{x + swatch - 6, y}}, .radius = 4, .colour = entry.colour});

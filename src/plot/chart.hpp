@@ -34,8 +34,7 @@ struct Series {
     std::vector<double> y;
     std::vector<double> low = {};  ///< a band around it; empty: none
     std::vector<double> high = {};
-    bool marks = false;  ///< a disk at each value
-    bool line = true;
+    bool marks = false;                   ///< a disk at each value
     std::size_t measurement = 0;          ///< that it is of, where it is of one
     std::optional<std::size_t> set = {};  ///< gives its colour, and its group in a page
 };
@@ -74,8 +73,7 @@ struct ChartPanel {
     bool log_x = false;
     bool log_y = false;
     bool whole_x = false;
-    bool from_zero = false;      ///< the y axis starts there
-    bool colours_by_set = true;  ///< curve i of every panel belongs to the same set
+    bool from_zero = false;  ///< the y axis starts there
     double reach_y =
         -std::numeric_limits<double>::infinity();  ///< a linear y axis goes up to it at least
     double least_y = -std::numeric_limits<double>::infinity();  ///< the axis shows no less
@@ -107,11 +105,12 @@ TitledDrawing titled_drawing(const std::string& title, const std::string& subtit
 
 /// What a legend explains.
 struct LegendEntry {
-    enum class Kind { line, band, guide, box, disk };
+    enum class Kind { line, box, disk };
     Kind kind = Kind::line;
     std::string name;
     Colour colour = {};
     Dash dash = Dash::none;
+    double width = 2;  ///< of a line
 };
 
 /// Height of a legend in rows as wide as `width`.

@@ -73,14 +73,10 @@ double share_of_box(const PointSet& set) {
 /// Puts a point of a set at its place in the drawing.
 using Place = std::function<Position(std::span<const double>)>;
 
-/// How many points there are in the squares of a raster.
-struct BinCounts {
-    PixelImage raster;
-    std::vector<std::uint64_t> counts;
-
-    [[nodiscard]] double largest() const {
-        return static_cast<double>(*std::ranges::max_element(counts));
-    }
+/// A part of a drawing, and where points stand there.
+struct View {
+    Area area;
+    Place place;
 };
 
 /// The numbers beside a bar of counts from 0 to the largest.
@@ -128,45 +124,33 @@ class PointMarks {
         }
     }
 
-    /// A pixel for each point, half a unit wide.
-    void pixels_of_points(Drawing& drawing, const Area& area, const Place& place) const {
-        PixelImage raster = empty_raster(area, 0.5);
-        for (std::size_t s = 0; s < picture_.sets.size(); ++s)
-            for_each_bin(*picture_.sets[s], raster, place,
-                         [&](std::size_t bin) { raster.pixels[bin] = theme_.series_colour(s); });
-        drawing.add(std::move(raster));
-    }
-
-    /// Points in squares that hold some of them on average.
-    [[nodiscard]] BinCounts counts_in(const Area& area, const Place& place) const {
-        const auto n = static_cast<double>(points_of(picture_));
-        const double side =
-            std::clamp(std::ceil(std::sqrt(6 * area.width * area.height / n)), 1.0, 16.0);
-        BinCounts counts_in{.raster = empty_raster(area, side), .counts = {}};
-        counts_in.counts.resize(counts_in.raster.pixels.size());
-        for_each_bin(*picture_.sets[0], counts_in.raster, place,
-                     [&](std::size_t bin) { ++counts_in.counts[bin]; });
-        return counts_in;
-    }
-
-    /// The counts in shades up to the largest.
-    void density(Drawing& drawing, BinCounts counts_in, double largest) const {
-        for (std::size_t i = 0; i < counts_in.counts.size(); ++i)
-            counts_in.raster.pixels[i] = shade(static_cast<double>(counts_in.counts[i]) / largest);
-        drawing.add(std::move(counts_in.raster));
-    }
-
-    /// Many points as a density or as single pixels. Returns the largest count of the density.
-    double raster(Drawing& drawing, const Area& area, const Place& place, bool dense) const {
+    /// Many points in each of the views: as pixels half a unit wide or, dense, as their counts in
+    /// squares that hold some of them on average, in shades up to the largest count of all views.
+    /// Returns that; 0 where there is none.
+    double raster(Drawing& drawing, const std::vector<View>& views, bool dense) const {
         if (as_disks()) return 0;
-        if (!dense) {
-            pixels_of_points(drawing, area, place);
-            return 0;
+        std::vector<PixelImage> images;
+        std::vector<std::vector<std::uint64_t>> bins;
+        std::uint64_t largest = 0;
+        const auto n = static_cast<double>(points_of(picture_));
+        for (const auto& [area, place] : views) {
+            const double some = std::ceil(std::sqrt(6 * area.width * area.height / n));
+            images.push_back(empty_raster(area, dense ? std::clamp(some, 1.0, 16.0) : 0.5));
+            auto& here = bins.emplace_back(images.back().pixels.size());
+            for (std::size_t s = 0; s < picture_.sets.size(); ++s)
+                for_each_bin(*picture_.sets[s], images.back(), place,
+                             [&](std::size_t bin) { here[bin] = dense ? here[bin] + 1 : s + 1; });
+            largest = std::max(largest, *std::ranges::max_element(here));
         }
-        BinCounts counted = counts_in(area, place);
-        const double largest = counted.largest();
-        density(drawing, std::move(counted), largest);
-        return largest;
+        const auto most = static_cast<double>(largest);
+        for (std::size_t v = 0; v < views.size(); ++v) {
+            for (std::size_t i = 0; i < bins[v].size(); ++i)
+                if (const std::uint64_t bin = bins[v][i]; bin > 0)
+                    images[v].pixels[i] = dense ? shade(static_cast<double>(bin) / most)
+                                                : theme_.series_colour(bin - 1);
+            drawing.add(std::move(images[v]));
+        }
+        return dense ? most : 0;
     }
 
     void draw_bar(Drawing& drawing, const Area& frame, double largest) const {
@@ -264,10 +248,9 @@ void draw_boxes(Drawing& drawing, const PointsPicture& picture, const Panel& pan
             for (const auto& [y0, y1] : box.ranges[j]) {
                 std::vector<Position> corners = {panel.at(x0, y0), panel.at(x1, y0),
                                                  panel.at(x1, y1), panel.at(x0, y1)};
-                drawing.add(Patch{.vertices = corners, .colour = box.colour, .opacity = 0.1});
+                drawing.add(Patch{.vertices = corners, .opacity = 0.1});
                 corners.push_back(corners[0]);
                 drawing.add(Line{.vertices = std::move(corners),
-                                 .colour = box.colour,
                                  .width = 1.6,
                                  .dash = box.closed ? Dash::none : Dash::dashed});
             }
@@ -306,7 +289,7 @@ Drawing draw_plane(const PointsPicture& picture, const PictureStyle& style, cons
     const Panel panel(frame, x, y);
     const Place place = [&panel](std::span<const double> p) { return panel.at(p[0], p[1]); };
     Drawing& drawing = page.drawing;
-    const double largest = marks.raster(drawing, frame, place, dense);
+    const double largest = marks.raster(drawing, {{frame, place}}, dense);
     if (dense) marks.draw_bar(drawing, frame, largest);
     panel.draw_axes(drawing, theme, true);
     draw_outline(drawing, picture, panel, theme);
@@ -435,7 +418,7 @@ Drawing draw_space(const PointsPicture& picture, const PictureStyle& style, cons
         const Place place = [&scene](std::span<const double> p) { return scene.at(p); };
         const Area area{std::floor(left), std::floor(page.top + 8), std::ceil(wide),
                         std::ceil(scale * upward)};
-        marks.raster(drawing, area, place, marks.as_density(area.width, area.height));
+        marks.raster(drawing, {{area, place}}, marks.as_density(area.width, area.height));
         draw_edges(drawing, scene, theme, false);
     }
     draw_edges(drawing, scene, theme, true);
@@ -479,9 +462,20 @@ class PairSheet {
     }
 
     Drawing draw() {
-        if (marks_.as_density(side_, side_)) draw_densities();
+        const bool dense = marks_.as_density(side_, side_);
+        std::vector<View> views;
         for (std::size_t j = 1; j < shown_; ++j)
-            for (std::size_t i = 0; i < j; ++i) draw_pair(i, j);
+            for (std::size_t i = 0; i < j; ++i) views.push_back(view(i, j));
+        const double largest = marks_.raster(page_.drawing, views, dense);
+        // All pairs have the same shades, whose bar stands in the sheet's free corner.
+        if (dense) marks_.draw_bar(page_.drawing, panel(0, 1).frame(), largest);
+        for (std::size_t j = 1; j < shown_; ++j)
+            for (std::size_t i = 0; i < j; ++i) {
+                const auto [frame, place] = view(i, j);
+                panel(i, j).draw_axes(page_.drawing, theme_, true);
+                if (marks_.as_disks()) marks_.disks(page_.drawing, frame, place);
+                draw_boxes(page_.drawing, picture_, panel(i, j), i, j);
+            }
         return std::move(page_.drawing);
     }
 
@@ -506,34 +500,10 @@ class PairSheet {
                  .tight = true}};
     }
 
-    [[nodiscard]] static Place place(const Panel& panel, std::size_t i, std::size_t j) {
-        return [&panel, i, j](std::span<const double> p) { return panel.at(p[i], p[j]); };
-    }
-
-    /// All pairs in the same shades, whose bar stands in the sheet's free corner.
-    void draw_densities() {
-        std::vector<BinCounts> all_counts;
-        double largest = 0;
-        for (std::size_t j = 1; j < shown_; ++j)
-            for (std::size_t i = 0; i < j; ++i) {
-                const Panel here = panel(i, j);
-                all_counts.push_back(marks_.counts_in(here.frame(), place(here, i, j)));
-                largest = std::max(largest, all_counts.back().largest());
-            }
-        for (BinCounts& counts_in : all_counts)
-            marks_.density(page_.drawing, std::move(counts_in), largest);
-        marks_.draw_bar(page_.drawing, panel(0, 1).frame(), largest);
-    }
-
-    void draw_pair(std::size_t i, std::size_t j) {
+    [[nodiscard]] View view(std::size_t i, std::size_t j) const {
         const Panel here = panel(i, j);
-        const Area& frame = here.frame();
-        const bool dense = marks_.as_density(side_, side_);
-        if (!dense && !marks_.as_disks())
-            marks_.pixels_of_points(page_.drawing, frame, place(here, i, j));
-        here.draw_axes(page_.drawing, theme_, true);
-        if (marks_.as_disks()) marks_.disks(page_.drawing, frame, place(here, i, j));
-        draw_boxes(page_.drawing, picture_, here, i, j);
+        return {here.frame(),
+                [here, i, j](std::span<const double> p) { return here.at(p[i], p[j]); }};
     }
 
     const PointsPicture& picture_;

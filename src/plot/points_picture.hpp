@@ -32,7 +32,6 @@ enum class Marking { automatic, disks, density };
 struct MarkedBox {
     std::string attributes;  ///< of its group in a page
     std::vector<std::vector<std::pair<double, double>>> ranges;
-    Colour colour = {};
     bool closed = true;  ///< drawn with a solid line; else dashed
 };
 

@@ -112,7 +112,7 @@ std::string chart_as_text(const Chart& chart, const PictureStyle& style, const T
         for (std::size_t i = 0; i < series.x.size(); ++i) {
             const double right = x.share(series.x[i]);
             const double up = y.share(series.y[i]);
-            const bool joined = i > 0 && series.line && std::isfinite(series.y[i - 1]);
+            const bool joined = i > 0 && std::isfinite(series.y[i - 1]);
             if (joined)
                 dots.draw(x.share(series.x[i - 1]), y.share(series.y[i - 1]), right, up);
             else

@@ -11,21 +11,6 @@
 #include "plot/drawing/letters.hpp"
 
 namespace stipple::plot {
-namespace {
-
-/// Letters of a terminal that a text takes.
-std::size_t length_of(const std::string& text) { return code_points(text).size(); }
-
-std::string blanks(std::size_t n) { return std::string(n, ' '); }
-
-std::string repeated(const char* letter, std::size_t n) {
-    std::string out;
-    for (std::size_t i = 0; i < n; ++i) out += letter;
-    return out;
-}
-
-}  // namespace
-
 DotMatrix::DotMatrix(std::size_t columns, std::size_t rows)
     : columns_(std::max<std::size_t>(columns, 1)),
       rows_(std::max<std::size_t>(rows, 1)),
@@ -58,33 +43,23 @@ std::string DotMatrix::row(std::size_t row) const {
     return text;
 }
 
-std::size_t DotMatrix::dots() const {
-    std::size_t sum = 0;
-    for (const unsigned char letter : letters_)
-        sum += static_cast<std::size_t>(std::popcount(letter));
-    return sum;
-}
-
 std::string framed(const DotMatrix& dots, const TextFrame& frame) {
     const std::size_t columns = dots.width() / 2;
     const std::size_t rows = dots.height() / 4;
-    const std::size_t side = std::max(length_of(frame.low_y), length_of(frame.high_y));
-    const auto beside = [side](const std::string& text) {
-        return blanks(side - std::min(side, length_of(text))) + text;
-    };
+    const auto length = [](const std::string& text) { return code_points(text).size(); };
+    const std::size_t side = std::max(length(frame.low_y), length(frame.high_y));
     std::string text = frame.title.empty() ? "" : frame.title + "\n";
-    if (!frame.name_y.empty()) text += fmt::format("{} {}\n", beside(""), frame.name_y);
-    text += fmt::format("{} ┌{}┐\n", beside(""), repeated("─", columns));
+    if (!frame.name_y.empty()) text += fmt::format("{:{}} {}\n", "", side, frame.name_y);
+    text += fmt::format("{:{}} ┌{:─<{}}┐\n", "", side, "", columns);
     for (std::size_t i = 0; i < rows; ++i) {
         const std::string& label = i == 0 ? frame.high_y : i + 1 == rows ? frame.low_y : "";
-        text += fmt::format("{} │{}│\n", beside(label), dots.row(i));
+        text += fmt::format("{:>{}} │{}│\n", label, side, dots.row(i));
     }
-    text += fmt::format("{} └{}┘\n", beside(""), repeated("─", columns));
-    const std::size_t taken =
-        length_of(frame.low_x) + length_of(frame.high_x) + length_of(frame.name_x);
+    text += fmt::format("{:{}} └{:─<{}}┘\n", "", side, "", columns);
+    const std::size_t taken = length(frame.low_x) + length(frame.high_x) + length(frame.name_x);
     const std::size_t room = columns + 2 > taken ? columns + 2 - taken : 2;
-    return text + fmt::format("{} {}{}{}{}{}\n", beside(""), frame.low_x, blanks(room / 2),
-                              frame.name_x, blanks(room - room / 2), frame.high_x);
+    return text + fmt::format("{:{}} {}{:{}}{}{:{}}{}\n", "", side, frame.low_x, "", room / 2,
+                              frame.name_x, "", room - room / 2, frame.high_x);
 }
 
 }  // namespace stipple::plot

@@ -28,9 +28,6 @@ class DotMatrix {
     /// The characters of a row, from the top.
     [[nodiscard]] std::string row(std::size_t row) const;
 
-    /// Number of dots.
-    [[nodiscard]] std::size_t dots() const;
-
   private:
     std::size_t columns_;
     std::size_t rows_;

@@ -127,6 +127,9 @@ std::string svg_bytes(const Drawing& drawing, double scale, const PictureNotes& 
 /// where it is dark; the label describes it to screen readers. Both have the same shapes.
 std::string svg_element(const Drawing& light, const Drawing& dark, const std::string& label);
 
+/// Pixels as PNG; grey: of one part, where all three are the same.
+std::string png_bytes_of(const PixelImage& image, bool grey, const PictureNotes& notes = {});
+
 /// As PNG, one unit `scale` pixels. @throws Error(limit) for one that is too large.
 std::string png_bytes_of(const Drawing& drawing, double scale, const PictureNotes& notes = {});
 

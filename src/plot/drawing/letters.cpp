@@ -6,8 +6,10 @@
 #include "plot/drawing/letters.hpp"
 
 #include <algorithm>
+#include <boost/locale/utf.hpp>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <optional>
 
 #include "core/text.hpp"
@@ -37,31 +39,14 @@ constexpr std::u32string_view plain_letters = U"0123456789−";
 constexpr std::u32string_view bare_letters =
     U"AAAAAAACEEEEIIIIDNOOOOO×OUUUUYPsaaaaaaaceeeeiiiidnooooo/ouuuuypy";
 
-/// Bytes that follow the first one of a letter in UTF-8, or nothing for what begins none.
-std::optional<std::size_t> following(unsigned char first) {
-    if (first < 0x80) return 0;
-    if (first >= 0xC2 && first < 0xE0) return 1;
-    if (first >= 0xE0 && first < 0xF0) return 2;
-    if (first >= 0xF0 && first < 0xF5) return 3;
-    return std::nullopt;
-}
+using Utf8 = boost::locale::utf::utf_traits<char>;
 
 /// The letter at the front of the text and its length; U+FFFD of one byte where there is none.
 std::pair<char32_t, std::size_t> first_letter(std::string_view text) {
-    const auto first = static_cast<unsigned char>(text[0]);
-    const auto more = following(first);
-    if (more == std::size_t{0}) return {first, 1};
-    if (!more || text.size() <= *more) return {U'\uFFFD', 1};
-    char32_t letter = first & (0x3FU >> *more);
-    for (std::size_t k = 1; k <= *more; ++k) {
-        const auto byte = static_cast<unsigned char>(text[k]);
-        if ((byte & 0xC0) != 0x80) return {U'\uFFFD', 1};
-        letter = letter << 6 | (byte & 0x3FU);
-    }
-    const bool overlong = (*more == 2 && letter < 0x800) || (*more == 3 && letter < 0x10000);
-    const bool none = overlong || letter > 0x10FFFF || (letter >= 0xD800 && letter < 0xE000);
-    if (none) return {U'\uFFFD', 1};
-    return {letter, *more + 1};
+    const char* at = text.data();
+    const auto letter = Utf8::decode(at, text.data() + text.size());
+    if (!boost::locale::utf::is_valid_codepoint(letter)) return {U'\uFFFD', 1};
+    return {letter, static_cast<std::size_t>(at - text.data())};
 }
 
 /// All glyphs by their letters, from lines such as "L 556 M3 19L3 1L14.2 1".
@@ -160,22 +145,7 @@ std::u32string code_points(std::string_view text) {
 }
 
 void append_utf8(std::string& out, char32_t letter) {
-    const auto put = [&out](char32_t byte) { out += static_cast<char>(byte); };
-    if (letter < 0x80) {
-        put(letter);
-        return;
-    }
-    if (letter < 0x800) {
-        put(0xC0 | letter >> 6);
-    } else if (letter < 0x10000) {
-        put(0xE0 | letter >> 12);
-        put(0x80 | (letter >> 6 & 0x3F));
-    } else {
-        put(0xF0 | letter >> 18);
-        put(0x80 | (letter >> 12 & 0x3F));
-        put(0x80 | (letter >> 6 & 0x3F));
-    }
-    put(0x80 | (letter & 0x3F));
+    Utf8::encode(letter, std::back_inserter(out));
 }
 
 std::string utf8_of(std::u32string_view letters) {
@@ -216,24 +186,20 @@ double text_width(std::string_view text, double size) {
 }
 
 std::string shortened_to(const std::string& text, double size, double width) {
-    if (text_width(text, size) <= width) return text;
-    std::u32string letters = code_points(text);
-    std::string out;
-    do {
-        letters.erase(0, 1);
-        out = "…" + utf8_of(letters);
-    } while (!letters.empty() && text_width(out, size) > width);
+    std::string out = text;
+    for (auto rest = code_points(text); !rest.empty() && text_width(out, size) > width;) {
+        rest.erase(0, 1);
+        out = "…" + utf8_of(rest);
+    }
     return out;
 }
 
 std::string cut_to(const std::string& text, double size, double width) {
-    if (text_width(text, size) <= width) return text;
-    std::u32string letters = code_points(text);
-    std::string out;
-    do {
-        letters.pop_back();
-        out = utf8_of(letters) + "…";
-    } while (!letters.empty() && text_width(out, size) > width);
+    std::string out = text;
+    for (auto rest = code_points(text); !rest.empty() && text_width(out, size) > width;) {
+        rest.pop_back();
+        out = utf8_of(rest) + "…";
+    }
     return out;
 }
 

@@ -8,7 +8,6 @@
 // and colours are mixed by that share.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/error.hpp"
 #include "media/png_picture.hpp"
@@ -24,13 +23,6 @@ struct Pixels {
     int top = 0;
     int right = 0;
     int bottom = 0;
-
-    void cut_to(const Pixels& other) {
-        left = std::max(left, other.left);
-        top = std::max(top, other.top);
-        right = std::min(right, other.right);
-        bottom = std::min(bottom, other.bottom);
-    }
 };
 
 constexpr double most_pixels = 2.5e8;
@@ -147,8 +139,8 @@ class Rasterizer {
         const double down = std::max(1.0, std::round(a.bottom() * scale_) - top);
         const double step_x = static_cast<double>(raster.columns) / across;
         const double step_y = static_cast<double>(raster.rows) / down;
-        Pixels area{pixel(left), pixel(top), pixel(left + across), pixel(top + down)};
-        area.cut_to(window_);
+        const Pixels area =
+            visible({pixel(left), pixel(top), pixel(left + across), pixel(top + down)});
         for (int y = area.top; y < area.bottom; ++y)
             for (int x = area.left; x < area.right; ++x)
                 colours_[index(x, y)] =
@@ -161,29 +153,26 @@ class Rasterizer {
         window_ = {0, 0, width_, height_};
         if (window.open) return;
         const Area& a = window.area;
-        Pixels cut{pixel(std::floor(a.left * scale_)), pixel(std::floor(a.top * scale_)),
-                   pixel(std::ceil(a.right() * scale_)), pixel(std::ceil(a.bottom() * scale_))};
-        cut.cut_to(window_);
-        window_ = cut;
+        window_ =
+            visible({pixel(std::floor(a.left * scale_)), pixel(std::floor(a.top * scale_)),
+                     pixel(std::ceil(a.right() * scale_)), pixel(std::ceil(a.bottom() * scale_))});
     }
 
     [[nodiscard]] std::string png(const PictureNotes& notes) const {
-        std::string samples;
-        samples.reserve(3 * colours_.size());
-        for (const Colour& c : colours_)
-            for (const std::uint8_t part : {c.red, c.green, c.blue})
-                samples += static_cast<char>(part);
-        const PngShape shape{.width = static_cast<std::size_t>(width_),
-                             .height = static_cast<std::size_t>(height_),
-                             .bits = 8,
-                             .colour = true};
-        return encode_png(shape, samples, notes);
+        const auto size = [](int pixels) { return static_cast<std::size_t>(pixels); };
+        return png_bytes_of({{}, size(width_), size(height_), colours_}, false, notes);
     }
 
   private:
     [[nodiscard]] std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                static_cast<std::size_t>(x);
+    }
+
+    /// The part of an area that is not clipped.
+    [[nodiscard]] Pixels visible(const Pixels& area) const {
+        return {std::max(area.left, window_.left), std::max(area.top, window_.top),
+                std::min(area.right, window_.right), std::min(area.bottom, window_.bottom)};
     }
 
     /// A line along an axis, of whole pixels.
@@ -195,9 +184,9 @@ class Rasterizer {
         const double at = std::floor((across ? a.y : a.x) + 0.5 * (scale_ - wide));
         const double from = std::floor(across ? std::min(a.x, b.x) : std::min(a.y, b.y));
         const double to = std::ceil(across ? std::max(a.x, b.x) : std::max(a.y, b.y));
-        Pixels area = across ? Pixels{pixel(from), pixel(at), pixel(to), pixel(at + wide)}
-                             : Pixels{pixel(at), pixel(from), pixel(at + wide), pixel(to)};
-        area.cut_to(window_);
+        const Pixels area =
+            visible(across ? Pixels{pixel(from), pixel(at), pixel(to), pixel(at + wide)}
+                           : Pixels{pixel(at), pixel(from), pixel(at + wide), pixel(to)});
         for (int y = area.top; y < area.bottom; ++y)
             for (int x = area.left; x < area.right; ++x) colours_[index(x, y)] = line.colour;
     }
@@ -215,11 +204,10 @@ class Rasterizer {
         const double reach = wide / 2 + 0.5;
         // A line thinner than a pixel covers that share of it.
         const double most = std::min(1.0, wide);
-        Pixels area{pixel(std::floor(std::min(a.x, b.x) - reach)),
-                    pixel(std::floor(std::min(a.y, b.y) - reach)),
-                    pixel(std::ceil(std::max(a.x, b.x) + reach)) + 1,
-                    pixel(std::ceil(std::max(a.y, b.y) + reach)) + 1};
-        area.cut_to(window_);
+        const Pixels area = visible({pixel(std::floor(std::min(a.x, b.x) - reach)),
+                                     pixel(std::floor(std::min(a.y, b.y) - reach)),
+                                     pixel(std::ceil(std::max(a.x, b.x) + reach)) + 1,
+                                     pixel(std::ceil(std::max(a.y, b.y) + reach)) + 1});
         for (int y = area.top; y < area.bottom; ++y)
             for (int x = area.left; x < area.right; ++x) {
                 const double d = squared_distance({x + 0.5, y + 0.5}, a, b);
@@ -234,14 +222,10 @@ class Rasterizer {
     /// Marks the coverage of a polygon in pixels, by the even-odd rule.
     void fill(const std::vector<Position>& vertices) {
         constexpr int rows_in_pixel = 4;
-        double top = std::numeric_limits<double>::infinity();
-        double bottom = -top;
-        for (const Position& position : vertices) {
-            top = std::min(top, position.y);
-            bottom = std::max(bottom, position.y);
-        }
-        Pixels area{0, pixel(std::floor(top)), width_, pixel(std::ceil(bottom))};
-        area.cut_to(window_);
+        if (vertices.empty()) return;
+        const auto [top, bottom] = std::ranges::minmax(vertices, {}, &Position::y);
+        const Pixels area =
+            visible({0, pixel(std::floor(top.y)), width_, pixel(std::ceil(bottom.y))});
         std::vector<double> crossings;
         for (int row = area.top * rows_in_pixel; row < area.bottom * rows_in_pixel; ++row) {
             const double y = (row + 0.5) / rows_in_pixel;
@@ -332,6 +316,18 @@ class Rasterizer {
 };
 
 }  // namespace
+
+std::string png_bytes_of(const PixelImage& image, bool grey, const PictureNotes& notes) {
+    std::string bytes;
+    bytes.reserve(image.pixels.size() * (grey ? 1 : 3));
+    for (const auto& [red, green, blue] : image.pixels) {
+        bytes += static_cast<char>(red);
+        if (grey) continue;
+        bytes += static_cast<char>(green);
+        bytes += static_cast<char>(blue);
+    }
+    return encode_png({image.columns, image.rows, 8, !grey}, bytes, notes);
+}
 
 std::string png_bytes_of(const Drawing& drawing, double scale, const PictureNotes& notes) {
     if (drawing.width * scale * drawing.height * scale > most_pixels)

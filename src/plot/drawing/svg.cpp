@@ -11,7 +11,6 @@
 #include <cmath>
 
 #include "io/decimal.hpp"
-#include "media/png_picture.hpp"
 #include "plot/drawing/drawing.hpp"
 #include "plot/drawing/html_text.hpp"
 
@@ -38,21 +37,6 @@ std::string paint(const char* property, Colour light, Colour dark) {
     return text;
 }
 
-/// The pixels as a PNG picture, in grey where they are.
-std::string png_of(const PixelImage& raster) {
-    const bool grey = std::ranges::all_of(
-        raster.pixels, [](Colour c) { return c.red == c.green && c.green == c.blue; });
-    std::string bytes;
-    bytes.reserve(raster.pixels.size() * (grey ? 1 : 3));
-    for (const Colour& c : raster.pixels) {
-        bytes += static_cast<char>(c.red);
-        if (grey) continue;
-        bytes += static_cast<char>(c.green);
-        bytes += static_cast<char>(c.blue);
-    }
-    return encode_png({raster.columns, raster.rows, 8, !grey}, bytes, {});
-}
-
 /// Writes shapes one after the other.
 class Writer {
   public:
@@ -62,13 +46,7 @@ class Writer {
         if (line.vertices.size() < 2) return;
         // Lines one unit wide are sharp where they run along the middle of pixels.
         const bool half = line.crisp && std::lround(line.width) % 2 == 1;
-        out_ += "<path d=\"";
-        for (std::size_t i = 0; i < line.vertices.size(); ++i) {
-            const Position position = line.vertices[i];
-            const double x = half ? std::floor(position.x) + 0.5 : position.x;
-            const double y = half ? std::floor(position.y) + 0.5 : position.y;
-            out_ += fmt::format("{}{} {}", i == 0 ? "M" : "L", number(x), number(y));
-        }
+        add_path(line.vertices, half);
         out_ += fmt::format("\" fill=\"none\"{} stroke-width=\"{}\"",
                             paint("stroke", line.colour, dark.colour), number(line.width));
         if (line.dash == Dash::dashed) out_ += " stroke-dasharray=\"6 4\"";
@@ -78,10 +56,7 @@ class Writer {
     }
 
     void operator()(const Patch& patch, const Patch& dark) {
-        out_ += "<path d=\"";
-        for (std::size_t i = 0; i < patch.vertices.size(); ++i)
-            out_ += fmt::format("{}{} {}", i == 0 ? "M" : "L", number(patch.vertices[i].x),
-                                number(patch.vertices[i].y));
+        add_path(patch.vertices, false);
         out_ += "Z\"" + paint("fill", patch.colour, dark.colour);
         if (patch.opacity < 1) out_ += fmt::format(" fill-opacity=\"{}\"", number(patch.opacity));
         out_ += "/>\n";
@@ -121,12 +96,14 @@ class Writer {
     /// Pixels have one set of colours; where a dark page has others, its style sheet inverts them.
     void operator()(const PixelImage& raster, const PixelImage& dark) {
         const Area& a = raster.area;
+        const bool grey = std::ranges::all_of(
+            raster.pixels, [](Colour c) { return c.red == c.green && c.green == c.blue; });
         out_ += fmt::format(
             "<image{} x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" "
             "style=\"image-rendering:pixelated\" {}=\"data:image/png;base64,{}\"/>\n",
             raster.pixels == dark.pixels ? "" : " class=\"inverted\"", number(a.left),
             number(a.top), number(a.width), number(a.height), page_ ? "href" : "xlink:href",
-            base64(png_of(raster)));
+            base64(png_bytes_of(raster, grey)));
     }
 
     void operator()(const ClipWindow& window, const ClipWindow&) {
@@ -161,6 +138,15 @@ class Writer {
     void close(bool& open) {
         if (open) out_ += "</g>\n";
         open = false;
+    }
+
+    /// The beginning of a path; half: along the middle of pixels.
+    void add_path(const std::vector<Position>& vertices, bool half) {
+        out_ += "<path d=\"";
+        for (const auto& [x, y] : vertices)
+            out_ += fmt::format("{}{} {}", &x == &vertices[0].x ? "M" : "L",
+                                number(half ? std::floor(x) + 0.5 : x),
+                                number(half ? std::floor(y) + 0.5 : y));
     }
 
     /// Strokes without length, whose ends are round: a third of the bytes of circles.

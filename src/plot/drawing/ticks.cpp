@@ -6,15 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <string_view>
+
+#include "core/text.hpp"
 
 namespace stipple::plot {
 namespace {
 
-std::string with_minus(const std::string& text) {
-    std::string out;
-    for (const char c : text) c == '-' ? out += "−" : out += c;
-    return out;
+std::string with_minus(std::string text) {
+    replace_all(text, "-", "−");
+    return text;
 }
 
 /// 10 to a whole power, the double nearest to it.
@@ -22,30 +22,20 @@ double ten_to(int exponent) {
     return exponent >= 0 ? std::pow(10.0, exponent) : 1 / std::pow(10.0, -exponent);
 }
 
-/// The smallest of 1, 2, 5 times a power of ten that is at least `least`.
+/// 1, 2 or 5 times a power of ten, numbered upward from 1.
 struct Step {
-    int digit;
-    int exponent;
-    [[nodiscard]] double value() const { return digit * ten_to(exponent); }
+    int number;
+    [[nodiscard]] int exponent() const { return static_cast<int>(std::floor(number / 3.0)); }
+    [[nodiscard]] double value() const {
+        constexpr std::array digits = {1, 2, 5};
+        return digits[static_cast<std::size_t>(number - 3 * exponent())] * ten_to(exponent());
+    }
 };
 
 Step step_at_least(double least) {
-    int exponent = static_cast<int>(std::floor(std::log10(least)));
-    for (;; ++exponent)
-        for (const int digit : {1, 2, 5})
-            if (digit * ten_to(exponent) >= least * (1 - 1e-9)) return {digit, exponent};
-}
-
-Step next(Step step) {
-    if (step.digit == 1) return {2, step.exponent};
-    if (step.digit == 2) return {5, step.exponent};
-    return {1, step.exponent + 1};
-}
-
-Step previous(Step step) {
-    if (step.digit == 5) return {2, step.exponent};
-    if (step.digit == 2) return {1, step.exponent};
-    return {5, step.exponent - 1};
+    Step step{3 * static_cast<int>(std::floor(std::log10(least)))};
+    while (step.value() < least * (1 - 1e-9)) ++step.number;
+    return step;
 }
 
 /// Multiples of the step in [low, high], counted in steps.
@@ -138,15 +128,15 @@ std::string power_of_ten(int exponent) {
 Ticks linear_ticks(double low, double high, std::size_t most, bool whole) {
     most = std::max<std::size_t>(most, 2);
     Step step = step_at_least((high - low) / static_cast<double>(most));
-    if (whole && step.exponent < 0) step = {1, 0};
+    if (whole && step.number < 0) step.number = 0;
     auto [first, last] = multiples(low, high, step.value());
     while (last - first + 1 > static_cast<double>(most)) {
-        step = next(step);
+        ++step.number;
         std::tie(first, last) = multiples(low, high, step.value());
     }
     // A single number shows no scale: take some of the finer step.
     if (first >= last && !(whole && step.value() <= 1)) {
-        step = previous(step);
+        --step.number;
         std::tie(first, last) = multiples(low, high, step.value());
     }
     const Numbered numbered = spread(first, last, most);
@@ -154,7 +144,7 @@ Ticks linear_ticks(double low, double high, std::size_t most, bool whole) {
     const double largest = std::max(std::abs(low), std::abs(high));
     if (largest >= 1e5 || largest < 1e-2)
         ticks.exponent = static_cast<int>(std::floor(std::log10(largest)));
-    const int digits = std::max(0, ticks.exponent - step.exponent);
+    const int digits = std::max(0, ticks.exponent - step.exponent());
     for (double k = first; k <= last; ++k) {
         const double value = k * step.value();
         if (numbered(k))
