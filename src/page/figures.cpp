@@ -70,7 +70,13 @@ std::vector<MarkedBox> marked_boxes(const PointSet& points, const Set& set) {
     return marked;
 }
 
-/// What a drawing function draws of the points, for light and dark pages.
+/// What is drawn in the colours of a light page and of a dark one; the label describes it.
+template <class Draw>
+std::string themed(const Draw& draw, const std::string& label) {
+    return svg_element(draw(light_page), draw(dark_page), label);
+}
+
+/// What a drawing function draws of the points.
 template <class Draw>
 std::string figure_of(const Set& set, const PointSet& points, std::size_t number, const char* where,
                       const Draw& draw) {
@@ -83,14 +89,12 @@ std::string figure_of(const Set& set, const PointSet& points, std::size_t number
     const double width = points.dimension() == 1  ? line_width
                          : points.dimension() > 3 ? pairs_width
                                                   : picture_width;
-    const auto drawn = [&](bool dark) {
-        Theme theme = theme_of(dark);
+    const auto drawn = [&](Theme theme) {
         theme.series = theme.series.subspan(number % theme.series.size(), 1);
         return draw(picture, PictureStyle{.theme = &theme, .width = width}, RunContext());
     };
-    return svg_element(drawn(false), drawn(true),
-                       fmt::format("{} point{} of {} {}", points.count(),
-                                   points.count() == 1 ? "" : "s", set.name, where));
+    return themed(drawn, fmt::format("{} point{} of {} {}", points.count(),
+                                     points.count() == 1 ? "" : "s", set.name, where));
 }
 
 std::string figure(const std::string& kind, const std::string& body, const std::string& caption) {
@@ -180,15 +184,13 @@ std::string chart_figure(std::span<const Set> sets, std::span<const std::size_t>
     ChartPanel& panel = chart.panels.front();
     for (Series& series : panel.series) series.set = numbers[series.measurement];
     std::vector<Area> frames;
-    const auto drawn = [&](bool dark) {
-        return draw_chart(chart,
-                          {.theme = &theme_of(dark), .width = chart_width, .height = chart_height},
+    const auto drawn = [&](const Theme& theme) {
+        return draw_chart(chart, {.theme = &theme, .width = chart_width, .height = chart_height},
                           &frames);
     };
     const std::string of =
         found.size() == 1 ? found[0].source : fmt::format("{} sets", found.size());
-    const std::string svg =
-        svg_element(drawn(false), drawn(true), fmt::format("{} of {}", what, of));
+    const std::string svg = themed(drawn, fmt::format("{} of {}", what, of));
     return figure("chart",
                   fmt::format("{}<output class=\"tip\" hidden></output>\n<script "
                               "type=\"application/json\">{}</script>\n",
@@ -283,9 +285,8 @@ std::string spectrum_figure(const Set& set) {
     const std::size_t block = block_side(grid->rows, most_pixels);
     const TableNames names{
         .x = "frequency along x", .y = "frequency along y", .cell = static_cast<double>(block)};
-    const auto draw = [&](bool dark) {
-        return draw_spectrum(small, "", "", {.theme = &theme_of(dark), .width = picture_width},
-                             names);
+    const auto draw = [&](const Theme& theme) {
+        return draw_spectrum(small, "", "", {.theme = &theme, .width = picture_width}, names);
     };
     std::string caption =
         fmt::format("Power at frequencies −{0} to {0}: black 0, grey 1 (white noise), white ∞",
@@ -293,8 +294,7 @@ std::string spectrum_figure(const Set& set) {
     if (block > 1) caption += fmt::format("; a pixel is the mean of {0} × {0}", block);
     return figure(
         "picture",
-        svg_element(draw(false), draw(true),
-                    fmt::format("power spectrum of {}, frequency zero in the middle", set.name)),
+        themed(draw, fmt::format("power spectrum of {}, frequency zero in the middle", set.name)),
         caption + ".");
 }
 
