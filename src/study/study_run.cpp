@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "study/study_run.hpp"
 
+#include <tbb/concurrent_queue.h>
+
 #include <algorithm>
 #include <atomic>
-#include <condition_variable>
-#include <deque>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -19,12 +19,11 @@ namespace {
 using Work = std::vector<UnitRange>;
 
 // The first byte of a message says what it is.
-constexpr char ask_message = 'A';      // give me work
-constexpr char work_message = 'W';     // here it is
-constexpr char nothing_message = 'N';  // there is none
-constexpr char done_message = 'D';     // what became of it
-constexpr char bye_message = 'B';      // I have finished
-constexpr char halt_message = 'H';     // stop at once
+constexpr char ask_message = 'A';   // give me work
+constexpr char work_message = 'W';  // here it is; none: there is no more
+constexpr char done_message = 'D';  // what became of it
+constexpr char bye_message = 'B';   // I have finished
+constexpr char halt_message = 'H';  // stop at once
 
 constexpr auto short_pause = std::chrono::milliseconds(1);
 
@@ -59,6 +58,10 @@ RunContext share_of(const RunContext& run, std::uint64_t workers, unsigned threa
     share.progress = {};
     share.warn = {};
     return share;
+}
+
+void halt_others(Ranks& ranks) {
+    for (int other = 1; other < ranks.size(); ++other) ranks.send(other, {halt_message});
 }
 
 /// Rank 0: the work that there is, and what came back of it.
@@ -153,7 +156,7 @@ class Leader {
 
     void tell_others_to_halt() {
         told_ = true;
-        for (int other = 1; other < ranks_.size(); ++other) ranks_.send(other, {halt_message});
+        halt_others(ranks_);
     }
 
     /// Answers the others. False: no message came.
@@ -162,8 +165,7 @@ class Leader {
         if (!message) return false;
         if (message->bytes[0] == bye_message) --others;
         if (message->bytes[0] == ask_message) {
-            const auto ranges = next();
-            ranks_.send(message->from, ranges ? packed(*ranges) : std::string(1, nothing_message));
+            ranks_.send(message->from, packed(next().value_or(Work())));
         }
         if (message->bytes[0] != done_message) return true;
         try {
@@ -246,7 +248,7 @@ class Worker {
         std::vector<std::jthread> threads;
         for (unsigned i = 0; i < threads_; ++i) threads.emplace_back([this] { work_on(); });
         for (unsigned i = 0; i < threads_; ++i) ranks_.send(0, {ask_message});
-        while (open_ > 0 || !outbox_empty()) {
+        while (open_ > 0 || !outbox_.empty()) {
             if (run_.stop.stop_requested()) stop_.request_stop();
             const bool heard = listen();
             if (!post() && !heard) std::this_thread::sleep_for(short_pause);
@@ -257,49 +259,23 @@ class Worker {
     }
 
   private:
-    bool outbox_empty() {
-        const std::lock_guard lock(mutex_);
-        return outbox_.empty();
-    }
-
     bool listen() {
         const auto message = ranks_.poll();
         if (!message) return false;
         if (message->bytes[0] == halt_message) stop_.request_stop();
         if (message->bytes[0] == work_message)
-            put(Unpacker(std::string_view(message->bytes).substr(1)).take_all<UnitRange>());
-        if (message->bytes[0] == nothing_message) put({});
+            inbox_.push(Unpacker(std::string_view(message->bytes).substr(1)).take_all<UnitRange>());
         return true;
-    }
-
-    void put(Work ranges) {
-        {
-            const std::lock_guard lock(mutex_);
-            inbox_.push_back(std::move(ranges));
-        }
-        came_.notify_one();
     }
 
     /// Sends what was done, and asks for as much again.
     bool post() {
-        std::deque<std::string> messages;
-        {
-            const std::lock_guard lock(mutex_);
-            messages.swap(outbox_);
-        }
-        for (auto& message : messages) {
+        bool any = false;
+        for (std::string message; outbox_.try_pop(message); any = true) {
             ranks_.send(0, std::move(message));
             ranks_.send(0, {ask_message});
         }
-        return !messages.empty();
-    }
-
-    Work wait_for_work() {
-        std::unique_lock lock(mutex_);
-        came_.wait(lock, [this] { return !inbox_.empty(); });
-        Work ranges = std::move(inbox_.front());
-        inbox_.pop_front();
-        return ranges;
+        return any;
     }
 
     /// Until there is none: an empty piece.
@@ -307,7 +283,8 @@ class Worker {
         const std::uint64_t workers = threads_ * static_cast<std::uint64_t>(ranks_.on_machine());
         RunContext share = share_of(run_, workers, 1);
         share.stop = stop_.get_token();
-        for (Work ranges = wait_for_work(); !ranges.empty(); ranges = wait_for_work()) {
+        Work ranges;
+        for (inbox_.pop(ranges); !ranges.empty(); inbox_.pop(ranges)) {
             WorkDone result;
             std::string error;
             try {
@@ -315,8 +292,7 @@ class Worker {
             } catch (const std::exception& e) {  // told to stop, as a rule
                 error = e.what();
             }
-            const std::lock_guard lock(mutex_);
-            outbox_.push_back(packed(ranges, result, error));
+            outbox_.push(packed(ranges, result, error));
         }
         --open_;
     }
@@ -325,10 +301,8 @@ class Worker {
     const RunContext& run_;
     unsigned threads_;
     UnitRunner runner_;
-    std::mutex mutex_;  // of the boxes
-    std::condition_variable came_;
-    std::deque<Work> inbox_;
-    std::deque<std::string> outbox_;
+    tbb::concurrent_bounded_queue<Work> inbox_;
+    tbb::concurrent_queue<std::string> outbox_;
     std::atomic<unsigned> open_ = threads_;
     std::stop_source stop_;
 };
@@ -346,14 +320,14 @@ void work_for_study(const Sweep& sweep, const StudyTable& table, Ranks& ranks,
 }
 
 void dismiss(Ranks& ranks) {
-    for (int other = 1; other < ranks.size(); ++other) ranks.send(other, {halt_message});
+    halt_others(ranks);
     for (int others = ranks.size() - 1; others > 0;) {
         const auto message = ranks.poll();
         if (!message) {
             std::this_thread::sleep_for(short_pause);
             continue;
         }
-        if (message->bytes[0] == ask_message) ranks.send(message->from, {nothing_message});
+        if (message->bytes[0] == ask_message) ranks.send(message->from, packed(Work()));
         if (message->bytes[0] == bye_message) --others;
     }
 }

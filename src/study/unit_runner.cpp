@@ -2,18 +2,21 @@
 #include "study/unit_runner.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <condition_variable>
+#include <functional>
 #include <map>
-#include <memory>
 #include <new>
 #include <optional>
 #include <span>
+#include <thread>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/pipeline.hpp"
-#include "study/time_limit.hpp"
+#include "report/document.hpp"
 
 namespace stipple {
 namespace {
@@ -32,9 +35,41 @@ std::string one_line(std::string text) {
     return text;
 }
 
+using Task = std::function<void(const RunContext&)>;
+
+/// Calls work with a run that is told to stop after so many seconds, as run.seconds counts them, as
+/// if the user had asked for it. True: the time was over before the work was.
+bool over_time(const RunContext& run, std::optional<double> limit, const Task& work) {
+    if (!limit || !run.seconds) {
+        work(run);
+        return false;
+    }
+    std::stop_source stop;
+    std::atomic<bool> over = false;
+    const std::jthread watch([&, end = run.seconds() + *limit](const std::stop_token& done) {
+        constexpr auto pause = std::chrono::milliseconds(10);
+        std::mutex mutex;
+        std::unique_lock lock(mutex);
+        std::condition_variable_any wake;
+        while (!wake.wait_for(lock, done, pause, [&] { return done.stop_requested(); })) {
+            over = over || run.seconds() >= end;
+            if (over || run.stop.stop_requested()) stop.request_stop();
+        }
+    });
+    RunContext limited = run;
+    limited.stop = stop.get_token();
+    try {
+        work(limited);
+    } catch (const Error& e) {
+        if (e.kind() != ErrorKind::cancelled || !over) throw;
+    }
+    run.check_stop();
+    return over;
+}
+
 /// Runs work within the limit of time. Nothing: it went well. @throws Error(cancelled)
 std::optional<Failure> failure_of(const RunContext& run, std::optional<double> limit,
-                                  const std::function<void(const RunContext&)>& work) {
+                                  const Task& work) {
     try {
         if (over_time(run, limit, work))
             return Failure{fmt::format("time limit: not done after {} s", *limit), true};
@@ -49,6 +84,15 @@ std::optional<Failure> failure_of(const RunContext& run, std::optional<double> l
         return Failure{one_line(fmt::format("internal error: {}", e.what()))};
     }
     return std::nullopt;
+}
+
+/// Runs work as failure_of does, and tells how long it took.
+std::optional<Failure> timed(const RunContext& run, std::optional<double> limit, double& seconds,
+                             const Task& work) {
+    const double start = run.seconds ? run.seconds() : 0;
+    auto failure = failure_of(run, limit, work);
+    seconds = run.seconds ? run.seconds() - start : 0;
+    return failure;
 }
 
 std::size_t leading_scrambles(const std::vector<Spec>& warps) {
@@ -119,67 +163,37 @@ bool takes(const Chosen<Analyzer>& measure, const WarpChain& chain, const RunCon
 }
 
 /// One set of points: as it is measured, and before its warps.
-class MadeSet {
-  public:
-    MadeSet(const Sweep& sweep, const Cell& cell, std::uint64_t seed, const RunContext& run) {
-        const auto& generator = sweep.generators()[cell.generator];
-        const double start = run.seconds ? run.seconds() : 0;
-        failure_ = failure_of(run, sweep.request().time_limit, [&](const RunContext& limited) {
-            make(sweep, generator, cell, seed, limited);
-        });
-        seconds_ = run.seconds ? run.seconds() - start : 0;
-    }
-
-    [[nodiscard]] const std::optional<Failure>& failure() const { return failure_; }
-    [[nodiscard]] double seconds() const { return seconds_; }
-    [[nodiscard]] const PointSet& before() const { return *before_; }
-    /// After the warps; nothing where there are none.
-    [[nodiscard]] const std::optional<PointSet>& image() const { return image_; }
-
-  private:
-    void make(const Sweep& sweep, const Chosen<Generator>& generator, const Cell& cell,
-              std::uint64_t seed, const RunContext& run) {
-        const Request request{.count = cell.count, .dimension = cell.dimension, .seed = seed};
-        before_ = make_points(*generator.unit, request, generator.values, run);
-        before_->provenance.generator = generator.unit->name;
-        const auto& warps = sweep.warps();
-        if (warps.empty()) return;
-        const std::size_t scrambles = leading_scrambles(warps);
-        const ChainSet set{.seed = seed, .count = before_->count()};
-        const std::size_t d = before_->dimension();
-        const WarpChain first(std::span<const Spec>(warps).first(scrambles), d, set, run);
-        if (!first.empty()) *before_ = image_of(*before_, first, run);
-        if (scrambles == warps.size()) return;
-        // What a scramble draws depends on seed and coordinates: cut in two, the chain is the same.
-        const WarpChain rest(std::span<const Spec>(warps).subspan(scrambles), d, set, run);
-        image_ = image_of(*before_, rest, run);
-    }
-
-    std::optional<PointSet> before_;
-    std::optional<PointSet> image_;
-    std::optional<Failure> failure_;
-    double seconds_ = 0;
+struct MadeSet {
+    PointSet before = {};
+    std::optional<PointSet> image = {};  ///< after the warps; nothing where there are none
+    std::optional<Failure> failure = {};
+    double seconds = 0;
 };
 
-void add_numbers(const Report& report, const std::string& path, std::vector<KeyedNumber>& all,
-                 std::vector<KeyedNumber>& lists) {
-    for (const auto& [name, value, unit] : report.entries()) {
-        const std::string key = path + name;
-        if (const auto* flag = std::get_if<bool>(&value))
-            all.push_back({key, *flag ? 1.0 : 0.0, true});
-        if (const auto* whole = std::get_if<std::int64_t>(&value))
-            all.push_back({key, static_cast<double>(*whole), true});
-        if (const auto* number = std::get_if<double>(&value)) all.push_back({key, *number, false});
-        if (const auto* group = std::get_if<Report>(&value))
-            add_numbers(*group, key + ".", all, lists);
-        const auto add_list = [&](const auto& list, bool whole) {
-            for (std::size_t i = 0; i < list.size(); ++i)
-                lists.push_back(
-                    {fmt::format("{}[{}]", key, i), static_cast<double>(list[i]), whole});
-        };
-        if (const auto* curve = std::get_if<Report::Curve>(&value)) add_list(*curve, false);
-        if (const auto* list = std::get_if<Report::Integers>(&value)) add_list(*list, true);
-    }
+void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t seed,
+          const RunContext& run) {
+    const auto& generator = sweep.generators()[cell.generator];
+    const Request request{.count = cell.count, .dimension = cell.dimension, .seed = seed};
+    PointSet& points = made.before;
+    points = make_points(*generator.unit, request, generator.values, run);
+    points.provenance.generator = generator.unit->name;
+    const std::span<const Spec> warps = sweep.warps();
+    const std::size_t scrambles = leading_scrambles(sweep.warps());
+    const ChainSet set{.seed = seed, .count = points.count()};
+    const std::size_t d = points.dimension();
+    if (scrambles > 0)
+        points = image_of(points, WarpChain(warps.first(scrambles), d, set, run), run);
+    // What a scramble draws depends on seed and coordinates: cut in two, the chain is the same.
+    if (scrambles < warps.size())
+        made.image = image_of(points, WarpChain(warps.subspan(scrambles), d, set, run), run);
+}
+
+MadeSet made_set(const Sweep& sweep, const Cell& cell, std::uint64_t seed, const RunContext& run) {
+    MadeSet made;
+    made.failure =
+        timed(run, sweep.request().time_limit, made.seconds,
+              [&](const RunContext& limited) { make(made, sweep, cell, seed, limited); });
+    return made;
 }
 
 /// Whether a part of a key between dots is meant: centered.value by value, by centered, by both;
@@ -209,13 +223,11 @@ Measured measured(const SweepRequest& request, const Chosen<Analyzer>& measure,
     Measured found;
     found.domain = points.domain->spec();
     found.points = points.count();
-    const double start = run.seconds ? run.seconds() : 0;
     Report report;
-    found.failure = failure_of(run, request.time_limit, [&](const RunContext& limited) {
+    found.failure = timed(run, request.time_limit, found.seconds, [&](const RunContext& limited) {
         report = analyze(*measure.unit, points, measure.values, limited);
         limited.check_stop();  // what was cut short is no result
     });
-    found.seconds = run.seconds ? run.seconds() - start : 0;
     if (found.failure) return found;
     found.numbers = numbers_of(report, request.keys, request.curves);
     if (found.numbers.empty())
@@ -228,7 +240,7 @@ std::string lines_of(const StudyTable& table, StudyRow row, const MadeSet& set,
                      const Measured& found) {
     row.domain = found.domain;
     row.points = found.points;
-    row.generate_seconds = set.seconds();
+    row.generate_seconds = set.seconds;
     row.seconds = found.seconds;
     if (found.failure) {
         row.status = "failed";
@@ -245,74 +257,13 @@ std::string lines_of(const StudyTable& table, StudyRow row, const MadeSet& set,
     return text;
 }
 
-/// The sets of one piece of work: each is made once, and where the seed changes nothing, one is
-/// all.
-class PieceRunner {
-  public:
-    PieceRunner(const Sweep& sweep, const StudyTable& table, const UnitRunner& runner,
-                bool shares_memory, const RunContext& run)
-        : sweep_(sweep), table_(table), runner_(runner), shares_memory_(shares_memory), run_(run) {
-        run_.progress = {};
-        run_.warn = {};
-    }
-
-    void add(std::uint64_t index) {
-        run_.check_stop();
-        const Unit unit = sweep_.unit(index);
-        const Cell cell = sweep_.cell(unit.cell);
-        const std::uint64_t variant = sweep_.seeded(cell.generator) ? unit.seed_index : 0;
-        if (!set_ || cell_ != unit.cell || variant_ != variant) {
-            found_.clear();
-            set_.reset();
-            set_ = std::make_unique<MadeSet>(sweep_, cell,
-                                             sweep_.request().first_seed + unit.seed_index, run_);
-            cell_ = unit.cell;
-            variant_ = variant;
-            done_.seconds += set_->seconds();
-        }
-        const auto [it, fresh] = found_.try_emplace(unit.measure);
-        if (fresh) {
-            it->second = find(cell, unit.measure);
-            done_.seconds += it->second.seconds;
-        }
-        keep(index, unit, it->second);
-    }
-
-    WorkDone take() { return std::move(done_); }
-
-  private:
-    Measured find(const Cell& cell, std::size_t number) {
-        if (set_->failure()) return {.failure = set_->failure()};
-        const auto& measure = sweep_.measures()[number];
-        const auto& image = set_->image();
-        if (!image) return measured(sweep_.request(), measure, set_->before(), run_);
-        const bool after = runner_.takes_image(cell.dimension, number, run_);
-        return measured(sweep_.request(), measure, after ? *image : set_->before(), run_);
-    }
-
-    void keep(std::uint64_t index, const Unit& unit, const Measured& found) {
-        if (found.failure && found.failure->memory && shares_memory_) {
-            done_.too_large.push_back({index, index + 1});
-            return;
-        }
-        auto& segments = done_.segments;
-        if (segments.empty() || segments.back().units.last != index)
-            segments.push_back({{index, index}, {}});
-        segments.back().units.last = index + 1;
-        segments.back().lines.push_back(lines_of(table_, row_of(sweep_, unit), *set_, found));
-    }
-
-    const Sweep& sweep_;
-    const StudyTable& table_;
-    const UnitRunner& runner_;
-    bool shares_memory_;
-    RunContext run_;
-    WorkDone done_;
-    std::unique_ptr<MadeSet> set_;
-    std::uint64_t cell_ = 0;
-    std::uint64_t variant_ = 0;
-    std::map<std::size_t, Measured> found_;
-};
+void keep(WorkDone& done, std::uint64_t unit, std::string lines) {
+    auto& segments = done.segments;
+    if (segments.empty() || segments.back().units.last != unit)
+        segments.push_back({{unit, unit}, {}});
+    segments.back().units.last = unit + 1;
+    segments.back().lines.push_back(std::move(lines));
+}
 
 }  // namespace
 
@@ -320,7 +271,18 @@ std::vector<KeyedNumber> numbers_of(const Report& report, const std::vector<std:
                                     bool curves) {
     std::vector<KeyedNumber> numbers;
     std::vector<KeyedNumber> lists;
-    add_numbers(report, "", numbers, lists);
+    for (const std::string& key : report.keys()) {
+        const Report::Item& item = *report.find(key);
+        const auto number = number_at(report, key);
+        const auto list = list_at(report, key).value_or(Report::Curve());
+        const bool whole = std::holds_alternative<std::int64_t>(item) ||
+                           std::holds_alternative<Report::Integers>(item);
+        if (const auto* flag = std::get_if<bool>(&item))
+            numbers.push_back({key, *flag ? 1.0 : 0.0, true});
+        if (number) numbers.push_back({key, *number, whole});
+        for (std::size_t i = 0; i < list.size(); ++i)
+            lists.push_back({fmt::format("{}[{}]", key, i), list[i], whole});
+    }
     if (curves || !keys.empty() || numbers.empty())
         numbers.insert(numbers.end(), lists.begin(), lists.end());
     if (!keys.empty())
@@ -328,11 +290,42 @@ std::vector<KeyedNumber> numbers_of(const Report& report, const std::vector<std:
     return numbers;
 }
 
+// Each set is made once, and where the seed changes nothing, one is all.
 WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext& run) const {
-    PieceRunner runner(sweep_, table_, *this, run.max_memory < whole_memory_, run);
+    const RunContext quiet = silent(run);
+    const bool shares_memory = run.max_memory < whole_memory_;
+    WorkDone done;
+    MadeSet set;
+    std::map<std::size_t, Measured> found;  // of the set, by the measure's number
+    std::optional<std::pair<std::uint64_t, std::uint64_t>> made;  // cell and seed of the set
     for (const UnitRange& range : ranges)
-        for (std::uint64_t unit = range.first; unit < range.last; ++unit) runner.add(unit);
-    return runner.take();
+        for (std::uint64_t index = range.first; index < range.last; ++index) {
+            quiet.check_stop();
+            const Unit unit = sweep_.unit(index);
+            const Cell cell = sweep_.cell(unit.cell);
+            const std::pair wanted{unit.cell, sweep_.seeded(cell.generator) ? unit.seed_index : 0};
+            if (made != wanted) {
+                found.clear();
+                set = {};  // two would need twice the memory
+                set = made_set(sweep_, cell, sweep_.request().first_seed + unit.seed_index, quiet);
+                made = wanted;
+                done.seconds += set.seconds;
+            }
+            const auto [it, fresh] = found.try_emplace(unit.measure);
+            Measured& result = it->second;
+            if (fresh && set.failure) result.failure = set.failure;
+            if (fresh && !set.failure) {
+                const bool after = set.image && takes_image(cell.dimension, unit.measure, quiet);
+                result = measured(sweep_.request(), sweep_.measures()[unit.measure],
+                                  after ? *set.image : set.before, quiet);
+                done.seconds += result.seconds;
+            }
+            if (result.failure && result.failure->memory && shares_memory)
+                done.too_large.push_back({index, index + 1});
+            else
+                keep(done, index, lines_of(table_, row_of(sweep_, unit), set, result));
+        }
+    return done;
 }
 
 std::span<const Spec> UnitRunner::warps_behind_scrambles() const {
