@@ -14,8 +14,11 @@ void fill_blocks(benchmark::State& state, const std::string& name, const Setting
                  std::size_t dimension) {
     const Generator& generator = find_generator(name);
     Values values = generator.options.defaults();
-    for (const auto& [option, text] : settings) generator.options.set(values, option, text);
-    const bool square = name == "orthogonal-array";  // of a prime
+    bool square = false;  // of a prime
+    for (const auto& [option, text] : settings) {
+        generator.options.set(values, option, text);
+        square = square || text == "bose";
+    }
     const std::uint64_t count = square ? 1'048'573ULL * 1'048'573 : std::uint64_t{1} << 40;
     const Request request{.count = count, .dimension = dimension};
     const auto sequence = generator.sequence(plan_for(generator, request, values), values, {});
