@@ -300,7 +300,7 @@ std::vector<double> WarpChain::forward(std::vector<double> rows, std::uint64_t f
             step.mapping->forward(part, image, keep);
             part = std::move(image);
         } else {
-            step.randomization->apply(first, part);
+            step.randomization(first, part);
         }
         rows = whole ? std::move(part)
                      : interleave(rows, step.width_in, step.rest, part, step.at, step.others);

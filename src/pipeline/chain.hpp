@@ -90,7 +90,7 @@ class WarpChain {
     struct Step {
         DomainPtr domain = {};  ///< of what it gave; none of a randomization
         std::unique_ptr<Mapping> mapping = {};
-        std::unique_ptr<Randomization> randomization = {};
+        Randomization randomization = {};
         std::vector<std::size_t> coordinates = {};  ///< taken from the row before
         std::vector<std::size_t> rest = {};         ///< of the row before
         std::vector<std::size_t> at = {};           ///< where its numbers stand in the row after

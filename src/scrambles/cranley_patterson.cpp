@@ -17,7 +17,7 @@
 namespace stipple::scrambles::cranley_patterson {
 namespace {
 
-std::unique_ptr<Randomization> make(const Values&, const ScrambleRequest& request) {
+Randomization make(const Values&, const ScrambleRequest& request) {
     const Rng rng = scramble_numbers(request.seed, ScrambleStream::rotation);
     std::vector<double> offsets;
     for (const std::size_t k : request.coordinates) offsets.push_back(rng.uniform(k));

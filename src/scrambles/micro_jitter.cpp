@@ -35,21 +35,20 @@ std::uint64_t interval_of(double x, std::uint64_t count) {
     return std::min(k, count - 1);
 }
 
-std::unique_ptr<Randomization> make(const Values& options, const ScrambleRequest& request) {
+Randomization make(const Values& options, const ScrambleRequest& request) {
     const std::uint64_t count =
         options.given(cells) ? static_cast<std::uint64_t>(options[cells]) : request.count;
     const Rng rng = scramble_numbers(request.seed, ScrambleStream::micro_jitter);
-    return randomization_of(
-        [count, rng, which = request.coordinates](std::uint64_t first, std::span<double> rows) {
-            // A stride that depends on nothing but the coordinate keeps one choice for one coordinate.
-            constexpr std::uint64_t stride = std::uint64_t{1} << 20;
-            const std::size_t d = which.size();
-            for (std::size_t i = 0; i < rows.size(); ++i) {
-                const auto low = static_cast<double>(interval_of(rows[i], count));
-                rows[i] = rng.uniform((first + i / d) * stride + which[i % d]);
-                place_in_strata({.low = {&low, 1}, .parts = count}, &rows[i], 1);
-            }
-        });
+    return [count, rng, which = request.coordinates](std::uint64_t first, std::span<double> rows) {
+        // A stride that depends on nothing but the coordinate keeps one choice for one coordinate.
+        constexpr std::uint64_t stride = std::uint64_t{1} << 20;
+        const std::size_t d = which.size();
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const auto low = static_cast<double>(interval_of(rows[i], count));
+            rows[i] = rng.uniform((first + i / d) * stride + which[i % d]);
+            place_in_strata({.low = {&low, 1}, .parts = count}, &rows[i], 1);
+        }
+    };
 }
 
 }  // namespace

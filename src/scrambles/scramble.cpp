@@ -25,18 +25,6 @@ std::uint32_t base_of(double number, bool prime) {
     return base;
 }
 
-class Randomizing final : public Randomization {
-  public:
-    explicit Randomizing(std::function<void(std::uint64_t, std::span<double>)> function)
-        : function_(std::move(function)) {}
-    void apply(std::uint64_t first, std::span<double> rows) const override {
-        function_(first, rows);
-    }
-
-  private:
-    std::function<void(std::uint64_t, std::span<double>)> function_;
-};
-
 }  // namespace
 
 std::vector<std::uint32_t> bases_for(const std::vector<double>& given, std::size_t coordinates,
@@ -50,27 +38,21 @@ std::vector<std::uint32_t> bases_for(const std::vector<double>& given, std::size
     return bases;
 }
 
-std::unique_ptr<Randomization> randomization_of(
-    std::function<void(std::uint64_t, std::span<double>)> apply) {
-    return std::make_unique<Randomizing>(std::move(apply));
-}
-
-std::unique_ptr<Randomization> coordinate_wise(
-    std::size_t dimension, std::function<void(std::size_t, std::span<double>)> move) {
-    return randomization_of(
-        [dimension, move = std::move(move)](std::uint64_t, std::span<double> rows) {
-            std::array<double, most_moved> column;
-            const std::size_t count = rows.size() / dimension;
-            for (std::size_t begin = 0; begin < count; begin += column.size()) {
-                const std::size_t length = std::min(column.size(), count - begin);
-                for (std::size_t k = 0; k < dimension; ++k) {
-                    double* x = rows.data() + begin * dimension + k;
-                    for (std::size_t i = 0; i < length; ++i) column[i] = x[i * dimension];
-                    move(k, std::span(column).first(length));
-                    for (std::size_t i = 0; i < length; ++i) x[i * dimension] = column[i];
-                }
+Randomization coordinate_wise(std::size_t dimension,
+                              std::function<void(std::size_t, std::span<double>)> move) {
+    return [dimension, move = std::move(move)](std::uint64_t, std::span<double> rows) {
+        std::array<double, most_moved> column;
+        const std::size_t count = rows.size() / dimension;
+        for (std::size_t begin = 0; begin < count; begin += column.size()) {
+            const std::size_t length = std::min(column.size(), count - begin);
+            for (std::size_t k = 0; k < dimension; ++k) {
+                double* x = rows.data() + begin * dimension + k;
+                for (std::size_t i = 0; i < length; ++i) column[i] = x[i * dimension];
+                move(k, std::span(column).first(length));
+                for (std::size_t i = 0; i < length; ++i) x[i * dimension] = column[i];
             }
-        });
+        }
+    };
 }
 
 }  // namespace stipple

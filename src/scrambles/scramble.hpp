@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,18 +27,10 @@ struct ScrambleRequest {
     std::uint64_t count = 1;  ///< points of the whole set
 };
 
-/// One random choice of a scramble; safe to use from several threads.
-class Randomization {
-  public:
-    Randomization() = default;
-    Randomization(const Randomization&) = delete;
-    Randomization& operator=(const Randomization&) = delete;
-    virtual ~Randomization() = default;
-
-    /// Moves points first, first + 1, ... of the set. `rows` holds their coordinates that are
-    /// scrambled, in [0, 1] before and in [0, 1) after.
-    virtual void apply(std::uint64_t first, std::span<double> rows) const = 0;
-};
+/// One random choice of a scramble; safe to call from several threads. Moves points first,
+/// first + 1, ... of the set: `rows` holds their coordinates that are scrambled, in [0, 1] before
+/// and in [0, 1) after.
+using Randomization = std::function<void(std::uint64_t first, std::span<double> rows)>;
 
 struct Scramble {
     std::string name;
@@ -53,7 +44,7 @@ struct Scramble {
     std::uint64_t stream_version = 1;
 
     /// @throws Error(usage)
-    std::function<std::unique_ptr<Randomization>(const Values&, const ScrambleRequest&)> make;
+    std::function<Randomization(const Values&, const ScrambleRequest&)> make;
 };
 
 /// The bases that `--base` gives to the coordinates: one number for all, or one for each.
@@ -61,16 +52,12 @@ struct Scramble {
 std::vector<std::uint32_t> bases_for(const std::vector<double>& given, std::size_t coordinates,
                                      bool prime);
 
-/// The randomization whose apply() is a function.
-std::unique_ptr<Randomization> randomization_of(
-    std::function<void(std::uint64_t first, std::span<double> rows)> apply);
-
 /// Numbers that a coordinate-wise randomization moves at a time, at most.
 inline constexpr std::size_t most_moved = 512;
 
 /// The randomization that moves the k-th coordinate of consecutive points by move(k, numbers).
-std::unique_ptr<Randomization> coordinate_wise(
-    std::size_t dimension, std::function<void(std::size_t k, std::span<double>)> move);
+Randomization coordinate_wise(std::size_t dimension,
+                              std::function<void(std::size_t k, std::span<double>)> move);
 
 namespace scrambles {
 /// All scrambles, in alphabetical order.

@@ -117,8 +117,7 @@ TEST_P(EveryScramble, MovesPiecesAsTheWhole) {
     for (const std::size_t piece : {1, 7, 511, 513}) {
         PointSet parts = cube;
         for (std::size_t i = 0; i < cube.count(); i += piece)
-            randomization->apply(
-                i, parts.flat().subspan(2 * i, 2 * std::min(piece, cube.count() - i)));
+            randomization(i, parts.flat().subspan(2 * i, 2 * std::min(piece, cube.count() - i)));
         EXPECT_EQ(parts, whole) << "pieces of " << piece;
     }
 }
@@ -132,7 +131,7 @@ TEST_P(EveryScramble, NamedCoordinatesKeepTheirNumbers) {
     const auto part = unit.make(values, {.coordinates = {2, 0}, .seed = 2, .count = 100});
     std::vector<double> rows;
     for (std::size_t i = 0; i < 100; ++i) rows.insert(rows.end(), {points[i][2], points[i][0]});
-    part->apply(0, rows);
+    part(0, rows);
     for (std::size_t i = 0; i < 100; ++i) {
         EXPECT_EQ(rows[2 * i], whole[i][2]);
         EXPECT_EQ(rows[2 * i + 1], whole[i][0]);

@@ -19,7 +19,7 @@ inline PointSet scrambled(PointSet points, std::string_view spec, std::uint64_t 
     ScrambleRequest request{.seed = seed, .count = start + points.count()};
     request.coordinates.resize(points.dimension());
     std::iota(request.coordinates.begin(), request.coordinates.end(), std::size_t{0});
-    unit.make(parsed.values(unit.options), request)->apply(start, points.flat());
+    unit.make(parsed.values(unit.options), request)(start, points.flat());
     return points;
 }
 
