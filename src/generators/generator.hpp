@@ -33,31 +33,25 @@ struct Plan {
 /// Point i as a function of i alone (given plan and options).
 class Sequence {
   public:
-    Sequence() = default;
-    Sequence(const Sequence&) = delete;
-    Sequence& operator=(const Sequence&) = delete;
-    virtual ~Sequence() = default;
+    using Fill = std::function<void(std::uint64_t first, std::span<double> rows)>;
+
+    Sequence(Fill fill, bool random_access)
+        : fill_(std::move(fill)), random_access_(random_access) {}
 
     /// Writes points first, first + 1, ... until `rows` (a multiple of the dimension) is full;
     /// coordinates in [0, 1). With random_access() several threads may call it at once.
-    virtual void fill(std::uint64_t first, std::span<double> rows) = 0;
+    void fill(std::uint64_t first, std::span<double> rows) const { fill_(first, rows); }
 
     /// False for a sequential engine: going on is cheap, any other step costs a walk to it.
-    [[nodiscard]] virtual bool random_access() const { return true; }
+    [[nodiscard]] bool random_access() const { return random_access_; }
+
+  private:
+    Fill fill_;
+    bool random_access_;
 };
 
-/// The sequence whose points `fill(first, rows)` writes, which several threads may call at once.
-template <class Fill>
-std::unique_ptr<Sequence> sequence_of(Fill fill) {
-    class Filled final : public Sequence {
-      public:
-        explicit Filled(Fill given) : fill_(std::move(given)) {}
-        void fill(std::uint64_t first, std::span<double> rows) override { fill_(first, rows); }
-
-      private:
-        Fill fill_;
-    };
-    return std::make_unique<Filled>(std::move(fill));
+inline std::unique_ptr<Sequence> sequence_of(Sequence::Fill fill, bool random_access = true) {
+    return std::make_unique<Sequence>(std::move(fill), random_access);
 }
 
 struct GeneratorTraits {

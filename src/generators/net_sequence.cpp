@@ -49,17 +49,17 @@ struct LowDigits {
 
 /// Nested scrambling in an odd base. Where the matrices are triangular, points of a block share all
 /// digits but the first t, so the images of all that these can be are made at once, and picked.
-class OwenNetSequence final : public Sequence {
+class OwenNet {
   public:
-    OwenNetSequence(BaseNet net, const std::vector<DigitMatrix>& matrices, std::uint32_t base,
-                    std::uint64_t seed)
+    OwenNet(BaseNet net, const std::vector<DigitMatrix>& matrices, std::uint32_t base,
+            std::uint64_t seed)
         : net_(std::move(net)), base_(base), low_(base) {
         for (std::size_t k = 0; k < net_.dimension(); ++k) {
             scrambles_.emplace_back(seed, k, base);
             by_block_.push_back(low_.stay_on_top_of(matrices[k]));
         }
     }
-    void fill(std::uint64_t first, std::span<double> rows) override {
+    void operator()(std::uint64_t first, std::span<double> rows) const {
         net_.fill(first, rows);
         const std::size_t d = scrambles_.size();
         while (!rows.empty()) {
@@ -162,8 +162,7 @@ std::unique_ptr<Sequence> net_sequence(std::uint32_t base, std::vector<DigitMatr
             net.append(matrices[k]);
         }
     }
-    if (scramble == "owen")
-        return std::make_unique<OwenNetSequence>(std::move(net), matrices, base, plan.seed);
+    if (scramble == "owen") return sequence_of(OwenNet(std::move(net), matrices, base, plan.seed));
     return sequence_of([net = std::move(net)](std::uint64_t first, std::span<double> points) {
         net.fill(first, points);
     });

@@ -163,7 +163,7 @@ std::optional<Window> window_of(const TilesInWindow& candidates, std::uint64_t w
     return next;
 }
 
-class ThinnedTiles final : public Sequence {
+class ThinnedTiles {
   public:
     ThinnedTiles(TilesInWindow candidates, const Window& window, std::uint64_t count,
                  const RunContext& run)
@@ -172,7 +172,7 @@ class ThinnedTiles final : public Sequence {
         for (std::uint64_t t = 0; t < candidates_.tiles(); ++t) starts_[t + 1] += starts_[t];
     }
 
-    void fill(std::uint64_t first, std::span<double> rows) override {
+    void operator()(std::uint64_t first, std::span<double> rows) const {
         const auto after = std::ranges::upper_bound(starts_, first);
         auto tile = static_cast<std::uint64_t>(after - starts_.begin()) - 1;
         std::uint64_t skipped = first - starts_[tile];
@@ -228,8 +228,7 @@ std::unique_ptr<Sequence> thinned_tiles(const std::vector<Vec2>& tile, const Til
     TilesInWindow candidates(tile, tiling, std::move(density), seed, run);
     const auto window = window_of(candidates, count - 1, steady.stage(0, 0.7));
     if (!window) return {};
-    return std::make_unique<ThinnedTiles>(std::move(candidates), *window, count,
-                                          steady.stage(0.7, 1));
+    return sequence_of(ThinnedTiles(std::move(candidates), *window, count, steady.stage(0.7, 1)));
 }
 
 }  // namespace stipple

@@ -77,7 +77,7 @@ STIPPLE_WIDE void place_row(double* row, std::size_t count, double column, doubl
     }
 }
 
-class Tiles final : public Sequence {
+class Tiles {
   public:
     Tiles(std::vector<Vec2> tile, const Tiling& tiling, std::uint64_t count)
         : tile_(std::move(tile)),
@@ -85,7 +85,7 @@ class Tiles final : public Sequence {
           last_begin_(tiling.tiles() * (tile_.size() - 1)),
           last_count_(count - last_begin_) {}
 
-    void fill(std::uint64_t first, std::span<double> rows) override {
+    void operator()(std::uint64_t first, std::span<double> rows) const {
         double* out = rows.data();
         std::uint64_t left = rows.size() / 2;
         while (left > 0) {
@@ -156,8 +156,8 @@ std::unique_ptr<Sequence> make_even(const Plan& plan, const Values& options, Vec
     const auto most = static_cast<std::uint64_t>(options[tile_points]);
     const Tiling tiling = tiling_of((plan.count - 1) / most + 1, sides);
     const std::uint64_t points = (plan.count - 1) / tiling.tiles() + 1;
-    return std::make_unique<Tiles>(
-        tile_for(points, tiling, sides, plan, options, run.stage(0, 0.99)), tiling, plan.count);
+    return sequence_of(Tiles(tile_for(points, tiling, sides, plan, options, run.stage(0, 0.99)),
+                             tiling, plan.count));
 }
 
 std::unique_ptr<Sequence> make_thinned(const Plan& plan, const Values& options, Vec2 sides,

@@ -130,12 +130,6 @@ struct Units {
         if (shape.empty()) shape.push_back(1);
     }
 
-    /// Complex numbers of a real function's spectrum.
-    [[nodiscard]] std::size_t halves() const {
-        const auto last = static_cast<std::size_t>(shape.back());
-        return elements.size() / last * (last / 2 + 1);
-    }
-
   private:
     /// The number that is g modulo q, and 1 modulo the rest of the modulus.
     [[nodiscard]] std::uint64_t lift(std::uint64_t g, std::uint64_t q) const {

@@ -73,35 +73,27 @@ STIPPLE_WIDE void advance(const double* back, double n, std::size_t count, doubl
     }
 }
 
-class Rank1Lattice final : public Sequence {
-  public:
-    Rank1Lattice(std::uint64_t n, std::vector<std::uint64_t> z)
-        : n_(n), z_(std::move(z)), points_((some_numbers + z_.size() - 1) / z_.size()) {
-        for (std::size_t m = 0; m < points_ * z_.size(); ++m)
-            back_.push_back(static_cast<double>(n) - times(points_, m % z_.size()));
-    }
+/// i z mod n.
+double multiple(std::uint64_t i, std::uint64_t z, std::uint64_t n) {
+    return static_cast<double>(static_cast<std::uint64_t>(Wide{i} * z % n));
+}
 
-    void fill(std::uint64_t first, std::span<double> rows) override {
-        const std::size_t d = z_.size();
+/// Points i z / n modulo 1.
+std::unique_ptr<Sequence> multiples(std::uint64_t n, const std::vector<std::uint64_t>& z) {
+    const std::size_t d = z.size();
+    const std::size_t points = (some_numbers + d - 1) / d;  // made at once
+    std::vector<double> back;  // n - (points z mod n), for each number of these
+    for (std::size_t m = 0; m < points * d; ++m)
+        back.push_back(static_cast<double>(n) - multiple(points, z[m % d], n));
+    return sequence_of([=](std::uint64_t first, std::span<double> rows) {
         std::vector<double> residues;
-        for (std::size_t m = 0; m < back_.size(); ++m)
-            residues.push_back(times(first + m / d, m % d));
-        for (std::size_t at = 0; at < rows.size(); at += back_.size())
-            advance(back_.data(), static_cast<double>(n_), std::min(back_.size(), rows.size() - at),
+        for (std::size_t m = 0; m < back.size(); ++m)
+            residues.push_back(multiple(first + m / d, z[m % d], n));
+        for (std::size_t at = 0; at < rows.size(); at += back.size())
+            advance(back.data(), static_cast<double>(n), std::min(back.size(), rows.size() - at),
                     residues.data(), rows.data() + at);
-    }
-
-  private:
-    /// i z_k mod n.
-    [[nodiscard]] double times(std::uint64_t i, std::size_t k) const {
-        return static_cast<double>(static_cast<std::uint64_t>(Wide{i} * z_[k] % n_));
-    }
-
-    std::uint64_t n_;
-    std::vector<std::uint64_t> z_;
-    std::size_t points_;        ///< that are made at once
-    std::vector<double> back_;  ///< n - (points z mod n), for each number of these
-};
+    });
+}
 
 /// The rule that the options mean together.
 std::string rule_of(const Values& options) {
@@ -206,7 +198,7 @@ std::vector<std::uint64_t> vector_of(const Plan& plan, const Values& options,
 }
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext& run) {
-    return std::make_unique<Rank1Lattice>(plan.count, vector_of(plan, options, run));
+    return multiples(plan.count, vector_of(plan, options, run));
 }
 
 }  // namespace

@@ -31,36 +31,28 @@ constexpr Param<Choice> engine{
         "Engine; all but philox are legacy ones, and these are sequential (one thread; --start "
         "and --shard walk to their place) except for drand48"};
 
+/// The numbers of an engine that only goes on.
 template <class Engine>
-class Sequential final : public Sequence {
-  public:
-    explicit Sequential(const Plan& plan)
-        : seeded_(plan.seed), numbers_(seeded_), dimension_(plan.dimension) {}
-
-    [[nodiscard]] bool random_access() const override { return false; }
-
-    void fill(std::uint64_t first, std::span<double> rows) override {
-        if (first < next_) {
-            numbers_ = seeded_;
-            next_ = 0;
+std::unique_ptr<Sequence> sequential(const Plan& plan) {
+    const Engine seeded(plan.seed);
+    const auto fill = [=, numbers = seeded, next = std::uint64_t{0}, d = plan.dimension](
+                          std::uint64_t first, std::span<double> rows) mutable {
+        if (first < next) {
+            numbers = seeded;
+            next = 0;
         }
-        for (; next_ < first; ++next_)
-            for (std::size_t k = 0; k < dimension_; ++k) numbers_.next();
-        for (double& x : rows) x = numbers_.next();
-        next_ += rows.size() / dimension_;
-    }
-
-  private:
-    Engine seeded_;
-    Engine numbers_;
-    std::uint64_t next_ = 0;  ///< index of the point that numbers_ makes next
-    std::size_t dimension_;
-};
+        for (; next < first; ++next)
+            for (std::size_t k = 0; k < d; ++k) numbers.next();
+        for (double& x : rows) x = numbers.next();
+        next += rows.size() / d;
+    };
+    return sequence_of(fill, false);
+}
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
     const std::string name = options[engine];
     const std::uint64_t d = plan.dimension;
-    if (name == "mt19937-64") return std::make_unique<Sequential<MersenneTwister>>(plan);
+    if (name == "mt19937-64") return sequential<MersenneTwister>(plan);
     if (name == "drand48")
         return sequence_of(
             [seeded = Drand48(plan.seed), d](std::uint64_t first, std::span<double> rows) {
@@ -68,9 +60,9 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
                 numbers.discard(first * d);
                 for (double& x : rows) x = numbers.next();
             });
-    if (name == "ranlux48") return std::make_unique<Sequential<Ranlux48>>(plan);
-    if (name == "ranmar") return std::make_unique<Sequential<Ranmar>>(plan);
-    if (name == "random") return std::make_unique<Sequential<AdditiveFeedback>>(plan);
+    if (name == "ranlux48") return sequential<Ranlux48>(plan);
+    if (name == "ranmar") return sequential<Ranmar>(plan);
+    if (name == "random") return sequential<AdditiveFeedback>(plan);
     return sequence_of([rng = Rng(plan.seed), d](std::uint64_t first, std::span<double> rows) {
         rng.fill(first * d, rows);
     });

@@ -27,41 +27,25 @@
 namespace stipple::generators::correlated_multi_jittered {
 namespace {
 
-class CorrelatedMultiJittered final : public StratifiedSequence {
-  public:
-    CorrelatedMultiJittered(const Plan& plan, Style style, std::uint64_t columns)
-        : StratifiedSequence(plan, style),
-          columns_(columns),
-          rows_((plan.count + columns - 1) / columns),
-          sigma_(columns, 1, numbers(0)),
-          tau_(rows_, 1, numbers(1)) {}
-
-  private:
-    void strata(std::size_t coordinate, std::span<const double> index,
-                std::span<double> low) const override {
-        if (coordinate == 1) {
-            std::ranges::copy(index, low.begin());
-            return;
-        }
-        for (std::size_t j = 0; j < index.size(); ++j) {
-            const auto s = static_cast<std::uint64_t>(index[j]);
-            low[j] = static_cast<double>(sigma_(0, s % columns_) * rows_ + tau_(0, s / columns_));
-        }
-    }
-
-    [[nodiscard]] std::uint64_t parts(std::size_t coordinate) const override {
-        return coordinate == 0 ? columns_ * rows_ : plan_.count;
-    }
-
-    std::uint64_t columns_;
-    std::uint64_t rows_;
-    PermutationFamily sigma_;
-    PermutationFamily tau_;
-};
-
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
-    return std::make_unique<CorrelatedMultiJittered>(plan, StratifiedSequence::style_of(options),
-                                                     jitter_columns(plan.count, options));
+    const std::uint64_t columns = jitter_columns(plan.count, options);
+    const std::uint64_t rows = (plan.count + columns - 1) / columns;
+    const PermutationFamily sigma(columns, 1, stratified_numbers(plan, 0));
+    const PermutationFamily tau(rows, 1, stratified_numbers(plan, 1));
+    return stratified_sequence(
+        plan, style_of(options),
+        [=, n = plan.count](std::size_t coordinate, std::span<const double> index,
+                            std::span<double> low) {
+            if (coordinate == 1) {
+                std::ranges::copy(index, low.begin());
+                return n;
+            }
+            for (std::size_t j = 0; j < index.size(); ++j) {
+                const auto s = static_cast<std::uint64_t>(index[j]);
+                low[j] = static_cast<double>(sigma(0, s % columns) * rows + tau(0, s / columns));
+            }
+            return columns * rows;
+        });
 }
 
 }  // namespace

@@ -28,37 +28,15 @@ constexpr Param<Choice> cell{.name = "cell",
                              .choices = "center|corner",
                              .help = "Where in its cell a point is"};
 
-class Grid final : public Sequence {
-  public:
-    Grid(std::vector<std::uint64_t> sides, bool centered)
-        : shape_(std::move(sides)), centered_(centered) {}
-
-    void fill(std::uint64_t first, std::span<double> rows) override {
-        const std::size_t d = shape_.size();
-        for_each_lattice_row(shape_, first, rows.size() / d,
-                             [&](auto start, std::size_t offset, std::size_t length) {
-                                 double* row = rows.data() + offset * d;
-                                 place(row, start[0], length, 1, shape_[0]);
-                                 for (std::size_t k = 1; k < d; ++k)
-                                     place(row + k, start[k], length, 0, shape_[k]);
-                             });
-    }
-
-  private:
-    /// One coordinate of a row: cells first, first + step, ... of k.
-    void place(double* x, std::uint64_t first, std::size_t length, std::uint64_t step,
-               std::uint64_t k) const {
-        const std::uint64_t scale = centered_ ? 2 : 1;
-        const std::uint64_t numerator = scale * first + (centered_ ? 1 : 0);
-        const std::size_t d = shape_.size();
-        if (step > 0) return fill_ratios(numerator, scale * step, scale * k, length, x, d);
-        const double value = ratio(numerator, scale * k);
-        for (std::size_t j = 0; j < length; ++j) x[j * d] = value;
-    }
-
-    std::vector<std::uint64_t> shape_;
-    bool centered_;
-};
+/// One coordinate of a row: cells first, first + step, ... of k.
+void place(double* x, std::size_t stride, bool centered, std::uint64_t first, std::size_t length,
+           std::uint64_t step, std::uint64_t k) {
+    const std::uint64_t scale = centered ? 2 : 1;
+    const std::uint64_t numerator = scale * first + (centered ? 1 : 0);
+    if (step > 0) return fill_ratios(numerator, scale * step, scale * k, length, x, stride);
+    const double value = ratio(numerator, scale * k);
+    for (std::size_t j = 0; j < length; ++j) x[j * stride] = value;
+}
 
 Plan plan(const Request& request, const Values& options) {
     if (options.given(shape)) return plan_of_shape(request, options[shape], "points");
@@ -74,7 +52,16 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
         for (const std::int64_t k : options[shape]) sides.push_back(static_cast<std::uint64_t>(k));
     else
         sides.assign(plan.dimension, exact_root(plan.count, plan.dimension, "grid"));
-    return std::make_unique<Grid>(std::move(sides), options[cell] == "center");
+    return sequence_of([sides, centered = options[cell] == "center"](std::uint64_t first,
+                                                                     std::span<double> rows) {
+        const std::size_t d = sides.size();
+        for_each_lattice_row(
+            sides, first, rows.size() / d, [&](auto start, std::size_t offset, std::size_t length) {
+                double* row = rows.data() + offset * d;
+                for (std::size_t k = 0; k < d; ++k)
+                    place(row + k, d, centered, start[k], length, k == 0 ? 1 : 0, sides[k]);
+            });
+    });
 }
 
 }  // namespace

@@ -31,21 +31,16 @@ constexpr Param<std::int64_t> strength{
         "1: one point in each of n strata along each axis; 2: and one in each of n squares for "
         "each two axes (n the square of a prime)"};
 
-class LatinHypercube final : public StratifiedSequence {
-  public:
-    LatinHypercube(const Plan& plan, bool centered)
-        : StratifiedSequence(plan, {.centered = centered, .shuffled = false}) {}
-
-  private:
-    // Points are in order, so that a coordinate's stretch of images is one of consecutive indices.
-    void strata(std::size_t coordinate, std::span<const double> index,
-                std::span<double> low) const override {
-        const Permutation permutation(plan_.count, numbers(0).bits(coordinate));
-        permutation.fill(static_cast<std::uint64_t>(index.front()), low);
-    }
-
-    [[nodiscard]] std::uint64_t parts(std::size_t) const override { return plan_.count; }
-};
+/// Points are in order, so that a coordinate's stretch of images is one of consecutive indices.
+std::unique_ptr<Sequence> hypercube(const Plan& plan, bool centered) {
+    return stratified_sequence(
+        plan, {.centered = centered, .shuffled = false},
+        [n = plan.count, keys = stratified_numbers(plan, 0)](
+            std::size_t coordinate, std::span<const double> index, std::span<double> low) {
+            Permutation(n, keys.bits(coordinate)).fill(static_cast<std::uint64_t>(index[0]), low);
+            return n;
+        });
+}
 
 constexpr const char* strong = "latin-hypercube of strength 2";
 
@@ -56,13 +51,12 @@ Plan plan(const Request& request, const Values& options) {
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
     const bool centered = options[centered_option];
-    if (options[strength] == 1) return std::make_unique<LatinHypercube>(plan, centered);
+    if (options[strength] == 1) return hypercube(plan, centered);
     const ArrayShape shape{.levels = prime_root(plan.count, 2, strong),
                            .strength = 2,
                            .columns = Columns::polynomials};
-    return std::make_unique<OrthogonalPoints>(
-        plan, OrthogonalPoints::Style{.centered = centered, .shuffled = true}, shape,
-        Substrata::independent);
+    return orthogonal_points(plan, {.centered = centered, .shuffled = true}, shape,
+                             Substrata::independent);
 }
 
 }  // namespace

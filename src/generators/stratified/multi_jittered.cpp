@@ -31,20 +31,29 @@
 namespace stipple::generators::multi_jittered {
 namespace {
 
-class MultiJittered final : public StratifiedSequence {
+class MultiJittered {
   public:
-    MultiJittered(const Plan& plan, Style style, std::uint64_t columns)
-        : StratifiedSequence(plan, style),
+    MultiJittered(const Plan& plan, std::uint64_t columns)
+        : count_(plan.count),
           columns_(columns),
           rows_(plan.count / columns),
           rest_(plan.count % columns),
-          in_short_columns_(rows_, columns, numbers(0)),
-          in_tall_columns_(rows_ + 1, rest_ > 0 ? columns : 0, numbers(1)),
-          in_rows_(columns, rows_, numbers(2)),
-          in_last_row_(rest_ > 0 ? rest_ : 1, numbers(3).bits(0)) {
+          in_short_columns_(rows_, columns, stratified_numbers(plan, 0)),
+          in_tall_columns_(rows_ + 1, rest_ > 0 ? columns : 0, stratified_numbers(plan, 1)),
+          in_rows_(columns, rows_, stratified_numbers(plan, 2)),
+          in_last_row_(rest_ > 0 ? rest_ : 1, stratified_numbers(plan, 3).bits(0)) {
         if (rest_ == 0) return;
-        phase_ = numbers(3).below(1, columns);
-        turn_ = numbers(3).below(2, plan.count);
+        phase_ = stratified_numbers(plan, 3).below(1, columns);
+        turn_ = stratified_numbers(plan, 3).below(2, plan.count);
+    }
+
+    std::uint64_t operator()(std::size_t coordinate, std::span<const double> index,
+                             std::span<double> low) const {
+        for (std::size_t j = 0; j < index.size(); ++j) {
+            const auto i = static_cast<std::uint64_t>(index[j]);
+            low[j] = static_cast<double>(coordinate == 0 ? x_strip(i) : y_strip(i));
+        }
+        return count_;
     }
 
   private:
@@ -71,7 +80,7 @@ class MultiJittered final : public StratifiedSequence {
         const bool tall = extra_before(column + 1) > extra_before(column);
         const std::uint64_t strip =
             begin + (tall ? in_tall_columns_(column, row) : in_short_columns_(column, row)) + turn_;
-        return strip < plan_.count ? strip : strip - plan_.count;
+        return strip < count_ ? strip : strip - count_;
     }
 
     [[nodiscard]] std::uint64_t y_strip(std::uint64_t i) const {
@@ -80,16 +89,7 @@ class MultiJittered final : public StratifiedSequence {
         return begin + (row < rows_ ? in_rows_(row, column) : in_last_row_(i - begin));
     }
 
-    void strata(std::size_t coordinate, std::span<const double> index,
-                std::span<double> low) const override {
-        for (std::size_t j = 0; j < index.size(); ++j) {
-            const auto i = static_cast<std::uint64_t>(index[j]);
-            low[j] = static_cast<double>(coordinate == 0 ? x_strip(i) : y_strip(i));
-        }
-    }
-
-    [[nodiscard]] std::uint64_t parts(std::size_t) const override { return plan_.count; }
-
+    std::uint64_t count_;
     std::uint64_t columns_;
     std::uint64_t rows_;  ///< full ones
     std::uint64_t rest_;  ///< points in the last row, if it is not full
@@ -102,8 +102,8 @@ class MultiJittered final : public StratifiedSequence {
 };
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {
-    return std::make_unique<MultiJittered>(plan, StratifiedSequence::style_of(options),
-                                           jitter_columns(plan.count, options));
+    return stratified_sequence(plan, style_of(options),
+                               MultiJittered(plan, jitter_columns(plan.count, options)));
 }
 
 }  // namespace

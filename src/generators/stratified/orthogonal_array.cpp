@@ -76,10 +76,10 @@ std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const Ru
                            .strength = t,
                            .columns = grid ? Columns::digits : Columns::polynomials};
     const std::string finer = options[substrata];
-    return std::make_unique<OrthogonalPoints>(plan, StratifiedSequence::style_of(options), shape,
-                                              finer == "none"          ? Substrata::none
-                                              : finer == "independent" ? Substrata::independent
-                                                                       : Substrata::shared);
+    return orthogonal_points(plan, style_of(options), shape,
+                             finer == "none"          ? Substrata::none
+                             : finer == "independent" ? Substrata::independent
+                                                      : Substrata::shared);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "math/combinatorics/permutation_family.hpp"
 #include "math/combinatorics/primes.hpp"
 #include "math/functions/powers.hpp"
 
@@ -15,66 +16,83 @@ std::uint64_t next_prime(std::uint64_t from) {
     return from;
 }
 
+class OrthogonalPoints {
+  public:
+    OrthogonalPoints(const Plan& plan, const ArrayShape& shape, Substrata substrata)
+        : shape_(shape), substrata_(substrata) {
+        for (std::size_t l = 0; l <= shape.strength; ++l)
+            powers_.push_back(saturating_power(shape.levels, l));
+        const std::size_t d = plan.dimension;
+        levels_ = PermutationFamily(shape.levels, d, stratified_numbers(plan, 0));
+        if (substrata != Substrata::none)
+            within_ = PermutationFamily(powers_[shape.strength - 1],
+                                        substrata == Substrata::shared ? d : d * shape.levels,
+                                        stratified_numbers(plan, 1));
+    }
+
+    std::uint64_t operator()(std::size_t coordinate, std::span<const double> index,
+                             std::span<double> low) const {
+        const std::uint64_t parts = substrata_ == Substrata::none ? shape_.levels : powers_.back();
+        for (std::size_t j = 0; j < index.size(); ++j) {
+            const Entry at = entry(coordinate, static_cast<std::uint64_t>(index[j]));
+            std::uint64_t stratum = levels_(coordinate, at.level) * (parts / shape_.levels);
+            if (substrata_ == Substrata::independent)
+                stratum += within_(coordinate * shape_.levels + at.level, at.rest);
+            else if (substrata_ == Substrata::shared)
+                stratum += within_(coordinate, at.rest);
+            low[j] = static_cast<double>(stratum);
+        }
+        return parts;
+    }
+
+  private:
+    /// A row's level in a column, and the row's number among those with that level there.
+    struct Entry {
+        std::uint64_t level;
+        std::uint64_t rest;
+    };
+
+    [[nodiscard]] std::uint64_t value(std::size_t column, std::uint64_t row) const {
+        const std::uint64_t s = shape_.levels;
+        const std::size_t t = shape_.strength;
+        if (shape_.columns == Columns::digits) return row / powers_[column] % s;
+        if (column == 0) return row % s;
+        if (column == 1) return row / powers_[t - 1];
+        const std::uint64_t x = column - 1;
+        std::uint64_t sum = 0;
+        for (std::size_t l = t; l-- > 0; row %= powers_[l]) sum = (sum * x + row / powers_[l]) % s;
+        return sum;
+    }
+
+    [[nodiscard]] Entry entry(std::size_t column, std::uint64_t row) const {
+        const std::uint64_t level = value(column, row);
+        const std::uint64_t s = shape_.levels;
+        if (shape_.columns == Columns::digits) {
+            const std::uint64_t before = powers_[column];
+            return {level, row % before + row / before / s * before};
+        }
+        if (shape_.strength == 2) {
+            // Two columns determine the row; neighbours do it for each other, so that both
+            // together are a multi-jittered set in the plane.
+            const std::size_t partner = (column ^ 1) <= s ? column ^ 1 : 0;
+            return {level, value(partner, row)};
+        }
+        // The other coefficients determine the one that the level depends on.
+        return {level, column == 1 ? row % powers_[shape_.strength - 1] : row / s};
+    }
+
+    ArrayShape shape_;
+    Substrata substrata_;
+    std::vector<std::uint64_t> powers_;  ///< s^0, ..., s^t
+    PermutationFamily levels_;           ///< of the levels, one for each column
+    PermutationFamily within_;           ///< of the points of a level
+};
+
 }  // namespace
 
-OrthogonalPoints::OrthogonalPoints(const Plan& plan, Style style, const ArrayShape& shape,
-                                   Substrata substrata)
-    : StratifiedSequence(plan, style), shape_(shape), substrata_(substrata) {
-    for (std::size_t l = 0; l <= shape.strength; ++l)
-        powers_.push_back(saturating_power(shape.levels, l));
-    const std::size_t d = plan.dimension;
-    levels_ = PermutationFamily(shape.levels, d, numbers(0));
-    if (substrata != Substrata::none)
-        within_ =
-            PermutationFamily(powers_[shape.strength - 1],
-                              substrata == Substrata::shared ? d : d * shape.levels, numbers(1));
-}
-
-std::uint64_t OrthogonalPoints::parts(std::size_t) const {
-    return substrata_ == Substrata::none ? shape_.levels : powers_.back();
-}
-
-std::uint64_t OrthogonalPoints::value(std::size_t column, std::uint64_t row) const {
-    const std::uint64_t s = shape_.levels;
-    const std::size_t t = shape_.strength;
-    if (shape_.columns == Columns::digits) return row / powers_[column] % s;
-    if (column == 0) return row % s;
-    if (column == 1) return row / powers_[t - 1];
-    const std::uint64_t x = column - 1;
-    std::uint64_t sum = 0;
-    for (std::size_t l = t; l-- > 0; row %= powers_[l]) sum = (sum * x + row / powers_[l]) % s;
-    return sum;
-}
-
-OrthogonalPoints::Entry OrthogonalPoints::entry(std::size_t column, std::uint64_t row) const {
-    const std::uint64_t level = value(column, row);
-    const std::uint64_t s = shape_.levels;
-    if (shape_.columns == Columns::digits) {
-        const std::uint64_t before = powers_[column];
-        return {level, row % before + row / before / s * before};
-    }
-    if (shape_.strength == 2) {
-        // Two columns determine the row; neighbours do it for each other, so that both together
-        // are a multi-jittered set in the plane.
-        const std::size_t partner = (column ^ 1) <= s ? column ^ 1 : 0;
-        return {level, value(partner, row)};
-    }
-    // The other coefficients determine the one that the level depends on.
-    return {level, column == 1 ? row % powers_[shape_.strength - 1] : row / s};
-}
-
-void OrthogonalPoints::strata(std::size_t coordinate, std::span<const double> index,
-                              std::span<double> low) const {
-    const std::uint64_t finer = parts(coordinate) / shape_.levels;
-    for (std::size_t j = 0; j < index.size(); ++j) {
-        const Entry at = entry(coordinate, static_cast<std::uint64_t>(index[j]));
-        std::uint64_t stratum = levels_(coordinate, at.level) * finer;
-        if (substrata_ == Substrata::independent)
-            stratum += within_(coordinate * shape_.levels + at.level, at.rest);
-        else if (substrata_ == Substrata::shared)
-            stratum += within_(coordinate, at.rest);
-        low[j] = static_cast<double>(stratum);
-    }
+std::unique_ptr<Sequence> orthogonal_points(const Plan& plan, const StratifiedStyle& style,
+                                            const ArrayShape& shape, Substrata substrata) {
+    return stratified_sequence(plan, style, OrthogonalPoints(plan, shape, substrata));
 }
 
 std::uint64_t prime_root(std::uint64_t count, std::size_t strength, const std::string& who) {

@@ -25,11 +25,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
-#include <vector>
 
 #include "generators/stratified/stratified.hpp"
-#include "math/combinatorics/permutation_family.hpp"
 
 namespace stipple::generators {
 
@@ -43,29 +42,8 @@ struct ArrayShape {
     Columns columns;
 };
 
-class OrthogonalPoints final : public StratifiedSequence {
-  public:
-    OrthogonalPoints(const Plan& plan, Style style, const ArrayShape& shape, Substrata substrata);
-
-  private:
-    /// A row's level in a column, and the row's number among those with that level there.
-    struct Entry {
-        std::uint64_t level;
-        std::uint64_t rest;
-    };
-
-    void strata(std::size_t coordinate, std::span<const double> index,
-                std::span<double> low) const override;
-    [[nodiscard]] std::uint64_t parts(std::size_t coordinate) const override;
-    [[nodiscard]] Entry entry(std::size_t column, std::uint64_t row) const;
-    [[nodiscard]] std::uint64_t value(std::size_t column, std::uint64_t row) const;
-
-    ArrayShape shape_;
-    Substrata substrata_;
-    std::vector<std::uint64_t> powers_;  ///< s^0, ..., s^t
-    PermutationFamily levels_;           ///< of the levels, one for each column
-    PermutationFamily within_;           ///< of the points of a level
-};
+std::unique_ptr<Sequence> orthogonal_points(const Plan& plan, const StratifiedStyle& style,
+                                            const ArrayShape& shape, Substrata substrata);
 
 /// The prime p with p^strength == count. @throws Error(usage) naming the two nearest counts.
 std::uint64_t prime_root(std::uint64_t count, std::size_t strength, const std::string& who);

@@ -3,12 +3,22 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include "math/combinatorics/permutation.hpp"
 #include "math/digital/stratum.hpp"
 
 namespace stipple::generators {
 namespace {
+
+/// Streams of random numbers within a generator's seed.
+enum class StratifiedStream : std::uint64_t {
+    order,
+    first_of_unit,
+    first_of_offsets = std::uint64_t{1} << 31  ///< one a coordinate
+};
 
 // A block of points stays in the cache, and is long enough for what is made once a block and
 // coordinate.
@@ -18,21 +28,21 @@ constexpr std::size_t least_block = 256;
 // Coordinates that are written to the rows together: a cache line of them.
 constexpr std::size_t together = 8;
 
-}  // namespace
-
-StratifiedSequence::StratifiedSequence(const Plan& plan, Style style)
-    : plan_(plan), centered_(style.centered) {
-    if (style.shuffled)
-        order_.emplace(plan.count,
-                       Rng(plan.seed, static_cast<std::uint64_t>(StratifiedStream::order)).bits(0));
+Rng numbers_of(const Plan& plan, StratifiedStream first, std::uint64_t stream) {
+    return Rng(plan.seed, static_cast<std::uint64_t>(first) + stream);
 }
 
-Rng StratifiedSequence::numbers(std::uint64_t stream) const {
-    return Rng(plan_.seed, static_cast<std::uint64_t>(StratifiedStream::first_of_unit) + stream);
+/// Coordinates of points first, first + 1, ... in their strata.
+void place(const Strata& strata, const Plan& plan, bool centered, std::size_t coordinate,
+           std::uint64_t first, std::span<double> x) {
+    if (centered) return place_in_middles(strata, x.data(), 1);
+    numbers_of(plan, StratifiedStream::first_of_offsets, coordinate).fill(first, x);
+    place_in_strata(strata, x.data(), 1);
 }
 
-void StratifiedSequence::fill(std::uint64_t first, std::span<double> rows) {
-    const std::size_t d = plan_.dimension;
+void fill(const Plan& plan, bool centered, const std::optional<Permutation>& order,
+          const StrataOf& strata, std::uint64_t first, std::span<double> rows) {
+    const std::size_t d = plan.dimension;
     const std::size_t block = std::max(least_block, block_numbers / d);
     std::vector<double> index(std::min(block, rows.size() / d));
     std::vector<double> low(index.size());
@@ -40,16 +50,16 @@ void StratifiedSequence::fill(std::uint64_t first, std::span<double> rows) {
     for (; !rows.empty(); rows = rows.subspan(index.size() * d)) {
         index.resize(std::min(index.size(), rows.size() / d));
         low.resize(index.size());
-        if (order_)
-            order_->fill(first, index);
+        if (order)
+            order->fill(first, index);
         else
             std::iota(index.begin(), index.end(), static_cast<double>(first));
         for (std::size_t k = 0; k < d; k += together) {
             const std::size_t width = std::min(together, d - k);
             for (std::size_t c = 0; c < width; ++c) {
                 const auto x = std::span(columns).subspan(c * index.size(), index.size());
-                strata(k + c, index, low);
-                place(k + c, first, low, x);
+                const std::uint64_t parts = strata(k + c, index, low);
+                place({.low = low, .parts = parts}, plan, centered, k + c, first, x);
             }
             for (std::size_t j = 0; j < index.size(); ++j)
                 for (std::size_t c = 0; c < width; ++c)
@@ -59,13 +69,21 @@ void StratifiedSequence::fill(std::uint64_t first, std::span<double> rows) {
     }
 }
 
-void StratifiedSequence::place(std::size_t coordinate, std::uint64_t first,
-                               std::span<const double> low, std::span<double> x) const {
-    if (centered_) return place_in_middles({.low = low, .parts = parts(coordinate)}, x.data(), 1);
-    const Rng offsets(plan_.seed,
-                      static_cast<std::uint64_t>(StratifiedStream::first_of_offsets) + coordinate);
-    offsets.fill(first, x);
-    place_in_strata({.low = low, .parts = parts(coordinate)}, x.data(), 1);
+}  // namespace
+
+Rng stratified_numbers(const Plan& plan, std::uint64_t stream) {
+    return numbers_of(plan, StratifiedStream::first_of_unit, stream);
+}
+
+std::unique_ptr<Sequence> stratified_sequence(const Plan& plan, const StratifiedStyle& style,
+                                              StrataOf strata) {
+    std::optional<Permutation> order;
+    if (style.shuffled)
+        order.emplace(plan.count, numbers_of(plan, StratifiedStream::order, 0).bits(0));
+    return sequence_of(
+        [=, strata = std::move(strata)](std::uint64_t first, std::span<double> rows) {
+            fill(plan, style.centered, order, strata, first, rows);
+        });
 }
 
 }  // namespace stipple::generators
