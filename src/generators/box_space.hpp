@@ -30,6 +30,9 @@ void check_torus(const Values& options);
 inline constexpr std::array<double, 7> saturated_density{0,      0.7476, 0.6966, 0.7336,
                                                          0.8430, 1.0377, 1.3598};
 
+/// Volume of the ball of radius 1.
+double unit_ball_volume(std::size_t dimension);
+
 /// A box with distances; they go across opposite faces on the torus.
 struct BoxSpace {
     Box box;

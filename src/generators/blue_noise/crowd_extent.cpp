@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/rng.hpp"
-#include "generators/blue_noise/eliminator.hpp"
+#include "generators/box_space.hpp"
 
 namespace stipple {
 namespace {

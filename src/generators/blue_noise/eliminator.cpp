@@ -15,7 +15,6 @@
 namespace stipple {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr double beta = 0.65;
 constexpr double unit = 0x1p40;  ///< weights count multiples of its inverse
 
@@ -200,13 +199,6 @@ class Elimination {
 };
 
 }  // namespace
-
-double unit_ball_volume(std::size_t dimension) {
-    double ball = dimension % 2 == 0 ? pi : 2;  // of 2 or 1 dimensions
-    for (std::size_t d = dimension % 2 == 0 ? 4 : 3; d <= dimension; d += 2)
-        ball *= 2 * pi / static_cast<double>(d);
-    return ball;
-}
 
 double packing_radius(double count, std::size_t dimension, double measure) {
     const double share = measure / count;

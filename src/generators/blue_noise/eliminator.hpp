@@ -31,9 +31,6 @@
 
 namespace stipple {
 
-/// Volume of the ball of radius 1.
-double unit_ball_volume(std::size_t dimension);
-
 /// Half the distance of neighbours in the densest packing of `count` points on so many dimensions
 /// with that measure; for four dimensions and more a bound that none reaches.
 double packing_radius(double count, std::size_t dimension, double measure);

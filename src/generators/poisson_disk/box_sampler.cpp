@@ -13,21 +13,13 @@
 #include <cmath>
 #include <type_traits>
 
+#include "generators/box_space.hpp"
 #include "generators/poisson_disk/near_disks.hpp"
 #include "generators/poisson_disk/samplers.hpp"
 #include "generators/poisson_disk/tile_rounds.hpp"
 
 namespace stipple::poisson_disk {
 namespace {
-
-/// Volume of the ball of radius 1 in 0 ... 6 dimensions.
-constexpr std::array<double, 7> unit_ball{1,
-                                          2,
-                                          3.141592653589793,
-                                          4.188790204786391,
-                                          4.934802200544679,
-                                          5.263789013914325,
-                                          5.167712780049970};
 
 template <std::size_t D>
 class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
@@ -127,7 +119,7 @@ class BoxSampler {
     Rows sample() {
         constexpr double growth = D == 3 ? 6 : 4;
         rounds_.close_gaps(
-            1.25 / unit_ball[D], growth,
+            1.25 / unit_ball_volume(D), growth,
             [&](T& tile, const Counts& counts, std::uint64_t key, Workspace& work, bool first) {
                 if (first) make_gaps(tile);
                 work.gaps.clear();

@@ -12,16 +12,14 @@
 // Promise distances are off by less than `position_slack` units.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "generators/poisson_disk/near_disks.hpp"
-
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
 
 namespace stipple::poisson_disk {
 
@@ -33,52 +31,19 @@ struct FixedPosition {
 inline constexpr double units_per_radius = 8192;
 inline constexpr double position_slack = 2;
 
+using FourNumbers [[gnu::vector_size(16)]] = std::int32_t;
+
 /// Squared distances from one position to four that lie one behind the other.
-class FourSquares {
-  public:
-    FourSquares() = default;
-
-#if defined(__SSE2__)
-    [[gnu::always_inline]] FourSquares(const FixedPosition* four, FixedPosition from) {
-        const __m128i there = _mm_loadu_si128(reinterpret_cast<const __m128i*>(four));
-        const __m128i off = _mm_sub_epi16(there, _mm_set1_epi32(std::bit_cast<int>(from)));
-        squares_ = _mm_madd_epi16(off, off);
-    }
-
-    /// Bit i says whether the i-th of one of them is smaller.
-    template <std::size_t N>
-    [[nodiscard, gnu::always_inline]] static unsigned below(const std::array<FourSquares, N>& all,
-                                                            std::int32_t limit) {
-        const __m128i limits = _mm_set1_epi32(limit);
-        __m128i smaller = _mm_setzero_si128();
-        for (const FourSquares& each : all)
-            smaller = _mm_or_si128(smaller, _mm_cmplt_epi32(each.squares_, limits));
-        return static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(smaller)));
-    }
-
-  private:
-    __m128i squares_;
-#else
-    FourSquares(const FixedPosition* four, FixedPosition from) {
-        for (std::size_t i = 0; i < 4; ++i) {
-            const int x = static_cast<std::int16_t>(four[i].x - from.x);
-            const int y = static_cast<std::int16_t>(four[i].y - from.y);
-            squares_[i] = x * x + y * y;  // y is small, so that this is below 2^31
-        }
-    }
-
-    template <std::size_t N>
-    [[nodiscard]] static unsigned below(const std::array<FourSquares, N>& all, std::int32_t limit) {
-        unsigned bits = 0;
-        for (const FourSquares& each : all)
-            for (std::size_t i = 0; i < 4; ++i) bits |= (each.squares_[i] < limit ? 1U : 0U) << i;
-        return bits;
-    }
-
-  private:
-    std::array<std::int32_t, 4> squares_;
-#endif
-};
+[[gnu::always_inline]] inline FourNumbers four_squares(const FixedPosition* four,
+                                                       FixedPosition from) {
+    using Halves [[gnu::vector_size(16)]] = std::uint16_t;
+    Halves off;
+    std::memcpy(&off, four, sizeof off);
+    off -= (Halves)(FourNumbers{} + std::bit_cast<std::int32_t>(from));
+    const FourNumbers x = (FourNumbers)off << 16 >> 16;
+    const FourNumbers y = (FourNumbers)off >> 16;
+    return x * x + y * y;  // y is small, so that this is below 2^31
+}
 
 /// The positions of a tile's cells.
 class FixedPositions {
@@ -126,27 +91,28 @@ class FixedPositions {
     [[nodiscard, gnu::always_inline]] Hit hit(std::size_t first, FixedPosition place,
                                               std::int32_t sure, std::int32_t possible) const {
         const FixedPosition* row = positions_ + first;
-        std::array<FourSquares, 10> squares;
-        for (std::size_t y = 0; y < 5; ++y, row += stride) {
-            squares[2 * y] = {row, place};
-            squares[2 * y + 1] = {row + 1, place};
-        }
-        if (FourSquares::below(squares, possible) == 0) return Hit::no;
-        return FourSquares::below(squares, sure) != 0 ? Hit::yes : Hit::unsure;
+        FourNumbers least = FourNumbers{} + possible;
+        for (std::size_t y = 0; y < 5; ++y, row += stride)
+            for (std::size_t x = 0; x < 2; ++x) {
+                const FourNumbers squares = four_squares(row + x, place);
+                least = squares < least ? squares : least;
+            }
+        const std::int32_t nearest =
+            std::min(std::min(least[0], least[1]), std::min(least[2], least[3]));
+        return nearest < sure ? Hit::yes : nearest < possible ? Hit::unsure : Hit::no;
     }
 
     /// Calls visit(position) for those of the points in 25 cells that are nearer than that.
     template <class Visit>
     [[gnu::always_inline]] void for_near(std::size_t first, FixedPosition place,
                                          std::int32_t squared, const Visit& visit) const {
-        for (std::size_t y = 0; y < 5; ++y, first += stride) {
-            const FixedPosition* row = positions_ + first;
-            const std::array<FourSquares, 1> four{FourSquares(row, place)};
-            const std::array<FourSquares, 1> last{FourSquares(row + 1, place)};
-            unsigned found = FourSquares::below(four, squared);
-            found |= (FourSquares::below(last, squared) & 8U) << 1;
-            for (; found != 0; found &= found - 1) visit(row[std::countr_zero(found)]);
-        }
+        for (std::size_t y = 0; y < 5; ++y, first += stride)
+            for (std::size_t x = 0; x < 5; ++x) {
+                const FixedPosition& p = positions_[first + x];
+                const int across = static_cast<std::int16_t>(p.x - place.x);
+                const int up = static_cast<std::int16_t>(p.y - place.y);
+                if (across * across + up * up < squared) visit(p);
+            }
     }
 
   private:

@@ -67,31 +67,4 @@ inline SubcellBits subcells_of(const std::uint32_t* lines, const TileCell<3>& ce
     return bits;
 }
 
-/// The sub-cells of eight cells, the first of which has a number that eight divides.
-inline std::array<SubcellBits, 8> subcells_of_eight(const std::uint32_t* lines,
-                                                    const TileCell<3>& first) {
-    // Of each two lines a byte for each cell; then the bytes of eight words change their places.
-    constexpr std::uint32_t low = 0x0f0f0f0f;
-    const std::uint32_t* from = lines_of(lines, first);
-    std::array<SubcellBits, 8> rows;
-    for (std::size_t i = 0; i < 8; ++i) {
-        const std::uint32_t* pair = from + i / 2 * BallLines::layer + i % 2 * 2;
-        const std::uint32_t even = (pair[0] & low) | (pair[1] & low) << 4;
-        const std::uint32_t odd = (pair[0] >> 4 & low) | (pair[1] & ~low);
-        rows[i] = SubcellBits{even} | SubcellBits{odd} << 32;
-    }
-    const auto swap = [&](std::size_t apart, SubcellBits mask) {
-        for (std::size_t i = 0; i < 8; ++i) {
-            if ((i & apart) != 0) continue;
-            const SubcellBits changed = (rows[i] >> (8 * apart) ^ rows[i + apart]) & mask;
-            rows[i + apart] ^= changed;
-            rows[i] ^= changed << (8 * apart);
-        }
-    };
-    swap(4, 0x00000000ffffffff);
-    swap(2, 0x0000ffff0000ffff);
-    swap(1, 0x00ff00ff00ff00ff);
-    return {rows[0], rows[4], rows[1], rows[5], rows[2], rows[6], rows[3], rows[7]};
-}
-
 }  // namespace stipple::poisson_disk

@@ -174,11 +174,9 @@ class SpaceSampler {
     void throw_at_first_gaps(const SpaceTile& tile, const Counts& counts, std::uint64_t key,
                              SpaceWorkspace& work) const {
         work.open.resize(all_subcells<3>);
-        std::array<SubcellBits, 8> eight;
         for (std::uint16_t place = 0; place < power(std::size_t{space_side}, 3); ++place) {
             const Cell cell = SpaceTile::cell_at(place);
-            if (place % 8 == 0) eight = subcells_of_eight(tile.lines(), cell);
-            SubcellBits some = ~eight[place % 8U];
+            SubcellBits some = ~subcells_of(tile.lines(), cell);
             if (some == 0 || tile.taken(cell)) continue;
             tile.gather(cell, some, work.near);
             open_subcells(work.near, rules_.scales, some, work.open.data());

@@ -121,9 +121,6 @@ TEST(BallLines, AreReadByCells) {
         for (std::size_t k = 0; k < 3; ++k)
             cell[k] = static_cast<int>(rng.below(1'000'000 + 3 * i + k, space_side));
         const SubcellBits there = subcells_of(lines.data(), cell);
-        const TileCell<3> first{cell[0] / 8 * 8, cell[1], cell[2]};
-        EXPECT_EQ(subcells_of_eight(lines.data(), first)[static_cast<std::size_t>(cell[0] % 8)],
-                  there);
         for (std::size_t part = 0; part < 64; ++part) {
             const auto step = static_cast<int>(part);
             const bool is = is_set(lines, {4 * cell[0] + step % 4, 4 * cell[1] + step / 4 % 4,
