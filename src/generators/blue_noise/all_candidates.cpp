@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "generators/blue_noise/all_candidates.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +10,7 @@
 #include <span>
 
 #include "core/machine/wide.hpp"
+#include "core/rng.hpp"
 #include "math/combinatorics/splitmix64.hpp"
 
 namespace stipple {
@@ -43,40 +46,52 @@ STIPPLE_WIDE double least_squared(std::span<const std::vector<double>> along,
     return std::ranges::min(least);
 }
 
-}  // namespace
-
-AllCandidates::AllCandidates(const BoxSpace& space, std::uint64_t seed, double factor,
-                             const RunContext& run)
-    : space_(space), factor_(factor), run_(run), rng_(seed), along_(space.box.dimension()) {
-    for (std::size_t k = 0; k < along_.size(); ++k)
-        turns_.push_back(space.torus ? space.box.extent(k)
-                                     : std::numeric_limits<double>::infinity());
-}
-
-void AllCandidates::add() {
-    const std::size_t d = along_.size();
-    const std::size_t number = rows_.size() / d;
-    const auto all = static_cast<std::uint64_t>(
-        std::max(1.0, std::floor(factor_ * static_cast<double>(number))));
-    SplitMix64 stream(rng_.bits(number));
-    std::vector<double> winner(d);
-    std::vector<double> p(d);
+/// Of `all` candidates the one farthest from the points so far.
+std::vector<double> farthest(const BoxSpace& space, std::span<const std::vector<double>> along,
+                             std::span<const double> turns, std::uint64_t all, SplitMix64 stream,
+                             const RunContext& run) {
+    std::vector<double> winner(along.size());
+    std::vector<double> p(along.size());
     double best = -1;
     for (std::uint64_t candidate = 0; candidate < all; ++candidate) {
-        if (candidate % 0x10000 == 0xffff) run_.check_stop();
-        for (std::size_t k = 0; k < d; ++k) do
-                p[k] = space_.box.low[k] + to_unit(stream.next()) * space_.box.extent(k);
-            while (p[k] >= space_.box.high[k]);
-        const double squared = least_squared(along_, turns_, p.data(), best);
+        if (candidate % 0x10000 == 0xffff) run.check_stop();
+        for (std::size_t k = 0; k < along.size(); ++k) do
+                p[k] = space.box.low[k] + to_unit(stream.next()) * space.box.extent(k);
+            while (p[k] >= space.box.high[k]);
+        const double squared = least_squared(along, turns, p.data(), best);
         if (squared <= best) continue;
         best = squared;
         winner = p;
     }
-    rows_.insert(rows_.end(), winner.begin(), winner.end());
-    for (std::size_t k = 0; k < d; ++k) {
-        if (number % together == 0) along_[k].resize(number + together, out_of_reach);
-        along_[k][number] = winner[k];
+    return winner;
+}
+
+}  // namespace
+
+std::vector<double> all_candidates(const BoxSpace& space, std::uint64_t seed, double factor,
+                                   std::uint64_t wanted, const RunContext& run) {
+    const std::size_t d = space.box.dimension();
+    run.need_memory(static_cast<double>(wanted) * 2 * sizeof(double) * static_cast<double>(d),
+                    fmt::format("{} points", wanted));
+    std::vector<double> turns;  // sides of the torus; else infinite
+    for (std::size_t k = 0; k < d; ++k)
+        turns.push_back(space.torus ? space.box.extent(k)
+                                    : std::numeric_limits<double>::infinity());
+    const Rng rng(seed);
+    std::vector<double> rows;
+    std::vector<std::vector<double>> along(d);  // coordinates of the points; far ones behind them
+    for (std::uint64_t i = 0; i < wanted; ++i) {
+        if (i % 16 == 0) run.tick(i, wanted);
+        const double all = std::max(1.0, std::floor(factor * static_cast<double>(i)));
+        const std::vector<double> point = farthest(
+            space, along, turns, static_cast<std::uint64_t>(all), SplitMix64(rng.bits(i)), run);
+        rows.insert(rows.end(), point.begin(), point.end());
+        for (std::size_t k = 0; k < d; ++k) {
+            if (i % together == 0) along[k].resize(i + together, out_of_reach);
+            along[k][i] = point[k];
+        }
     }
+    return rows;
 }
 
 }  // namespace stipple

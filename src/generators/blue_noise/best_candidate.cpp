@@ -466,17 +466,6 @@ constexpr double cell_bytes = 5000;
 /// In more dimensions cells take longer than all candidates, for fewer than 10^4.5 points.
 constexpr std::size_t most_lazy = 3;
 
-/// The rows of so many points. @param maker a LazySearch or AllCandidates
-template <class Maker>
-std::vector<double> rows_of(Maker&& maker, std::uint64_t wanted, const RunContext& run) {
-    for (std::uint64_t i = 0; i < wanted; ++i) {
-        if (i % 16 == 0) run.tick(i, wanted);
-        maker.add();
-    }
-    run.tick(1, 1);
-    return maker.rows();
-}
-
 template <std::size_t D>
 std::vector<double> lazily(const BoxSpace& space, const Plan& plan, double factor,
                            std::uint64_t wanted, const RunContext& run) {
@@ -486,7 +475,12 @@ std::vector<double> lazily(const BoxSpace& space, const Plan& plan, double facto
     if (number >= 2e7)
         fail(ErrorKind::limit, "--count: {} points; at most 2e7 have cells with 32-bit numbers",
              wanted);
-    return rows_of(LazySearch<D>(space, plan.seed, factor), wanted, run);
+    LazySearch<D> search(space, plan.seed, factor);
+    for (std::uint64_t i = 0; i < wanted; ++i) {
+        if (i % 16 == 0) run.tick(i, wanted);
+        search.add();
+    }
+    return search.rows();
 }
 
 std::vector<double> rows_in(const BoxSpace& space, const Plan& plan, double factor,
@@ -500,15 +494,14 @@ std::vector<double> rows_in(const BoxSpace& space, const Plan& plan, double fact
         case most_lazy:
             return lazily<most_lazy>(space, plan, factor, wanted, run);
         default:
-            run.need_memory(AllCandidates::memory(static_cast<double>(wanted), plan.dimension),
-                            fmt::format("{} points", wanted));
-            return rows_of(AllCandidates(space, plan.seed, factor, run), wanted, run);
+            return all_candidates(space, plan.seed, factor, wanted, run);
     }
 }
 
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     const BoxSpace space = space_of(plan, !options[bounded_option]);
     PointSet points = set_in_box(rows_in(space, plan, options[candidates], run), plan);
+    run.tick(1, 1);
     points.provenance.options = {{"candidates", format_number(options[candidates])},
                                  {space.torus ? "torus" : "bounded", "true"}};
     return points;

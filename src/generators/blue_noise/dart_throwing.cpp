@@ -154,45 +154,6 @@ class DenseDarts {
     double indexed_ = 0;  ///< the radius of the densest place, there
 };
 
-/// Throws until a dart finds a place, and so on.
-template <class Darts>
-class Thrower {
-  public:
-    Thrower(Darts& darts, std::uint64_t patience, const RunContext& run)
-        : darts_(darts), misses_(patience), run_(run) {}
-
-    /// Adds points that keep `r`, `count` of them unless that is 0, and about as many as expected.
-    void fill(double r, std::uint64_t count, double expected) {
-        wanted_ = static_cast<std::uint64_t>(expected);
-        while ((count == 0 || darts_.count() < count) && add(r)) {
-        }
-    }
-
-    /// Adds points until there are `count`; the radius that they keep.
-    double relax(double r, std::uint64_t count, double factor) {
-        wanted_ = count;
-        while (darts_.count() < count)
-            if (!add(r)) r *= factor;
-        return r;
-    }
-
-  private:
-    /// Adds a point. False if `misses` darts have found no place.
-    bool add(double r) {
-        for (std::uint64_t left = misses_; left > 0; --left) {
-            if (++thrown_ % 4096 == 0) run_.tick(std::min(darts_.count(), wanted_), wanted_);
-            if (darts_.add(r)) return true;
-        }
-        return false;
-    }
-
-    Darts& darts_;
-    std::uint64_t misses_;
-    const RunContext& run_;
-    std::uint64_t wanted_ = 1;  ///< points, as far as one knows
-    std::uint64_t thrown_ = 0;
-};
-
 /// @throws Error(limit) when the points do not fit the memory, or the indices.
 void check_size(double points, double memory, const RunContext& run) {
     const std::string what = fmt::format("{:.4g} points", points);
@@ -200,26 +161,32 @@ void check_size(double points, double memory, const RunContext& run) {
     if (points >= 0xffff'fff0) fail(ErrorKind::limit, "{} are more than 2^32", what);
 }
 
-/// The points with the radius that they keep, for a --radius with about so many points, or none.
+/// Throws darts until there are enough points, for a --radius without a count until it misses too
+/// often. The points with the radius that they keep; about `expected` of them.
 template <class Darts>
 std::pair<std::vector<double>, double> throw_all(Darts darts, const BoxSpace& space,
                                                  const Plan& plan, const Values& options,
                                                  double expected, const RunContext& run) {
     const std::uint64_t wanted = plan.count ? plan.start + plan.count : 0;
-    const auto patience = static_cast<std::uint64_t>(options[misses]);
-    Thrower<Darts> thrower(darts, patience, run);
-    if (!options.given(radius)) {
-        const double r = thrower.relax(space.largest_distance(), wanted, options[shrink]);
-        return {darts.rows(), r};
+    const auto total = static_cast<std::uint64_t>(expected);
+    const std::int64_t patience = options[misses];
+    const bool stays = options.given(radius);
+    double r = stays ? options[radius] : space.largest_distance();
+    std::int64_t missed = 0;  // in a row
+    for (std::uint64_t thrown = 1; wanted == 0 || darts.count() < wanted; ++thrown) {
+        if (thrown % 4096 == 0) run.tick(std::min<std::uint64_t>(darts.count(), total), total);
+        missed = darts.add(r) ? 0 : missed + 1;
+        if (missed < patience) continue;
+        if (stays) break;
+        r *= options[shrink];
+        missed = 0;
     }
-    thrower.fill(options[radius], wanted, expected);
     if (darts.count() < wanted || darts.count() <= plan.start)
         fail(ErrorKind::limit,
              "only {} points keep a radius of {} before {} darts in a row have missed; {} were "
              "asked for",
-             darts.count(), format_number(options[radius]), patience,
-             std::max(wanted, plan.start + 1));
-    return {darts.rows(), options[radius]};
+             darts.count(), format_number(r), patience, std::max(wanted, plan.start + 1));
+    return {darts.rows(), r};
 }
 
 template <std::size_t D>

@@ -173,11 +173,9 @@ class Kernels {
             ++starts_[cell + 1];
         }
         for (std::size_t c = 0; c < cells(); ++c) starts_[c + 1] += starts_[c];
-        for (std::size_t i = n_; i-- > 0;)
-            sorted_[--end_of(cell_of_[i])] = static_cast<std::uint32_t>(i);
-        // Filling from behind has left each start one cell too far; they are put back.
-        for (std::size_t c = 0; c < cells(); ++c) starts_[c] = starts_[c + 1];
-        starts_[cells()] = static_cast<std::uint32_t>(n_);
+        std::vector<std::uint32_t> next(starts_.begin(), starts_.end() - 1);
+        for (std::size_t i = 0; i < n_; ++i)
+            sorted_[next[cell_of_[i]]++] = static_cast<std::uint32_t>(i);
         for (std::size_t k = 0; k < d_; ++k) {
             by_cell_[k].resize(n_);
             for (std::size_t s = 0; s < n_; ++s) by_cell_[k][s] = places_[sorted_[s] * d_ + k];
@@ -290,8 +288,6 @@ class Kernels {
     [[nodiscard]] std::int64_t period(std::size_t k) const {
         return static_cast<std::int64_t>(along_[k]);
     }
-
-    std::uint32_t& end_of(std::size_t cell) { return starts_[cell + 1]; }
 
     std::size_t d_;
     std::size_t n_;
