@@ -109,17 +109,8 @@ double fraction_before(std::span<const double> sums, std::size_t cell, double wa
     return std::min((wanted - before) / (sums[cell] - before), one_minus_ulp);
 }
 
-/// first_above() for a bucket of few sums, most often: a look at no sum beyond it, which would be
-/// on another line of memory.
-std::size_t first_of_few(std::span<const double> sums, std::size_t low, std::size_t high,
-                         double w) {
-    constexpr std::size_t few = 4;
-    if (high - low >= few) [[unlikely]]
-        return first_above(sums, low, high, w);
-    const std::size_t last = sums.size() - 1;
-    low += sums[std::min(low + 1, last)] <= w ? 2 : 0;
-    return low + (sums[std::min(low, last)] <= w ? 1 : 0);
-}
+/// Sums of a bucket, most often: a look at none beyond it, which would be on another line of memory.
+constexpr std::size_t few_in_bucket = 4;
 
 /// The share of the total that lies before a place in a cell.
 double share_before(std::span<const double> sums, std::size_t cell, double fraction) {
@@ -181,7 +172,7 @@ inline DensityMap::Visit DensityMap::visit(double u, double v) const {
     const double mass = std::min(v * column_.back(), most_);
     const std::size_t bucket = column_buckets_.of(mass);
     const std::size_t row =
-        first_of_few(column_, column_guide_[bucket], column_guide_[bucket + 1], mass);
+        first_above(column_, column_guide_[bucket], column_guide_[bucket + 1], mass, few_in_bucket);
     const double wanted = std::min(u * rows_[row].total, rows_[row].most);
     return {row, row * row_guide_size_ + rows_[row].buckets.of(wanted), wanted,
             coordinate(row, fraction_before(column_, row, mass), height_)};
@@ -190,7 +181,8 @@ inline DensityMap::Visit DensityMap::visit(double u, double v) const {
 inline double DensityMap::across(const Visit& visit) const {
     const auto sums = std::span(row_sums_).subspan(visit.row * width_, width_);
     const std::size_t cell =
-        first_of_few(sums, row_guides_[visit.bucket], row_guides_[visit.bucket + 1], visit.wanted);
+        first_above(sums, row_guides_[visit.bucket], row_guides_[visit.bucket + 1], visit.wanted,
+                    few_in_bucket);
     return coordinate(cell, fraction_before(sums, cell, visit.wanted), width_);
 }
 

@@ -3,13 +3,14 @@
 
 #include <fmt/ranges.h>
 #include <muParserBase.h>
+#include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <mutex>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "core/error.hpp"
@@ -50,7 +51,6 @@ double angle(double y, double x) {
     const double high = std::isinf(y) ? std::copysign(1.0, y) : (std::isinf(x) ? 0 : y);
     return std::copysign(whole_turn * turns_of(wide, std::abs(high)), high);
 }
-double arc_tangent(double x) { return angle(x, 1); }
 double arc_sine(double x) {
     return std::abs(x) <= 1 ? angle(x, std::sqrt((1 - x) * (1 + x))) : nan;
 }
@@ -63,8 +63,6 @@ double log_of(double x) {
     if (x == infinity) return infinity;
     return x > 0 ? logarithm(x) : (x == 0 ? -infinity : nan);
 }
-double log_2(double x) { return log_of(x) / std::numbers::ln2; }
-double log_10(double x) { return log_of(x) / std::numbers::ln10; }
 double sinh_of(double x) {
     if (std::abs(x) > 709) return x > 0 ? infinity : -infinity;
     const double rise = exp_minus_1(std::abs(x));
@@ -104,20 +102,6 @@ double power(double x, double y) {
     const double size = real_power(std::abs(x), y);
     return x < 0 && odd ? -size : size;
 }
-
-double magnitude(double x) { return std::abs(x); }
-double sign(double x) { return x > 0 ? 1 : (x < 0 ? -1 : x); }
-double root(double x) { return std::sqrt(x); }
-double cube_root_of(double x) { return std::isfinite(x) ? cube_root(x) : x; }
-double floor_of(double x) { return std::floor(x); }
-double ceil_of(double x) { return std::ceil(x); }
-double round_of(double x) { return std::round(x); }
-double modulo(double x, double y) { return std::fmod(x, y); }  // exact, so the same everywhere
-double length(double x, double y) { return std::sqrt(x * x + y * y); }
-double negative(double x) { return -x; }
-double positive(double x) { return x; }
-double least(const double* x, int n) { return *std::min_element(x, x + n); }
-double greatest(const double* x, int n) { return *std::max_element(x, x + n); }
 
 int read_number(const char* text, int* at, double* value) {
     const std::string_view rest(text);
@@ -161,7 +145,8 @@ class Parser final : public mu::ParserBase {
         DefineFun("tan", tangent);
         DefineFun("asin", arc_sine);
         DefineFun("acos", arc_cosine);
-        DefineFun("atan", arc_tangent);
+        DefineFun(
+            "atan", +[](double x) { return angle(x, 1); });
         DefineFun("atan2", angle);
         DefineFun("sinh", sinh_of);
         DefineFun("cosh", cosh_of);
@@ -169,28 +154,44 @@ class Parser final : public mu::ParserBase {
         DefineFun("exp", exp_of);
         DefineFun("log", log_of);
         DefineFun("ln", log_of);
-        DefineFun("log2", log_2);
-        DefineFun("log10", log_10);
-        DefineFun("sqrt", root);
-        DefineFun("cbrt", cube_root_of);
+        DefineFun(
+            "log2", +[](double x) { return log_of(x) / std::numbers::ln2; });
+        DefineFun(
+            "log10", +[](double x) { return log_of(x) / std::numbers::ln10; });
+        DefineFun(
+            "sqrt", +[](double x) { return std::sqrt(x); });
+        DefineFun(
+            "cbrt", +[](double x) { return std::isfinite(x) ? cube_root(x) : x; });
         DefineFun("pow", power);
-        DefineFun("abs", magnitude);
-        DefineFun("sign", sign);
-        DefineFun("min", least);
-        DefineFun("max", greatest);
-        DefineFun("floor", floor_of);
-        DefineFun("ceil", ceil_of);
-        DefineFun("round", round_of);
-        DefineFun("mod", modulo);
-        DefineFun("hypot", length);
+        DefineFun(
+            "abs", +[](double x) { return std::abs(x); });
+        DefineFun(
+            "sign", +[](double x) { return x > 0 ? 1 : (x < 0 ? -1 : x); });
+        DefineFun(
+            "min", +[](const double* x, int n) { return *std::min_element(x, x + n); });
+        DefineFun(
+            "max", +[](const double* x, int n) { return *std::max_element(x, x + n); });
+        DefineFun(
+            "floor", +[](double x) { return std::floor(x); });
+        DefineFun(
+            "ceil", +[](double x) { return std::ceil(x); });
+        DefineFun(
+            "round", +[](double x) { return std::round(x); });
+        // Exact, so the same everywhere.
+        DefineFun(
+            "mod", +[](double x, double y) { return std::fmod(x, y); });
+        DefineFun(
+            "hypot", +[](double x, double y) { return std::sqrt(x * x + y * y); });
     }
     void InitConst() override {
         DefineConst("pi", std::numbers::pi);
         DefineConst("e", std::numbers::e);
     }
     void InitOprt() override {
-        DefineInfixOprt("-", negative);
-        DefineInfixOprt("+", positive);
+        DefineInfixOprt(
+            "-", +[](double x) { return -x; });
+        DefineInfixOprt(
+            "+", +[](double x) { return x; });
         DefineOprt(std::string(1, power_mark), power, mu::prPOW, mu::oaRIGHT);
     }
 };
@@ -295,43 +296,22 @@ void check_characters(std::string_view option, std::string_view text) {
     }
 }
 
+/// A parser with its variables.
+struct Machine {
+    Machine(const std::string& text, std::size_t dimension)
+        : variables(dimension), parser(text, variables) {}
+
+    std::vector<double> variables;
+    Parser parser;
+};
+
 }  // namespace
 
-/// Parsers with their variables, lent to one thread at a time.
-class Expression::Machines {
-  public:
-    struct Machine {
-        Machine(const std::string& text, std::size_t dimension)
-            : variables(dimension), parser(text, variables) {}
-        std::vector<double> variables;
-        Parser parser;
-    };
+/// One for each thread.
+struct Expression::Machines {
+    Machines(const std::string& text, std::size_t dimension) : of_threads(text, dimension) {}
 
-    Machines(std::string text, std::size_t dimension)
-        : text_(std::move(text)), dimension_(dimension) {}
-
-    std::unique_ptr<Machine> take() {
-        {
-            const std::lock_guard lock(mutex_);
-            if (!idle_.empty()) {
-                auto machine = std::move(idle_.back());
-                idle_.pop_back();
-                return machine;
-            }
-        }
-        return std::make_unique<Machine>(text_, dimension_);
-    }
-
-    void give_back(std::unique_ptr<Machine> machine) {
-        const std::lock_guard lock(mutex_);
-        idle_.push_back(std::move(machine));
-    }
-
-  private:
-    std::string text_;
-    std::size_t dimension_;
-    std::mutex mutex_;
-    std::vector<std::unique_ptr<Machine>> idle_;
+    tbb::enumerable_thread_specific<Machine> of_threads;
 };
 
 Expression::Expression(std::string_view option, std::string_view text, std::size_t dimension)
@@ -339,15 +319,13 @@ Expression::Expression(std::string_view option, std::string_view text, std::size
     check_characters(option, text);
     for (const char c : text)
         if (c != ' ' && c != '\t') text_ += c;
-    machines_ = std::make_shared<Machines>(std::string(text), dimension);
-    std::unique_ptr<Machines::Machine> machine;
+    std::optional<Machine> machine;
     try {
-        machine = machines_->take();
+        machine.emplace(std::string(text), dimension);
         machine->parser.Eval();
         if (machine->parser.GetNumResults() > 1)
             refuse(option, text, text.rfind(',') + 1, ",",
                    "expected one formula, with commas between arguments of a function only");
-        machines_->give_back(std::move(machine));
     } catch (const mu::ParserError& error) {
         explain(option, text, error, dimension,
                 machine ? machine->parser.GetFunDef() : mu::funmap_type());
@@ -362,12 +340,11 @@ double Expression::at(std::span<const double> point) const {
 }
 
 void Expression::evaluate(std::span<const double> points, std::span<double> values) const {
-    auto machine = machines_->take();
+    auto& [variables, parser] = machines_->of_threads.local();
     for (std::size_t i = 0; i < values.size(); ++i) {
-        std::copy_n(&points[i * dimension_], dimension_, machine->variables.begin());
-        values[i] = machine->parser.Eval();
+        std::copy_n(&points[i * dimension_], dimension_, variables.begin());
+        values[i] = parser.Eval();
     }
-    machines_->give_back(std::move(machine));
 }
 
 std::string muparser_version() {

@@ -38,7 +38,7 @@ class Expression {
     void evaluate(std::span<const double> points, std::span<double> values) const;
 
   private:
-    class Machines;
+    struct Machines;
 
     std::string text_;
     std::size_t dimension_;

@@ -49,6 +49,7 @@ class LineTabulator {
         : what_(what), f_(f), run_(run) {}
 
     std::vector<LinePiece> tabulate(const LineRange& range, double tolerance) {
+        width_ = range.high - range.low;
         lay_out(range);
         refine(tolerance);
         std::ranges::sort(pieces_, {}, &Sampled::low);
@@ -140,11 +141,17 @@ class LineTabulator {
         piece.f[3] = value(piece.at(0.75));
     }
 
-    void add(const Sampled& piece) {
-        worst_.emplace(piece.error(), pieces_.size());
-        pieces_.push_back(piece);
+    void add(const Sampled& piece) { put(pieces_.size(), piece); }
+
+    /// Puts a piece at an index, or behind the last one.
+    void put(std::size_t index, const Sampled& piece) {
+        worst_.emplace(piece.error(), index);
         error_ += piece.error();
         mass_ += piece.mass();
+        if (index == pieces_.size())
+            pieces_.push_back(piece);
+        else
+            pieces_[index] = piece;
     }
 
     void refine(double tolerance) {
@@ -163,17 +170,10 @@ class LineTabulator {
             Sampled right{middle, piece.high, {piece.f[2], 0, piece.f[3], 0, piece.f[4]}};
             fill_quarters(left);
             fill_quarters(right);
-            replace(index, left);
+            put(index, left);
             add(right);
             if (pieces_.size() % 64 == 0) sum_anew();
         }
-    }
-
-    void replace(std::size_t index, const Sampled& piece) {
-        pieces_[index] = piece;
-        worst_.emplace(piece.error(), index);
-        error_ += piece.error();
-        mass_ += piece.mass();
     }
 
     /// What adding and taking away has left in the sums grows with their largest size.
@@ -188,23 +188,13 @@ class LineTabulator {
     }
 
     [[noreturn]] void refuse(const Sampled& piece, double tolerance) const {
-        const double mean = mass_ / range_width();
+        const double mean = mass_ / width_;
         if (std::ranges::max(piece.f) > 1e6 * mean)
             fail(ErrorKind::usage, "{} has no bound near x = {}; a density is to be finite", what_,
                  piece.at(0.5));
         fail_with_hint(ErrorKind::limit, "name its jumps by --breaks, or ask for less",
                        "{}: --tolerance {} is out of reach, {:.2g} was reached, worst near x = {}",
                        what_, tolerance, error_ / mass_, piece.at(0.5));
-    }
-
-    [[nodiscard]] double range_width() const {
-        double low = pieces_.front().low;
-        double high = pieces_.front().high;
-        for (const Sampled& piece : pieces_) {
-            low = std::min(low, piece.low);
-            high = std::max(high, piece.high);
-        }
-        return high - low;
     }
 
     /// Whether f is 0 in the piece although not in all of it. At an end that is 0, it may just get
@@ -224,6 +214,7 @@ class LineTabulator {
     std::priority_queue<std::pair<double, std::size_t>> worst_;
     std::vector<double> places_;  ///< where it is probed
     std::vector<double> values_;
+    double width_ = 0;  ///< of the range
     double error_ = 0;
     double mass_ = 0;
 };
@@ -279,7 +270,7 @@ double LineTable::density(double x) const {
 std::vector<std::pair<double, double>> LineTable::positive_intervals() const {
     std::vector<std::pair<double, double>> found;
     for (const LinePiece& piece : pieces_) {
-        if (!(piece.f_low + piece.f_high > 0)) continue;
+        if (!(piece.f_low + piece.f_high > 0) && !(piece.integral.value > 0)) continue;
         if (!found.empty() && found.back().second == piece.x_low)
             found.back().second = piece.x_high;
         else

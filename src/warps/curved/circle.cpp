@@ -45,61 +45,47 @@ constexpr Param<Numbers> middle{{.name = "center", .fallback = "0,0", .help = "C
 
 using Pair = std::array<double, 2>;
 
-struct Ring {
-    double radius;
-    Pair center;
-
-    /// The point where centre and radius are 0 and 1.
-    Pair unit(std::span<const double> point) const {
-        return {(point[0] - center[0]) / radius, (point[1] - center[1]) / radius};
-    }
-    Pair place(double x, double y) const {
-        return {center[0] + radius * x, center[1] + radius * y};
-    }
-};
-
 class CircleDomain final : public NamedDomain {
   public:
-    CircleDomain(const Ring& ring, std::string spec)
+    CircleDomain(const Placement& at, std::string spec)
         : NamedDomain(std::move(spec), 2, 1),
-          ring_(ring),
+          at_(at),
           slack_(8 * std::numeric_limits<double>::epsilon() *
-                 (1 + std::max(std::abs(ring.center[0]), std::abs(ring.center[1])) / ring.radius)) {
-    }
+                 (1 + std::max(std::abs(at.center.x), std::abs(at.center.y)) / at.size)) {}
 
-    double measure() const override { return 2 * std::numbers::pi * ring_.radius; }
+    double measure() const override { return 2 * std::numbers::pi * at_.size; }
 
     /// Up to 8 epsilon (R + largest |c|) away from the circle: the rounding of a point that was
     /// made.
     bool contains(std::span<const double> point) const override {
-        const auto [x, y] = ring_.unit(point);
+        const auto [x, y] = at_.to_frame(point[0], point[1]);
         return std::abs(std::sqrt(x * x + y * y) - 1) <= slack_;
     }
     Box bounding_box() const override {
-        const auto [x, y] = ring_.center;
-        return {{x - ring_.radius, y - ring_.radius}, {x + ring_.radius, y + ring_.radius}};
+        const auto [x, y] = at_.center;
+        return {{x - at_.size, y - at_.size}, {x + at_.size, y + at_.size}};
     }
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
-        const auto [x, y] = ring_.unit(point);
+        const auto [x, y] = at_.to_frame(point[0], point[1]);
         cube[0] = turns_of(x, y);
     }
     std::optional<Moments> moments() const override {
-        const Placement at{{ring_.center[0], ring_.center[1]}, ring_.radius};
-        return placed_moments({.xx = 0.5, .yy = 0.5}, at);
+        return placed_moments({.xx = 0.5, .yy = 0.5}, at_);
     }
     std::vector<std::string> cube_axes() const override { return {"angle in turns"}; }
 
   private:
-    Ring ring_;
+    Placement at_;
     double slack_;
 };
 
 struct ByAngle {
-    Ring ring;
+    Placement at;
 
     Pair forward(const std::array<double, 1>& xi) const {
         const auto [c, s] = cos_sin_turns(xi[0]);
-        return ring.place(c, s);
+        const auto [x, y] = at.to_world({c, s});
+        return {x, y};
     }
 };
 
@@ -107,35 +93,36 @@ struct BySquare {
     static constexpr const char* no_way_back =
         "method square-normalize takes 2 coordinates to 1; it has no inverse";
 
-    Ring ring;
+    Placement at;
 
     static Pair scaled(const Pair& xi) { return {2 * xi[0] - 1, 2 * xi[1] - 1}; }
     Pair forward(const Pair& xi) const {
-        const auto [x, y] = scaled(xi);
-        const double size = std::sqrt(x * x + y * y);
+        const auto [u, v] = scaled(xi);
+        const double size = std::sqrt(u * u + v * v);
         const double scale = 1 / (size > 0 ? size : 1);
-        return ring.place(x * scale, y * scale);
+        const auto [x, y] = at.to_world({u * scale, v * scale});
+        return {x, y};
     }
     bool keeps(const Pair& xi) const {
         const auto [x, y] = scaled(xi);
         return x != 0 || y != 0;
     }
     double density(std::span<const double> point) const {
-        const auto [x, y] = ring.unit(point);
-        return 0.125 / (std::max(x * x, y * y) * ring.radius);
+        const auto [x, y] = at.to_frame(point[0], point[1]);
+        return 0.125 / (std::max(x * x, y * y) * at.size);
     }
 };
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const double r = want.options[radius];
-    const auto at = want.options[middle];
-    if (at.size() != 2)
-        fail(ErrorKind::usage, "--center: 2 numbers are needed, x,y; {} given", at.size());
-    for (const double x : at) refuse_far(x, r);
-    const Ring ring{r, {at[0] + 0.0, at[1] + 0.0}};  // -0 would show in points
-    const auto circle = std::make_shared<CircleDomain>(ring, want.spec({radius.name, middle.name}));
-    if (want.options[method] == "angle") return row_mapping(circle, ByAngle{ring});
-    return row_mapping(circle, BySquare{ring});
+    const auto center = want.options[middle];
+    if (center.size() != 2)
+        fail(ErrorKind::usage, "--center: 2 numbers are needed, x,y; {} given", center.size());
+    for (const double x : center) refuse_far(x, r);
+    const Placement at{{center[0] + 0.0, center[1] + 0.0}, r};  // -0 would show in points
+    const auto circle = std::make_shared<CircleDomain>(at, want.spec({radius.name, middle.name}));
+    if (want.options[method] == "angle") return row_mapping(circle, ByAngle{at});
+    return row_mapping(circle, BySquare{at});
 }
 
 }  // namespace

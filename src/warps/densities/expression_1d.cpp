@@ -104,8 +104,6 @@ struct ByFormula final : LineDistribution {
     double density(double x) const override {
         return contains(x) ? of->at(x) / of->total.value : 0;
     }
-    bool contains(double x) const override { return x >= range().first && x <= range().second; }
-    double measure() const override { return range().second - range().first; }
     std::pair<double, double> range() const override {
         return {of->table.pieces().front().x_low, of->table.pieces().back().x_high};
     }
@@ -134,19 +132,7 @@ struct ByFormula final : LineDistribution {
     }
 
     /// Pieces of the table without mass are gaps; their ends are as near as the tolerance asks.
-    Positive positive() const override {
-        Positive found{{}, 0};
-        auto& intervals = found.intervals;
-        for (const LinePiece& piece : of->table.pieces()) {
-            if (!(piece.f_low + piece.f_high > 0) && !(piece.integral.value > 0)) continue;
-            if (!intervals.empty() && intervals.back().second == piece.x_low)
-                intervals.back().second = piece.x_high;
-            else
-                intervals.emplace_back(piece.x_low, piece.x_high);
-        }
-        for (const auto& [low, high] : intervals) found.length += high - low;
-        return found;
-    }
+    Positive positive() const override { return all_of(of->table.positive_intervals()); }
 };
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {

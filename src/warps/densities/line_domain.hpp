@@ -36,10 +36,14 @@ class LineDistribution {
 
     /// The way back, to the number in [0, 1] that has this image; rounding may leave [0, 1].
     [[nodiscard]] virtual double inverse(double x) const = 0;
-    [[nodiscard]] virtual double density(double x) const = 0;  ///< 0 outside
-    [[nodiscard]] virtual bool contains(double x) const = 0;
-    [[nodiscard]] virtual double measure() const = 0;                   ///< of all that it contains
+    [[nodiscard]] virtual double density(double x) const = 0;           ///< 0 outside
     [[nodiscard]] virtual std::pair<double, double> range() const = 0;  ///< what a picture shows
+    [[nodiscard]] virtual bool contains(double x) const {
+        return x >= range().first && x <= range().second;
+    }
+    [[nodiscard]] virtual double measure() const {  ///< of all that it contains
+        return range().second - range().first;
+    }
     [[nodiscard]] virtual LineMoments moments() const = 0;
 
     /// Whether inverse() is the distribution function, which makes all intervals of the cube as
@@ -57,6 +61,11 @@ class LineDistribution {
         std::vector<std::pair<double, double>> intervals;
         double length;
     };
+    static Positive all_of(std::vector<std::pair<double, double>> intervals) {
+        double length = 0;
+        for (const auto& [low, high] : intervals) length += high - low;
+        return {std::move(intervals), length};
+    }
     [[nodiscard]] virtual Positive positive() const { return {{range()}, measure()}; }
 
   protected:

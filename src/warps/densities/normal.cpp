@@ -36,6 +36,7 @@
 #include "math/functions/normal_distribution.hpp"
 #include "math/functions/normal_quantile.hpp"
 #include "warps/common_options.hpp"
+#include "warps/domain_mapping.hpp"
 #include "warps/named_domain.hpp"
 #include "warps/warp.hpp"
 
@@ -76,6 +77,24 @@ double Shape::covariance(std::size_t i, std::size_t j) const {
     for (std::size_t k = 0; k <= std::min(i, j); ++k)
         sum += factor[i * dimension() + k] * factor[j * dimension() + k];
     return sum;
+}
+
+/// m + s z in place.
+STIPPLE_WIDE void spread(const double* middle, const double* scale, std::size_t d,
+                         std::span<double> rows) {
+    for (std::size_t i = 0; i < rows.size(); i += d)
+        for (std::size_t k = 0; k < d; ++k) rows[i + k] = middle[k] + scale[k] * rows[i + k];
+}
+
+/// m + L z in place, each row from its last coordinate to its first.
+STIPPLE_WIDE void mix(const double* middle, const double* factor, std::size_t d,
+                      std::span<double> rows) {
+    for (std::size_t i = 0; i < rows.size(); i += d)
+        for (std::size_t k = d; k-- > 0;) {
+            double sum = 0;
+            for (std::size_t j = 0; j <= k; ++j) sum += factor[k * d + j] * rows[i + j];
+            rows[i + k] = middle[k] + sum;
+        }
 }
 
 class NormalDomain final : public NamedDomain, public Weighable {
@@ -136,7 +155,12 @@ class NormalDomain final : public NamedDomain, public Weighable {
         return axes;
     }
 
-    const Shape& shape() const { return shape_; }
+    void from_cube(std::span<const double> cube, std::span<double> image) const {
+        std::ranges::copy(cube, image.begin());
+        bounded_normal_quantiles(image);
+        (shape_.diagonal() ? spread : mix)(shape_.mean.data(), shape_.factor.data(), dimension(),
+                                           image);
+    }
 
   private:
     /// Of the coordinates k and beyond, given the standardised ones before.
@@ -182,43 +206,6 @@ class NormalDomain final : public NamedDomain, public Weighable {
 
     Shape shape_;
     double log_peak_ = 0;
-};
-
-/// m + s z in place.
-STIPPLE_WIDE void spread(const double* middle, const double* scale, std::size_t d,
-                         std::span<double> rows) {
-    for (std::size_t i = 0; i < rows.size(); i += d)
-        for (std::size_t k = 0; k < d; ++k) rows[i + k] = middle[k] + scale[k] * rows[i + k];
-}
-
-/// m + L z in place, each row from its last coordinate to its first.
-STIPPLE_WIDE void mix(const double* middle, const double* factor, std::size_t d,
-                      std::span<double> rows) {
-    for (std::size_t i = 0; i < rows.size(); i += d)
-        for (std::size_t k = d; k-- > 0;) {
-            double sum = 0;
-            for (std::size_t j = 0; j <= k; ++j) sum += factor[k * d + j] * rows[i + j];
-            rows[i + k] = middle[k] + sum;
-        }
-}
-
-class Normal final : public Mapping {
-  public:
-    explicit Normal(const std::shared_ptr<const NormalDomain>& domain)
-        : Mapping(domain), shape_(domain->shape()) {}
-
-    void forward(std::span<const double> cube, std::span<double> image,
-                 std::span<std::uint8_t> /*keep*/) const override {
-        std::ranges::copy(cube, image.begin());
-        bounded_normal_quantiles(image);
-        const std::size_t d = shape_.dimension();
-        const double* middle = shape_.mean.data();
-        const double* factor = shape_.factor.data();
-        (shape_.diagonal() ? spread : mix)(middle, factor, d, image);
-    }
-
-  private:
-    const Shape& shape_;
 };
 
 std::vector<double> deviations_of(const Values& options, std::size_t d) {
@@ -268,7 +255,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     Shape shape{.mean = one_for_each(mean, want.options[mean], d),
                 .factor = correlated ? factor_of(matrix, d) : deviations_of(want.options, d)};
     for (double& m : shape.mean) m += 0.0;  // -0 would show in points
-    return std::make_unique<Normal>(std::make_shared<NormalDomain>(std::move(shape), want.spec()));
+    return domain_mapping<NormalDomain>(std::move(shape), want.spec());
 }
 
 }  // namespace

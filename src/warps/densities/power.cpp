@@ -96,8 +96,6 @@ struct PowerLaw : LineDistribution, Interval {
     double unit;      ///< the end where |x|^p is larger, from which densities are measured
     double peak = 0;  ///< density at |x| = unit
 
-    bool contains(double x) const override { return x >= a && x <= b; }
-    double measure() const override { return b - a; }
     std::pair<double, double> range() const override { return {a, b}; }
     double density(double x) const override {
         return contains(x) ? peak * real_power(std::abs(x) / unit, p - 1) : 0;

@@ -63,8 +63,6 @@ struct Tabulated final : LineDistribution {
     }
     double inverse(double x) const override { return table->fraction(x); }
     double density(double x) const override { return contains(x) ? table->density(x) : 0; }
-    bool contains(double x) const override { return x >= range().first && x <= range().second; }
-    double measure() const override { return range().second - range().first; }
     std::pair<double, double> range() const override {
         return {table->pieces().front().x_low, table->pieces().back().x_high};
     }
@@ -75,11 +73,7 @@ struct Tabulated final : LineDistribution {
         m.third = expectation([c](double x) { return (x - c) * (x - c) * (x - c); });
         return m;
     }
-    Positive positive() const override {
-        Positive found{table->positive_intervals(), 0};
-        for (const auto& [low, high] : found.intervals) found.length += high - low;
-        return found;
-    }
+    Positive positive() const override { return all_of(table->positive_intervals()); }
 
   private:
     /// E f, exact for polynomials of degree 4, by Gauss's rule of 3 points on each piece.
