@@ -92,6 +92,9 @@ std::vector<std::string> lines_of(const Generator& unit) {
     add(needed, std::min<std::uint64_t>(many_of(unit.name), 1024), 2, 987654321);
     // 729 = 9^3 = 27^2: grids and arrays have as many.
     if (traits.max_dimension > 2) add(needed, traits.sequence ? 729 : 200, 3, 1);
+    // Sets that are made fast: enough for what they do in tiles of space.
+    if (traits.max_dimension > 2 && !traits.sequence && many_of(unit.name) > 5000)
+        add(needed, 5000, 3, 1);
     for (const Settings& settings : variants(unit.options, needed))
         if (settings != needed)
             add(settings, std::min<std::uint64_t>(many_of(unit.name), 1024), 2, 3);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/rng.hpp"
+#include "generators/box_space.hpp"
 #include "support/pictures.hpp"
 #include "support/spacing.hpp"
 #include "support/temporary_file.hpp"
@@ -41,6 +42,19 @@ TEST(DartThrowing, TwoPointsStartAsFarApartAsDartsReach) {
     const Space line{{{0}, {1}}, true};
     EXPECT_GT(smallest_distance(make_in("dart-throwing", line, 2), line), 0.45);
     EXPECT_GT(smallest_distance(make_in("dart-throwing", square, 2), square), 0.6);
+}
+
+// Memory and progress go by the densities at which no place is left.
+TEST(DartThrowing, ComesNearTheSaturatedDensityInAnyDimension) {
+    const std::vector<double> radii{0.002, 0.03, 0.1, 0.2, 0.3, 0.4};
+    for (std::size_t d = 1; d <= 6; ++d) {
+        const double r = radii[d - 1];
+        const PointSet set = make("dart-throwing", {.dimension = d},
+                                  {{"radius", format_number(r)}, {"misses", "20000"}});
+        const double density = static_cast<double>(set.count()) * std::pow(r, d);
+        EXPECT_LT(density, 1.02 * saturated_density[d]) << d;
+        EXPECT_GT(density, 0.6 * saturated_density[d]) << d;
+    }
 }
 
 // What a fixed radius makes is the plain process: the first point that fits, dart by dart.
