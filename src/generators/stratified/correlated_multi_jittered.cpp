@@ -20,9 +20,8 @@
 
 #include <algorithm>
 
-#include "generators/stratified/jitter_grid.hpp"
 #include "generators/stratified/stratified.hpp"
-#include "math/combinatorics/permutation_family.hpp"
+#include "math/combinatorics/permutation.hpp"
 
 namespace stipple::generators::correlated_multi_jittered {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "core/error.hpp"
 #include "generators/generator.hpp"
-#include "generators/stratified/jitter_grid.hpp"
+#include "generators/stratified/stratified.hpp"
 #include "math/arithmetic/ratio.hpp"
 #include "math/functions/powers.hpp"
 #include "math/geometry/lattice.hpp"

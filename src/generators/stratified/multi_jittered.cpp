@@ -23,10 +23,8 @@
 // Source  K. Chiu, P. Shirley, C. Wang, "Multi-jittered sampling", Graphics Gems IV (1994),
 //         370-374 (n = a b). Other n: stipple's own.
 
-#include "generators/stratified/jitter_grid.hpp"
 #include "generators/stratified/stratified.hpp"
 #include "math/combinatorics/permutation.hpp"
-#include "math/combinatorics/permutation_family.hpp"
 
 namespace stipple::generators::multi_jittered {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
-#include "math/combinatorics/permutation_family.hpp"
+#include "math/combinatorics/permutation.hpp"
 #include "math/combinatorics/primes.hpp"
 #include "math/functions/powers.hpp"
 

@@ -3,6 +3,9 @@
 // Points of which each coordinate has a stratum of its own: a part of [0, 1) between neighbouring
 // whole multiples of 1 / parts. Where in it the point is, is random, or the middle.
 //
+// The grid of cells that multi-jittered sets have is of a given shape, or as square as the count
+// lets it be.
+//
 // Promise as math/digital/stratum.hpp says.
 #pragma once
 
@@ -11,6 +14,8 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string_view>
+#include <vector>
 
 #include "core/options.hpp"
 #include "core/rng.hpp"
@@ -25,6 +30,13 @@ inline constexpr Param<Choice> order_option{.name = "order",
                                             .fallback = "shuffled",
                                             .choices = "shuffled|cells",
                                             .help = "Order of the points: random, or cell by cell"};
+
+/// Of multi-jittered sets, whose cells are a grid.
+inline constexpr Param<Extents> shape_option{
+    {.name = "shape",
+     .unit = "cells",
+     .help = "Columns x rows, such as 40x25; gives the count. Without it: as square as the count "
+             "allows"}};
 
 struct StratifiedStyle {
     bool centered;
@@ -46,5 +58,17 @@ std::unique_ptr<Sequence> stratified_sequence(const Plan& plan, const Stratified
 
 /// Random numbers for a unit's own use, stream 0, 1, ...
 Rng stratified_numbers(const Plan& plan, std::uint64_t stream);
+
+/// Number of columns for `count` points: the shape's; or the divisor of the count nearest to its
+/// root from below, if not less than sqrt(1/2) of it; or the root, rounded down.
+std::uint64_t jitter_columns(std::uint64_t count, const Values& options);
+
+/// The plan for the product of the sides as count, and their number as dimension.
+/// @param cells what messages call them. @throws Error(usage) when the request contradicts it
+Plan plan_of_shape(const Request& request, const std::vector<std::int64_t>& sides,
+                   std::string_view cells);
+
+/// The plan that count and shape imply. @throws Error(usage) when they contradict each other.
+Plan plan_jitter_grid(const Request& request, const Values& options);
 
 }  // namespace stipple::generators

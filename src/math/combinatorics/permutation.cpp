@@ -13,6 +13,7 @@ namespace {
 using Cipher = Permutation::Cipher;
 
 constexpr std::size_t lanes = 256;
+constexpr std::uint64_t most_entries = std::uint64_t{1} << 20;  ///< of a family's table
 
 /// The keys in the words that they are used on.
 template <class Word>
@@ -121,6 +122,22 @@ void Permutation::fill(std::uint64_t first, std::span<double> out) const {
         else
             images<std::uint64_t>(cipher_, size_, first + i, count, out.data() + i);
     }
+}
+
+PermutationFamily::PermutationFamily(std::uint64_t size, std::uint64_t members, const Rng& keys)
+    : size_(size), keys_(keys) {
+    if (members == 0 || size > most_entries / members) return;
+    std::vector<double> images(size);
+    table_.reserve(size * members);
+    for (std::uint64_t member = 0; member < members; ++member) {
+        Permutation(size, keys.bits(member)).fill(0, images);
+        for (const double image : images) table_.push_back(static_cast<std::uint32_t>(image));
+    }
+}
+
+std::uint64_t PermutationFamily::operator()(std::uint64_t member, std::uint64_t i) const {
+    if (!table_.empty()) return table_[member * size_ + i];
+    return Permutation(size_, keys_.bits(member))(i);
 }
 
 }  // namespace stipple
