@@ -139,6 +139,7 @@ DensityMap::DensityMap(std::size_t width, std::size_t height, std::vector<double
     double sum = 0;
     for (double& value : values_) sum += value /= top;
     const double mean = sum / static_cast<double>(values_.size());
+    std::vector<double> column;
     double total = 0;
     for (std::size_t j = 0; j < height_; ++j) {
         double row = 0;
@@ -146,19 +147,16 @@ DensityMap::DensityMap(std::size_t width, std::size_t height, std::vector<double
             values_[k] /= mean;
             row_sums_[k] = row += values_[k];
         }
-        column_.push_back(total += row);
+        column.push_back(total += row);
     }
     largest_ = std::ranges::max(values_);
-    most_ = std::nextafter(total, 0.0);
+    column_ = GuideTable(std::move(column), height_);
     lay_out_guides();
 }
 
 // A bucket of about 2 cells lies in one cache line of sums, mostly.
 void DensityMap::lay_out_guides() {
     const std::size_t buckets = (width_ + 1) / 2;
-    column_buckets_ = Buckets(column_.back(), height_);
-    column_guide_.resize(height_ + 1);
-    fill_guide(column_, column_guide_);
     row_guide_size_ = buckets + 1;
     fill_with_zeros(row_guides_, height_ * row_guide_size_);
     for (std::size_t j = 0; j < height_; ++j) {
@@ -169,13 +167,11 @@ void DensityMap::lay_out_guides() {
 }
 
 inline DensityMap::Visit DensityMap::visit(double u, double v) const {
-    const double mass = std::min(v * column_.back(), most_);
-    const std::size_t bucket = column_buckets_.of(mass);
-    const std::size_t row =
-        first_above(column_, column_guide_[bucket], column_guide_[bucket + 1], mass, few_in_bucket);
+    const double mass = v * column_.total();
+    const std::size_t row = column_.at(mass);
     const double wanted = std::min(u * rows_[row].total, rows_[row].most);
     return {row, row * row_guide_size_ + rows_[row].buckets.of(wanted), wanted,
-            coordinate(row, fraction_before(column_, row, mass), height_)};
+            coordinate(row, fraction_before(column_.sums(), row, mass), height_)};
 }
 
 inline double DensityMap::across(const Visit& visit) const {
@@ -232,8 +228,9 @@ std::array<double, 2> DensityMap::find(double x, double y) const {
     const std::size_t j = cell_of(y, height_);
     const std::size_t i = cell_of(x, width_);
     const auto sums = std::span(row_sums_).subspan(j * width_, width_);
-    return {share_before(sums, i, x * static_cast<double>(width_) - static_cast<double>(i)),
-            share_before(column_, j, y * static_cast<double>(height_) - static_cast<double>(j))};
+    return {
+        share_before(sums, i, x * static_cast<double>(width_) - static_cast<double>(i)),
+        share_before(column_.sums(), j, y * static_cast<double>(height_) - static_cast<double>(j))};
 }
 
 DensityMap read_density(const std::string& path, bool invert, const RunContext& run) {

@@ -102,11 +102,8 @@ class DensityMap {
     std::size_t height_;
     std::vector<double> values_;
     std::vector<double> row_sums_;  ///< of each row: sums of the cells up to each
-    std::vector<double> column_;    ///< sums of the rows up to each
     std::vector<Row> rows_;
-    double most_ = 0;  ///< the largest number below the sum of all rows
-    Buckets column_buckets_;
-    std::vector<std::uint32_t> column_guide_;
+    GuideTable column_;                      ///< the rows, one above the other
     std::vector<std::uint32_t> row_guides_;  ///< one row's after the other
     std::size_t row_guide_size_ = 0;
     double largest_ = 0;

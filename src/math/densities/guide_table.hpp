@@ -90,6 +90,7 @@ class GuideTable {
 
     [[nodiscard]] std::size_t size() const { return sums_.size(); }
     [[nodiscard]] double total() const { return sums_.back(); }
+    [[nodiscard]] std::span<const double> sums() const { return sums_; }
 
     /// Where the interval i begins and ends.
     [[nodiscard]] double begin(std::size_t i) const { return i == 0 ? 0 : sums_[i - 1]; }

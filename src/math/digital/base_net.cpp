@@ -67,19 +67,20 @@ struct Walk {
     const BaseNet::Words* steps;
     const std::uint8_t* ruler;
     const BaseNet::Words& scales;
+    std::size_t active;  ///< words that change
     std::uint64_t rest;  ///< what the words that stay contribute
     double whole;
 };
 
-template <std::size_t Active, class F>
+template <class F>
 void walk(const F& fields, const Walk& w, BaseNet::Words state, std::size_t count, double* out,
           std::size_t stride) {
     for (std::size_t j = 0; j < count; ++j) {
         std::uint64_t number = w.rest;
-        for (std::size_t a = 0; a < Active; ++a) number += fields.number(state[a]) * w.scales[a];
+        for (std::size_t a = 0; a < w.active; ++a) number += fields.number(state[a]) * w.scales[a];
         out[j * stride] = static_cast<double>(static_cast<std::int64_t>(number)) / w.whole;
         const BaseNet::Words& step = w.steps[w.ruler[j]];
-        for (std::size_t a = 0; a < Active; ++a) state[a] = fields.sum(state[a], step[a]);
+        for (std::size_t a = 0; a < w.active; ++a) state[a] = fields.sum(state[a], step[a]);
     }
 }
 
@@ -162,18 +163,10 @@ void BaseNet::stretch(const Coordinate& coordinate, std::uint64_t first, std::si
         std::uint64_t rest = 0;
         for (std::size_t word = coordinate.active; word < words_; ++word)
             rest += fields.number(state[word]) * scales_[word];
-        const Walk w{coordinate.steps.data(), ruler_.data() + first % block_, scales_, rest,
-                     whole_};
-        switch (coordinate.active) {
-            case 1:
-                return walk<1>(fields, w, state, count, out, stride);
-            case 2:
-                return walk<2>(fields, w, state, count, out, stride);
-            case 3:
-                return walk<3>(fields, w, state, count, out, stride);
-            default:
-                return walk<4>(fields, w, state, count, out, stride);
-        }
+        walk(fields,
+             {coordinate.steps.data(), ruler_.data() + first % block_, scales_, coordinate.active,
+              rest, whole_},
+             state, count, out, stride);
     });
 }
 
