@@ -55,11 +55,7 @@ void BoxSpace::check_resolution(double radius, std::string_view name) const {
              name, format_number(radius), format_number(largest), finest);
 }
 
-double BoxSpace::measure() const {
-    double product = 1;
-    for (std::size_t k = 0; k < box.dimension(); ++k) product *= box.extent(k);
-    return product;
-}
+double BoxSpace::measure() const { return box_domain(box)->measure(); }
 
 BoxSpace space_of(const Plan& plan, bool torus) {
     if (plan.bounds) return {*plan.bounds, torus};

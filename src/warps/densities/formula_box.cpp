@@ -35,7 +35,8 @@ Effort effort_for_moments(std::size_t dimension) {
 FormulaBox::FormulaBox(std::string spec, Expression f, Box box)
     : NamedDomain(std::move(spec), box.dimension(), box.dimension()),
       f_(std::move(f)),
-      box_(std::move(box)) {}
+      box_(std::move(box)),
+      place_(box_domain(box_)) {}
 
 Estimate FormulaBox::integral() const {
     std::call_once(once_, [this] {
@@ -54,25 +55,8 @@ Estimate FormulaBox::integral() const {
     return integral_;
 }
 
-double FormulaBox::measure() const {
-    double volume = 1;
-    for (std::size_t k = 0; k < dimension(); ++k) volume *= box_.extent(k);
-    return volume;
-}
-
-bool FormulaBox::contains(std::span<const double> point) const {
-    for (std::size_t k = 0; k < dimension(); ++k)
-        if (!(point[k] >= box_.low[k] && point[k] <= box_.high[k])) return false;
-    return true;
-}
-
 double FormulaBox::density(std::span<const double> point) const {
     return contains(point) ? f_.at(point) / integral().value : 0;
-}
-
-void FormulaBox::to_cube(std::span<const double> point, std::span<double> cube) const {
-    for (std::size_t k = 0; k < dimension(); ++k)
-        cube[k] = std::clamp((point[k] - box_.low[k]) / box_.extent(k), 0.0, 1.0);
 }
 
 Estimate FormulaBox::probability(const Box& cell) const {
@@ -155,12 +139,6 @@ Support FormulaBox::support() const {
     if (positive.value >= (1 - 1e-9) * whole)
         return {.measure = Estimate{whole, 0}, .boxes = {box_}};
     return {.whole = false, .measure = positive, .boxes = {box_}};
-}
-
-std::vector<std::string> FormulaBox::cube_axes() const {
-    std::vector<std::string> names;
-    for (std::size_t k = 0; k < dimension(); ++k) names.push_back(fmt::format("x{}", k + 1));
-    return names;
 }
 
 Box formula_bounds(const std::string& text, std::size_t most) {

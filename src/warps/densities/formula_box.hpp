@@ -19,17 +19,19 @@ class FormulaBox final : public NamedDomain, public Gapped, public Weighable {
   public:
     FormulaBox(std::string spec, Expression f, Box box);
 
-    double measure() const override;
-    bool contains(std::span<const double> point) const override;
+    double measure() const override { return place_->measure(); }
+    bool contains(std::span<const double> point) const override { return place_->contains(point); }
     Box bounding_box() const override { return box_; }
     double density(std::span<const double> point) const override;
 
     /// The place in the box.
-    void to_cube(std::span<const double> point, std::span<double> cube) const override;
+    void to_cube(std::span<const double> point, std::span<double> cube) const override {
+        place_->to_cube(point, cube);
+    }
     bool even() const override { return false; }
     Estimate probability(const Box& cell) const override;
     Estimate box_mass(const Box& box) const override { return box_mass_by_axes(*this, box); }
-    std::vector<std::string> cube_axes() const override;
+    std::vector<std::string> cube_axes() const override { return place_->cube_axes(); }
 
     /// By quadrature, within 1e-6 of the box's extents; none where that is not reached, or in three
     /// dimensions.
@@ -48,6 +50,7 @@ class FormulaBox final : public NamedDomain, public Gapped, public Weighable {
   private:
     Expression f_;
     Box box_;
+    DomainPtr place_;  ///< the box with the uniform distribution
     mutable std::once_flag once_;
     mutable Estimate integral_;
 };

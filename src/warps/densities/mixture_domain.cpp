@@ -126,11 +126,7 @@ class MixtureDomain final : public NamedDomain, public Gapped, public Weighable 
         return part.bounding_box() == box_ &&
                std::abs(part.measure() - box_volume()) <= 1e-12 * box_volume();
     }
-    double box_volume() const {
-        double volume = 1;
-        for (std::size_t k = 0; k < dimension(); ++k) volume *= box_.extent(k);
-        return volume;
-    }
+    double box_volume() const { return box_domain(box_)->measure(); }
     bool directions() const { return cube_dimension() < dimension(); }
     double all_directions() const {
         return dimension() == 3 ? 4 * std::numbers::pi : 2 * std::numbers::pi;

@@ -56,12 +56,6 @@ constexpr Param<Numbers> range{
 /// How x^p is undone; by logarithms on one side of 0 where x^p hardly changes.
 enum class Root { none, square, cube, other, logarithm };
 
-Root root_for(double p) {
-    if (p == 1) return Root::none;
-    if (p == 2) return Root::square;
-    return p == 3 ? Root::cube : Root::other;
-}
-
 /// y^(1/p) for y >= 0 by the cheapest way; of a cube root also for y < 0.
 template <Root root>
 double rooted(double y, double inverse_p) {
@@ -303,16 +297,10 @@ Interval interval_of(const Values& options) {
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const Interval interval = interval_of(want.options);
-    switch (root_for(interval.p)) {
-        case Root::none:
-            return mapping_of<Root::none>(interval, want);
-        case Root::square:
-            return mapping_of<Root::square>(interval, want);
-        case Root::cube:
-            return mapping_of<Root::cube>(interval, want);
-        default:
-            return mapping_of<Root::other>(interval, want);
-    }
+    if (interval.p == 1) return mapping_of<Root::none>(interval, want);
+    if (interval.p == 2) return mapping_of<Root::square>(interval, want);
+    if (interval.p == 3) return mapping_of<Root::cube>(interval, want);
+    return mapping_of<Root::other>(interval, want);
 }
 
 }  // namespace
