@@ -116,14 +116,8 @@ class LazySearch {
             *std::ranges::max_element(sides_[depth]) /= 2;
             shares_[depth] = shares_[depth - 1] / 2;
         }
-        for (std::size_t depth = 0; depth <= most_halvings; ++depth) {
-            double squared = 0;
-            for (std::size_t k = 0; k < D; ++k) {
-                halves_[depth][k] = sides_[depth][k] / 2;
-                squared += sides_[depth][k] * sides_[depth][k];
-            }
-            diagonals_[depth] = std::sqrt(squared);
-        }
+        for (std::size_t depth = 0; depth <= most_halvings; ++depth)
+            for (std::size_t k = 0; k < D; ++k) halves_[depth][k] = sides_[depth][k] / 2;
         cells_.push_back(whole);
         heap_.push({infinity, 0});
         tile_cells_.resize(1);
@@ -139,7 +133,6 @@ class LazySearch {
         open_size_ = std::min(0.25, fine * factor_ * nth_root(all_, D + 1) / all_);
         while (!heap_.empty() && all_ * open_share_ < eager) pull();
         crowded_ = all_ * open_share_ > 4 * eager;
-        find_depths();
         auto left = static_cast<std::uint64_t>(all_);
         const std::uint64_t hits = heap_.empty() ? left : draws.binomial(left, open_share_);
         for (std::uint64_t i = 0; i < hits; ++i) {
@@ -235,19 +228,10 @@ class LazySearch {
         return hits;
     }
 
-    /// Depths between which there are open cells.
-    void find_depths() {
-        const auto used = [](const auto& list) { return !list.empty(); };
-        const auto first = std::ranges::find_if(open_, used);
-        shallowest_ = static_cast<std::uint32_t>(first - open_.begin());
-        const auto last = std::find_if(open_.rbegin(), open_.rend(), used);
-        deepest_ = static_cast<std::uint32_t>(open_.rend() - last) - 1;
-    }
-
     /// The cell at a place of all open ones laid side by side.
     [[nodiscard]] const Open& open_cell(double place) const {
         std::uint32_t last = 0;
-        for (std::uint32_t depth = shallowest_; depth <= deepest_; ++depth) {
+        for (std::uint32_t depth = 0; depth <= most_halvings; ++depth) {
             const double share = static_cast<double>(open_[depth].size()) * shares_[depth];
             if (share > 0) last = depth;
             if (place < share) break;
@@ -343,7 +327,9 @@ class LazySearch {
 
     /// Farther from the cell's centre no point is the nearest one of a place in it.
     [[nodiscard]] double reach_of(const Cell& cell) const {
-        return cell.bound + diagonals_[cell.depth] / 2;
+        double squared = 0;
+        for (const double half : halves_[cell.depth]) squared += half * half;
+        return cell.bound + std::sqrt(squared);
     }
 
     /// All points within the reach of the middle.
@@ -438,21 +424,18 @@ class LazySearch {
     double factor_;
     Rng rng_;
     GrowingPoints<D> points_;
-    std::array<Point, most_halvings + 1> sides_{};   ///< of cells, by depth
-    std::array<Point, most_halvings + 1> halves_{};  ///< of those sides
-    std::array<double, most_halvings + 1> diagonals_{};
+    std::array<Point, most_halvings + 1> sides_{};     ///< of cells, by depth
+    std::array<Point, most_halvings + 1> halves_{};    ///< of those sides
     std::array<double, most_halvings + 1> shares_{1};  ///< of the box, by depth
     std::vector<Cell> cells_;
     std::priority_queue<Waiting> heap_;
     std::array<std::vector<Open>, most_halvings + 1> open_;  ///< by depth
     bool crowded_ = false;                                   ///< more is open than need be
-    std::uint32_t shallowest_ = 0;
-    std::uint32_t deepest_ = 0;
-    double open_share_ = 0;                               ///< of the box; exact
-    std::uint32_t newest_ = 0;                            ///< cell opened last
-    GridFrame<D> tiles_;                                  ///< to find open cells by
-    std::vector<std::vector<std::uint32_t>> tile_cells_;  ///< some closed meanwhile
-    std::vector<std::uint32_t> missed_;                   ///< where candidates lost
+    double open_share_ = 0;                                  ///< of the box; exact
+    std::uint32_t newest_ = 0;                               ///< cell opened last
+    GridFrame<D> tiles_;                                     ///< to find open cells by
+    std::vector<std::vector<std::uint32_t>> tile_cells_;     ///< some closed meanwhile
+    std::vector<std::uint32_t> missed_;                      ///< where candidates lost
     CoveringBound<D> covering_;
     double open_size_ = 1;  ///< candidates in a cell that may be opened
     double all_ = 1;        ///< candidates for the point that is being looked for

@@ -132,71 +132,50 @@ struct Candidate {
 };
 
 template <std::size_t D>
-class Elimination {
-  public:
-    Elimination(LayeredPoints<D> points, std::uint64_t kept, const RunContext& run)
-        : run_(run),
-          kept_(kept),
-          points_(std::move(points)),
-          kernel_(static_cast<double>(kept) / static_cast<double>(points_.count())),
-          weights_(points_.count()) {}
-
-    std::vector<std::uint32_t> go() {
-        weigh();
-        auto heap = heaviest_first();
-        std::vector<std::uint32_t> gone;
-        const std::size_t wanted = points_.count() - kept_;
-        gone.reserve(wanted);
-        const RunContext run = run_.stage(0.3, 1);
-        for (std::uint64_t step = 0; gone.size() < wanted; ++step) {
-            if (step % 1024 == 0) run.tick(gone.size(), wanted);
-            Candidate top = heap.top();
-            heap.pop();
-            if (top.weight != weights_[top.sorted]) {
-                top.weight = weights_[top.sorted];
-                heap.push(top);
-                continue;
-            }
-            gone.push_back(top.original);
-            remove(top.sorted);
+std::vector<std::uint64_t> weights_of(const LayeredPoints<D>& points, const Kernel& kernel,
+                                      const RunContext& run) {
+    std::vector<std::uint64_t> weights(points.count());
+    for_each_block(run, points.count(), 2048, [&](const Block& b) {
+        for (std::size_t s = b.first; s < b.last; ++s) {
+            std::uint64_t sum = 0;
+            points.visit(s, [&](std::size_t t, double squared, double inverse) {
+                if (t != s) sum += kernel(squared, inverse);
+            });
+            weights[s] = sum;
         }
-        return gone;
-    }
+    });
+    return weights;
+}
 
-  private:
-    void weigh() {
-        for_each_block(run_.stage(0, 0.3), points_.count(), 2048, [&](const Block& b) {
-            for (std::size_t s = b.first; s < b.last; ++s) {
-                std::uint64_t sum = 0;
-                points_.visit(s, [&](std::size_t t, double squared, double inverse) {
-                    if (t != s) sum += kernel_(squared, inverse);
-                });
-                weights_[s] = sum;
-            }
+template <std::size_t D>
+std::vector<std::uint32_t> eliminate_from(LayeredPoints<D> points, std::uint64_t kept,
+                                          const RunContext& run) {
+    const Kernel kernel(static_cast<double>(kept) / static_cast<double>(points.count()));
+    auto weights = weights_of(points, kernel, run.stage(0, 0.3));  // by the new numbers
+    std::vector<Candidate> all;
+    all.reserve(points.count());
+    for (std::size_t s = 0; s < points.count(); ++s)
+        all.push_back({weights[s], points.original(s), static_cast<std::uint32_t>(s)});
+    std::priority_queue<Candidate> heaviest_first({}, std::move(all));
+    std::vector<std::uint32_t> gone;
+    const std::size_t wanted = points.count() - kept;
+    const RunContext rest = run.stage(0.3, 1);
+    for (std::uint64_t step = 0; gone.size() < wanted; ++step) {
+        if (step % 1024 == 0) rest.tick(gone.size(), wanted);
+        Candidate top = heaviest_first.top();
+        heaviest_first.pop();
+        if (top.weight != weights[top.sorted]) {
+            top.weight = weights[top.sorted];
+            heaviest_first.push(top);
+            continue;
+        }
+        gone.push_back(top.original);
+        points.visit_without(top.sorted, [&](std::size_t t, double squared, double inverse) {
+            weights[t] -= kernel(squared, inverse);
         });
     }
-
-    [[nodiscard]] std::priority_queue<Candidate> heaviest_first() const {
-        std::vector<Candidate> all;
-        all.reserve(points_.count());
-        for (std::size_t s = 0; s < points_.count(); ++s)
-            all.push_back({weights_[s], points_.original(s), static_cast<std::uint32_t>(s)});
-        return std::priority_queue<Candidate>({}, std::move(all));
-    }
-
-    /// Takes a point out, and its part of the others' weights.
-    void remove(std::uint32_t s) {
-        points_.visit_without(s, [&](std::size_t t, double squared, double inverse) {
-            weights_[t] -= kernel_(squared, inverse);
-        });
-    }
-
-    const RunContext& run_;
-    std::uint64_t kept_;
-    LayeredPoints<D> points_;
-    Kernel kernel_;
-    std::vector<std::uint64_t> weights_;  ///< by the new numbers
-};
+    return gone;
+}
 
 }  // namespace
 
@@ -216,7 +195,7 @@ std::vector<std::uint32_t> eliminate(std::span<const double> rows, const BoxSpac
                                      double r_max, std::uint64_t kept, const RunContext& run,
                                      std::span<const double> shares) {
     return with_dimension(space.box.dimension(), [&]<std::size_t D>() {
-        return Elimination(LayeredPoints<D>(rows, space, r_max, shares, run), kept, run).go();
+        return eliminate_from(LayeredPoints<D>(rows, space, r_max, shares, run), kept, run);
     });
 }
 

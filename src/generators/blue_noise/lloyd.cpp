@@ -35,81 +35,51 @@ using planar::from;
 
 constexpr auto iterations = planar::iterations_option(50, "How often every point moves");
 
-class Lloyd {
-  public:
-    Lloyd(const Planar& planar, const std::vector<double>& rows,
-          const std::optional<DensityMoments>& density, std::uint64_t seed, const RunContext& run)
-        : planar_(planar),
-          density_(density),
-          seed_(seed),
-          run_(run),
-          order_(along_strips(rows, planar, run)),
-          next_(order_.size()),
-          sites_(planar.sides, planar.torus, order_.size(), density.has_value()) {
-        for (std::size_t i = 0; i < order_.size(); ++i)
-            sites_.insert(i, {rows[2 * order_[i]], rows[2 * order_[i] + 1]});
-    }
-
-    void iterate(std::uint64_t iteration) {
-        const std::size_t n = order_.size();
-        const RunContext part = worth_threads(run_, 1.3e-6 * static_cast<double>(n));
-        for_each_block(silent(part), n, 1024, [&](const Block& block) {
-            VoronoiCell cell;
-            for (std::uint64_t i = block.first; i < block.last; ++i)
-                next_[i] = better_place(i, iteration, cell);
-        });
-        for (std::size_t i = 0; i < n; ++i) sites_.move(i, next_[i]);
-    }
-
-    /// In the order of the points to start from.
-    [[nodiscard]] std::vector<double> rows() const {
-        std::vector<double> rows(2 * order_.size());
-        for (std::size_t i = 0; i < order_.size(); ++i) {
-            rows[2 * order_[i]] = sites_[i].x;
-            rows[2 * order_[i] + 1] = sites_[i].y;
-        }
-        return rows;
-    }
-
-  private:
-    [[nodiscard]] Vec2 better_place(std::size_t i, std::uint64_t iteration,
-                                    VoronoiCell& cell) const {
-        sites_.cut_cell(i, cell);
-        const CellMoments moments = density_ ? (*density_)(cell, sites_[i]) : cell.moments();
-        if (cell.empty()) {
-            const Rng rng(seed_, 1 + iteration);
-            const double x = rng.uniform(2 * std::uint64_t{order_[i]});
-            const double y = rng.uniform(2 * std::uint64_t{order_[i]} + 1);
-            return {planar_.sides.x * x, planar_.sides.y * y};
-        }
-        if (!(moments.mass > 0)) return sites_[i];
-        const Vec2 at{sites_[i].x + moments.first.x / moments.mass,
-                      sites_[i].y + moments.first.y / moments.mass};
-        return sites_.inside(at);
-    }
-
-    const Planar& planar_;
-    const std::optional<DensityMoments>& density_;
-    std::uint64_t seed_;
-    const RunContext& run_;
-    std::vector<std::uint32_t> order_;  ///< site i is point order_[i]
-    std::vector<Vec2> next_;
-    PeriodicVoronoi sites_;
-};
+/// The centroid of a site's cell; none where it has no cell.
+std::optional<Vec2> centroid(const PeriodicVoronoi& sites, std::size_t i,
+                             const std::optional<DensityMoments>& density, VoronoiCell& cell) {
+    sites.cut_cell(i, cell);
+    const CellMoments moments = density ? (*density)(cell, sites[i]) : cell.moments();
+    if (cell.empty()) return {};
+    if (!(moments.mass > 0)) return sites[i];
+    return sites.inside(
+        {sites[i].x + moments.first.x / moments.mass, sites[i].y + moments.first.y / moments.mass});
+}
 
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
-    const PlanarStart start = planar_start(plan, options, 100, "Lloyd's relaxation", run);
+    auto [planar, density, rows] = planar_start(plan, options, 100, "Lloyd's relaxation", run);
     const auto square = [](double value) { return value * value; };
-    const auto moments = planar_moments(start.density, square, start.planar, run);
-    Lloyd lloyd(start.planar, start.rows, moments, plan.seed, run);
+    const auto moments = planar_moments(density, square, planar, run);
+    const auto order = along_strips(rows, planar, run);  // site i is point order[i]
+    const std::size_t n = order.size();
+    PeriodicVoronoi sites(planar.sides, planar.torus, n, moments.has_value());
+    for (std::size_t i = 0; i < n; ++i)
+        sites.insert(i, {rows[2 * order[i]], rows[2 * order[i] + 1]});
+    std::vector<Vec2> next(n);
+    const RunContext part = silent(worth_threads(run, 1.3e-6 * static_cast<double>(n)));
     const auto steps = static_cast<std::uint64_t>(options[iterations]);
     run.tick(0, 1);
-    for (std::uint64_t i = 0; i < steps; ++i) {
-        lloyd.iterate(i);
-        run.tick(i + 1, steps);
+    for (std::uint64_t step = 0; step < steps; ++step) {
+        const Rng rng(plan.seed, 1 + step);
+        for_each_block(part, n, 1024, [&, sides = planar.sides](const Block& block) {
+            VoronoiCell cell;
+            for (std::uint64_t i = block.first; i < block.last; ++i) {
+                const std::uint64_t number = order[i];
+                const auto middle = centroid(sites, i, moments, cell);
+                next[i] = middle ? *middle
+                                 : Vec2{sides.x * rng.uniform(2 * number),
+                                        sides.y * rng.uniform(2 * number + 1)};
+            }
+        });
+        for (std::size_t i = 0; i < n; ++i) sites.move(i, next[i]);
+        run.tick(step + 1, steps);
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+        rows[2 * order[i]] = sites[i].x;
+        rows[2 * order[i] + 1] = sites[i].y;
     }
     run.tick(1, 1);
-    return planar_points(plan, start.planar, lloyd.rows());
+    return planar_points(plan, planar, std::move(rows));
 }
 
 }  // namespace

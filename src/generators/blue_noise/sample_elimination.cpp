@@ -83,6 +83,7 @@ struct Crowd {
     std::vector<double> rows;
     BoxSpace space;
     std::vector<double> shares = {};  ///< of the largest radius that are each point's own
+    CrowdExtent extent = {};
 };
 
 PointSet points_of_file(const Values& options, const RunContext& run) {
@@ -201,89 +202,67 @@ CrowdExtent extent_of_file(const Crowd& crowd, const Values& options, const RunC
     return found;
 }
 
-/// Chooses points of a crowd: numbers of its rows.
-class Chooser {
-  public:
-    Chooser(const Crowd& crowd, const CrowdExtent& extent)
-        : crowd_(crowd), dimension_(crowd.space.box.dimension()), extent_(extent) {}
+double radius_for(const Crowd& crowd, std::uint64_t kept) {
+    return packing_radius(static_cast<double>(kept), crowd.extent.dimension, crowd.extent.measure);
+}
 
-    [[nodiscard]] double radius(std::uint64_t kept) const {
-        return packing_radius(static_cast<double>(kept), extent_.dimension, extent_.measure);
+/// Eliminates points, by the numbers of their rows, until `kept` are left; those that go, in order.
+std::vector<std::uint32_t> thin(const Crowd& crowd, std::vector<std::uint32_t>& points,
+                                std::uint64_t kept, const RunContext& run) {
+    const std::size_t d = crowd.space.box.dimension();
+    if (points.size() == kept) return {};
+    std::vector<double> rows;
+    std::vector<double> shares;
+    rows.reserve(points.size() * d);
+    for (const std::uint32_t i : points) {
+        const auto row = crowd.rows.begin() + static_cast<std::ptrdiff_t>(i * d);
+        rows.insert(rows.end(), row, row + static_cast<std::ptrdiff_t>(d));
+        if (!crowd.shares.empty()) shares.push_back(crowd.shares[i]);
     }
-
-    /// `kept` of all, in the order in which they came.
-    std::vector<std::uint32_t> choose(std::uint64_t kept, const RunContext& run) {
-        std::vector<std::uint32_t> all(crowd_.rows.size() / dimension_);
-        std::iota(all.begin(), all.end(), 0U);
-        part(all, kept, run);
-        return all;
+    const auto gone = eliminate(rows, crowd.space, radius_for(crowd, kept), kept, run, shares);
+    std::vector<bool> stays(points.size(), true);
+    std::vector<std::uint32_t> names;
+    for (const std::uint32_t i : gone) {
+        stays[i] = false;
+        names.push_back(points[i]);
     }
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        if (stays[i]) points[left++] = points[i];
+    points.resize(left);
+    return names;
+}
 
-    /// Puts them into an order with spread prefixes.
-    void arrange(std::vector<std::uint32_t>& points, const RunContext& run) {
-        std::vector<std::uint32_t> tail;  // from the last point on
-        const std::size_t all = points.size();
-        while (points.size() > 1) {
-            const RunContext lane =
-                run.stage(done(points.size(), all), done(points.size() / 2, all));
-            const auto gone = part(points, points.size() / 2, lane);
-            tail.insert(tail.end(), gone.begin(), gone.end());
-        }
-        points.insert(points.end(), tail.rbegin(), tail.rend());
+/// Puts them into an order with spread prefixes.
+void arrange(const Crowd& crowd, std::vector<std::uint32_t>& points, const RunContext& run) {
+    std::vector<std::uint32_t> tail;  // from the last point on
+    const auto done = [all = static_cast<double>(points.size())](std::size_t left) {
+        return 1 - static_cast<double>(left) / all;
+    };
+    while (points.size() > 1) {
+        const std::size_t half = points.size() / 2;
+        const auto gone = thin(crowd, points, half, run.stage(done(points.size()), done(half)));
+        tail.insert(tail.end(), gone.begin(), gone.end());
     }
-
-  private:
-    static double done(std::size_t left, std::size_t all) {
-        return 1 - static_cast<double>(left) / static_cast<double>(all);
-    }
-
-    /// Eliminates until `kept` are left; those that go, in order.
-    std::vector<std::uint32_t> part(std::vector<std::uint32_t>& points, std::uint64_t kept,
-                                    const RunContext& run) {
-        if (points.size() == kept) return {};
-        std::vector<double> rows;
-        std::vector<double> shares;
-        rows.reserve(points.size() * dimension_);
-        for (const std::uint32_t i : points) {
-            const auto row = crowd_.rows.begin() + static_cast<std::ptrdiff_t>(i * dimension_);
-            rows.insert(rows.end(), row, row + static_cast<std::ptrdiff_t>(dimension_));
-            if (!crowd_.shares.empty()) shares.push_back(crowd_.shares[i]);
-        }
-        const auto gone = eliminate(rows, crowd_.space, radius(kept), kept, run, shares);
-        std::vector<bool> stays(points.size(), true);
-        std::vector<std::uint32_t> names;
-        for (const std::uint32_t i : gone) {
-            stays[i] = false;
-            names.push_back(points[i]);
-        }
-        std::size_t left = 0;
-        for (std::size_t i = 0; i < points.size(); ++i)
-            if (stays[i]) points[left++] = points[i];
-        points.resize(left);
-        return names;
-    }
-
-    const Crowd& crowd_;
-    std::size_t dimension_;
-    CrowdExtent extent_;
-};
+    points.insert(points.end(), tail.rbegin(), tail.rend());
+}
 
 PointSet make(const Plan& plan, const Values& options, const RunContext& outside) {
     const RunContext run = outside.rising();
     const bool file = options.given(from);
-    const Crowd crowd = file ? crowd_of_file(plan, options, run) : random_crowd(plan, options, run);
+    Crowd crowd = file ? crowd_of_file(plan, options, run) : random_crowd(plan, options, run);
     const std::size_t d = plan.dimension;
-    const CrowdExtent extent =
+    crowd.extent =
         file ? extent_of_file(crowd, options, run) : CrowdExtent{d, crowd.space.measure()};
-    Chooser chooser(crowd, extent);
-    const double r_max = chooser.radius(plan.count);
-    if (!(r_max > 0))
+    if (!(radius_for(crowd, plan.count) > 0))
         fail_with_hint(ErrorKind::input,
                        "--measure, with --manifold-dimension, tells what they are on",
                        "the points of {} lie in a box of no volume", options[from]);
     const bool progressive = options[order] == "progressive";
-    auto chosen = chooser.choose(plan.count, run.stage(0, progressive ? 0.7 : 1));
-    if (progressive) chooser.arrange(chosen, run.stage(0.7, 1));
+    std::vector<std::uint32_t> chosen(crowd.rows.size() / d);
+    std::iota(chosen.begin(), chosen.end(), 0U);
+    thin(crowd, chosen, plan.count, run.stage(0, progressive ? 0.7 : 1));
+    if (progressive) arrange(crowd, chosen, run.stage(0.7, 1));
 
     std::vector<double> rows;
     rows.reserve(chosen.size() * d);

@@ -148,19 +148,14 @@ std::optional<Window> window_of(const TilesInWindow& candidates, std::uint64_t w
     constexpr std::uint64_t few = 1 << 16;
     const double mean = static_cast<double>(wanted + 1) / static_cast<double>(candidates.tiles());
     // About where it has to be, from half the score to twice; else anywhere.
-    std::optional<Window> window =
-        Window{std::bit_cast<std::uint64_t>(mean) - (std::uint64_t{1} << 52), 53};
-    std::uint64_t held = 0;
-    auto next = narrowed(*window, histogram_of(candidates, *window, run), wanted, held);
-    if (!next) {
-        window = Window{};
-        next = narrowed(*window, histogram_of(candidates, *window, run), wanted, held);
+    Window window{std::bit_cast<std::uint64_t>(mean) - (std::uint64_t{1} << 52), 53};
+    while (true) {
+        std::uint64_t held = 0;
+        const auto next = narrowed(window, histogram_of(candidates, window, run), wanted, held);
+        if (next && (held <= few || next->width == 0)) return next;
+        if (!next && window.width == Window{}.width) return {};
+        window = next.value_or(Window{});
     }
-    while (next && held > few && next->width > 0) {
-        window = next;
-        next = narrowed(*window, histogram_of(candidates, *window, run), wanted, held);
-    }
-    return next;
 }
 
 class ThinnedTiles {
