@@ -51,7 +51,7 @@ bool without_domain(const PointSet& set) {
 void widen(Box& box, double share) {
     for (std::size_t k = 0; k < box.dimension(); ++k) {
         double more = share * box.extent(k);
-        if (!(more > 0)) more = box.low[k] == 0 ? 0.5 : 0.5 * std::abs(box.low[k]);
+        if (!(box.extent(k) > 0)) more = box.low[k] == 0 ? 0.5 : 0.5 * std::abs(box.low[k]);
         box.low[k] -= more;
         box.high[k] += more;
     }
@@ -130,22 +130,23 @@ class PointMarks {
     double raster(Drawing& drawing, const std::vector<View>& views, bool dense) const {
         if (as_disks()) return 0;
         std::vector<PixelImage> images;
-        std::vector<std::vector<std::uint64_t>> bins;
-        std::uint64_t largest = 0;
+        std::vector<std::vector<std::uint32_t>> bins;
+        std::uint32_t largest = 0;
         const auto n = static_cast<double>(points_of(picture_));
         for (const auto& [area, place] : views) {
             const double some = std::ceil(std::sqrt(6 * area.width * area.height / n));
             images.push_back(empty_raster(area, dense ? std::clamp(some, 1.0, 16.0) : 0.5));
             auto& here = bins.emplace_back(images.back().pixels.size());
             for (std::size_t s = 0; s < picture_.sets.size(); ++s)
-                for_each_bin(*picture_.sets[s], images.back(), place,
-                             [&](std::size_t bin) { here[bin] = dense ? here[bin] + 1 : s + 1; });
+                for_each_bin(*picture_.sets[s], images.back(), place, [&](std::size_t bin) {
+                    here[bin] = dense ? here[bin] + 1 : static_cast<std::uint32_t>(s + 1);
+                });
             largest = std::max(largest, *std::ranges::max_element(here));
         }
         const auto most = static_cast<double>(largest);
         for (std::size_t v = 0; v < views.size(); ++v) {
             for (std::size_t i = 0; i < bins[v].size(); ++i)
-                if (const std::uint64_t bin = bins[v][i]; bin > 0)
+                if (const std::uint32_t bin = bins[v][i]; bin > 0)
                     images[v].pixels[i] = dense ? shade(static_cast<double>(bin) / most)
                                                 : theme_.series_colour(bin - 1);
             drawing.add(std::move(images[v]));
@@ -318,18 +319,14 @@ struct Scene {
 
 /// The edges of the box that are behind all points, or before them.
 void draw_edges(Drawing& drawing, const Scene& scene, const Theme& theme, bool front) {
-    constexpr std::array<std::array<int, 3>, 3> steps = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-    // Seen from high x, low y and high z: the corner behind all is (0, 1, 0).
+    constexpr std::array hidden = {0, 1, 0};  // the corner behind all from high x, low y, high z
     for (int bits = 0; bits < 8; ++bits)
         for (std::size_t k = 0; k < 3; ++k) {
             const std::array<int, 3> a = {bits & 1, bits >> 1 & 1, bits >> 2 & 1};
             if (a[k] != 0) continue;
-            const std::array<int, 3> b = {a[0] + steps[k][0], a[1] + steps[k][1],
-                                          a[2] + steps[k][2]};
-            const auto is_hidden = [](const std::array<int, 3>& c) {
-                return c[0] == 0 && c[1] == 1 && c[2] == 0;
-            };
-            if ((is_hidden(a) || is_hidden(b)) == front) continue;
+            std::array<int, 3> b = a;
+            ++b[k];
+            if ((a == hidden || b == hidden) == front) continue;
             drawing.add(
                 Line{.vertices = {scene.at(a[0], a[1], a[2]), scene.at(b[0], b[1], b[2])},
                      .colour = front ? theme.frame : mixed(theme.frame, theme.background, 0.6),
@@ -556,12 +553,7 @@ Box shown_box(std::span<const PointSet* const> sets) {
     for (std::size_t k = 0; k < box.dimension(); ++k)
         if (!std::isfinite(box.extent(k))) box.low[k] = box.high[k] = point[k];
     for (const PointSet* set : sets) box = bounding_box(set->flat(), box);
-    for (std::size_t k = 0; k < box.dimension(); ++k) {
-        if (box.extent(k) > 0) continue;
-        const double more = box.low[k] == 0 ? 0.5 : 0.5 * std::abs(box.low[k]);
-        box.low[k] -= more;
-        box.high[k] += more;
-    }
+    widen(box, 0);
     return box;
 }
 

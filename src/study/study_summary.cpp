@@ -52,15 +52,11 @@ struct Paired {
 Paired paired(const std::vector<std::uint64_t>& seeds_a, const std::vector<double>& a,
               const std::vector<std::uint64_t>& seeds_b, const std::vector<double>& b) {
     Paired both;
-    for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
-        if (seeds_a[i] == seeds_b[j]) {
-            both.a.push_back(a[i]);
-            both.b.push_back(b[j]);
-        }
-        const bool forward_a = seeds_a[i] <= seeds_b[j];
-        const bool forward_b = seeds_b[j] <= seeds_a[i];
-        i += forward_a;
-        j += forward_b;
+    for (std::size_t i = 0, j = 0; i < a.size(); ++i) {
+        while (j < b.size() && seeds_b[j] < seeds_a[i]) ++j;
+        if (j == b.size() || seeds_b[j] != seeds_a[i]) continue;
+        both.a.push_back(a[i]);
+        both.b.push_back(b[j]);
     }
     return both;
 }

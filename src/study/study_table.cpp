@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
 #include <cmath>
+#include <type_traits>
 
 #include "core/text.hpp"
 
@@ -17,74 +19,74 @@ std::string options_text(const std::vector<std::pair<std::string, std::string>>&
     return text;
 }
 
-std::string value_text(const StudyRow& row) {
-    if (!row.value) return {};
-    if (row.whole) return fmt::format("{:.0f}", *row.value);
-    return format_number(*row.value);
+/// The columns of a row in order: their names, and the fields that they show.
+template <class Row, class Visit>
+void for_each_column(Row& row, bool seconds, const Visit& visit) {
+    visit("generator", row.generator);
+    visit("generator_options", row.generator_options);
+    visit("dimension", row.dimension);
+    visit("warps", row.warps);
+    visit("count", row.count);
+    visit("points", row.points);
+    visit("seed", row.seed);
+    visit("measure", row.measure);
+    visit("measure_options", row.measure_options);
+    visit("domain", row.domain);
+    visit("key", row.key);
+    visit("value", row.value);
+    visit("status", row.status);
+    visit("reason", row.reason);
+    visit("study", row.study);
+    if (!seconds) return;
+    visit("generate_seconds", row.generate_seconds);
+    visit("seconds", row.seconds);
 }
 
-/// Seconds to the microsecond: more would be noise.
-std::string seconds_text(const std::optional<double>& seconds) {
-    return seconds ? format_number(std::round(*seconds * 1e6) / 1e6) : std::string();
+std::string cell_text(const std::string& text) { return text; }
+std::string cell_text(std::uint64_t number) { return std::to_string(number); }
+std::string cell_text(double number) { return format_number(number); }
+template <class T>
+std::string cell_text(const std::optional<T>& field) {
+    return field ? cell_text(*field) : "";
 }
 
 std::vector<TableCell> cells_of(const StudyRow& row, bool seconds) {
-    std::vector<TableCell> cells = {{"generator", row.generator},
-                                    {"generator_options", row.generator_options},
-                                    {"dimension", std::to_string(row.dimension), true},
-                                    {"warps", row.warps},
-                                    {"count", std::to_string(row.count), true},
-                                    {"points", row.points ? std::to_string(*row.points) : "", true},
-                                    {"seed", std::to_string(row.seed), true},
-                                    {"measure", row.measure},
-                                    {"measure_options", row.measure_options},
-                                    {"domain", row.domain},
-                                    {"key", row.key},
-                                    {"value", value_text(row), true},
-                                    {"status", row.status},
-                                    {"reason", row.reason},
-                                    {"study", row.study}};
-    if (!seconds) return cells;
-    cells.push_back({"generate_seconds", seconds_text(row.generate_seconds), true});
-    cells.push_back({"seconds", seconds_text(row.seconds), true});
+    std::vector<TableCell> cells;
+    for_each_column(row, seconds, [&]<class Field>(const char* name, const Field& field) {
+        cells.push_back({name, cell_text(field), !std::is_same_v<Field, std::string>});
+    });
     return cells;
 }
 
-double number_in(const std::string& text) {
-    if (text == "inf" || text == "-inf") return text == "inf" ? HUGE_VAL : -HUGE_VAL;
-    return parse_number(text).value_or(std::nan(""));
+/// Reads a field from its cell. False: it is none.
+bool read_cell(const std::string& text, std::string& field) {
+    field = text;
+    return true;
+}
+bool read_cell(const std::string& text, std::optional<std::uint64_t>& field) {
+    field = parse_unsigned(text);
+    return field || text.empty();
+}
+bool read_cell(const std::string& text, std::uint64_t& field) {
+    const auto number = parse_unsigned(text);
+    field = number.value_or(0);
+    return number.has_value();
+}
+bool read_cell(const std::string& text, std::optional<double>& field) {
+    if (text.empty()) return true;
+    field = std::nan("");
+    const char* end = text.data() + text.size();
+    return std::from_chars(text.data(), end, *field).ptr == end;
 }
 
-std::optional<double> maybe_number(const std::string& text) {
-    return text.empty() ? std::nullopt : std::optional(number_in(text));
-}
-
-/// The row of its cells; the seconds may be left out.
-std::optional<StudyRow> row_from(const std::vector<std::string>& cells) {
-    const auto dimension = parse_unsigned(cells[2]);
-    const auto count = parse_unsigned(cells[4]);
-    const auto seed = parse_unsigned(cells[6]);
-    const bool status = cells[12] == "ok" || cells[12] == "failed";
-    if (!dimension || !count || !seed || !status || cells[14].size() != 16) return std::nullopt;
-    StudyRow row{.generator = cells[0],
-                 .generator_options = cells[1],
-                 .dimension = *dimension,
-                 .warps = cells[3],
-                 .count = *count,
-                 .points = parse_unsigned(cells[5]),
-                 .seed = *seed,
-                 .measure = cells[7],
-                 .measure_options = cells[8],
-                 .domain = cells[9],
-                 .key = cells[10],
-                 .value = maybe_number(cells[11]),
-                 .status = cells[12],
-                 .reason = cells[13],
-                 .study = cells[14]};
-    row.whole = row.value && cells[11].find_first_not_of("-0123456789") == std::string::npos;
-    if (cells.size() > 15) row.generate_seconds = maybe_number(cells[15]);
-    if (cells.size() > 16) row.seconds = maybe_number(cells[16]);
-    return row;
+std::optional<StudyRow> row_from(const std::vector<std::string>& cells, bool seconds) {
+    StudyRow row;
+    bool whole = true;
+    auto cell = cells.begin();
+    for_each_column(row, seconds,
+                    [&](const char*, auto& field) { whole = read_cell(*cell++, field) && whole; });
+    whole = whole && (row.status == "ok" || row.status == "failed") && row.study.size() == 16;
+    return whole ? std::optional(std::move(row)) : std::nullopt;
 }
 
 }  // namespace
@@ -122,7 +124,7 @@ std::string StudyTable::line(const StudyRow& row) const {
 
 std::optional<StudyRow> StudyTable::parse(std::string_view line) const {
     const auto cells = parse_table_line(style_, line, columns_);
-    return cells ? row_from(*cells) : std::nullopt;
+    return cells ? row_from(*cells, seconds_) : std::nullopt;
 }
 
 bool StudyTable::is_head(std::string_view line) const {

@@ -30,7 +30,6 @@ struct StudyRow {
     std::string domain = {};  ///< that the measured points are on
     std::string key = {};     ///< of the result
     std::optional<double> value = {};
-    bool whole = false;         ///< the value is an integer
     std::string status = "ok";  ///< or failed
     std::string reason = {};    ///< of a failure
     std::string study = {};     ///< fingerprint

@@ -124,6 +124,7 @@ void Sweep::choose_warps() {
         const Scramble* scramble = scramble_named(spec.name);
         (void)spec.values(scramble ? scramble->options : find_warp(spec.name).options);
         random_warps_ |= scramble != nullptr;
+        if (scramble && scrambles_ + 1 == warps_.size()) ++scrambles_;
         names.push_back(text);
     }
     warp_names_ = join(names, " ");

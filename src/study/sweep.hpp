@@ -12,6 +12,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -69,6 +70,11 @@ class Sweep {
     [[nodiscard]] const std::vector<Chosen<Generator>>& generators() const { return generators_; }
     [[nodiscard]] const std::vector<Chosen<Analyzer>>& measures() const { return measures_; }
     [[nodiscard]] const std::vector<Spec>& warps() const { return warps_; }
+    /// Those before the first that is no scramble, and those from it on.
+    [[nodiscard]] std::span<const Spec> scrambles() const { return {warps_.data(), scrambles_}; }
+    [[nodiscard]] std::span<const Spec> later_warps() const {
+        return std::span(warps_).subspan(scrambles_);
+    }
     /// The warps as rows name them, separated by blanks.
     [[nodiscard]] const std::string& warp_names() const { return warp_names_; }
 
@@ -98,6 +104,7 @@ class Sweep {
     std::vector<Chosen<Analyzer>> measures_;
     std::vector<Spec> warps_;
     std::string warp_names_;
+    std::size_t scrambles_ = 0;  ///< before the first warp
     bool random_warps_ = false;
     std::uint64_t units_ = 0;
     std::vector<std::pair<std::string, std::string>> settings_;

@@ -9,7 +9,6 @@
 #include <map>
 #include <new>
 #include <optional>
-#include <span>
 #include <thread>
 
 #include "core/error.hpp"
@@ -24,8 +23,7 @@ namespace {
 /// Why there is no result.
 struct Failure {
     std::string reason;
-    bool limit = false;  ///< of time or memory
-    bool memory = false;
+    bool memory = false;  ///< there was not enough
 };
 
 /// One line, whatever the message was.
@@ -72,14 +70,14 @@ std::optional<Failure> failure_of(const RunContext& run, std::optional<double> l
                                   const Task& work) {
     try {
         if (over_time(run, limit, work))
-            return Failure{fmt::format("time limit: not done after {} s", *limit), true};
+            return Failure{fmt::format("time limit: not done after {} s", *limit)};
     } catch (const Error& e) {
         if (e.kind() == ErrorKind::cancelled) throw;
         const bool limited = e.kind() == ErrorKind::limit;
-        return Failure{one_line(fmt::format("{}{}", limited ? "limit: " : "", e.what())), limited,
+        return Failure{one_line(fmt::format("{}{}", limited ? "limit: " : "", e.what())),
                        limited && e.hint().find("--max-memory") != std::string::npos};
     } catch (const std::bad_alloc&) {
-        return Failure{"limit: out of memory", true, true};
+        return Failure{"limit: out of memory", true};
     } catch (const std::exception& e) {
         return Failure{one_line(fmt::format("internal error: {}", e.what()))};
     }
@@ -93,12 +91,6 @@ std::optional<Failure> timed(const RunContext& run, std::optional<double> limit,
     auto failure = failure_of(run, limit, work);
     seconds = run.seconds ? run.seconds() - start : 0;
     return failure;
-}
-
-std::size_t leading_scrambles(const std::vector<Spec>& warps) {
-    const auto it = std::ranges::find_if(
-        warps, [](const Spec& spec) { return scramble_named(spec.name) == nullptr; });
-    return static_cast<std::size_t>(it - warps.begin());
 }
 
 /// Some points of the unit cube, apart from each other: odd multiples of those of sqrt(2),
@@ -177,15 +169,13 @@ void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t see
     PointSet& points = made.before;
     points = make_points(*generator.unit, request, generator.values, run);
     points.provenance.generator = generator.unit->name;
-    const std::span<const Spec> warps = sweep.warps();
-    const std::size_t scrambles = leading_scrambles(sweep.warps());
     const ChainSet set{.seed = seed, .count = points.count()};
     const std::size_t d = points.dimension();
-    if (scrambles > 0)
-        points = image_of(points, WarpChain(warps.first(scrambles), d, set, run), run);
+    if (!sweep.scrambles().empty())
+        points = image_of(points, WarpChain(sweep.scrambles(), d, set, run), run);
     // What a scramble draws depends on seed and coordinates: cut in two, the chain is the same.
-    if (scrambles < warps.size())
-        made.image = image_of(points, WarpChain(warps.subspan(scrambles), d, set, run), run);
+    if (!sweep.later_warps().empty())
+        made.image = image_of(points, WarpChain(sweep.later_warps(), d, set, run), run);
 }
 
 MadeSet made_set(const Sweep& sweep, const Cell& cell, std::uint64_t seed, const RunContext& run) {
@@ -240,18 +230,18 @@ std::string lines_of(const StudyTable& table, StudyRow row, const MadeSet& set,
                      const Measured& found) {
     row.domain = found.domain;
     row.points = found.points;
-    row.generate_seconds = set.seconds;
-    row.seconds = found.seconds;
+    const auto rounded = [](double seconds) { return std::round(seconds * 1e6) / 1e6; };
+    row.generate_seconds = rounded(set.seconds);
+    row.seconds = rounded(found.seconds);  // more than microseconds would be noise
     if (found.failure) {
         row.status = "failed";
         row.reason = found.failure->reason;
         return table.line(row);
     }
     std::string text;
-    for (const auto& [key, value, whole] : found.numbers) {
+    for (const auto& [key, value] : found.numbers) {
         row.key = key;
         row.value = value;
-        row.whole = whole;
         text += table.line(row);
     }
     return text;
@@ -275,13 +265,11 @@ std::vector<KeyedNumber> numbers_of(const Report& report, const std::vector<std:
         const Report::Item& item = *report.find(key);
         const auto number = number_at(report, key);
         const auto list = list_at(report, key).value_or(Report::Curve());
-        const bool whole = std::holds_alternative<std::int64_t>(item) ||
-                           std::holds_alternative<Report::Integers>(item);
         if (const auto* flag = std::get_if<bool>(&item))
-            numbers.push_back({key, *flag ? 1.0 : 0.0, true});
-        if (number) numbers.push_back({key, *number, whole});
+            numbers.push_back({key, *flag ? 1.0 : 0.0});
+        if (number) numbers.push_back({key, *number});
         for (std::size_t i = 0; i < list.size(); ++i)
-            lists.push_back({fmt::format("{}[{}]", key, i), list[i], whole});
+            lists.push_back({fmt::format("{}[{}]", key, i), list[i]});
     }
     if (curves || !keys.empty() || numbers.empty())
         numbers.insert(numbers.end(), lists.begin(), lists.end());
@@ -328,15 +316,11 @@ WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext&
     return done;
 }
 
-std::span<const Spec> UnitRunner::warps_behind_scrambles() const {
-    return std::span<const Spec>(sweep_.warps()).subspan(leading_scrambles(sweep_.warps()));
-}
-
 std::optional<Error> UnitRunner::refusal_of(std::size_t measure, std::size_t dimension,
                                             std::size_t count, const RunContext& run) const {
     constexpr double soon = 0.2;  // seconds
     PointSet points = cube_of(dimension, count);
-    const auto warps = warps_behind_scrambles();
+    const auto warps = sweep_.later_warps();
     try {
         if (!warps.empty() && takes_image(dimension, measure, run))
             points = image_of(WarpChain(warps, dimension, {}, run), count);
@@ -352,7 +336,7 @@ bool UnitRunner::takes_image(std::size_t dimension, std::size_t measure,
                              const RunContext& run) const {
     const std::lock_guard lock(mutex_);
     const auto [it, fresh] = takes_image_.try_emplace({dimension, measure}, true);
-    const auto rest = warps_behind_scrambles();
+    const auto rest = sweep_.later_warps();
     if (!fresh || rest.empty()) return it->second;
     try {
         it->second = takes(sweep_.measures()[measure], WarpChain(rest, dimension, {}, run), run);

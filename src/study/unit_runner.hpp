@@ -14,7 +14,6 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -66,7 +65,6 @@ class UnitRunner {
     void require_options(const RunContext& run) const;
 
   private:
-    [[nodiscard]] std::span<const Spec> warps_behind_scrambles() const;
     [[nodiscard]] std::optional<Error> refusal_of(std::size_t measure, std::size_t dimension,
                                                   std::size_t count, const RunContext& run) const;
 
@@ -84,7 +82,6 @@ class UnitRunner {
 struct KeyedNumber {
     std::string key;
     double value = 0;
-    bool whole = false;
 };
 std::vector<KeyedNumber> numbers_of(const Report& report, const std::vector<std::string>& keys,
                                     bool curves);

@@ -57,12 +57,24 @@ TEST(StudyTable, APartOfARowIsNone) {
     }
 }
 
+TEST(StudyTable, ARowWhoseNumbersAreNoneIsNone) {
+    const StudyTable table(StudyTable::Style::csv, true);
+    const std::string line = table.line(awkward());
+    for (const char* number : {",3,", ",9007199254740993,", ",12,", ",0.1,", ",0.25,"}) {
+        std::string broken = line.substr(0, line.size() - 1);
+        broken.replace(broken.find(number), std::string_view(number).size(), ",1x,");
+        EXPECT_FALSE(table.parse(broken)) << broken;
+    }
+}
+
 TEST(StudyTable, InfiniteAndMissingValuesAreWritten) {
     StudyRow row = awkward();
     row.value = HUGE_VAL;
     const StudyTable csv(StudyTable::Style::csv, false);
     const StudyTable jsonl(StudyTable::Style::jsonl, false);
-    EXPECT_NE(csv.line(row).find(",inf,"), std::string::npos);
+    const std::string line = csv.line(row);
+    EXPECT_NE(line.find(",inf,"), std::string::npos);
+    EXPECT_EQ(csv.parse(line.substr(0, line.size() - 1))->value, HUGE_VAL);
     EXPECT_NE(jsonl.line(row).find("\"value\":\"inf\""), std::string::npos);
     row.value.reset();
     row.points.reset();
