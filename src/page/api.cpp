@@ -25,15 +25,12 @@ void write_report(const std::string& path, std::span<const NamedSet> sets, const
         if (!names.insert(name).second) fail(ErrorKind::usage, "two sets are called '{}'", name);
         title.push_back(name);
     }
-    page::Page all{
-        .title = join(title, " · "), .version = STIPPLE_VERSION, .command = {}, .sets = {}};
+    page::Page all{.title = join(title, " · "), .version = STIPPLE_VERSION};
     for (std::size_t i = 0; i < sets.size(); ++i) {
         PointSet points = sets[i].points;
         if (!points.domain) points.domain = unit_cube(points.dimension());
-        page::Set set{.name = sets[i].name,
-                      .source = sets[i].name,
-                      .domain = {},
-                      .provenance = points.provenance};
+        page::Set set{
+            .name = sets[i].name, .source = sets[i].name, .provenance = points.provenance};
         all.sets.push_back(
             page::finished_set(std::move(set), points, {}, {}, {i, sets.size()}, true, run));
     }

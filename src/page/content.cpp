@@ -146,7 +146,7 @@ std::vector<Row> compare_sets(std::span<const Set> sets) {
     const bool one_domain = same_domain(sets);
     std::vector<Row> rows;
     for (const Key& key : keys) {
-        Row row{.key = key, .values = {}, .best = {}};
+        Row row{.key = key};
         for (const Set& set : sets) row.values.push_back(known_under(set, key.key));
         if (std::ranges::none_of(row.values, [](const auto& v) { return v.has_value(); })) continue;
         const bool fair = one_domain && (one_count || key.any_count);

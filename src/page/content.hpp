@@ -36,7 +36,7 @@ struct Set {
     std::optional<std::size_t> number = {};  ///< in its file, of several
     std::uint64_t count = 0;
     std::size_t dimension = 0;
-    std::string domain;
+    std::string domain = {};
     Provenance provenance = {};
     std::string command = {};  ///< that makes the points; empty: not known
     std::vector<Measure> measures = {};
@@ -51,9 +51,9 @@ struct Set {
 
 struct Page {
     std::string title;
-    std::string version;  ///< of stipple
-    std::string command;  ///< that makes the page
-    std::vector<Set> sets;
+    std::string version;       ///< of stipple
+    std::string command = {};  ///< that makes the page
+    std::vector<Set> sets = {};
 };
 
 /// Whether all sets have as many points; whether all are on one domain.
@@ -89,8 +89,8 @@ struct Known {
 /// A row of the comparison.
 struct Row {
     Key key;
-    std::vector<std::optional<Known>> values;  ///< of each set
-    std::vector<bool> best;                    ///< no other set can be better; several may tie
+    std::vector<std::optional<Known>> values = {};  ///< of each set
+    std::vector<bool> best = {};                    ///< no other set can be better; several may tie
 };
 
 /// The number under a key of a set's results, with the bounds beside it where there are some.

@@ -57,7 +57,6 @@ std::vector<MarkedBox> marked_boxes(const PointSet& points, const Set& set) {
     for (const WorstBox& worst : worst_boxes(set)) {
         const Box cube = points.domain->bounding_box();
         MarkedBox box{.attributes = fmt::format("class=\"box {}\"", worst.kind),
-                      .ranges = {},
                       .closed = worst.closed};
         for (std::size_t k = 0; k < points.dimension(); ++k) {
             auto& ranges = box.ranges.emplace_back();
@@ -82,7 +81,6 @@ std::string figure_of(const Set& set, const PointSet& points, std::size_t number
                       const Draw& draw) {
     const PointsPicture picture{.sets = {&points},
                                 .names = {set.name},
-                                .title = {},
                                 .boxes = marked_boxes(points, set),
                                 .most_disks = most_dots,
                                 .most_coordinates = most_axes};
@@ -207,8 +205,7 @@ std::vector<WorstBox> worst_boxes(const Set& set) {
     const auto add = [&](const char* measure, const char* kind, const char* title) {
         const Report* found = set.results(measure);
         if (found == nullptr || found->find("worst_box.corner") == nullptr) return;
-        WorstBox box{
-            .kind = kind, .label = {}, .low = {}, .high = found->curve("worst_box.corner")};
+        WorstBox box{.kind = kind, .high = found->curve("worst_box.corner")};
         box.low.assign(box.high.size(), 0);
         if (found->find("worst_box.lower_corner") != nullptr)
             box.low = found->curve("worst_box.lower_corner");

@@ -29,10 +29,10 @@ const plot::Theme& theme_of(bool dark);
 /// A box that a measure found, in shares of the set's box: a lower corner above the upper one
 /// means that it goes on from 1 to 0.
 struct WorstBox {
-    std::string kind;   ///< class of the style sheet: star, extreme, periodic, empty
-    std::string label;  ///< what it is, in words
-    std::vector<double> low;
-    std::vector<double> high;
+    std::string kind;        ///< class of the style sheet: star, extreme, periodic, empty
+    std::string label = {};  ///< what it is, in words
+    std::vector<double> low = {};
+    std::vector<double> high = {};
     bool closed = true;  ///< drawn with a solid line; else dashed
 };
 

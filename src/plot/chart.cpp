@@ -193,7 +193,7 @@ std::vector<std::vector<Position>> pieces(const Panel& panel, const std::vector<
 void draw_band(Drawing& drawing, const Panel& panel, const std::vector<double>& x,
                const std::vector<double>& low, const std::vector<double>& high, Colour colour,
                double opacity) {
-    Patch patch{.vertices = {}, .colour = colour, .opacity = opacity};
+    Patch patch{.colour = colour, .opacity = opacity};
     std::vector<Position> back;
     const std::size_t size = std::min({x.size(), low.size(), high.size()});
     for (std::size_t i = 0; i < size; ++i) {
@@ -206,7 +206,7 @@ void draw_band(Drawing& drawing, const Panel& panel, const std::vector<double>& 
 }
 
 void draw_guide(Drawing& drawing, const Panel& panel, const Guide& guide, Colour colour) {
-    Line line{.vertices = {}, .colour = colour, .width = 1.2, .dash = Dash::dashed};
+    Line line{.colour = colour, .width = 1.2, .dash = Dash::dashed};
     if (guide.x.empty()) {
         const double y = panel.y(guide.y[0]);
         line.vertices = {{panel.frame().left, y}, {panel.frame().right(), y}};
@@ -299,7 +299,7 @@ void draw_panel(Drawing& drawing, const ChartPanel& content, const Panel& panel,
     for_each_series(drawing, content, [&](const Series& series, std::size_t colour) {
         draw_series(drawing, panel, series, theme.series_colour(colour), dash_of(colour, theme));
     });
-    drawing.add(ClipWindow{.area = {}, .open = true});
+    drawing.add(ClipWindow{.open = true});
     panel.draw_axes(drawing, theme, false);
 }
 
@@ -426,7 +426,7 @@ Drawing draw_chart(const Chart& chart, const PictureStyle& style, std::vector<Ar
 }
 
 Bars histogram_of(const std::vector<double>& values, double low, double high, std::size_t bins) {
-    Bars bars{.name = {}, .edges = {}, .heights = std::vector<double>(bins)};
+    Bars bars{.heights = std::vector<double>(bins)};
     const double width = (high - low) / static_cast<double>(bins);
     for (std::size_t i = 0; i <= bins; ++i)
         bars.edges.push_back(i == bins ? high : low + static_cast<double>(i) * width);

@@ -30,8 +30,8 @@ struct PictureStyle {
 /// One curve, or the bars of a histogram. Not finite values are gaps.
 struct Series {
     std::string name;
-    std::vector<double> x;
-    std::vector<double> y;
+    std::vector<double> x = {};
+    std::vector<double> y = {};
     std::vector<double> low = {};  ///< a band around it; empty: none
     std::vector<double> high = {};
     bool marks = false;                   ///< a disk at each value
@@ -43,23 +43,23 @@ struct Series {
 struct Band {
     std::string name;
     std::vector<double> x;
-    std::vector<double> low;
-    std::vector<double> high;
+    std::vector<double> low = {};
+    std::vector<double> high = {};
 };
 
 /// A line to compare with.
 struct Guide {
-    std::string name;
-    std::vector<double> x;  ///< empty: across the panel, at y[0]
-    std::vector<double> y;
+    std::string name = {};
+    std::vector<double> x = {};  ///< empty: across the panel, at y[0]
+    std::vector<double> y = {};
     bool reached = false;  ///< the axis goes as far, whatever the curves do
 };
 
 /// Bars of a histogram: edges are one more than heights.
 struct Bars {
-    std::string name;
-    std::vector<double> edges;
-    std::vector<double> heights;
+    std::string name = {};
+    std::vector<double> edges = {};
+    std::vector<double> heights = {};
 };
 
 struct ChartPanel {

@@ -31,7 +31,7 @@ Guide random_distances(const PointSet& set, double largest) {
     const double ball = std::pow(std::numbers::pi, d / 2) / std::tgamma(d / 2 + 1);
     const double rate = ball * static_cast<double>(set.count()) / volume;
     constexpr int steps = 200;
-    Guide guide{.name = "independent uniform points", .x = {}, .y = {}};
+    Guide guide{.name = "independent uniform points"};
     for (int k = 0; k <= steps; ++k) {
         const double r = largest * k / steps;
         guide.x.push_back(r);
@@ -65,7 +65,7 @@ Chart distance_chart(std::span<const PointSet* const> sets, const std::vector<st
     }
     if (Guide guide = random_distances(*sets[0], largest); !guide.x.empty())
         panel.guides.push_back(std::move(guide));
-    Chart chart{.title = "Nearest distances", .subtitle = {}, .panels = {}};
+    Chart chart{.title = "Nearest distances"};
     chart.panels.push_back(std::move(panel));
     return chart;
 }

@@ -116,7 +116,7 @@ class PointMarks {
             1.25 * unit * io::disk_radius(share_ * area.width * area.height / (unit * unit), n));
         for (std::size_t s = 0; s < picture_.sets.size(); ++s) {
             const PointSet& set = *picture_.sets[s];
-            Disks marks{.centres = {}, .radius = radius, .colour = theme_.series_colour(s)};
+            Disks marks{.radius = radius, .colour = theme_.series_colour(s)};
             marks.centres.reserve(set.count());
             for (std::size_t i = 0; i < set.count(); ++i) marks.centres.push_back(place(set[i]));
             if (picture_.sets.size() > 1) marks.opacity = 0.85;
@@ -171,8 +171,7 @@ class PointMarks {
     [[nodiscard]] PixelImage empty_raster(const Area& area, double side) const {
         PixelImage raster{.area = area,
                           .columns = static_cast<std::size_t>(std::ceil(area.width / side)),
-                          .rows = static_cast<std::size_t>(std::ceil(area.height / side)),
-                          .pixels = {}};
+                          .rows = static_cast<std::size_t>(std::ceil(area.height / side))};
         raster.pixels.assign(raster.columns * raster.rows, theme_.background);
         return raster;
     }
@@ -233,7 +232,7 @@ void draw_outline(Drawing& drawing, const PointsPicture& picture, const Panel& p
     const PointSet& first = *picture.sets[0];
     if (is_box(first)) return;
     for (const auto& line : outline_of(*first.domain)) {
-        Line outline{.vertices = {}, .colour = theme.frame, .width = 1};
+        Line outline{.colour = theme.frame, .width = 1};
         for (const Position& position : line)
             outline.vertices.push_back(panel.at(position.x, position.y));
         drawing.add(std::move(outline));
@@ -371,8 +370,7 @@ void draw_layers(Drawing& drawing, const PointsPicture& picture, const Scene& sc
         for (std::size_t s = 0; s < picture.sets.size(); ++s) {
             const double share = static_cast<double>(layer) / (layers - 1);
             disks.push_back(
-                {.centres = {},
-                 .radius = radius * (0.7 + 0.3 * share),
+                {.radius = radius * (0.7 + 0.3 * share),
                  .colour = mixed(theme.series_colour(s), theme.background, 0.62 * (1 - share))});
         }
     for (std::size_t s = 0; s < picture.sets.size(); ++s)
@@ -538,7 +536,7 @@ ChartPanel histogram_panel(const PointsPicture& picture, const Box& box, std::si
         panel.bars.back().name = picture.names[s];
     }
     if (frame_is_outline(picture))
-        panel.guides.push_back({.name = "uniform", .x = {}, .y = {1 / box.extent(k)}});
+        panel.guides.push_back({.name = "uniform", .y = {1 / box.extent(k)}});
     if (picture.sets.size() == 1 && picture.sets[0]->count() <= 2000)
         panel.rug = coordinate(*picture.sets[0], k);
     return panel;
@@ -590,7 +588,7 @@ std::pair<Projected, Projected> projected_range(const Box& box) {
 Chart histogram_chart(const PointsPicture& picture) {
     constexpr std::size_t most_panels = 6;
     const Box box = shown_box(picture.sets);
-    Chart chart{.title = picture.title, .subtitle = picture.subtitle, .panels = {}};
+    Chart chart{.title = picture.title, .subtitle = picture.subtitle};
     const std::size_t panels = std::min(box.dimension(), most_panels);
     for (std::size_t k = 0; k < panels; ++k) {
         ChartPanel panel = histogram_panel(picture, box, k);

@@ -31,14 +31,14 @@ enum class Marking { automatic, disks, density };
 /// several where it goes on from one end of a periodic axis to the other.
 struct MarkedBox {
     std::string attributes;  ///< of its group in a page
-    std::vector<std::vector<std::pair<double, double>>> ranges;
+    std::vector<std::vector<std::pair<double, double>>> ranges = {};
     bool closed = true;  ///< drawn with a solid line; else dashed
 };
 
 struct PointsPicture {
     std::vector<const PointSet*> sets;  ///< of one dimension, none empty
     std::vector<std::string> names;     ///< of the sets, for the legend
-    std::string title;
+    std::string title = {};
     std::string subtitle = {};
     Marking marking = Marking::automatic;
     std::vector<MarkedBox> boxes = {};

@@ -110,8 +110,7 @@ std::string size_of(Measurements ms) {
 Chart titled(const std::string& what, Measurements ms) {
     const std::string name = name_of_input(ms[0]);
     return {.title = ms.size() > 1 || name.empty() ? what : fmt::format("{} of {}", what, name),
-            .subtitle = size_of(ms),
-            .panels = {}};
+            .subtitle = size_of(ms)};
 }
 
 std::string noted(const std::string& subtitle, const std::string& more) {
@@ -134,10 +133,7 @@ std::vector<Band> noise_band(Measurements ms) {
                           return list_at(m.results, "radial.cells");
                       });
     if (!same || !cells) return {};
-    Band band{.name = "white noise, 95 %",
-              .x = *list_at(ms[0].results, "radial.frequency"),
-              .low = {},
-              .high = {}};
+    Band band{.name = "white noise, 95 %", .x = *list_at(ms[0].results, "radial.frequency")};
     for (const double ring : *cells) {
         const auto [low, high] = white_noise_band(ring, static_cast<double>(ms[0].sets));
         band.low.push_back(low);
@@ -148,15 +144,14 @@ std::vector<Band> noise_band(Measurements ms) {
 
 /// The anisotropy of independent points, where it is the same for all: in dB, -10 log10 of the sets
 /// that were averaged; of a table of pairs' differences, of the pairs that a pixel has of them.
-Guide noise_anisotropy(Measurements ms) {
+std::vector<Guide> noise_anisotropy(Measurements ms) {
     const auto expected_of = [](const Measurement& m) {
         const double pairs = number_at(m.results, "expected_differences").value_or(1);
         return -10 * std::log10(pairs * static_cast<double>(m.sets)) + 0.0;
     };
     if (!alike(ms, expected_of)) return {};
     const double expected = expected_of(ms[0]);
-    return {
-        .name = fmt::format("white noise: {} dB", rounded(expected, 3)), .x = {}, .y = {expected}};
+    return {{.name = fmt::format("white noise: {} dB", rounded(expected, 3)), .y = {expected}}};
 }
 
 /// Where there is no power (or no pair), there is no anisotropy: what analyzers put there as the
@@ -228,14 +223,14 @@ bool names_weight(const std::string& name) {
 
 struct CurveGroup {
     std::string prefix;  ///< "prefixes."
-    std::string x;
-    std::vector<std::string> ys;
+    std::string x = {};
+    std::vector<std::string> ys = {};
 };
 
 /// Lists of one group as long as its rising first one.
 std::optional<CurveGroup> curves_in(const Report& group, const std::string& prefix) {
     constexpr std::size_t plainly_curves = 16;
-    CurveGroup found{.prefix = prefix, .x = {}, .ys = {}};
+    CurveGroup found{.prefix = prefix};
     std::size_t size = 0;
     for (const auto& entry : group.entries()) {
         const auto curve = list_at(group, entry.name);
@@ -290,7 +285,7 @@ std::vector<Guide> slopes(const std::vector<Series>& all) {
     if (!(n > 0)) return {};
     std::vector<Guide> guides;
     for (const double power : {0.5, 1.0}) {
-        Guide guide{.name = guides.empty() ? "falling as 1/√n and as 1/n" : "", .x = {}, .y = {}};
+        Guide guide{.name = guides.empty() ? "falling as 1/√n and as 1/n" : ""};
         for (const double x : {n, series.x.back()}) {
             guide.x.push_back(x);
             guide.y.push_back(*first * std::pow(n / x, power));
@@ -303,8 +298,8 @@ std::vector<Guide> slopes(const std::vector<Series>& all) {
 /// What independent points have, where it is the same for all.
 std::vector<Guide> references(Measurements ms, const CurveGroup& group, const std::string& y) {
     if (y == "density" || y == "power" || y == "dispersion")
-        return {{.name = "independent points", .x = {}, .y = {1}}};
-    if (y == "anisotropy_db") return {noise_anisotropy(ms)};
+        return {{.name = "independent points", .y = {1}}};
+    if (y == "anisotropy_db") return noise_anisotropy(ms);
     if (y != "variance" || !has(group, "mean")) return {};
     const auto x = list_at(ms[0].results, group.prefix + group.x);
     const auto mean = list_at(ms[0].results, group.prefix + "mean");
@@ -318,7 +313,7 @@ void make_bars(ChartPanel& panel) {
         const auto first = std::ranges::find_if(series.y, filled);
         const auto last = std::find_if(series.y.rbegin(), series.y.rend(), filled).base();
         if (first == series.y.end()) continue;
-        Bars bars{.name = series.name, .edges = {}, .heights = {first, last}};
+        Bars bars{.name = series.name, .heights = {first, last}};
         const auto from = series.x.begin() + (first - series.y.begin());
         for (auto x = from; x != from + (last - first); ++x) bars.edges.push_back(*x - 0.5);
         bars.edges.push_back(bars.edges.back() + 1);
@@ -345,7 +340,7 @@ std::string abscissa_of(const Measurement& m, const std::string& x) {
 void make_power(ChartPanel& panel, Measurements ms) {
     panel.y_name = "radial power";
     panel.bands = noise_band(ms);
-    panel.guides = {{.name = {}, .x = {}, .y = {1}}};
+    panel.guides = {{.y = {1}}};
     panel.reach_y = 1.4;
     panel.least_y = log_floor;
     panel.share = 1.5;
@@ -358,14 +353,11 @@ void make_power(ChartPanel& panel, Measurements ms) {
 /// independent sets.
 void make_pair_correlation(ChartPanel& panel, Measurements ms) {
     panel.y_name = "pair correlation g";
-    panel.guides = {{.name = ms.size() > 1 ? "uniform points" : "", .x = {}, .y = {1}}};
+    panel.guides = {{.name = ms.size() > 1 ? "uniform points" : "", .y = {1}}};
     panel.reach_y = 1.4;
     if (ms.size() > 1) return;
     const double width = 2 / std::sqrt(static_cast<double>(ms[0].sets));
-    Band band{.name = "uniform points, ± 2 deviations",
-              .x = *list_at(ms[0].results, "distance"),
-              .low = {},
-              .high = {}};
+    Band band{.name = "uniform points, ± 2 deviations", .x = *list_at(ms[0].results, "distance")};
     const auto deviation = list_at(ms[0].results, "deviation");
     for (const double s : *deviation) {
         band.low.push_back(std::max(0.0, 1 - width * s));
@@ -379,7 +371,6 @@ ChartPanel curve_panel(Measurements ms, const CurveGroup& group, const std::stri
                      .y_name = y == "value" ? words_of(ms[0].analyzer) : words_of(y),
                      .series = series_of(ms, group.prefix, group.x, y),
                      .guides = references(ms, group, y)};
-    std::erase_if(panel.guides, [](const Guide& guide) { return guide.y.empty(); });
     if (y == "anisotropy_db") {
         panel.y_name = "anisotropy (dB)";
         make_gaps(panel.series);
@@ -461,7 +452,7 @@ std::string family_of(const std::string& source) {
 /// Means, with their standard errors, of what sets of one size have; of errors, their root mean square.
 Series series_over_count(const std::string& name, bool errors,
                          const std::map<std::uint64_t, std::vector<double>>& at) {
-    Series series{.name = name, .x = {}, .y = {}, .marks = true};
+    Series series{.name = name, .marks = true};
     for (auto [n, values] : at) {
         if (errors)
             for (double& v : values) v *= v;

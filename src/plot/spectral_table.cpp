@@ -81,7 +81,7 @@ std::optional<SpectralTable> spectral_table(std::span<const PointSet* const> set
 
 Chart power_chart(const Grid& power, const std::string& title) {
     const std::size_t middle = power.values.size() / 2;
-    Series curve{.name = "power", .x = {}, .y = {}};
+    Series curve{.name = "power"};
     for (std::size_t f = 1; f <= middle; ++f) {
         curve.x.push_back(static_cast<double>(f));
         curve.y.push_back(power.values[middle + f]);
@@ -94,7 +94,7 @@ Chart power_chart(const Grid& power, const std::string& title) {
                      .least_y = 1e-4};
     // As in the chart of radial power: a lattice's peaks would hide everything else.
     panel.log_y = std::ranges::max(curve.y) > 12;
-    panel.guides.push_back({.name = "white noise", .x = {}, .y = {1}});
+    panel.guides.push_back({.name = "white noise", .y = {1}});
     panel.series.push_back(std::move(curve));
     return {.title = title, .panels = {std::move(panel)}};
 }

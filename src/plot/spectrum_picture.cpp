@@ -17,7 +17,7 @@ Colour grey(double power) {
 }
 
 PixelImage picture_of(const Grid& power, const Area& area) {
-    PixelImage raster{.area = area, .columns = power.columns, .rows = power.rows, .pixels = {}};
+    PixelImage raster{.area = area, .columns = power.columns, .rows = power.rows};
     raster.pixels.reserve(power.values.size());
     for (std::size_t row = power.rows; row-- > 0;)
         for (std::size_t column = 0; column < power.columns; ++column) {

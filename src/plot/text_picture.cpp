@@ -73,13 +73,7 @@ std::string space_as_text(const PointsPicture& picture, const TextRoom& room) {
             const Projected projected = project(box, (*set)[i]);
             dots.set((projected.right - low.right) / across, (projected.up - low.up) / upward);
         }
-    return framed(dots, {.title = picture.title,
-                         .low_x = {},
-                         .high_x = {},
-                         .name_x = "x and y to the right, z upward",
-                         .low_y = {},
-                         .high_y = {},
-                         .name_y = {}});
+    return framed(dots, {.title = picture.title, .name_x = "x and y to the right, z upward"});
 }
 
 void draw_bars(DotMatrix& dots, const Bars& bars, const Axis& x, const Axis& y) {

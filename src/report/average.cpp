@@ -13,12 +13,6 @@ namespace {
 using Curve = Report::Curve;
 using Item = Report::Item;
 
-void accumulate(double x, double k, double& mean, double& squares) {
-    const double step = x - mean;
-    mean += step / k;
-    squares += step * (x - mean);
-}
-
 /// An item as the numbers that it holds; nothing for words, flags and groups.
 std::optional<Curve> numbers(const Item& item) {
     if (const auto* whole = std::get_if<std::int64_t>(&item))
@@ -71,8 +65,11 @@ bool merge(Item& mean, Item& squares, const Item& item, double k) {
     if (k == 1)
         sums->assign(sums->size(), 0);
     else
-        for (std::size_t i = 0; i < values->size(); ++i)
-            accumulate((*values)[i], k, (*means)[i], (*sums)[i]);
+        for (std::size_t i = 0; i < values->size(); ++i) {
+            const double step = (*values)[i] - (*means)[i];
+            (*means)[i] += step / k;
+            (*sums)[i] += step * ((*values)[i] - (*means)[i]);
+        }
     squares = shaped(std::move(*sums), item);
     // Labels, such as the counts of prefixes: their mean is what they are.
     const bool label = std::holds_alternative<Report::Integers>(mean) && mean == item;

@@ -105,7 +105,7 @@ std::string listed(const std::vector<std::string_view>& words) {
 Check parse_check(std::string_view text, const std::string& option) {
     const auto at = text.find_first_of("<>=!");
     const auto last = text.find_first_not_of("<>=!", at);
-    Check check{.key = {}, .op = {}, .value = {}, .option = option};
+    Check check{.option = option};
     if (at != std::string_view::npos && last != std::string_view::npos) {
         check.key = trim(text.substr(0, at));
         check.op = text.substr(at, last - at);

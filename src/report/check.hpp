@@ -12,9 +12,9 @@
 namespace stipple {
 
 struct Check {
-    std::string key;                 ///< dotted
-    std::string op;                  ///< < <= > >= == !=
-    std::string value;               ///< a number, true, false, or a word
+    std::string key = {};            ///< dotted
+    std::string op = {};             ///< < <= > >= == !=
+    std::string value = {};          ///< a number, true, false, or a word
     std::string option = "--check";  ///< by which it was given, for messages
 
     /// Whether it holds. @throws Error(usage): no such key, or no number where one is compared.

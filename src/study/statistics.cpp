@@ -4,15 +4,12 @@
 #include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "core/rng.hpp"
 
 namespace stipple {
 namespace {
-
-constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 double mean_of(std::span<const double> sample) {
     return std::accumulate(sample.begin(), sample.end(), 0.0) / static_cast<double>(sample.size());
@@ -29,15 +26,11 @@ double quantile(std::span<const double> sorted, double q) {
 
 /// Completes a test from the difference, its error and the degrees of freedom.
 MeanTest tested(double difference, double error, double degrees) {
-    MeanTest test{.difference = difference,
-                  .standard_error = error,
-                  .t = unknown,
-                  .degrees = degrees,
-                  .p_value = unknown};
+    MeanTest test{.difference = difference, .standard_error = error, .degrees = degrees};
     if (!std::isfinite(error) || !std::isfinite(difference)) return test;
     if (error == 0) {
         test.p_value = difference == 0 ? 1 : 0;
-        test.degrees = unknown;
+        test.degrees = not_known;
         return test;
     }
     test.t = difference / error;
@@ -50,11 +43,7 @@ MeanTest tested(double difference, double error, double degrees) {
 }  // namespace
 
 SampleSummary summarize(std::span<const double> sample) {
-    SampleSummary s{.count = sample.size(),
-                    .mean = unknown,
-                    .median = unknown,
-                    .deviation = unknown,
-                    .standard_error = unknown};
+    SampleSummary s{.count = sample.size()};
     const bool known = std::ranges::none_of(sample, [](double x) { return std::isnan(x); });
     if (sample.empty() || !known) return s;
     const double n = static_cast<double>(sample.size());
@@ -73,7 +62,7 @@ SampleSummary summarize(std::span<const double> sample) {
 }
 
 Interval t_interval(const SampleSummary& sample, double confidence) {
-    if (sample.count < 2 || !std::isfinite(sample.standard_error)) return {unknown, unknown};
+    if (sample.count < 2 || !std::isfinite(sample.standard_error)) return {not_known, not_known};
     const boost::math::students_t distribution(static_cast<double>(sample.count - 1));
     const double reach =
         boost::math::quantile(boost::math::complement(distribution, (1 - confidence) / 2)) *
@@ -86,7 +75,7 @@ Interval bootstrap_interval(std::span<const double> sample, double confidence,
                             const RunContext& run) {
     const std::uint64_t n = sample.size();
     const bool finite = std::ranges::all_of(sample, [](double x) { return std::isfinite(x); });
-    if (n < 2 || resamples == 0 || !finite) return {unknown, unknown};
+    if (n < 2 || resamples == 0 || !finite) return {not_known, not_known};
     if (std::ranges::all_of(sample, [&](double x) { return x == sample[0]; }))
         return {sample[0], sample[0]};
     const Rng rng(seed, stream);
@@ -106,7 +95,7 @@ MeanTest welch_test(std::span<const double> a, std::span<const double> b) {
     const SampleSummary y = summarize(b);
     const double u = x.standard_error * x.standard_error;
     const double v = y.standard_error * y.standard_error;
-    if (!(a.size() > 1 && b.size() > 1)) return tested(x.mean - y.mean, unknown, unknown);
+    if (!(a.size() > 1 && b.size() > 1)) return tested(x.mean - y.mean, not_known, not_known);
     const double share = u / (u + v);  // in place of the squares of u and v, which underflow
     const double degrees = 1 / (share * share / static_cast<double>(a.size() - 1) +
                                 (1 - share) * (1 - share) / static_cast<double>(b.size() - 1));
@@ -117,7 +106,7 @@ MeanTest paired_test(std::span<const double> a, std::span<const double> b) {
     std::vector<double> differences(a.size());
     std::ranges::transform(a, b, differences.begin(), [](double x, double y) { return x - y; });
     const SampleSummary s = summarize(differences);
-    if (s.count < 2) return tested(s.mean, unknown, unknown);
+    if (s.count < 2) return tested(s.mean, not_known, not_known);
     return tested(s.mean, s.standard_error, static_cast<double>(s.count - 1));
 }
 

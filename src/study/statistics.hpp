@@ -18,6 +18,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -30,12 +31,14 @@ struct Interval {
     double high = 0;
 };
 
+inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
 struct SampleSummary {
     std::size_t count = 0;
-    double mean = 0;
-    double median = 0;
-    double deviation = 0;       ///< standard, of one number
-    double standard_error = 0;  ///< of the mean
+    double mean = not_known;
+    double median = not_known;
+    double deviation = not_known;       ///< standard, of one number
+    double standard_error = not_known;  ///< of the mean
 };
 
 SampleSummary summarize(std::span<const double> sample);
@@ -53,9 +56,9 @@ Interval bootstrap_interval(std::span<const double> sample, double confidence,
 struct MeanTest {
     double difference = 0;
     double standard_error = 0;
-    double t = 0;
-    double degrees = 0;
-    double p_value = 1;
+    double t = not_known;
+    double degrees = not_known;
+    double p_value = not_known;
 };
 
 MeanTest welch_test(std::span<const double> a, std::span<const double> b);

@@ -8,6 +8,7 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 #include "core/bytes/packed.hpp"
 #include "core/error.hpp"
@@ -88,7 +89,7 @@ class Leader {
         for (unsigned i = 0; i < threads_; ++i) threads.emplace_back([this] { work_on(); });
         int others = ranks_.size() - 1;
         while (busy_ > 0 || others > 0) {
-            if (halted_ && !told_) tell_others_to_halt();
+            if (halted_ && !std::exchange(told_, true)) halt_others(ranks_);
             if (!serve(others)) wait_a_little();
             keep_safe();
             show_progress();
@@ -152,11 +153,6 @@ class Leader {
     void stop_all() {
         halted_ = true;
         stop_.request_stop();
-    }
-
-    void tell_others_to_halt() {
-        told_ = true;
-        halt_others(ranks_);
     }
 
     /// Answers the others. False: no message came.

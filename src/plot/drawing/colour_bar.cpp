@@ -9,7 +9,7 @@ void draw_colour_bar(Drawing& drawing, const Area& area, const std::string& name
                      const Theme& theme, const std::function<Colour(double)>& colour,
                      const std::vector<Tick>& ticks) {
     constexpr std::size_t levels = 256;
-    PixelImage bar{.area = area, .columns = 1, .rows = levels, .pixels = {}};
+    PixelImage bar{.area = area, .columns = 1, .rows = levels};
     for (std::size_t i = 0; i < levels; ++i)
         bar.pixels.push_back(colour(1 - static_cast<double>(i) / static_cast<double>(levels - 1)));
     drawing.add(std::move(bar));

@@ -36,9 +36,9 @@ class DotMatrix {
 
 /// The field in a frame, with a title above, and what the axes range over below and beside.
 struct TextFrame {
-    std::string title;
-    std::string low_x, high_x, name_x;
-    std::string low_y, high_y, name_y;
+    std::string title = {};
+    std::string low_x = {}, high_x = {}, name_x = {};
+    std::string low_y = {}, high_y = {}, name_y = {};
 };
 std::string framed(const DotMatrix& dots, const TextFrame& frame);
 

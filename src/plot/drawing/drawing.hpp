@@ -45,7 +45,7 @@ enum class Dash { none, dashed, dotted };
 
 /// A polyline; crisp: of whole pixels, for lines along the axes.
 struct Line {
-    std::vector<Position> vertices;
+    std::vector<Position> vertices = {};
     Colour colour = {};
     double width = 1;
     Dash dash = Dash::none;
@@ -54,14 +54,14 @@ struct Line {
 
 /// The inside of a closed line.
 struct Patch {
-    std::vector<Position> vertices;
+    std::vector<Position> vertices = {};
     Colour colour = {};
     double opacity = 1;
 };
 
 /// Disks of one size.
 struct Disks {
-    std::vector<Position> centres;
+    std::vector<Position> centres = {};
     double radius = 1;
     Colour colour = {};
     double opacity = 1;
@@ -85,12 +85,12 @@ struct PixelImage {
     Area area;
     std::size_t columns = 0;
     std::size_t rows = 0;
-    std::vector<Colour> pixels;
+    std::vector<Colour> pixels = {};
 };
 
 /// Clips the shapes that follow, up to the next one, to an area.
 struct ClipWindow {
-    Area area;
+    Area area = {};
     bool open = false;  ///< no clipping
 };
 
