@@ -187,17 +187,10 @@ void WorstBox::offer(const WorstBox& other) {
     if (other.exact_ > exact_) *this = other;
 }
 
-std::vector<double> WorstBox::lower_corner() const {
+std::vector<double> WorstBox::corner(std::uint32_t Interval::*end) const {
     std::vector<double> corner;
     for (std::size_t k = 0; k < box_.axes.size(); ++k)
-        corner.push_back(grid_->values[k][box_.axes[k].lower]);
-    return corner;
-}
-
-std::vector<double> WorstBox::upper_corner() const {
-    std::vector<double> corner;
-    for (std::size_t k = 0; k < box_.axes.size(); ++k)
-        corner.push_back(grid_->values[k][box_.axes[k].upper]);
+        corner.push_back(grid_->values[k][box_.axes[k].*end]);
     return corner;
 }
 

@@ -147,8 +147,9 @@ class WorstBox {
     [[nodiscard]] const GridBox& box() const { return box_; }
     [[nodiscard]] bool closed() const { return box_.side == Side::closed; }
     [[nodiscard]] std::uint64_t points() const { return points_; }
-    [[nodiscard]] std::vector<double> lower_corner() const;
-    [[nodiscard]] std::vector<double> upper_corner() const;
+
+    /// &Interval::lower or &Interval::upper.
+    [[nodiscard]] std::vector<double> corner(std::uint32_t Interval::*end) const;
 
     /// Volume of the box, rounded to the nearest double.
     [[nodiscard]] double volume() const;

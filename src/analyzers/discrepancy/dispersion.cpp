@@ -31,7 +31,6 @@
 #include "analyzers/analyzer.hpp"
 #include "analyzers/discrepancy/empty_rectangle.hpp"
 #include "analyzers/discrepancy/extreme/search.hpp"
-#include "analyzers/discrepancy/extreme/star_bound.hpp"
 #include "core/error.hpp"
 
 namespace stipple::analyzers::dispersion {
@@ -77,8 +76,8 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     limits.judge({worst.value(), upper, ending}, "the largest empty box",
                  fmt::format("{} points in {} dimensions", points.count(), d), run);
     Report box;
-    box.add("lower_corner", worst.lower_corner());
-    box.add("upper_corner", worst.upper_corner());
+    box.add("lower_corner", worst.corner(&Interval::lower));
+    box.add("upper_corner", worst.corner(&Interval::upper));
     Report results;
     results.add("value", worst.value());
     results.add("lower", worst.value());

@@ -84,7 +84,7 @@ Plan plan_for(const PointSet& points, const Values& options) {
         fail(ErrorKind::usage, "--pixels: {} is even; one pixel is to be in the middle",
              plan.pixels);
     const Box& box = *plan.distances.box;
-    plan.unit = std::sqrt(box.extent(0) * box.extent(1) / static_cast<double>(points.count()));
+    plan.unit = mean_distance(box, points.count());
     const double half = shortest_side(box) / 2;
     if (!options.given(max_distance)) {
         plan.reach = std::min(5 * plan.unit, half);

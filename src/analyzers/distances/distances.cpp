@@ -121,6 +121,11 @@ double shortest_side(const Box& box) {
     return shortest;
 }
 
+double mean_distance(const Box& box, std::size_t n) {
+    return std::pow(volume_of(box) / static_cast<double>(n),
+                    1 / static_cast<double>(box.dimension()));
+}
+
 void require_places(const PointSet& points, const char* analyzer) {
     if (points.count() < 2)
         fail(ErrorKind::input, "{} needs at least two points; this is one", analyzer);

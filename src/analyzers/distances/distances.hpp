@@ -48,6 +48,9 @@ Distances distances_in_box(const PointSet& points, const std::string& asked, con
 double volume_of(const Box& box);
 double shortest_side(const Box& box);
 
+/// Of so many points in the box: (V / n)^(1/d).
+double mean_distance(const Box& box, std::size_t n);
+
 /// @throws Error(input) unless there are points at two places at least
 void require_places(const PointSet& points, const char* analyzer);
 

@@ -126,10 +126,7 @@ struct Plan {
 };
 
 Plan plan_for(const PointSet& points, const Box& box, const Values& options) {
-    const double share = volume_of(box) / static_cast<double>(points.count());
-    Plan plan{.unit = std::pow(share, 1 / static_cast<double>(box.dimension())),
-              .width = 0,
-              .halves = {}};
+    Plan plan{.unit = mean_distance(box, points.count()), .width = 0, .halves = {}};
     const double side = shortest_side(box) / plan.unit;
     const double most = options.given(max_radius) ? options[max_radius] : std::min(10.0, side / 8);
     const double least = options.given(min_radius) ? options[min_radius] : std::min(1.0, most / 2);
@@ -178,24 +175,18 @@ struct Curves {
     Report::Curve dispersion;
 };
 
-/// The slope of log y against log x by least squares, with its standard error.
-struct Slope {
-    double value = NAN;
-    double error = NAN;
-    std::int64_t points = 0;
-};
-
+/// Adds the slope of log variance against log radius by least squares, with its standard error.
 /// Radii at which the variance is 0, as on a line it may be, are passed over.
-Slope slope_of(const Report::Curve& x, const Report::Curve& variance, const Report::Curve& mean,
-               const Report::Curve& dispersion) {
+void add_exponent(Report& report) {
+    const auto& variance = report.curve("variance");
+    const auto& mean = report.curve("mean");
     std::vector<std::array<double, 2>> logs;
-    for (std::size_t i = 0; i < x.size(); ++i)
+    for (std::size_t i = 0; i < variance.size(); ++i)
         if (variance[i] > 1e-9 * mean[i] * mean[i])
-            logs.push_back({std::log(x[i]), std::log(dispersion[i] * mean[i])});
-    Slope slope;
-    slope.points = static_cast<std::int64_t>(logs.size());
+            logs.push_back({std::log(report.curve("radius")[i]),
+                            std::log(report.curve("dispersion")[i] * mean[i])});
+    if (logs.size() < 3) return drop(report, {"exponent", "exponent_standard_error"});
     const auto count = static_cast<double>(logs.size());
-    if (logs.size() < 3) return slope;
     double mx = 0;
     double my = 0;
     for (const auto& [u, v] : logs) {
@@ -208,19 +199,11 @@ Slope slope_of(const Report::Curve& x, const Report::Curve& variance, const Repo
         xx += (u - mx) * (u - mx);
         xy += (u - mx) * (v - my);
     }
-    slope.value = xy / xx;
+    const double slope = xy / xx;
     double residual = 0;
-    for (const auto& [u, v] : logs) residual += std::pow(v - my - slope.value * (u - mx), 2);
-    slope.error = std::sqrt(residual / (count - 2) / xx);
-    return slope;
-}
-
-void add_exponent(Report& report) {
-    const Slope slope = slope_of(report.curve("radius"), report.curve("variance"),
-                                 report.curve("mean"), report.curve("dispersion"));
-    if (slope.points < 3) return drop(report, {"exponent", "exponent_standard_error"});
-    report.add("exponent", slope.value);
-    report.add("exponent_standard_error", slope.error);
+    for (const auto& [u, v] : logs) residual += std::pow(v - my - slope * (u - mx), 2);
+    report.add("exponent", slope);
+    report.add("exponent_standard_error", std::sqrt(residual / (count - 2) / xx));
 }
 
 /// Adds a radius with what was found there; `share` is the window's of the volume.

@@ -89,13 +89,6 @@ struct Plan {
     double pairs;  ///< of all points
 };
 
-/// The distances of a set's mean point density, (V / n)^(1/d).
-double mean_distance(const Box& box, double n) {
-    double share = 1 / n;
-    for (std::size_t k = 0; k < box.dimension(); ++k) share *= box.extent(k);
-    return std::pow(share, 1 / static_cast<double>(box.dimension()));
-}
-
 double default_reach(const Distances& distances, double mean) {
     const double shortest = shortest_side(*distances.box);
     return std::min(5 * mean, distances.torus ? shortest / 2 : shortest);
@@ -115,7 +108,7 @@ Plan plan_for(const PointSet& points, const Values& options) {
         fail(ErrorKind::usage, "--bandwidth: {} is more than the {} bins", plan.spread, plan.bins);
     const auto n = static_cast<double>(points.count());
     const Box& box = *plan.distances.box;
-    const double mean = mean_distance(box, n);
+    const double mean = mean_distance(box, points.count());
     if (options[normalize]) plan.unit = mean;
     const double longest = longest_distance(box, plan.distances.torus);
     double reach = default_reach(plan.distances, mean);
@@ -259,8 +252,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     if (plan.spread == 0) results.add("pairs", std::move(pairs));
     results.add("max_distance", static_cast<double>(plan.bins) * plan.width / plan.unit, unit);
     results.add("bin_width", plan.width / plan.unit, unit);
-    results.add("mean_distance",
-                mean_distance(*plan.distances.box, static_cast<double>(points.count())));
+    results.add("mean_distance", mean_distance(*plan.distances.box, points.count()));
     results.add("kernel", options[kernel]);
     results.add("metric", plan.distances.name());
     return results;

@@ -71,27 +71,13 @@ std::vector<Record> best_cells(const PlanarCells& cells, std::size_t count, cons
     return records;
 }
 
-/// The distance of places to the set's points.
-class Clearance {
-  public:
-    Clearance(const PointSet& points, const Distances& distances, const RunContext& run)
-        : points_(frame(*distances.box, distances.torus, static_cast<double>(points.count())),
-                  points.flat(), run) {}
-
-    /// @param about nearly what it is
-    [[nodiscard]] double at(const std::vector<double>& place, double about) const {
-        double least = std::numeric_limits<double>::infinity();
-        points_.visit(place.data(), about * (1 + 1e-6),
-                      [&](std::size_t, double squared) { least = std::min(least, squared); });
-        return std::sqrt(least);
-    }
-
-  private:
-    static GridFrame<2> frame(const Box& box, bool torus, double n) {
-        return {box, torus, std::sqrt(2 * box.extent(0) * box.extent(1) / n), n + 64};
-    }
-    SortedPoints<2> points_;
-};
+/// The distance of a place to the nearest point; `about` is nearly what it is.
+double clearance(const SortedPoints<2>& points, const std::vector<double>& place, double about) {
+    double least = std::numeric_limits<double>::infinity();
+    points.visit(place.data(), about * (1 + 1e-6),
+                 [&](std::size_t, double squared) { least = std::min(least, squared); });
+    return std::sqrt(least);
+}
 
 /// A coordinate in the box: across its faces on the torus; of a wall's corner, on the wall.
 double inside(const Distances& distances, std::size_t k, double x) {
@@ -109,7 +95,11 @@ EmptyBall planar_empty_ball(const PointSet& points, const Distances& distances,
         planar_sites(points.flat(), *distances.box, distances.torus, run.stage(0, 0.1));
     const PlanarCells cells(sites, run.stage(0.1, 0.2));
     const auto records = best_cells(cells, sites.count(), run.stage(0.2, 1));
-    const Clearance clearance(points, distances, run);
+    const auto n = static_cast<double>(points.count());
+    const SortedPoints<2> sorted(
+        GridFrame<2>(*distances.box, distances.torus,
+                     std::sqrt(2.0) * mean_distance(*distances.box, points.count()), n + 64),
+        points.flat(), run);
     EmptyBall best{-1, 0, {}};
     VoronoiCell cell;
     for (const Record& record : records) {
@@ -123,7 +113,7 @@ EmptyBall planar_empty_ball(const PointSet& points, const Distances& distances,
                                    cell.squared_reach());
             const std::vector<double> center{inside(distances, 0, p[0] + v.x),
                                              inside(distances, 1, p[1] + v.y)};
-            const double radius = clearance.at(center, std::sqrt(squared_length(v)));
+            const double radius = clearance(sorted, center, std::sqrt(squared_length(v)));
             if (radius > best.radius && std::isfinite(radius)) best = {radius, radius, center};
         }
     }

@@ -155,47 +155,24 @@ AxisSums axis_sums(const std::vector<Item>& items, bool moments, const RunContex
     return all;
 }
 
-/// Where a merge of two runs is.
-struct Merging {
-    const Item* left;
-    const Item* left_end;
-    const Item* right;
-    const Item* right_end;
-    Item* out;
-    std::uint64_t passed = 0;  ///< items of the left run that went out
-    Uint128 passed_w = 0;      ///< their w together
-};
-
-/// Merges up to `most` items by w, with no branch that depends on them; adds t_i (w_i - w_k) for
-/// items i of the right run and those k of the left one that go out first.
-void merge_some(Merging& at, std::size_t most, LongSum& sum) {
-    Merging m = at;
-    for (; most > 0 && m.left != m.left_end && m.right != m.right_end; --most) {
-        const bool from_left = m.left->w <= m.right->w;
-        const Item item = from_left ? *m.left : *m.right;
-        sum.add_product(wide_product(item.w, m.passed) - m.passed_w, from_left ? 0 : item.t);
-        m.passed += from_left;
-        m.passed_w += from_left ? item.w : 0;
-        m.left += from_left;
-        m.right += !from_left;
-        *m.out++ = item;
-    }
-    at = m;
-}
-
-/// Merges the runs [0, left) and [left, n) of `items` into `out`.
+/// Merges the runs [0, left) and [left, n) of `items` by w into `out`, with no branch that depends
+/// on them; adds t_i (w_i - w_k) for items i of the right run and those k of the left one that go
+/// out first.
 void merge(const Item* items, std::size_t left, std::size_t n, Item* out, LongSum& sum,
            const RunContext& run) {
     constexpr std::size_t between_looks = std::size_t{1} << 16;
-    Merging m{items, items + left, items + left, items + n, out};
-    while (m.left != m.left_end && m.right != m.right_end) {
-        run.check_stop();
-        merge_some(m, between_looks, sum);
-    }
-    m.out = std::copy(m.left, m.left_end, m.out);
-    for (; m.right != m.right_end; ++m.right) {
-        sum.add_product(wide_product(m.right->w, m.passed) - m.passed_w, m.right->t);
-        *m.out++ = *m.right;
+    std::size_t low = 0;
+    std::size_t high = left;
+    Uint128 passed_w = 0;  // of the left run's items that went out
+    for (std::size_t i = 0; i < n; ++i) {
+        if (i % between_looks == 0) run.check_stop();
+        const bool from_left = high == n || (low < left && items[low].w <= items[high].w);
+        const Item item = items[from_left ? low : high];
+        sum.add_product(wide_product(item.w, low) - passed_w, from_left ? 0 : item.t);
+        passed_w += from_left ? item.w : 0;
+        low += from_left;
+        high += !from_left;
+        out[i] = item;
     }
 }
 

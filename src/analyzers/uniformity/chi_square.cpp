@@ -229,6 +229,12 @@ std::string verdict_on(const Tails& plain, const Tails* second, double level) {
     return clumped(plain) || (second && clumped(*second)) ? "non-uniform" : "stratified";
 }
 
+Report& add_tails(Report& report, const Tails& tails) {
+    return report.add("p_value", tails.two_sided())
+        .add("p_upper", tails.upper)
+        .add("p_lower", tails.lower);
+}
+
 /// Both tails on one grid or two, as a verdict; none that the errors of the cells' probabilities
 /// could turn. @throws Error(limit)
 void conclude(Report& report, const Judged& plain, const std::optional<Judged>& second,
@@ -236,9 +242,7 @@ void conclude(Report& report, const Judged& plain, const std::optional<Judged>& 
     const auto of_second = [&](Tails Judged::*which) {
         return second ? &(*second.*which) : nullptr;
     };
-    report.add("p_value", plain.found.two_sided())
-        .add("p_upper", plain.found.upper)
-        .add("p_lower", plain.found.lower);
+    add_tails(report, plain.found);
     const double p = p_value_of(plain.found, of_second(&Judged::found));
     if (second) report.add("combined_p_value", p);
     const double level = options[level_option];
@@ -261,13 +265,10 @@ Judged judge(const Fit& fit) {
 }
 
 Report shifted_report(const Fit& fit) {
-    const Tails tails = judge(fit).found;
     Report report;
     report.add("statistic", fit.statistic).add("degrees_of_freedom", fit.groups - 1);
-    report.add("p_value", tails.two_sided())
-        .add("p_upper", tails.upper)
-        .add("p_lower", tails.lower);
-    return report.add("pooled_cells", fit.pooled)
+    return add_tails(report, judge(fit).found)
+        .add("pooled_cells", fit.pooled)
         .add("impossible_points", fit.impossible)
         .add("statistic_error", fit.statistic_error);
 }
@@ -450,10 +451,7 @@ void combine(Report& mean, std::span<const Report> sets, const Values& options) 
     std::optional<Judged> second;
     if (auto* item = mean.find("shifted")) {
         second = over_sets("shifted.");
-        std::get<Report>(*item)
-            .add("p_value", second->found.two_sided())
-            .add("p_upper", second->found.upper)
-            .add("p_lower", second->found.lower);
+        add_tails(std::get<Report>(*item), second->found);
     }
     mean.forget_unmet();
     conclude(mean, over_sets(""), second, options);

@@ -63,6 +63,12 @@ STIPPLE_INLINE void locate(const V& x, const SpreadTile& tile, V& first, V& betw
     if (tile.lead == 0) first -= first >= tile.side ? zero + tile.side : zero;
 }
 
+/// Numbers First, First + 2, ... of two vectors.
+template <std::size_t First, std::size_t... L>
+STIPPLE_INLINE V every_second(const V& a, const V& b, std::index_sequence<L...> /*lanes*/) {
+    return __builtin_shufflevector(a, b, (First + 2 * L)...);
+}
+
 /// Coordinates of up to so many points, axis after axis; the surplus is 0.
 template <std::size_t Dimension>
 using Coordinates = std::array<std::array<double, chunk>, Dimension>;
@@ -70,7 +76,15 @@ using Coordinates = std::array<std::array<double, chunk>, Dimension>;
 template <std::size_t Dimension>
 STIPPLE_INLINE void by_axis(const double* points, std::size_t count, std::size_t numbers,
                             Coordinates<Dimension>& axes) {
-    for (std::size_t i = 0; i < (count + lanes - 1) / lanes * lanes; ++i)
+    std::size_t i = 0;
+    if constexpr (Dimension == 2)
+        for (; numbers == 2 && i + lanes <= count; i += lanes) {
+            const V a = load<V>(points + 2 * i);
+            const V b = load<V>(points + 2 * i + lanes);
+            store(every_second<0>(a, b, std::make_index_sequence<lanes>()), &axes[0][i]);
+            store(every_second<1>(a, b, std::make_index_sequence<lanes>()), &axes[1][i]);
+        }
+    for (; i < (count + lanes - 1) / lanes * lanes; ++i)
         for (std::size_t k = 0; k < Dimension; ++k)
             axes[k][i] = i < count ? points[i * numbers + k] : 0;
 }

@@ -75,30 +75,29 @@ void widen(double* box, const double* low, const double* high, std::size_t d) {
 
 }  // namespace
 
-/// Sorts the points into the leaves: the first levels of all points, then subtrees that fit into a
-/// cache, each from a copy of its rows.
+/// Sorts the points into the leaves, level by level.
 class KdTree::Builder {
   public:
-    Builder(KdTree& tree, std::span<const double> rows) : tree_(tree), rows_(rows) {}
+    Builder(KdTree& tree, std::span<const double> rows)
+        : tree_(tree), rows_(rows), order_(tree.count()), keys_(tree.count()) {
+        std::iota(order_.begin(), order_.end(), 0U);
+    }
 
     void build(const RunContext& run) {
-        const std::size_t n = rows_.size() / tree_.dimension_;
-        std::vector<std::uint32_t> order(n);
-        std::iota(order.begin(), order.end(), 0U);
-        keys_.resize(n);
-        std::size_t roots = 1;  // of subtrees
-        while (roots < tree_.leaves_ && n / roots > subtree_size) {
-            for_each_block(silent(run), roots, 1,
-                           [&](const Block& b) { split(rows_, order, roots + b.first, 0); });
-            roots *= 2;
-        }
-        for_each_block(run, roots, 1,
-                       [&](const Block& b) { build_subtree(order, roots + b.first); });
-        for (std::size_t node = roots - 1; node > 0; --node) join(node);
+        for (std::size_t level = 1; level < tree_.leaves_; level *= 2)
+            for_nodes(level, silent(run), [&](std::size_t node) { split(node); });
+        for_nodes(tree_.leaves_, run, [&](std::size_t leaf) { fill(leaf); });
+        for (std::size_t node = tree_.leaves_ - 1; node > 0; --node) join(node);
     }
 
   private:
-    static constexpr std::size_t subtree_size = 8192;
+    /// Calls visit(node) for all nodes of a level, of which `first` is the first one.
+    template <class Visit>
+    static void for_nodes(std::size_t first, const RunContext& run, const Visit& visit) {
+        for_each_block(run, first, 1 + first / 256, [&](const Block& b) {
+            for (std::uint64_t i = b.first; i < b.last; ++i) visit(first + i);
+        });
+    }
 
     struct Key {
         double value;
@@ -108,17 +107,16 @@ class KdTree::Builder {
         }
     };
 
-    [[nodiscard]] std::size_t widest(std::span<const double> rows,
-                                     std::span<const std::uint32_t> order) const {
+    [[nodiscard]] std::size_t widest(std::span<const std::uint32_t> own) const {
         const std::size_t d = tree_.dimension_;
         std::size_t axis = 0;
         double widest = -1;
         for (std::size_t k = 0; k < d && d > 1; ++k) {
-            double low = rows[order[0] * d + k];
+            double low = rows_[own[0] * d + k];
             double high = low;
-            for (const std::uint32_t i : order) {
-                low = std::min(low, rows[i * d + k]);
-                high = std::max(high, rows[i * d + k]);
+            for (const std::uint32_t i : own) {
+                low = std::min(low, rows_[i * d + k]);
+                high = std::max(high, rows_[i * d + k]);
             }
             if (high - low > widest) axis = k;
             widest = std::max(widest, high - low);
@@ -126,59 +124,33 @@ class KdTree::Builder {
         return axis;
     }
 
-    /// Parts a node's points of `order`, which begins with the tree's `offset`-th, into halves.
-    void split(std::span<const double> rows, std::span<std::uint32_t> order, std::size_t node,
-               std::size_t offset) {
+    /// Parts a node's points into halves.
+    void split(std::size_t node) {
         const auto [first, last] = tree_.range_of(node);
         const std::size_t middle = tree_.range_of(2 * node).last;
-        const auto own = order.subspan(first - offset, last - first);
-        const std::size_t axis = widest(rows, own);
-        const std::span<Key> keys(keys_.data() + first, own.size());
+        const auto own = std::span(order_).subspan(first, last - first);
+        const std::size_t axis = widest(own);
+        const auto keys = std::span(keys_).subspan(first, own.size());
         for (std::size_t i = 0; i < own.size(); ++i)
-            keys[i] = {rows[own[i] * tree_.dimension_ + axis], own[i]};
+            keys[i] = {rows_[own[i] * tree_.dimension_ + axis], own[i]};
         std::nth_element(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(middle - first),
                          keys.end());
         for (std::size_t i = 0; i < own.size(); ++i) own[i] = keys[i].index;
-    }
-
-    void build_subtree(std::span<std::uint32_t> order, std::size_t root) {
-        const std::size_t d = tree_.dimension_;
-        const auto [first, last] = tree_.range_of(root);
-        const auto own = order.subspan(first, last - first);
-        std::ranges::sort(own);  // so that local order is that of the set
-        std::vector<double> rows(own.size() * d);
-        for (std::size_t i = 0; i < own.size(); ++i)
-            std::copy_n(rows_.data() + own[i] * d, d, rows.data() + i * d);
-        std::vector<std::uint32_t> local(own.size());
-        std::iota(local.begin(), local.end(), 0U);
-        std::size_t width = 1;
-        for (std::size_t row = root; row < tree_.leaves_; row *= 2, width *= 2)
-            for (std::size_t i = 0; i < width; ++i) split(rows, local, row + i, first);
-        const std::size_t leaf = root * width;
-        for (std::size_t i = 0; i < width; ++i) {
-            const auto range = tree_.range_of(leaf + i);
-            std::sort(local.begin() + static_cast<std::ptrdiff_t>(range.first - first),
-                      local.begin() + static_cast<std::ptrdiff_t>(range.last - first));
-        }
-        for (std::size_t i = 0; i < own.size(); ++i) {
-            tree_.indices_[first + i] = own[local[i]];
-            std::copy_n(rows.data() + local[i] * d, d, tree_.rows_.data() + (first + i) * d);
-        }
-        for (std::size_t i = 0; i < width; ++i) close(leaf + i);
-        for (std::size_t row = leaf / 2; row >= root; row /= 2) {
-            width /= 2;
-            for (std::size_t i = 0; i < width; ++i) join(row + i);
-        }
     }
 
     [[nodiscard]] double* box_of(std::size_t node) {
         return tree_.boxes_.data() + node * 2 * tree_.dimension_;
     }
 
-    /// The box of a leaf, which is not empty.
-    void close(std::size_t leaf) {
+    /// The rows and the box of a leaf, which is not empty.
+    void fill(std::size_t leaf) {
         const std::size_t d = tree_.dimension_;
         const auto [first, last] = tree_.range_of(leaf);
+        std::ranges::sort(std::span(order_).subspan(first, last - first));
+        for (std::size_t i = first; i < last; ++i) {
+            tree_.indices_[i] = order_[i];
+            std::copy_n(rows_.data() + order_[i] * d, d, tree_.rows_.data() + i * d);
+        }
         std::copy_n(tree_.row(first), d, box_of(leaf));
         std::copy_n(tree_.row(first), d, box_of(leaf) + d);
         for (std::size_t i = first + 1; i < last; ++i)
@@ -196,6 +168,7 @@ class KdTree::Builder {
 
     KdTree& tree_;
     std::span<const double> rows_;
+    std::vector<std::uint32_t> order_;  ///< the points, node after node
     std::vector<Key> keys_;
 };
 

@@ -1,5 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "analyzers/discrepancy/extreme/star_bound.hpp"
+//
+// Upper bounds of the extreme and the periodic discrepancy from the star discrepancy D*: a box is
+// the sum and difference of up to 2^d anchored ones, and on the torus of 3^d - 1 (an interval is
+// one from 0 less another; if it wraps, the whole axis is added, and the whole space has no
+// discrepancy).
+
+#include "analyzers/discrepancy/extreme/search.hpp"
 
 #include <algorithm>
 #include <cmath>

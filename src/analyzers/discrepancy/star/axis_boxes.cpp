@@ -1,5 +1,22 @@
 // SPDX-License-Identifier: MIT
-#include "analyzers/discrepancy/star/axis_boxes.hpp"
+//
+// What the axes tell one by one. Boxes that are whole on all axes but one give a worst box to
+// begin with, and bad ones to report when there is no time for more. An upper bound: let E_k
+// bound the discrepancy of the points' coordinates on axis k, of d. A box has sides v_k and the
+// volume v, their product. It has no more points than any box with one of its sides, and lacks no
+// more than all of these do together:
+//
+//     #/n <= min_k (v_k + E_k),          min_k v_k = p   =>  v >= p^d,
+//     #/n >= 1 - sum_k (1 - v_k + E_k),  mean_k v_k = s  =>  v <= s^d.
+//
+// So #/n - v is at most the maximum of p - p^d over p, and the largest E_k; v - #/n is at most the
+// maximum of s^d - max(0, 1 - d (1 - s)) over s, and the sum of all E_k:
+//
+//     D <= max( (1 - 1/d) d^(-1/(d - 1)) + max_k E_k,  (1 - 1/d)^d + sum_k E_k ).
+//
+// Cost    O(n d).
+
+#include "analyzers/discrepancy/star/bounds.hpp"
 
 #include <algorithm>
 #include <cmath>

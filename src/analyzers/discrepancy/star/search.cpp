@@ -13,10 +13,8 @@
 #include <utility>
 
 #include "analyzers/discrepancy/coordinate_ascent.hpp"
-#include "analyzers/discrepancy/star/axis_boxes.hpp"
+#include "analyzers/discrepancy/star/bounds.hpp"
 #include "analyzers/discrepancy/star/cell.hpp"
-#include "analyzers/discrepancy/star/cover.hpp"
-#include "analyzers/discrepancy/star/net.hpp"
 #include "core/parallel.hpp"
 
 namespace stipple::discrepancy::star {

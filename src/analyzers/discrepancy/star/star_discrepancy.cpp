@@ -46,7 +46,6 @@
 
 #include "analyzers/analyzer.hpp"
 #include "analyzers/discrepancy/extreme/search.hpp"
-#include "analyzers/discrepancy/extreme/star_bound.hpp"
 #include "analyzers/discrepancy/search_limits.hpp"
 #include "analyzers/discrepancy/star/search.hpp"
 #include "analyzers/discrepancy/star/sweep.hpp"
@@ -87,8 +86,8 @@ struct Found {
 Report report(const Found& found, Family family) {
     const auto& [worst, upper, ending] = found.result;
     Report box;
-    if (family >= Family::cube) box.add("lower_corner", worst.lower_corner());
-    box.add("corner", worst.upper_corner());
+    if (family >= Family::cube) box.add("lower_corner", worst.corner(&Interval::lower));
+    box.add("corner", worst.corner(&Interval::upper));
     box.add("closed", worst.closed());
     box.add("points", worst.points());
     box.add("volume", worst.volume());

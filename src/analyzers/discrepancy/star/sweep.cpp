@@ -4,7 +4,7 @@
 #include <array>
 #include <mutex>
 
-#include "analyzers/discrepancy/star/axis_boxes.hpp"
+#include "analyzers/discrepancy/star/bounds.hpp"
 #include "analyzers/discrepancy/star/strips.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"

@@ -2,7 +2,6 @@
 #include "analyzers/discrepancy/star/tables.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <mutex>
 
@@ -38,26 +37,6 @@ struct Columns {
     Report::Curve upper;
 };
 
-/// The limits of a table, shared out among its sets.
-class Shares {
-  public:
-    Shares(const Limits& all, double weight) : all_(all), weight_(weight), left_(weight) {}
-
-    /// For a set that begins, of so many that are measured at a time.
-    Limits next(double weight, double together, const RunContext& run) {
-        const std::lock_guard lock(mutex_);
-        const double of_time = std::min(1.0, together * weight / left_);
-        left_ = std::max(left_ - weight, weight_ * 1e-12);
-        return all_.part(weight / weight_, of_time, run);
-    }
-
-  private:
-    const Limits& all_;
-    double weight_;
-    double left_;  ///< weight of sets that have not begun
-    std::mutex mutex_;
-};
-
 /// What is certain of any n points, of any kind of discrepancy: that of the coordinates on an axis
 /// is at least 1/(2n).
 Report least_known(std::size_t count) {
@@ -72,15 +51,20 @@ class Table {
   public:
     Table(std::size_t rows, double weight, const Limits& limits, const Measure& measure,
           const RunContext& run)
-        : columns(rows), rows_(rows), measure_(measure), run_(run), shares_(limits, weight) {}
+        : columns(rows),
+          rows_(rows),
+          limits_(limits),
+          weight_(weight),
+          left_(weight),
+          measure_(measure),
+          run_(run) {}
 
     /// One of `together` that are measured at a time, each on so many threads.
     void fill(std::size_t row, const PointSet& points, double weight, double together) {
         RunContext mine = together > 1 ? run_ : progress_of(points.count());
         if (together > 1) mine.progress = {}, mine.threads = 1;
         mine.warn = {};  // bounds are told of once for the table
-        const Limits limits = shares_.next(weight, together, run_);
-        const bool first = !begun_.exchange(true);
+        const auto [limits, first] = next_limits(weight, together);
         const bool skip = !first && !limits.exact && limits.search.late(run_);
         Report found;
         try {
@@ -111,6 +95,15 @@ class Table {
     Columns columns;
 
   private:
+    /// For a set that begins, of so many that are measured at a time; and whether it is the first.
+    std::pair<Limits, bool> next_limits(double weight, double together) {
+        const std::lock_guard lock(counting_);
+        const bool first = left_ == weight_;
+        const double of_time = std::min(1.0, together * weight / left_);
+        left_ = std::max(left_ - weight, weight_ * 1e-12);
+        return {limits_.part(weight / weight_, of_time, run_), first};
+    }
+
     /// A run for the next row, alone: its progress is that row's part of the table's, and says what
     /// is certain of the set of so many points.
     [[nodiscard]] RunContext progress_of(std::size_t count) const {
@@ -125,10 +118,11 @@ class Table {
     }
 
     std::size_t rows_;
+    const Limits& limits_;
+    double weight_;
+    double left_;  ///< weight of sets that have not begun
     const Measure& measure_;
     const RunContext& run_;
-    Shares shares_;
-    std::atomic<bool> begun_ = false;
     std::size_t done_ = 0;
     std::mutex counting_;
 };

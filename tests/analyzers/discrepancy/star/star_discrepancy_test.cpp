@@ -11,9 +11,7 @@
 #include <thread>
 
 #include "analyzers/discrepancy/coordinate_ascent.hpp"
-#include "analyzers/discrepancy/star/axis_boxes.hpp"
-#include "analyzers/discrepancy/star/cover.hpp"
-#include "analyzers/discrepancy/star/net.hpp"
+#include "analyzers/discrepancy/star/bounds.hpp"
 #include "analyzers/discrepancy/star/search.hpp"
 #include "analyzers/discrepancy/star/strips.hpp"
 #include "analyzers/discrepancy/star/sweep.hpp"
@@ -811,7 +809,7 @@ TEST(StarDiscrepancy, SaysSomethingCertainWhenStoppedAtOnce) {
     EXPECT_GE(found.upper, star_of(p));
     EXPECT_LE(found.worst.value(), star_of(p));
     EXPECT_GE(found.worst.value(), 0.5 / 500);
-    EXPECT_EQ(WorstBox(corners).upper_corner(), std::vector<double>(5, 1.0));
+    EXPECT_EQ(WorstBox(corners).corner(&Interval::upper), std::vector<double>(5, 1.0));
     EXPECT_EQ(WorstBox(corners).points(), 500U);
     const Report table = analyze("star-discrepancy", p, {{"every", "100"}}, run);
     for (std::size_t row = 0; row < 5; ++row) {
