@@ -145,32 +145,6 @@ std::string long_time(double seconds) {
     return fmt::format("{:.0f} years", seconds / 31'557'600);
 }
 
-/// Failed measurements, summarised in a sentence.
-class Failures {
-  public:
-    void add(const StudyRow& row) {
-        ++units_;
-        limits_ += row.reason.starts_with("limit") || row.reason.starts_with("time limit");
-        if (units_ == 1) first_ = row;
-    }
-
-    /// 5 where a limit was met, 3 for other failures, 0 for none.
-    [[nodiscard]] int code() const { return limits_ > 0 ? 5 : units_ > 0 ? 3 : 0; }
-
-    [[nodiscard]] std::string sentence(std::uint64_t all) const {
-        return fmt::format(
-            "{} of {} measurements failed, their rows say why; the first: {} with "
-            "{} points, seed {}, {}: {}",
-            units_, all, first_.generator, first_.count, first_.seed, first_.measure,
-            first_.reason);
-    }
-
-  private:
-    std::uint64_t units_ = 0;
-    std::uint64_t limits_ = 0;
-    StudyRow first_;
-};
-
 class Study {
   public:
     Study(const Arguments& arguments, Session& session, Ranks& ranks)
@@ -204,7 +178,7 @@ class Study {
                                        : arguments_.has("overwrite") ? StudyFile::Start::anew
                                                                      : StudyFile::Start::fresh;
         const auto listen = [this](const StudyRow& row) {
-            if (row.failed()) failures_.add(row);
+            if (row.failed()) add_failure(row);
             if (summarized_) summary_.add(row);
         };
         const UnitRunner runner(sweep_, table_, run.max_memory);
@@ -223,8 +197,18 @@ class Study {
                 fmt::format("what is done is in {0} and {0}.journal; --resume goes on", path_),
                 "interrupted");
         }
-        if (failures_.code() != 0) session_.warn(failures_.sentence(sweep_.units()));
-        return failures_.code();
+        if (failed_ == 0) return 0;
+        session_.warn(fmt::format(
+            "{} of {} measurements failed, their rows say why; the first: {} with {} points, seed "
+            "{}, {}: {}",
+            failed_, sweep_.units(), first_failed_.generator, first_failed_.count,
+            first_failed_.seed, first_failed_.measure, first_failed_.reason));
+        return met_limit_ ? 5 : 3;
+    }
+
+    void add_failure(const StudyRow& row) {
+        if (failed_++ == 0) first_failed_ = row;
+        met_limit_ |= row.reason.starts_with("limit") || row.reason.starts_with("time limit");
     }
 
     void finish(StudyFile& file) const {
@@ -286,7 +270,9 @@ class Study {
     SummaryOptions summary_options_;
     bool summarized_;
     bool began_ = false;
-    Failures failures_;
+    std::uint64_t failed_ = 0;  ///< measurements
+    StudyRow first_failed_;
+    bool met_limit_ = false;  ///< one of them
     StudySummary summary_;
 };
 

@@ -122,31 +122,19 @@ bool write_points(const SetsToWrite& job, std::size_t first, std::size_t last,
     return true;
 }
 
-/// What comes with sets [first, last), written but not yet in its place.
-std::list<io::Output> side_files(const SetsToWrite& job, std::size_t first, std::size_t last,
-                                 const RunContext& run) {
-    std::list<io::Output> outputs;
-    for (std::size_t set = first; set < last && job.side_files; ++set)
-        for (const SideFile& file : job.side_files(set))
-            outputs.emplace_back(file.path, run.stop).write(file.bytes);
-    return outputs;
-}
-
-/// Provenance in a file beside the points, where the format has no place for it.
-void put_meta_beside(const SetsToWrite& job, std::size_t first, std::size_t last,
-                     const std::string& path, const Target& target, const RunContext& run,
-                     std::list<io::Output>& outputs) {
-    if (!target.meta || !target.format->traits.meta_beside || target.sink) return;
+/// Provenance for a file beside the points, where the format has no place for it; else nothing.
+std::string meta_beside(const SetsToWrite& job, std::size_t first, std::size_t last,
+                        const std::string& path, const Target& target, const RunContext& run) {
+    if (!target.meta || !target.format->traits.meta_beside || target.sink) return {};
     if (path == "-" || path.starts_with("/dev/")) {
         run.tell(fmt::format("--meta: {} has no place for provenance, and {} none beside it",
                              target.format->name, path == "-" ? "standard output" : path));
-        return;
+        return {};
     }
     const Layout layout = layout_of(job, first, last, target);
-    outputs.emplace_back(io::meta_path(path), run.stop)
-        .write(io::to_text(
-                   {target.format->name, layout.width(), layout.counts.size(), layout.provenance}) +
-               "\n");
+    return io::to_text(
+               {target.format->name, layout.width(), layout.counts.size(), layout.provenance}) +
+           "\n";
 }
 
 /// @throws Error(usage) where two sets would be one file
@@ -170,8 +158,14 @@ std::vector<std::string> paths_of_sets(const SetsToWrite& job, const Target& tar
 /// has seen enough of the points, but did not say so of the other files.
 bool write_file(const SetsToWrite& job, std::size_t first, std::size_t last,
                 const std::string& path, const Target& target, const RunContext& run) {
-    auto beside = side_files(job, first, last, run);
-    put_meta_beside(job, first, last, path, target, run, beside);
+    std::list<io::Output> beside;
+    const auto put = [&](const std::string& name, const std::string& bytes) {
+        beside.emplace_back(name, run.stop).write(bytes);
+    };
+    for (std::size_t set = first; set < last && job.side_files; ++set)
+        for (const SideFile& file : job.side_files(set)) put(file.path, file.bytes);
+    if (const auto meta = meta_beside(job, first, last, path, target, run); !meta.empty())
+        put(io::meta_path(path), meta);
     const bool whole = write_points(job, first, last, path, target, run);
     for (io::Output& file : beside) file.commit();
     return whole;

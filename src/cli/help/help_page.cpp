@@ -15,27 +15,16 @@ namespace {
 
 /// A text as roff takes it: backslashes and dashes as they stand, no line taken for a request.
 std::string escaped(std::string_view text) {
-    std::string out;
-    bool line_begins = true;
-    for (const char c : text) {
-        if (line_begins && (c == '.' || c == '\'')) out += "\\&";
-        line_begins = c == '\n';
-        if (c == '\\')
-            out += "\\e";
-        else if (c == '-')
-            out += "\\-";
-        else if (c == '\'')
-            out += "\\(aq";
-        else if (c == '`')
-            out += "\\(ga";
-        else if (c == '^')
-            out += "\\(ha";
-        else if (c == '~')
-            out += "\\(ti";
-        else
-            out += c;
-    }
-    return out;
+    std::string out(text);
+    for (const auto& [plain, roff] : {std::pair{"\\", "\\e"},
+                                      {"-", "\\-"},
+                                      {"'", "\\(aq"},
+                                      {"`", "\\(ga"},
+                                      {"^", "\\(ha"},
+                                      {"~", "\\(ti"},
+                                      {"\n.", "\n\\&."}})
+        replace_all(out, plain, roff);
+    return out.starts_with('.') ? "\\&" + out : out;
 }
 
 std::string upper(std::string text) {
