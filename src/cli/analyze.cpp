@@ -48,8 +48,11 @@ Check check_of(const std::string& text, const Analyzer& analyzer) {
         analyzer.name);
 }
 
-/// @throws Error(usage) for a domain that the analyzer would not heed.
+/// @throws Error(usage) for a domain that is given twice, or that the analyzer would not heed.
 void check_domain(const Arguments& arguments, const Analyzer& analyzer) {
+    for (const char* other : {"rescale", "domain"})
+        if (arguments.has("bounds") && arguments.has(other))
+            fail(ErrorKind::usage, "--bounds and --{}: give one of them", other);
     const auto named = arguments.get("domain");
     const bool moved = arguments.has("bounds") || arguments.has("rescale");
     if (!named || *named == "unit-cube" || moved || !analyzer.traits.unit_cube) return;
@@ -125,7 +128,6 @@ class Analysis {
     }
 
     int go() {
-        check_bounds(arguments_);
         check_domain(arguments_, analyzer_);
         check_side_files(options_, path_);
         if (ranks_.size() > 1)

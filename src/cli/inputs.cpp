@@ -182,12 +182,6 @@ void require_width(const PointSet& points, const std::string& input) {
                  format_number(box.low[k]), format_number(box.high[k]));
 }
 
-void check_bounds(const Arguments& arguments) {
-    for (const char* other : {"rescale", "domain"})
-        if (arguments.has("bounds") && arguments.has(other))
-            fail(ErrorKind::usage, "--bounds and --{}: give one of them", other);
-}
-
 PointSet of_the_cube(PointSet points, const Analyzer& analyzer) {
     const std::string domain = points.domain->spec();
     const auto outside = [](double x) { return !(x >= 0 && x <= 1); };
@@ -203,7 +197,6 @@ PointSet of_the_cube(PointSet points, const Analyzer& analyzer) {
 }
 
 PointSet prepared(PointSet points, const Analyzer& analyzer, const Arguments& arguments) {
-    check_bounds(arguments);
     take_domain(points, arguments);
     if (const auto bounds = arguments.get("bounds")) {
         const Box box = parse_box(*bounds, points.dimension());

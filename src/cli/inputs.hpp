@@ -72,9 +72,6 @@ void take_domain(PointSet& set, const Arguments& arguments);
 /// @param input names them in the message; empty: the caller does
 void require_width(const PointSet& points, const std::string& input = {});
 
-/// @throws Error(usage) where --bounds stands beside what says the same in another way
-void check_bounds(const Arguments& arguments);
-
 /// Points of another domain may lie in the cube and be no sample of it.
 /// @throws Error(input) where the set says that it has another domain.
 PointSet of_the_cube(PointSet points, const Analyzer& analyzer);

@@ -302,8 +302,8 @@ std::vector<PointSet> PointStream::read_all(const RunContext& run) {
             if (got < more) break;
         }
         sets.emplace_back(std::move(rows), d);
-        sets.back().provenance = provenance();
     }
+    tell_origin(sets, provenance());
     return sets;
 }
 

@@ -106,6 +106,17 @@ TEST_F(PointStreams, PickColumns) {
     expect_same(file("a.npy", 300'000), {.columns = {"2"}});
 }
 
+TEST_F(PointStreams, SetsOfAGeneratorHaveOneSeedAfterTheOther) {
+    const auto at = path("seeds.txt");
+    std::string text = "# tool: \"stipple\"\n# generator: \"random\"\n# seed: 5\n";
+    for (int i = 0; i < 900'000; ++i) text += i == 500'000 ? "#\n" : "0.5 0.5\n";
+    append(at, text);
+    const auto sets = io::open_points(at, {}, {})->read_all({});
+    ASSERT_EQ(sets.size(), 2U);
+    EXPECT_EQ(sets[0].provenance.seed, 5U);
+    EXPECT_EQ(sets[1].provenance.seed, 6U);
+}
+
 TEST_F(PointStreams, SayWhatIsWrongAsForTheWhole) {
     const auto wrong = [&](const char* name, std::uint64_t n, const std::string& more) {
         const auto at = file(name, n);

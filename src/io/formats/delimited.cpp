@@ -107,9 +107,11 @@ class RowReader {
     RowReader(const SourceText& text, const Columns& columns, const Dialect& dialect)
         : text_(text), columns_(columns), dialect_(dialect) {}
 
-    /// The fewest bytes that a row takes, with its line's end.
-    [[nodiscard]] std::uint64_t least_bytes() const {
-        return columns_.width() + columns_.dimension;
+    /// Rows that the lines in [p, last) hold at most.
+    [[nodiscard]] std::uint64_t most_rows(const char* p, const char* last) const {
+        const auto lines = 1 + static_cast<std::uint64_t>(std::count(p, last, text_.newline()));
+        const std::uint64_t least_bytes = columns_.width() + columns_.dimension;  // of a row
+        return std::min(lines, 1 + static_cast<std::uint64_t>(last - p) / least_bytes);
     }
 
     /// Reads the lines in [p, last), at most as many rows as fit `room`; returns their number.
@@ -266,30 +268,21 @@ struct Piece {
 /// Cuts [body, end) at the first line start of each block.
 std::vector<Piece> cut_at_lines(const SourceText& text, const char* body, const RowReader& reader,
                                 const RunContext& run) {
+    const auto line_from = [&](std::uint64_t byte) {
+        if (byte == 0) return body;
+        const char* const end = std::find(body + byte - 1, text.end(), text.newline());
+        return end == text.end() ? end : end + 1;
+    };
     const auto size = static_cast<std::uint64_t>(text.end() - body);
     std::vector<Piece> pieces(block_count(size, block_bytes));
     for_each_block(silent(run), size, block_bytes, [&](const Block& block) {
         Piece& piece = pieces[block.index];
-        const char* const last = body + block.last;
-        // A line that starts with the block ends just before it.
-        const char* first = body;
-        if (block.first != 0) {
-            first = std::find(body + block.first - 1, last - 1, text.newline()) + 1;
-            if (first == last) return;
-        }
-        piece.first = first;
-        piece.room = 1 + static_cast<std::uint64_t>(std::count(piece.first, last, text.newline()));
+        piece.first = line_from(block.first);
+        piece.last = line_from(block.last);
+        piece.room = reader.most_rows(piece.first, piece.last);
     });
-    std::erase_if(pieces, [](const Piece& piece) { return piece.first == nullptr; });
-    std::uint64_t begin = 0;
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-        Piece& piece = pieces[i];
-        piece.last = i + 1 < pieces.size() ? pieces[i + 1].first : text.end();
-        const auto bytes = static_cast<std::uint64_t>(piece.last - piece.first);
-        piece.room = std::min(piece.room, bytes / reader.least_bytes() + 1);
-        piece.begin = begin;
-        begin += piece.room;
-    }
+    for (std::size_t i = 1; i < pieces.size(); ++i)
+        pieces[i].begin = pieces[i - 1].begin + pieces[i - 1].room;
     return pieces;
 }
 

@@ -69,16 +69,16 @@ class Reader {
         skip_blanks();
         if (p_ != last_)
             text_.refuse(p_, shown(word()) + " follows the points; expected the end of the file");
-        if (starts_.empty())
+        if (starts.empty())
             text_.refuse_whole(
                 "the object has neither \"points\" nor \"sets\"; expected "
                 "\"points\":[[0.1,0.2],...]");
     }
 
     JsonHead head;
-    [[nodiscard]] std::size_t width() const { return width_; }
-    [[nodiscard]] const std::vector<std::uint64_t>& starts() const { return starts_; }
-    std::vector<double> take_numbers() { return std::move(numbers_); }
+    std::size_t width = 0;
+    std::vector<double> numbers;
+    std::vector<std::uint64_t> starts;
 
   private:
     void skip_blanks() {
@@ -133,7 +133,7 @@ class Reader {
             expect(':', "':'");
             skip_blanks();
             if (key == "points" || key == "sets") {
-                if (!starts_.empty())
+                if (!starts.empty())
                     text_.refuse(p_, "points for a second time; expected them once");
                 key == "points" ? read_points() : read_sets();
             } else {
@@ -186,7 +186,7 @@ class Reader {
     void read_points() {
         expect('[', "a list of points such as [[0.1,0.2],...]");
         const char* const begin = p_;
-        starts_.push_back(width_ == 0 ? 0 : numbers_.size() / width_);
+        starts.push_back(width == 0 ? 0 : numbers.size() / width);
         if (accept(']')) text_.refuse(begin, "a set without points; expected [0.1,0.2],...");
         std::size_t count = 0;
         do {
@@ -199,23 +199,23 @@ class Reader {
     void read_point() {
         expect('[', "a point such as [0.1,0.2]");
         const char* const begin = p_ - 1;
-        const std::size_t size = numbers_.size();
-        do numbers_.push_back(read_coordinate());
+        const std::size_t size = numbers.size();
+        do numbers.push_back(read_coordinate());
         while (accept(','));
         expect(']', "',' or ']'");
-        const std::size_t found = numbers_.size() - size;
-        if (width_ == 0) {
-            width_ = found;
+        const std::size_t found = numbers.size() - size;
+        if (width == 0) {
+            width = found;
             // A first row as long as the others makes this the only allocation.
             const auto rows = (last_ - begin) / std::max<std::ptrdiff_t>(p_ - begin, 1) + 1;
-            const std::size_t numbers = static_cast<std::size_t>(rows) * width_;
-            run_.need_memory(8 * static_cast<double>(numbers), "reading " + text_.source());
-            numbers_.reserve(numbers);
+            const std::size_t room = static_cast<std::size_t>(rows) * width;
+            run_.need_memory(8 * static_cast<double>(room), "reading " + text_.source());
+            numbers.reserve(room);
         }
-        if (found != width_)
+        if (found != width)
             text_.refuse(begin, fmt::format("the point has {} coordinate{}; expected {}, as the "
                                             "first has",
-                                            found, found == 1 ? "" : "s", width_));
+                                            found, found == 1 ? "" : "s", width));
     }
 
     double read_coordinate() {
@@ -237,9 +237,6 @@ class Reader {
     const RunContext& run_;
     const char* p_;
     const char* last_;
-    std::size_t width_ = 0;
-    std::vector<double> numbers_;
-    std::vector<std::uint64_t> starts_;
 };
 
 std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
@@ -247,10 +244,10 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
     const SourceText text(bytes, options.source);
     Reader reader(text, run);
     reader.read();
-    const Columns columns = json_columns(text, reader.head, reader.width(), options);
-    std::vector<double> numbers = keep_coordinates(reader.take_numbers(), columns);
+    const Columns columns = json_columns(text, reader.head, reader.width, options);
+    std::vector<double> numbers = keep_coordinates(std::move(reader.numbers), columns);
     std::vector<PointSet> sets =
-        cut_sets(std::move(numbers), columns.dimension, reader.starts(), reader.head.provenance);
+        cut_sets(std::move(numbers), columns.dimension, reader.starts, reader.head.provenance);
     std::vector<std::uint64_t> counts;
     for (const PointSet& set : sets) counts.push_back(set.count());
     check_counts(text, reader.head, counts);
