@@ -459,17 +459,14 @@ class Analysis {
         return picture;
     }
 
-    /// What averaged sets disagree on is not in their mean, and holds for none of it.
-    bool disagreed(const Check& check, const Report& results) const {
-        return averaged_ && !results.find(check.key) && find_result(analyzer_, check.key);
-    }
-
-    bool holds(const Check& check, const Report& results) const {
-        return !disagreed(check, results) && check.holds(results);
-    }
-
-    std::string found(const Check& check, const Report& results) const {
-        return disagreed(check, results) ? "not the same for all sets" : check.found(results);
+    /// What is found where a check does not hold; nothing where it does.
+    [[nodiscard]] std::optional<std::string> broken(const Check& check,
+                                                    const Report& results) const {
+        // What averaged sets disagree on is not in their mean, and holds for none of it.
+        if (averaged_ && !results.find(check.key) && find_result(analyzer_, check.key))
+            return "not the same for all sets";
+        if (check.holds(results)) return std::nullopt;
+        return check.found(results);
     }
 
     /// Whether all checks and expectations hold; says which do not.
@@ -478,10 +475,9 @@ class Analysis {
             for (const auto& sentence : m.results.unmet())
                 unmet_.push_back(fmt::format("{}: {}", m.source, sentence));
             for (const Check& check : checks_)
-                if (!holds(check, m.results))
+                if (const auto found = broken(check, m.results))
                     unmet_.push_back(fmt::format("{}: {}{}{} does not hold: it is {}", m.source,
-                                                 check.key, check.op, check.value,
-                                                 found(check, m.results)));
+                                                 check.key, check.op, check.value, *found));
         }
         for (const auto& sentence : unmet_) say(fmt::format("stipple: {}\n", sentence));
         return unmet_.empty();

@@ -41,11 +41,32 @@ void place_moments(const Moments& part, std::span<const std::size_t> at, Moments
     }
 }
 
-/// The unit cube, or another box.
+class UnitCube final : public Domain {
+  public:
+    explicit UnitCube(std::size_t dimension) : dimension_(dimension) {}
+    std::string spec() const override { return "unit-cube"; }
+    std::size_t dimension() const override { return dimension_; }
+    double measure() const override { return 1; }
+    bool contains(std::span<const double> point) const override {
+        return std::ranges::all_of(point, [](double x) { return x >= 0 && x <= 1; });
+    }
+    Box bounding_box() const override {
+        return {std::vector<double>(dimension_, 0), std::vector<double>(dimension_, 1)};
+    }
+    void to_cube(std::span<const double> point, std::span<double> cube) const override {
+        std::ranges::copy(point, cube.begin());
+    }
+    std::optional<Moments> moments() const override { return moments_of(bounding_box()); }
+    std::vector<std::string> cube_axes() const override { return axis_names(dimension_); }
+
+  private:
+    std::size_t dimension_;
+};
+
 class BoxDomain final : public Domain, public Weighable {
   public:
-    BoxDomain(std::string spec, Box box) : spec_(std::move(spec)), box_(std::move(box)) {}
-    std::string spec() const override { return spec_; }
+    explicit BoxDomain(Box box) : box_(std::move(box)) {}
+    std::string spec() const override { return "box:bounds=[" + format_box(box_) + "]"; }
     std::size_t dimension() const override { return box_.dimension(); }
     double measure() const override {
         double volume = 1;
@@ -67,7 +88,6 @@ class BoxDomain final : public Domain, public Weighable {
     std::vector<std::string> cube_axes() const override { return axis_names(dimension()); }
 
   private:
-    std::string spec_;
     Box box_;
 };
 
@@ -213,14 +233,8 @@ Estimate box_mass_by_axes(const Domain& domain, const Box& box) {
     return domain.probability(cell);
 }
 
-DomainPtr unit_cube(std::size_t dimension) {
-    return std::make_shared<BoxDomain>(
-        "unit-cube", Box{std::vector<double>(dimension, 0), std::vector<double>(dimension, 1)});
-}
-DomainPtr box_domain(Box box) {
-    std::string spec = "box:bounds=[" + format_box(box) + "]";
-    return std::make_shared<BoxDomain>(std::move(spec), std::move(box));
-}
+DomainPtr unit_cube(std::size_t dimension) { return std::make_shared<UnitCube>(dimension); }
+DomainPtr box_domain(Box box) { return std::make_shared<BoxDomain>(std::move(box)); }
 DomainPtr product_domain(std::vector<Factor> factors) {
     return std::make_shared<ProductDomain>(std::move(factors));
 }
