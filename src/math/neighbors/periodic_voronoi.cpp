@@ -14,6 +14,16 @@ double cross(const Vec2& a, const Vec2& b) { return a.x * b.y - a.y * b.x; }
 /// Distance of x from the stretch [low, low + size].
 double gap(double x, double low, double size) { return std::max({low - x, x - (low + size), 0.0}); }
 
+/// Whether b is not, but for rounding, outside the line from a to next.
+bool is_hidden(const Vec2& a, const Vec2& b, const Vec2& next) {
+    constexpr double ulps = 0x1p-50;
+    const Vec2 to{b.x - a.x, b.y - a.y};
+    const Vec2 on{next.x - b.x, next.y - b.y};
+    const auto size = [](const Vec2& v) { return std::abs(v.x) + std::abs(v.y); };
+    const double rounding = (size(a) + size(b)) * size(on) + size(to) * (size(b) + size(next));
+    return cross(to, on) <= ulps * rounding;
+}
+
 }  // namespace
 
 Vec2 VoronoiCell::farthest_corner() const {
@@ -80,6 +90,48 @@ void VoronoiCell::cut(const Vec2& neighbor, double bound, std::uint32_t site) {
     spare_.push_back({crossing(before(first), first), neighbor, site});
     spare_.push_back({crossing(after(last), last), corners_[last].neighbor, corners_[last].site});
     corners_.swap(spare_);
+    measure_reach();
+}
+
+/// By the dual: the plane x . v <= |v|^2 / 2 stands for the point 2 v / |v|^2, and those whose edges
+/// are the cell's are the corners of these points' convex hull, around the origin.
+void VoronoiCell::enclose(std::vector<CellCorner>& planes) {
+    for (CellCorner& plane : planes) {
+        const double half = dot(plane.neighbor, plane.neighbor) / 2;
+        plane.at = {plane.neighbor.x / half, plane.neighbor.y / half};
+    }
+    const auto lower = [](const Vec2& v) { return v.y < 0 || (v.y == 0 && v.x < 0); };
+    std::ranges::sort(planes, [&](const CellCorner& a, const CellCorner& b) {
+        if (lower(a.at) != lower(b.at)) return lower(b.at);
+        return cross(a.at, b.at) > 0;
+    });
+    // The nearest plane is sure to have an edge.
+    const auto nearest = std::ranges::max_element(
+        planes, {}, [](const CellCorner& plane) { return dot(plane.at, plane.at); });
+    std::ranges::rotate(planes, nearest);
+    spare_.clear();
+    const auto drop_hidden_before = [&](const Vec2& next) {
+        while (spare_.size() > 1 && is_hidden(spare_[spare_.size() - 2].at, spare_.back().at, next))
+            spare_.pop_back();
+    };
+    for (const CellCorner& plane : planes) {
+        drop_hidden_before(plane.at);
+        spare_.push_back(plane);
+    }
+    drop_hidden_before(planes.front().at);
+    corners_.clear();
+    for (std::size_t k = 0; k < spare_.size(); ++k) {
+        const Vec2& a = spare_[k > 0 ? k - 1 : spare_.size() - 1].at;
+        const Vec2& b = spare_[k].at;
+        // On the one plane, whatever the rounding of where the other meets it.
+        const Vec2 to{b.x - a.x, b.y - a.y};
+        const bool alike = dot(to, to) < dot(b, b);  // then their difference has more digits
+        const double along = -dot(a, to) / cross(a, alike ? to : b);
+        const double squared = dot(a, a);
+        corners_.push_back({{(a.x - along * a.y) / squared, (a.y + along * a.x) / squared},
+                            spare_[k].neighbor,
+                            spare_[k].site});
+    }
     measure_reach();
 }
 

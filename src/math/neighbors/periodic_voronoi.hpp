@@ -77,6 +77,10 @@ class VoronoiCell {
     /// Keeps the part with x . neighbor <= bound, whose new edge is towards `neighbor`.
     void cut(const Vec2& neighbor, double bound, std::uint32_t site);
 
+    /// Makes it what the planes x . neighbor <= |neighbor|^2 / 2 leave that lie around the site, of
+    /// which only `neighbor` and `site` are looked at. They may stand in any order.
+    void enclose(std::vector<CellCorner>& planes);
+
     void clear() {
         corners_.clear();
         squared_reach_ = 0;

@@ -28,56 +28,60 @@ std::vector<double> seen_from_corner(std::span<const double> rows, const Box& bo
     return seen;
 }
 
-/// Whether a place of the box may be nearer to a corner of the cell of `at` than that is.
-bool may_cut(const double* box, const Vec2& at, const VoronoiCell& cell) {
-    constexpr double slack = 1 - 1e-9;
-    for (const CellCorner& corner : cell.corners()) {
-        const double x = at.x + corner.at.x;
-        const double y = at.y + corner.at.y;
-        const double dx = std::max({box[0] - x, x - box[2], 0.0});
-        const double dy = std::max({box[1] - y, y - box[3], 0.0});
-        const double own = corner.at.x * corner.at.x + corner.at.y * corner.at.y;
-        if ((dx * dx + dy * dy) * slack < own) return true;
-    }
-    return false;
+/// Where copies of the square are: itself and, on the torus, those around.
+std::vector<Vec2> copies_of(const PlanarSites& sites) {
+    std::vector<Vec2> turns = {{0, 0}};
+    for (const double right : {-1.0, 0.0, 1.0})
+        for (const double up : {-1.0, 0.0, 1.0})
+            if (sites.torus && (right != 0 || up != 0))
+                turns.push_back({right * sites.sides.x, up * sites.sides.y});
+    return turns;
 }
 
 }  // namespace
 
-PlanarCells::PlanarCells(const PlanarSites& sites, const RunContext& run) : sites_(sites) {
-    if (sites.occupancy <= crowded_cell)
+PlanarCells::PlanarCells(const PlanarSites& sites, const RunContext& run)
+    : sites_(sites), turns_(copies_of(sites)) {
+    if (sites.occupancy <= crowded_cell) {
         grid_.emplace(sites.sides, sites.torus, sites.rows);
-    else
-        tree_.emplace(sites.rows, 2, std::vector<double>{}, run);
+        return;
+    }
+    run.need_memory(90 * static_cast<double>(turns_.size() * sites.count()),
+                    "the triangulation of crowded points");
+    std::vector<double> rows;
+    rows.reserve(2 * turns_.size() * sites.count());
+    for (const Vec2& turn : turns_)
+        for (std::size_t i = 0; i < sites.count(); ++i)
+            rows.insert(rows.end(), {sites.at(i).x + turn.x, sites.at(i).y + turn.y});
+    triangles_.emplace(rows, run);
 }
 
 void PlanarCells::cut(std::size_t i, VoronoiCell& cell, double needed) const {
     if (grid_) return grid_->cut_cell(i, cell, needed);
-    cut_by_tree(i, cell, needed);
+    cut_by_neighbors(i, cell);
 }
 
-/// On the torus by the copies of all sites, too, which are the sites as seen from a copy of the
-/// cell's own.
-void PlanarCells::cut_by_tree(std::size_t i, VoronoiCell& cell, double needed) const {
-    const auto [width, height] = sites_.sides;
-    const std::array all{0.0, 0.0, width, height};
+void PlanarCells::cut_by_neighbors(std::size_t i, VoronoiCell& cell) const {
     const Vec2 at = sites_.at(i);
     PeriodicVoronoi::start(sites_.sides, sites_.torus, at, static_cast<std::uint32_t>(i), cell);
-    constexpr std::array<int, 9> right = {0, 1, -1, 0, 0, 1, 1, -1, -1};
-    constexpr std::array<int, 9> up = {0, 0, 0, 1, -1, 1, -1, 1, -1};
-    for (std::size_t copy = 0; copy < (sites_.torus ? 9 : 1); ++copy) {
-        const Vec2 turn{right[copy] * width, up[copy] * height};
-        const std::array from{at.x - turn.x, at.y - turn.y};
-        const auto enter = [&](const double* box) {
-            return cell.squared_reach() >= needed && may_cut(box, {from[0], from[1]}, cell);
-        };
-        if (!enter(all.data())) continue;
-        tree_->walk(from.data(), enter, [&](std::size_t index, const double* row) {
-            const Vec2 seen{(row[0] - at.x) + turn.x, (row[1] - at.y) + turn.y};
-            const double bound = (seen.x * seen.x + seen.y * seen.y) / 2;
-            if (index != i) cell.cut(seen, bound, static_cast<std::uint32_t>(index));
+    std::vector<CellCorner> planes(cell.corners().begin(), cell.corners().end());
+    // Of a site on a wall, the wall's plane is taken to be a little beyond.
+    constexpr std::array<Vec2, 4> outward = {Vec2{0, -1}, Vec2{1, 0}, Vec2{0, 1}, Vec2{-1, 0}};
+    const double least = 1e-18 * (sites_.sides.x + sites_.sides.y);
+    for (std::size_t k = 0; k < planes.size(); ++k)
+        if (std::hypot(planes[k].neighbor.x, planes[k].neighbor.y) < least)
+            planes[k].neighbor = {least * outward[k].x, least * outward[k].y};
+    const std::size_t count = sites_.count();
+    // Rounding moves copies: what only some of them have for a neighbour counts.
+    for (std::size_t copy = 0; copy < turns_.size(); ++copy)
+        triangles_->for_neighbors(copy * count + i, [&](std::size_t neighbor) {
+            const Vec2 site = sites_.at(neighbor % count);
+            const Vec2& to = turns_[neighbor / count];
+            const Vec2 turn{to.x - turns_[copy].x, to.y - turns_[copy].y};
+            const Vec2 seen{(site.x - at.x) + turn.x, (site.y - at.y) + turn.y};
+            planes.push_back({{}, seen, static_cast<std::uint32_t>(neighbor % count)});
         });
-    }
+    cell.enclose(planes);
 }
 
 PlanarSites planar_sites(std::span<const double> rows, const Box& box, bool torus,
