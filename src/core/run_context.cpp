@@ -2,16 +2,56 @@
 #include "stipple/run.hpp"
 
 #include <algorithm>
+#include <atomic>
+#include <latch>
 #include <memory>
+#include <system_error>
 #include <thread>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
 
 namespace stipple {
+namespace {
+
+/// How many threads of those wanted may run, this one included, found by starting them all and
+/// letting each allocate: limits of address space and processes let fewer start, and then half of
+/// those leave room for the work.
+unsigned startable(unsigned wanted) {
+    std::latch leave(1);
+    std::vector<std::thread> started;
+    started.reserve(wanted - 1);
+    try {
+        while (started.size() + 1 < wanted)
+            started.emplace_back([&leave] {
+                ::operator delete(::operator new(64));  // the allocator reserves for each thread
+                leave.wait();
+            });
+    } catch (const std::system_error&) {
+        wanted = static_cast<unsigned>(1 + started.size() / 2);
+    }
+    leave.count_down();
+    for (std::thread& thread : started) thread.join();
+    return wanted;
+}
+
+/// The library that shares out work ends the program where a thread does not start.
+unsigned limited_by_system(unsigned wanted) {
+    static std::atomic<unsigned> tried = 1;
+    static std::atomic<unsigned> most = 1;
+    if (wanted > tried.load()) {
+        most = startable(wanted);
+        tried = wanted;
+    }
+    return std::min(wanted, most.load());
+}
+
+}  // namespace
 
 unsigned RunContext::thread_count() const {
-    return threads != 0 ? threads : std::max(1U, std::thread::hardware_concurrency());
+    return limited_by_system(threads != 0 ? threads
+                                          : std::max(1U, std::thread::hardware_concurrency()));
 }
 
 void RunContext::check_stop() const {

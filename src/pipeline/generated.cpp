@@ -58,7 +58,8 @@ bool in_batches(const NextRows& next, std::size_t batch, std::size_t width, cons
                 const std::function<bool(std::span<const double>)>& take) {
     std::vector<double> rows(batch * width);
     std::vector<double> ahead(rows.size());
-    const auto policy = run.thread_count() > 1 ? std::launch::async : std::launch::deferred;
+    const auto policy = run.thread_count() > 1 ? std::launch::async | std::launch::deferred
+                                               : std::launch::deferred;  // where none starts, too
     for (std::size_t count = next(rows); count > 0; rows.swap(ahead)) {
         run.check_stop();
         auto fetched = std::async(policy, [&] { return next(ahead); });
