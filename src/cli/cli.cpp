@@ -7,6 +7,7 @@
 #include <exception>
 #include <map>
 #include <new>
+#include <system_error>
 
 #include "cli/help/help.hpp"
 #include "cli/launched.hpp"
@@ -14,6 +15,7 @@
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "core/utf8.hpp"
 #include "io/files.hpp"
 
 namespace stipple::cli {
@@ -63,7 +65,7 @@ int dispatch(const Arguments& arguments, const std::vector<Kind>& kinds) {
 int report_error(std::string_view verb, const std::string& what, const std::string& hint,
                  int code) {
     if (is_mute(verb)) return code;
-    say(fmt::format("stipple: {}{}{}\n", what, hint.empty() ? "" : "; ", hint));
+    say(fmt::format("stipple: {}\n", printable(hint.empty() ? what : what + "; " + hint)));
     return code;
 }
 
@@ -112,6 +114,11 @@ int run_verb(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         return report_error(verb, "out of memory", "", exit_code(ErrorKind::limit));
     } catch (const std::exception& e) {
+        const auto* failed = dynamic_cast<const std::system_error*>(&e);
+        if (failed != nullptr && failed->code() == std::errc::resource_unavailable_try_again)
+            return report_error(verb, "a thread does not start",
+                                "limits (ulimit) may allow fewer: --threads",
+                                exit_code(ErrorKind::limit));
         return report_error(verb, fmt::format("internal error: {}", e.what()), "",
                             exit_code(ErrorKind::io));
     }

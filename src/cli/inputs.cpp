@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "core/utf8.hpp"
 #include "io/files.hpp"
 #include "io/source_text.hpp"
 #include "pipeline/chain.hpp"
@@ -76,7 +77,7 @@ DomainPtr input_domain(const Provenance& provenance, std::size_t dimension,
         return parse_domain(domain, dimension, run);
     } catch (const Error& e) {  // it is the file that is wrong, not the call
         if (e.kind() != ErrorKind::usage) throw;
-        throw Error(ErrorKind::input, fmt::format("its domain {}: {}", io::shown(domain), e.what()),
+        throw Error(ErrorKind::input, fmt::format("its domain {}: {}", shown(domain), e.what()),
                     e.hint());
     }
 }

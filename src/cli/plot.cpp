@@ -395,14 +395,13 @@ class Plot {
 
     /// With the command that draws this, less what cannot change it.
     [[nodiscard]] plot::PictureNotes notes_of() const {
-        nlohmann::ordered_json note = {{"tool", "stipple"},
+        Json note = {{"tool", "stipple"},
                                        {"version", STIPPLE_VERSION},
                                        {"command", "stipple plot" + command_text(arguments_)}};
         if (sets_.size() == 1 && !sets_[0].points.provenance.generator.empty())
             note["meta"] = io::to_json(sets_[0].points.provenance);
-        const auto replace = nlohmann::ordered_json::error_handler_t::replace;
         return {{"Software", fmt::format("stipple {}", STIPPLE_VERSION)},
-                {"stipple", note.dump(-1, ' ', false, replace)}};
+                {"stipple", json_text(note)}};
     }
 
     const Arguments& arguments_;

@@ -422,7 +422,7 @@ int say(const Original& original, const Verdict& verdict, const std::string& cha
         out["sentence"] = sentence;
         out.update(verdict.details);
         out["command"] = original.meta.command;
-        text = out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+        text = json_text(out, 2) + "\n";
     }
     // Where the points go to standard output, the verdict does not.
     if (arguments.get("output") == "-")

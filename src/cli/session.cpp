@@ -16,6 +16,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "core/utf8.hpp"
 
 namespace stipple::cli {
 namespace {
@@ -109,7 +110,7 @@ void ProgressBar::show(double fraction) {
                                  ? duration(elapsed * (1 - fraction) / fraction) + " left"
                                  : "";
     say(fmt::format("\r[{:#<{}}{:{}}] {:3.0f} %  {}\033[K", "", filled, "", width - filled,
-                    100 * fraction, left));
+                    100 * fraction, printable(left)));
 }
 
 void ProgressBar::clear() {
@@ -134,7 +135,7 @@ Session::Session(const Arguments& arguments)
 void Session::warn(const std::string& sentence) {
     if (quiet_) return;
     bar_.clear();
-    say(fmt::format("stipple: {}\n", sentence));
+    say(fmt::format("stipple: {}\n", printable(sentence)));
 }
 
 void say(const std::string& text) {

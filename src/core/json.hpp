@@ -4,10 +4,26 @@
 // <nlohmann/json.hpp>.
 #pragma once
 
+#include <cstddef>
+#include <exception>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <string_view>
 
 namespace stipple {
 
 using Json = nlohmann::ordered_json;
+
+/// The value as text, on one line unless indented; U+FFFD in place of bytes that are not UTF-8.
+std::string json_text(const Json& value, int indent = -1);
+
+/// Where a text is no JSON, in bytes from 0, and what is wrong there.
+struct JsonTrouble {
+    std::size_t at;
+    std::string what;
+};
+
+/// @param error what Json::parse(text) threw
+JsonTrouble json_trouble(const std::exception& error, std::string_view text);
 
 }  // namespace stipple

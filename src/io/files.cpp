@@ -14,6 +14,7 @@
 #include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "core/utf8.hpp"
 #include "io/feed.hpp"
 #include "io/source_text.hpp"
 

@@ -28,7 +28,7 @@ Json typed(const std::string& text) {
 std::string untyped(const Json& value) {
     if (value.is_string()) return value.get<std::string>();
     if (value.is_number_float()) return format_number(value.get<double>());
-    return value.dump();
+    return json_text(value);
 }
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;
@@ -120,8 +120,7 @@ std::string to_comment_lines(const Provenance& provenance, std::string_view begi
     const Json meta = to_json(provenance);
     // Bytes that are not UTF-8 (a file's name in the command) are replaced, not refused.
     for (const auto& [key, value] : meta.items())
-        lines += fmt::format("{}{}: {}\n", begin, key,
-                             value.dump(-1, ' ', false, Json::error_handler_t::replace));
+        lines += fmt::format("{}{}: {}\n", begin, key, json_text(value));
     return lines;
 }
 

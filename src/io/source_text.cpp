@@ -51,14 +51,6 @@ void SourceText::refuse_whole(const std::string& what, std::string hint) const {
     throw Error(ErrorKind::input, fmt::format("{}: {}", source_, what), std::move(hint));
 }
 
-std::string shown(std::string_view piece) {
-    constexpr std::size_t most = 32;
-    std::string text;
-    for (const char c : piece.substr(0, most))
-        text += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? '?' : c;
-    return "'" + text + (piece.size() > most ? "...'" : "'");
-}
-
 const char* first_control_byte(std::string_view line) {
     const auto it = std::ranges::find_if(line, [](char c) {
         return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F;

@@ -49,9 +49,6 @@ class SourceText {
     std::size_t lines_before_ = 0;
 };
 
-/// A piece of a text as a message shows it: short, in quotes, without control bytes.
-std::string shown(std::string_view piece);
-
 /// The first byte that no text holds, or null.
 const char* first_control_byte(std::string_view line);
 

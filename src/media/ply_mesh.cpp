@@ -8,6 +8,7 @@
 #include "core/bytes/raw_numbers.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "core/utf8.hpp"
 #include "media/token_file.hpp"
 #include "media/triangle_mesh.hpp"
 
@@ -47,7 +48,7 @@ RawType type_of(TokenFile& file) {
         if (token.text == name) return type;
     file.refuse(token, fmt::format("{} is not a type; expected char, uchar, short, ushort, int, "
                                    "uint, float or double",
-                                   TokenFile::shown(token)));
+                                   shown(token.text)));
 }
 
 bool is_ascii(TokenFile& file) {
@@ -55,7 +56,7 @@ bool is_ascii(TokenFile& file) {
     if (token.text != "ascii" && token.text != "binary_little_endian")
         file.refuse(token, fmt::format("format {} is not read; expected ascii or "
                                        "binary_little_endian",
-                                       TokenFile::shown(token)));
+                                       shown(token.text)));
     return token.text == "ascii";
 }
 
@@ -91,7 +92,7 @@ Header header_of(TokenFile& file) {
         } else if (word.text != "comment" && word.text != "obj_info") {
             file.refuse(word, fmt::format("{} is not known; expected format, element, property, "
                                           "comment or end_header",
-                                          TokenFile::shown(word)));
+                                          shown(word.text)));
         }
         while (!file.at_line_end()) file.next("a word");
     }
@@ -142,7 +143,7 @@ class AsciiBody final : public Body {
         return *value;
     }
     [[noreturn]] void refuse(const std::string& what) override {
-        file_.refuse(last_, fmt::format("{}: {}", TokenFile::shown(last_), what));
+        file_.refuse(last_, fmt::format("{}: {}", shown(last_.text), what));
     }
     void finish() override {
         if (file_.at_end()) return;

@@ -7,6 +7,7 @@
 
 #include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
+#include "core/utf8.hpp"
 
 namespace stipple {
 namespace {
@@ -66,10 +67,10 @@ std::uint64_t TokenFile::number(std::string_view what, std::uint64_t low, std::u
     std::uint64_t value = 0;
     const auto [end, error] = std::from_chars(token.text.data(), last, value);
     if (end != last || error == std::errc::invalid_argument)
-        refuse(token, fmt::format("{} is not a whole number; expected {}", shown(token),
+        refuse(token, fmt::format("{} is not a whole number; expected {}", shown(token.text),
                                   expected(what, low, high)));
     if (error == std::errc::result_out_of_range || value < low || value > high)
-        refuse(token, fmt::format("{} is out of range; expected {}", shown(token),
+        refuse(token, fmt::format("{} is out of range; expected {}", shown(token.text),
                                   expected(what, low, high)));
     return value;
 }
@@ -92,7 +93,7 @@ void TokenFile::refuse_short(std::string_view what) const {
 void TokenFile::expect_line_end() const {
     if (at_line_end()) return;
     const Token token = peek();
-    refuse(token, fmt::format("{} is too much; expected the end of the line", shown(token)));
+    refuse(token, fmt::format("{} is too much; expected the end of the line", shown(token.text)));
 }
 
 void TokenFile::skip_line() {
@@ -107,14 +108,6 @@ void TokenFile::refuse(const Token& at, const std::string& what) const {
 
 void TokenFile::refuse_whole(const std::string& what) const {
     fail(ErrorKind::input, "{}: {}", name_, what);
-}
-
-std::string TokenFile::shown(const Token& token) {
-    constexpr std::size_t most = 32;
-    std::string text;
-    for (const char c : token.text.substr(0, most))
-        text += static_cast<unsigned char>(c) < 0x20 || c == 0x7F ? '?' : c;
-    return "'" + text + (token.text.size() > most ? "...'" : "'");
 }
 
 }  // namespace stipple

@@ -77,9 +77,6 @@ class TokenFile {
     /// @throws Error(input) "FILE: what"
     [[noreturn]] void refuse_whole(const std::string& what) const;
 
-    /// A token as a message shows it: in quotes, short, without control bytes.
-    static std::string shown(const Token& token);
-
   private:
     /// Stands at the next token, or at the end.
     void pass_blanks();

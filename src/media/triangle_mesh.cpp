@@ -9,6 +9,7 @@
 #include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "core/utf8.hpp"
 #include "media/token_file.hpp"
 
 namespace stipple {
@@ -20,10 +21,10 @@ double coordinate(TokenFile& file, const char* what) {
     const Token token = file.next_on_line(what);
     const auto value = parse_number(token.text);
     if (!value)
-        file.refuse(token, fmt::format("{} is not a finite number; expected {}",
-                                       TokenFile::shown(token), what));
+        file.refuse(token,
+                    fmt::format("{} is not a finite number; expected {}", shown(token.text), what));
     if (!(std::abs(*value) <= most_coordinate))
-        file.refuse(token, fmt::format("{} is outside [-1e150, 1e150]", TokenFile::shown(token)));
+        file.refuse(token, fmt::format("{} is outside [-1e150, 1e150]", shown(token.text)));
     return *value;
 }
 
@@ -42,7 +43,7 @@ std::uint32_t corner(TokenFile& file, std::size_t vertices, Highest& highest) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
     if (error != std::errc() || end != text.data() + text.size())
         file.refuse(token, fmt::format("{} is not a corner; expected the number of a vertex",
-                                       TokenFile::shown(token)));
+                                       shown(token.text)));
     const auto count = static_cast<std::int64_t>(vertices);
     const std::int64_t place = index < 0 ? count + index : index - 1;
     if (index == 0 || place < 0 || place >= std::numeric_limits<std::uint32_t>::max())

@@ -155,7 +155,7 @@ std::string numbers_of(std::span<const Set> sets, const Chart& chart, const Area
                       {"from", x.low},
                       {"to", x.high},
                       {"curves", curves}};
-    return html_json(all.dump(-1, ' ', false, Json::error_handler_t::replace));
+    return html_json(json_text(all));
 }
 
 /// The first panel of the chart of a measure of these sets, as far as they have the curve.

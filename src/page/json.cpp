@@ -79,7 +79,7 @@ std::string to_json(const Page& page) {
                 {"comparison", Json::array()}};
     for (const Set& set : page.sets) all["sets"].push_back(json_of(set));
     for (const Row& row : compare_sets(page.sets)) all["comparison"].push_back(json_of(row));
-    return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json_text(all, 2) + "\n";
 }
 
 }  // namespace stipple::page

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/utf8.hpp"
 #include "io/format.hpp"
 #include "plot/drawing/dot_matrix.hpp"
 #include "plot/drawing/letters.hpp"
@@ -127,7 +128,7 @@ std::string spectrum_as_text(const Grid& power, const std::string& title, const 
         std::min({inner(room.rows, frame_rows, least_rows),
                   inner(room.columns, frame_columns, least_columns) / 2, power.rows});
     const std::size_t columns = 2 * rows;
-    std::string text = title + "\n";
+    std::string text = printable(title) + "\n";
     for (std::size_t j = 0; j < rows; ++j) {
         for (std::size_t i = 0; i < columns; ++i) {
             const std::size_t top = (rows - 1 - j) * power.rows / rows;

@@ -11,6 +11,7 @@
 #include "core/json.hpp"
 #include "core/options.hpp"
 #include "core/text.hpp"
+#include "core/utf8.hpp"
 
 namespace stipple {
 namespace {
@@ -59,7 +60,7 @@ const std::string& unit_of(const Report& report, std::string_view dotted_key) {
 }
 
 std::string source_of(const Measurement& m) {
-    std::string source = m.source == "-" ? "standard input" : m.source;
+    std::string source = m.source == "-" ? "standard input" : printable(m.source);
     if (m.set) source += fmt::format(", set {}", *m.set);
     if (m.sets > 1) source += fmt::format(", mean of {} sets", m.sets);
     return source;
@@ -90,7 +91,7 @@ std::string text_of(const Report::Item& item) {
         std::string operator()(bool b) const { return b ? "yes" : "no"; }
         std::string operator()(std::int64_t i) const { return std::to_string(i); }
         std::string operator()(double x) const { return format_number(x); }
-        std::string operator()(const std::string& s) const { return s; }
+        std::string operator()(const std::string& s) const { return printable(s); }
         std::string operator()(const Report::Curve& curve) const { return shortened(curve); }
         std::string operator()(const Report::Integers& list) const {
             return shortened(Report::Curve(list.begin(), list.end()));
@@ -143,10 +144,10 @@ std::optional<Report::Curve> list_at(const Report& report, std::string_view key)
 }
 
 std::string to_json(std::span<const Measurement> measurements) {
-    if (measurements.size() == 1) return measurement_json(measurements[0]).dump(2) + "\n";
+    if (measurements.size() == 1) return json_text(measurement_json(measurements[0]), 2) + "\n";
     Json array = Json::array();
     for (const Measurement& m : measurements) array.push_back(measurement_json(m));
-    return array.dump(2) + "\n";
+    return json_text(array, 2) + "\n";
 }
 
 std::string to_text(std::span<const Measurement> measurements) {

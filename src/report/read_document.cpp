@@ -83,7 +83,8 @@ Measurement measurement_of(const Json& object, const std::string& source) {
     if (input.contains("set")) m.set = value_or<std::size_t>(input, "set", 0);
     const Json options = part("options");
     for (const auto& [name, value] : options.items())
-        m.options.emplace_back(name, value.is_string() ? value.get<std::string>() : value.dump());
+        m.options.emplace_back(name,
+                               value.is_string() ? value.get<std::string>() : json_text(value));
     if (object.contains("standard_error")) m.standard_error = report_of(part("standard_error"));
     return m;
 }
@@ -106,9 +107,10 @@ std::vector<Measurement> read_reports(std::string_view bytes, const std::string&
         Json text;
         try {
             in >> text;
-        } catch (const Json::parse_error& e) {
-            fail(ErrorKind::input, "{}: no whole JSON, byte {} of a report; {}", source, e.byte,
-                 wanted);
+        } catch (const Json::exception& e) {
+            const auto [at, what] = json_trouble(e, bytes);
+            fail(ErrorKind::input, "{}: no whole JSON, byte {} of a report: {}; {}", source, at + 1,
+                 what, wanted);
         }
         if (!text.is_array()) text = Json::array({std::move(text)});
         for (const Json& object : text) found.push_back(measurement_of(object, source));

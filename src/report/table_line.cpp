@@ -13,7 +13,7 @@ std::string json_value(const TableCell& cell) {
     const std::string& text = cell.text;
     if (cell.number && (text.empty() || text == "nan")) return "null";
     if (cell.number && text != "inf" && text != "-inf") return text;
-    return Json(text).dump(-1, ' ', false, Json::error_handler_t::replace);
+    return json_text(Json(text));
 }
 
 /// The fields of a line of CSV; nothing where a quote is not closed.

@@ -112,13 +112,13 @@ class ConfigReader {
     [[nodiscard]] Json parsed(std::string_view text) const {
         try {
             return Json::parse(text, Repetitions(source_));
-        } catch (const Json::parse_error& e) {
-            const std::size_t at = std::min(e.byte > 0 ? e.byte - 1 : 0, text.size());
+        } catch (const Json::exception& e) {
+            const auto [at, what] = json_trouble(e, text);
             const auto before = text.substr(0, at);
             const auto line = 1 + std::ranges::count(before, '\n');
             const auto last = before.rfind('\n');
             const auto column = last == std::string_view::npos ? at + 1 : at - last;
-            fail(ErrorKind::input, "{}:{}:{}: is not JSON here", source_, line, column);
+            fail(ErrorKind::input, "{}:{}:{}: {}", source_, line, column, what);
         }
     }
 
@@ -130,7 +130,7 @@ class ConfigReader {
             return;
         }
         if (!value.is_boolean())
-            refuse(where, fmt::format("expected true or false, got {}", value.dump()));
+            refuse(where, fmt::format("expected true or false, got {}", json_text(value)));
         // Seconds are left out by an option, all else is asked for by one.
         const bool left_out = name == "seconds";
         if (value.get<bool>() != left_out)
@@ -147,8 +147,8 @@ class ConfigReader {
 
     void read_unit(const std::string& key, const Json& value, const std::string& where) {
         if (!value.is_string() && !value.is_object())
-            refuse(where,
-                   "expected a spec or {\"name\": ..., \"options\": {...}}, got " + value.dump());
+            refuse(where, "expected a spec or {\"name\": ..., \"options\": {...}}, got " +
+                              json_text(value));
         const std::string text =
             value.is_string() ? value.get<std::string>() : spec_of(key, value, where);
         checked(where, [&] { check_unit(key, parse_spec(text)); });
@@ -187,9 +187,10 @@ class ConfigReader {
         if (value.is_string()) return value.get<std::string>();
         if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
         if (value.is_number_float()) return format_number(value.get<double>());
-        if (value.is_number()) return value.dump();
+        if (value.is_number()) return json_text(value);
         if (!value.is_array())
-            refuse(where, "expected a word, a number, true, false or a list, got " + value.dump());
+            refuse(where,
+                   "expected a word, a number, true, false or a list, got " + json_text(value));
         std::string text;
         for (const Json& item : value) {
             if (!text.empty()) text += item.is_array() ? ' ' : ',';

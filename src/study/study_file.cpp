@@ -161,7 +161,7 @@ void StudyFile::begin_journal() {
     for (const auto& [key, value] : sweep_.settings()) settings[key] = value;
     const std::string head =
         fmt::format("{{\"format\":\"{}\",\"version\":2,\"study\":\"{}\",\"settings\":{}}}\n",
-                    journal_format, sweep_.fingerprint(), settings.dump());
+                    journal_format, sweep_.fingerprint(), json_text(settings));
     cut_to(journal_, 0, journal_of(path_));
     write_all(journal_, head, journal_of(path_));
     journal_size_ = head.size();

@@ -75,8 +75,8 @@ TEST(StudyConfig, ErrorsNameThePlaceAndWhatIsNearest) {
     EXPECT_EQ(error_in(R"({"generators": "random"})"),
               "input: s.json: $: the key 'analyze' is missing");
     EXPECT_EQ(error_in("[1]"), "input: s.json: $: expected an object, {\"generators\": ...}");
-    EXPECT_EQ(error_in("{\n \"a\": ,"), "input: s.json:2:7: is not JSON here");
-    EXPECT_EQ(error_in(""), "input: s.json:1:1: is not JSON here");
+    EXPECT_EQ(error_in("{\n \"a\": ,"), "input: s.json:2:7: not JSON");
+    EXPECT_EQ(error_in(""), "input: s.json:1:1: not JSON");
 }
 
 TEST(StudyConfig, KeysThatStandTwiceAreRefused) {

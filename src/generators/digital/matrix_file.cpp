@@ -7,6 +7,7 @@
 #include <bit>
 
 #include "core/text.hpp"
+#include "core/utf8.hpp"
 #include "math/combinatorics/primes.hpp"
 #include "math/functions/powers.hpp"
 
@@ -119,7 +120,7 @@ MatrixFile with_header(TokenFile& file, std::string_view layout) {
     if (!file.at_end())
         file.refuse(file.peek(), fmt::format("{} is too much; expected the end of the file behind "
                                              "{} matrices",
-                                             TokenFile::shown(file.peek()), header.matrices));
+                                             shown(file.peek().text), header.matrices));
     return found;
 }
 

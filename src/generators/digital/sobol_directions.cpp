@@ -15,6 +15,7 @@
 #include <boost/random/detail/sobol_table.hpp>
 
 #include "core/error.hpp"
+#include "core/utf8.hpp"
 #include "media/token_file.hpp"
 
 namespace stipple {
@@ -74,8 +75,7 @@ Initializer read_line(TokenFile& file, std::size_t dimension) {
         const std::string what = fmt::format("an odd m_{}", j);
         initial.first.push_back(file.number_on_line(what, 1, (std::uint64_t{1} << j) - 1));
         if (initial.first.back() % 2 == 0)
-            file.refuse(token,
-                        fmt::format("{} is even; expected {}", TokenFile::shown(token), what));
+            file.refuse(token, fmt::format("{} is even; expected {}", shown(token.text), what));
     }
     file.expect_line_end();
     return initial;

@@ -23,6 +23,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
+#include "core/utf8.hpp"
 #include "io/columns.hpp"
 #include "io/decimal.hpp"
 #include "io/format.hpp"

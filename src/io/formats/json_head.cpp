@@ -35,7 +35,7 @@ std::string json_head(const Layout& layout, const std::vector<std::uint64_t>& co
     else
         head["count"] = counts;
     if (!layout.extras.empty()) head["columns"] = layout.columns();
-    std::string text = head.dump(-1, ' ', false, Json::error_handler_t::replace);
+    std::string text = json_text(head);
     text.pop_back();
     return text;
 }
@@ -43,10 +43,11 @@ std::string json_head(const Layout& layout, const std::vector<std::uint64_t>& co
 void take_key(const SourceText& text, const char* at, std::string_view key, const Json& value,
               JsonHead& head) {
     if (key == "format" && value != "stipple.points")
-        text.refuse(
-            at, "the format is " + value.dump().substr(0, 40) + "; expected \"stipple.points\"");
+        text.refuse(at, "the format is " + json_text(value).substr(0, 40) +
+                            "; expected \"stipple.points\"");
     if (key == "version" && value != 1)
-        text.refuse(at, "version " + value.dump().substr(0, 40) + " of stipple.points; expected 1");
+        text.refuse(at,
+                    "version " + json_text(value).substr(0, 40) + " of stipple.points; expected 1");
     if (key == "meta") head.provenance = provenance_from(value);
     if (key == "dimension") {
         if (!value.is_number_unsigned() || value == 0)
@@ -69,11 +70,9 @@ void take_key(const SourceText& text, const char* at, std::string_view key, cons
 Json parse_json(const SourceText& text, std::string_view piece) {
     try {
         return Json::parse(piece);
-    } catch (const Json::parse_error& error) {
-        const std::size_t byte = std::clamp<std::size_t>(error.byte, 1, piece.size() + 1) - 1;
-        text.refuse(piece.data() + byte, "not JSON; expected a value such as 1, \"word\" or {}");
-    } catch (const Json::exception&) {
-        text.refuse(piece.data(), "a number beyond what a double holds");
+    } catch (const Json::exception& error) {
+        const auto [at, what] = json_trouble(error, piece);
+        text.refuse(piece.data() + at, what + "; expected a value such as 1, \"word\" or {}");
     }
 }
 

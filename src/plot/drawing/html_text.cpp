@@ -5,12 +5,12 @@
 #include <cstdint>
 
 #include "core/text.hpp"
-#include "plot/drawing/letters.hpp"
+#include "core/utf8.hpp"
 
 namespace stipple::plot {
 
 std::string xml_text(std::string_view text) {
-    std::string out = clean_text(text);
+    std::string out = printable(text);
     replace_all(out, "&", "&amp;");
     replace_all(out, "<", "&lt;");
     replace_all(out, ">", "&gt;");

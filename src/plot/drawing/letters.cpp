@@ -6,13 +6,12 @@
 #include "plot/drawing/letters.hpp"
 
 #include <algorithm>
-#include <boost/locale/utf.hpp>
 #include <charconv>
 #include <cmath>
-#include <iterator>
 #include <optional>
 
 #include "core/text.hpp"
+#include "core/utf8.hpp"
 
 namespace stipple::plot {
 
@@ -39,25 +38,15 @@ constexpr std::u32string_view plain_letters = U"0123456789−";
 constexpr std::u32string_view bare_letters =
     U"AAAAAAACEEEEIIIIDNOOOOO×OUUUUYPsaaaaaaaceeeeiiiidnooooo/ouuuuypy";
 
-using Utf8 = boost::locale::utf::utf_traits<char>;
-
-/// The letter at the front of the text and its length; U+FFFD of one byte where there is none.
-std::pair<char32_t, std::size_t> first_letter(std::string_view text) {
-    const char* at = text.data();
-    const auto letter = Utf8::decode(at, text.data() + text.size());
-    if (!boost::locale::utf::is_valid_codepoint(letter)) return {U'\uFFFD', 1};
-    return {letter, static_cast<std::size_t>(at - text.data())};
-}
-
 /// All glyphs by their letters, from lines such as "L 556 M3 19L3 1L14.2 1".
 const std::vector<Glyph>& glyphs() {
     static const auto all = [] {
         std::vector<Glyph> found;
         for (const std::string_view line : split(glyph_table(), '\n')) {
             if (line.empty()) continue;
-            const auto [letter, size] = first_letter(line);
-            const std::string_view rest = line.substr(size + 1);
-            Glyph glyph{.letter = letter, .advance = 0, .path = {}};
+            const Letter letter = first_letter(line);
+            const std::string_view rest = line.substr(letter.size + 1);
+            Glyph glyph{.letter = letter.point, .advance = 0, .path = {}};
             const char* end =
                 std::from_chars(rest.data(), rest.data() + rest.size(), glyph.advance).ptr;
             glyph.path = trim(rest.substr(static_cast<std::size_t>(end - rest.data())));
@@ -133,35 +122,6 @@ class PathReader {
 };
 
 }  // namespace
-
-std::u32string code_points(std::string_view text) {
-    std::u32string letters;
-    while (!text.empty()) {
-        const auto [letter, size] = first_letter(text);
-        letters += letter;
-        text.remove_prefix(size);
-    }
-    return letters;
-}
-
-void append_utf8(std::string& out, char32_t letter) {
-    Utf8::encode(letter, std::back_inserter(out));
-}
-
-std::string utf8_of(std::u32string_view letters) {
-    std::string out;
-    for (const char32_t letter : letters) append_utf8(out, letter);
-    return out;
-}
-
-std::string clean_text(std::string_view text) {
-    std::string out;
-    for (const char32_t letter : code_points(text)) {
-        const bool control = letter < 0x20 || (letter >= 0x7F && letter < 0xA0);
-        if (!control && letter != 0xFFFE && letter != 0xFFFF) append_utf8(out, letter);
-    }
-    return out;
-}
 
 double advance_of(char32_t letter) {
     const auto plain = lowered(letter);

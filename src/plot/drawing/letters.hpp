@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// Letters of pictures: UTF-8 taken apart, and every letter as strokes of a pen, for pictures that
-// are drawn without a font.
+// Letters of pictures: every letter as strokes of a pen, for pictures that are drawn without a font.
 //
 // Units   an em is 28 units of the glyph's grid; y upward from the base line, capitals 20 high.
 #pragma once
@@ -15,16 +14,6 @@
 namespace stipple::plot {
 
 inline constexpr double em_units = 28;
-
-/// Code points of UTF-8; bytes that are none become U+FFFD.
-std::u32string code_points(std::string_view text);
-
-/// The way back.
-void append_utf8(std::string& out, char32_t letter);
-std::string utf8_of(std::u32string_view letters);
-
-/// The text as UTF-8 without control letters; U+FFFD in place of bytes that are no letters.
-std::string clean_text(std::string_view text);
 
 /// Units from a letter's origin to the next one's: those of Helvetica.
 double advance_of(char32_t letter);

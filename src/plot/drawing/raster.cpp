@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "core/utf8.hpp"
 #include "media/png_picture.hpp"
 #include "plot/drawing/drawing.hpp"
 #include "plot/drawing/letters.hpp"
@@ -335,8 +336,8 @@ std::string png_bytes_of(const Drawing& drawing, double scale, const PictureNote
              drawing.width * scale, drawing.height * scale, most_pixels);
     Rasterizer rasterizer(drawing, scale);
     for (const Shape& shape : drawing.shapes) std::visit(rasterizer, shape);
-    PictureNotes all = {{"Title", clean_text(drawing.title)}};
-    for (const auto& [keyword, text] : notes) all.emplace_back(keyword, clean_text(text));
+    PictureNotes all = {{"Title", printable(drawing.title)}};
+    for (const auto& [keyword, text] : notes) all.emplace_back(keyword, printable(text));
     return rasterizer.png(all);
 }
 

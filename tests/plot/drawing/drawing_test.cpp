@@ -185,15 +185,6 @@ TEST(Letters, CurvesAreEllipses) {
     }
 }
 
-TEST(Letters, Utf8GoesThereAndBack) {
-    const std::string text = "aé−√𝛑";
-    std::string back;
-    for (const char32_t letter : code_points(text)) append_utf8(back, letter);
-    EXPECT_EQ(back, text);
-    EXPECT_EQ(code_points("\xC0\xAF\xED\xA0\x80\xE2\x88"), std::u32string(7, U'\uFFFD'));
-    EXPECT_EQ(clean_text("a\nb\x7F"), "ab");
-}
-
 TEST(Letters, LongTextsLoseTheirFront) {
     EXPECT_EQ(shortened_to("abc", 12, 100), "abc");
     const std::string cut = shortened_to("a/long/path/to/points.csv", 12, 80);

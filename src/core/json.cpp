@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "core/json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/text.hpp"
+#include "core/utf8.hpp"
+
+namespace stipple {
+
+std::string json_text(const Json& value, int indent) {
+    return value.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+JsonTrouble json_trouble(const std::exception& error, std::string_view text) {
+    if (const auto* place = dynamic_cast<const Json::parse_error*>(&error))
+        return {std::min(place->byte > 0 ? place->byte - 1 : 0, text.size()), "not JSON"};
+    // Its message ends in the number that is too large, in quotes.
+    const std::string_view message = error.what();
+    const auto number = split(message.substr(message.find('\'') + 1), '\'').front();
+    return {std::min(text.find(number), text.size()),
+            fmt::format("the number {} is beyond what a double holds", shown(number))};
+}
+
+}  // namespace stipple
