@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -77,24 +76,22 @@ struct Format {
 
     /// Appends what comes before all rows, before the rows of each set, and after all; may be
     /// empty.
-    std::function<void(const Layout&, std::string& out)> head = {};
-    std::function<void(const Layout&, std::size_t set, std::string& out)> begin_set = {};
+    void (*head)(const Layout&, std::string& out) = nullptr;
+    void (*begin_set)(const Layout&, std::size_t set, std::string& out) = nullptr;
     /// Appends rows first, first + 1, ... of a set (numbered from 0 in this file). Pure.
     Rows rows = nullptr;
-    std::function<void(const Layout&, std::string& out)> tail = {};
+    void (*tail)(const Layout&, std::string& out) = nullptr;
 
     /// The sets in the bytes of a file. Empty: write only.
     /// @throws Error(input) "FILE:LINE:COLUMN: what is wrong; what is expected", or, for bytes that
     /// are no text, "FILE: byte N: ..." with bytes counted from 0
-    std::function<std::vector<PointSet>(std::string_view bytes, const ReadOptions&,
-                                        const RunContext&)>
-        read = {};
+    std::vector<PointSet> (*read)(std::string_view bytes, const ReadOptions&,
+                                  const RunContext&) = nullptr;
 
     /// The same in blocks, where the front of the bytes shows that it can be done: takes the feed
     /// then, and leaves it where it gives nothing. Empty: never.
-    std::function<std::unique_ptr<io::PointStream>(std::unique_ptr<io::Feed>&, const ReadOptions&,
-                                                   const RunContext&)>
-        stream = {};
+    std::unique_ptr<io::PointStream> (*stream)(std::unique_ptr<io::Feed>&, const ReadOptions&,
+                                               const RunContext&) = nullptr;
 };
 
 namespace io {

@@ -61,7 +61,7 @@ std::vector<std::size_t> others(std::size_t width, std::span<const std::size_t> 
     return rest;
 }
 
-/// Where the coordinate `from[i]` went, which is to[i].
+/// to[i] for the i with from[i] == k.
 std::size_t moved(std::size_t k, std::span<const std::size_t> from,
                   std::span<const std::size_t> to) {
     return to[static_cast<std::size_t>(std::ranges::find(from, k) - from.begin())];

@@ -117,6 +117,16 @@ TEST_F(PointStreams, SetsOfAGeneratorHaveOneSeedAfterTheOther) {
     EXPECT_EQ(sets[1].provenance.seed, 6U);
 }
 
+TEST_F(PointStreams, HoldPointsOfManyCoordinates) {
+    std::string row = "0";
+    for (int k = 1; k < 512; ++k) row += ",0";
+    std::string text;
+    for (int i = 0; i < 5000; ++i) text += row + "\n";
+    const auto at = path("wide.csv");
+    append(at, text);
+    EXPECT_EQ(io::open_points(at, {}, {})->read_all({}).at(0).count(), 5000U);
+}
+
 TEST_F(PointStreams, SayWhatIsWrongAsForTheWhole) {
     const auto wrong = [&](const char* name, std::uint64_t n, const std::string& more) {
         const auto at = file(name, n);

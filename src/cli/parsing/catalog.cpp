@@ -99,7 +99,7 @@ UnitInfo info(const Analyzer& unit) {
 
 UnitInfo info(const Format& unit) {
     UnitInfo out = base_info(unit);
-    const bool reads = static_cast<bool>(unit.read);
+    const bool reads = unit.read != nullptr;
     out.traits = shared({{"extensions", unit.extensions},
                          {"reads", reads},
                          {"writes", unit.rows != nullptr},
