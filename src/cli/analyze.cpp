@@ -14,6 +14,7 @@
 #include "cli/set_batch.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "core/spec.hpp"
 #include "core/text.hpp"
 #include "io/files.hpp"
 #include "io/source_text.hpp"

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <utility>
 #include <vector>
 
 #include "cli/help/guide.hpp"
