@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <boost/crc.hpp>
 #include <csetjmp>
 #include <cstdint>
@@ -45,13 +46,14 @@ class Decoder : public ErrorText {
     Decoder& operator=(const Decoder&) = delete;
     ~Decoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
 
-    /// Reads what precedes the pixels, and asks for whole bytes without a palette. False: error().
+    /// Reads what precedes the pixels, and asks for samples of 16 bits without a palette. False: error().
     bool read_head() {
         if (info_ == nullptr) return false;
         if (setjmp(png_jmpbuf(png_)) != 0) return false;
         png_set_read_fn(png_, this, give_bytes);
         png_read_info(png_, info_);
-        png_set_expand(png_);
+        png_set_expand_16(png_);
+        if constexpr (std::endian::native == std::endian::little) png_set_swap(png_);
         png_set_interlace_handling(png_);
         png_read_update_info(png_, info_);
         return true;
@@ -68,8 +70,6 @@ class Decoder : public ErrorText {
     [[nodiscard]] std::size_t width() const { return png_get_image_width(png_, info_); }
     [[nodiscard]] std::size_t height() const { return png_get_image_height(png_, info_); }
     [[nodiscard]] std::size_t channels() const { return png_get_channels(png_, info_); }
-    [[nodiscard]] std::size_t sample_bytes() const { return png_get_bit_depth(png_, info_) / 8U; }
-    [[nodiscard]] std::size_t row_bytes() const { return png_get_rowbytes(png_, info_); }
 
   private:
     static void give_bytes(png_structp png, png_bytep out, std::size_t size) {
@@ -137,36 +137,6 @@ class Encoder : public ErrorText {
     png_infop info_ = nullptr;
 };
 
-/// Samples of an expanded picture, each of one byte, or two with the high one first.
-class Samples {
-  public:
-    Samples(const unsigned char* bytes, std::size_t channels, std::size_t size)
-        : at_(bytes), channels_(channels), size_(size) {}
-
-    [[nodiscard]] double grey(std::size_t pixel) const {
-        if (channels_ < 3) return sample(pixel, 0) / largest();
-        // Whole numbers, so that equal samples give the grey that one sample would.
-        const double sum =
-            2126 * sample(pixel, 0) + 7152 * sample(pixel, 1) + 722 * sample(pixel, 2);
-        return sum / (10000 * largest());
-    }
-
-    [[nodiscard]] double opacity(std::size_t pixel) const {
-        return sample(pixel, channels_ - 1) / largest();
-    }
-
-  private:
-    [[nodiscard]] double largest() const { return size_ == 1 ? 255 : 65535; }
-    [[nodiscard]] double sample(std::size_t pixel, std::size_t channel) const {
-        const unsigned char* s = at_ + (pixel * channels_ + channel) * size_;
-        return size_ == 1 ? *s : 256 * s[0] + s[1];
-    }
-
-    const unsigned char* at_;
-    std::size_t channels_;
-    std::size_t size_;
-};
-
 }  // namespace
 
 PngPicture read_png(std::string_view bytes, const std::string& source, const RunContext& run) {
@@ -179,18 +149,24 @@ PngPicture read_png(std::string_view bytes, const std::string& source, const Run
     const std::size_t pixels = picture.width * picture.height;
     run.need_memory(static_cast<double>(pixels) * 24, "the picture " + source);
 
-    std::vector<unsigned char> raw(decoder.row_bytes() * picture.height);
+    const std::size_t channels = decoder.channels();
+    std::vector<std::uint16_t> samples(channels * pixels);
     std::vector<png_bytep> rows(picture.height);
-    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = raw.data() + i * decoder.row_bytes();
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        rows[i] = reinterpret_cast<png_bytep>(&samples[i * channels * picture.width]);
     if (!decoder.read_rows(rows.data()))
         fail(ErrorKind::input, "{}: no whole PNG picture: {}", source, decoder.error());
 
-    const Samples samples(raw.data(), decoder.channels(), decoder.sample_bytes());
+    constexpr double largest = 65535;
     picture.grey.resize(pixels);
-    for (std::size_t i = 0; i < pixels; ++i) picture.grey[i] = samples.grey(i);
-    if (decoder.channels() % 2 == 0) {
-        picture.opacity.resize(pixels);
-        for (std::size_t i = 0; i < pixels; ++i) picture.opacity[i] = samples.opacity(i);
+    if (channels % 2 == 0) picture.opacity.resize(pixels);
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const std::uint16_t* s = &samples[i * channels];
+        // Whole numbers, so that equal samples give the grey that one sample would.
+        picture.grey[i] = channels < 3
+                              ? s[0] / largest
+                              : (2126. * s[0] + 7152. * s[1] + 722. * s[2]) / (10000 * largest);
+        if (channels % 2 == 0) picture.opacity[i] = s[channels - 1] / largest;
     }
     return picture;
 }

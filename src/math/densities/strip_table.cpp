@@ -405,24 +405,20 @@ std::array<double, 2> StripTable::quantile(double u, double v) const {
     const double t = column.side((x - column.x_low) / (column.x_high - column.x_low));
 
     const auto patches = patches_of(i);
-    const auto sum_to = [&](const Patch& patch) {
-        return (1 - t) * patch.left_sum + t * patch.right_sum;
-    };
-    const double total = sum_to(patches.back());
+    const double total = patches.back().sum_at(t);
     const double mass = std::min(v * total, std::nextafter(total, 0.0));
     // By halves without a branch, since one would be guessed wrong half of the time.
     const Patch* above = patches.data();
     for (std::size_t left = patches.size(); left > 1;) {
         const std::size_t half = left / 2;
-        above += sum_to(above[half - 1]) <= mass ? half : 0;
+        above += above[half - 1].sum_at(t) <= mass ? half : 0;
         left -= half;
     }
-    const double below = above == patches.data() ? 0 : sum_to(*(above - 1));
+    const double below = above == patches.data() ? 0 : (above - 1)->sum_at(t);
     const StripPatch& shape = above->shape;
-    const double low = (1 - t) * shape.left[0] + t * shape.right[0];
-    const double high = (1 - t) * shape.left[1] + t * shape.right[1];
+    const auto [low, high] = shape.ends(t);
     const double part =
-        width_share(low, high, std::min((mass - below) / (sum_to(*above) - below), 1.0));
+        width_share(low, high, std::min((mass - below) / (above->sum_at(t) - below), 1.0));
     return {x,
             within(shape.y_low, shape.y_high, shape.y_low + part * (shape.y_high - shape.y_low))};
 }
@@ -439,19 +435,16 @@ std::array<double, 2> StripTable::fraction(double x, double y) const {
     const double t = column.side(width);
 
     const auto patches = patches_of(i);
-    const auto sum_to = [&](const Patch& patch) {
-        return (1 - t) * patch.left_sum + t * patch.right_sum;
-    };
     const auto above = std::ranges::upper_bound(
         patches, y, {}, [](const Patch& patch) { return patch.shape.y_low; });
     const auto at = above == patches.begin() ? above : above - 1;
-    const double below = at == patches.begin() ? 0 : sum_to(*(at - 1));
+    const double below = at == patches.begin() ? 0 : (at - 1)->sum_at(t);
     const StripPatch& shape = at->shape;
+    const auto [low, high] = shape.ends(t);
     const double share = mass_share(
-        (1 - t) * shape.left[0] + t * shape.right[0], (1 - t) * shape.left[1] + t * shape.right[1],
-        std::clamp((y - shape.y_low) / (shape.y_high - shape.y_low), 0.0, 1.0));
-    const double total = sum_to(patches.back());
-    const double v = total > 0 ? (below + share * (sum_to(*at) - below)) / total : 0;
+        low, high, std::clamp((y - shape.y_low) / (shape.y_high - shape.y_low), 0.0, 1.0));
+    const double total = patches.back().sum_at(t);
+    const double v = total > 0 ? (below + share * (at->sum_at(t) - below)) / total : 0;
     return {std::min(u, 1.0), std::min(v, 1.0)};
 }
 

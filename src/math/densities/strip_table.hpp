@@ -38,6 +38,11 @@ struct StripPatch {
     double y_high;
     std::array<double, 2> left;  ///< at y_low and y_high
     std::array<double, 2> right;
+
+    /// The same at the share t of the width.
+    [[nodiscard]] std::array<double, 2> ends(double t) const {
+        return {(1 - t) * left[0] + t * right[0], (1 - t) * left[1] + t * right[1]};
+    }
 };
 
 struct Strip {
@@ -66,6 +71,8 @@ class StripTable {
         StripPatch shape;
         double left_sum;
         double right_sum;
+
+        [[nodiscard]] double sum_at(double t) const { return (1 - t) * left_sum + t * right_sum; }
     };
     struct Column {
         double x_low;
