@@ -27,6 +27,7 @@
 #include "core/machine/wide.hpp"
 #include "generators/lattices/component_search.hpp"
 #include "math/arithmetic/ratio.hpp"
+#include "math/combinatorics/primes.hpp"
 
 namespace stipple {
 namespace {
@@ -83,10 +84,9 @@ struct PrimePower {
 
 std::vector<PrimePower> factors(std::uint64_t n) {
     std::vector<PrimePower> found;
-    for (std::uint64_t prime = 2; n > 1; ++prime) {
-        if (prime * prime > n) prime = n;
-        if (n % prime != 0) continue;
-        found.push_back({prime, 1});
+    while (n > 1) {
+        found.push_back({smallest_factor(n), 1});
+        const auto prime = found.back().prime;
         for (; n % prime == 0; n /= prime) found.back().power *= prime;
     }
     return found;
