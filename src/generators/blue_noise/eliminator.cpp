@@ -19,21 +19,16 @@ constexpr double beta = 0.65;
 constexpr double unit = 0x1p40;  ///< weights count multiples of its inverse
 
 /// Terms of the weights.
-class Kernel {
-  public:
-    explicit Kernel(double kept_share)
-        : nearest_(beta * (1 - kept_share * std::sqrt(kept_share))) {}
+struct Kernel {
+    double nearest;  ///< r_min / r_max: a distance below 2 r_min counts as that
 
     /// @param inverse of the distance that the pair's term ends at.
     [[nodiscard]] std::uint64_t operator()(double squared_distance, double inverse) const {
-        const double t = 1 - std::max(std::sqrt(squared_distance) * inverse, nearest_);
+        const double t = 1 - std::max(std::sqrt(squared_distance) * inverse, nearest);
         const double t2 = t * t;
         const double t4 = t2 * t2;
         return t > 0 ? static_cast<std::uint64_t>(static_cast<std::int64_t>(t4 * t4 * unit)) : 0;
     }
-
-  private:
-    double nearest_;  ///< r_min / r_max: a distance below 2 r_min counts as that
 };
 
 /// Points, numbered anew, of which the near ones can be found. They lie in layers, in which no
@@ -150,7 +145,8 @@ std::vector<std::uint64_t> weights_of(const LayeredPoints<D>& points, const Kern
 template <std::size_t D>
 std::vector<std::uint32_t> eliminate_from(LayeredPoints<D> points, std::uint64_t kept,
                                           const RunContext& run) {
-    const Kernel kernel(static_cast<double>(kept) / static_cast<double>(points.count()));
+    const double share = static_cast<double>(kept) / static_cast<double>(points.count());
+    const Kernel kernel{beta * (1 - share * std::sqrt(share))};
     auto weights = weights_of(points, kernel, run.stage(0, 0.3));  // by the new numbers
     std::vector<Candidate> all;
     all.reserve(points.count());

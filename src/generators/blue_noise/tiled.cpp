@@ -77,55 +77,42 @@ STIPPLE_WIDE void place_row(double* row, std::size_t count, double column, doubl
     }
 }
 
-class Tiles {
-  public:
-    Tiles(std::vector<Vec2> tile, const Tiling& tiling, std::uint64_t count)
-        : tile_(std::move(tile)),
-          tiling_(tiling),
-          last_begin_(tiling.tiles() * (tile_.size() - 1)),
-          last_count_(count - last_begin_) {}
+/// Points of one rank in one row of tiles; returns their number.
+std::uint64_t fill_row(const std::vector<Vec2>& tile, const Tiling& tiling, std::uint64_t first,
+                       std::uint64_t most, double* out) {
+    const std::uint64_t row = first / tiling.columns;
+    const std::uint64_t column = first % tiling.columns;
+    const Vec2& point = tile[row / tiling.rows];
+    const std::uint64_t count = std::min(most, tiling.columns - column);
+    const double y =
+        (static_cast<double>(row % tiling.rows) + point.y) / static_cast<double>(tiling.rows);
+    place_row(out, count, static_cast<double>(column), point.x, y,
+              static_cast<double>(tiling.columns));
+    return count;
+}
 
-    void operator()(std::uint64_t first, std::span<double> rows) const {
-        double* out = rows.data();
-        std::uint64_t left = rows.size() / 2;
-        while (left > 0) {
-            const std::uint64_t done = first < last_begin_ ? fill_row(first, left, out)
-                                                           : fill_last(first - last_begin_, out);
+/// The points of all ranks but the last in all tiles; of the last as many as are left.
+std::unique_ptr<Sequence> repeated(const std::vector<Vec2>& tile, const Tiling& tiling,
+                                   std::uint64_t count) {
+    const std::uint64_t whole = tiling.tiles() * (tile.size() - 1);
+    return sequence_of([=](std::uint64_t first, std::span<double> rows) {
+        for (std::size_t at = 0; at < rows.size();) {
+            std::uint64_t done = 1;
+            if (first < whole) {
+                done = fill_row(tile, tiling, first, (rows.size() - at) / 2, &rows[at]);
+            } else {
+                const auto place = static_cast<std::uint64_t>(Uint128{first - whole} *
+                                                              tiling.tiles() / (count - whole));
+                rows[at] = (static_cast<double>(place % tiling.columns) + tile.back().x) /
+                           static_cast<double>(tiling.columns);
+                rows[at + 1] = (static_cast<double>(place / tiling.columns) + tile.back().y) /
+                               static_cast<double>(tiling.rows);
+            }
             first += done;
-            left -= done;
-            out += 2 * done;
+            at += 2 * done;
         }
-    }
-
-  private:
-    /// Points of one rank in one row of tiles; returns their number.
-    std::uint64_t fill_row(std::uint64_t first, std::uint64_t most, double* out) const {
-        const std::uint64_t row = first / tiling_.columns;
-        const std::uint64_t column = first % tiling_.columns;
-        const Vec2& point = tile_[row / tiling_.rows];
-        const std::uint64_t count = std::min(most, tiling_.columns - column);
-        const double y =
-            (static_cast<double>(row % tiling_.rows) + point.y) / static_cast<double>(tiling_.rows);
-        place_row(out, count, static_cast<double>(column), point.x, y,
-                  static_cast<double>(tiling_.columns));
-        return count;
-    }
-
-    /// Point j of the last rank.
-    std::uint64_t fill_last(std::uint64_t j, double* out) const {
-        const auto place = static_cast<std::uint64_t>(Uint128{j} * tiling_.tiles() / last_count_);
-        out[0] = (static_cast<double>(place % tiling_.columns) + tile_.back().x) /
-                 static_cast<double>(tiling_.columns);
-        out[1] = (static_cast<double>(place / tiling_.columns) + tile_.back().y) /
-                 static_cast<double>(tiling_.rows);
-        return 1;
-    }
-
-    std::vector<Vec2> tile_;
-    Tiling tiling_;
-    std::uint64_t last_begin_;  ///< index of the first point of the last rank
-    std::uint64_t last_count_;
-};
+    });
+}
 
 /// At least so many tiles, few more, and nearly squares where `sides` are those of the box.
 Tiling tiling_of(std::uint64_t least, Vec2 sides) {
@@ -156,8 +143,8 @@ std::unique_ptr<Sequence> make_even(const Plan& plan, const Values& options, Vec
     const auto most = static_cast<std::uint64_t>(options[tile_points]);
     const Tiling tiling = tiling_of((plan.count - 1) / most + 1, sides);
     const std::uint64_t points = (plan.count - 1) / tiling.tiles() + 1;
-    return sequence_of(Tiles(tile_for(points, tiling, sides, plan, options, run.stage(0, 0.99)),
-                             tiling, plan.count));
+    return repeated(tile_for(points, tiling, sides, plan, options, run.stage(0, 0.99)), tiling,
+                    plan.count);
 }
 
 std::unique_ptr<Sequence> make_thinned(const Plan& plan, const Values& options, Vec2 sides,
