@@ -49,27 +49,22 @@ STIPPLE_WIDE void find_places(const FromPlace& from, std::size_t count, double s
     find_places_in<3>(from, count, scale, last, places, bins);
 }
 
-/// What one block of points found.
-struct Tally {
-    std::vector<std::uint64_t> pairs;  ///< of each bin, and the last for what is farther
-    std::vector<double> offsets;
-    std::vector<double> squared_offsets;
-
-    Tally() = default;
-    Tally(std::size_t bins, bool with_offsets)
-        : pairs(bins + 1), offsets(with_offsets ? bins + 1 : 0), squared_offsets(offsets.size()) {}
-
-    void add(const double* places, const std::int32_t* bins, std::size_t count) {
-        for (std::size_t i = 0; i < count; ++i) ++pairs[static_cast<std::size_t>(bins[i])];
-        if (offsets.empty()) return;
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto bin = static_cast<std::size_t>(bins[i]);
-            const double offset = places[i] - (static_cast<double>(bin) + 0.5);
-            offsets[bin] += offset;
-            squared_offsets[bin] += offset * offset;
-        }
+void add_pairs(const double* places, const std::int32_t* bins, std::size_t count, PairCounts& to) {
+    for (std::size_t i = 0; i < count; ++i) ++to.pairs[static_cast<std::size_t>(bins[i])];
+    if (to.offsets.empty()) return;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto bin = static_cast<std::size_t>(bins[i]);
+        const double offset = places[i] - (static_cast<double>(bin) + 0.5);
+        to.offsets[bin] += offset;
+        to.squared_offsets[bin] += offset * offset;
     }
-};
+}
+
+/// Adds what is in as many bins as the sums have.
+template <class Number>
+void add_bins(std::vector<Number>& sums, const std::vector<Number>& more) {
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += more[i];
+}
 
 template <std::size_t D>
 class PairCounter {
@@ -96,30 +91,33 @@ class PairCounter {
     PairCounts count() const {
         constexpr std::uint64_t size = 8192;
         const double reach = static_cast<double>(bins_) / scale_;
-        std::vector<Tally> parts(block_count(points_.count(), size));
+        std::vector<PairCounts> parts(block_count(points_.count(), size));
         for_each_block(run_, points_.count(), size, [&](const Block& b) {
-            Tally tally(bins_, with_offsets_);
+            PairCounts counts = none_in(bins_ + 1);  // the last for what is farther
             points_.visit_pairs(b.first, b.last, reach, run_,
                                 [&](std::size_t s, std::size_t first, std::size_t last) {
                                     for (std::size_t t = first; t < last; t += batch_size)
-                                        measure(s, t, std::min(last - t, batch_size), tally);
+                                        measure(s, t, std::min(last - t, batch_size), counts);
                                 });
-            parts[b.index] = std::move(tally);
+            parts[b.index] = std::move(counts);
         });
-        return sum(parts);
+        PairCounts all = none_in(bins_);
+        for (const PairCounts& part : parts) {
+            add_bins(all.pairs, part.pairs);
+            add_bins(all.offsets, part.offsets);
+            add_bins(all.squared_offsets, part.squared_offsets);
+        }
+        return all;
     }
 
   private:
     /// A fifth of the reach, but not below 4 points a cell.
     static double cell_side(const Box& box, std::size_t count, double reach) {
-        double share = 4 / static_cast<double>(count);
-        for (std::size_t k = 0; k < D; ++k) share *= box.extent(k);
-        const double some = D == 1 ? share : D == 2 ? std::sqrt(share) : std::cbrt(share);
-        return std::max(some, reach / 5);
+        return std::max(std::pow(4, 1.0 / D) * mean_distance(box, count), reach / 5);
     }
 
     /// Counts the pairs of point s and some points from `from` on.
-    void measure(std::size_t s, std::size_t from, std::size_t size, Tally& tally) const {
+    void measure(std::size_t s, std::size_t from, std::size_t size, PairCounts& to) const {
         FromPlace here{D, {}, {}, sides_};
         for (std::size_t k = 0; k < D; ++k) {
             here.columns[k] = columns_[k].data() + from;
@@ -128,24 +126,12 @@ class PairCounter {
         std::array<double, batch_size> places;
         std::array<std::int32_t, batch_size> bins;
         find_places(here, size, scale_, static_cast<double>(bins_), places.data(), bins.data());
-        tally.add(places.data(), bins.data(), size);
+        add_pairs(places.data(), bins.data(), size, to);
     }
 
-    PairCounts sum(const std::vector<Tally>& parts) const {
-        PairCounts all;
-        all.pairs.resize(bins_);
-        if (with_offsets_) {
-            all.offsets.resize(bins_);
-            all.squared_offsets.resize(bins_);
-        }
-        for (const Tally& part : parts) {
-            for (std::size_t i = 0; i < bins_; ++i) all.pairs[i] += part.pairs[i];
-            for (std::size_t i = 0; i < all.offsets.size(); ++i) {
-                all.offsets[i] += part.offsets[i];
-                all.squared_offsets[i] += part.squared_offsets[i];
-            }
-        }
-        return all;
+    [[nodiscard]] PairCounts none_in(std::size_t bins) const {
+        const std::vector<double> offsets(with_offsets_ ? bins : 0);
+        return {std::vector<std::uint64_t>(bins), offsets, offsets};
     }
 
     SortedPoints<D> points_;

@@ -29,6 +29,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "analyzers/analyzer.hpp"
 #include "analyzers/distances/distances.hpp"
@@ -103,7 +104,9 @@ struct Conflicts {
     Report::Integers first = {};
 };
 
-Conflicts find_conflicts(const PointSet& points, const Distances& distances, double squared,
+/// The first is the lowest i that has a neighbour too near, with the lowest j of those.
+Conflicts find_conflicts(const PointSet& points, const Distances& distances,
+                         const std::vector<Neighbor>& neighbors, double squared,
                          const RunContext& run) {
     const KdTree tree(points.flat(), points.dimension(), distances.sides(), run.stage(0, 0.2));
     constexpr std::uint64_t size = 64;
@@ -112,23 +115,15 @@ Conflicts find_conflicts(const PointSet& points, const Distances& distances, dou
         for (std::uint64_t i = b.first; i < b.last; ++i)
             parts[b.index] += tree.count_nearer(points[i], squared) - 1;  // itself
     });
-    Conflicts found;
-    for (const std::uint64_t part : parts) found.count += part;
-    found.count /= 2;
-    return found;
-}
-
-/// The lowest i that has a neighbour too near, with the lowest j of those.
-Report::Integers first_conflict(const PointSet& points, const Distances& distances,
-                                const std::vector<Neighbor>& neighbors, double squared) {
-    const auto first = std::ranges::find_if(
-        neighbors, [&](const Neighbor& neighbor) { return neighbor.squared < squared; });
-    const auto i = static_cast<std::size_t>(first - neighbors.begin());
+    Conflicts found{.count = std::accumulate(parts.begin(), parts.end(), std::uint64_t{0}) / 2};
+    const auto too_near = [&](const Neighbor& neighbor) { return neighbor.squared < squared; };
+    const auto i =
+        static_cast<std::size_t>(std::ranges::find_if(neighbors, too_near) - neighbors.begin());
     const KdTree itself(points[i], points.dimension(), distances.sides(), {});
-    for (std::size_t j = i + 1; j < points.count(); ++j)
-        if (itself.nearest(points[j]).squared < squared)
-            return {static_cast<std::int64_t>(i), static_cast<std::int64_t>(j)};
-    return {};
+    std::size_t j = i + 1;
+    while (!too_near(itself.nearest(points[j]))) ++j;
+    found.first = {static_cast<std::int64_t>(i), static_cast<std::int64_t>(j)};
+    return found;
 }
 
 /// What an expectation that does not hold is option_of with.
@@ -151,10 +146,8 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     const ClosestPair closest = closest_pair(neighbors);
     const double r = radius_of(points, options, closest.second.squared);
     Conflicts conflicts;
-    if (points.count() > 1 && closest.second.squared < r * r) {
-        conflicts = find_conflicts(points, distances, r * r, run.stage(0.2, 0.5));
-        conflicts.first = first_conflict(points, distances, neighbors, r * r);
-    }
+    if (points.count() > 1 && closest.second.squared < r * r)
+        conflicts = find_conflicts(points, distances, neighbors, r * r, run.stage(0.2, 0.5));
     const double most = r * (1 + options[tolerance]);
     const EmptyBall ball =
         largest_empty_ball(points, distances, {.enough = most}, run.stage(0.5, 1));

@@ -225,14 +225,4 @@ WeightTable::WeightTable(const Interpolator& interpolator)
     }
 }
 
-double WeightTable::value(std::size_t j, double u) const {
-    const double scaled = u * static_cast<double>(pieces_);
-    const auto piece = static_cast<std::size_t>(scaled);
-    const double t = 2 * (scaled - static_cast<double>(piece)) - 1;
-    const double* row = coefficients() + piece * (degree() + 1) * row_of(width_) + j;
-    double value = 0;
-    for (std::size_t k = 0; k <= degree(); ++k, row += row_of(width_)) value = value * t + *row;
-    return value;
-}
-
 }  // namespace stipple

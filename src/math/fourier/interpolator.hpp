@@ -119,9 +119,6 @@ class WeightTable {
     /// t^(degree - k), t in [-1, 1) being the place in the piece. Aligned to 64 bytes.
     [[nodiscard]] const double* coefficients() const { return rows_.front().numbers.data(); }
 
-    /// The weight of the j-th grid point.
-    [[nodiscard]] double value(std::size_t j, double u) const;
-
   private:
     struct alignas(64) Vector {
         std::array<double, 8> numbers;

@@ -18,7 +18,6 @@ namespace stipple {
 namespace {
 
 /// One complex number, moved as a whole.
-using Pair = double __attribute__((vector_size(16)));
 using PairInMemory = double __attribute__((vector_size(16), aligned(8), may_alias));
 
 /// A transform of one length, in place, that any number of threads may execute.
