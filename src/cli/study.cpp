@@ -13,6 +13,7 @@
 #include "cli/launched.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "core/spec.hpp"
 #include "core/text.hpp"
 #include "io/files.hpp"
 #include "io/source_text.hpp"

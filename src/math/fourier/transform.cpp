@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cmath>
 #include <filesystem>
+#include <memory>
+#include <new>
 
 #include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
