@@ -353,7 +353,7 @@ class Analysis {
         std::string name = io::source_name(set.source);
         if (set.of > 1) name += fmt::format(", set {}", set.number);
         named.warn = [&run, name](const std::string& sentence) {
-            run.tell(fmt::format("{}: {}", name, sentence));
+            run.notify(fmt::format("{}: {}", name, sentence));
         };
         return named;
     }

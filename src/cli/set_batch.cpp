@@ -84,7 +84,7 @@ void SetBatch::finish() {
             alone(sets[i]);
             continue;
         }
-        for (const auto& sentence : outcome.warnings) run_.tell(sentence);
+        for (const auto& sentence : outcome.warnings) run_.notify(sentence);
         if (outcome.error) std::rethrow_exception(outcome.error);
         if (outcome.measurement) keep_(sets[i], std::move(*outcome.measurement));
     }

@@ -87,7 +87,7 @@ RunContext RunContext::stage(double from, double to) const {
     return part;
 }
 
-void RunContext::tell(const std::string& sentence) const {
+void RunContext::notify(const std::string& sentence) const {
     if (warn) warn(sentence);
 }
 

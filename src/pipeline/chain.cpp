@@ -369,7 +369,7 @@ PointSet image_of(const PointSet& points, const WarpChain& chain, const RunConte
 void tell_kept(std::uint64_t count, std::uint64_t kept, const WarpChain& chain,
                const RunContext& run) {
     if (chain.drops() && kept < count)
-        run.tell(
+        run.notify(
             fmt::format("kept {} of {} points (efficiency {:.3g}): the others have no image "
                         "under {}",
                         kept, count, static_cast<double>(kept) / static_cast<double>(count),

@@ -98,10 +98,10 @@ GeneratedSets::GeneratedSets(const Generator& generator, Values options, Request
         fail(ErrorKind::usage, "--seed: {} and {} sets go beyond the 64 bits of a seed", plan_.seed,
              sets_);
     if (sets_ > 1 && !uses_seed(generator_, options_) && !chain_->seeded())
-        run.tell(fmt::format("{} does not use the seed: all {} sets are the same", generator_.name,
-                             sets_));
+        run.notify(fmt::format("{} does not use the seed: all {} sets are the same",
+                               generator_.name, sets_));
     if (generator_.notes)
-        for (const auto& note : generator_.notes(request_, plan_, options_)) run.tell(note);
+        for (const auto& note : generator_.notes(request_, plan_, options_)) run.notify(note);
 }
 
 std::optional<std::uint64_t> GeneratedSets::streamed() const {

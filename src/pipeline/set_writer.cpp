@@ -127,8 +127,8 @@ std::string meta_beside(const SetsToWrite& job, std::size_t first, std::size_t l
                         const std::string& path, const Target& target, const RunContext& run) {
     if (!target.meta || !target.format->traits.meta_beside || target.sink) return {};
     if (path == "-" || path.starts_with("/dev/")) {
-        run.tell(fmt::format("--meta: {} has no place for provenance, and {} none beside it",
-                             target.format->name, path == "-" ? "standard output" : path));
+        run.notify(fmt::format("--meta: {} has no place for provenance, and {} none beside it",
+                               target.format->name, path == "-" ? "standard output" : path));
         return {};
     }
     const Layout layout = layout_of(job, first, last, target);

@@ -53,8 +53,8 @@ struct RunContext {
     /// The part of a run whose progress is what lies between two fractions of the whole.
     [[nodiscard]] RunContext stage(double from, double to) const;
 
-    /// Tells the user `sentence`, if anybody listens.
-    void tell(const std::string& sentence) const;
+    /// Gives the user a sentence, if anybody listens.
+    void notify(const std::string& sentence) const;
 
     /// @throws Error(limit) naming `what` when it would need more than max_memory.
     void need_memory(double bytes, std::string_view what) const;

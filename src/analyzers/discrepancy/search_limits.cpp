@@ -76,7 +76,7 @@ void Limits::judge(const Bounds& found, const std::string& what, const std::stri
         search.tolerance > 0
             ? fmt::format(" (--tolerance {} was not reached)", format_number(search.tolerance))
             : "";
-    run.tell(fmt::format(
+    run.notify(fmt::format(
         "{} is not exact, but between {} and {}{}; the value given is the lower of these", what,
         format_number(found.lower), format_number(found.upper), missed));
 }

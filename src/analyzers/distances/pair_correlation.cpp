@@ -235,7 +235,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
         fail(ErrorKind::input, "pair-correlation needs at least two points; this is one");
     const Plan plan = plan_for(points, options);
     if (all_equal(points))
-        run.tell(fmt::format("all {} points are equal: all distances are 0", points.count()));
+        run.notify(fmt::format("all {} points are equal: all distances are 0", points.count()));
     const PairCounts counts =
         count_pairs(points, plan.distances, plan.width, plan.bins + plan.spread, plan.spread > 0,
                     run.stage(0, 0.98));

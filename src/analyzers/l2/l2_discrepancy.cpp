@@ -115,7 +115,7 @@ void warn_of_pairs(std::size_t n, std::size_t d, l2::Kind which, const RunContex
     const double pairs = static_cast<double>(n) * static_cast<double>(n) / 2;
     const double seconds = 0.6e-9 * pairs * static_cast<double>(d);
     if (seconds < 600) return;
-    run.tell(
+    run.notify(
         fmt::format("{} l2-discrepancy takes all pairs of {} points in {} dimensions, some "
                     "{:.0f} minutes on one core",
                     l2::record_of(which).name, n, d, seconds / 60));
@@ -127,7 +127,7 @@ Report off_by(const l2::Square& square, l2::Kind which, const char* method, cons
     constexpr double smallest = std::numeric_limits<double>::min();
     const double error = error_of_root(square.squared, square.error + smallest);
     if (error > few_digits * std::sqrt(std::max(square.squared, 0.0)))
-        run.tell(fmt::format(
+        run.notify(fmt::format(
             "l2-discrepancy: {} of {} {}; its value is off by up to {:.2g}",
             square.error < smallest ? "the square" : "nearly all digits", l2::record_of(which).name,
             square.error < smallest ? "is below the smallest double" : "cancel", error));

@@ -250,7 +250,7 @@ class Summation final : public SharedAccumulator {
                  "only where some are not",
                  n_);
         if (all_equal_)
-            run.tell(
+            run.notify(
                 fmt::format("all {} points are equal: they are in phase at every frequency", n_));
         if (!nufft_ && !direct_) begin(n_, run);
         return finished(run);

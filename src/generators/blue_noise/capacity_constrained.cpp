@@ -132,7 +132,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     }
     const double off = cells.equalize(fine, rescue);
     if (off > promised)
-        run.tell("the cells' masses differ by up to " + format_number(off) + " of their mean");
+        run.notify("the cells' masses differ by up to " + format_number(off) + " of their mean");
     for (std::size_t i = 0; i < n; ++i) {
         rows[2 * i] = cells[i].x;
         rows[2 * i + 1] = cells[i].y;

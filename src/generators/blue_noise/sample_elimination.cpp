@@ -195,7 +195,7 @@ CrowdExtent extent_of_file(const Crowd& crowd, const Values& options, const RunC
              "{}: too few different points to tell the measure of what they are "
              "on; --measure says it",
              options[from]);
-    run.tell(fmt::format(
+    run.notify(fmt::format(
         "{}: the points fill a part of {} dimension{} of their box, of a measure of about {:.3g}; "
         "--manifold-dimension and --measure say what they are on",
         options[from], found.dimension, found.dimension == 1 ? "" : "s", found.measure));

@@ -29,7 +29,7 @@ class Search {
         if (best_.radius == 0)
             fail(ErrorKind::limit, "--count: no radius was found that leaves {} points", count_);
         trim(seed);
-        run_.tell(fmt::format(
+        run_.notify(fmt::format(
             "no radius was found that leaves exactly {} points; points were removed from a larger "
             "set, which leaves room for others",
             count_));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "math/neighbors/kd_tree.hpp"
 
+#include <algorithm>
+
 #include <cmath>
 #include <numeric>
 #include <utility>

@@ -19,14 +19,12 @@
 //          from many threads.
 #pragma once
 
-#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "stipple/run.hpp"
@@ -94,12 +92,6 @@ class KdTree {
     /// Every point's nearest other one, in parallel.
     [[nodiscard]] std::vector<Neighbor> all_nearest(const RunContext& run) const;
 
-    /// Goes through the tree by a rule of the caller's own, Euclidean and nearest to `place` first:
-    /// enter(box) says whether to go into a node whose points are in box[0..d) to box[d..2d);
-    /// visit(index, row) is called for its points.
-    template <class Enter, class Visit>
-    void walk(const double* place, const Enter& enter, const Visit& visit) const;
-
   private:
     struct Range {
         std::size_t first;
@@ -140,42 +132,5 @@ class KdTree {
     std::vector<double> boxes_;           ///< per node, low then high
     std::vector<std::uint32_t> lowest_;   ///< per node
 };
-
-template <class Enter, class Visit>
-void KdTree::walk(const double* place, const Enter& enter, const Visit& visit) const {
-    const auto gap = [&](std::size_t node) {
-        const double* box = box_of(node);
-        double sum = 0;
-        for (std::size_t k = 0; k < dimension_; ++k) {
-            const double d = std::max({box[k] - place[k], place[k] - box[dimension_ + k], 0.0});
-            sum += d * d;
-        }
-        return sum;
-    };
-    // Down to the nearer half each time, then on from the nearest of all that wait: of boxes that
-    // have the place on their rims, all at distance 0, the first may lead far away.
-    constexpr std::size_t usual = 64;
-    std::vector<std::pair<double, std::size_t>> waiting;
-    waiting.reserve(usual);
-    waiting.emplace_back(0, 1);
-    while (!waiting.empty()) {
-        std::ranges::pop_heap(waiting, std::greater());
-        std::size_t node = waiting.back().second;
-        waiting.pop_back();
-        while (enter(box_of(node))) {
-            if (node >= leaves_) {
-                const auto [first, last] = range_of(node);
-                for (std::size_t i = first; i < last; ++i) visit(indices_[i], row(i));
-                break;
-            }
-            const double left = gap(2 * node);
-            const double right = gap(2 * node + 1);
-            const std::size_t farther = 2 * node + (left <= right ? 1 : 0);
-            waiting.emplace_back(std::max(left, right), farther);
-            std::ranges::push_heap(waiting, std::greater());
-            node = farther ^ 1;
-        }
-    }
-}
 
 }  // namespace stipple

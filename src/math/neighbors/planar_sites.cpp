@@ -72,9 +72,10 @@ void PlanarCells::cut_by_neighbors(std::size_t i, VoronoiCell& cell) const {
         if (std::hypot(planes[k].neighbor.x, planes[k].neighbor.y) < least)
             planes[k].neighbor = {least * outward[k].x, least * outward[k].y};
     const std::size_t count = sites_.count();
-    // Rounding moves copies: what only some of them have for a neighbour counts.
+    // Rounding moves copies: a neighbour may have a copy of the site for one, and not the site itself.
     for (std::size_t copy = 0; copy < turns_.size(); ++copy)
         triangles_->for_neighbors(copy * count + i, [&](std::size_t neighbor) {
+            if (copy > 0 && neighbor >= count) return;
             const Vec2 site = sites_.at(neighbor % count);
             const Vec2& to = turns_[neighbor / count];
             const Vec2 turn{to.x - turns_[copy].x, to.y - turns_[copy].y};

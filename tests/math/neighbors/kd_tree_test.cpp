@@ -138,49 +138,6 @@ TEST(KdTree, IsTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(build(1), build(5));
 }
 
-TEST(KdTree, WalkVisitsWhatTheRuleLetsIn) {
-    const Doubles rows = random_rows(1000, 2, 3);
-    const KdTree tree(rows, 2, {}, {});
-    std::vector<std::size_t> seen;
-    const Doubles place{0.7, 0.2};
-    tree.walk(
-        place.data(), [](const double* box) { return box[2] >= 0.5; },  // high x
-        [&](std::size_t index, const double* row) {
-            EXPECT_EQ(row[0], rows[2 * index]);
-            EXPECT_EQ(row[1], rows[2 * index + 1]);
-            seen.push_back(index);
-        });
-    std::ranges::sort(seen);
-    EXPECT_EQ(std::ranges::adjacent_find(seen), seen.end());
-    for (std::size_t i = 0; i < 1000; ++i)
-        EXPECT_TRUE(rows[2 * i] < 0.5 || std::ranges::binary_search(seen, i)) << i;
-    EXPECT_LT(seen.size(), 700U);
-}
-
-// Points of a line with copies all around: many boxes reach from line to line, the place on their
-// rims, so that whole lines without a near point are in the nearest of them.
-TEST(KdTree, WalkComesToTheNearestFirst) {
-    constexpr std::size_t n = 4000;
-    Doubles line = random_rows(n, 1, 5);
-    std::ranges::sort(line);
-    Doubles rows;
-    for (const double right : {0, -1, 1})
-        for (const double up : {0, -1, 1})
-            for (const double x : line) rows.insert(rows.end(), {x + right, 0.5 + up});
-    const KdTree tree(rows, 2, {}, {});
-    for (std::size_t i = 1; i + 1 < n; i += 10) {
-        std::size_t visits = 0;
-        std::size_t missing = 2;
-        tree.walk(
-            &rows[2 * i], [&](const double*) { return missing > 0; },
-            [&](std::size_t index, const double*) {
-                if (missing > 0) ++visits;
-                if (index == i - 1 || index == i + 1) --missing;
-            });
-        EXPECT_LT(visits, 50U) << i;
-    }
-}
-
 TEST(KdTree, OfNoPointsFindsNone) {
     const KdTree tree(Doubles{}, 2, {}, {});
     EXPECT_EQ(tree.nearest(Doubles{0, 0}).index, KdTree::none);

@@ -86,7 +86,7 @@ class Table {
         for (std::size_t row = rows_; row-- > 0;)
             if (columns.lower[row] < columns.upper[row]) ++open, first = row;
         if (open == 0 || run_.stop.stop_requested()) return;
-        run_.tell(fmt::format(
+        run_.notify(fmt::format(
             "{} of {} discrepancies are not exact, but between bounds, of which the lower is given "
             "as the value; the first, of {}, is between {} and {}",
             open, rows_, name(first), format_number(columns.lower[first]),
