@@ -480,7 +480,7 @@ class Analysis {
                     unmet_.push_back(fmt::format("{}: {}{}{} does not hold: it is {}", m.source,
                                                  check.key, check.op, check.value, *found));
         }
-        for (const auto& sentence : unmet_) say(fmt::format("stipple: {}\n", sentence));
+        for (const auto& sentence : unmet_) say_line(sentence);
         return unmet_.empty();
     }
 
@@ -491,7 +491,7 @@ class Analysis {
     int print_what_is_known() const {
         if (averaged_ || path_ != "-") session_.run().check_stop();
         print();
-        say("stipple: interrupted\n");
+        say_line("interrupted");
         constexpr int exit_code = 130;
         return exit_code;
     }

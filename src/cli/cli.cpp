@@ -15,7 +15,6 @@
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "core/utf8.hpp"
 #include "io/files.hpp"
 
 namespace stipple::cli {
@@ -65,7 +64,7 @@ int dispatch(const Arguments& arguments, const std::vector<Kind>& kinds) {
 int report_error(std::string_view verb, const std::string& what, const std::string& hint,
                  int code) {
     if (is_mute(verb)) return code;
-    say(fmt::format("stipple: {}\n", printable(hint.empty() ? what : what + "; " + hint)));
+    say_line(hint.empty() ? what : what + "; " + hint);
     return code;
 }
 

@@ -396,8 +396,8 @@ class Plot {
     /// With the command that draws this, less what cannot change it.
     [[nodiscard]] plot::PictureNotes notes_of() const {
         Json note = {{"tool", "stipple"},
-                                       {"version", STIPPLE_VERSION},
-                                       {"command", "stipple plot" + command_text(arguments_)}};
+                     {"version", STIPPLE_VERSION},
+                     {"command", "stipple plot" + command_text(arguments_)}};
         if (sets_.size() == 1 && !sets_[0].points.provenance.generator.empty())
             note["meta"] = io::to_json(sets_[0].points.provenance);
         return {{"Software", fmt::format("stipple {}", STIPPLE_VERSION)},

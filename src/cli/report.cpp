@@ -240,9 +240,9 @@ class Reporter {
                 const Report all = set.all_results();
                 const bool there = has(all, check.key);
                 if (there && opposite_of(check).holds(all)) continue;
-                say(fmt::format("stipple: {}: {} is {}, and --fail-on is {}{}{}\n", set.name,
-                                check.key, there ? check.found(all) : why_not(set, check.key),
-                                check.key, check.op, check.value));
+                say_line(fmt::format("{}: {} is {}, and --fail-on is {}{}{}", set.name, check.key,
+                                     there ? check.found(all) : why_not(set, check.key), check.key,
+                                     check.op, check.value));
                 fine = false;
             }
         }

@@ -6,15 +6,19 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/original.hpp"
 #include "cli/verbs.hpp"
 #include "core/bytes/file_bytes.hpp"
+#include "core/bytes/file_rules.hpp"
 #include "core/bytes/fingerprint.hpp"
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "core/text.hpp"
+#include "core/utf8.hpp"
 #include "io/carried_meta.hpp"
 #include "io/files.hpp"
 #include "io/provenance.hpp"
@@ -61,6 +65,10 @@ Arguments arguments_of(const Provenance& meta, const std::string& name) {
     typed.verb = Verb::generate;
     typed.unit = meta.generator;
     typed.settings = meta.options;
+    const auto& writes = find_generator(meta.generator).writes;
+    std::erase_if(typed.settings, [&](const auto& setting) {
+        return std::ranges::find(writes, setting.first) != writes.end();
+    });
     typed.common = {{"count", std::to_string(meta.count)}, {"seed", std::to_string(meta.seed)}};
     if (meta.start > 0) typed.common.emplace_back("start", std::to_string(meta.start));
     for (const std::string& warp : meta.warps) typed.common.emplace_back("warp", warp);
@@ -104,7 +112,12 @@ Recipe recipe_of(const Original& original, Session& session) {
     const Provenance& meta = original.meta;
     const Generator& generator = find_generator(meta.generator);
     Recipe recipe;
+    if (!meta.flaw.empty()) fail(ErrorKind::usage, "{}", meta.flaw);
     recipe.typed = typed_for(original);
+    for (const auto& [name, text] : recipe.typed.settings)
+        if (std::ranges::find(generator.writes, name) != generator.writes.end())
+            fail(ErrorKind::usage, "its command writes a file by --{}; only --output is written",
+                 name);
     recipe.job = production_of(recipe.typed, session);
     Production& job = recipe.job;
     if (job.generator->name != generator.name)
@@ -158,25 +171,34 @@ std::string changed_rules(const Provenance& meta) {
     return {};
 }
 
-/// Files that the points were made from must be there, and be the same. @throws Error
-void check_inputs(const Original& original) {
+/// Files that may be opened while a provenance is followed: those that the command line names. A file
+/// that the points were made from may stand there under another name.
+std::unique_ptr<FileRules> rules_for(const Original& original, const Arguments& arguments) {
+    std::map<std::string, std::string> readable = {{original.path, original.path}};
+    std::map<std::string, std::string> by_fingerprint;
+    for (const std::string& file : arguments.all("input")) {
+        readable.emplace(file, file);
+        by_fingerprint.emplace(format_fingerprint(fingerprint(read_file(file))), file);
+    }
     for (const auto& [file, fingerprint_then] : original.meta.inputs) {
         if (fingerprint_then == not_kept)
-            fail(ErrorKind::input, "{}: its points were made from '{}', a pipe that is not kept",
-                 original.name, file);
-        std::string bytes;
-        try {
-            bytes = read_file(file);
-        } catch (const Error& e) {
-            throw Error(e.kind(),
-                        fmt::format("{}: its points were made from a file that cannot be read: {}",
-                                    original.name, e.what()),
-                        "files are looked for from the folder where stipple runs");
-        }
-        if (format_fingerprint(fingerprint(bytes)) != fingerprint_then)
-            fail(ErrorKind::input, "{}: its points were made from '{}', which has changed since",
-                 original.name, file);
+            fail(ErrorKind::input, "{}: its points were made from {}, a pipe that is not kept",
+                 original.name, shown(file));
+        const auto same = by_fingerprint.find(fingerprint_then);
+        if (same != by_fingerprint.end())
+            readable[file] = same->second;
+        else if (readable.contains(file))
+            fail(ErrorKind::input, "{}: its points were made from {}, which has changed since",
+                 original.name, shown(file));
+        else
+            fail_with_hint(ErrorKind::input,
+                           fmt::format("give it with --input {}", printable(file)),
+                           "{}: its points were made from {}, which is not read for that alone",
+                           original.name, shown(file));
     }
+    const std::string output = arguments.get("output").value_or("-");
+    return std::make_unique<FileRules>(std::move(readable),
+                                       std::vector{output, io::meta_path(output)});
 }
 
 /// What happened, for people and for programs.
@@ -206,7 +228,6 @@ class Reproducer {
     }
 
     Verdict go() {
-        check_inputs(original_);
         if (!original_.plotted.empty()) return {};
         if (!original_.picture.empty()) return compare_picture();
         return original_.drawn ? compare_bytes() : compare_points();
@@ -214,6 +235,11 @@ class Reproducer {
 
     /// The points in a file of their own.
     void write(const Arguments& arguments) {
+        reading_provenance(original_, [&] { write_following(arguments); });
+    }
+
+  private:
+    void write_following(const Arguments& arguments) {
         Arguments typed = recipe_.typed;
         const std::string path = arguments.get("output").value_or("-");
         typed.common.emplace_back("output", path);
@@ -224,7 +250,6 @@ class Reproducer {
         making(1)(target);
     }
 
-  private:
     /// Everything that was done to make the points; `sets` are in the file, where that is known.
     [[nodiscard]] Making making(std::size_t sets) const {
         std::uint64_t have = recipe_.job.sets;
@@ -414,7 +439,7 @@ int say(const Original& original, const Verdict& verdict, const std::string& cha
     const std::string& version = original.meta.version;
     if (!verdict.identical && changed.empty() && version != STIPPLE_VERSION)
         sentence += fmt::format(" (made by stipple {}; this is {})", version, STIPPLE_VERSION);
-    std::string text = fmt::format("{}: {}\n", original.name, sentence);
+    std::string text = printable(fmt::format("{}: {}", original.name, sentence)) + "\n";
     if (arguments.has("json")) {
         Json out{{"format", "stipple.reproduction"}, {"version", 1}, {"file", original.name}};
         out["identical"] = verdict.identical;
@@ -461,6 +486,7 @@ int reproduce(const Arguments& arguments, Session& session) {
     const std::string changed =
         reading_provenance(original, [&] { return changed_rules(original.meta); });
     if (!changed.empty()) return say(original, {}, changed, arguments);
+    const auto rules = rules_for(original, arguments);
     std::optional<Reproducer> reproducer;
     const Verdict verdict = reading_provenance(original, [&] {
         reproducer.emplace(original, recipe_of(original, session), session);

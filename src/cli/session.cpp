@@ -135,8 +135,10 @@ Session::Session(const Arguments& arguments)
 void Session::warn(const std::string& sentence) {
     if (quiet_) return;
     bar_.clear();
-    say(fmt::format("stipple: {}\n", printable(sentence)));
+    say_line(sentence);
 }
+
+void say_line(std::string_view sentence) { say(fmt::format("stipple: {}\n", printable(sentence))); }
 
 void say(const std::string& text) {
     std::fwrite(text.data(), 1, text.size(), stderr);
@@ -151,7 +153,12 @@ void catch_interrupts() {
     action.sa_flags = 0;  // no SA_RESTART: a blocked read or write must come back
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    struct sigaction before = {};
+    sigaction(SIGHUP, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // not under nohup
+    // A closed pipe and a file over the limit are errors of the write.
     std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 }  // namespace stipple::cli

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <string>
+#include <string_view>
 
 #include "cli/parsing/arguments.hpp"
 #include "stipple/run.hpp"
@@ -57,7 +58,10 @@ class Session {
 /// Text on stderr; a closed or full stderr is no error.
 void say(const std::string& text);
 
-/// From now on Ctrl-C and SIGTERM stop a Session's run; a second one ends the program at once.
+/// A line "stipple: SENTENCE" on stderr, whoever's words are in it.
+void say_line(std::string_view sentence);
+
+/// From now on Ctrl-C, SIGTERM and SIGHUP stop a Session's run; a second one ends the program at once.
 void catch_interrupts();
 
 }  // namespace stipple::cli

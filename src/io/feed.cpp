@@ -10,6 +10,7 @@
 #include <cerrno>
 
 #include "core/bytes/file_bytes.hpp"
+#include "core/bytes/file_rules.hpp"
 #include "core/error.hpp"
 #include "io/source_text.hpp"
 
@@ -43,7 +44,8 @@ void wait_for_bytes(int descriptor, const RunContext& run) {
 int open_to_read(const std::string& path, struct stat& status) {
     // Without O_NONBLOCK, opening a named pipe would wait where nobody can stop it.
     const int descriptor =
-        path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+        path == "-" ? STDIN_FILENO
+                    : ::open(FileRules::readable(path).c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (descriptor < 0 || ::fstat(descriptor, &status) != 0) refuse_input(source_name(path), errno);
     if (S_ISDIR(status.st_mode)) {
         const Closing file{descriptor};

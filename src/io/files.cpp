@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "core/bytes/file_bytes.hpp"
+#include "core/bytes/file_rules.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "core/utf8.hpp"
@@ -77,6 +78,7 @@ Output::Output(std::string path, std::stop_token stop)
         return;
     }
     if (path_.empty()) fail(ErrorKind::io, "the output's name is empty; expected a file's name");
+    FileRules::require_writable(path_);
     target_ = follow_links(path_);
     struct stat status {};
     const bool there = ::stat(path_.c_str(), &status) == 0;

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "core/json.hpp"
 #include "core/text.hpp"
+#include "core/utf8.hpp"
 
 namespace stipple::io {
 namespace {
@@ -33,54 +35,88 @@ std::string untyped(const Json& value) {
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;
 
-void take(const Json& value, std::string& text) {
+// Each says whether the value is such.
+bool take(const Json& value, std::string& text) {
     if (value.is_string()) text = value.get<std::string>();
+    return value.is_string();
 }
 
 template <class Whole>
-void take_whole(const Json& value, Whole& number) {
+bool take_whole(const Json& value, Whole& number) {
     if (value.is_number_unsigned()) number = value.get<Whole>();
+    return value.is_number_unsigned();
 }
 
-void take(const Json& value, Pairs& pairs) {
-    if (!value.is_object()) return;
+bool take(const Json& value, Pairs& pairs) {
+    if (!value.is_object()) return false;
     pairs.clear();
     for (const auto& [name, text] : value.items())
         if (text.is_primitive()) pairs.emplace_back(name, untyped(text));
+    return pairs.size() == value.size();
+}
+
+bool take(const Json& value, std::vector<std::string>& texts) {
+    if (!value.is_array() || !std::ranges::all_of(value, &Json::is_string)) return false;
+    texts = value.get<std::vector<std::string>>();
+    return true;
+}
+
+bool take_precision(const Json& value, std::optional<int>& digits) {
+    constexpr std::uint64_t most = 1000;
+    if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most) return false;
+    digits = value.get<int>();
+    return true;
+}
+
+bool take_efficiency(const Json& value, double& efficiency) {
+    if (!value.is_number()) return false;
+    efficiency = value.get<double>();
+    return efficiency > 0 && efficiency <= 1;
+}
+
+bool take_versions(const Json& value,
+                   std::vector<std::pair<std::string, std::uint64_t>>& versions) {
+    if (!value.is_object() || !std::ranges::all_of(value, &Json::is_number_unsigned)) return false;
+    versions.clear();
+    for (const auto& [unit, version] : value.items())
+        versions.emplace_back(unit, version.get<std::uint64_t>());
+    return true;
+}
+
+bool take_dtype(const Json& value, bool& single) {
+    single = value == "f32";
+    return value.is_string();
+}
+
+/// Whether the value of one key is such; nothing: there is no such key.
+std::optional<bool> take_value(std::string_view key, const Json& value, Provenance& to) {
+    if (key == "tool") return true;
+    if (key == "version") return take(value, to.version);
+    if (key == "generator") return take(value, to.generator);
+    if (key == "options") return take(value, to.options);
+    if (key == "seed") return take_whole(value, to.seed);
+    if (key == "count") return take_whole(value, to.count);
+    if (key == "dimension") return take_whole(value, to.dimension);
+    if (key == "start") return take_whole(value, to.start);
+    if (key == "domain") return take(value, to.domain);
+    if (key == "bounds") return take(value, to.bounds);
+    if (key == "shard") return take(value, to.shard);
+    if (key == "command") return take(value, to.command);
+    if (key == "inputs") return take(value, to.inputs);
+    if (key == "dtype") return take_dtype(value, to.single);
+    if (key == "efficiency") return take_efficiency(value, to.efficiency);
+    if (key == "precision") return take_precision(value, to.precision);
+    if (key == "warps") return take(value, to.warps);
+    if (key == "stream_versions") return take_versions(value, to.stream_versions);
+    return std::nullopt;
 }
 
 /// Takes the value of one key. False: there is no such key.
 bool take(std::string_view key, const Json& value, Provenance& to) {
-    if (key == "tool") return true;
-    if (key == "version") return take(value, to.version), true;
-    if (key == "generator") return take(value, to.generator), true;
-    if (key == "options") return take(value, to.options), true;
-    if (key == "seed") return take_whole(value, to.seed), true;
-    if (key == "count") return take_whole(value, to.count), true;
-    if (key == "dimension") return take_whole(value, to.dimension), true;
-    if (key == "start") return take_whole(value, to.start), true;
-    if (key == "domain") return take(value, to.domain), true;
-    if (key == "bounds") return take(value, to.bounds), true;
-    if (key == "shard") return take(value, to.shard), true;
-    if (key == "command") return take(value, to.command), true;
-    if (key == "inputs") return take(value, to.inputs), true;
-    if (key == "dtype") return to.single = value == "f32", true;
-    if (key == "efficiency" && value.is_number()) to.efficiency = value.get<double>();
-    if (key == "precision" && value.is_number_integer())
-        to.precision =
-            static_cast<int>(std::clamp<std::int64_t>(value.get<std::int64_t>(), 0, 1000));
-    if (key == "warps" && value.is_array()) {
-        to.warps.clear();
-        for (const Json& warp : value)
-            if (warp.is_string()) to.warps.push_back(warp.get<std::string>());
-    }
-    if (key == "stream_versions" && value.is_object()) {
-        to.stream_versions.clear();
-        for (const auto& [unit, version] : value.items())
-            if (version.is_number_unsigned())
-                to.stream_versions.emplace_back(unit, version.get<std::uint64_t>());
-    }
-    return key == "efficiency" || key == "precision" || key == "warps" || key == "stream_versions";
+    const auto good = take_value(key, value, to);
+    if (good == false && to.flaw.empty())
+        to.flaw = fmt::format("its {} cannot be {}", key, shown(json_text(value)));
+    return good.has_value();
 }
 
 }  // namespace
@@ -128,7 +164,7 @@ bool take_comment_line(std::string_view line, Provenance& provenance) {
     const auto colon = line.find(": ");
     if (colon == std::string_view::npos) return false;
     const Json value = Json::parse(line.substr(colon + 2), nullptr, false);
-    return !value.is_discarded() && take(line.substr(0, colon), value, provenance);
+    return take(line.substr(0, colon), value.is_discarded() ? Json() : value, provenance);
 }
 
 }  // namespace stipple::io

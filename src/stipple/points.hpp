@@ -86,6 +86,8 @@ struct Provenance {
     std::vector<std::pair<std::string, std::string>> inputs = {};
     /// Units with rules of a later version than the first, each with it.
     std::vector<std::pair<std::string, std::uint64_t>> stream_versions = {};
+    /// What no such value can be, of one that was read; empty: nothing.
+    std::string flaw = {};
 
     bool operator==(const Provenance&) const = default;
 };

@@ -234,11 +234,22 @@ TEST(BadInput, AFailureLeavesTheOldTargetAlone) {
 
 TEST(BadInput, CtrlCLeavesNothingBehind) {
     const Sandbox box;
-    const Outcome outcome = box.shell(
-        "stipple generate random -n 1e10 -o p.csv & until [ -s .stipple-*.part ]; do "
-        "sleep 0.01; done; kill -INT $!; wait $!");
-    expect_refusal(outcome, 130, "interrupted");
-    EXPECT_EQ(box.files(), std::vector<std::string>{});
+    for (const std::string signal : {"INT", "TERM", "HUP"}) {
+        const Outcome outcome = box.shell(
+            "stipple generate random -n 1e10 -o p.csv & until [ -s .stipple-*.part ]; do "
+            "sleep 0.01; done; kill -" +
+            signal + " $!; wait $!");
+        expect_refusal(outcome, 130, "interrupted");
+        EXPECT_EQ(box.files(), std::vector<std::string>{});
+    }
+    // What nohup started goes on.
+    const Outcome nohup = box.shell(
+        "nohup stipple generate random -n 1e10 -o p.csv 2>/dev/null & until [ -s .stipple-*.part "
+        "]; "
+        "do sleep 0.01; done; kill -HUP $!; size=$(stat -c %s .stipple-*.part); until [ $(stat -c "
+        "%s "
+        ".stipple-*.part) -gt $((size + 100000)) ]; do sleep 0.01; done; kill -TERM $!; wait $!");
+    EXPECT_EQ(nohup.code, 130);
     const Outcome walking =
         box.shell("stipple generate random --rng ranlux48 --start 1e15 -n 1 & pid=$!; " +
                   caught("$pid") + "kill -INT $pid; wait $pid");
@@ -246,6 +257,35 @@ TEST(BadInput, CtrlCLeavesNothingBehind) {
     const Outcome waiting = box.shell("mkfifo pipe; stipple analyze chi-square pipe & pid=$!; " +
                                       caught("$pid") + "kill -INT $pid; wait $pid; rm pipe");
     EXPECT_THAT(waiting.err, HasSubstr("stipple: interrupted"));
+}
+
+TEST(BadInput, AFileOverTheLimitIsAnErrorLikeAFullDisk) {
+    const Sandbox box;
+    expect_refusal(box.shell("ulimit -f 8; stipple generate random -n 1e5 -o p.csv"), 4,
+                   "p.csv: larger than the limit of files");
+    EXPECT_EQ(box.files(), std::vector<std::string>{});
+}
+
+// Colours, titles and lines of their own in names of files, titles and words of the command line.
+TEST(BadInput, TextOfStrangersIsShownAndNotObeyed) {
+    const Sandbox box;
+    const std::string name = "x\x1b[31m\nstipple: identical\xff.csv";
+    const std::string shown = "x\\x1b[31m\\nstipple: identical\\xff.csv";
+    expect_refusal(box.run({"analyze", "moments", name}), 4, shown + ": no such file");
+    expect_refusal(box.run({"analyze", "mom\x1b]0;t\x07"}), 2, "'mom\\x1b]0;t\\x07'");
+    expect_refusal(box.run({"reproduce", name}), 4, shown);
+    box.write(name, "x,y\n0.5,0.25\n");
+    EXPECT_THAT(good(box.run({"analyze", "moments", name, "-f", "text"})),
+                HasSubstr("moments of " + shown + " ("));
+    EXPECT_THAT(good(box.run({"analyze", "moments", name, "-f", "json"})),
+                HasSubstr("x\\u001b[31m\\nstipple: identical\xEF\xBF\xBD.csv"));
+    const std::string picture = good(box.run({"plot", name, "-f", "text"}));
+    EXPECT_EQ(picture.substr(0, picture.find('\n')), shown);
+    for (const char* format : {"svg", "html", "json"}) {
+        const std::string file = std::string("out.") + format;
+        good(box.run({*format == 's' ? "plot" : "report", name, "-o", file}));
+        EXPECT_EQ(box.read(file).find('\x1b'), std::string::npos) << format;
+    }
 }
 
 // The exact value needs hours.

@@ -343,6 +343,18 @@ TEST(Generate, AClosedPipeIsNoError) {
     EXPECT_EQ(outcome.err, "");
 }
 
+// Limits of address space let fewer threads start than are asked for.
+TEST(Generate, GoesOnWithTheThreadsThatStart) {
+    if (sanitized()) GTEST_SKIP() << "sanitizers need memory of their own";
+    const Sandbox box;
+    const std::string all = good(box.shell("stipple generate poisson-disk -n 20000 | md5sum"));
+    for (const char* threads : {"8", "32", "64"})
+        EXPECT_EQ(good(box.shell("ulimit -v 500000; stipple generate poisson-disk -n 20000 "
+                                 "--threads " +
+                                 std::string(threads) + " | md5sum")),
+                  all);
+}
+
 // Address spaces are no measure under a sanitizer.
 TEST(Generate, StreamsInLittleMemory) {
     if (sanitized()) GTEST_SKIP() << "sanitizers need memory of their own";

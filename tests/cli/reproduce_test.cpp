@@ -217,12 +217,25 @@ TEST(Reproduce, NoticesFilesThatAreGoneOrChanged) {
         box.shell("stipple generate void-and-cluster -n 64 --size 16x16 --mask-image m.png -o "
                   "v.csv && stipple generate lloyd -n 30 --iterations 3 --density m.png -o l.json "
                   "&& stipple generate random -n 50 -w image:file=m.png --meta -o i.csv"));
-    for (const char* file : {"m.png", "l.json", "i.csv"}) expect_identical(box, file);
+    expect_identical(box, "m.png");
+    for (const char* file : {"l.json", "i.csv"}) {
+        // No file is read because another names it.
+        EXPECT_THAT(refusal(box, file), HasSubstr("made from 'm.png', which is not read for that "
+                                                  "alone; give it with --input m.png"));
+        good(box.run({"reproduce", file, "--input", "m.png"}));
+        good(box.shell("cp m.png other.png"));
+        good(box.run({"reproduce", file, "--input", "other.png"}));
+        EXPECT_EQ(box.run({"reproduce", file, "--input", "none.png"}).code, 4);
+    }
     good(
         box.shell("stipple generate void-and-cluster -n 64 --size 16x16 --seed 2 --mask-image "
                   "n.png -o v.csv; mv m.png old.png; mv n.png m.png"));
-    for (const char* file : {"l.json", "i.csv"})
-        EXPECT_THAT(refusal(box, file), HasSubstr("made from 'm.png', which has changed since"));
+    for (const char* file : {"l.json", "i.csv"}) {
+        const Outcome changed = box.run({"reproduce", file, "--input", "m.png"});
+        EXPECT_EQ(changed.code, 3);
+        EXPECT_THAT(changed.err, HasSubstr("made from 'm.png', which has changed since"));
+        good(box.run({"reproduce", file, "--input", "old.png"}));
+    }
     // A pipe is read once, by the generator.
     good(
         box.shell("stipple generate random -n 40 | stipple generate lloyd --iterations 2 --from "
@@ -320,6 +333,74 @@ TEST(Reproduce, MakesThePointsOfAPictureAgain) {
         EXPECT_THAT(refusal(box, "bare." + format),
                     HasSubstr("drawn by 'stipple plot bare.csv', of no single set with "
                               "provenance"));
+    }
+}
+
+/// Options of the kind's units whose text is the name of a file.
+std::vector<std::pair<std::string, std::string>> file_options(const std::string& kind) {
+    const Sandbox box;
+    std::vector<std::pair<std::string, std::string>> found;
+    const auto units = nlohmann::json::parse(good(box.run({"list", kind, "--json"})));
+    for (const auto& unit : units[kind])
+        for (const auto& option : unit["options"])
+            if (option["type"] == "file") found.emplace_back(unit["name"], option["name"]);
+    return found;
+}
+
+// A file from a stranger names another file by any option that there is: it is neither read nor
+// written, whether a command names it, the options, or a warp.
+TEST(Reproduce, OpensNoFileThatItsProvenanceNames) {
+    const auto of_generators = file_options("generators");
+    const auto of_warps = file_options("warps");
+    ASSERT_GE(of_generators.size(), 9U);
+    ASSERT_GE(of_warps.size(), 4U);
+    const auto expect_refused = [](const std::string& meta) {
+        const Sandbox box;
+        box.write("canary", "precious");
+        box.write("a.json",
+                  R"({"format":"stipple.points","version":1,"meta":{"seed":1,"count":1,)" + meta +
+                      R"(},"dimension":2,"count":1,"points":[[0.5,0.5]]})");
+        const Outcome outcome = box.run({"reproduce", "a.json", "-o", "again.csv"});
+        EXPECT_EQ(outcome.code, 3) << meta << outcome.out << outcome.err;
+        EXPECT_THAT(outcome.err, ::testing::AnyOf(HasSubstr("canary"), HasSubstr("writes a file")))
+            << meta;
+        EXPECT_EQ(box.read("canary"), "precious");
+        EXPECT_EQ(box.files(), (std::vector<std::string>{"a.json", "canary"}));
+    };
+    for (const auto& [unit, option] : of_generators) {
+        const std::string generator = "\"dimension\":2,\"generator\":\"" + unit + "\"";
+        expect_refused(generator + ",\"command\":\"stipple generate " + unit + " --" + option +
+                       " canary\"");
+        if (option != "mask-image")
+            expect_refused(generator + ",\"options\":{\"" + option + "\":\"canary\"}");
+    }
+    for (const auto& [unit, option] : of_warps) {
+        const std::string warp = unit + ":" + option + "=canary";
+        const std::string random = "\"dimension\":2,\"generator\":\"random\",\"warps\":[\"";
+        expect_refused(random + warp + "\"]");
+        expect_refused(random + "mixture:components=[sphere|" + warp + "]\"]");
+        expect_refused(random + "disk\",\"" + warp +
+                       "\"],\"command\":\"stipple generate random -w disk\"");
+    }
+}
+
+// What the command line would refuse, a provenance may not say either.
+TEST(Reproduce, RefusesValuesThatNoneCanHave) {
+    const Sandbox box;
+    good(box.shell("stipple generate random -n 10 --meta -o a.csv"));
+    const std::vector<std::pair<std::string, std::string>> cases = {
+        {"seed: 1", "seed: 18446744073709551616"},
+        {"seed: 1", "seed: -1"},
+        {"seed: 1", "seed: 1e999"},
+        {"count: 10", "count: -1"},
+        {"count: 10", "count: 1e308"},
+        {"warps: []", "warps: [3]"},
+        {"start: 0", "start: \"0\""}};
+    for (const auto& [was, is] : cases) {
+        good(box.shell("cp a.csv b.csv"));
+        replace_in(box, "b.csv", was, is);
+        const std::string key = was.substr(0, was.find(':'));
+        EXPECT_THAT(refusal(box, "b.csv"), HasSubstr("its " + key + " cannot be '")) << is;
     }
 }
 

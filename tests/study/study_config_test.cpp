@@ -77,6 +77,8 @@ TEST(StudyConfig, ErrorsNameThePlaceAndWhatIsNearest) {
     EXPECT_EQ(error_in("[1]"), "input: s.json: $: expected an object, {\"generators\": ...}");
     EXPECT_EQ(error_in("{\n \"a\": ,"), "input: s.json:2:7: not JSON");
     EXPECT_EQ(error_in(""), "input: s.json:1:1: not JSON");
+    EXPECT_EQ(error_in("{\n \"a\": 1e999}"),
+              "input: s.json:2:7: the number '1e999' is beyond what a double holds");
 }
 
 TEST(StudyConfig, KeysThatStandTwiceAreRefused) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <system_error>
 
+#include "core/bytes/file_rules.hpp"
 #include "core/error.hpp"
 
 namespace stipple {
@@ -26,6 +27,8 @@ std::string file_trouble(int error) {
             return "permission denied";
         case ENOSPC:
             return "no space left on the device";
+        case EFBIG:
+            return "larger than the limit of files (ulimit -f)";
         case EROFS:
             return "the file system is read-only";
         case ENOTDIR:
@@ -37,8 +40,8 @@ std::string file_trouble(int error) {
 
 std::string read_file(const std::string& path) {
     const auto reason = [] { return file_trouble(errno); };
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                               &std::fclose);
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
+        std::fopen(FileRules::readable(path).c_str(), "rb"), &std::fclose);
     if (!file) fail(ErrorKind::io, "{}: {}", path, reason());
     std::string bytes;
     constexpr std::size_t step = std::size_t{1} << 16;
