@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "core/error.hpp"
+#include "core/utf8.hpp"
 #include "pipeline/chain.hpp"
 #include "plot/distance_chart.hpp"
 #include "plot/domain_outline.hpp"

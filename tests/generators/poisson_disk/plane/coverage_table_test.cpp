@@ -13,7 +13,7 @@ using namespace stipple::poisson_disk;
 TEST(CoverageTable, BitsAreCoveredAndWhatIsWellCoveredHasItsBit) {
     for (const auto& [columns, rows] : {std::pair{9.5, 9.5}, {9.1, 30.9}, {200.5, 300.5}}) {
         const BoxSpace space{{{0, 0}, {columns, rows}}, true};
-        const Grid<2> grid(space, std::sqrt(2.0), std::sqrt(2.0), 64);
+        const poisson_disk::Grid<2> grid(space, std::sqrt(2.0), std::sqrt(2.0), 64);
         const CoverageTable table(grid);
         const Rng rng(static_cast<std::uint64_t>(rows));
         std::size_t set = 0;

@@ -17,7 +17,7 @@ constexpr double radius = 1.4142135623730951;  // cells of side 1, or a little l
 /// Points in a quarter of the cells of a box, and what they cover of the box as one whole.
 struct Scene {
     BoxSpace space;
-    Grid<2> grid{space, radius, radius, plane_side};
+    poisson_disk::Grid<2> grid{space, radius, radius, plane_side};
     PlaneRules rules{grid, 1e-15};
     std::vector<std::array<double, 2>> points;
     std::vector<std::array<std::uint32_t, 2>> cells;  ///< of the points
@@ -89,7 +89,7 @@ TEST(PlaneTile, CoversAndHitsWhatOneWholeDoes) {
     for (const bool torus : {true, false})
         for (const auto& [columns, rows] : {std::pair{5, 7}, {64, 65}, {130, 12}}) {
             const Scene scene(columns, rows, torus);
-            const Grid<2>& grid = scene.grid;
+            const poisson_disk::Grid<2>& grid = scene.grid;
             for (std::size_t t = 0; t < grid.tile_count; ++t) {
                 const auto [first, last] = grid.tile(t);
                 const std::size_t needed = FixedPositions::needed(last[1] - first[1]);

@@ -15,7 +15,7 @@ namespace {
 /// One tile of 16 or of 32 cells along each direction, with points in some of them and in its halo.
 struct Scene {
     BoxSpace space;
-    Grid<3> grid{space, 1, 1, space_side};
+    poisson_disk::Grid<3> grid{space, 1, 1, space_side};
     SpaceRules rules{grid};
     std::vector<std::uint32_t> lines = std::vector<std::uint32_t>(BallLines::room);
     std::vector<std::uint16_t> numbers = std::vector<std::uint16_t>(SpaceTile::halo_cells);
@@ -104,7 +104,7 @@ TEST(SpaceTile, KnowTheirPointsToTheLastDigit) {
     const Scene scene(3, 9);
     const TileCell<3> cell{5, 0, scene.tile.size(2) - 1};
     std::size_t found = 0;
-    scene.tile.for_about(cell, [&](const Grid<3>::Point& p, const TileCell<3>& at) {
+    scene.tile.for_about(cell, [&](const poisson_disk::Grid<3>::Point& p, const TileCell<3>& at) {
         ++found;
         bool known = false;
         for (const auto& place : scene.places) {
