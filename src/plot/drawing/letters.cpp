@@ -6,9 +6,9 @@
 #include "plot/drawing/letters.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
+#include <sstream>
 
 #include "core/text.hpp"
 #include "core/utf8.hpp"
@@ -20,12 +20,12 @@ const char* glyph_table();  // glyphs.txt
 namespace {
 
 struct Glyph {
-    char32_t letter;
-    int advance;  ///< thousandths of an em
-    std::string_view path;
+    char32_t letter = 0;
+    int advance = 0;  ///< thousandths of an em
+    std::string path = {};
 };
 
-constexpr Glyph unknown{U'\uFFFD', 556, "M2 1L13.6 1L13.6 19L2 19L2 1"};
+const Glyph unknown{U'\uFFFD', 556, "M2 1L13.6 1L13.6 19L2 19L2 1"};
 
 /// Raised letters are small ones, higher up.
 constexpr double raised_size = 0.6;
@@ -45,12 +45,11 @@ const std::vector<Glyph>& glyphs() {
         for (const std::string_view line : split(glyph_table(), '\n')) {
             if (line.empty()) continue;
             const Letter letter = first_letter(line);
-            const std::string_view rest = line.substr(letter.size + 1);
-            Glyph glyph{.letter = letter.point, .advance = 0, .path = {}};
-            const char* end =
-                std::from_chars(rest.data(), rest.data() + rest.size(), glyph.advance).ptr;
-            glyph.path = trim(rest.substr(static_cast<std::size_t>(end - rest.data())));
-            found.push_back(glyph);
+            std::istringstream rest{std::string(line.substr(letter.size))};
+            Glyph glyph{.letter = letter.point};
+            rest >> glyph.advance >> std::ws;
+            std::getline(rest, glyph.path);
+            found.push_back(std::move(glyph));
         }
         return found;
     }();
@@ -69,57 +68,36 @@ std::optional<char32_t> lowered(char32_t letter) {
     return at == std::u32string_view::npos ? std::nullopt : std::optional(plain_letters[at]);
 }
 
-/// Reads the path's numbers and draws.
-class PathReader {
-  public:
-    explicit PathReader(std::string_view path) : at_(path.data()), end_(at_ + path.size()) {}
-
-    std::vector<std::vector<Position>> draw() {
-        while (at_ != end_) {
-            const char command = *at_++;
-            const Position position = read_position();
-            if (command == 'M') strokes_.emplace_back();
-            if (command == 'Q')
-                curve_to(position, read_position());
-            else
-                strokes_.back().push_back(position);
-        }
-        return std::move(strokes_);
+/// A rational curve of weight sqrt(1/2): a quarter of a circle or an ellipse where the tangents are
+/// at right angles.
+void add_curve(std::vector<Position>& stroke, Position corner, Position end) {
+    constexpr int steps = 8;
+    const Position start = stroke.back();
+    for (int i = 1; i <= steps; ++i) {
+        const double t = static_cast<double>(i) / steps;
+        const double a = (1 - t) * (1 - t);
+        const double b = 2 * t * (1 - t) * std::sqrt(0.5);
+        const double c = t * t;
+        const double sum = a + b + c;
+        stroke.push_back({(a * start.x + b * corner.x + c * end.x) / sum,
+                          (a * start.y + b * corner.y + c * end.y) / sum});
     }
+}
 
-  private:
-    double read() {
-        if (*at_ == ' ') ++at_;
-        double value = 0;
-        at_ = std::from_chars(at_, end_, value).ptr;
-        return value;
+std::vector<std::vector<Position>> strokes_in(const std::string& path) {
+    std::vector<std::vector<Position>> strokes;
+    std::istringstream in(path);
+    char command = 0;
+    for (Position at; in >> command >> at.x >> at.y;) {
+        if (command == 'M') strokes.emplace_back();
+        Position end;
+        if (command == 'Q' && in >> end.x >> end.y)
+            add_curve(strokes.back(), at, end);
+        else
+            strokes.back().push_back(at);
     }
-
-    Position read_position() {
-        const double x = read();
-        return {x, read()};
-    }
-
-    /// A rational curve of weight sqrt(1/2): a quarter of a circle or an ellipse where the tangents
-    /// are at right angles.
-    void curve_to(Position corner, Position end) {
-        constexpr int steps = 8;
-        const Position start = strokes_.back().back();
-        for (int i = 1; i <= steps; ++i) {
-            const double t = static_cast<double>(i) / steps;
-            const double a = (1 - t) * (1 - t);
-            const double b = 2 * t * (1 - t) * std::sqrt(0.5);
-            const double c = t * t;
-            const double sum = a + b + c;
-            strokes_.back().push_back({(a * start.x + b * corner.x + c * end.x) / sum,
-                                       (a * start.y + b * corner.y + c * end.y) / sum});
-        }
-    }
-
-    const char* at_;
-    const char* end_;
-    std::vector<std::vector<Position>> strokes_;
-};
+    return strokes;
+}
 
 }  // namespace
 
@@ -131,7 +109,7 @@ double advance_of(char32_t letter) {
 
 std::vector<std::vector<Position>> strokes_of(char32_t letter) {
     const auto plain = lowered(letter);
-    auto strokes = PathReader(plain_glyph(plain.value_or(letter)).path).draw();
+    auto strokes = strokes_in(plain_glyph(plain.value_or(letter)).path);
     if (!plain) return strokes;
     for (auto& stroke : strokes)
         for (Position& position : stroke)
