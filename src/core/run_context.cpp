@@ -5,6 +5,8 @@
 #include <atomic>
 #include <latch>
 #include <memory>
+#include <new>
+#include <semaphore>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -15,19 +17,26 @@
 namespace stipple {
 namespace {
 
-/// How many threads of those wanted may run, this one included, found by starting them all and
-/// letting each allocate: limits of address space and processes let fewer start, and then half of
+/// Starts a thread that stays, and waits until it has allocated, for which the allocator reserves.
+void start_one(std::vector<std::thread>& started, std::latch& leave) {
+    std::binary_semaphore allocated(0);
+    started.emplace_back([&] {
+        ::operator delete(::operator new(64));
+        allocated.release();
+        leave.wait();
+    });
+    allocated.acquire();
+}
+
+/// How many threads of those wanted may run, this one included, found by starting them all:
+/// limits of address space and processes let fewer start, and then half of
 /// those leave room for the work.
 unsigned startable(unsigned wanted) {
     std::latch leave(1);
     std::vector<std::thread> started;
     started.reserve(wanted - 1);
     try {
-        while (started.size() + 1 < wanted)
-            started.emplace_back([&leave] {
-                ::operator delete(::operator new(64));  // the allocator reserves for each thread
-                leave.wait();
-            });
+        while (started.size() + 1 < wanted) start_one(started, leave);
     } catch (const std::system_error&) {
         wanted = static_cast<unsigned>(1 + started.size() / 2);
     }

@@ -10,7 +10,6 @@
 
 #include "core/json.hpp"
 #include "core/text.hpp"
-#include "core/utf8.hpp"
 
 namespace stipple::io {
 namespace {
@@ -62,10 +61,10 @@ bool take(const Json& value, std::vector<std::string>& texts) {
 }
 
 bool take_precision(const Json& value, std::optional<int>& digits) {
-    constexpr std::uint64_t most = 1000;
-    if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most) return false;
-    digits = value.get<int>();
-    return true;
+    constexpr std::int64_t most = 1000;
+    const auto whole = value.is_number_integer() ? value.get<std::int64_t>() : -1;
+    if (whole >= 0 && whole <= most) digits = static_cast<int>(whole);
+    return whole >= 0 && whole <= most;
 }
 
 bool take_efficiency(const Json& value, double& efficiency) {
@@ -115,7 +114,7 @@ std::optional<bool> take_value(std::string_view key, const Json& value, Provenan
 bool take(std::string_view key, const Json& value, Provenance& to) {
     const auto good = take_value(key, value, to);
     if (good == false && to.flaw.empty())
-        to.flaw = fmt::format("its {} cannot be {}", key, shown(json_text(value)));
+        to.flaw = fmt::format("its {} cannot be {}", key, json_shown(value));
     return good.has_value();
 }
 
@@ -164,7 +163,12 @@ bool take_comment_line(std::string_view line, Provenance& provenance) {
     const auto colon = line.find(": ");
     if (colon == std::string_view::npos) return false;
     const Json value = Json::parse(line.substr(colon + 2), nullptr, false);
-    return take(line.substr(0, colon), value.is_discarded() ? Json() : value, provenance);
+    if (!value.is_discarded()) return take(line.substr(0, colon), value, provenance);
+    // A number that no double holds is no JSON either; words of others are left alone.
+    const std::string text(line.substr(colon + 2));
+    if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string::npos)
+        return false;
+    return take(line.substr(0, colon), Json(text), provenance);
 }
 
 }  // namespace stipple::io

@@ -130,7 +130,7 @@ class ConfigReader {
             return;
         }
         if (!value.is_boolean())
-            refuse(where, fmt::format("expected true or false, got {}", json_text(value)));
+            refuse(where, fmt::format("expected true or false, got {}", json_shown(value)));
         // Seconds are left out by an option, all else is asked for by one.
         const bool left_out = name == "seconds";
         if (value.get<bool>() != left_out)
@@ -148,7 +148,7 @@ class ConfigReader {
     void read_unit(const std::string& key, const Json& value, const std::string& where) {
         if (!value.is_string() && !value.is_object())
             refuse(where, "expected a spec or {\"name\": ..., \"options\": {...}}, got " +
-                              json_text(value));
+                              json_shown(value));
         const std::string text =
             value.is_string() ? value.get<std::string>() : spec_of(key, value, where);
         checked(where, [&] { check_unit(key, parse_spec(text)); });
@@ -190,7 +190,7 @@ class ConfigReader {
         if (value.is_number()) return json_text(value);
         if (!value.is_array())
             refuse(where,
-                   "expected a word, a number, true, false or a list, got " + json_text(value));
+                   "expected a word, a number, true, false or a list, got " + json_shown(value));
         std::string text;
         for (const Json& item : value) {
             if (!text.empty()) text += item.is_array() ? ' ' : ',';

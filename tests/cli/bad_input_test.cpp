@@ -274,7 +274,7 @@ TEST(BadInput, TextOfStrangersIsShownAndNotObeyed) {
     expect_refusal(box.run({"analyze", "moments", name}), 4, shown + ": no such file");
     expect_refusal(box.run({"analyze", "mom\x1b]0;t\x07"}), 2, "'mom\\x1b]0;t\\x07'");
     expect_refusal(box.run({"reproduce", name}), 4, shown);
-    box.write(name, "x,y\n0.5,0.25\n");
+    box.write(name, "x,y\n0.5,0.25\n0.25,0.5\n");
     EXPECT_THAT(good(box.run({"analyze", "moments", name, "-f", "text"})),
                 HasSubstr("moments of " + shown + " ("));
     EXPECT_THAT(good(box.run({"analyze", "moments", name, "-f", "json"})),

@@ -354,33 +354,40 @@ TEST(Reproduce, OpensNoFileThatItsProvenanceNames) {
     const auto of_warps = file_options("warps");
     ASSERT_GE(of_generators.size(), 9U);
     ASSERT_GE(of_warps.size(), 4U);
-    const auto expect_refused = [](const std::string& meta) {
+    const auto versions = nlohmann::json::parse(good(Sandbox().run({"list", "--json"})));
+    std::string rules;  // or else it would be said that they have changed
+    for (const char* kind : {"generators", "warps"})
+        for (const auto& unit : versions[kind])
+            rules += (rules.empty() ? "" : ",") + unit["name"].dump() + ":" +
+                     unit["stream_version"].dump();
+    const auto expect_refused = [&rules](const std::string& meta) {
         const Sandbox box;
         box.write("canary", "precious");
         box.write("a.json",
-                  R"({"format":"stipple.points","version":1,"meta":{"seed":1,"count":1,)" + meta +
-                      R"(},"dimension":2,"count":1,"points":[[0.5,0.5]]})");
+                  R"({"format":"stipple.points","version":1,"meta":{"seed":1,"dimension":2,)"
+                  R"("stream_versions":{)" +
+                      rules + "}," + meta + R"(},"dimension":2,"count":1,"points":[[0.5,0.5]]})");
         const Outcome outcome = box.run({"reproduce", "a.json", "-o", "again.csv"});
         EXPECT_EQ(outcome.code, 3) << meta << outcome.out << outcome.err;
-        EXPECT_THAT(outcome.err, ::testing::AnyOf(HasSubstr("canary"), HasSubstr("writes a file")))
+        EXPECT_THAT(outcome.err, ::testing::AnyOf(HasSubstr("'canary'"), HasSubstr("writes a file"),
+                                                  HasSubstr("contradicts --count")))
             << meta;
         EXPECT_EQ(box.read("canary"), "precious");
         EXPECT_EQ(box.files(), (std::vector<std::string>{"a.json", "canary"}));
     };
     for (const auto& [unit, option] : of_generators) {
-        const std::string generator = "\"dimension\":2,\"generator\":\"" + unit + "\"";
+        const std::string generator = "\"generator\":\"" + unit + "\"";
         expect_refused(generator + ",\"command\":\"stipple generate " + unit + " --" + option +
                        " canary\"");
         if (option != "mask-image")
-            expect_refused(generator + ",\"options\":{\"" + option + "\":\"canary\"}");
+            expect_refused(generator + ",\"count\":1,\"options\":{\"" + option + "\":\"canary\"}");
     }
     for (const auto& [unit, option] : of_warps) {
         const std::string warp = unit + ":" + option + "=canary";
-        const std::string random = "\"dimension\":2,\"generator\":\"random\",\"warps\":[\"";
-        expect_refused(random + warp + "\"]");
-        expect_refused(random + "mixture:components=[sphere|" + warp + "]\"]");
-        expect_refused(random + "disk\",\"" + warp +
-                       "\"],\"command\":\"stipple generate random -w disk\"");
+        const std::string random = "\"generator\":\"random\",\"warps\":[\"";
+        expect_refused(random + warp + "\"],\"count\":1");
+        expect_refused(random + "mixture:components=[sphere|" + warp + "]\"],\"count\":1");
+        expect_refused(random + warp + "\"],\"command\":\"stipple generate random -n 1\"");
     }
 }
 

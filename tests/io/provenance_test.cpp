@@ -69,9 +69,18 @@ TEST(ProvenanceJson, ReadsBackWhatWasCutAndReadAndByWhichRules) {
 TEST(ProvenanceJson, IgnoresWhatItDoesNotUnderstand) {
     using Json = nlohmann::ordered_json;
     EXPECT_EQ(io::provenance_from(Json::parse("[1]")), Provenance{});
-    EXPECT_EQ(io::provenance_from(Json::parse(
-                  R"({"seed":-1,"count":"many","generator":7,"warps":{},"options":[],"new":1})")),
-              Provenance{});
+    auto wrong = io::provenance_from(
+        Json::parse(R"({"seed":-1,"count":"many","generator":7,"warps":{},"options":[],"new":1})"));
+    EXPECT_EQ(wrong.flaw, "its seed cannot be '-1'");
+    wrong.flaw.clear();
+    EXPECT_EQ(wrong, Provenance{});
+    Provenance huge;
+    EXPECT_TRUE(io::take_comment_line("seed: 1e999", huge));
+    EXPECT_EQ(huge.flaw, "its seed cannot be '\"1e999\"'");
+    Json deep = Json::array();
+    for (int i = 0; i < 100'000; ++i) deep = Json::array({std::move(deep)});
+    EXPECT_EQ(io::provenance_from(Json{{"warps", std::move(deep)}}).flaw,
+              "its warps cannot be 'array' with many others in each other");
     const auto one =
         io::provenance_from(Json::parse(R"({"seed":3,"options":{"a":[1]},"warps":[1]})"));
     EXPECT_EQ(one.seed, 3U);

@@ -35,7 +35,7 @@ TEST(TokenFile, NumbersAreWholeAndInTheirRange) {
     EXPECT_EQ(error_of([&] { file.number("n", 0, 1); }),
               "input: f:1:48: '1.5' is not a whole number; expected n in [0, 1]");
     EXPECT_EQ(error_of([&] { file.number("n"); }),
-              "input: f:1:52: 'x?' is not a whole number; expected n");
+              "input: f:1:52: 'x\\x01' is not a whole number; expected n");
     EXPECT_EQ(error_of([&] { file.number("n", 9, 12); }),
               "input: f:1:55: '8' is out of range; expected n in [9, 12]");
     EXPECT_EQ(error_of([&] { file.number("n", 8, 8); }),

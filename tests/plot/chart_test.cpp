@@ -115,7 +115,7 @@ TEST(ReadDocument, RefusesWhatIsNoReport) {
     EXPECT_THAT(bad_json("{\"format\":\"stipple.report\",\"version\":2}"), HasSubstr("version 2"));
     EXPECT_THAT(bad_json("{\"format\":\"stipple.report\",\"vers"), HasSubstr("no whole JSON"));
     EXPECT_THAT(bad_json("{\"format\":\"stipple.report\",\"version\":1e999}"),
-                HasSubstr("byte 37 of a report: the number '1e999' is beyond what a double holds"));
+                HasSubstr("byte 38 of a report: the number '1e999' is beyond what a double holds"));
     EXPECT_FALSE(looks_like_reports("x,y\n0.1,0.2\n"));
     EXPECT_FALSE(looks_like_reports("[[0.1,0.2]]"));
     EXPECT_FALSE(looks_like_reports("{\"format\":\"stipple.points\",\"version\":1}"));
