@@ -183,18 +183,18 @@ class ConfigReader {
     }
 
     /// A value as one types it: numbers of a list are separated by commas, points by blanks.
-    std::string option_text(const Json& value, const std::string& where) const {
+    std::string option_text(const Json& value, const std::string& where, int lists = 2) const {
         if (value.is_string()) return value.get<std::string>();
         if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
         if (value.is_number_float()) return format_number(value.get<double>());
         if (value.is_number()) return json_text(value);
-        if (!value.is_array())
+        if (!value.is_array() || lists == 0)
             refuse(where,
                    "expected a word, a number, true, false or a list, got " + json_shown(value));
         std::string text;
         for (const Json& item : value) {
             if (!text.empty()) text += item.is_array() ? ' ' : ',';
-            text += option_text(item, where);
+            text += option_text(item, where, lists - 1);
         }
         return text;
     }

@@ -70,7 +70,7 @@ TEST(StudyConfig, ErrorsNameThePlaceAndWhatIsNearest) {
     EXPECT_EQ(error_with(R"("curves": 1)"),
               "input: s.json: $.curves: expected true or false, got '1'");
     EXPECT_EQ(error_with("\"count\": " + std::string(100'000, '[') + std::string(100'000, ']')),
-              "input: s.json: $.count[0]: expected a word, a number, true, false or a list, got "
+              "input: s.json: $.count: expected a word, a number, true, false or a list, got "
               "'array' with many others in each other");
     EXPECT_EQ(error_in(R"({"generators": []})"),
               "input: s.json: $.generators: expected a list of specs such as "
