@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <optional>
 
 namespace stipple {
 
@@ -28,11 +29,25 @@ RunContext unstopped(RunContext run) {
     return run;
 }
 
+namespace {
+
+/// More threads than cores are only had by raising the library's own bound, which is the least of
+/// all that are set: one for the whole program, that rises.
+void allow(unsigned threads) {
+    static std::mutex mutex;
+    static std::optional<tbb::global_control> bound;
+    static std::size_t allowed =
+        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+    const std::lock_guard lock(mutex);
+    if (threads <= allowed) return;
+    bound.emplace(tbb::global_control::max_allowed_parallelism, allowed = threads);
+}
+
+}  // namespace
+
 void within_threads(const RunContext& run, const std::function<void()>& work) {
     const unsigned threads = run.thread_count();
-    // More threads than cores are only had by raising the library's own bound.
-    const tbb::global_control more(tbb::global_control::max_allowed_parallelism,
-                                   std::max<std::size_t>(threads, 1));
+    allow(threads);
     tbb::task_arena arena(static_cast<int>(threads));
     arena.execute(work);
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -18,6 +19,32 @@ std::vector<std::string> coordinate_names(std::size_t dimension) {
     std::vector<std::string> names;
     for (std::size_t k = 1; k <= dimension; ++k) names.push_back(fmt::format("x{}", k));
     return names;
+}
+
+Counts Counts::equal(std::uint64_t sets, std::uint64_t each) {
+    Counts counts;
+    counts.sets_ = sets;
+    counts.first_ = each;
+    return counts;
+}
+
+void Counts::push_back(std::uint64_t count) {
+    if (sets_ == 0) first_ = count;
+    if (all_.empty() && count != first_) all_.assign(sets_, first_);
+    if (!all_.empty()) all_.push_back(count);
+    ++sets_;
+}
+
+std::uint64_t Counts::total() const {
+    return all_.empty() ? sets_ * first_
+                        : std::accumulate(all_.begin(), all_.end(), std::uint64_t{0});
+}
+
+Counts Counts::part(std::uint64_t first, std::uint64_t last) const {
+    if (all_.empty()) return equal(last - first, first_);
+    Counts counts;
+    for (std::uint64_t set = first; set < last; ++set) counts.push_back(all_[set]);
+    return counts;
 }
 
 std::vector<std::string> Layout::columns() const {

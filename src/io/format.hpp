@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,15 +19,41 @@
 
 namespace stipple {
 
+/// Points of each of several sets: one number where all have as many, however many there are.
+class Counts {
+  public:
+    Counts() = default;
+    Counts(std::initializer_list<std::uint64_t> counts) {
+        for (const std::uint64_t count : counts) push_back(count);
+    }
+    static Counts equal(std::uint64_t sets, std::uint64_t each);
+
+    void push_back(std::uint64_t count);
+    [[nodiscard]] std::uint64_t size() const { return sets_; }
+    [[nodiscard]] std::uint64_t operator[](std::uint64_t set) const {
+        return all_.empty() ? first_ : all_[set];
+    }
+    [[nodiscard]] std::uint64_t front() const { return first_; }
+    [[nodiscard]] bool are_equal() const { return all_.empty(); }
+    [[nodiscard]] std::uint64_t total() const;
+    /// Those of sets [first, last).
+    [[nodiscard]] Counts part(std::uint64_t first, std::uint64_t last) const;
+
+  private:
+    std::uint64_t sets_ = 0;
+    std::uint64_t first_ = 0;
+    std::vector<std::uint64_t> all_ = {};  ///< where they are not equal
+};
+
 /// What a writer knows before the first row.
 struct Layout {
-    std::size_t dimension = 0;               ///< coordinates of a point
-    std::vector<std::string> extras = {};    ///< names of further numbers in a row ("pdf")
-    std::vector<std::uint64_t> counts = {};  ///< points of each set
-    bool header = true;                      ///< CSV
-    bool meta = false;                       ///< provenance in `# ` lines
-    bool single = false;                     ///< float32 in binary formats
-    std::optional<int> precision = {};       ///< digits after the point
+    std::size_t dimension = 0;             ///< coordinates of a point
+    std::vector<std::string> extras = {};  ///< names of further numbers in a row ("pdf")
+    Counts counts = {};                    ///< points of each set
+    bool header = true;                    ///< CSV
+    bool meta = false;                     ///< provenance in `# ` lines
+    bool single = false;                   ///< float32 in binary formats
+    std::optional<int> precision = {};     ///< digits after the point
     Provenance provenance = {};
     std::optional<Box> extent = {};  ///< what a picture shows; else the bounds, else the unit cube
 

@@ -278,6 +278,7 @@ class Producer {
 
     void go() {
         if (sets_.streamed()) return stream();
+        if (begins_without_later_sets()) return write_one_by_one();
         const std::size_t batch = file_per_set(target_.path) ? 1 : job_.sets;
         const WarpChain& chain = sets_.chain();
         if (!chain.drops())
@@ -343,13 +344,44 @@ class Producer {
                            std::size_t set,
                            const RunContext& run) { return sets_.stream(set, run, first, last); },
              .provenance = [&](std::size_t set) { return signed_by(sets_.provenance(set, count)); },
+             .first_seed = sets_.plan().seed,
              .extent = [this](std::size_t) { return sets_.domain()->bounding_box(); },
-             .counts = std::vector<std::uint64_t>(job_.sets, count),
+             .counts = Counts::equal(job_.sets, count),
              .dimension = sets_.dimension(),
              .chain = &sets_.chain(),
              .volume = sets_.chain().empty() ? sets_.domain()->measure() : 1,
              .starts = true},
             target_, run_);
+    }
+
+    /// Whether the file's front says nothing of sets that are not made yet.
+    [[nodiscard]] bool begins_without_later_sets() const {
+        const Format* named =
+            target_.format != nullptr ? target_.format : io::format_of_extension(target_.path);
+        const FormatTraits traits = (named != nullptr ? *named : io::format_named("csv")).traits;
+        const auto is_given = [this](const std::string& option) {
+            return job_.options.find(option).given;
+        };
+        return !traits.counts_first && !traits.equal_sets && !target_.meta && !target_.take &&
+               !file_per_set(target_.path) && std::ranges::none_of(generator_.writes, is_given);
+    }
+
+    void write_one_by_one() {
+        PointSet held;
+        const auto make = [&](std::size_t set, const RunContext&) {
+            held = made(set);
+            return rows_of(held);
+        };
+        write_files({.sets = job_.sets,
+                     .source = make,
+                     .provenance = [&](std::size_t set) { return sets_.provenance(set, 0); },
+                     .first_seed = sets_.plan().seed,
+                     .extent = [this](std::size_t) { return sets_.domain()->bounding_box(); },
+                     .counts = Counts::equal(job_.sets, 0),
+                     .dimension = sets_.dimension(),
+                     .chain = &sets_.chain(),
+                     .volume = sets_.chain().empty() ? sets_.domain()->measure() : 1},
+                    target_, run_);
     }
 
     /// One set, made, warped and cut in memory.
@@ -448,7 +480,7 @@ void write_warped(io::PointStream& stream, const DomainPtr& on, const Spec& warp
                      },
                  .provenance = [&](std::size_t) { return stream.provenance(); },
                  .extent = [&](std::size_t) { return domain->bounding_box(); },
-                 .counts = std::vector<std::uint64_t>(sets, 0),
+                 .counts = Counts::equal(sets, 0),
                  .dimension = wide,
                  .chain = chain.get()},
                 target, run);

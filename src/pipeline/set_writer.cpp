@@ -69,9 +69,7 @@ void check_format(const Format& format, const Layout& layout) {
         fail_with_hint(ErrorKind::usage, "write a file for each set: -o 'NAME_{set}...'",
                        "--format: {} holds one set; there are {}", format.name,
                        layout.counts.size());
-    const bool equal = std::ranges::all_of(
-        layout.counts, [&](auto count) { return count == layout.counts.front(); });
-    if (traits.equal_sets && !equal)
+    if (traits.equal_sets && !layout.counts.are_equal())
         fail_with_hint(ErrorKind::usage, "write a file for each set: -o 'NAME_{set}...'",
                        "--format: {} holds sets of equal size only; these are not", format.name);
 }
@@ -90,7 +88,7 @@ Layout layout_of(const SetsToWrite& job, std::size_t first, std::size_t last,
         meta.precision = std::min(meta.precision.value_or(*target.precision), *target.precision);
     meta.single |= target.single && target.format->traits.binary;
     layout.extras = target.columns.names();
-    for (std::size_t set = first; set < last; ++set) layout.counts.push_back(job.counts[set]);
+    layout.counts = job.counts.part(first, last);
     return layout;
 }
 
@@ -137,21 +135,21 @@ std::string meta_beside(const SetsToWrite& job, std::size_t first, std::size_t l
            "\n";
 }
 
-/// @throws Error(usage) where two sets would be one file
-std::vector<std::string> paths_of_sets(const SetsToWrite& job, const Target& target) {
-    std::vector<std::string> paths;
-    std::unordered_map<std::string, std::size_t> taken;
+std::uint64_t seed_of_set(const SetsToWrite& job, std::size_t set) {
+    return job.first_seed ? *job.first_seed + set : job.provenance(set).seed;
+}
+
+/// Seeds that files tell may be the same. @throws Error(usage) where two sets would be one file
+void check_seeds(const SetsToWrite& job, const Target& target) {
+    if (job.first_seed || target.path.find("{set}") != std::string::npos) return;
+    std::unordered_map<std::uint64_t, std::size_t> taken;
     for (std::size_t set = 0; set < job.sets; ++set) {
-        const std::uint64_t seed =
-            job.first_seed ? *job.first_seed + set : job.provenance(set).seed;
-        paths.push_back(path_of_set(target.path, job.first_set + set, seed));
-        const auto [there, is_new] = taken.try_emplace(paths.back(), set);
+        const auto [there, is_new] = taken.try_emplace(seed_of_set(job, set), set);
         if (!is_new)
             fail_with_hint(ErrorKind::usage, "use {set}",
                            "--output: sets {} and {} both have the seed {}, and would be one file",
-                           job.first_set + there->second, job.first_set + set, seed);
+                           job.first_set + there->second, job.first_set + set, there->first);
     }
-    return paths;
 }
 
 /// The points and what comes with them: all of it or, when it fails, nothing. Who closes the pipe
@@ -209,9 +207,11 @@ bool write_files(const SetsToWrite& job, const Target& asked, const RunContext& 
     if (target.format == nullptr) target.format = io::format_of_extension(target.path);
     if (target.format == nullptr) target.format = &io::format_named("csv");
     if (!file_per_set(target.path)) return write_file(job, 0, job.sets, target.path, target, run);
-    const auto paths = paths_of_sets(job, target);
-    for (std::size_t set = 0; set < job.sets; ++set)
-        if (!write_file(job, set, set + 1, paths[set], target, run)) return false;
+    check_seeds(job, target);
+    for (std::size_t set = 0; set < job.sets; ++set) {
+        const auto path = path_of_set(target.path, job.first_set + set, seed_of_set(job, set));
+        if (!write_file(job, set, set + 1, path, target, run)) return false;
+    }
     return true;
 }
 

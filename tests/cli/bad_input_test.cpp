@@ -318,8 +318,10 @@ TEST(BadInput, TooMuchMemoryIsRefusedBeforeStarting) {
     const auto refused = [&](const std::string& line, const std::string& words) {
         expect_refusal(box.shell(line + " --max-memory 1M"), 5, words);
     };
-    refused("stipple generate lloyd -n 9 -m 10000", "what 10000 sets hold together needs 1.37");
-    refused("stipple generate poisson-disk --radius 0.03 -m 1000", "what 1000 sets hold together");
+    refused("stipple generate lloyd -n 9 -m 10000 -f json",
+            "what 10000 sets hold together needs 1.37");
+    refused("stipple generate poisson-disk --radius 0.03 -m 1000 -f json",
+            "what 1000 sets hold together");
     refused("stipple generate halton -n 99 | stipple warp owen -m 1000", "1000 sets hold together");
     refused(
         "stipple generate halton -n 60000 -f csv | grep -v '#' | stipple analyze "

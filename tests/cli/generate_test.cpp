@@ -343,6 +343,23 @@ TEST(Generate, AClosedPipeIsNoError) {
     EXPECT_EQ(outcome.err, "");
 }
 
+// However many sets are asked for, one is made after the other.
+TEST(Generate, BeginsWithManySetsAtOnce) {
+    if (sanitized()) GTEST_SKIP() << "sanitizers need memory of their own";
+    const Sandbox box;
+    for (const char* generator : {"random", "poisson-disk"}) {
+        const std::string one = std::string("stipple generate ") + generator + " -n 8 -m ";
+        EXPECT_EQ(good(box.shell("ulimit -v 500000; " + one + "1e9 | head -n 40")),
+                  good(box.shell(one + "5 | head -n 40")))
+            << generator;
+    }
+    const Outcome files = box.shell(
+        "ulimit -v 500000; stipple generate random -n 8 -m 1e9 -o 'x{set}.csv' & until [ -f "
+        "x2.csv ]; do sleep 0.01; done; kill -INT $!; wait $!");
+    EXPECT_EQ(files.code, 130);
+    EXPECT_EQ(box.read("x1.csv"), good(box.shell("stipple generate random -n 8 --seed 2")));
+}
+
 // Limits of address space let fewer threads start than are asked for.
 TEST(Generate, GoesOnWithTheThreadsThatStart) {
     if (sanitized()) GTEST_SKIP() << "sanitizers need memory of their own";

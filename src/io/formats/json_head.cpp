@@ -24,16 +24,15 @@ std::vector<std::uint64_t> whole_numbers(const SourceText& text, const char* at,
 
 }  // namespace
 
-std::string json_head(const Layout& layout, const std::vector<std::uint64_t>& counts) {
+std::string json_head(const Layout& layout, const Counts& counts) {
     Json head{{"format", "stipple.points"}, {"version", 1}};
     head["meta"] = to_json(layout.provenance);
     head["dimension"] = layout.dimension;
-    const bool equal =
-        std::ranges::adjacent_find(counts, std::ranges::not_equal_to{}) == counts.end();
-    if (equal && !counts.empty())
-        head["count"] = counts.front();
+    Json& count = head["count"] = Json::array();
+    if (counts.are_equal() && counts.size() > 0)
+        count = counts.front();
     else
-        head["count"] = counts;
+        for (std::uint64_t set = 0; set < counts.size(); ++set) count.push_back(counts[set]);
     if (!layout.extras.empty()) head["columns"] = layout.columns();
     std::string text = json_text(head);
     text.pop_back();

@@ -20,7 +20,7 @@
 namespace stipple::io {
 
 /// The text above, up to the points: without a closing brace. Extras add "columns":["x","y","pdf"].
-std::string json_head(const Layout& layout, const std::vector<std::uint64_t>& counts);
+std::string json_head(const Layout& layout, const Counts& counts);
 
 /// What a reader found.
 struct JsonHead {

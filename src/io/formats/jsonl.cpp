@@ -24,7 +24,7 @@ namespace stipple::io::jsonl {
 namespace {
 
 void begin_set(const Layout& layout, std::size_t set, std::string& out) {
-    out += json_head(layout, {layout.counts.at(set)});
+    out += json_head(layout, {layout.counts[set]});
     if (layout.many_sets()) out += fmt::format(",\"set\":{}", set);
     out += "}\n";
 }

@@ -20,7 +20,7 @@ namespace stipple::io::npy {
 namespace {
 
 void head(const Layout& layout, std::string& out) {
-    std::vector<std::uint64_t> shape = {layout.counts.at(0), layout.width()};
+    std::vector<std::uint64_t> shape = {layout.counts[0], layout.width()};
     if (layout.many_sets()) shape.insert(shape.begin(), layout.counts.size());
     out += npy_head(shape, layout.single);
 }

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "io/decimal.hpp"
 #include "io/format.hpp"
@@ -21,8 +20,7 @@ namespace {
 void head(const Layout& layout, std::string& out) {
     out += layout.precision ? "ply\nformat ascii 1.0\n" : "ply\nformat binary_little_endian 1.0\n";
     if (layout.meta) out += to_comment_lines(layout.provenance, "comment ");
-    const auto count =
-        std::accumulate(layout.counts.begin(), layout.counts.end(), std::uint64_t{0});
+    const auto count = layout.counts.total();
     out += "element vertex " + std::to_string(count) + "\n";
     const std::string property = layout.single ? "property float " : "property double ";
     for (const char* axis : {"x", "y", "z"}) out += property + axis + "\n";

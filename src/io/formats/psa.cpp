@@ -18,7 +18,7 @@ namespace {
 void head(const Layout& layout, std::string& out) {
     if (!layout.extras.empty())
         fail(ErrorKind::usage, "--format: psa has no place for {}", join(layout.extras, ", "));
-    out += std::to_string(layout.counts.at(0)) + "\n";
+    out += std::to_string(layout.counts[0]) + "\n";
 }
 
 void rows(const Layout& layout, std::size_t, std::uint64_t, std::span<const double> numbers,

@@ -107,14 +107,13 @@ Sheet sheet_of(const Layout& layout) {
         sheet.height = std::max(sheet.height, panel.top + panel.height + margin);
     }
     const Panel& first = sheet.panels[0];
-    sheet.radius =
-        disk_radius(first.width * first.height, static_cast<double>(layout.counts.at(0)));
+    sheet.radius = disk_radius(first.width * first.height, static_cast<double>(layout.counts[0]));
     return sheet;
 }
 
 /// What a picture is called: letters that mean something to XML are left out.
 std::string title_of(const Layout& layout) {
-    std::string title = fmt::format("{} points", layout.counts.at(0));
+    std::string title = fmt::format("{} points", layout.counts[0]);
     if (!layout.provenance.generator.empty()) title = layout.provenance.generator + ", " + title;
     for (const std::string& warp : layout.provenance.warps) title += ", " + warp;
     std::erase_if(title, [](char c) { return c == '<' || c == '&' || (c >= 0 && c < 0x20); });
