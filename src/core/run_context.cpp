@@ -59,7 +59,8 @@ unsigned limited_by_system(unsigned wanted) {
 }  // namespace
 
 unsigned RunContext::thread_count() const {
-    static const unsigned cores = std::max(1U, std::thread::hardware_concurrency());  // reads a file
+    static const unsigned cores =
+        std::max(1U, std::thread::hardware_concurrency());  // reads a file
     return limited_by_system(threads != 0 ? threads : cores);
 }
 

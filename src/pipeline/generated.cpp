@@ -56,18 +56,14 @@ NextRows rows_of(const PointSet& points, std::uint64_t first) {
 
 bool in_batches(const NextRows& next, std::size_t batch, std::size_t width, const RunContext& run,
                 const std::function<bool(std::span<const double>)>& take) {
-    constexpr std::size_t first = 4096;  // numbers: sets may be small, and many
-    constexpr std::size_t few = 65536;   // sooner made than a thread is started
-    std::size_t size = std::min(batch, 1 + first / width);
-    std::vector<double> rows(size * width);
-    std::vector<double> ahead;
+    constexpr std::size_t few = 65536;  // numbers, sooner made than a thread is started
+    std::vector<double> rows(batch * width);
+    std::vector<double> ahead(rows.size());
+    const auto policy = run.thread_count() > 1 && rows.size() > few
+                            ? std::launch::async | std::launch::deferred
+                            : std::launch::deferred;  // where none starts, too
     for (std::size_t count = next(rows); count > 0; rows.swap(ahead)) {
         run.check_stop();
-        if (count == size) size = std::min(batch, 8 * size);
-        ahead.resize(size * width);
-        const auto policy = run.thread_count() > 1 && ahead.size() > few
-                                ? std::launch::async | std::launch::deferred
-                                : std::launch::deferred;  // where none starts, too
         auto fetched = std::async(policy, [&] { return next(ahead); });
         if (!take(std::span(rows).first(count * width))) return false;
         count = fetched.get();

@@ -26,7 +26,8 @@ using NextRows = std::function<std::size_t(std::span<double> rows)>;
 NextRows rows_of(const PointSet& points, std::uint64_t first = 0);
 
 /// Calls take(rows) with all that comes, as long as it gives true, the next batch being fetched
-/// meanwhile. False: it gave false.
+/// meanwhile: batches of so many rows, but for the last, on which sums by blocks rely. False: it gave
+/// false.
 /// @param batch rows at a time @param width numbers of a row
 bool in_batches(const NextRows& next, std::size_t batch, std::size_t width, const RunContext& run,
                 const std::function<bool(std::span<const double>)>& take);

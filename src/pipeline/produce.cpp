@@ -378,6 +378,7 @@ class Producer {
                      .first_seed = sets_.plan().seed,
                      .extent = [this](std::size_t) { return sets_.domain()->bounding_box(); },
                      .counts = Counts::equal(job_.sets, 0),
+                     .expected = std::max<std::uint64_t>(sets_.plan().count, 1),
                      .dimension = sets_.dimension(),
                      .chain = &sets_.chain(),
                      .volume = sets_.chain().empty() ? sets_.domain()->measure() : 1},

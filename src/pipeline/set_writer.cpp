@@ -51,7 +51,8 @@ bool write_rows(const NextRows& next, const SetsToWrite& job, const Layout& layo
         return true;
     };
     const std::uint64_t batch = 8 * block * run.thread_count();
-    const auto at_once = static_cast<std::size_t>(count > 0 ? std::min(batch, count) : batch);
+    const std::uint64_t all = count > 0 ? count : job.expected;
+    const auto at_once = static_cast<std::size_t>(all > 0 ? std::min(batch, all) : batch);
     return in_batches(next, at_once, d, run, write);
 }
 

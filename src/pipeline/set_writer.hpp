@@ -54,9 +54,10 @@ struct SetsToWrite {
     std::function<Box(std::size_t set)> extent;    ///< what a picture of the set shows
     /// Files that come with the set, under their final names; empty: none.
     std::function<const std::vector<SideFile>&(std::size_t set)> side_files = {};
-    Counts counts;                      ///< of points; 0: known only in the end
-    std::size_t dimension = 0;          ///< numbers of a row, less the columns
-    const WarpChain* chain = nullptr;   ///< what gave the rows, for columns of their density
+    Counts counts;                     ///< of points; 0: known only in the end
+    std::uint64_t expected = 0;        ///< about so many, where that is known only in the end
+    std::size_t dimension = 0;         ///< numbers of a row, less the columns
+    const WarpChain* chain = nullptr;  ///< what gave the rows, for columns of their density
     double volume = 1;    ///< measure of what the points were scaled to, where nothing warped them
     bool starts = false;  ///< a set's first point can be left out by --start
 };
