@@ -44,7 +44,7 @@ constexpr double tie = 1 - 1e-9;
 
 std::vector<Record> best_cells(const PlanarCells& cells, std::size_t count, const RunContext& run) {
     constexpr std::uint64_t size = 2048;
-    constexpr std::size_t most = 1000;  // more are as good only where a set repeats itself
+    constexpr std::size_t most = 100;  // more are as good only where a set repeats itself
     std::vector<std::vector<Record>> parts(block_count(count, size));
     std::atomic<double> best = 0;  // when it is seen changes what is looked at, but no result
     for_each_block(run, count, size, [&](const Block& b) {
