@@ -5,6 +5,7 @@
 
 #include <span>
 
+#include "math/fourier/interpolator.hpp"
 #include "math/fourier/nufft.hpp"
 
 namespace stipple::testing {
@@ -22,6 +23,18 @@ inline FourierSums fourier_sums_directly(std::span<const double> rows, std::size
     DirectSummation sums(dimension, max_frequency, weighted);
     sums.add(rows, run);
     return sums.finish();
+}
+
+/// The weight of the j-th grid point by the table's polynomials.
+inline double weight_of(const WeightTable& table, std::size_t j, double u) {
+    const double scaled = u * static_cast<double>(table.pieces());
+    const auto piece = static_cast<std::size_t>(scaled);
+    const double t = 2 * (scaled - static_cast<double>(piece)) - 1;
+    const std::size_t row = WeightTable::row_of(table.width());
+    const double* numbers = table.coefficients() + piece * (table.degree() + 1) * row + j;
+    double value = 0;
+    for (std::size_t k = 0; k <= table.degree(); ++k) value = value * t + numbers[k * row];
+    return value;
 }
 
 }  // namespace stipple::testing

@@ -119,6 +119,11 @@ TEST(Json, RefusesWhatIsNoFileOfPoints) {
               "input: p:1:17: a set without points; expected [0.1,0.2],...");
     EXPECT_EQ(refused(with("\"format\":\"stipple.report\",")),
               "input: p:1:11: the format is \"stipple.report\"; expected \"stipple.points\"");
+    const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
+    EXPECT_EQ(refused(with("\"format\":" + deep + ",")),
+              "input: p:1:11: the format is array; expected \"stipple.points\"");
+    EXPECT_EQ(refused(with("\"version\":" + deep + ",")),
+              "input: p:1:12: version array of stipple.points; expected 1");
     EXPECT_EQ(refused(with("\"version\":2,")),
               "input: p:1:12: version 2 of stipple.points; expected 1");
     EXPECT_EQ(refused(with("\"count\":3,")),

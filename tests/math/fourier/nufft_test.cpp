@@ -443,22 +443,6 @@ TEST(Interpolator, ScalingIsTheTransformOfAKaiserBesselWindow) {
     }
 }
 
-namespace {
-
-/// The weight of the j-th grid point by the table's polynomials.
-double weight_of(const WeightTable& table, std::size_t j, double u) {
-    const double scaled = u * static_cast<double>(table.pieces());
-    const auto piece = static_cast<std::size_t>(scaled);
-    const double t = 2 * (scaled - static_cast<double>(piece)) - 1;
-    const std::size_t row = WeightTable::row_of(table.width());
-    const double* numbers = table.coefficients() + piece * (table.degree() + 1) * row + j;
-    double value = 0;
-    for (std::size_t k = 0; k <= table.degree(); ++k) value = value * t + numbers[k * row];
-    return value;
-}
-
-}  // namespace
-
 // The polynomials add little to the error: roundings of numbers up to 1 for wide windows.
 TEST(WeightTable, IsAsGoodAsTheWeights) {
     for (const double band : {0.12, 0.25, 0.35})

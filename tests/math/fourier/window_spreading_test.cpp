@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/rng.hpp"
+#include "support/fourier.hpp"
 
 namespace stipple::testing::window_spreading_test {
 
@@ -16,18 +17,6 @@ namespace {
 
 constexpr std::size_t side = 64;
 constexpr std::size_t tiles = 5;
-
-/// The weight of the j-th grid point by the table's polynomials.
-double weight_of(const WeightTable& table, std::size_t j, double u) {
-    const double scaled = u * static_cast<double>(table.pieces());
-    const auto piece = static_cast<std::size_t>(scaled);
-    const double t = 2 * (scaled - static_cast<double>(piece)) - 1;
-    const std::size_t row = WeightTable::row_of(table.width());
-    const double* numbers = table.coefficients() + piece * (table.degree() + 1) * row + j;
-    double value = 0;
-    for (std::size_t k = 0; k <= table.degree(); ++k) value = value * t + numbers[k * row];
-    return value;
-}
 
 /// Of a point's window, along an axis.
 struct Along {
