@@ -12,8 +12,6 @@
 namespace stipple {
 namespace {
 
-/// Whether lists and objects stand in each other more than so many times; text of such a value would
-/// take a call in a call for each.
 bool is_deeper(const Json& value, int most) {
     if (!value.is_structured()) return false;
     return most == 0 ||
@@ -26,11 +24,11 @@ std::string json_text(const Json& value, int indent) {
     return value.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
+bool is_deep(const Json& value) { return is_deeper(value, 20); }
+
 std::string json_shown(const Json& value) {
-    constexpr int most = 20;
-    return is_deeper(value, most)
-               ? fmt::format("'{}' with many others in each other", value.type_name())
-               : shown(json_text(value));
+    return is_deep(value) ? fmt::format("'{}' with many others in each other", value.type_name())
+                          : shown(json_text(value));
 }
 
 JsonTrouble json_trouble(const std::exception& error, std::string_view text) {

@@ -17,7 +17,11 @@ using Json = nlohmann::ordered_json;
 /// The value as text, on one line unless indented; U+FFFD in place of bytes that are not UTF-8.
 std::string json_text(const Json& value, int indent = -1);
 
-/// As messages show a value, in quotes: not whole where it is long, nor where it is nested deeply.
+/// Whether lists and objects stand in each other more than 20 times, as they do in nothing of ours:
+/// what goes through them would use up the stack.
+bool is_deep(const Json& value);
+
+/// As messages show a value, in quotes: not whole where it is long, nor where it is deep.
 std::string json_shown(const Json& value);
 
 /// Where a text is no JSON, in bytes from 0, and what is wrong there.

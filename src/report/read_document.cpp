@@ -112,6 +112,8 @@ std::vector<Measurement> read_reports(std::string_view bytes, const std::string&
             fail(ErrorKind::input, "{}: no whole JSON, byte {} of a report: {}; {}", source, at + 1,
                  what, wanted);
         }
+        if (is_deep(text))
+            fail(ErrorKind::input, "{}: lists in lists too deep; {}", source, wanted);
         if (!text.is_array()) text = Json::array({std::move(text)});
         for (const Json& object : text) found.push_back(measurement_of(object, source));
     }

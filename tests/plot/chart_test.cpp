@@ -116,6 +116,9 @@ TEST(ReadDocument, RefusesWhatIsNoReport) {
     EXPECT_THAT(bad_json("{\"format\":\"stipple.report\",\"vers"), HasSubstr("no whole JSON"));
     EXPECT_THAT(bad_json("{\"format\":\"stipple.report\",\"version\":1e999}"),
                 HasSubstr("byte 38 of a report: the number '1e999' is beyond what a double holds"));
+    const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
+    EXPECT_THAT(bad_json("{\"format\":\"stipple.report\",\"options\":" + deep + "}"),
+                HasSubstr("lists in lists too deep; expected the JSON"));
     EXPECT_FALSE(looks_like_reports("x,y\n0.1,0.2\n"));
     EXPECT_FALSE(looks_like_reports("[[0.1,0.2]]"));
     EXPECT_FALSE(looks_like_reports("{\"format\":\"stipple.points\",\"version\":1}"));

@@ -22,12 +22,6 @@ std::vector<std::uint64_t> whole_numbers(const SourceText& text, const char* at,
     return numbers;
 }
 
-/// The front of a value's text; of lists and objects, which may stand in each other too deeply to be
-/// written, the kind.
-std::string front_of(const Json& value) {
-    return value.is_primitive() ? json_text(value).substr(0, 40) : value.type_name();
-}
-
 }  // namespace
 
 std::string json_head(const Layout& layout, const Counts& counts) {
@@ -47,10 +41,14 @@ std::string json_head(const Layout& layout, const Counts& counts) {
 
 void take_key(const SourceText& text, const char* at, std::string_view key, const Json& value,
               JsonHead& head) {
+    if (key != "meta" && is_deep(value))
+        text.refuse(at, "lists in lists too deep; expected a value such as 1");
     if (key == "format" && value != "stipple.points")
-        text.refuse(at, "the format is " + front_of(value) + "; expected \"stipple.points\"");
+        text.refuse(at, "the format is " + json_text(value).substr(0, 40) +
+                            "; expected \"stipple.points\"");
     if (key == "version" && value != 1)
-        text.refuse(at, "version " + front_of(value) + " of stipple.points; expected 1");
+        text.refuse(at,
+                    "version " + json_text(value).substr(0, 40) + " of stipple.points; expected 1");
     if (key == "meta") head.provenance = provenance_from(value);
     if (key == "dimension") {
         if (!value.is_number_unsigned() || value == 0)

@@ -121,9 +121,9 @@ TEST(Json, RefusesWhatIsNoFileOfPoints) {
               "input: p:1:11: the format is \"stipple.report\"; expected \"stipple.points\"");
     const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
     EXPECT_EQ(refused(with("\"format\":" + deep + ",")),
-              "input: p:1:11: the format is array; expected \"stipple.points\"");
+              "input: p:1:11: lists in lists too deep; expected a value such as 1");
     EXPECT_EQ(refused(with("\"version\":" + deep + ",")),
-              "input: p:1:12: version array of stipple.points; expected 1");
+              "input: p:1:12: lists in lists too deep; expected a value such as 1");
     EXPECT_EQ(refused(with("\"version\":2,")),
               "input: p:1:12: version 2 of stipple.points; expected 1");
     EXPECT_EQ(refused(with("\"count\":3,")),
