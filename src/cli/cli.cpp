@@ -9,7 +9,6 @@
 #include <new>
 #include <system_error>
 
-#include "cli/help/help.hpp"
 #include "cli/launched.hpp"
 #include "cli/parsing/arguments.hpp"
 #include "cli/verbs.hpp"
@@ -27,9 +26,9 @@ int exit_code(ErrorKind kind) {
 }
 
 /// The verb's unit must be named; the hint lists what there is.
-void require_unit(const Arguments& arguments, const std::vector<Kind>& kinds) {
+void require_unit(const Arguments& arguments) {
     const VerbInfo& info = info_of(*arguments.verb);
-    const auto kind = units_for(kinds, info.name);
+    const Kind* kind = units_for(info.name);
     if (!kind || !arguments.unit.empty()) return;
     std::vector<std::string> names;
     for (const UnitInfo& unit : kind->units) names.push_back(unit.name);
@@ -37,20 +36,20 @@ void require_unit(const Arguments& arguments, const std::vector<Kind>& kinds) {
                    info.name, kind->name);
 }
 
-int dispatch(const Arguments& arguments, const std::vector<Kind>& kinds) {
+int dispatch(const Arguments& arguments) {
     if (arguments.version) {
         write_text("-", version_text());
         return 0;
     }
     if (arguments.help) {
-        write_text("-", help_text(arguments, kinds));
+        write_text("-", help_text(arguments));
         return 0;
     }
     if (!arguments.verb)
         fail_with_hint(ErrorKind::usage, "'stipple --help' lists the verbs", "no verb given");
-    require_unit(arguments, kinds);
-    if (arguments.verb == Verb::list) return list(arguments, kinds);
-    if (arguments.verb == Verb::help) return help(arguments, kinds);
+    require_unit(arguments);
+    if (arguments.verb == Verb::list) return list(arguments);
+    if (arguments.verb == Verb::help) return help(arguments);
     if (arguments.verb == Verb::completions) return completions(arguments);
     Session session(arguments);
     static const std::map<Verb, int (*)(const Arguments&, Session&)> work = {
@@ -75,8 +74,8 @@ void write_text(const std::string& path, const std::string& text) {
     if (output.write(text)) output.commit();
 }
 
-int list(const Arguments& arguments, const std::vector<Kind>& all) {
-    std::vector<Kind> kinds = all;
+int list(const Arguments& arguments) {
+    std::vector<Kind> kinds = catalog();
     if (arguments.inputs.size() > 1)
         fail(ErrorKind::usage, "list takes one KIND; {} are given", arguments.inputs.size());
     if (!arguments.inputs.empty()) {
@@ -102,12 +101,11 @@ namespace {
 int run_verb(int argc, char** argv) {
     const std::string_view verb = argc > 1 ? argv[1] : "";
     try {
-        const auto kinds = catalog();
         if (verb == "complete") {
-            write_text("-", complete({argv + 2, argv + argc}, kinds));
+            write_text("-", complete({argv + 2, argv + argc}));
             return 0;
         }
-        return dispatch(parse_arguments(argc, argv, kinds), kinds);
+        return dispatch(parse_arguments(argc, argv));
     } catch (const Error& e) {
         return report_error(verb, e.what(), e.hint(), exit_code(e.kind()));
     } catch (const std::bad_alloc&) {

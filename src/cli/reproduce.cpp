@@ -84,7 +84,7 @@ Arguments typed_for(const Original& original) {
         return arguments_of(original.meta, original.name);
     std::vector<const char*> argv;
     for (const std::string& word : words) argv.push_back(word.c_str());
-    return parse_arguments(static_cast<int>(argv.size()), argv.data(), catalog());
+    return parse_arguments(static_cast<int>(argv.size()), argv.data());
 }
 
 /// What makes the file again, and how its numbers were written.

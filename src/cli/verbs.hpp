@@ -23,14 +23,20 @@ int convert(const Arguments& arguments, Session& session);
 int plot(const Arguments& arguments, Session& session);
 int report(const Arguments& arguments, Session& session);
 int study(const Arguments& arguments, Session& session);
-int list(const Arguments& arguments, const std::vector<Kind>& kinds);
+int list(const Arguments& arguments);
 int reproduce(const Arguments& arguments, Session& session);
-int help(const Arguments& arguments, const std::vector<Kind>& kinds);
+int help(const Arguments& arguments);
 int completions(const Arguments& arguments);
 
 /// What may stand for the last of the words, and why, a candidate a line; "@files" where a file's
 /// name may. For the scripts of `completions`.
-std::string complete(std::vector<std::string> words, const std::vector<Kind>& kinds);
+std::string complete(std::vector<std::string> words);
+
+/// What --help says for the program, a verb, or a unit of a verb; made from the records.
+std::string help_text(const Arguments& arguments);
+
+/// stipple and the libraries it is linked with.
+std::string version_text();
 
 /// What `generate` was asked to make.
 Production production_of(const Arguments& arguments, Session& session);

@@ -37,9 +37,9 @@ Candidates words_of(const std::vector<std::string>& words) {
     return found;
 }
 
-Candidates units_of(const std::vector<Kind>& kinds, std::string_view name) {
+Candidates units_of(std::string_view name) {
     Candidates found;
-    for (const Kind& kind : kinds)
+    for (const Kind& kind : catalog())
         if (kind.name == name)
             for (const UnitInfo& unit : kind.units) found.push_back({unit.name, unit.summary});
     return found;
@@ -56,33 +56,31 @@ Candidates values_of(const Option& option) {
     return words_of(option.choices);
 }
 
-Candidates values_of(const CommonOption& common, const std::vector<Kind>& kinds) {
+Candidates values_of(const CommonOption& common) {
     const std::string_view value = common.value;
-    if (value == "FORMAT") return units_of(kinds, "formats");
+    if (value == "FORMAT") return units_of("formats");
     if (value == "SPECS" || value.starts_with("GENERATOR"))
-        return units_of(kinds, common.option.name == "analyze" ? "analyzers" : "generators");
+        return units_of(common.option.name == "analyze" ? "analyzers" : "generators");
     if (value == "S") return {{"random"}};
-    if (value.starts_with("NAME["))
-        return joined(units_of(kinds, "warps"), units_of(kinds, "scrambles"));
-    if (value == "SPEC") return joined({{"unit-cube"}}, units_of(kinds, "warps"));
+    if (value.starts_with("NAME[")) return joined(units_of("warps"), units_of("scrambles"));
+    if (value == "SPEC") return joined({{"unit-cube"}}, units_of("warps"));
     return values_of(common.option);
 }
 
 /// What a verb takes that is not a unit: words, or files.
-Candidates operands_of(Verb verb, const std::vector<Kind>& kinds) {
+Candidates operands_of(Verb verb) {
     Candidates found;
     switch (verb) {
         case Verb::generate:
             return {};
         case Verb::list:
-            for (const Kind& kind : kinds) found.push_back({kind.name});
+            for (const Kind& kind : catalog()) found.push_back({kind.name});
             return found;
         case Verb::help:
             for (const Topic& topic : topics()) found.push_back({topic.name, topic.summary});
             for (const VerbInfo& info : verbs()) found.push_back({info.name, info.summary});
-            for (const Kind& kind : kinds)
-                if (!kind.verb.empty())
-                    found = joined(std::move(found), units_of(kinds, kind.name));
+            for (const Kind& kind : catalog())
+                if (!kind.verb.empty()) found = joined(std::move(found), units_of(kind.name));
             return found;
         case Verb::completions:
             return words_of({"bash", "zsh", "fish"});
@@ -103,11 +101,11 @@ Candidates option_names(Verb verb, const UnitInfo* unit) {
 }
 
 /// The values of the option that stands before; nothing where that is none, or a flag.
-std::optional<Candidates> values_behind(const std::string& before, Verb verb, const UnitInfo* unit,
-                                        const std::vector<Kind>& kinds) {
+std::optional<Candidates> values_behind(const std::string& before, Verb verb,
+                                        const UnitInfo* unit) {
     if (const CommonOption* common = find_common(before, verb)) {
         if (common->option.type == "flag") return std::nullopt;
-        return values_of(*common, kinds);
+        return values_of(*common);
     }
     if (unit != nullptr)
         for (const Option& option : own_options(verb, *unit))
@@ -116,8 +114,7 @@ std::optional<Candidates> values_behind(const std::string& before, Verb verb, co
 }
 
 /// Candidates for the last of the words; `before` is the option that it may belong to.
-Candidates candidates(const std::vector<std::string>& words, const std::string& before,
-                      const std::vector<Kind>& kinds) {
+Candidates candidates(const std::vector<std::string>& words, const std::string& before) {
     Candidates found;
     if (words.size() < 2) {
         for (const VerbInfo& info : verbs()) found.push_back({info.name, info.summary});
@@ -125,21 +122,21 @@ Candidates candidates(const std::vector<std::string>& words, const std::string& 
     }
     const VerbInfo* info = find_verb(words[0]);
     if (info == nullptr) return {};
-    const auto kind = units_for(kinds, info->name);
+    const Kind* kind = units_for(info->name);
     const std::vector<std::string> typed(words.begin() + 1, words.end() - 1);
     const std::string* named = kind ? word_of_unit(typed, *kind, info->verb) : nullptr;
     const UnitInfo* unit =
         named ? find_unit(*kind, named->substr(0, named->find_first_of("@:"))) : nullptr;
-    if (const auto values = values_behind(before, info->verb, unit, kinds)) return *values;
+    if (const auto values = values_behind(before, info->verb, unit)) return *values;
     if (words.back().starts_with('-') && words.back() != "-") return option_names(info->verb, unit);
-    if (!kind || unit != nullptr) return operands_of(info->verb, kinds);
+    if (!kind || unit != nullptr) return operands_of(info->verb);
     for (const UnitInfo& each : kind->units) found.push_back({each.name, each.summary});
     return found;
 }
 
 }  // namespace
 
-std::string complete(std::vector<std::string> words, const std::vector<Kind>& kinds) {
+std::string complete(std::vector<std::string> words) {
     if (words.empty()) words.emplace_back();
     std::string before = words.size() > 1 ? words[words.size() - 2] : "";
     std::string current = words.back();
@@ -156,7 +153,7 @@ std::string complete(std::vector<std::string> words, const std::vector<Kind>& ki
     }
     std::string text;
     std::set<std::string> seen;
-    for (const auto& [word, help] : candidates(words, before, kinds))
+    for (const auto& [word, help] : candidates(words, before))
         if ((word.starts_with('@') || word.starts_with(current)) && seen.insert(word).second)
             text += fmt::format("{}{}{}{}\n", word.starts_with('@') ? "" : prefix, word,
                                 help.empty() ? "" : "\t", help);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
 // --help, the verb `help`, and the manual: the same pages, made from the records.
-#include "cli/help/help.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -87,18 +85,18 @@ void add_unit(HelpPage& page, Verb verb, const UnitInfo& unit) {
     add_results(page, unit);
 }
 
-HelpPage page_of_verb(const VerbInfo& info, const std::vector<Kind>& kinds, HelpPage::Style style) {
+HelpPage page_of_verb(const VerbInfo& info, HelpPage::Style style) {
     HelpPage page(style);
     const bool man = page.for_man();
     page.title((man ? "stipple-" : "stipple ") + info.name, 1, info.summary, info.usage);
     page.paragraph(info.text);
-    for (const Kind& kind : kinds) {
+    for (const Kind& kind : catalog()) {
         if (kind.verb != info.name) continue;
         page.section(capitalised(kind.name));
         for (const UnitInfo& unit : kind.units)
             man ? add_unit(page, info.verb, unit) : page.entry(unit.name, unit.summary);
     }
-    if (!man && units_for(kinds, info.name))
+    if (!man && units_for(info.name))
         page.lines(fmt::format("'stipple {} UNIT --help' shows a unit's own options.", info.name));
     page.section("Options");
     add_common_options(page, info.verb);
@@ -154,11 +152,11 @@ const Topic* find_topic(const std::string& name) {
     return it == topics().end() ? nullptr : &*it;
 }
 
-[[noreturn]] void refuse_name(const std::string& name, const std::vector<Kind>& kinds) {
+[[noreturn]] void refuse_name(const std::string& name) {
     std::vector<std::string> known;
     for (const Topic& topic : topics()) known.push_back(topic.name);
     for (const VerbInfo& info : verbs()) known.push_back(info.name);
-    for (const Kind& kind : kinds)
+    for (const Kind& kind : catalog())
         for (std::string& unit : names_of(kind)) known.push_back(std::move(unit));
     fail_with_hint(
         ErrorKind::usage,
@@ -167,61 +165,59 @@ const Topic* find_topic(const std::string& name) {
 }
 
 /// A unit by its name alone.
-std::string help_of_unit(const std::string& name, const std::vector<Kind>& kinds) {
-    for (const Kind& kind : kinds) {
+std::string help_of_unit(const std::string& name) {
+    for (const Kind& kind : catalog()) {
         const UnitInfo* unit = find_unit(kind, name);
         if (unit == nullptr) continue;
         if (const VerbInfo* info = find_verb(kind.verb)) return page_of_unit(*info, *unit).text();
         if (const Topic* topic = find_topic(kind.name)) return topic->text;  // csv: formats
     }
-    refuse_name(name, kinds);
+    refuse_name(name);
 }
 
-std::string help_on(const std::vector<std::string>& words, const std::vector<Kind>& kinds) {
+std::string help_on(const std::vector<std::string>& words) {
     Arguments asked;
-    if (words.empty()) return help_text(asked, kinds);
+    if (words.empty()) return help_text(asked);
     if (const Topic* topic = find_topic(words[0]); topic != nullptr && words.size() == 1)
         return topic->text;
     const VerbInfo* info = find_verb(words[0]);
-    if (words.size() > 1 && (info == nullptr || !units_for(kinds, info->name)))
+    if (words.size() > 1 && (info == nullptr || !units_for(info->name)))
         fail_with_hint(ErrorKind::usage, fmt::format("'stipple help {}' takes one word", words[0]),
                        "help: unexpected '{}': '{}' is not a verb with units", words[1], words[0]);
-    if (info == nullptr) return help_of_unit(words[0], kinds);
+    if (info == nullptr) return help_of_unit(words[0]);
     asked.verb = info->verb;
     if (words.size() > 1) asked.unit = words[1];
-    return help_text(asked, kinds);
+    return help_text(asked);
 }
 
 /// The manual page of the program (an empty name), a verb or a topic, for man. @throws Error(usage)
-std::string manual_page(const std::string& name, const std::vector<Kind>& kinds) {
+std::string manual_page(const std::string& name) {
     if (name.empty()) return page_of_program(HelpPage::Style::man).text();
     if (const Topic* topic = find_topic(name)) return page_of_topic(*topic).text();
     if (const VerbInfo* info = find_verb(name))
-        return page_of_verb(*info, kinds, HelpPage::Style::man).text();
-    refuse_name(name, kinds);
+        return page_of_verb(*info, HelpPage::Style::man).text();
+    refuse_name(name);
 }
 
 /// Every manual page in a folder, under the names that man knows them by.
-void write_manual(const std::string& folder, const std::vector<Kind>& kinds) {
-    write_text(folder + "/stipple.1", manual_page("", kinds));
+void write_manual(const std::string& folder) {
+    write_text(folder + "/stipple.1", manual_page(""));
     for (const VerbInfo& info : verbs())
-        write_text(fmt::format("{}/stipple-{}.1", folder, info.name),
-                   manual_page(info.name, kinds));
+        write_text(fmt::format("{}/stipple-{}.1", folder, info.name), manual_page(info.name));
     for (const Topic& topic : topics())
-        write_text(fmt::format("{}/stipple-{}.7", folder, topic.name),
-                   manual_page(topic.name, kinds));
+        write_text(fmt::format("{}/stipple-{}.7", folder, topic.name), manual_page(topic.name));
 }
 
 }  // namespace
 
-std::string help_text(const Arguments& arguments, const std::vector<Kind>& kinds) {
+std::string help_text(const Arguments& arguments) {
     if (!arguments.verb) return page_of_program(HelpPage::Style::text).text();
     const VerbInfo& info = info_of(*arguments.verb);
-    if (arguments.unit.empty()) return page_of_verb(info, kinds, HelpPage::Style::text).text();
-    return page_of_unit(info, unit_of(kinds, info.name, arguments.unit)).text();
+    if (arguments.unit.empty()) return page_of_verb(info, HelpPage::Style::text).text();
+    return page_of_unit(info, unit_of(info.name, arguments.unit)).text();
 }
 
-int help(const Arguments& arguments, const std::vector<Kind>& kinds) {
+int help(const Arguments& arguments) {
     const auto& words = arguments.inputs;
     const std::size_t most = arguments.has("man") ? 1 : 2;
     if (words.size() > most)
@@ -232,11 +228,11 @@ int help(const Arguments& arguments, const std::vector<Kind>& kinds) {
         fail(ErrorKind::usage, "--output: a folder is for all manual pages: help --man -o {}",
              *folder);
     if (folder) {
-        write_manual(*folder, kinds);
+        write_manual(*folder);
         return 0;
     }
-    write_text("-", arguments.has("man") ? manual_page(words.empty() ? "" : words[0], kinds)
-                                         : help_on(words, kinds));
+    write_text("-",
+               arguments.has("man") ? manual_page(words.empty() ? "" : words[0]) : help_on(words));
     return 0;
 }
 

@@ -8,7 +8,7 @@
 #include <boost/version.hpp>
 #include <nlohmann/json_fwd.hpp>
 
-#include "cli/help/help.hpp"
+#include "cli/verbs.hpp"
 #include "math/densities/expression.hpp"
 #include "pipeline/ranks.hpp"
 

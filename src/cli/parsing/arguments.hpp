@@ -3,6 +3,7 @@
 // What was typed: the verb, its unit, inputs and options.
 #pragma once
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,6 +32,9 @@ struct Arguments {
     [[nodiscard]] std::optional<std::string> get(std::string_view name) const;
     [[nodiscard]] std::vector<std::string> all(std::string_view name) const;
 
+    /// @throws Error(usage) "--NAME: WHY" for the first of the common options that is given
+    void refuse(std::initializer_list<std::string_view> names, std::string_view why) const;
+
     /// As a number in [low, high]. @throws Error(usage)
     [[nodiscard]] std::optional<std::uint64_t> integer(std::string_view name, std::uint64_t low,
                                                        std::uint64_t high) const;
@@ -42,7 +46,7 @@ struct Arguments {
 void check_choices(const Arguments& arguments);
 
 /// @throws Error(usage) naming what is unknown and what is nearest to it.
-Arguments parse_arguments(int argc, const char* const* argv, const std::vector<Kind>& kinds);
+Arguments parse_arguments(int argc, const char* const* argv);
 
 /// The word that names a unit of the kind, alone or in a spec; nullptr: none does.
 const std::string* word_of_unit(const std::vector<std::string>& words, const Kind& kind, Verb verb);

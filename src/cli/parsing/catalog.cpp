@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "analyzers/analyzer.hpp"
@@ -149,22 +151,27 @@ Json unit_json(const UnitInfo& unit, std::string_view kind) {
 
 }  // namespace
 
-std::vector<Kind> catalog() {
-    return {kind_of("generators", "generate", generators::all()),
-            kind_of("scrambles", "warp", scrambles::all()), kind_of("warps", "warp", warps::all()),
-            kind_of("analyzers", "analyze", analyzers::all()), kind_of("formats", "", io::all())};
+const std::vector<Kind>& catalog() {
+    static const std::vector<Kind> all = {
+        kind_of("generators", "generate", generators::all()),
+        kind_of("scrambles", "warp", scrambles::all()), kind_of("warps", "warp", warps::all()),
+        kind_of("analyzers", "analyze", analyzers::all()), kind_of("formats", "", io::all())};
+    return all;
 }
 
-std::optional<Kind> units_for(const std::vector<Kind>& kinds, std::string_view verb) {
-    std::optional<Kind> found;
-    for (const Kind& kind : kinds) {
-        if (kind.verb != verb) continue;
-        if (!found) found.emplace();
-        found->name = kind.name;
-        found->verb = kind.verb;
-        found->units.insert(found->units.end(), kind.units.begin(), kind.units.end());
-    }
-    return found;
+const Kind* units_for(std::string_view verb) {
+    static const auto by_verb = [] {
+        std::map<std::string, Kind, std::less<>> found;
+        for (const Kind& kind : catalog()) {
+            if (kind.verb.empty()) continue;
+            Kind& all = found[kind.verb];
+            all.name = kind.name;
+            all.units.insert(all.units.end(), kind.units.begin(), kind.units.end());
+        }
+        return found;
+    }();
+    const auto it = by_verb.find(verb);
+    return it == by_verb.end() ? nullptr : &it->second;
 }
 
 const UnitInfo* find_unit(const Kind& kind, std::string_view name) {
@@ -183,14 +190,11 @@ std::vector<std::string> names_of(const Kind& kind) {
     return names;
 }
 
-const UnitInfo& unit_of(const std::vector<Kind>& kinds, std::string_view verb,
-                        std::string_view name) {
-    const auto kind = units_for(kinds, verb);
-    for (const Kind& each : kinds)
-        if (const UnitInfo* unit = each.verb == verb ? find_unit(each, name) : nullptr)
-            return *unit;
-    const std::string singular = kind->name.substr(0, kind->name.size() - 1);
-    fail_with_hint(ErrorKind::usage, suggest(name, names_of(*kind)), "unknown {} '{}'", singular,
+const UnitInfo& unit_of(std::string_view verb, std::string_view name) {
+    const Kind& kind = *units_for(verb);
+    if (const UnitInfo* unit = find_unit(kind, name)) return *unit;
+    const std::string singular = kind.name.substr(0, kind.name.size() - 1);
+    fail_with_hint(ErrorKind::usage, suggest(name, names_of(kind)), "unknown {} '{}'", singular,
                    name);
 }
 

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -35,11 +34,11 @@ struct Kind {
 };
 
 /// Generators, scrambles, warps, analyzers, formats.
-std::vector<Kind> catalog();
+const std::vector<Kind>& catalog();
 
-/// All units that a verb takes, under the name of the last of their kinds; nothing if it takes
+/// All units that a verb takes, under the name of the last of their kinds; nullptr if it takes
 /// none.
-std::optional<Kind> units_for(const std::vector<Kind>& kinds, std::string_view verb);
+const Kind* units_for(std::string_view verb);
 
 /// The unit of that name or alias; nullptr if there is none.
 const UnitInfo* find_unit(const Kind& kind, std::string_view name);
@@ -48,8 +47,7 @@ const UnitInfo* find_unit(const Kind& kind, std::string_view name);
 std::vector<std::string> names_of(const Kind& kind);
 
 /// The unit of a verb. @throws Error(usage)
-const UnitInfo& unit_of(const std::vector<Kind>& kinds, std::string_view verb,
-                        std::string_view name);
+const UnitInfo& unit_of(std::string_view verb, std::string_view name);
 
 std::string list_text(const std::vector<Kind>& kinds);
 std::string list_json(const std::vector<Kind>& kinds);

@@ -1,41 +1,50 @@
 // SPDX-License-Identifier: MIT
 //
-// The one source that sees CLI11, whose headers take long to compile.
-#include "cli/parsing/parser.hpp"
+// The words of a command line into Arguments. The one source that sees CLI11, whose headers take
+// long to compile.
+#include <fmt/format.h>
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <utility>
 
+#include "cli/parsing/arguments.hpp"
 #include "core/error.hpp"
+#include "core/spec.hpp"
+#include "core/text.hpp"
 
 namespace stipple::cli {
 namespace {
 
-void add(CLI::App& app, const Grammar::Word& word, ParsedWords::Texts& texts) {
-    const std::string name = word.names.substr(word.names.rfind("--") + 2);
-    if (word.flag) {
-        app.add_flag_callback(word.names, [&texts, name] { texts.emplace_back(name, "true"); });
+using Texts = std::vector<std::pair<std::string, std::string>>;  ///< long name, text
+
+/// @param names "-n,--count" @param texts where what is typed goes
+void add(CLI::App& app, const std::string& names, const Option& option, bool repeatable,
+         Texts& texts) {
+    if (option.type == "flag") {
+        app.add_flag_callback(names,
+                              [&texts, name = option.name] { texts.emplace_back(name, "true"); });
         return;
     }
-    auto* option =
-        app.add_option(word.names, CLI::callback_t([&texts, name](const CLI::results_t& found) {
-                           for (const std::string& text : found) texts.emplace_back(name, text);
-                           return true;
-                       }));
-    option->expected(1)->allow_extra_args(false);
-    if (word.repeatable) option->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    auto* added = app.add_option(
+        names, CLI::callback_t([&texts, name = option.name](const CLI::results_t& found) {
+            for (const std::string& text : found) texts.emplace_back(name, text);
+            return true;
+        }));
+    added->expected(1)->allow_extra_args(false);
+    if (repeatable) added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-void add_help(CLI::App& app, ParsedWords& parsed) {
+void add_help(CLI::App& app, Arguments& arguments) {
     app.set_help_flag();
-    app.add_flag_callback("-h,--help", [&parsed] { parsed.help = true; });
+    app.add_flag_callback("-h,--help", [&arguments] { arguments.help = true; });
 }
 
-void add_inputs(CLI::App& app, ParsedWords& parsed) {
-    app.add_option("INPUT", CLI::callback_t([&parsed](const CLI::results_t& found) {
-                       parsed.inputs = found;
+void add_inputs(CLI::App& app, Arguments& arguments) {
+    app.add_option("INPUT", CLI::callback_t([&arguments](const CLI::results_t& found) {
+                       arguments.inputs = found;
                        return true;
                    }))
         ->expected(1, CLI::detail::expected_max_vector_size)
@@ -43,15 +52,15 @@ void add_inputs(CLI::App& app, ParsedWords& parsed) {
 }
 
 /// Only the unit that the words name is a subcommand, so that a file may be called like another.
-void add_unit(CLI::App& parent, const Grammar& grammar, ParsedWords& parsed) {
-    CLI::App& app = *parent.add_subcommand(grammar.unit.front());
-    for (const std::string& alias : grammar.unit)
-        if (alias != grammar.unit.front()) app.alias(alias);
+CLI::App& add_unit(CLI::App& parent, const UnitInfo& unit, Arguments& arguments) {
+    CLI::App& app = *parent.add_subcommand(unit.name);
+    for (const std::string& alias : unit.aliases) app.alias(alias);
     app.fallthrough();
     app.allow_extras();
-    add_help(app, parsed);
-    for (const auto& word : grammar.unit_options) add(app, word, parsed.unit_options);
-    if (grammar.inputs) add_inputs(app, parsed);
+    add_help(app, arguments);
+    for (const Option& option : own_options(*arguments.verb, unit))
+        add(app, "--" + option.name, option, false, arguments.settings);
+    return app;
 }
 
 [[noreturn]] void refuse(const CLI::ParseError& error) {
@@ -63,27 +72,148 @@ void add_unit(CLI::App& parent, const Grammar& grammar, ParsedWords& parsed) {
     fail(ErrorKind::usage, "{}", text);
 }
 
-}  // namespace
-
-ParsedWords parse_words(const Grammar& grammar, std::vector<std::string> words) {
-    ParsedWords parsed;
+/// Takes the words behind a verb; gives those that were not understood.
+std::vector<std::string> take_words(std::vector<std::string> words, bool takes_units,
+                                    const UnitInfo* unit, Arguments& arguments) {
     CLI::App app("stipple");
     app.allow_extras();
-    add_help(app, parsed);
-    for (const auto& word : grammar.options) add(app, word, parsed.options);
-    if (!grammar.unit.empty())
-        add_unit(app, grammar, parsed);
-    else if (grammar.inputs)
-        add_inputs(app, parsed);
+    add_help(app, arguments);
+    for (const CommonOption* common : options_of(*arguments.verb))
+        add(app, common->names, common->option, common->repeatable, arguments.common);
+    if (unit == nullptr) {
+        if (!takes_units) add_inputs(app, arguments);
+    } else {
+        CLI::App& of_unit = add_unit(app, *unit, arguments);
+        if (arguments.verb != Verb::generate) add_inputs(of_unit, arguments);
+    }
     std::ranges::reverse(words);
     try {
         app.parse(std::move(words));
     } catch (const CLI::ParseError& error) {
         refuse(error);
     }
-    parsed.unit = !app.get_subcommands().empty();
-    parsed.rest = app.remaining(true);
-    return parsed;
+    if (!app.get_subcommands().empty()) arguments.unit = unit->name;
+    return app.remaining(true);
+}
+
+/// Options that may stand here, for suggestions.
+std::vector<std::string> known_options(Verb verb, const UnitInfo* unit) {
+    std::vector<std::string> names = {"--help"};
+    for (const CommonOption* option : options_of(verb)) names.push_back("--" + option->option.name);
+    if (unit != nullptr)
+        for (const auto& option : own_options(verb, *unit)) names.push_back("--" + option.name);
+    return names;
+}
+
+[[noreturn]] void complain(std::string_view what, const std::string& word,
+                           const std::vector<std::string>& known) {
+    const auto meant = nearest_word(word, known);
+    std::string hint = meant            ? fmt::format("did you mean {}?", *meant)
+                       : what == "verb" ? "known: " + join(known, ", ")
+                                        : "--help lists the options";
+    fail_with_hint(ErrorKind::usage, hint, "unknown {} '{}'", what, word);
+}
+
+/// `--check` takes the next word only if that is a condition, not a file.
+void complete_checks(std::vector<std::string>& words) {
+    const auto condition = [](const std::string& word) {
+        return !word.starts_with('-') && word.find_first_of("<>=") != std::string::npos;
+    };
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (words[i] != "--check") continue;
+        if (i + 1 < words.size() && condition(words[i + 1])) continue;
+        words[i] += "=" + std::string(bare_check);
+    }
+}
+
+void check_rest(const std::vector<std::string>& rest, const VerbInfo& verb, const Kind* kind,
+                const UnitInfo* unit) {
+    if (rest.empty()) return;
+    // A misspelt unit is the likelier reason for whatever else was not understood.
+    if (kind != nullptr && unit == nullptr && rest.front()[0] != '-')
+        unit_of(verb.name, rest.front());
+    for (const std::string& word : rest)
+        if (word.size() > 1 && word[0] == '-')
+            complain("option", word.substr(0, word.find('=')), known_options(verb.verb, unit));
+    fail(ErrorKind::usage, "unexpected argument '{}'", rest.front());
+}
+
+/// Adds what the unit's own word sets: `warp disk@4,5` means `warp disk --coordinates 4,5`,
+/// `generate sobol:scramble=owen` the same as with --scramble owen. @throws Error(usage) where an
+/// option sets it, too
+void take_spec(const Spec& spec, const UnitInfo& unit, Arguments& arguments) {
+    if (!spec.coordinates.empty()) {
+        if (arguments.verb != Verb::warp)
+            fail(ErrorKind::usage, "{}@{}: coordinates behind @ are for warps", spec.name,
+                 format_coordinates(spec.coordinates));
+        if (arguments.has("coordinates"))
+            fail(ErrorKind::usage, "--coordinates is given more than once");
+        arguments.common.emplace_back("coordinates", format_coordinates(spec.coordinates));
+    }
+    const auto own = own_options(*arguments.verb, unit);
+    for (const auto& [name, text] : spec.settings) {
+        const bool common =
+            std::ranges::find(own, name, &Option::name) == own.end() &&
+            std::ranges::find(unit.options, name, &Option::name) != unit.options.end();
+        auto& all = common ? arguments.common : arguments.settings;
+        for (const auto& [before, value] : all)
+            if (before == name) fail(ErrorKind::usage, "--{} is given more than once", name);
+        all.emplace_back(name, text);
+    }
+}
+
+/// Words in place of a verb.
+Arguments parse_without_verb(const std::vector<std::string>& words) {
+    Arguments arguments;
+    if (words.empty()) return arguments;
+    const std::string& word = words.front();
+    arguments.help = word == "-h" || word == "--help";
+    arguments.version = word == "--version";
+    if (arguments.help || arguments.version) return arguments;
+    if (word.starts_with('-')) complain("option", word, {"--help", "--version"});
+    std::vector<std::string> names;
+    for (const VerbInfo& info : verbs()) names.push_back(info.name);
+    complain("verb", word, names);
+}
+
+}  // namespace
+
+const std::string* word_of_unit(const std::vector<std::string>& words, const Kind& kind,
+                                Verb verb) {
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const CommonOption* common = find_common(words[i], verb);
+        if (common != nullptr && common->option.type != "flag")
+            ++i;  // to its value
+        else if (find_unit(kind, words[i].substr(0, words[i].find_first_of("@:"))) != nullptr)
+            return &words[i];
+    }
+    return nullptr;
+}
+
+Arguments parse_arguments(int argc, const char* const* argv) {
+    std::vector<std::string> words(argv + 1, argv + argc);
+    const VerbInfo* info = words.empty() ? nullptr : find_verb(words.front());
+    if (info == nullptr) return parse_without_verb(words);
+    words.erase(words.begin());
+    const Verb verb = info->verb;
+    const Kind* kind = units_for(info->name);
+    if (verb == Verb::analyze) complete_checks(words);
+    const UnitInfo* unit = nullptr;
+    Spec spec;
+    if (const std::string* named = kind ? word_of_unit(words, *kind, verb) : nullptr) {
+        std::string& word = words[static_cast<std::size_t>(named - words.data())];
+        if (find_unit(*kind, word) == nullptr) {
+            spec = parse_spec(word);
+            word = spec.name;
+        }
+        unit = find_unit(*kind, word);
+    }
+    Arguments arguments{.verb = verb, .unit = {}, .inputs = {}, .common = {}, .settings = {}};
+    const auto rest = take_words(std::move(words), kind != nullptr, unit, arguments);
+    if (!arguments.help) check_rest(rest, *info, kind, arguments.unit.empty() ? nullptr : unit);
+    if (!spec.name.empty()) take_spec(spec, *unit, arguments);
+    if (!arguments.help) check_choices(arguments);
+    return arguments;
 }
 
 }  // namespace stipple::cli
