@@ -97,12 +97,6 @@ std::string report_format(const Arguments& arguments, const std::string& path) {
     return people || path.ends_with(".txt") ? "text" : "json";
 }
 
-/// What sets are from; joined ones are from all at once.
-std::vector<std::string> inputs_of(const Arguments& arguments) {
-    const auto names = input_names(arguments);
-    return arguments.has("concat") ? std::vector{join(names, ", ")} : names;
-}
-
 /// One call: its measurements, checks and outputs.
 class Analysis {
   public:
@@ -112,8 +106,7 @@ class Analysis {
           ranks_(ranks),
           analyzer_(find_analyzer(arguments.unit)),
           options_(settings_of(analyzer_.options, arguments)),
-          joined_(arguments.has("concat")),
-          inputs_(inputs_of(arguments)),
+          inputs_(input_names(arguments)),
           path_(output_of(arguments)),
           format_(report_format(arguments, path_)),
           averaged_(arguments.has("average")),
@@ -221,9 +214,8 @@ class Analysis {
 
     /// What --generate names.
     GeneratedSets asked_sets() {
-        for (const char* name : {"bounds", "rescale", "domain", "column", "from", "dtype"})
-            if (arguments_.has(name))
-                fail(ErrorKind::usage, "--{}: is of points from files, not of --generate", name);
+        arguments_.refuse({"bounds", "rescale", "domain", "column", "from", "dtype"},
+                          "is of points from files, not of --generate");
         if (!arguments_.inputs.empty())
             fail(ErrorKind::usage, "--generate takes no INPUT; '{}' is given",
                  arguments_.inputs.front());
@@ -293,10 +285,7 @@ class Analysis {
 
     void add_sets(const std::string& input) {
         std::vector<PointSet> sets;
-        before_errors([&] {
-            sets = joined_ ? read_joined(arguments_, session_.run())
-                           : read_input(input, arguments_, session_.run());
-        });
+        before_errors([&] { sets = read_input(input, arguments_, session_.run()); });
         for (std::size_t set = 0; set < sets.size() && !interrupted(); ++set) {
             before_errors([&] {
                 naming(input,
@@ -320,8 +309,7 @@ class Analysis {
     /// Sets of any size, in blocks.
     void add_stream(const std::string& input) {
         const RunContext& run = session_.run();
-        const auto stream = joined_ ? open_joined(arguments_, run, strengths_)
-                                    : open_input(input, arguments_, run, strengths_);
+        const auto stream = open_input(input, arguments_, run, strengths_);
         const std::size_t before = measurements_.size();
         std::size_t sets = 0;
         for (; stream->next_set(); ++sets)
@@ -507,7 +495,6 @@ class Analysis {
     Ranks& ranks_;
     const Analyzer& analyzer_;
     Values options_;
-    bool joined_;  ///< all inputs are one set
     std::vector<std::string> inputs_;
     std::string path_;
     std::string format_;

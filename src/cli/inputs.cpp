@@ -39,6 +39,22 @@ Reading reading_of(const std::string& path, const Arguments& arguments) {
     return {std::move(options), from.empty() ? nullptr : &io::format_named(from)};
 }
 
+/// The files that are named, or standard input.
+std::vector<std::string> named_files(const Arguments& arguments) {
+    if (arguments.inputs.empty()) return {"-"};
+    if (std::ranges::count(arguments.inputs, "-") > 1)
+        fail(ErrorKind::usage, "standard input is named twice");
+    return arguments.inputs;
+}
+
+/// One file in blocks.
+std::unique_ptr<io::PointStream> open_file(const std::string& path, const Arguments& arguments,
+                                           const std::string& strengths, const RunContext& run) {
+    auto [options, format] = reading_of(path, arguments);
+    options.strengths = strengths;
+    return io::open_points(path, options, run, format);
+}
+
 /// Domain and provenance as the program knows them.
 std::vector<PointSet> named(std::vector<PointSet> sets, const Arguments& arguments,
                             const RunContext& run) {
@@ -54,14 +70,12 @@ std::vector<PointSet> named(std::vector<PointSet> sets, const Arguments& argumen
 }  // namespace
 
 std::vector<std::string> input_names(const Arguments& arguments) {
-    std::vector<std::string> names = arguments.inputs;
-    if (names.empty()) names.emplace_back("-");
-    if (std::ranges::count(names, "-") > 1) fail(ErrorKind::usage, "standard input is named twice");
-    return names;
+    const auto files = named_files(arguments);
+    return arguments.has("concat") ? std::vector{join(files, ", ")} : files;
 }
 
 std::string only_input(const Arguments& arguments, const std::string& hint) {
-    if (arguments.inputs.size() > 1)
+    if (arguments.inputs.size() > 1 && !arguments.has("concat"))
         fail_with_hint(ErrorKind::usage, hint, "{} takes one INPUT; {} are given",
                        info_of(*arguments.verb).name, arguments.inputs.size());
     return input_names(arguments).front();
@@ -103,8 +117,7 @@ void take_domain(PointSet& set, const Arguments& arguments) {
 
 std::vector<PointSet> read_input(const std::string& path, const Arguments& arguments,
                                  const RunContext& run) {
-    const auto [options, format] = reading_of(path, arguments);
-    return named(io::read_points(path, options, run, format), arguments, run);
+    return read_all(*open_input(path, arguments, run), arguments, run);
 }
 
 std::vector<PointSet> read_input(std::string_view bytes, const std::string& path,
@@ -115,26 +128,16 @@ std::vector<PointSet> read_input(std::string_view bytes, const std::string& path
 
 std::unique_ptr<io::PointStream> open_input(const std::string& path, const Arguments& arguments,
                                             const RunContext& run, const std::string& strengths) {
-    auto [options, format] = reading_of(path, arguments);
-    options.strengths = strengths;
-    return io::open_points(path, options, run, format);
-}
-
-std::unique_ptr<io::PointStream> open_joined(const Arguments& arguments, const RunContext& run,
-                                             const std::string& strengths) {
-    return io::join_points(input_names(arguments),
-                           [&arguments, &run, strengths](const std::string& path) {
-                               return open_input(path, arguments, run, strengths);
+    if (!arguments.has("concat")) return open_file(path, arguments, strengths, run);
+    return io::join_points(named_files(arguments),
+                           [&arguments, &run, strengths](const std::string& file) {
+                               return open_file(file, arguments, strengths, run);
                            });
 }
 
 std::vector<PointSet> read_all(io::PointStream& stream, const Arguments& arguments,
                                const RunContext& run) {
     return named(stream.read_all(run), arguments, run);
-}
-
-std::vector<PointSet> read_joined(const Arguments& arguments, const RunContext& run) {
-    return read_all(*open_joined(arguments, run), arguments, run);
 }
 
 // ---------------------------------------------------------------- boxes
@@ -241,7 +244,7 @@ NextRows within_bounds(NextRows next, const Arrival& arrival, std::uint64_t firs
 SharedSet shared_files(const Arguments& arguments, const Analyzer& analyzer,
                        const std::string& strengths, Ranks& ranks, const RunContext& run) {
     const auto open = [&arguments, run, strengths](const std::string& path) {
-        return open_input(path, arguments, run, strengths);
+        return open_file(path, arguments, strengths, run);
     };
     const auto files = std::make_shared<SharedFiles>(arguments.inputs, open, ranks);
     Arrival points =
@@ -326,10 +329,9 @@ GeneratedSets generated_sets(const std::string& spec, std::uint64_t seed,
 }
 
 void refuse_generated_options(const Arguments& arguments) {
-    if (arguments.has("generate")) return;
-    for (const char* name : {"count", "seed", "sets", "warp", "start"})
-        if (arguments.has(name))
-            fail(ErrorKind::usage, "--{}: is of --generate, which names a generator", name);
+    if (!arguments.has("generate"))
+        arguments.refuse({"count", "seed", "sets", "warp", "start"},
+                         "is of --generate, which names a generator");
 }
 
 }  // namespace stipple::cli

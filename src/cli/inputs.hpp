@@ -18,13 +18,14 @@
 
 namespace stipple::cli {
 
-/// The inputs that are named, or standard input. @throws Error(usage) when that is named twice
+/// The inputs that are named, or standard input; those that --concat joins are one.
+/// @throws Error(usage) when standard input is named twice
 std::vector<std::string> input_names(const Arguments& arguments);
 
 /// The one input of a verb that takes no more. @throws Error(usage)
 std::string only_input(const Arguments& arguments, const std::string& hint = {});
 
-/// The sets of an input file, with their domain.
+/// The sets of an input, with their domain; with --concat it is all files as one set.
 std::vector<PointSet> read_input(const std::string& path, const Arguments& arguments,
                                  const RunContext& run);
 
@@ -37,11 +38,6 @@ std::vector<PointSet> read_input(std::string_view bytes, const std::string& path
 std::unique_ptr<io::PointStream> open_input(const std::string& path, const Arguments& arguments,
                                             const RunContext& run,
                                             const std::string& strengths = {});
-
-/// All inputs as one set, for --concat.
-std::unique_ptr<io::PointStream> open_joined(const Arguments& arguments, const RunContext& run,
-                                             const std::string& strengths = {});
-std::vector<PointSet> read_joined(const Arguments& arguments, const RunContext& run);
 
 /// All sets of a stream, with their domain.
 std::vector<PointSet> read_all(io::PointStream& stream, const Arguments& arguments,

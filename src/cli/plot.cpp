@@ -97,9 +97,7 @@ class Plot {
     }
 
     int go() {
-        auto inputs = arguments_.inputs;
-        if (inputs.empty()) inputs.emplace_back("-");
-        for (const std::string& input : inputs) read(input);
+        for (const std::string& input : input_names(arguments_)) read(input);
         if (!reports_.empty() && !sets_.empty())
             fail(ErrorKind::input, "points and reports are not drawn in one picture");
         pick_set();

@@ -155,10 +155,8 @@ namespace {
 /// Replications of the input by a scramble.
 int scramble(const Arguments& arguments, const Spec& spec, const std::vector<PointSet>& sets,
              const Target& target, Session& session) {
-    for (const char* option : {"inverse", "with-pdf", "with-weight"})
-        if (arguments.has(option))
-            fail(ErrorKind::usage, "--{}: {} is a scramble, random and of density 1", option,
-                 spec.name);
+    arguments.refuse({"inverse", "with-pdf", "with-weight"},
+                     spec.name + " is a scramble, random and of density 1");
     const std::uint64_t seed = seed_of(arguments, ~std::uint64_t{0}, session);
     const auto replications = arguments.integer("sets").value_or(1);
     write_scrambled(sets, spec, seed, replications, target, session.run());
@@ -173,9 +171,8 @@ int warp(const Arguments& arguments, Session& session) {
     Spec spec{.name = arguments.unit, .coordinates = {}, .settings = arguments.settings};
     if (const auto coordinates = arguments.get("coordinates"))
         spec.coordinates = parse_spec(spec.name + "@" + *coordinates).coordinates;
-    for (const char* option : {"seed", "sets"})
-        if (!scrambled && arguments.has(option))
-            fail(ErrorKind::usage, "--{}: {} is a warp, which is not random", option, spec.name);
+    if (!scrambled)
+        arguments.refuse({"seed", "sets"}, spec.name + " is a warp, which is not random");
     const Target target = target_of(arguments);
     const std::string path = only_input(arguments);
     const RunContext& run = session.run();
@@ -193,13 +190,9 @@ int warp(const Arguments& arguments, Session& session) {
 }
 
 int convert(const Arguments& arguments, Session& session) {
-    const bool joined = arguments.has("concat");
-    const std::string path =
-        joined ? "" : only_input(arguments, "--concat takes several as one set");
+    const std::string path = only_input(arguments, "--concat takes several as one set");
     const Target target = target_of(arguments);
-    const RunContext& run = session.run();
-    write_sets(joined ? read_joined(arguments, run) : read_input(path, arguments, run), target,
-               run);
+    write_sets(read_input(path, arguments, session.run()), target, session.run());
     return 0;
 }
 

@@ -109,9 +109,9 @@ SummaryOptions summary_options(const Arguments& arguments, std::uint64_t seed) {
     options.confidence =
         real_of(arguments, "confidence", 0, 1, "between 0 and 1").value_or(options.confidence);
     options.resamples = arguments.integer("bootstrap").value_or(options.resamples);
-    for (const char* name : {"pairs", "confidence", "bootstrap"})
-        if (arguments.has(name) && !arguments.has("summary"))
-            fail(ErrorKind::usage, "--{}: is of --summary, which is not given", name);
+    if (!arguments.has("summary"))
+        arguments.refuse({"pairs", "confidence", "bootstrap"},
+                         "is of --summary, which is not given");
     return options;
 }
 
