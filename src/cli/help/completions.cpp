@@ -4,6 +4,7 @@
 // from the records, a candidate a line, or @files where a file's name may stand.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <set>
 
@@ -31,6 +32,14 @@ using Candidates = std::vector<Candidate>;
 
 const Candidate files = {"@files"};
 
+/// Names of units, verbs or topics, with their summaries.
+template <class Record>
+Candidates with_summaries(const std::vector<Record>& records) {
+    Candidates found;
+    for (const Record& record : records) found.push_back({record.name, record.summary});
+    return found;
+}
+
 Candidates words_of(const std::vector<std::string>& words) {
     Candidates found;
     for (const std::string& word : words) found.push_back({word});
@@ -38,11 +47,7 @@ Candidates words_of(const std::vector<std::string>& words) {
 }
 
 Candidates units_of(std::string_view name) {
-    Candidates found;
-    for (const Kind& kind : catalog())
-        if (kind.name == name)
-            for (const UnitInfo& unit : kind.units) found.push_back({unit.name, unit.summary});
-    return found;
+    return with_summaries(std::ranges::find(catalog(), name, &Kind::name)->units);
 }
 
 Candidates joined(Candidates one, const Candidates& two) {
@@ -77,8 +82,7 @@ Candidates operands_of(Verb verb) {
             for (const Kind& kind : catalog()) found.push_back({kind.name});
             return found;
         case Verb::help:
-            for (const Topic& topic : topics()) found.push_back({topic.name, topic.summary});
-            for (const VerbInfo& info : verbs()) found.push_back({info.name, info.summary});
+            found = joined(with_summaries(topics()), with_summaries(verbs()));
             for (const Kind& kind : catalog())
                 if (!kind.verb.empty()) found = joined(std::move(found), units_of(kind.name));
             return found;
@@ -115,11 +119,7 @@ std::optional<Candidates> values_behind(const std::string& before, Verb verb,
 
 /// Candidates for the last of the words; `before` is the option that it may belong to.
 Candidates candidates(const std::vector<std::string>& words, const std::string& before) {
-    Candidates found;
-    if (words.size() < 2) {
-        for (const VerbInfo& info : verbs()) found.push_back({info.name, info.summary});
-        return joined(found, words_of({"--help", "--version"}));
-    }
+    if (words.size() < 2) return joined(with_summaries(verbs()), words_of({"--help", "--version"}));
     const VerbInfo* info = find_verb(words[0]);
     if (info == nullptr) return {};
     const Kind* kind = units_for(info->name);
@@ -130,8 +130,7 @@ Candidates candidates(const std::vector<std::string>& words, const std::string& 
     if (const auto values = values_behind(before, info->verb, unit)) return *values;
     if (words.back().starts_with('-') && words.back() != "-") return option_names(info->verb, unit);
     if (!kind || unit != nullptr) return operands_of(info->verb);
-    for (const UnitInfo& each : kind->units) found.push_back({each.name, each.summary});
-    return found;
+    return with_summaries(kind->units);
 }
 
 }  // namespace

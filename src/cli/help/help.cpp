@@ -7,13 +7,105 @@
 #include <cctype>
 
 #include "cli/help/guide.hpp"
-#include "cli/help/help_page.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 
 namespace stipple::cli {
 namespace {
+
+/// A text as roff takes it: backslashes and dashes as they stand, no line taken for a request.
+std::string escaped(std::string_view text) {
+    std::string out(text);
+    for (const auto& [plain, roff] : {std::pair{"\\", "\\e"},
+                                      {"-", "\\-"},
+                                      {"'", "\\(aq"},
+                                      {"`", "\\(ga"},
+                                      {"^", "\\(ha"},
+                                      {"~", "\\(ti"},
+                                      {"\n.", "\n\\&."}})
+        replace_all(out, plain, roff);
+    return out.starts_with('.') ? "\\&" + out : out;
+}
+
+std::string upper(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return text;
+}
+
+/// A page of help in one of two styles: plain text for terminals, or man(7) for man.
+class HelpPage {
+  public:
+    enum class Style { text, man };
+
+    explicit HelpPage(Style style) : style_(style) {}
+
+    [[nodiscard]] bool for_man() const { return style_ == Style::man; }
+    [[nodiscard]] const std::string& text() const { return text_; }
+
+    /// What the page is about; `number` is the section of the manual.
+    void title(const std::string& name, int number, const std::string& summary,
+               const std::string& usage = {}) {
+        if (!for_man()) {
+            text_ += fmt::format("{}: {}\n\nUsage: {}\n", name, summary, usage);
+            return;
+        }
+        text_ += fmt::format(
+            ".TH {} {} \"\" \"stipple {}\" \"stipple manual\"\n.SH NAME\n{} \\- {}\n",
+            escaped(upper(name)), number, STIPPLE_VERSION, escaped(name), escaped(summary));
+        if (!usage.empty()) {
+            section("Synopsis");
+            lines(usage);
+        }
+        section("Description");
+    }
+
+    void section(const std::string& name) {
+        text_ += for_man() ? fmt::format(".SH {}\n", escaped(upper(name)))
+                           : fmt::format("\n{}:\n", name);
+    }
+
+    /// In the manual only.
+    void subsection(const std::string& name) { text_ += fmt::format(".SS {}\n", escaped(name)); }
+
+    void paragraph(const std::string& text) {
+        text_ += for_man() ? fmt::format(".P\n{}\n", escaped(text)) : fmt::format("\n{}\n", text);
+    }
+
+    /// An option, a verb or a result with what it is.
+    void entry(const std::string& tag, const std::string& help) {
+        if (for_man())
+            text_ += fmt::format(".TP\n.B {}\n{}\n", escaped(trim(tag)), escaped(help));
+        else if (tag.size() <= 26)
+            text_ += fmt::format("  {:<26}  {}\n", tag, help);
+        else
+            text_ += fmt::format("  {}\n  {:<26}  {}\n", tag, "", help);
+    }
+
+    /// Lines as they stand.
+    void lines(std::string_view text) {
+        const std::string ended = std::string(text) + (text.ends_with('\n') ? "" : "\n");
+        text_ += for_man() ? ".nf\n" + escaped(ended) + ".fi\n" : ended;
+    }
+
+    /// The pages of all verbs and topics but this one; in the manual only.
+    void see_also(const std::string& but) {
+        if (!for_man()) return;
+        std::vector<std::string> pages;
+        const auto add = [&](const std::string& page, int number) {
+            if (page != but) pages.push_back(fmt::format(".BR {} ({})", escaped(page), number));
+        };
+        add("stipple", 1);
+        for (const VerbInfo& info : verbs()) add("stipple-" + info.name, 1);
+        for (const Topic& topic : topics()) add("stipple-" + topic.name, 7);
+        section("See also");
+        text_ += join(pages, ",\n") + "\n";
+    }
+
+  private:
+    Style style_;
+    std::string text_;
+};
 
 std::string capitalised(std::string text) {
     if (!text.empty())
