@@ -246,12 +246,12 @@ SharedSet shared_files(const Arguments& arguments, const Analyzer& analyzer,
     const auto open = [&arguments, run, strengths](const std::string& path) {
         return open_file(path, arguments, strengths, run);
     };
-    const auto files = std::make_shared<SharedFiles>(arguments.inputs, open, ranks);
+    const SharedSet files = shared_in_files(arguments.inputs, open, ranks);
     Arrival points =
         arrival_of(*open(arguments.inputs.front()), !strengths.empty(), analyzer, arguments, run);
-    points.count = files->count();
+    points.count = files.points.count;
     return {.points = points, .from = [=, &analyzer, &arguments](std::uint64_t first) {
-                return within_bounds(files->from(first), points, first, analyzer, arguments);
+                return within_bounds(files.from(first), points, first, analyzer, arguments);
             }};
 }
 

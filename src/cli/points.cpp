@@ -18,12 +18,6 @@
 namespace stipple::cli {
 namespace {
 
-const Format& output_format(const Arguments& arguments, const std::string& path) {
-    if (const auto name = arguments.get("format")) return io::format_named(*name);
-    const Format* format = io::format_of_extension(path);
-    return format ? *format : io::format_named("csv");
-}
-
 std::optional<Shard> parse_shard(const Arguments& arguments) {
     const auto text = arguments.get("shard");
     if (!text) return std::nullopt;
@@ -95,7 +89,8 @@ std::string shell_word(const std::string& word) {
 Target target_of(const Arguments& arguments) {
     Target target;
     target.path = arguments.get("output").value_or("-");
-    target.format = &output_format(arguments, target.path);
+    if (const auto name = arguments.get("format")) target.format = &io::format_named(*name);
+    target.format = &format_of(target);
     target.header = !arguments.has("no-header");
     target.meta = arguments.has("meta");
     const auto type = arguments.get("dtype");

@@ -18,31 +18,6 @@
 namespace stipple {
 namespace {
 
-/// What work(rows, first) makes of blocks of points, one after the other, with their provenance.
-template <class Work>
-PointSet by_blocks(const PointSet& points, std::size_t width, const RunContext& run,
-                   const Work& work) {
-    const std::size_t d = points.dimension();
-    run.need_memory(8.0 * static_cast<double>(points.count() * width), "the image of the points");
-    constexpr std::size_t block = 1 << 14;
-    std::vector<std::vector<double>> parts(block_count(points.count(), block));
-    for_each_block(run, points.count(), block, [&](const Block& b) {
-        const auto rows = points.flat().subspan(b.first * d, (b.last - b.first) * d);
-        parts[b.index] = work(std::vector<double>(rows.begin(), rows.end()), b.first);
-    });
-    std::size_t numbers = 0;
-    for (const auto& part : parts) numbers += part.size();
-    std::vector<double> all;
-    all.reserve(numbers);
-    for (auto& part : parts) {
-        all.insert(all.end(), part.begin(), part.end());
-        part = {};  // so that the points are not held twice
-    }
-    PointSet made(std::move(all), width);
-    made.provenance = points.provenance;
-    return made;
-}
-
 /// Columns of rows as rows of their own.
 std::vector<double> gather(std::span<const double> rows, std::size_t width,
                            std::span<const std::size_t> columns) {
@@ -129,14 +104,6 @@ const Warp& warp_of_domain(const std::string& name) {
         "unknown domain '{}'", name);
 }
 
-/// @throws Error(input)
-void require_in_cube(std::span<const double> rows) {
-    for (const double x : rows)
-        if (!(x >= 0 && x <= 1))
-            fail(ErrorKind::input,
-                 "a coordinate is {}; a warp takes points of the unit cube, in [0, 1]", x);
-}
-
 std::vector<std::size_t> all_of(std::size_t dimension) {
     std::vector<std::size_t> all(dimension);
     std::iota(all.begin(), all.end(), std::size_t{0});
@@ -165,7 +132,10 @@ WarpChain::WarpChain(std::span<const Spec> specs, std::size_t dimension, const C
                           .width_in = dimension,
                           .width_out = dimension});
     for (const Spec& spec : specs) add(spec, set, run);
-    find_domain();
+    std::vector<Factor> factors;
+    for (const Step& step : steps_)
+        if (step.domain) factors.push_back({step.domain, step.image});
+    domain_ = filled_up(std::move(factors), dimension_out_);
 }
 
 void WarpChain::add(const Spec& spec, const ChainSet& set, const RunContext& run) {
@@ -259,13 +229,6 @@ void WarpChain::add_warp(const Warp& warp, const Spec& spec, const RunContext& r
     steps_.push_back(std::move(step));
 }
 
-void WarpChain::find_domain() {
-    std::vector<Factor> factors;
-    for (const Step& step : steps_)
-        if (step.domain) factors.push_back({step.domain, step.image});
-    domain_ = filled_up(std::move(factors), dimension_out_);
-}
-
 DomainPtr WarpChain::domain_before(const DomainPtr& after, const RunContext& run) const {
     std::vector<Factor> factors = warped_factors(after, {}, run);
     for (auto step = steps_.rbegin(); step != steps_.rend(); ++step) {
@@ -285,14 +248,12 @@ bool WarpChain::drops() const {
         steps_, [](const Step& step) { return step.mapping && step.mapping->drops(); });
 }
 
-std::vector<double> WarpChain::forward(std::vector<double> rows, std::uint64_t first,
-                                       bool checked) const {
+std::vector<double> WarpChain::forward(std::vector<double> rows, std::uint64_t first) const {
     for (const Step& step : steps_) {
         if (!step.mapping && !step.randomization) continue;
         const std::size_t count = rows.size() / step.width_in;
         const bool whole = step.coordinates == all_of(step.width_in);
         auto part = whole ? std::move(rows) : gather(rows, step.width_in, step.coordinates);
-        if (checked) require_in_cube(part);
         const bool drops = step.mapping && step.mapping->drops();
         std::vector<std::uint8_t> keep(drops ? count : 0, 1);
         if (step.mapping) {
@@ -323,15 +284,42 @@ std::vector<double> WarpChain::inverse(std::vector<double> rows) const {
     return rows;
 }
 
+std::vector<double> WarpChain::mapped(std::span<const double> rows, bool back, std::uint64_t first,
+                                      const RunContext& run) const {
+    const std::size_t d = back ? dimension_out_ : dimension_in_;
+    const std::size_t wide = back ? dimension_in_ : dimension_out_;
+    const std::size_t count = rows.size() / d;
+    run.need_memory(8.0 * static_cast<double>(count * wide), "the image of the points");
+    const std::size_t block = std::max<std::size_t>(1, 16384 / d);
+    std::vector<std::vector<double>> parts(block_count(count, block));
+    for_each_block(run, count, block, [&](const Block& b) {
+        const auto from = rows.subspan(b.first * d, (b.last - b.first) * d);
+        std::vector<double> part(from.begin(), from.end());
+        parts[b.index] =
+            back ? inverse(std::move(part)) : forward(std::move(part), first + b.first);
+    });
+    std::size_t numbers = 0;
+    for (const auto& part : parts) numbers += part.size();
+    std::vector<double> all;
+    all.reserve(numbers);
+    for (auto& part : parts) {
+        all.insert(all.end(), part.begin(), part.end());
+        part = {};  // so that the points are not held twice
+    }
+    return all;
+}
+
 PointSet WarpChain::image(const PointSet& points, const RunContext& run,
                           std::uint64_t start) const {
     if (points.dimension() != dimension_in_)
         fail(ErrorKind::input, "the points have {} coordinates; the warps take {}",
              points.dimension(), dimension_in_);
-    PointSet image = by_blocks(points, dimension_out_, run, [&](auto rows, std::uint64_t first) {
-        return forward(std::move(rows), start + first, true);
-    });
+    PointSet image(mapped(points.flat(), false, start, run), dimension_out_);
+    tell_kept(points.count(), image.count(), run);
     image.domain = domain_;
+    image.provenance = points.provenance;
+    image.provenance.efficiency *=
+        static_cast<double>(image.count()) / static_cast<double>(points.count());
     return image;
 }
 
@@ -339,9 +327,9 @@ PointSet WarpChain::preimage(const PointSet& points, const RunContext& run) cons
     if (points.dimension() != dimension_out_)
         fail(ErrorKind::input, "the points have {} coordinates; the warps give {}",
              points.dimension(), dimension_out_);
-    PointSet before = by_blocks(points, dimension_in_, run,
-                                [&](auto rows, std::uint64_t) { return inverse(std::move(rows)); });
+    PointSet before(mapped(points.flat(), true, 0, run), dimension_in_);
     before.domain = domain_before(points.domain, run);
+    before.provenance = points.provenance;
     return before;
 }
 
@@ -357,26 +345,16 @@ std::vector<double> WarpChain::density(std::span<const double> rows) const {
     return density;
 }
 
-PointSet image_of(const PointSet& points, const WarpChain& chain, const RunContext& run,
-                  std::uint64_t start) {
-    PointSet image = chain.image(points, run, start);
-    tell_kept(points.count(), image.count(), chain, run);
-    image.provenance.efficiency *=
-        static_cast<double>(image.count()) / static_cast<double>(points.count());
-    return image;
-}
-
-void tell_kept(std::uint64_t count, std::uint64_t kept, const WarpChain& chain,
-               const RunContext& run) {
-    if (chain.drops() && kept < count)
+void WarpChain::tell_kept(std::uint64_t count, std::uint64_t kept, const RunContext& run) const {
+    if (drops() && kept < count)
         run.notify(
             fmt::format("kept {} of {} points (efficiency {:.3g}): the others have no image "
                         "under {}",
                         kept, count, static_cast<double>(kept) / static_cast<double>(count),
-                        join(chain.specs(), ", ")));
+                        join(specs_, ", ")));
     if (kept == 0)
         fail(ErrorKind::input, "none of {} points has an image under {}", count,
-             join(chain.specs(), ", "));
+             join(specs_, ", "));
 }
 
 std::vector<std::string> files_of(const Schema& schema, const Values& values,

@@ -58,26 +58,34 @@ class WarpChain {
     /// Whether the images depend on the set's seed.
     [[nodiscard]] bool seeded() const { return seeded_; }
 
-    /// Images of rows first, first + 1, ... of the set; with drops(), fewer rows may come out than
-    /// went in.
+    /// Images of rows first, first + 1, ... of the set, whose coordinates that are taken are in the
+    /// unit cube; with drops(), fewer rows may come out than went in.
     [[nodiscard]] std::vector<double> forward(std::vector<double> rows,
-                                              std::uint64_t first = 0) const {
-        return forward(std::move(rows), first, false);
-    }
+                                              std::uint64_t first = 0) const;
 
     /// Back to the unit cube, below 1. @throws Error(usage) where a warp has no inverse,
     /// Error(input) for points off the domain.
     [[nodiscard]] std::vector<double> inverse(std::vector<double> rows) const;
 
-    /// Images of all points, on all threads; the first one has the index `start`. They are on
-    /// domain(), and keep the provenance. @throws Error(input) for points of another dimension, and
-    /// for coordinates outside the closed unit cube that are taken; Error(cancelled), Error(limit)
+    /// What forward() or, with `back`, inverse() gives, on all threads; the first row is row `first`
+    /// of the set. @throws as these do; Error(cancelled), Error(limit)
+    [[nodiscard]] std::vector<double> mapped(std::span<const double> rows, bool back,
+                                             std::uint64_t first, const RunContext& run) const;
+
+    /// Images of all points; the first one has the index `start`. They are on domain(), and keep the
+    /// provenance. Tells the user how many points have none, and multiplies the efficiency by the
+    /// share of the others.
+    /// @throws Error(input) for points of another dimension, and where none has an image; as mapped()
     [[nodiscard]] PointSet image(const PointSet& points, const RunContext& run,
                                  std::uint64_t start = 0) const;
 
     /// What all points are the images of, in the same way; what else is not of the unit cube, stays
-    /// on the domain that it has. @throws as inverse() does
+    /// on the domain that it has.
     [[nodiscard]] PointSet preimage(const PointSet& points, const RunContext& run) const;
+
+    /// Tells the user how many of `count` points were kept, where some may be dropped.
+    /// @throws Error(input) when none was
+    void tell_kept(std::uint64_t count, std::uint64_t kept, const RunContext& run) const;
 
     /// What preimages of points on `after` are on.
     [[nodiscard]] DomainPtr domain_before(const DomainPtr& after, const RunContext& run) const;
@@ -100,8 +108,6 @@ class WarpChain {
         std::size_t width_out = 0;                  ///< and after
     };
 
-    [[nodiscard]] std::vector<double> forward(std::vector<double> rows, std::uint64_t first,
-                                              bool checked) const;
     void add(const Spec& spec, const ChainSet& set, const RunContext& run);
     void add_scramble(const Scramble& scramble, const Spec& spec, const ChainSet& set);
     void add_warp(const Warp& warp, const Spec& spec, const RunContext& run);
@@ -110,7 +116,6 @@ class WarpChain {
     [[nodiscard]] std::vector<std::size_t> coordinates_of(const Spec& spec) const;
     [[noreturn]] static void refuse_coordinates(const Spec& spec, std::size_t takes,
                                                 const Step& step);
-    void find_domain();
 
     std::vector<Step> steps_;
     std::vector<std::string> specs_;
@@ -121,17 +126,6 @@ class WarpChain {
     std::size_t dimension_out_;
     DomainPtr domain_;
 };
-
-/// The image of a set whose first point has the index `start`. Tells the user how many points have
-/// none, and multiplies the efficiency by the share of the others.
-/// @throws Error(input) where no point has an image
-PointSet image_of(const PointSet& points, const WarpChain& chain, const RunContext& run,
-                  std::uint64_t start = 0);
-
-/// Tells the user how many of `count` points were kept by a chain that may drop some.
-/// @throws Error(input) when none was
-void tell_kept(std::uint64_t count, std::uint64_t kept, const WarpChain& chain,
-               const RunContext& run);
 
 /// Files that options name, for reading; in order.
 std::vector<std::string> files_of(const Schema& schema, const Values& values,

@@ -24,20 +24,35 @@ void walk_to(Sequence& sequence, std::uint64_t start, std::size_t dimension,
     }
 }
 
-/// Points of a sequence, block by block on all threads.
+/// Points of a sequence from `first` on, each as the chain or the bounds move it, block by block on
+/// all threads where the sequence allows it.
+void fill_rows(const Sequence& sequence, std::uint64_t first, const WarpChain& chain,
+               const std::optional<Box>& bounds, std::span<double> rows, RunContext run) {
+    const std::size_t in = chain.dimension_in();
+    const std::size_t out = chain.dimension_out();
+    if (!sequence.random_access()) run.threads = 1;
+    const std::size_t block = std::max<std::size_t>(1, 8192 / in);
+    for_each_block(run, rows.size() / out, block, [&](const Block& b) {
+        const auto place = rows.subspan(b.first * out, (b.last - b.first) * out);
+        if (chain.empty()) {
+            sequence.fill(first + b.first, place);
+            if (bounds) scale_into(*bounds, place);
+            return;
+        }
+        std::vector<double> raw((b.last - b.first) * in);
+        sequence.fill(first + b.first, raw);
+        std::ranges::copy(chain.forward(std::move(raw), first + b.first), place.begin());
+    });
+}
+
+/// All points of a sequence.
 PointSet fill_all(Sequence& sequence, const Plan& plan, std::uint64_t start,
                   const RunContext& run) {
     run.need_memory(static_cast<double>(plan.count) * static_cast<double>(plan.dimension) * 8,
                     "the point set");
     PointSet points(Rows::unwritten(plan.count * plan.dimension), plan.dimension);
     walk_to(sequence, start, plan.dimension, run);
-    RunContext lane = run;
-    if (!sequence.random_access()) lane.threads = 1;
-    const std::size_t block = std::max<std::size_t>(1, 8192 / plan.dimension);
-    for_each_block(lane, plan.count, block, [&](const Block& b) {
-        sequence.fill(start + b.first, points.flat().subspan(b.first * plan.dimension,
-                                                             (b.last - b.first) * plan.dimension));
-    });
+    fill_rows(sequence, start, WarpChain({}, plan.dimension), {}, points.flat(), run);
     return points;
 }
 
@@ -130,27 +145,12 @@ NextRows GeneratedSets::stream(std::uint64_t set, const RunContext& run, std::ui
                                std::uint64_t last) const {
     const auto points = sequence(set, run);
     walk_to(*points, request_.start + first, plan_.dimension, run);
-    RunContext lane = run;
-    lane.progress = {};
-    if (!points->random_access()) lane.threads = 1;
     return [=, at = request_.start + first, end = request_.start + last, bounds = bounds_,
-            chain = chain_for(set, run)](std::span<double> rows) mutable {
-        const std::size_t in = chain->dimension_in();
-        const std::size_t out = chain->dimension_out();
+            chain = chain_for(set, run), lane = silent(run)](std::span<double> rows) mutable {
+        const std::size_t d = chain->dimension_out();
         const auto some =
-            static_cast<std::size_t>(std::min<std::uint64_t>(end - at, rows.size() / out));
-        const std::size_t block = std::max<std::size_t>(1, 8192 / in);
-        for_each_block(lane, some, block, [&](const Block& b) {
-            const auto place = rows.subspan(b.first * out, (b.last - b.first) * out);
-            if (chain->empty()) {
-                points->fill(at + b.first, place);
-                if (bounds) scale_into(*bounds, place);
-                return;
-            }
-            std::vector<double> raw((b.last - b.first) * in);
-            points->fill(at + b.first, raw);
-            std::ranges::copy(chain->forward(std::move(raw), at + b.first), place.begin());
-        });
+            static_cast<std::size_t>(std::min<std::uint64_t>(end - at, rows.size() / d));
+        fill_rows(*points, at, *chain, bounds, rows.first(some * d), lane);
         at += some;
         return some;
     };
@@ -165,7 +165,7 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
     double efficiency = 1;
     if (bounds_) scale_into(*bounds_, points.flat());
     if (!chain_->empty()) {
-        points = image_of(points, *chain_for(set, run), run.stage(1, 1), request_.start);
+        points = chain_for(set, run)->image(points, run.stage(1, 1), request_.start);
         efficiency = points.provenance.efficiency;
     }
     points.domain = domain_;

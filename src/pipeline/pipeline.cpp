@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "core/text.hpp"
 
 namespace stipple {
@@ -14,15 +15,12 @@ Found analyze(const Analyzer& analyzer, const Arrival& arrival, const NextRows& 
     const std::uint64_t count = add_all(*measure, arrival, next, run);
     if (count == 0)
         fail(ErrorKind::input, "{} needs at least one point; the set is empty", analyzer.name);
-    RunContext quiet = run;
-    quiet.progress = {};
-    return {.report = measure->report(quiet), .count = count};
+    return {.report = measure->report(silent(run)), .count = count};
 }
 
 std::uint64_t add_all(Accumulator& measure, const Arrival& arrival, const NextRows& next,
                       const RunContext& run) {
-    RunContext quiet = run;
-    quiet.progress = {};
+    const RunContext quiet = silent(run);
     std::uint64_t done = 0;
     const std::uint64_t batch = arrival_batch(arrival.dimension());
     const auto rows_at_once =

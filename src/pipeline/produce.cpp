@@ -48,6 +48,8 @@ void write_images(const std::vector<PointSet>& images, const WarpChain& chain,
     SetsToWrite job{
         .sets = images.size(),
         .first_set = first_set,
+        .domain = images.front().domain,
+        .chain = &chain,
         .source = [&](std::size_t set, const RunContext&) { return rows_of(images[set]); },
         .provenance = [&](std::size_t set) { return together ? common : images[set].provenance; },
         .first_seed = first_seed,
@@ -58,11 +60,7 @@ void write_images(const std::vector<PointSet>& images, const WarpChain& chain,
         .side_files = [&](std::size_t set) -> const std::vector<SideFile>& {
             return images[set].side_files;
         },
-        .counts = {},
-        .dimension = images.front().dimension(),
-        .chain = &chain,
-        // Without warps, what the points are on is the unit cube, or what it was scaled to.
-        .volume = chain.empty() ? images.front().domain->measure() : 1};
+        .counts = {}};
     for (const PointSet& set : images) job.counts.push_back(set.count());
     write_files(job, target, run);
 }
@@ -201,33 +199,10 @@ PointSet warped(const PointSet& set, const Warping& warping, const RunContext& r
     const auto& [inverse, taken, before, chain, inputs] = warping;
     if (!inverse) taken.require_in_cube(set);
     const bool said = inverse || others_in_cube(set, taken, before);
-    PointSet image = inverse ? chain->preimage(set, run) : image_of(set, *chain, run);
+    PointSet image = inverse ? chain->preimage(set, run) : chain->image(set, run);
     record_warp(image, *chain, inverse, inputs);
     if (!said) image.provenance.domain.clear();
     return image;
-}
-
-/// Puts images of rows that begin with point `first` into `images`, each of `wide` numbers; how many
-/// there are.
-std::size_t put_images(std::span<const double> rows, std::uint64_t first, const Warping& warping,
-                       std::span<double> images, std::size_t wide, const RunContext& run) {
-    const std::size_t d =
-        warping.inverse ? warping.chain->dimension_out() : warping.chain->dimension_in();
-    const std::size_t block = std::max<std::size_t>(1, 8192 / d);
-    std::vector<std::size_t> sizes(block_count(rows.size() / d, block));
-    for_each_block(run, rows.size() / d, block, [&](const Block& b) {
-        const auto from = rows.subspan(b.first * d, (b.last - b.first) * d);
-        std::vector<double> part(from.begin(), from.end());
-        part = warping.inverse ? warping.chain->inverse(std::move(part))
-                               : warping.chain->forward(std::move(part), first + b.first);
-        std::ranges::copy(part, images.subspan(b.first * wide).begin());
-        sizes[b.index] = part.size();
-    });
-    std::size_t end = 0;
-    for (std::size_t i = 0; i < sizes.size(); end += sizes[i++])  // close gaps between blocks
-        if (const std::size_t begin = i * block * wide; end < begin)
-            std::ranges::copy(images.subspan(begin, sizes[i]), images.subspan(end).begin());
-    return end / wide;
 }
 
 /// The images of the points of a stream, each of `wide` numbers.
@@ -243,13 +218,14 @@ NextRows warped_rows(io::PointStream& stream, const Warping& warping, std::size_
             if (count == 0) break;
             const auto points = std::span(taken).first(count * d);
             if (!warping.inverse) warping.taken.require_in_cube(points, came);
-            const std::size_t found = put_images(points, came, warping, rows, wide, quiet);
+            const auto images = warping.chain->mapped(points, warping.inverse, came, quiet);
+            std::ranges::copy(images, rows.begin());
             came += count;
-            kept += found;
-            if (found > 0) return found;
+            kept += images.size() / wide;
+            if (!images.empty()) return images.size() / wide;
         }
         refuse_second_set(stream);
-        if (!warping.inverse) tell_kept(came, kept, *warping.chain, quiet);
+        if (!warping.inverse) warping.chain->tell_kept(came, kept, quiet);
         return 0;
     };
 }
@@ -340,25 +316,21 @@ class Producer {
         const std::uint64_t count = last - first;
         write_files(
             {.sets = job_.sets,
+             .domain = sets_.domain(),
+             .chain = &sets_.chain(),
              .source = [&, first = first, last = last](
                            std::size_t set,
                            const RunContext& run) { return sets_.stream(set, run, first, last); },
              .provenance = [&](std::size_t set) { return signed_by(sets_.provenance(set, count)); },
              .first_seed = sets_.plan().seed,
-             .extent = [this](std::size_t) { return sets_.domain()->bounding_box(); },
              .counts = Counts::equal(job_.sets, count),
-             .dimension = sets_.dimension(),
-             .chain = &sets_.chain(),
-             .volume = sets_.chain().empty() ? sets_.domain()->measure() : 1,
              .starts = true},
             target_, run_);
     }
 
     /// Whether the file's front says nothing of sets that are not made yet.
     [[nodiscard]] bool begins_without_later_sets() const {
-        const Format* named =
-            target_.format != nullptr ? target_.format : io::format_of_extension(target_.path);
-        const FormatTraits traits = (named != nullptr ? *named : io::format_named("csv")).traits;
+        const FormatTraits& traits = format_of(target_).traits;
         const auto is_given = [this](const std::string& option) {
             return job_.options.find(option).given;
         };
@@ -373,15 +345,13 @@ class Producer {
             return rows_of(held);
         };
         write_files({.sets = job_.sets,
+                     .domain = sets_.domain(),
+                     .chain = &sets_.chain(),
                      .source = make,
                      .provenance = [&](std::size_t set) { return sets_.provenance(set, 0); },
                      .first_seed = sets_.plan().seed,
-                     .extent = [this](std::size_t) { return sets_.domain()->bounding_box(); },
                      .counts = Counts::equal(job_.sets, 0),
-                     .expected = std::max<std::uint64_t>(sets_.plan().count, 1),
-                     .dimension = sets_.dimension(),
-                     .chain = &sets_.chain(),
-                     .volume = sets_.chain().empty() ? sets_.domain()->measure() : 1},
+                     .expected = std::max<std::uint64_t>(sets_.plan().count, 1)},
                     target_, run_);
     }
 
@@ -471,19 +441,17 @@ void write_warped(io::PointStream& stream, const DomainPtr& on, const Spec& warp
     const Warping warping(warp, inverse, on, target, run);
     const auto& chain = warping.chain;
     const std::size_t wide = inverse ? chain->dimension_in() : chain->dimension_out();
-    const DomainPtr domain = inverse ? chain->domain_before(on, run) : chain->domain();
     const std::size_t sets = stream.sets().value_or(1);
     write_files({.sets = sets,
+                 .domain = inverse ? chain->domain_before(on, run) : chain->domain(),
+                 .chain = chain.get(),
                  .source =
                      [&](std::size_t /*set*/, const RunContext&) {
                          stream.next_set();
                          return warped_rows(stream, warping, wide, run);
                      },
                  .provenance = [&](std::size_t) { return stream.provenance(); },
-                 .extent = [&](std::size_t) { return domain->bounding_box(); },
-                 .counts = Counts::equal(sets, 0),
-                 .dimension = wide,
-                 .chain = chain.get()},
+                 .counts = Counts::equal(sets, 0)},
                 target, run);
 }
 

@@ -23,10 +23,10 @@ std::string name_of_set(std::size_t set) { return set > 0 ? fmt::format("set {}"
 bool each_batch(const SetsToWrite& job, std::size_t set, const Target& written,
                 const RunContext& run, const std::function<bool(std::span<const double>)>& take) {
     const RunContext part = part_of_run(run, set, job.sets).rising();
-    const std::size_t batch = std::max<std::size_t>(1, (std::size_t{1} << 18) / job.dimension);
+    const std::size_t batch = std::max<std::size_t>(1, (std::size_t{1} << 18) / job.dimension());
     std::uint64_t done = 0;
     std::string text;
-    return in_batches(job.source(set, part), batch, job.dimension, part, [&](auto rows) {
+    return in_batches(job.source(set, part), batch, job.dimension(), part, [&](auto rows) {
         auto numbers = written.columns.any() ? with_columns(rows, written.columns, job)
                                              : std::vector<double>(rows.begin(), rows.end());
         for (double& number : numbers) {
@@ -36,7 +36,7 @@ bool each_batch(const SetsToWrite& job, std::size_t set, const Target& written,
             io::append_number(text, number, written.precision);
             io::read_number(text.data(), text.data() + text.size(), number);
         }
-        part.tick(done += rows.size() / job.dimension, job.counts[set]);
+        part.tick(done += rows.size() / job.dimension(), job.counts[set]);
         return take(numbers);
     });
 }
@@ -46,9 +46,6 @@ std::vector<PointSet> collect(const Making& making, Target written, const RunCon
     std::vector<PointSet> sets;
     written.take = [&](const SetsToWrite& job) {
         const Provenance meta = job.provenance(0);
-        DomainPtr domain = unit_cube(job.dimension);
-        if (!meta.domain.empty() && meta.domain != "unit-cube")
-            domain = parse_domain(meta.domain, job.dimension, run);
         for (std::size_t set = 0; set < job.sets; ++set) {
             std::vector<double> numbers;
             each_batch(job, set, written, run, [&](std::span<const double> rows) {
@@ -57,8 +54,8 @@ std::vector<PointSet> collect(const Making& making, Target written, const RunCon
                 numbers.insert(numbers.end(), rows.begin(), rows.end());
                 return true;
             });
-            sets.emplace_back(std::move(numbers), job.dimension);
-            sets.back().domain = domain;
+            sets.emplace_back(std::move(numbers), job.dimension());
+            sets.back().domain = meta.domain.empty() ? unit_cube(job.dimension()) : job.domain;
             sets.back().provenance = meta;
         }
     };
@@ -97,7 +94,7 @@ bool same_points(const SetsToWrite& job, std::size_t set, const Target& written,
 Comparison compared(const SetsToWrite& job, const Target& written, io::PointStream& file,
                     bool unmarked, const RunContext& run) {
     Comparison result{.made = job.provenance(0)};
-    const std::size_t width = job.dimension + written.columns.names().size();
+    const std::size_t width = job.dimension() + written.columns.names().size();
     if (file.dimension() != width)
         result.mismatch = fmt::format("its points have {} numbers; made again they have {}",
                                       file.dimension(), width);

@@ -30,7 +30,7 @@ double finite(const char* column, double value, std::span<const double> point, b
 /// the file. False: the pipe was closed.
 bool write_rows(const NextRows& next, const SetsToWrite& job, const Layout& layout,
                 const Target& target, std::size_t set, io::Output& output, const RunContext& run) {
-    const std::size_t d = job.dimension;
+    const std::size_t d = job.dimension();
     const std::uint64_t block = std::max<std::uint64_t>(1, 16384 / d);
     const std::uint64_t count = layout.counts[set];
     std::uint64_t written = 0;
@@ -77,13 +77,13 @@ void check_format(const Format& format, const Layout& layout) {
 
 Layout layout_of(const SetsToWrite& job, std::size_t first, std::size_t last,
                  const Target& target) {
-    Layout layout{.dimension = job.dimension,
+    Layout layout{.dimension = job.dimension(),
                   .header = target.header,
                   .meta = target.meta,
                   .single = target.single,
                   .precision = target.precision,
                   .provenance = job.provenance(first),
-                  .extent = job.extent(first)};
+                  .extent = job.extent ? job.extent(first) : job.domain->bounding_box()};
     Provenance& meta = layout.provenance;
     if (target.precision && !target.format->traits.binary)
         meta.precision = std::min(meta.precision.value_or(*target.precision), *target.precision);
@@ -94,10 +94,9 @@ Layout layout_of(const SetsToWrite& job, std::size_t first, std::size_t last,
 }
 
 /// One file with sets [first, last) of the job.
-bool write_points(const SetsToWrite& job, std::size_t first, std::size_t last,
+bool write_points(const SetsToWrite& job, const Layout& layout, std::size_t first, std::size_t last,
                   const std::string& path, const Target& target, const RunContext& run) {
     const Format& format = *target.format;
-    const Layout layout = layout_of(job, first, last, target);
     check_format(format, layout);
     // What is wrong with the first source shall be known before anything is written.
     RunContext part = part_of_run(run, first, job.sets).rising();
@@ -122,15 +121,14 @@ bool write_points(const SetsToWrite& job, std::size_t first, std::size_t last,
 }
 
 /// Provenance for a file beside the points, where the format has no place for it; else nothing.
-std::string meta_beside(const SetsToWrite& job, std::size_t first, std::size_t last,
-                        const std::string& path, const Target& target, const RunContext& run) {
+std::string meta_beside(const Layout& layout, const std::string& path, const Target& target,
+                        const RunContext& run) {
     if (!target.meta || !target.format->traits.meta_beside || target.sink) return {};
     if (path == "-" || path.starts_with("/dev/")) {
         run.notify(fmt::format("--meta: {} has no place for provenance, and {} none beside it",
                                target.format->name, path == "-" ? "standard output" : path));
         return {};
     }
-    const Layout layout = layout_of(job, first, last, target);
     return io::to_text(
                {target.format->name, layout.width(), layout.counts.size(), layout.provenance}) +
            "\n";
@@ -157,15 +155,16 @@ void check_seeds(const SetsToWrite& job, const Target& target) {
 /// has seen enough of the points, but did not say so of the other files.
 bool write_file(const SetsToWrite& job, std::size_t first, std::size_t last,
                 const std::string& path, const Target& target, const RunContext& run) {
+    const Layout layout = layout_of(job, first, last, target);
     std::list<io::Output> beside;
     const auto put = [&](const std::string& name, const std::string& bytes) {
         beside.emplace_back(name, run.stop).write(bytes);
     };
     for (std::size_t set = first; set < last && job.side_files; ++set)
         for (const SideFile& file : job.side_files(set)) put(file.path, file.bytes);
-    if (const auto meta = meta_beside(job, first, last, path, target, run); !meta.empty())
+    if (const auto meta = meta_beside(layout, path, target, run); !meta.empty())
         put(io::meta_path(path), meta);
-    const bool whole = write_points(job, first, last, path, target, run);
+    const bool whole = write_points(job, layout, first, last, path, target, run);
     for (io::Output& file : beside) file.commit();
     return whole;
 }
@@ -174,19 +173,27 @@ bool write_file(const SetsToWrite& job, std::size_t first, std::size_t last,
 
 std::vector<double> with_columns(std::span<const double> rows, const Columns& columns,
                                  const SetsToWrite& job) {
-    const std::size_t d = job.dimension;
+    const std::size_t d = job.dimension();
     const auto density = job.chain->density(rows);
+    // Without warps, what the points are on is the unit cube, or what it was scaled to.
+    const double volume = job.chain->empty() ? job.domain->measure() : 1;
     std::vector<double> wide;
     wide.reserve(rows.size() + 2 * density.size());
     for (std::size_t i = 0; i < density.size(); ++i) {
         const auto row = rows.subspan(i * d, d);
         wide.insert(wide.end(), row.begin(), row.end());
-        const double pdf = density[i] / job.volume;
-        const double weight = job.volume / density[i];
+        const double pdf = density[i] / volume;
+        const double weight = volume / density[i];
         if (columns.pdf) wide.push_back(finite("pdf", pdf, row, job.starts));
         if (columns.weight) wide.push_back(finite("weight", weight, row, job.starts));
     }
     return wide;
+}
+
+const Format& format_of(const Target& target) {
+    const Format* format =
+        target.format != nullptr ? target.format : io::format_of_extension(target.path);
+    return format != nullptr ? *format : io::format_named("csv");
 }
 
 bool file_per_set(const std::string& path) {
@@ -205,8 +212,7 @@ bool write_files(const SetsToWrite& job, const Target& asked, const RunContext& 
         return true;
     }
     Target target = asked;
-    if (target.format == nullptr) target.format = io::format_of_extension(target.path);
-    if (target.format == nullptr) target.format = &io::format_named("csv");
+    target.format = &format_of(asked);
     if (!file_per_set(target.path)) return write_file(job, 0, job.sets, target.path, target, run);
     check_seeds(job, target);
     for (std::size_t set = 0; set < job.sets; ++set) {

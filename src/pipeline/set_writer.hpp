@@ -32,7 +32,7 @@ struct SetsToWrite;
 /// Where points go, and how they are written.
 struct Target {
     std::string path = "-";          ///< may hold {set} and {seed}: a file for each set
-    const Format* format = nullptr;  ///< none: as the path ends; else csv
+    const Format* format = nullptr;  ///< none: format_of() the target
     bool header = true;
     bool meta = false;
     bool single = false;
@@ -47,20 +47,25 @@ struct Target {
 /// Sets with everything that is needed to write them one after the other.
 struct SetsToWrite {
     std::size_t sets = 1;
-    std::size_t first_set = 0;  ///< number of the first one among all
+    std::size_t first_set = 0;         ///< number of the first one among all
+    DomainPtr domain;                  ///< what the points are on; the box of a picture of them
+    const WarpChain* chain = nullptr;  ///< what gave the rows, for columns of their density
     std::function<NextRows(std::size_t set, const RunContext&)> source;  ///< gives the rows, warped
     std::function<Provenance(std::size_t set)> provenance;
     std::optional<std::uint64_t> first_seed = {};  ///< of {seed} in names; else the provenance says
-    std::function<Box(std::size_t set)> extent;    ///< what a picture of the set shows
+    std::function<Box(std::size_t set)> extent = {};  ///< a larger box, for a picture of the set
     /// Files that come with the set, under their final names; empty: none.
     std::function<const std::vector<SideFile>&(std::size_t set)> side_files = {};
-    Counts counts;                     ///< of points; 0: known only in the end
-    std::uint64_t expected = 0;        ///< about so many, where that is known only in the end
-    std::size_t dimension = 0;         ///< numbers of a row, less the columns
-    const WarpChain* chain = nullptr;  ///< what gave the rows, for columns of their density
-    double volume = 1;    ///< measure of what the points were scaled to, where nothing warped them
-    bool starts = false;  ///< a set's first point can be left out by --start
+    Counts counts;               ///< of points; 0: known only in the end
+    std::uint64_t expected = 0;  ///< about so many, where that is known only in the end
+    bool starts = false;         ///< a set's first point can be left out by --start
+
+    /// Numbers of a row, less the columns.
+    [[nodiscard]] std::size_t dimension() const { return domain->dimension(); }
 };
+
+/// As the target names it or its path ends; else csv.
+const Format& format_of(const Target& target);
 
 /// Each row with the columns behind it. @throws Error(input) where a number is infinite
 std::vector<double> with_columns(std::span<const double> rows, const Columns& columns,

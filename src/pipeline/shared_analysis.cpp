@@ -77,6 +77,37 @@ std::shared_ptr<SharedAccumulator> counted_in(const Analyzer& analyzer, const Sh
     return measure;
 }
 
+/// What the ranks tell each other of a file.
+struct FileFacts {
+    std::uint64_t count = 0;
+    std::size_t dimension = 0;
+    std::string domain = {};
+};
+
+FileFacts facts_of(const std::string& path, const io::Opener& open) {
+    const auto stream = open(path);
+    if (!stream->next_set()) fail(ErrorKind::input, "{}: it holds no points", path);
+    FileFacts facts{.count = stream->skip(~std::uint64_t{0}),
+                    .dimension = stream->dimension(),
+                    .domain = stream->provenance().domain};
+    if (stream->next_set())
+        fail_with_hint(ErrorKind::input, "'stipple study' shares many sets",
+                       "{}: it holds several sets; ranks share one", path);
+    return facts;
+}
+
+void check_alike(const std::vector<std::string>& paths, const std::vector<FileFacts>& facts) {
+    const FileFacts& first = facts.front();
+    for (std::size_t i = 1; i < facts.size(); ++i) {
+        if (facts[i].dimension != first.dimension)
+            fail(ErrorKind::input, "{}: its points have {} coordinates; those before have {}",
+                 paths[i], facts[i].dimension, first.dimension);
+        if (facts[i].domain != first.domain)
+            fail(ErrorKind::input, "{}: its points are on {}; those before are on {}", paths[i],
+                 facts[i].domain, first.domain);
+    }
+}
+
 /// Ranks whose number has `step` as its lowest bit give what they know to those `step` before.
 void merge(SharedAccumulator* measure, Ranks& ranks, const RunContext& run) {
     const int rank = ranks.rank();
@@ -101,61 +132,38 @@ void agreed(Peers& peers, const std::function<void()>& work) {
     }
 }
 
-SharedFiles::SharedFiles(std::vector<std::string> paths, io::Opener open, Peers& peers)
-    : paths_(std::move(paths)), open_(std::move(open)), facts_(paths_.size()) {
+SharedSet shared_in_files(const std::vector<std::string>& paths, const io::Opener& open,
+                          Peers& peers) {
     const auto size = static_cast<std::size_t>(peers.size());
-    const auto rank = static_cast<std::size_t>(peers.rank());
     Packer packer;
     agreed(peers, [&] {
-        for (std::size_t i = rank; i < paths_.size(); i += size) {
-            const Facts facts = facts_of(paths_[i]);
+        for (auto i = static_cast<std::size_t>(peers.rank()); i < paths.size(); i += size) {
+            const FileFacts facts = facts_of(paths[i], open);
             packer.put(facts.count).put(facts.dimension).put_all(facts.domain);
         }
     });
     const auto all = peers.exchange(packer.take());
     std::vector<Unpacker> told(all.begin(), all.end());
-    for (std::size_t i = 0; i < paths_.size(); ++i) {
+    std::vector<FileFacts> facts(paths.size());
+    std::uint64_t count = 0;
+    for (std::size_t i = 0; i < paths.size(); ++i) {
         Unpacker& from = told[i % size];
-        facts_[i] = {.count = from.take<std::uint64_t>(), .dimension = from.take<std::size_t>()};
-        facts_[i].domain = from.take_text();
-        count_ += facts_[i].count;
+        facts[i] = {.count = from.take<std::uint64_t>(), .dimension = from.take<std::size_t>()};
+        facts[i].domain = from.take_text();
+        count += facts[i].count;
     }
-    check_alike();
-}
-
-SharedFiles::Facts SharedFiles::facts_of(const std::string& path) const {
-    const auto stream = open_(path);
-    if (!stream->next_set()) fail(ErrorKind::input, "{}: it holds no points", path);
-    Facts facts{.count = stream->skip(~std::uint64_t{0}),
-                .dimension = stream->dimension(),
-                .domain = stream->provenance().domain};
-    if (stream->next_set())
-        fail_with_hint(ErrorKind::input, "'stipple study' shares many sets",
-                       "{}: it holds several sets; ranks share one", path);
-    return facts;
-}
-
-void SharedFiles::check_alike() const {
-    const Facts& first = facts_.front();
-    for (std::size_t i = 1; i < facts_.size(); ++i) {
-        if (facts_[i].dimension != first.dimension)
-            fail(ErrorKind::input, "{}: its points have {} coordinates; those before have {}",
-                 paths_[i], facts_[i].dimension, first.dimension);
-        if (facts_[i].domain != first.domain)
-            fail(ErrorKind::input, "{}: its points are on {}; those before are on {}", paths_[i],
-                 facts_[i].domain, first.domain);
-    }
-}
-
-NextRows SharedFiles::from(std::uint64_t first) const {
-    std::size_t file = 0;
-    while (file + 1 < paths_.size() && first >= facts_[file].count) first -= facts_[file++].count;
-    const std::vector<std::string> rest(paths_.begin() + static_cast<std::ptrdiff_t>(file),
-                                        paths_.end());
-    const std::shared_ptr<io::PointStream> stream = io::join_points(rest, open_);
-    stream->next_set();
-    stream->skip(first);
-    return [stream](std::span<double> rows) { return stream->read(rows); };
+    check_alike(paths, facts);
+    return {.points = {.domain = unit_cube(facts.front().dimension), .count = count},
+            .from = [=](std::uint64_t first) -> NextRows {
+                std::size_t file = 0;
+                while (file + 1 < paths.size() && first >= facts[file].count)
+                    first -= facts[file++].count;
+                const std::shared_ptr<io::PointStream> stream = io::join_points(
+                    {paths.begin() + static_cast<std::ptrdiff_t>(file), paths.end()}, open);
+                stream->next_set();
+                stream->skip(first);
+                return [stream](std::span<double> rows) { return stream->read(rows); };
+            }};
 }
 
 SharedSet shared_in_memory(PointSet points) {

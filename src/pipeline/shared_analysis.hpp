@@ -32,35 +32,11 @@ struct SharedSet {
 /// A set that every rank has in memory.
 SharedSet shared_in_memory(PointSet points);
 
-/// Files of one set each, one after the other, that all ranks can read.
-class SharedFiles {
-  public:
-    /// Counts their points; the ranks share the files.
-    /// @throws Error(input), on all ranks, as io::join_points does
-    SharedFiles(std::vector<std::string> paths, io::Opener open, Peers& peers);
-
-    [[nodiscard]] std::uint64_t count() const { return count_; }
-    [[nodiscard]] std::size_t dimension() const { return facts_.front().dimension; }
-
-    /// The points from this one on.
-    [[nodiscard]] NextRows from(std::uint64_t first) const;
-
-  private:
-    /// What the ranks tell each other of a file.
-    struct Facts {
-        std::uint64_t count = 0;
-        std::size_t dimension = 0;
-        std::string domain = {};
-    };
-
-    [[nodiscard]] Facts facts_of(const std::string& path) const;
-    void check_alike() const;
-
-    std::vector<std::string> paths_;
-    io::Opener open_;
-    std::vector<Facts> facts_;
-    std::uint64_t count_ = 0;
-};
+/// Files of one set each, one after the other, that all ranks can read; said to be on the unit cube.
+/// Counts their points; the ranks share the files.
+/// @throws Error(input), on all ranks, as io::join_points does
+SharedSet shared_in_files(const std::vector<std::string>& paths, const io::Opener& open,
+                          Peers& peers);
 
 /// Measures the set by an analyzer that takes parts of it; rank 0 gets what was found.
 /// @throws Error, the same on all ranks unless rank 0's report is at fault

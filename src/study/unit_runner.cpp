@@ -172,10 +172,10 @@ void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t see
     const ChainSet set{.seed = seed, .count = points.count()};
     const std::size_t d = points.dimension();
     if (!sweep.scrambles().empty())
-        points = image_of(points, WarpChain(sweep.scrambles(), d, set, run), run);
+        points = WarpChain(sweep.scrambles(), d, set, run).image(points, run);
     // What a scramble draws depends on seed and coordinates: cut in two, the chain is the same.
     if (!sweep.later_warps().empty())
-        made.image = image_of(points, WarpChain(sweep.later_warps(), d, set, run), run);
+        made.image = WarpChain(sweep.later_warps(), d, set, run).image(points, run);
 }
 
 MadeSet made_set(const Sweep& sweep, const Cell& cell, std::uint64_t seed, const RunContext& run) {

@@ -200,9 +200,9 @@ TEST(SharedFiles, GiveThePointsFromAnyPlace) {
     };
     for (const int ranks : {1, 2, 5})
         with_ranks(ranks, [&](Ranks& mine) {
-            const SharedFiles shared(paths, open, mine);
-            EXPECT_EQ(shared.count(), 1000U);
-            EXPECT_EQ(shared.dimension(), 3U);
+            const SharedSet shared = shared_in_files(paths, open, mine);
+            EXPECT_EQ(shared.points.count, 1000U);
+            EXPECT_EQ(shared.points.dimension(), 3U);
             for (const std::size_t first : {0, 9, 10, 11, 500, 700, 999}) {
                 std::vector<double> rows(3 * 50);
                 const std::size_t got = shared.from(first)(rows);
@@ -220,7 +220,7 @@ TEST(SharedFiles, FailOnAllRanksWithTheFirstError) {
     std::atomic<int> failed = 0;
     with_ranks(3, [&](Ranks& mine) {
         try {
-            const SharedFiles shared({"/no/such/a.csv", "/no/such/b.csv"}, open, mine);
+            shared_in_files({"/no/such/a.csv", "/no/such/b.csv"}, open, mine);
         } catch (const Error& e) {
             EXPECT_STREQ(e.what(), "/no/such/a.csv: no such file");
             ++failed;
