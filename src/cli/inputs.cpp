@@ -303,29 +303,23 @@ std::uint64_t seed_for(const Arguments& arguments, std::span<const std::string> 
     return seed_of(arguments, largest, session);
 }
 
-Request request_of(const Arguments& arguments) {
-    Request request;
-    request.count = arguments.integer("count");
-    if (const auto d = arguments.integer("dimension")) request.dimension = *d;
-    request.start = arguments.integer("start").value_or(0);
-    return request;
-}
-
-std::vector<Spec> warps_of(const Arguments& arguments) {
-    std::vector<Spec> warps;
-    for (const auto& text : arguments.all("warp")) warps.push_back(parse_spec(text));
-    return warps;
+SetsToMake sets_asked(const Generator& generator, Values options, const Arguments& arguments) {
+    SetsToMake asked{.generator = &generator, .options = std::move(options)};
+    asked.request.count = arguments.integer("count");
+    if (const auto d = arguments.integer("dimension")) asked.request.dimension = *d;
+    asked.request.start = arguments.integer("start").value_or(0);
+    asked.sets = arguments.integer("sets").value_or(1);
+    for (const auto& text : arguments.all("warp")) asked.warps.push_back(parse_spec(text));
+    return asked;
 }
 
 GeneratedSets generated_sets(const std::string& spec, std::uint64_t seed,
                              const Arguments& arguments, const RunContext& run) {
     const Spec named = parse_spec(spec);
     const Generator& generator = find_generator(named.name);
-    Values values = named.values(generator.options);
-    Request request = request_of(arguments);
-    request.seed = seed;
-    const std::uint64_t sets = arguments.integer("sets").value_or(1);
-    return {generator, std::move(values), std::move(request), sets, warps_of(arguments), run};
+    SetsToMake asked = sets_asked(generator, named.values(generator.options), arguments);
+    asked.request.seed = seed;
+    return {std::move(asked), run};
 }
 
 void refuse_generated_options(const Arguments& arguments) {

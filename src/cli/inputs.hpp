@@ -97,11 +97,8 @@ std::uint64_t seed_for(const Arguments& arguments, const Generator& generator, c
 std::uint64_t seed_for(const Arguments& arguments, std::span<const std::string> specs,
                        Session& session);
 
-/// What is asked of a generator: -n, -d, --start; without seed and bounds.
-Request request_of(const Arguments& arguments);
-
-/// The warps that --warp names.
-std::vector<Spec> warps_of(const Arguments& arguments);
+/// What -n, -d, --start, --sets and --warp ask of a generator; without seed and bounds.
+SetsToMake sets_asked(const Generator& generator, Values options, const Arguments& arguments);
 
 /// What --generate names, with -n, -d, --start and --warp.
 GeneratedSets generated_sets(const std::string& spec, std::uint64_t seed,

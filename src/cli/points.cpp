@@ -18,15 +18,15 @@
 namespace stipple::cli {
 namespace {
 
-std::optional<Shard> parse_shard(const Arguments& arguments) {
+Shard parse_shard(const Arguments& arguments) {
     const auto text = arguments.get("shard");
-    if (!text) return std::nullopt;
+    if (!text) return {};
     const auto parts = split(*text, '/');
     const auto index = parts.size() == 2 ? parse_unsigned(parts[0]) : std::nullopt;
     const auto of = parts.size() == 2 ? parse_unsigned(parts[1]) : std::nullopt;
     if (!index || !of || *index >= *of)
         fail(ErrorKind::usage, "--shard: '{}' is not I/K with 0 <= I < K", *text);
-    return Shard{*index, *of};
+    return {*index, *of};
 }
 
 /// The command that makes these bytes: what was typed, less what cannot change them.
@@ -125,14 +125,10 @@ Box bounds_of(const std::string& text, const Production& job) {
 }  // namespace
 
 Production production_of(const Arguments& arguments, Session& session) {
-    Production job;
-    job.generator = &find_generator(arguments.unit);
-    job.options = settings_of(job.generator->options, arguments);
-    job.request = request_of(arguments);
-    job.request.seed = seed_for(arguments, *job.generator, job.options, session);
-    job.sets = arguments.integer("sets").value_or(1);
-    job.shard = parse_shard(arguments).value_or(Shard{});
-    job.warps = warps_of(arguments);
+    const Generator& generator = find_generator(arguments.unit);
+    Production job{sets_asked(generator, settings_of(generator.options, arguments), arguments)};
+    job.request.seed = seed_for(arguments, generator, job.options, session);
+    job.shard = parse_shard(arguments);
     if (const auto bounds = arguments.get("bounds")) job.request.bounds = bounds_of(*bounds, job);
     return job;
 }

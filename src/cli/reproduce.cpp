@@ -234,32 +234,22 @@ class Reproducer {
     }
 
     /// The points in a file of their own.
-    void write(const Arguments& arguments) {
-        reading_provenance(original_, [&] { write_following(arguments); });
-    }
-
-  private:
-    void write_following(const Arguments& arguments) {
+    void write(const std::string& path) {
         Arguments typed = recipe_.typed;
-        const std::string path = arguments.get("output").value_or("-");
         typed.common.emplace_back("output", path);
         if (io::format_of_extension(path) != nullptr)
             std::erase_if(typed.common, [](const auto& c) { return c.first == "format"; });
-        Target target = target_of(typed);
-        target.columns = written_.columns;
-        making(1)(target);
+        reading_provenance(original_, [&] {
+            Target target = target_of(typed);
+            target.columns = written_.columns;
+            making(1)(target);
+        });
     }
 
+  private:
     /// Everything that was done to make the points; `sets` are in the file, where that is known.
     [[nodiscard]] Making making(std::size_t sets) const {
-        std::uint64_t have = recipe_.job.sets;
-        Making all = making_of(recipe_.job, run_);
-        for (const std::string& step : recipe_.steps) {
-            const std::uint64_t times = sets > have && sets % have == 0 ? sets / have : 1;
-            all = after_step(std::move(all), step, times, run_);
-            if (scramble_named(parse_spec(step).name) != nullptr) have *= times;
-        }
-        return all;
+        return made_again(recipe_.job, recipe_.steps, sets, run_);
     }
 
     Verdict compare_points() {
@@ -468,8 +458,8 @@ int remake_plotted(const Original& original, Reproducer& reproducer, const Argum
             "{}: a picture, which has no numbers to compare; it was drawn by '{}' of the "
             "points of '{}'",
             original.name, original.plotted, made);
-    reproducer.write(arguments);
     const std::string path = *arguments.get("output");
+    reproducer.write(path);
     if (path != "-")
         write_text("-",
                    fmt::format("{}: a picture of the points of '{}'; {} has them, made again\n",
@@ -493,7 +483,7 @@ int reproduce(const Arguments& arguments, Session& session) {
         return reproducer->go();
     });
     if (!original.plotted.empty()) return remake_plotted(original, *reproducer, arguments);
-    if (arguments.has("output")) reproducer->write(arguments);
+    if (const auto path = arguments.get("output")) reproducer->write(*path);
     return say(original, verdict, {}, arguments);
 }
 

@@ -94,31 +94,28 @@ PointSet make_points(const Generator& generator, const Request& request, const V
     return fill_all(*generator.sequence(plan, options, steady), plan, request.start, steady);
 }
 
-GeneratedSets::GeneratedSets(const Generator& generator, Values options, Request request,
-                             std::uint64_t sets, std::vector<Spec> warps, const RunContext& run)
-    : generator_(generator),
-      options_(std::move(options)),
-      request_(std::move(request)),
-      sets_(sets),
-      warps_(std::move(warps)),
-      plan_(plan_for(generator, request_, options_)),
-      chain_(std::make_shared<WarpChain>(warps_, plan_.dimension, ChainSet{}, run)),
-      domain_(request_.bounds ? box_domain(*request_.bounds) : chain_->domain()) {
-    auto files = files_of(generator_.options, options_, generator_.writes);
+GeneratedSets::GeneratedSets(SetsToMake asked, const RunContext& run)
+    : asked_(std::move(asked)),
+      generator_(*asked_.generator),
+      plan_(plan_for(generator_, asked_.request, asked_.options)),
+      chain_(std::make_shared<WarpChain>(asked_.warps, plan_.dimension, ChainSet{}, run)),
+      domain_(asked_.request.bounds ? box_domain(*asked_.request.bounds) : chain_->domain()) {
+    auto files = files_of(generator_.options, asked_.options, generator_.writes);
     files.insert(files.end(), chain_->files().begin(), chain_->files().end());
     inputs_ = fingerprints(files);
-    if (!generator_.traits.boxed) bounds_ = request_.bounds;
-    if (request_.bounds && !chain_->empty())
+    if (!generator_.traits.boxed) bounds_ = asked_.request.bounds;
+    if (asked_.request.bounds && !chain_->empty())
         fail(ErrorKind::usage,
              "--bounds and --warp: a warp takes points of the unit cube, which a box is not");
-    if (sets_ - 1 > ~plan_.seed)
+    if (asked_.sets - 1 > ~plan_.seed)
         fail(ErrorKind::usage, "--seed: {} and {} sets go beyond the 64 bits of a seed", plan_.seed,
-             sets_);
-    if (sets_ > 1 && !uses_seed(generator_, options_) && !chain_->seeded())
+             asked_.sets);
+    if (asked_.sets > 1 && !uses_seed(generator_, asked_.options) && !chain_->seeded())
         run.notify(fmt::format("{} does not use the seed: all {} sets are the same",
-                               generator_.name, sets_));
+                               generator_.name, asked_.sets));
     if (generator_.notes)
-        for (const auto& note : generator_.notes(request_, plan_, options_)) run.notify(note);
+        for (const auto& note : generator_.notes(asked_.request, plan_, asked_.options))
+            run.notify(note);
 }
 
 std::optional<std::uint64_t> GeneratedSets::streamed() const {
@@ -130,42 +127,43 @@ std::shared_ptr<const WarpChain> GeneratedSets::chain_for(std::uint64_t set,
                                                           const RunContext& run) const {
     if (!chain_->seeded()) return chain_;
     return std::make_shared<WarpChain>(
-        warps_, plan_.dimension,
-        ChainSet{.seed = plan_.seed + set, .count = request_.start + plan_.count}, run);
+        asked_.warps, plan_.dimension,
+        ChainSet{.seed = plan_.seed + set, .count = asked_.request.start + plan_.count}, run);
 }
 
 std::shared_ptr<Sequence> GeneratedSets::sequence(std::uint64_t set, const RunContext& run) const {
-    if (sequence_ && !uses_seed(generator_, options_)) return sequence_;
+    if (sequence_ && !uses_seed(generator_, asked_.options)) return sequence_;
     Plan plan = plan_;
     plan.seed += set;
-    return sequence_ = generator_.sequence(plan, options_, run);
+    return sequence_ = generator_.sequence(plan, asked_.options, run);
 }
 
 NextRows GeneratedSets::stream(std::uint64_t set, const RunContext& run, std::uint64_t first,
                                std::uint64_t last) const {
     const auto points = sequence(set, run);
-    walk_to(*points, request_.start + first, plan_.dimension, run);
-    return [=, at = request_.start + first, end = request_.start + last, bounds = bounds_,
-            chain = chain_for(set, run), lane = silent(run)](std::span<double> rows) mutable {
-        const std::size_t d = chain->dimension_out();
-        const auto some =
-            static_cast<std::size_t>(std::min<std::uint64_t>(end - at, rows.size() / d));
-        fill_rows(*points, at, *chain, bounds, rows.first(some * d), lane);
-        at += some;
-        return some;
-    };
+    walk_to(*points, asked_.request.start + first, plan_.dimension, run);
+    return
+        [=, at = asked_.request.start + first, end = asked_.request.start + last, bounds = bounds_,
+         chain = chain_for(set, run), lane = silent(run)](std::span<double> rows) mutable {
+            const std::size_t d = chain->dimension_out();
+            const auto some =
+                static_cast<std::size_t>(std::min<std::uint64_t>(end - at, rows.size() / d));
+            fill_rows(*points, at, *chain, bounds, rows.first(some * d), lane);
+            at += some;
+            return some;
+        };
 }
 
 PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
-    Request request = request_;
+    Request request = asked_.request;
     request.seed += set;
-    PointSet points = make_points(generator_, request, options_, run);
+    PointSet points = make_points(generator_, request, asked_.options, run);
     auto worked_out = std::move(points.provenance.options);
     auto side_files = std::move(points.side_files);
     double efficiency = 1;
     if (bounds_) scale_into(*bounds_, points.flat());
     if (!chain_->empty()) {
-        points = chain_for(set, run)->image(points, run.stage(1, 1), request_.start);
+        points = chain_for(set, run)->image(points, run.stage(1, 1), asked_.request.start);
         efficiency = points.provenance.efficiency;
     }
     points.domain = domain_;
@@ -179,17 +177,17 @@ PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {
 Provenance GeneratedSets::provenance(std::uint64_t set, std::uint64_t count) const {
     Provenance meta{.version = STIPPLE_VERSION,
                     .generator = generator_.name,
-                    .options = typed_settings(options_, generator_.options),
+                    .options = typed_settings(asked_.options, generator_.options),
                     .seed = plan_.seed + set,
                     .count = count,
                     .dimension = dimension(),
-                    .start = request_.start,
+                    .start = asked_.request.start,
                     .warps = chain_->specs(),
                     .domain = domain_->spec(),
                     .bounds = {},
                     .shard = {},
                     .command = {}};
-    if (request_.bounds) meta.bounds = format_box(*request_.bounds);
+    if (asked_.request.bounds) meta.bounds = format_box(*asked_.request.bounds);
     meta.inputs = inputs_;
     if (generator_.stream_version > 1)
         meta.stream_versions.emplace_back(generator_.name, generator_.stream_version);

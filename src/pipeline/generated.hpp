@@ -36,15 +36,21 @@ bool in_batches(const NextRows& next, std::size_t batch, std::size_t width, cons
 PointSet make_points(const Generator& generator, const Request& request, const Values& options,
                      const RunContext& run);
 
+/// What sets are asked for.
+struct SetsToMake {
+    const Generator* generator = nullptr;
+    Values options = {};
+    Request request = {};  ///< its seed is that of the first set; the next ones have seed + 1, ...
+    std::uint64_t sets = 1;
+    std::vector<Spec> warps = {};
+};
+
 class GeneratedSets {
   public:
-    /// Tells the user what the generator has to say about the request.
-    /// @param request its seed is that of the first set; the next ones have seed + 1, ...
-    /// @throws Error(usage)
-    GeneratedSets(const Generator& generator, Values options, Request request, std::uint64_t sets,
-                  std::vector<Spec> warps, const RunContext& run);
+    /// Tells the user what the generator has to say about the request. @throws Error(usage)
+    GeneratedSets(SetsToMake asked, const RunContext& run);
 
-    [[nodiscard]] std::uint64_t sets() const { return sets_; }
+    [[nodiscard]] std::uint64_t sets() const { return asked_.sets; }
     [[nodiscard]] const Plan& plan() const { return plan_; }
     [[nodiscard]] std::size_t dimension() const { return chain_->dimension_out(); }
     /// What the points are on in the end.
@@ -78,11 +84,8 @@ class GeneratedSets {
     [[nodiscard]] std::shared_ptr<Sequence> sequence(std::uint64_t set,
                                                      const RunContext& run) const;
 
+    SetsToMake asked_;
     const Generator& generator_;
-    Values options_;
-    Request request_;
-    std::uint64_t sets_;
-    std::vector<Spec> warps_;
     Plan plan_;
     std::shared_ptr<const WarpChain> chain_;
     DomainPtr domain_;

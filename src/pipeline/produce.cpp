@@ -244,8 +244,7 @@ class Producer {
           generator_(*job.generator),
           target_(target),
           run_(run),
-          sets_(generator_, job.options, job.request, job.sets, job.warps,
-                job.shard.index == 0 ? run : untold(run)) {
+          sets_(job, job.shard.index == 0 ? run : untold(run)) {
         if (job_.shard.of > 1 && job_.sets > 1)
             fail(ErrorKind::usage, "--shard and --sets: parts are of one set; choose it by --seed");
         check_columns();

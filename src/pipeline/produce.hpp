@@ -26,14 +26,9 @@ struct Shard {
 inline constexpr std::string_view cut_to_single = "cut:dtype=f32";
 inline constexpr std::string_view cut_to_digits = "cut:precision=";
 
-/// Sets to make.
-struct Production {
-    const Generator* generator = nullptr;
-    Values options = {};
-    Request request = {};
-    std::uint64_t sets = 1;
+/// Sets to make, or a part of one.
+struct Production : SetsToMake {
     Shard shard = {};
-    std::vector<Spec> warps = {};
     std::string command = {};  ///< for the provenance
 };
 

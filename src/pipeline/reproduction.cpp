@@ -117,14 +117,9 @@ Comparison compared(const SetsToWrite& job, const Target& written, io::PointStre
     return result;
 }
 
-}  // namespace
-
-Making making_of(Production production, const RunContext& run) {
-    const auto job = std::make_shared<const Production>(std::move(production));
-    return [job, run](const Target& target) { produce(*job, target, run); };
-}
-
-Making after_step(Making before, const std::string& step, std::uint64_t replications,
+/// The same sets after a step of a provenance's warps that was taken in a run of its own.
+/// @param sets in the file @param have how many are made before the step; changed to those after it
+Making after_step(Making before, const std::string& step, std::uint64_t sets, std::uint64_t& have,
                   const RunContext& run) {
     if (step == cut_to_single || step.starts_with(cut_to_digits)) {
         Target cut{.single = step == cut_to_single};
@@ -145,9 +140,23 @@ Making after_step(Making before, const std::string& step, std::uint64_t replicat
     for (const auto& [name, text] : spec.settings)
         if (name == scramble_seed.name) seed = parse_unsigned(text).value_or(1);
     std::erase_if(spec.settings, [](const auto& s) { return s.first == scramble_seed.name; });
+    const std::uint64_t replications = sets > have && sets % have == 0 ? sets / have : 1;
+    have *= replications;
     return [=](const Target& target) {
         write_scrambled(collect(before, {}, run), spec, seed, replications, target, run);
     };
+}
+
+}  // namespace
+
+Making made_again(Production production, const std::vector<std::string>& steps, std::uint64_t sets,
+                  const RunContext& run) {
+    std::uint64_t have = production.sets;
+    Making all = [job = std::move(production), run](const Target& target) {
+        produce(job, target, run);
+    };
+    for (const std::string& step : steps) all = after_step(std::move(all), step, sets, have, run);
+    return all;
 }
 
 Comparison compare(const Making& making, Target written, io::PointStream& file, bool unmarked,

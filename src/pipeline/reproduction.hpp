@@ -19,13 +19,11 @@ namespace stipple {
 /// Something that writes sets to a target.
 using Making = std::function<void(const Target&)>;
 
-/// The sets of a production. Owns it.
-Making making_of(Production production, const RunContext& run);
-
-/// The same sets after a step of a provenance's warps that was taken in a run of its own: a warp,
-/// an inverse, a scramble with its seed, a cut. `replications`: of each set, by a scramble.
-/// @throws Error(usage) for a step that is none of these, when it is made
-Making after_step(Making before, const std::string& step, std::uint64_t replications,
+/// The sets of a production after the steps of a provenance's warps that were taken in runs of their
+/// own: warps, inverses, scrambles with their seed, cuts.
+/// @param sets how many there are in the end, which tells how often a scramble took each
+/// @throws Error(usage) for a step that is none of these
+Making made_again(Production production, const std::vector<std::string>& steps, std::uint64_t sets,
                   const RunContext& run);
 
 struct Difference {
