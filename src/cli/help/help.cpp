@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "cli/help/guide.hpp"
 #include "cli/verbs.hpp"
