@@ -24,10 +24,9 @@
 #include "plot/points_picture.hpp"
 #include "plot/report_charts.hpp"
 #include "plot/spectral_table.hpp"
-#include "plot/spectrum_picture.hpp"
 #include "plot/text_picture.hpp"
 #include "report/average.hpp"
-#include "report/read_document.hpp"
+#include "report/document.hpp"
 
 namespace stipple::cli {
 namespace {

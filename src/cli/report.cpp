@@ -91,7 +91,7 @@ class Reporter {
             fail_with_hint(ErrorKind::usage, "name a file with -o, or pipe it on",
                            "a page is not for terminals");
         if (const auto work = arguments.integer("max-work"))
-            limits_.work = static_cast<std::int64_t>(*work);
+            work_ = static_cast<std::int64_t>(*work);
         for (const auto& text : arguments.all("fail-on")) conditions_.push_back(condition_of(text));
     }
 
@@ -227,7 +227,7 @@ class Reporter {
     page::Set finished(std::size_t i) {
         auto [points, set, input] = std::move(pending_[i]);
         pending_[i].points = {};
-        return page::finished_set(std::move(set), points, input, limits_, {i, pending_.size()},
+        return page::finished_set(std::move(set), points, input, work_, {i, pending_.size()},
                                   !json_, session_.run());
     }
 
@@ -286,7 +286,7 @@ class Reporter {
     Session& session_;
     std::string path_;
     bool json_;
-    page::Limits limits_;
+    std::int64_t work_ = page::usual_work;
     std::vector<Check> conditions_;
     std::uint64_t seed_ = 1;
     std::vector<PendingSet> pending_;

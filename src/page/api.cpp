@@ -31,8 +31,8 @@ void write_report(const std::string& path, std::span<const NamedSet> sets, const
         if (!points.domain) points.domain = unit_cube(points.dimension());
         page::Set set{
             .name = sets[i].name, .source = sets[i].name, .provenance = points.provenance};
-        all.sets.push_back(
-            page::finished_set(std::move(set), points, {}, {}, {i, sets.size()}, true, run));
+        all.sets.push_back(page::finished_set(std::move(set), points, {}, page::usual_work,
+                                              {i, sets.size()}, true, run));
     }
     io::Output output(path, run.stop);
     if (output.write(page::to_html(all))) output.commit();

@@ -79,6 +79,10 @@ std::string kolmogorov_words(const Report& found) {
     return fmt::format("At least one axis has a wrong density ({}).", numbers);
 }
 
+bool same_domain(std::span<const Set> sets) {
+    return std::ranges::all_of(sets, [&](const Set& set) { return set.domain == sets[0].domain; });
+}
+
 }  // namespace
 
 const Report* Set::results(std::string_view measure) const {
@@ -95,10 +99,6 @@ Report Set::all_results() const {
 
 bool same_count(std::span<const Set> sets) {
     return std::ranges::all_of(sets, [&](const Set& set) { return set.count == sets[0].count; });
-}
-
-bool same_domain(std::span<const Set> sets) {
-    return std::ranges::all_of(sets, [&](const Set& set) { return set.domain == sets[0].domain; });
 }
 
 std::vector<std::string> notes_on(std::span<const Set> sets) {

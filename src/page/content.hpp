@@ -56,9 +56,8 @@ struct Page {
     std::vector<Set> sets = {};
 };
 
-/// Whether all sets have as many points; whether all are on one domain.
+/// Whether all sets have as many points.
 bool same_count(std::span<const Set> sets);
-bool same_domain(std::span<const Set> sets);
 
 /// Sentences on what keeps the sets from being compared as they are: different n, domains.
 std::vector<std::string> notes_on(std::span<const Set> sets);

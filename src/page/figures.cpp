@@ -10,9 +10,8 @@
 #include "core/json.hpp"
 #include "plot/drawing/html_text.hpp"
 #include "plot/drawing/ticks.hpp"
-#include "plot/points_picture.hpp"
 #include "plot/report_charts.hpp"
-#include "plot/spectrum_picture.hpp"
+#include "plot/spectral_table.hpp"
 
 namespace stipple::page {
 
@@ -40,33 +39,16 @@ constexpr Theme light_page = with_sets(light_theme, light_sets);
 constexpr Theme dark_page = with_sets(dark_theme, dark_sets);
 
 /// Labels that explain the boxes, each with a switch; projections of them are hidden at first.
-std::string box_legend(const std::vector<WorstBox>& boxes, bool projections) {
+std::string box_legend(const std::vector<MarkedBox>& boxes, bool projections) {
     if (boxes.empty()) return {};
     std::string out = "<ul class=\"boxes\">\n";
-    for (const WorstBox& box : boxes)
+    for (const MarkedBox& box : boxes)
         out += fmt::format(
             "<li><label><input type=\"checkbox\" data-box=\"{0}\"{3}> <span class=\"key {0}{1}\">"
             "</span> {2}</label></li>\n",
             box.kind, box.closed ? "" : " open", html_text(box.label),
             !projections && (box.kind == "star" || box.kind == "empty") ? " checked" : "");
     return out + "</ul>\n";
-}
-
-std::vector<MarkedBox> marked_boxes(const PointSet& points, const Set& set) {
-    std::vector<MarkedBox> marked;
-    for (const WorstBox& worst : worst_boxes(set)) {
-        const Box cube = points.domain->bounding_box();
-        MarkedBox box{.attributes = fmt::format("class=\"box {}\"", worst.kind),
-                      .closed = worst.closed};
-        for (std::size_t k = 0; k < points.dimension(); ++k) {
-            auto& ranges = box.ranges.emplace_back();
-            for (const auto& [low, high] : parts_of_range(worst.low[k], worst.high[k]))
-                ranges.emplace_back(cube.low[k] + low * cube.extent(k),
-                                    cube.low[k] + high * cube.extent(k));
-        }
-        marked.push_back(std::move(box));
-    }
-    return marked;
 }
 
 /// What is drawn in the colours of a light page and of a dark one; the label describes it.
@@ -81,7 +63,7 @@ std::string figure_of(const Set& set, const PointSet& points, std::size_t number
                       const Draw& draw) {
     const PointsPicture picture{.sets = {&points},
                                 .names = {set.name},
-                                .boxes = marked_boxes(points, set),
+                                .boxes = worst_boxes(set),
                                 .most_disks = most_dots,
                                 .most_coordinates = most_axes};
     const double width = points.dimension() == 1  ? line_width
@@ -200,12 +182,12 @@ std::string chart_figure(std::span<const Set> sets, std::span<const std::size_t>
 
 const Theme& theme_of(bool dark) { return dark ? dark_page : light_page; }
 
-std::vector<WorstBox> worst_boxes(const Set& set) {
-    std::vector<WorstBox> boxes;
+std::vector<MarkedBox> worst_boxes(const Set& set) {
+    std::vector<MarkedBox> boxes;
     const auto add = [&](const char* measure, const char* kind, const char* title) {
         const Report* found = set.results(measure);
         if (found == nullptr || found->find("worst_box.corner") == nullptr) return;
-        WorstBox box{.kind = kind, .high = found->curve("worst_box.corner")};
+        MarkedBox box{.kind = kind, .high = found->curve("worst_box.corner")};
         box.low.assign(box.high.size(), 0);
         if (found->find("worst_box.lower_corner") != nullptr)
             box.low = found->curve("worst_box.lower_corner");
@@ -227,11 +209,6 @@ std::vector<WorstBox> worst_boxes(const Set& set) {
                          .low = found->curve("box.lower_corner"),
                          .high = found->curve("box.upper_corner")});
     return boxes;
-}
-
-std::vector<std::pair<double, double>> parts_of_range(double low, double high) {
-    if (low <= high) return {{low, high}};
-    return {{0, high}, {low, 1}};
 }
 
 std::vector<std::string> point_figures(const PointSet& points, const Set& set, std::size_t number) {
@@ -295,13 +272,10 @@ std::string spectrum_figure(const Set& set) {
         caption + ".");
 }
 
-std::string radial_power_figure(std::span<const Set> sets, std::span<const std::size_t> which) {
+std::string curve_figures(std::span<const Set> sets, std::span<const std::size_t> which) {
     return chart_figure(sets, which, "periodogram", "radial.power", "radial power",
-                        "Radial power over frequency; white noise has 1");
-}
-
-std::string pair_correlation_figure(std::span<const Set> sets, std::span<const std::size_t> which) {
-    return chart_figure(sets, which, "pair-correlation", "density", "pair correlation",
+                        "Radial power over frequency; white noise has 1") +
+           chart_figure(sets, which, "pair-correlation", "density", "pair correlation",
                         "Pair correlation over distance; independent points have 1");
 }
 

@@ -10,12 +10,12 @@
 
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/point_set.hpp"
 #include "page/content.hpp"
 #include "plot/drawing/theme.hpp"
+#include "plot/points_picture.hpp"
 #include "stipple/report.hpp"
 
 namespace stipple::page {
@@ -26,21 +26,8 @@ inline constexpr std::size_t most_axes = 6;  ///< of which pairs are drawn
 /// Colours of a page's pictures; as many series as a page has sets.
 const plot::Theme& theme_of(bool dark);
 
-/// A box that a measure found, in shares of the set's box: a lower corner above the upper one
-/// means that it goes on from 1 to 0.
-struct WorstBox {
-    std::string kind;        ///< class of the style sheet: star, extreme, periodic, empty
-    std::string label = {};  ///< what it is, in words
-    std::vector<double> low = {};
-    std::vector<double> high = {};
-    bool closed = true;  ///< drawn with a solid line; else dashed
-};
-
-/// The worst boxes that a set's measures found.
-std::vector<WorstBox> worst_boxes(const Set& set);
-
-/// The parts of [low, high] on an axis of the torus: one, or two for what goes on from 1 to 0.
-std::vector<std::pair<double, double>> parts_of_range(double low, double high);
+/// The worst boxes that a set's measures found: star, extreme, periodic, empty.
+std::vector<plot::MarkedBox> worst_boxes(const Set& set);
 
 /// Where the points are and the worst boxes, by dimension: a line, the plane, space, and pairs of
 /// the first axes. `number` is the set's number in the page and picks its colour.
@@ -55,10 +42,8 @@ std::string spectrum_figure(const Set& set);
 Grid in_blocks(const Grid& grid, std::size_t most);
 
 /// Radial power of the sets of these numbers, with the 95 % band of white noise where it is the
-/// same for all; empty where no set has it.
-std::string radial_power_figure(std::span<const Set> sets, std::span<const std::size_t> which);
-
-/// Pair correlation, with the band of two standard deviations of independent points for one set.
-std::string pair_correlation_figure(std::span<const Set> sets, std::span<const std::size_t> which);
+/// same for all, and pair correlation, with the band of two standard deviations of independent
+/// points for one set; less what no set has.
+std::string curve_figures(std::span<const Set> sets, std::span<const std::size_t> which);
 
 }  // namespace stipple::page

@@ -211,8 +211,8 @@ std::string section_of(std::span<const Set> sets, std::size_t i) {
         "class=\"facts\">{3}</p>\n<div class=\"figures\">\n",
         i, swatch(i), html_text(set.name), facts_of(set));
     for (const std::string& figure : set.figures) out += figure;
-    out += radial_power_figure(sets, which) + pair_correlation_figure(sets, which) + "</div>\n" +
-           verdicts_of(set) + "<div class=\"measures\">\n";
+    out +=
+        curve_figures(sets, which) + "</div>\n" + verdicts_of(set) + "<div class=\"measures\">\n";
     for (const Measure& measure : set.measures)
         if (measure.results) out += measure_of(measure);
     return out + "</div>\n" + left_out_of(set) + provenance_of(set) + "</section>\n";
@@ -251,7 +251,7 @@ std::string overlays_of(std::span<const Set> sets) {
     if (sets.size() < 2) return {};
     std::vector<std::size_t> all(sets.size());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-    const std::string figures = radial_power_figure(sets, all) + pair_correlation_figure(sets, all);
+    const std::string figures = curve_figures(sets, all);
     if (figures.empty()) return {};
     return "<section>\n<h2>Curves of all sets</h2>\n<div class=\"figures\">\n" + figures +
            "</div>\n</section>\n";

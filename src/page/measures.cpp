@@ -48,11 +48,11 @@ double steps_of_a_comparison(const Planned& plan, std::size_t dimension) {
 }
 
 /// @throws Error(limit)
-void need_few_pairs(const Planned& plan, const PointSet& points, const Limits& limits) {
+void need_few_pairs(const Planned& plan, const PointSet& points, std::int64_t work) {
     const auto n = static_cast<double>(points.count());
     const double steps = n * n * static_cast<double>(points.dimension());
     const double allowed = steps_of_a_comparison(plan, points.dimension());
-    if (steps <= allowed * static_cast<double>(limits.work)) return;
+    if (steps <= allowed * static_cast<double>(work)) return;
     fail(ErrorKind::limit,
          "it would compare all pairs of {} points in {} dimensions, which takes long; a larger "
          "--max-work allows it, or 'stipple analyze {}'",
@@ -61,10 +61,9 @@ void need_few_pairs(const Planned& plan, const PointSet& points, const Limits& l
 
 /// Comparisons of a search for a worst box. Beyond some points one for extreme and periodic boxes
 /// ends in the bounds of its beginning, however long it takes.
-std::int64_t work_for(const Planned& plan, std::size_t count, const Limits& limits) {
+std::int64_t work_for(const Planned& plan, std::size_t count, std::int64_t work) {
     constexpr std::size_t many = 50'000;
-    return *plan.kind != '\0' && count > many ? std::max<std::int64_t>(1, limits.work / 8)
-                                              : limits.work;
+    return *plan.kind != '\0' && count > many ? std::max<std::int64_t>(1, work / 8) : work;
 }
 
 Measure described(const Planned& plan, const Input& input, std::int64_t work, Values& values) {
@@ -100,10 +99,10 @@ Cubed cubed(const PointSet& points, const Input& input) {
 }
 
 Measure measured(const Planned& plan, const PointSet& points, const Cubed& cube, const Input& input,
-                 const Limits& limits, const RunContext& run) {
+                 std::int64_t work, const RunContext& run) {
     const Analyzer& analyzer = find_analyzer(plan.analyzer);
     Values values = analyzer.options.defaults();
-    Measure measure = described(plan, input, work_for(plan, points.count(), limits), values);
+    Measure measure = described(plan, input, work_for(plan, points.count(), work), values);
     const PointSet* shown = &points;
     if (analyzer.traits.unit_cube && cube.points) {
         shown = &*cube.points;
@@ -117,7 +116,7 @@ Measure measured(const Planned& plan, const PointSet& points, const Cubed& cube,
         return measure;
     }
     try {
-        need_few_pairs(plan, points, limits);
+        need_few_pairs(plan, points, work);
         measure.results = analyze(analyzer, *shown, values, run);
     } catch (const Error& e) {
         if (e.kind() == ErrorKind::cancelled || e.kind() == ErrorKind::io) throw;
@@ -128,7 +127,7 @@ Measure measured(const Planned& plan, const PointSet& points, const Cubed& cube,
 
 }  // namespace
 
-std::vector<Measure> measure_set(const PointSet& points, const Input& input, const Limits& limits,
+std::vector<Measure> measure_set(const PointSet& points, const Input& input, std::int64_t work,
                                  const RunContext& run) {
     RunContext mute = run;
     mute.warn = {};  // bounds say so in the page
@@ -137,21 +136,21 @@ std::vector<Measure> measure_set(const PointSet& points, const Input& input, con
     for (std::size_t i = 0; i < plans.size(); ++i) {
         const double share = 1 / static_cast<double>(plans.size());
         const auto at = static_cast<double>(i);
-        all.push_back(measured(plans[i], points, cube, input, limits,
+        all.push_back(measured(plans[i], points, cube, input, work,
                                mute.stage(at * share, (at + 1) * share)));
         run.check_stop();
     }
     return all;
 }
 
-Set finished_set(Set set, const PointSet& points, const Input& input, const Limits& limits,
+Set finished_set(Set set, const PointSet& points, const Input& input, std::int64_t work,
                  SetPlace place, bool with_pictures, const RunContext& run) {
     set.count = points.count();
     set.dimension = points.dimension();
     set.domain = points.domain->spec();
     const auto all = static_cast<double>(place.of);
     const auto at = static_cast<double>(place.number);
-    set.measures = measure_set(points, input, limits, run.stage(at / all, (at + 1) / all));
+    set.measures = measure_set(points, input, work, run.stage(at / all, (at + 1) / all));
     if (!with_pictures) return set;
     set.figures = point_figures(points, set, place.number);
     if (auto spectrum = spectrum_figure(set); !spectrum.empty())

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 //
-// What a report page measures of every set: by which analyzers, with which limits.
+// What a report page measures of every set: by which analyzers, with how much work.
 //
-// Promise  results depend on the points and on the limits alone: searches that could take long end
+// Promise  results depend on the points and on the work alone: searches that could take long end
 //          after so many comparisons, not by the clock.
 #pragma once
 
@@ -17,9 +17,8 @@
 
 namespace stipple::page {
 
-struct Limits {
-    std::int64_t work = 1'000'000'000;  ///< comparisons of each search for a worst box
-};
+/// Comparisons of each search for a worst box, where nobody says how many.
+inline constexpr std::int64_t usual_work = 1'000'000'000;
 
 /// How the points of a set are named to `stipple analyze`: what stands behind the analyzer.
 struct Input {
@@ -29,9 +28,9 @@ struct Input {
 };
 
 /// All measures, in the order of the page. What an analyzer does not take is left out with its
-/// reason; so is what would compare more pairs of points than the limits allow.
+/// reason; so is what would compare more pairs of points than `work` allows.
 /// @throws Error(cancelled), Error(io)
-std::vector<Measure> measure_set(const PointSet& points, const Input& input, const Limits& limits,
+std::vector<Measure> measure_set(const PointSet& points, const Input& input, std::int64_t work,
                                  const RunContext& run);
 
 /// Where a set stands among all of a page, from 0: its colour, and its part of the progress.
@@ -43,7 +42,7 @@ struct SetPlace {
 /// The set with its size, all measures and, for a page, its pictures; its grids are in these, and
 /// left out.
 /// @throws Error(cancelled), Error(io)
-Set finished_set(Set set, const PointSet& points, const Input& input, const Limits& limits,
+Set finished_set(Set set, const PointSet& points, const Input& input, std::int64_t work,
                  SetPlace place, bool with_pictures, const RunContext& run);
 
 /// Names of all measures, as their keys begin.

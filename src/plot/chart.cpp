@@ -145,7 +145,7 @@ std::vector<LegendEntry> legend_of(const ChartPanel& panel, bool sets_named, con
                            .name = fmt::format("and {} more", more),
                            .colour = theme.background});
     }
-    for (const Band& band : panel.bands)
+    for (const Series& band : panel.bands)
         if (!band.name.empty()) entries.push_back({LegendEntry::Kind::box, band.name, theme.band});
     for (const Guide& guide : panel.guides)
         if (!guide.name.empty())
@@ -283,7 +283,7 @@ void draw_panel(Drawing& drawing, const ChartPanel& content, const Panel& panel,
     panel.draw_grid(drawing, theme);
     const Area& f = panel.frame();
     drawing.add(ClipWindow{.area = {f.left, f.top - 3, f.width + 3, f.height + 3}});
-    for (const Band& band : content.bands)
+    for (const Series& band : content.bands)
         draw_band(drawing, panel, band.x, band.low, band.high, theme.band, 1);
     const bool several = content.bars.size() > 1;
     for (std::size_t i = 0; !several && i < content.bars.size(); ++i)

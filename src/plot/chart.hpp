@@ -39,14 +39,6 @@ struct Series {
     std::optional<std::size_t> set = {};  ///< gives its colour, and its group in a page
 };
 
-/// What lies behind the curves: what chance allows.
-struct Band {
-    std::string name;
-    std::vector<double> x;
-    std::vector<double> low = {};
-    std::vector<double> high = {};
-};
-
 /// A line to compare with.
 struct Guide {
     std::string name = {};
@@ -66,7 +58,7 @@ struct ChartPanel {
     std::string x_name;
     std::string y_name;
     std::vector<Series> series = {};
-    std::vector<Band> bands = {};
+    std::vector<Series> bands = {};  ///< behind the curves: what chance allows, low and high alone
     std::vector<Guide> guides = {};
     std::vector<Bars> bars = {};
     std::vector<double> rug = {};  ///< marks below, one for each value

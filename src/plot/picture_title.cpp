@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "core/error.hpp"
+#include "core/spec.hpp"
 #include "pipeline/pipeline.hpp"
 
 namespace stipple::plot {
@@ -18,13 +19,6 @@ const Generator* known_generator(const std::string& name) {
     } catch (const Error&) {
         return nullptr;
     }
-}
-
-bool is_default(const Generator& generator, const std::string& name, const std::string& text) {
-    const auto& options = generator.options.options();
-    const auto it = std::ranges::find(options, name, &Option::name);
-    return it != options.end() &&
-           format_value(generator.options.defaults().find(name).value) == text;
 }
 
 bool seed_matters(const Generator& generator, const Provenance& from) {
@@ -61,10 +55,12 @@ std::string subtitle_of_points(const PointSet& points) {
     if (std::ranges::any_of(from.warps, is_scramble) || seed_matters(*generator, from))
         text += fmt::format(", seed {}", from.seed);
     if (from.start > 0) text += fmt::format(", from index {}", from.start);
-    for (const auto& [name, value] : from.options) {
+    const auto defaults = typed_settings(generator->options.defaults(), generator->options);
+    for (const auto& setting : from.options) {
         constexpr std::size_t readable = 40;
-        if (is_default(*generator, name, value) || value.size() > readable) continue;
-        text += fmt::format(", {}={}", name, value);
+        const auto& [name, value] = setting;
+        const bool is_default = std::ranges::find(defaults, setting) != defaults.end();
+        if (!is_default && value.size() <= readable) text += fmt::format(", {}={}", name, value);
     }
     return text;
 }

@@ -7,12 +7,11 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numeric>
+#include <tuple>
 
 #include "io/format.hpp"
 #include "io/formats/disk_size.hpp"
 #include "plot/domain_outline.hpp"
-#include "plot/drawing/colour_bar.hpp"
 #include "plot/drawing/letters.hpp"
 
 namespace stipple::plot {
@@ -225,7 +224,7 @@ struct Page {
     }
 };
 
-// ---------------------------------------------------------------- two coordinates
+// ---------------------------------------------------------------- what lies in a plane
 
 void draw_outline(Drawing& drawing, const PointsPicture& picture, const Panel& panel,
                   const Theme& theme) {
@@ -239,15 +238,24 @@ void draw_outline(Drawing& drawing, const PointsPicture& picture, const Panel& p
     }
 }
 
+/// The parts of [low, high] on an axis of the torus: one, or two for what goes on from 1 to 0.
+std::vector<std::pair<double, double>> parts_of_range(double low, double high) {
+    if (low <= high) return {{low, high}};
+    return {{0, high}, {low, 1}};
+}
+
 /// The boxes as they lie in the plane of two coordinates.
 void draw_boxes(Drawing& drawing, const PointsPicture& picture, const Panel& panel, std::size_t i,
                 std::size_t j) {
+    const Box cube = picture.sets[0]->domain->bounding_box();
+    const auto at = [&](double x, double y) {
+        return panel.at(cube.low[i] + x * cube.extent(i), cube.low[j] + y * cube.extent(j));
+    };
     for (const MarkedBox& box : picture.boxes) {
-        drawing.add(SvgGroup{box.attributes});
-        for (const auto& [x0, x1] : box.ranges[i])
-            for (const auto& [y0, y1] : box.ranges[j]) {
-                std::vector<Position> corners = {panel.at(x0, y0), panel.at(x1, y0),
-                                                 panel.at(x1, y1), panel.at(x0, y1)};
+        drawing.add(SvgGroup{fmt::format("class=\"box {}\"", box.kind)});
+        for (const auto& [x0, x1] : parts_of_range(box.low[i], box.high[i]))
+            for (const auto& [y0, y1] : parts_of_range(box.low[j], box.high[j])) {
+                std::vector<Position> corners = {at(x0, y0), at(x1, y0), at(x1, y1), at(x0, y1)};
                 drawing.add(Patch{.vertices = corners, .opacity = 0.1});
                 corners.push_back(corners[0]);
                 drawing.add(Line{.vertices = std::move(corners),
@@ -267,35 +275,6 @@ std::pair<double, double> frame_size(const Box& box, double width, double height
     if (height <= 0) wide = std::min(wide, 1.25 * width / ratio);
     wide = std::max(wide, 40.0);
     return {std::floor(wide), std::floor(std::max(wide * ratio, 40.0))};
-}
-
-Drawing draw_plane(const PointsPicture& picture, const PictureStyle& style, const RunContext& run) {
-    const Theme& theme = *style.theme;
-    const PointMarks marks(picture, style, run);
-    Page page(picture, style, 640);
-    Box box = shown_box(picture.sets);
-    if (!frame_is_outline(picture)) widen(box, 0.03);
-    const Axis x{.low = box.low[0], .high = box.high[0], .name = "x"};
-    const Axis y{.low = box.low[1], .high = box.high[1], .name = "y"};
-    const double left = std::ceil(picture_margin / 2 + Panel::room_left(y, 500));
-    const double below = Panel::room_below(x) + picture_margin;
-    const bool dense = marks.as_density(page.width, style.height > 0 ? style.height : page.width);
-    const double right = dense ? colour_bar_room + picture_margin : picture_margin + 8;
-    const double top = page.top + (dense ? 14 : 4);
-    const double room = style.height > 0 ? style.height - top - below : 0;
-    const auto [width, height] = frame_size(box, page.drawing.width - left - right, room);
-    const Area frame{left, top, width, height};
-    if (style.height <= 0) page.drawing.height = std::ceil(top + height + below);
-    const Panel panel(frame, x, y);
-    const Place place = [&panel](std::span<const double> p) { return panel.at(p[0], p[1]); };
-    Drawing& drawing = page.drawing;
-    const double largest = marks.raster(drawing, {{frame, place}}, dense);
-    if (dense) marks.draw_bar(drawing, frame, largest);
-    panel.draw_axes(drawing, theme, true);
-    draw_outline(drawing, picture, panel, theme);
-    if (marks.as_disks()) marks.disks(drawing, frame, place);
-    draw_boxes(drawing, picture, panel, 0, 1);
-    return std::move(page.drawing);
 }
 
 // ---------------------------------------------------------------- three coordinates
@@ -423,51 +402,38 @@ Drawing draw_space(const PointsPicture& picture, const PictureStyle& style, cons
 
 // ---------------------------------------------------------------- pairs of coordinates
 
-/// The sheet of panels of every pair: x_i to the right and x_j > x_i upward in column i, row j - 1.
+/// The panels of every pair: x_i to the right and x_j > x_i upward in column i, row j - 1. In the
+/// plane there is one, in which lengths along x and y are alike.
 class PairSheet {
   public:
     PairSheet(const PointsPicture& picture, const PictureStyle& style, const RunContext& run)
         : picture_(picture),
           theme_(*style.theme),
+          plane_(picture.sets[0]->dimension() == 2),
           marks_(picture, style, run),
-          page_(picture, style, 800),
+          page_(picture, style, plane_ ? 640 : 800),
           box_(shown_box(picture.sets)),
           names_(coordinate_names(picture.sets[0]->dimension())),
           shown_(std::min(box_.dimension(), picture.most_coordinates)) {
         if (!frame_is_outline(picture)) widen(box_, 0.03);
-        const auto columns = static_cast<double>(shown_ - 1);
-        double room = 0;
-        for (std::size_t j = 1; j < shown_; ++j)
-            room = std::max(room, Panel::room_left(axis(j), 200));
-        left_ = std::ceil(picture_margin / 2 + room);
-        below_ = Panel::room_below(axis(1)) + picture_margin;
-        const double across = page_.drawing.width - left_ - picture_margin - (columns - 1) * gap;
-        side_ = across / columns;
-        if (style.height > 0)
-            side_ = std::min(
-                side_, (style.height - page_.top - 4 - below_ - (columns - 1) * gap) / columns);
-        side_ = std::max(std::floor(side_), 30.0);
-        if (style.height <= 0)
-            page_.drawing.height = page_.top + 4 + columns * side_ + (columns - 1) * gap + below_;
-    }
-
-    /// Of coordinate j, drawn upward.
-    [[nodiscard]] Axis axis(std::size_t j) const {
-        return {.low = box_.low[j], .high = box_.high[j], .name = names_[j]};
+        const double tall = style.height > 0 ? style.height : page_.width;
+        dense_ = plane_ && marks_.as_density(page_.width, tall);
+        place_panels(style.height);
+        if (!plane_) dense_ = marks_.as_density(width_, height_);
     }
 
     Drawing draw() {
-        const bool dense = marks_.as_density(side_, side_);
         std::vector<View> views;
         for (std::size_t j = 1; j < shown_; ++j)
             for (std::size_t i = 0; i < j; ++i) views.push_back(view(i, j));
-        const double largest = marks_.raster(page_.drawing, views, dense);
+        const double largest = marks_.raster(page_.drawing, views, dense_);
         // All pairs have the same shades, whose bar stands in the sheet's free corner.
-        if (dense) marks_.draw_bar(page_.drawing, panel(0, 1).frame(), largest);
+        if (dense_) marks_.draw_bar(page_.drawing, panel(0, 1).frame(), largest);
         for (std::size_t j = 1; j < shown_; ++j)
             for (std::size_t i = 0; i < j; ++i) {
                 const auto [frame, place] = view(i, j);
                 panel(i, j).draw_axes(page_.drawing, theme_, true);
+                if (plane_) draw_outline(page_.drawing, picture_, panel(i, j), theme_);
                 if (marks_.as_disks()) marks_.disks(page_.drawing, frame, place);
                 draw_boxes(page_.drawing, picture_, panel(i, j), i, j);
             }
@@ -477,22 +443,39 @@ class PairSheet {
   private:
     static constexpr double gap = 10;
 
-    /// Numbers and names stand at the sheet's edge only.
+    /// @param given height of the picture; 0: as much as is needed
+    void place_panels(double given) {
+        const auto columns = static_cast<double>(shown_ - 1);
+        const double gaps = (columns - 1) * gap;
+        double room = 0;
+        for (std::size_t j = 1; j < shown_; ++j)
+            room = std::max(room, Panel::room_left(axis(j, true), plane_ ? 500 : 200));
+        left_ = std::ceil(picture_margin / 2 + room);
+        top_ = page_.top + (dense_ ? 14 : 4);
+        const double below = Panel::room_below(axis(1, true)) + picture_margin;
+        const double right = picture_margin + (dense_ ? colour_bar_room : plane_ ? 8 : 0);
+        const double wide = (page_.drawing.width - left_ - right - gaps) / columns;
+        const double high = given > 0 ? (given - top_ - below - gaps) / columns : 0;
+        if (plane_)
+            std::tie(width_, height_) = frame_size(box_, wide, high);
+        else
+            width_ = height_ = std::max(std::floor(given > 0 ? std::min(wide, high) : wide), 30.0);
+        if (given <= 0) page_.drawing.height = std::ceil(top_ + columns * height_ + gaps + below);
+    }
+
+    /// Of a coordinate; numbers and names stand at the sheet's edge only.
+    [[nodiscard]] Axis axis(std::size_t k, bool edge) const {
+        return {.low = box_.low[k],
+                .high = box_.high[k],
+                .name = edge ? names_[k] : "",
+                .numbers = edge,
+                .tight = !plane_};
+    }
+
     [[nodiscard]] Panel panel(std::size_t i, std::size_t j) const {
-        const Area frame{left_ + static_cast<double>(i) * (side_ + gap),
-                         page_.top + 4 + static_cast<double>(j - 1) * (side_ + gap), side_, side_};
-        const bool bottom = j + 1 == shown_;
-        return {frame,
-                {.low = box_.low[i],
-                 .high = box_.high[i],
-                 .name = bottom ? names_[i] : "",
-                 .numbers = bottom,
-                 .tight = true},
-                {.low = box_.low[j],
-                 .high = box_.high[j],
-                 .name = i == 0 ? names_[j] : "",
-                 .numbers = i == 0,
-                 .tight = true}};
+        const Area frame{left_ + static_cast<double>(i) * (width_ + gap),
+                         top_ + static_cast<double>(j - 1) * (height_ + gap), width_, height_};
+        return {frame, axis(i, j + 1 == shown_), axis(j, i == 0)};
     }
 
     [[nodiscard]] View view(std::size_t i, std::size_t j) const {
@@ -503,14 +486,17 @@ class PairSheet {
 
     const PointsPicture& picture_;
     const Theme& theme_;
+    bool plane_;
     PointMarks marks_;
     Page page_;
     Box box_;
     std::vector<std::string> names_;
     std::size_t shown_;
+    bool dense_ = false;
     double left_ = 0;
-    double below_ = 0;
-    double side_ = 0;
+    double top_ = 0;
+    double width_ = 0;  ///< of a panel
+    double height_ = 0;
 };
 
 std::vector<double> coordinate(const PointSet& set, std::size_t k) {
@@ -608,8 +594,6 @@ Drawing draw_points(const PointsPicture& picture, const PictureStyle& style,
     switch (picture.sets[0]->dimension()) {
         case 1:
             return draw_chart(histogram_chart(picture), style);
-        case 2:
-            return draw_plane(picture, style, run);
         case 3:
             return draw_space(picture, style, run);
         default:

@@ -27,11 +27,13 @@ inline constexpr double density_share = 0.75;  ///< of points to a frame's area,
 /// How points are marked.
 enum class Marking { automatic, disks, density };
 
-/// A box of the points' space that is drawn over them: along each axis the ranges that it takes,
-/// several where it goes on from one end of a periodic axis to the other.
+/// A box that is drawn over the points, in shares of the bounding box of the first set's domain: a
+/// lower corner above the upper one means that it goes on from 1 to 0.
 struct MarkedBox {
-    std::string attributes;  ///< of its group in a page
-    std::vector<std::vector<std::pair<double, double>>> ranges = {};
+    std::string kind;        ///< class of a page's style sheet
+    std::string label = {};  ///< what it is, in words
+    std::vector<double> low = {};
+    std::vector<double> high = {};
     bool closed = true;  ///< drawn with a solid line; else dashed
 };
 

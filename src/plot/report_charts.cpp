@@ -127,13 +127,13 @@ std::pair<double, double> range_of(const std::vector<Series>& all) {
 }
 
 /// The band of white noise, where one holds for all measurements.
-std::vector<Band> noise_band(Measurements ms) {
+std::vector<Series> noise_band(Measurements ms) {
     const auto cells = list_at(ms[0].results, "radial.cells");
     const bool same = alike(ms, &Measurement::sets) && alike(ms, [](const Measurement& m) {
                           return list_at(m.results, "radial.cells");
                       });
     if (!same || !cells) return {};
-    Band band{.name = "white noise, 95 %", .x = *list_at(ms[0].results, "radial.frequency")};
+    Series band{.name = "white noise, 95 %", .x = *list_at(ms[0].results, "radial.frequency")};
     for (const double ring : *cells) {
         const auto [low, high] = white_noise_band(ring, static_cast<double>(ms[0].sets));
         band.low.push_back(low);
@@ -357,7 +357,7 @@ void make_pair_correlation(ChartPanel& panel, Measurements ms) {
     panel.reach_y = 1.4;
     if (ms.size() > 1) return;
     const double width = 2 / std::sqrt(static_cast<double>(ms[0].sets));
-    Band band{.name = "uniform points, ± 2 deviations", .x = *list_at(ms[0].results, "distance")};
+    Series band{.name = "uniform points, ± 2 deviations", .x = *list_at(ms[0].results, "distance")};
     const auto deviation = list_at(ms[0].results, "deviation");
     for (const double s : *deviation) {
         band.low.push_back(std::max(0.0, 1 - width * s));

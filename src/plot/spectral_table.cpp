@@ -3,6 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
+
+#include "core/error.hpp"
+#include "plot/report_charts.hpp"
+#include "report/grid_files.hpp"
 
 namespace stipple::plot {
 namespace {
@@ -48,17 +54,35 @@ Grid grid_of(const PointSet& table, std::size_t rows) {
         .rows = rows, .columns = values.size() / rows, .values = {values.begin(), values.end()}};
 }
 
+/// Whether a square table can be the power at frequencies -F to F.
+bool looks_like_power(const Grid& grid) {
+    return grid.rows == grid.columns && is_side(grid.rows) && is_spectrum(grid.values);
+}
+
 /// Whether it can be the density of pair differences: none at zero.
 bool looks_like_differences(const Grid& grid) {
     return grid.rows == grid.columns && is_side(grid.rows) && is_symmetric(grid.values) &&
            grid.values[grid.values.size() / 2] == 0 && std::ranges::max(grid.values) > 0;
 }
 
-}  // namespace
-
-bool looks_like_power(const Grid& grid) {
-    return grid.rows == grid.columns && is_side(grid.rows) && is_spectrum(grid.values);
+Colour grey(double shade) {
+    const auto level = static_cast<std::uint8_t>(std::lround(255 * shade));
+    return {level, level, level};
 }
+
+PixelImage picture_of(const Grid& power, const Area& area) {
+    PixelImage raster{.area = area, .columns = power.columns, .rows = power.rows};
+    raster.pixels.reserve(power.values.size());
+    for (std::size_t row = power.rows; row-- > 0;)
+        for (std::size_t column = 0; column < power.columns; ++column) {
+            const bool centre = row == power.rows / 2 && column == power.columns / 2;
+            const double shade = shade_of_power(power.values[row * power.columns + column]);
+            raster.pixels.push_back(centre ? Colour{} : grey(shade));
+        }
+    return raster;
+}
+
+}  // namespace
 
 std::optional<SpectralTable> spectral_table(std::span<const PointSet* const> sets) {
     const PointSet& first = *sets[0];
@@ -79,24 +103,51 @@ std::optional<SpectralTable> spectral_table(std::span<const PointSet* const> set
     return SpectralTable{.differences = differences, .values = std::move(grid)};
 }
 
+Drawing draw_spectrum(const Grid& power, const std::string& title, const std::string& subtitle,
+                      const PictureStyle& style, const TableNames& names) {
+    if (power.rows != power.columns || power.rows % 2 == 0)
+        fail(ErrorKind::input,
+             "a spectrum is a table of (2F + 1) x (2F + 1) numbers; there are {} x {}", power.rows,
+             power.columns);
+    if (std::ranges::any_of(power.values, [](double p) { return !(p >= 0); }))
+        fail(ErrorKind::input, "a spectrum has no negative power; this table has");
+    const Theme& theme = *style.theme;
+    const double last = (static_cast<double>(power.rows / 2) + 0.5) * names.cell;
+    const bool whole = names.cell == 1;
+    const Axis x{.low = -last, .high = last, .whole = whole, .name = names.x};
+    const Axis y{.low = -last, .high = last, .whole = whole, .name = names.y};
+    auto [drawing, top] = titled_drawing(title, subtitle, style, 640);
+    const double left = std::ceil(picture_margin / 2 + Panel::room_left(y, 500));
+    const double below = Panel::room_below(x) + picture_margin;
+    double side = std::floor(drawing.width - left - colour_bar_room - picture_margin);
+    if (style.height > 0) side = std::min(side, std::floor(style.height - top - below - 14));
+    side = std::max(side, 60.0);
+    if (style.height <= 0) drawing.height = std::ceil(top + 14 + side + below);
+    const Area frame{left, std::ceil(top) + 14, side, side};
+    drawing.add(picture_of(power, frame));
+    Panel(frame, x, y).draw_axes(drawing, theme, true);
+    draw_colour_bar(drawing, {frame.right() + 14, frame.top, 14, side}, names.shade, theme, grey,
+                    {{0, "0"}, {0.2, "1/4"}, {0.5, "1"}, {0.8, "4"}, {1, "∞"}});
+    return std::move(drawing);
+}
+
 Chart power_chart(const Grid& power, const std::string& title) {
-    const std::size_t middle = power.values.size() / 2;
-    Series curve{.name = "power"};
-    for (std::size_t f = 1; f <= middle; ++f) {
-        curve.x.push_back(static_cast<double>(f));
-        curve.y.push_back(power.values[middle + f]);
-    }
-    ChartPanel panel{.x_name = "frequency",
-                     .y_name = "power",
-                     .whole_x = true,
-                     .from_zero = true,
-                     .reach_y = 1.4,
-                     .least_y = 1e-4};
-    // As in the chart of radial power: a lattice's peaks would hide everything else.
-    panel.log_y = std::ranges::max(curve.y) > 12;
-    panel.guides.push_back({.name = "white noise", .y = {1}});
-    panel.series.push_back(std::move(curve));
-    return {.title = title, .panels = {std::move(panel)}};
+    const std::size_t last = power.values.size() / 2;
+    Report::Curve frequencies(last);
+    std::iota(frequencies.begin(), frequencies.end(), 1);
+    Report radial;
+    radial.add("frequency", frequencies);
+    radial.add("power",
+               Report::Curve(power.values.end() - std::ssize(frequencies), power.values.end()));
+    radial.add("cells", Report::Integers(last, 2));  // f and -f
+    Measurement found{.analyzer = "periodogram", .source = "-", .dimension = 1, .domain = {}};
+    found.results.add("radial", std::move(radial));
+    Chart chart = chart_of({&found, 1});
+    chart.title = title;
+    chart.subtitle = {};
+    chart.panels[0].y_name = "power";
+    chart.panels[0].whole_x = true;
+    return chart;
 }
 
 }  // namespace stipple::plot

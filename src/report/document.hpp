@@ -54,6 +54,15 @@ std::string to_json(std::span<const Measurement> measurements);
 /// Names, values and units in aligned columns; long curves are cut short and say so.
 std::string to_text(std::span<const Measurement> measurements);
 
+/// Whether the bytes are JSON of reports as far as their front tells: an object, or an array of
+/// objects, that names the format.
+bool looks_like_reports(std::string_view bytes);
+
+/// The way back from to_json: the measurements of one report, of an array of them, or of several
+/// texts one after the other. null is NaN. `source` is for messages.
+/// @throws Error(input) for what is no such JSON, and for none at all.
+std::vector<Measurement> read_reports(std::string_view bytes, const std::string& source);
+
 /// A tidy table: a row for each measurement, or for each entry of its curves; nested keys are
 /// dotted, and numbers of other lists have columns KEY.0, KEY.1... (csv_table.cpp). The standard
 /// errors of a mean are columns, too: standard_error.KEY.

@@ -10,8 +10,8 @@
 
 #include "core/error.hpp"
 #include "plot/report_charts.hpp"
-#include "plot/spectrum_picture.hpp"
-#include "report/read_document.hpp"
+#include "plot/spectral_table.hpp"
+#include "report/document.hpp"
 
 namespace stipple::testing::chart_test {
 

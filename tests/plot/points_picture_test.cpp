@@ -75,6 +75,22 @@ TEST(PointsPicture, HasADiskForEachPointWhereItIs) {
     EXPECT_GT(side, 400);
 }
 
+// A box that goes on from 1 to 0 along both axes has a part in each corner.
+TEST(PointsPicture, BoxesAcrossTheRimHaveSeveralParts) {
+    const PointSet points = points_of({{0.5, 0.5}});
+    PointsPicture picture = picture_of({&points});
+    picture.boxes = {{.kind = "periodic", .low = {0.25, 0.25}, .high = {0.5, 0.75}},
+                     {.kind = "periodic", .low = {0.75, 0.75}, .high = {0.5, 0.25}}};
+    const Drawing drawing = draw_points(picture, {}, {});
+    const auto parts = shapes_of<Patch>(drawing);
+    ASSERT_EQ(parts.size(), 1U + 4U);
+    const auto width_of = [](const Patch& p) { return p.vertices[1].x - p.vertices[0].x; };
+    const double unit = 4 * width_of(*parts[0]);
+    EXPECT_NEAR(width_of(*parts[1]), unit / 2, 1e-9);  // 0 to 0.5
+    EXPECT_NEAR(width_of(*parts[3]), unit / 4, 1e-9);  // 0.75 to 1
+    EXPECT_NEAR(parts[3]->vertices[0].x - parts[1]->vertices[0].x, 0.75 * unit, 1e-9);
+}
+
 // One point, equal points, points on a line: still a picture with axes.
 TEST(PointsPicture, DrawsDegenerateSets) {
     for (const PointSet& points :

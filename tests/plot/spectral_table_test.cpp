@@ -32,18 +32,19 @@ std::optional<SpectralTable> found(const PointSet& set) {
 }  // namespace
 
 TEST(SpectralTable, KnowsATableOfPowerFromPoints) {
-    Grid power{.rows = 9, .columns = 9, .values = std::vector<double>(81, 1.0)};
-    EXPECT_TRUE(looks_like_power(power));  // of one point
-    power.values[40] = 4;
-    EXPECT_TRUE(looks_like_power(power));
-    power.values[3] = 2;
-    EXPECT_FALSE(looks_like_power(power));
-    power.values[77] = 2;
-    EXPECT_TRUE(looks_like_power(power));
-    power.values[5] = power.values[75] = -1;
-    EXPECT_FALSE(looks_like_power(power));
-    EXPECT_FALSE(looks_like_power({.rows = 3, .columns = 3, .values = std::vector<double>(9)}));
-    EXPECT_FALSE(looks_like_power({.rows = 9, .columns = 8, .values = std::vector<double>(72)}));
+    PointSet power(9, 9);
+    std::ranges::fill(power.flat(), 1.0);
+    EXPECT_TRUE(found(power));  // of one point
+    power.flat()[40] = 4;
+    EXPECT_TRUE(found(power));
+    power.flat()[3] = 2;
+    EXPECT_FALSE(found(power));
+    power.flat()[77] = 2;
+    EXPECT_TRUE(found(power));
+    power.flat()[5] = power.flat()[75] = -1;
+    EXPECT_FALSE(found(power));
+    EXPECT_FALSE(found(table(7, 7)));
+    EXPECT_FALSE(found(table(9, 8)));
 }
 
 // The power at frequency zero is the number of points: at least 1, and the largest.

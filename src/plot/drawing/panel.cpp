@@ -42,6 +42,18 @@ std::string full_name(const Axis& axis, const Ticks& ticks) {
     return axis.name.empty() ? factor : fmt::format("{} ({})", axis.name, factor);
 }
 
+/// The left side and the lower one; closed: all four.
+void draw_sides(Drawing& drawing, const Area& area, Colour colour, bool closed) {
+    const double right = area.right();
+    const double bottom = area.bottom();
+    // One unit further, so that the corners are whole.
+    drawing.line({area.left, area.top}, {area.left, bottom + 1}, colour);
+    drawing.line({area.left, bottom}, {right + 1, bottom}, colour);
+    if (!closed) return;
+    drawing.line({right, area.top}, {right, bottom + 1}, colour);
+    drawing.line({area.left, area.top}, {right + 1, area.top}, colour);
+}
+
 }  // namespace
 
 Ticks Axis::ticks(double length, bool upright) const {
@@ -163,14 +175,32 @@ void Panel::draw_y(Drawing& drawing, const Theme& theme) const {
 void Panel::draw_axes(Drawing& drawing, const Theme& theme, bool closed) const {
     draw_x(drawing, theme);
     draw_y(drawing, theme);
-    const double right = frame_.right();
-    const double bottom = frame_.bottom();
-    // One unit further, so that the corners are whole.
-    drawing.line({frame_.left, frame_.top}, {frame_.left, bottom + 1}, theme.frame);
-    drawing.line({frame_.left, bottom}, {right + 1, bottom}, theme.frame);
-    if (!closed) return;
-    drawing.line({right, frame_.top}, {right, bottom + 1}, theme.frame);
-    drawing.line({frame_.left, frame_.top}, {right + 1, frame_.top}, theme.frame);
+    draw_sides(drawing, frame_, theme.frame, closed);
+}
+
+void draw_colour_bar(Drawing& drawing, const Area& area, const std::string& name,
+                     const Theme& theme, const std::function<Colour(double)>& colour,
+                     const std::vector<Tick>& ticks) {
+    constexpr std::size_t levels = 256;
+    PixelImage bar{.area = area, .columns = 1, .rows = levels};
+    for (std::size_t i = 0; i < levels; ++i)
+        bar.pixels.push_back(colour(1 - static_cast<double>(i) / static_cast<double>(levels - 1)));
+    drawing.add(std::move(bar));
+    draw_sides(drawing, area, theme.frame, true);
+    const double right = area.right();
+    for (const auto& [share, text] : ticks) {
+        const double y = area.bottom() - share * area.height;
+        drawing.line({right, y}, {right + 4, y}, theme.frame);
+        drawing.add(Label{.text = text,
+                          .at = {right + 8, y + 0.36 * number_size},
+                          .size = number_size,
+                          .colour = theme.text});
+    }
+    drawing.add(Label{.text = name,
+                      .at = {right, area.top - 8},
+                      .size = number_size,
+                      .colour = theme.ink,
+                      .anchor = Anchor::middle});
 }
 
 }  // namespace stipple::plot

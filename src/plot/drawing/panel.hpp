@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// A frame with two axes, and the way from data to its place in a drawing.
+// A frame with two axes, and the way from data to its place in a drawing; a bar beside a picture
+// that says what its colours mean.
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "plot/drawing/drawing.hpp"
 #include "plot/drawing/theme.hpp"
@@ -64,5 +67,12 @@ class Panel {
     Ticks x_ticks_;
     Ticks y_ticks_;
 };
+
+inline constexpr double colour_bar_room = 62;  ///< to the right of the picture, with its numbers
+
+/// Colours from the bottom (0) to the top (1); values of the ticks are such shares.
+void draw_colour_bar(Drawing& drawing, const Area& area, const std::string& name,
+                     const Theme& theme, const std::function<Colour(double)>& colour,
+                     const std::vector<Tick>& ticks);
 
 }  // namespace stipple::plot

@@ -185,11 +185,11 @@ class Rasterizer {
         const double at = std::floor((across ? a.y : a.x) + 0.5 * (scale_ - wide));
         const double from = std::floor(across ? std::min(a.x, b.x) : std::min(a.y, b.y));
         const double to = std::ceil(across ? std::max(a.x, b.x) : std::max(a.y, b.y));
-        const Pixels area =
-            visible(across ? Pixels{pixel(from), pixel(at), pixel(to), pixel(at + wide)}
-                           : Pixels{pixel(at), pixel(from), pixel(at + wide), pixel(to)});
-        for (int y = area.top; y < area.bottom; ++y)
-            for (int x = area.left; x < area.right; ++x) colours_[index(x, y)] = line.colour;
+        if (across)
+            fill({{from, at}, {to, at}, {to, at + wide}, {from, at + wide}});
+        else
+            fill({{at, from}, {at + wide, from}, {at + wide, to}, {at, to}});
+        mix(line.colour, 1);
     }
 
     /// Marks the coverage of a polyline of the drawing, `wide` pixels wide.
@@ -225,8 +225,9 @@ class Rasterizer {
         constexpr int rows_in_pixel = 4;
         if (vertices.empty()) return;
         const auto [top, bottom] = std::ranges::minmax(vertices, {}, &Position::y);
-        const Pixels area =
-            visible({0, pixel(std::floor(top.y)), width_, pixel(std::ceil(bottom.y))});
+        const auto [left, right] = std::ranges::minmax(vertices, {}, &Position::x);
+        const Pixels area = visible({pixel(std::floor(left.x)), pixel(std::floor(top.y)),
+                                     pixel(std::ceil(right.x)), pixel(std::ceil(bottom.y))});
         std::vector<double> crossings;
         for (int row = area.top * rows_in_pixel; row < area.bottom * rows_in_pixel; ++row) {
             const double y = (row + 0.5) / rows_in_pixel;
