@@ -161,7 +161,7 @@ class Study {
     int go() {
         refuse_too_much();
         if (ranks_.rank() != 0) {
-            work_for_study(sweep_, table_, ranks_, session_.run());
+            work_for_study(UnitRunner(sweep_, table_, session_.run()), ranks_, session_.run());
             return 0;
         }
         try {
@@ -182,14 +182,14 @@ class Study {
             if (row.failed()) add_failure(row);
             if (summarized_) summary_.add(row);
         };
-        const UnitRunner runner(sweep_, table_, run.max_memory);
+        const UnitRunner runner(sweep_, table_, run);
         runner.require_options(run);
         StudyFile file(path_, sweep_, table_, start, listen, run);
         if (start == StudyFile::Start::anew && !file.is_stream()) remove_old_summary();
-        for (const auto& sentence : runner.before_warps(run)) session_.warn(sentence);
+        for (const auto& sentence : runner.before_warps()) session_.warn(sentence);
         try {
             began_ = true;
-            if (!run_study(sweep_, table_, file, ranks_, run)) return 0;
+            if (!run_study(runner, file, ranks_, run)) return 0;
             finish(file);
         } catch (const Error& e) {
             if (e.kind() != ErrorKind::cancelled || !file.has_journal()) throw;

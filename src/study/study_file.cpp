@@ -2,7 +2,6 @@
 #include "study/study_file.hpp"
 
 #include <fcntl.h>
-#include <poll.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -35,7 +34,7 @@ bool there(const std::string& path) {
     if (errno == ENOENT)
         fail(ErrorKind::io, "{}: {}", path,
              there(folder) ? "no file can be made in its folder" : "no such folder");
-    fail(ErrorKind::io, "{}: {}", path == "-" ? "stdout" : path, file_trouble(errno));
+    fail(ErrorKind::io, "{}: {}", path, file_trouble(errno));
 }
 
 int opened(const std::string& path, int flags) {
@@ -44,20 +43,13 @@ int opened(const std::string& path, int flags) {
     return descriptor;
 }
 
-/// Writes all of it, whatever signals come. False: the reader of the pipe went away.
-bool write_all(int descriptor, std::string_view bytes, const std::string& path) {
+/// Writes all of it, whatever signals come.
+void write_all(int descriptor, std::string_view bytes, const std::string& path) {
     while (!bytes.empty()) {
         const auto written = ::write(descriptor, bytes.data(), bytes.size());
-        if (written < 0 && errno == EPIPE) return false;
-        if (written < 0 && errno == EAGAIN) {
-            pollfd waiting{.fd = descriptor, .events = POLLOUT, .revents = 0};
-            ::poll(&waiting, 1, -1);
-        } else if (written < 0 && errno != EINTR) {
-            refuse(path);
-        }
+        if (written < 0 && errno != EINTR) refuse(path);
         if (written > 0) bytes.remove_prefix(static_cast<std::size_t>(written));
     }
-    return true;
 }
 
 void cut_to(int descriptor, std::uint64_t size, const std::string& path) {
@@ -88,28 +80,25 @@ StudyFile::StudyFile(std::string path, const Sweep& sweep, const StudyTable& tab
     const bool exists = path_ != "-" && ::stat(path_.c_str(), &status) == 0;
     if (exists && S_ISDIR(status.st_mode))
         fail(ErrorKind::io, "{}: is a folder, not a file", path_);
-    stream_ = path_ == "-" || (exists && !S_ISREG(status.st_mode));
-    if (stream_ && start == Start::resume)
+    const bool is_file = path_ != "-" && (!exists || S_ISREG(status.st_mode));
+    if (is_file) {
+        open_file(start, run);
+        return;
+    }
+    if (start == Start::resume)
         fail(ErrorKind::usage, "--resume: needs a file; name the one to go on with by -o");
-    stream_ ? open_stream() : open_file(start, run);
+    stream_.emplace(path_).write(table_.head());
 }
 
 StudyFile::~StudyFile() {
     sync();
-    if (owned_) ::close(output_);
+    if (output_ >= 0) ::close(output_);
     if (journal_ >= 0) ::close(journal_);
-}
-
-void StudyFile::open_stream() {
-    owned_ = path_ != "-";
-    output_ = owned_ ? opened(path_, O_WRONLY) : STDOUT_FILENO;
-    write_all(output_, table_.head(), path_);
 }
 
 void StudyFile::sync() {
     if (!dirty_.exchange(false)) return;
-    // What cannot be synchronised, such as a pipe, says so; the rows are where they can be.
-    if (owned_ && !stream_) ::fdatasync(output_);
+    if (output_ >= 0) ::fdatasync(output_);
     if (journal_ >= 0) ::fdatasync(journal_);
 }
 
@@ -135,7 +124,6 @@ void StudyFile::open_file(Start start, const RunContext& run) {
                        "--overwrite begins anew, --resume adds what is missing, -o names another",
                        "{}: exists, and holds a study", path_);
     output_ = opened(path_, O_RDWR | O_CREAT | O_APPEND);
-    owned_ = true;
     if (!resume || !whole) {
         begin_journal();
         cut_to(output_, 0, path_);
@@ -206,9 +194,15 @@ bool StudyFile::read_entry(std::istream& in) {
     in.ignore(static_cast<std::streamsize>(size));
     if (static_cast<std::uint64_t>(in.gcount()) < size) return false;
     journal_size_ = waiting.offset + size;
-    done_.add({numbers[0], numbers[0] + waiting.bytes.size()});
     waiting_.emplace(numbers[0], std::move(waiting));
     return true;
+}
+
+std::vector<UnitRange> StudyFile::done() const {
+    std::vector<UnitRange> ranges = {{0, next_}};
+    for (const auto& [first, waiting] : waiting_)
+        ranges.push_back({first, first + waiting.bytes.size()});
+    return ranges;
 }
 
 bool StudyFile::is_of(const StudyRow& row, std::uint64_t unit) const {
@@ -251,7 +245,6 @@ void StudyFile::read_rows(const RunContext& run) {
     const bool finished = journal_ < 0 && line.empty() && next_ + 1 == sweep_.units();
     if (finished && !rows.empty() && keys_of(rows) == keys[sweep_.unit(next_).measure]) take_unit();
     cut_to(output_, whole, path_);
-    done_.add({0, next_});
 }
 
 bool StudyFile::put(const Segment& segment) {
@@ -284,8 +277,14 @@ bool StudyFile::write_waiting() {
         next_ = first + waiting.bytes.size();
         for (const auto line : split(std::string_view(text).substr(0, text.size() - 1), '\n'))
             if (const auto row = table_.parse(line)) listener_(*row);
-        if (!write_all(output_, text, path_)) return false;
+        if (!write(text)) return false;
     }
+    return true;
+}
+
+bool StudyFile::write(const std::string& text) {
+    if (stream_) return stream_->write(text);
+    write_all(output_, text, path_);
     return true;
 }
 
@@ -306,9 +305,9 @@ std::uint64_t StudyFile::Waiting::size(std::size_t units) const {
 }
 
 bool StudyFile::finish(const std::string& more) {
-    const bool wanted = write_all(output_, more, path_);
-    if (owned_ && ::fsync(output_) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS)
-        refuse(path_);
+    const bool wanted = write(more);
+    // Some file systems have nothing to synchronise, and say so.
+    if (output_ >= 0 && ::fsync(output_) != 0 && errno != EINVAL && errno != ENOTSUP) refuse(path_);
     if (journal_ >= 0) ::unlink(journal_of(path_).c_str());
     return wanted;
 }

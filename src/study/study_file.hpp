@@ -22,14 +22,15 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/json.hpp"
+#include "io/files.hpp"
 #include "study/study_table.hpp"
 #include "study/sweep.hpp"
 #include "study/unit_runner.hpp"
-#include "study/work_queue.hpp"
 
 namespace stipple {
 
@@ -51,10 +52,10 @@ class StudyFile {
     ~StudyFile();
 
     /// Units that need not be done.
-    [[nodiscard]] const UnitSet& done() const { return done_; }
+    [[nodiscard]] std::vector<UnitRange> done() const;
     [[nodiscard]] std::uint64_t units_written() const { return next_; }
     /// Whether rows go to standard output, a pipe or a device.
-    [[nodiscard]] bool is_stream() const { return stream_; }
+    [[nodiscard]] bool is_stream() const { return stream_.has_value(); }
     [[nodiscard]] bool has_journal() const { return journal_ >= 0; }
 
     /// Takes units that were done. False: the pipe was closed, and nobody wants more.
@@ -78,7 +79,6 @@ class StudyFile {
         [[nodiscard]] std::uint64_t size(std::size_t units = ~std::size_t{0}) const;
     };
 
-    void open_stream();
     void open_file(Start start, const RunContext& run);
     void open_journal();
     void begin_journal();
@@ -88,6 +88,7 @@ class StudyFile {
     [[nodiscard]] bool is_of(const StudyRow& row, std::uint64_t unit) const;
     [[noreturn]] void refuse_other(const Json& found) const;
     bool write_waiting();
+    bool write(const std::string& text);
     [[nodiscard]] std::string text_of(const Waiting& waiting) const;
 
     std::string path_;
@@ -96,11 +97,9 @@ class StudyFile {
     Listener listener_;
     int output_ = -1;
     int journal_ = -1;
-    std::atomic<bool> dirty_ = false;  ///< something was written since the last sync
-    bool owned_ = false;
-    bool stream_ = false;
+    std::atomic<bool> dirty_ = false;   ///< something was written since the last sync
+    std::optional<io::Output> stream_;  ///< in place of a file: standard output, a pipe, a device
     std::uint64_t journal_size_ = 0;
-    UnitSet done_;
     std::uint64_t next_ = 0;  ///< unit whose rows come next
     std::map<std::uint64_t, Waiting> waiting_;
 };

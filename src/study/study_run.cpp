@@ -68,20 +68,16 @@ void halt_others(Ranks& ranks) {
 /// Rank 0: the work that there is, and what came back of it.
 class Leader {
   public:
-    Leader(const Sweep& sweep, const StudyTable& table, StudyFile& file, Ranks& ranks,
-           const RunContext& run)
-        : file_(file),
+    Leader(const UnitRunner& runner, StudyFile& file, Ranks& ranks, const RunContext& run)
+        : runner_(runner),
+          file_(file),
           ranks_(ranks),
           run_(run),
           threads_(threads_of(ranks, run)),
           workers_(threads_ * static_cast<std::size_t>(ranks.size())),
-          runner_(sweep, table, run.max_memory),
-          queue_(sweep, file.done(), workers_),
-          left_(sweep),
-          units_(sweep.units()),
-          started_(run.seconds ? run.seconds() : 0) {
-        left_.forget(file.done().ranges());
-    }
+          queue_(runner.sweep(), file.done(), workers_),
+          left_(runner.sweep(), file.done()),
+          started_(run.seconds ? run.seconds() : 0) {}
 
     bool go() {
         std::vector<std::jthread> threads;
@@ -98,9 +94,10 @@ class Leader {
         if (error_) std::rethrow_exception(error_);
         if (alive_) do_the_large_alone();
         run_.check_stop();
-        if (alive_ && file_.units_written() != units_)
+        const std::uint64_t units = runner_.sweep().units();
+        if (alive_ && file_.units_written() != units)
             fail(ErrorKind::io, "internal error: {} of {} parts of the study are missing",
-                 units_ - file_.units_written(), units_);
+                 units - file_.units_written(), units);
         return alive_;
     }
 
@@ -209,12 +206,12 @@ class Leader {
                 if (alive_) alive_ = file_.put(segment);
     }
 
+    const UnitRunner& runner_;
     StudyFile& file_;
     Ranks& ranks_;
     const RunContext& run_;
     unsigned threads_;
     std::size_t workers_;
-    UnitRunner runner_;
     std::mutex mutex_;  // of all below
     WorkQueue queue_;
     WorkLeft left_;
@@ -226,7 +223,6 @@ class Leader {
     bool told_ = false;
     std::atomic<unsigned> busy_ = 0;
     std::stop_source stop_;
-    std::uint64_t units_;
     double started_;
     double synced_ = 0;  ///< when rows were put on the disk last
 };
@@ -234,11 +230,8 @@ class Leader {
 /// Another rank: threads that work, and one that exchanges messages with rank 0.
 class Worker {
   public:
-    Worker(const Sweep& sweep, const StudyTable& table, Ranks& ranks, const RunContext& run)
-        : ranks_(ranks),
-          run_(run),
-          threads_(threads_of(ranks, run)),
-          runner_(sweep, table, run.max_memory) {}
+    Worker(const UnitRunner& runner, Ranks& ranks, const RunContext& run)
+        : runner_(runner), ranks_(ranks), run_(run), threads_(threads_of(ranks, run)) {}
 
     void go() {
         std::vector<std::jthread> threads;
@@ -293,10 +286,10 @@ class Worker {
         --open_;
     }
 
+    const UnitRunner& runner_;
     Ranks& ranks_;
     const RunContext& run_;
     unsigned threads_;
-    UnitRunner runner_;
     tbb::concurrent_bounded_queue<Work> inbox_;
     tbb::concurrent_queue<std::string> outbox_;
     std::atomic<unsigned> open_ = threads_;
@@ -305,14 +298,12 @@ class Worker {
 
 }  // namespace
 
-bool run_study(const Sweep& sweep, const StudyTable& table, StudyFile& file, Ranks& ranks,
-               const RunContext& run) {
-    return Leader(sweep, table, file, ranks, run).go();
+bool run_study(const UnitRunner& runner, StudyFile& file, Ranks& ranks, const RunContext& run) {
+    return Leader(runner, file, ranks, run).go();
 }
 
-void work_for_study(const Sweep& sweep, const StudyTable& table, Ranks& ranks,
-                    const RunContext& run) {
-    Worker(sweep, table, ranks, run).go();
+void work_for_study(const UnitRunner& runner, Ranks& ranks, const RunContext& run) {
+    Worker(runner, ranks, run).go();
 }
 
 void dismiss(Ranks& ranks) {

@@ -12,20 +12,17 @@
 #include "pipeline/ranks.hpp"
 #include "stipple/run.hpp"
 #include "study/study_file.hpp"
-#include "study/study_table.hpp"
-#include "study/sweep.hpp"
+#include "study/unit_runner.hpp"
 
 namespace stipple {
 
 /// On rank 0: does the units that the file lacks. run.progress tells the share of the time that is
 /// over. False: the pipe was closed.
 /// @throws Error(cancelled) when told to stop; what is done is in the file. Error(io)
-bool run_study(const Sweep& sweep, const StudyTable& table, StudyFile& file, Ranks& ranks,
-               const RunContext& run);
+bool run_study(const UnitRunner& runner, StudyFile& file, Ranks& ranks, const RunContext& run);
 
 /// On the other ranks: works until rank 0 has no more to do. @throws Error(cancelled)
-void work_for_study(const Sweep& sweep, const StudyTable& table, Ranks& ranks,
-                    const RunContext& run);
+void work_for_study(const UnitRunner& runner, Ranks& ranks, const RunContext& run);
 
 /// Tells the other ranks that there is nothing to do; for rank 0, where it does not come to
 /// run_study.

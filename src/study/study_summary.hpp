@@ -28,7 +28,17 @@ struct SummaryOptions {
 
 class StudySummary {
   public:
+    /// What is said of one generator under one key.
+    struct Sample {
+        StudyRow row;  ///< the first one
+        std::vector<std::uint64_t> seeds = {};
+        std::vector<double> values = {};
+    };
+
     void add(const StudyRow& row);
+
+    /// In the order in which they came.
+    [[nodiscard]] const std::vector<Sample>& samples() const { return samples_; }
 
     /// A row for each generator, dimension, count, measure and key.
     /// @throws Error(cancelled)
@@ -41,12 +51,6 @@ class StudySummary {
                                           const RunContext& run) const;
 
   private:
-    /// What is said of one generator under one key.
-    struct Sample {
-        StudyRow row;  ///< the first one
-        std::vector<std::uint64_t> seeds = {};
-        std::vector<double> values = {};
-    };
     /// Two generators under one key.
     struct Pair {
         const Sample* a = nullptr;
@@ -63,7 +67,7 @@ class StudySummary {
     [[nodiscard]] std::uint64_t failures_of(const StudyRow& row) const;
     [[nodiscard]] std::vector<Pair> pairs_of(const Topic& topic, bool by_seed) const;
 
-    std::vector<Sample> samples_;  ///< in the order in which they came
+    std::vector<Sample> samples_;
     std::map<std::pair<std::string, Topic>, std::size_t> places_;
     std::map<Topic, std::vector<std::size_t>> topics_;
     std::vector<Topic> topics_in_order_;

@@ -117,7 +117,6 @@ void Sweep::choose() {
 }
 
 void Sweep::choose_warps() {
-    std::vector<std::string> names;
     for (const auto& text : request_.warps) {
         warps_.push_back(parse_spec(text));
         const Spec& spec = warps_.back();
@@ -125,9 +124,8 @@ void Sweep::choose_warps() {
         (void)spec.values(scramble ? scramble->options : find_warp(spec.name).options);
         random_warps_ |= scramble != nullptr;
         if (scramble && scrambles_ + 1 == warps_.size()) ++scrambles_;
-        names.push_back(text);
     }
-    warp_names_ = join(names, " ");
+    warp_names_ = join(request_.warps, " ");
 }
 
 void Sweep::count_units() {

@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <functional>
 #include <map>
+#include <mutex>
 #include <new>
 #include <optional>
 #include <thread>
@@ -95,31 +96,21 @@ std::optional<Failure> timed(const RunContext& run, std::optional<double> limit,
 
 /// Some points of the unit cube, apart from each other: odd multiples of those of sqrt(2),
 /// modulo 1.
-std::vector<double> some_points(std::size_t dimension, std::size_t count = 64) {
+PointSet some_points(std::size_t dimension, std::size_t count = 64) {
     constexpr double step = 0.41421356237309515;
-    std::vector<double> rows;
+    PointSet points(count, dimension);
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t k = 0; k < dimension; ++k) {
             const double turns = static_cast<double>((i + 1) * (2 * k + 1)) * step;
-            rows.push_back(turns - std::floor(turns));
+            points[i][k] = turns - std::floor(turns);
         }
-    return rows;
+    return points;
 }
 
 RunContext silent(RunContext run) {
     run.progress = {};
     run.warn = {};
     return run;
-}
-
-PointSet cube_of(std::size_t dimension, std::size_t count = 64) {
-    return {some_points(dimension, count), dimension};
-}
-
-PointSet image_of(const WarpChain& chain, std::size_t count = 64) {
-    PointSet image(chain.forward(some_points(chain.dimension_in(), count)), chain.dimension_out());
-    image.domain = chain.domain();
-    return image;
 }
 
 /// What a measure has against such points, if it says so within so many seconds.
@@ -150,8 +141,9 @@ bool takes(const Chosen<Analyzer>& measure, const WarpChain& chain, const RunCon
     if (spec == "unit-cube") return true;
     if (measure.unit->traits.unit_cube) return false;
     if (measure.unit->traits.boxed && !spec.starts_with("box")) return false;
-    return takes_points(measure, image_of(chain), run) ||
-           !takes_points(measure, cube_of(chain.dimension_in()), run);
+    const PointSet points = some_points(chain.dimension_in());
+    return takes_points(measure, image_of(points, chain, silent(run)), run) ||
+           !takes_points(measure, points, run);
 }
 
 /// One set of points: as it is measured, and before its warps.
@@ -189,13 +181,12 @@ MadeSet made_set(const Sweep& sweep, const Cell& cell, std::uint64_t seed, const
 /// Whether a part of a key between dots is meant: centered.value by value, by centered, by both;
 /// mean[0] by mean.
 bool is_meant(const std::string& key, const std::vector<std::string>& wanted) {
-    return std::ranges::any_of(wanted, [&](const std::string& w) {
-        for (auto at = key.find(w); at != std::string::npos; at = key.find(w, at + 1)) {
-            const std::size_t end = at + w.size();
-            const bool begins = at == 0 || key[at - 1] == '.';
-            if (begins && (end == key.size() || key[end] == '.' || key[end] == '[')) return true;
-        }
-        return false;
+    const auto dotted = [](std::string text) {
+        replace_all(text, "[", ".[");
+        return "." + text + ".";
+    };
+    return std::ranges::any_of(wanted, [&, all = dotted(key)](const std::string& w) {
+        return all.find(dotted(w)) != std::string::npos;
     });
 }
 
@@ -278,6 +269,19 @@ std::vector<KeyedNumber> numbers_of(const Report& report, const std::vector<std:
     return numbers;
 }
 
+UnitRunner::UnitRunner(const Sweep& sweep, const StudyTable& table, const RunContext& run)
+    : sweep_(sweep), table_(table), whole_memory_(run.max_memory) {
+    const auto warps = sweep.later_warps();
+    for (const std::size_t d : sweep.request().dimensions)
+        for (std::size_t m = 0; m < sweep.measures().size() && !warps.empty(); ++m) try {
+                if (!takes(sweep.measures()[m], WarpChain(warps, d, {}, run), run))
+                    before_warps_.emplace(d, m);
+            } catch (const Error& e) {
+                if (e.kind() == ErrorKind::cancelled)
+                    throw;  // else the rows will say what is wrong
+            }
+}
+
 // Each set is made once, and where the seed changes nothing, one is all.
 WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext& run) const {
     const RunContext quiet = silent(run);
@@ -303,7 +307,7 @@ WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext&
             Measured& result = it->second;
             if (fresh && set.failure) result.failure = set.failure;
             if (fresh && !set.failure) {
-                const bool after = set.image && takes_image(cell.dimension, unit.measure, quiet);
+                const bool after = set.image && takes_image(cell.dimension, unit.measure);
                 result = measured(sweep_.request(), sweep_.measures()[unit.measure],
                                   after ? *set.image : set.before, quiet);
                 done.seconds += result.seconds;
@@ -319,33 +323,17 @@ WorkDone UnitRunner::run(const std::vector<UnitRange>& ranges, const RunContext&
 std::optional<Error> UnitRunner::refusal_of(std::size_t measure, std::size_t dimension,
                                             std::size_t count, const RunContext& run) const {
     constexpr double soon = 0.2;  // seconds
-    PointSet points = cube_of(dimension, count);
+    PointSet points = some_points(dimension, count);
     const auto warps = sweep_.later_warps();
     try {
-        if (!warps.empty() && takes_image(dimension, measure, run))
-            points = image_of(WarpChain(warps, dimension, {}, run), count);
+        if (!warps.empty() && takes_image(dimension, measure))
+            points = image_of(points, WarpChain(warps, dimension, {}, run), silent(run));
     } catch (const Error& e) {
         if (e.kind() == ErrorKind::cancelled) throw;
         return std::nullopt;  // the rows will say what is wrong
     }
     auto error = refusal(sweep_.measures()[measure], points, run, soon);
     return error && error->kind() == ErrorKind::usage ? error : std::nullopt;
-}
-
-bool UnitRunner::takes_image(std::size_t dimension, std::size_t measure,
-                             const RunContext& run) const {
-    const std::lock_guard lock(mutex_);
-    const auto [it, fresh] = takes_image_.try_emplace({dimension, measure}, true);
-    const auto rest = sweep_.later_warps();
-    if (!fresh || rest.empty()) return it->second;
-    try {
-        it->second = takes(sweep_.measures()[measure], WarpChain(rest, dimension, {}, run), run);
-    } catch (const Error& e) {
-        if (e.kind() != ErrorKind::cancelled) return true;  // the rows will say what is wrong
-        takes_image_.erase(it);
-        throw;
-    }
-    return it->second;
 }
 
 void UnitRunner::require_options(const RunContext& run) const {
@@ -366,10 +354,10 @@ void UnitRunner::require_options(const RunContext& run) const {
     }
 }
 
-std::vector<std::string> UnitRunner::before_warps(const RunContext& run) const {
+std::vector<std::string> UnitRunner::before_warps() const {
     std::vector<std::string> sentences;
     for (std::size_t m = 0; m < sweep_.measures().size(); ++m) {
-        const auto looks_before = [&](std::size_t d) { return !takes_image(d, m, run); };
+        const auto looks_before = [&](std::size_t d) { return !takes_image(d, m); };
         if (std::ranges::any_of(sweep_.request().dimensions, looks_before))
             sentences.push_back(
                 fmt::format("{} does not take points of {}: it measures them "

@@ -11,9 +11,8 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,33 +46,34 @@ struct WorkDone {
 
 class UnitRunner {
   public:
-    /// @param whole_memory what units that are too large for a share may have; the run's own limit is the worker's share
-    UnitRunner(const Sweep& sweep, const StudyTable& table, std::uint64_t whole_memory)
-        : sweep_(sweep), table_(table), whole_memory_(whole_memory) {}
+    /// @param run its memory is what units may have that are too large for a worker's share
+    /// @throws Error(cancelled)
+    UnitRunner(const Sweep& sweep, const StudyTable& table, const RunContext& run);
 
+    [[nodiscard]] const Sweep& sweep() const { return sweep_; }
+
+    /// @param run its memory is the worker's share
     /// @throws Error(cancelled)
     [[nodiscard]] WorkDone run(const std::vector<UnitRange>& ranges, const RunContext& run) const;
 
-    /// Whether a measure looks at the points after the warps; may be asked from several threads.
-    [[nodiscard]] bool takes_image(std::size_t dimension, std::size_t measure,
-                                   const RunContext& run) const;
-
-    /// The measures that do not, in a sentence each.
-    [[nodiscard]] std::vector<std::string> before_warps(const RunContext& run) const;
+    /// The measures that look at points before the warps, in a sentence each.
+    [[nodiscard]] std::vector<std::string> before_warps() const;
 
     /// @throws Error(usage): a measure's options that are wrong for every set of the study
     void require_options(const RunContext& run) const;
 
   private:
+    [[nodiscard]] bool takes_image(std::size_t dimension, std::size_t measure) const {
+        return !before_warps_.contains({dimension, measure});
+    }
     [[nodiscard]] std::optional<Error> refusal_of(std::size_t measure, std::size_t dimension,
                                                   std::size_t count, const RunContext& run) const;
 
     const Sweep& sweep_;
     const StudyTable& table_;
     std::uint64_t whole_memory_;
-    mutable std::mutex mutex_;
-    /// By dimension and measure, as far as it was asked for.
-    mutable std::map<std::pair<std::size_t, std::size_t>, bool> takes_image_;
+    /// Dimensions, and measures that look at points of them before the warps.
+    std::set<std::pair<std::size_t, std::size_t>> before_warps_;
 };
 
 /// A report's numbers in order, under dotted keys, flags as 0 and 1. Lists of numbers as NAME[I]:

@@ -19,34 +19,15 @@ double set_cost(const Sweep& sweep, const Cell& cell) {
 
 }  // namespace
 
-void UnitSet::add(UnitRange range) {
-    if (range.first >= range.last) return;
-    auto it = parts_.upper_bound(range.first);
-    if (it != parts_.begin() && std::prev(it)->second >= range.first) --it;
-    while (it != parts_.end() && it->first <= range.last) {
-        range.first = std::min(range.first, it->first);
-        range.last = std::max(range.last, it->second);
-        it = parts_.erase(it);
-    }
-    parts_.emplace(range.first, range.last);
-}
-
-std::vector<UnitRange> UnitSet::missing(UnitRange range) const {
+std::vector<UnitRange> missing(std::span<const UnitRange> done, UnitRange range) {
     std::vector<UnitRange> gaps;
-    auto it = parts_.upper_bound(range.first);
-    if (it != parts_.begin()) range.first = std::max(range.first, std::prev(it)->second);
-    for (; it != parts_.end() && it->first < range.last; ++it) {
+    auto it = std::ranges::upper_bound(done, range.first, {}, &UnitRange::last);
+    for (; it != done.end() && it->first < range.last; ++it) {
         if (range.first < it->first) gaps.push_back({range.first, it->first});
-        range.first = std::max(range.first, it->second);
+        range.first = it->last;
     }
     if (range.first < range.last) gaps.push_back(range);
     return gaps;
-}
-
-std::vector<UnitRange> UnitSet::ranges() const {
-    std::vector<UnitRange> all;
-    for (const auto& [first, last] : parts_) all.push_back({first, last});
-    return all;
 }
 
 double generate_cost(const Sweep& sweep, const Cell& cell) {
@@ -66,20 +47,21 @@ double measure_cost(const Sweep& sweep, const Cell& cell, std::size_t measure) {
     return once + (analyzer.cost ? analyzer.cost(n, d) : 5e-7 * n * d);
 }
 
-WorkLeft::WorkLeft(const Sweep& sweep)
+WorkLeft::WorkLeft(const Sweep& sweep, const std::vector<UnitRange>& done)
     : sweep_(sweep), parts_(sweep.generators().size() * sweep.request().dimensions.size()) {
     for (std::uint64_t c = 0; c < sweep.cells(); ++c) {
         const Cell cell = sweep.cell(c);
         const auto seeds = static_cast<double>(sweep.request().seeds);
         part_of(c).left += (sweep.seeded(cell.generator) ? seeds : 1) * set_cost(sweep, cell);
     }
+    finish(done, std::nullopt);
 }
 
 WorkLeft::Part& WorkLeft::part_of(std::uint64_t cell) {
     return parts_[static_cast<std::size_t>(cell / sweep_.request().counts.size())];
 }
 
-void WorkLeft::take_out(const std::vector<UnitRange>& ranges, std::optional<double> seconds) {
+void WorkLeft::finish(const std::vector<UnitRange>& ranges, std::optional<double> seconds) {
     std::vector<std::pair<Part*, double>> costs;
     double all = 0;
     const std::uint64_t per_cell = sweep_.units_per_cell();
@@ -120,14 +102,13 @@ double WorkLeft::seconds() const {
     return left;
 }
 
-WorkQueue::WorkQueue(const Sweep& sweep, UnitSet done, std::size_t workers)
+WorkQueue::WorkQueue(const Sweep& sweep, std::vector<UnitRange> done, std::size_t workers)
     : sweep_(sweep), done_(std::move(done)) {
     constexpr double longest = 1;      // seconds of a piece
     constexpr double shortest = 2e-3;  // less would be spent on handing out
     constexpr double pieces_of_worker = 32;
-    WorkLeft left(sweep);
-    left.forget(done_.ranges());
-    const double share = left.seconds() / (pieces_of_worker * static_cast<double>(workers));
+    const double left = WorkLeft(sweep, done_).seconds();
+    const double share = left / (pieces_of_worker * static_cast<double>(workers));
     const double grain = std::clamp(share, shortest, longest);
     for (std::uint64_t cell = 0; cell < sweep.cells(); ++cell) {
         cuts_.push_back(cut_of(cell, grain));
@@ -171,7 +152,7 @@ std::optional<std::vector<UnitRange>> WorkQueue::pull() {
             piece_ = 0;
             ++cut_;
         }
-        auto ranges = done_.missing({first, last});
+        auto ranges = missing(done_, {first, last});
         if (!ranges.empty()) return ranges;
     }
     return std::nullopt;

@@ -19,8 +19,8 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "study/sweep.hpp"
@@ -28,17 +28,8 @@
 
 namespace stipple {
 
-/// Units of which it is known which are done.
-class UnitSet {
-  public:
-    void add(UnitRange range);
-    /// The parts of a range that are not in the set.
-    [[nodiscard]] std::vector<UnitRange> missing(UnitRange range) const;
-    [[nodiscard]] std::vector<UnitRange> ranges() const;
-
-  private:
-    std::map<std::uint64_t, std::uint64_t> parts_;  ///< first, last: apart from each other
-};
+/// The parts of a range that are not done. @param done in order, none within another
+std::vector<UnitRange> missing(std::span<const UnitRange> done, UnitRange range);
 
 /// Seconds on one core to make a set.
 double generate_cost(const Sweep& sweep, const Cell& cell);
@@ -49,14 +40,11 @@ double measure_cost(const Sweep& sweep, const Cell& cell, std::size_t measure);
 /// What is left of a study, in seconds of one core.
 class WorkLeft {
   public:
-    /// All of it.
-    explicit WorkLeft(const Sweep& sweep);
+    /// All but what was done before.
+    explicit WorkLeft(const Sweep& sweep, const std::vector<UnitRange>& done = {});
 
-    /// Takes out what was done before, or elsewhere.
-    void forget(const std::vector<UnitRange>& ranges) { take_out(ranges, {}); }
-
-    /// Takes out what was done in so many seconds.
-    void finish(const std::vector<UnitRange>& ranges, double seconds) { take_out(ranges, seconds); }
+    /// Takes out what was done, and learns from the seconds that it took, if they are known.
+    void finish(const std::vector<UnitRange>& ranges, std::optional<double> seconds);
 
     [[nodiscard]] double seconds() const;
 
@@ -69,7 +57,6 @@ class WorkLeft {
     };
 
     [[nodiscard]] Part& part_of(std::uint64_t cell);
-    void take_out(const std::vector<UnitRange>& ranges, std::optional<double> seconds);
 
     const Sweep& sweep_;
     std::vector<Part> parts_;
@@ -78,7 +65,7 @@ class WorkLeft {
 class WorkQueue {
   public:
     /// @param workers that will pull at once
-    WorkQueue(const Sweep& sweep, UnitSet done, std::size_t workers);
+    WorkQueue(const Sweep& sweep, std::vector<UnitRange> done, std::size_t workers);
 
     /// The next piece; nothing when all was given out.
     std::optional<std::vector<UnitRange>> pull();
@@ -98,7 +85,7 @@ class WorkQueue {
     [[nodiscard]] Cut cut_of(std::uint64_t cell, double grain) const;
 
     const Sweep& sweep_;
-    UnitSet done_;
+    std::vector<UnitRange> done_;
     std::vector<Cut> cuts_;
     std::size_t cut_ = 0;
     std::uint64_t piece_ = 0;

@@ -17,7 +17,7 @@ Sweep sweep() {
 }
 
 /// How often each unit is given out.
-std::vector<int> given_out(const Sweep& s, const UnitSet& done, std::size_t workers) {
+std::vector<int> given_out(const Sweep& s, const Ranges& done, std::size_t workers) {
     std::vector<int> times(s.units());
     WorkQueue queue(s, done, workers);
     while (const auto ranges = queue.pull())
@@ -29,19 +29,12 @@ std::vector<int> given_out(const Sweep& s, const UnitSet& done, std::size_t work
 
 }  // namespace
 
-TEST(UnitSet, JoinsWhatTouchesAndTellsWhatIsMissing) {
-    UnitSet set;
-    set.add({10, 20});
-    set.add({30, 40});
-    EXPECT_EQ(set.missing({0, 50}), (Ranges{{0, 10}, {20, 30}, {40, 50}}));
-    EXPECT_EQ(set.missing({12, 18}), Ranges{});
-    EXPECT_EQ(set.missing({15, 35}), (Ranges{{20, 30}}));
-    set.add({20, 30});
-    EXPECT_EQ(set.ranges(), (Ranges{{10, 40}}));
-    set.add({5, 60});
-    set.add({7, 7});
-    EXPECT_EQ(set.ranges(), (Ranges{{5, 60}}));
-    EXPECT_EQ(set.missing({0, 5}), (Ranges{{0, 5}}));
+TEST(WorkQueue, TellsWhatIsMissing) {
+    const Ranges done = {{0, 0}, {10, 20}, {20, 25}, {30, 40}};
+    EXPECT_EQ(missing(done, {0, 50}), (Ranges{{0, 10}, {25, 30}, {40, 50}}));
+    EXPECT_EQ(missing(done, {12, 24}), Ranges{});
+    EXPECT_EQ(missing(done, {15, 35}), (Ranges{{25, 30}}));
+    EXPECT_EQ(missing(done, {0, 5}), (Ranges{{0, 5}}));
 }
 
 TEST(WorkQueue, GivesOutEveryUnitOnceForAnyNumberOfWorkers) {
@@ -53,12 +46,10 @@ TEST(WorkQueue, GivesOutEveryUnitOnceForAnyNumberOfWorkers) {
 
 TEST(WorkQueue, LeavesOutWhatIsDone) {
     const Sweep s = sweep();
-    UnitSet done;
+    const Ranges done = {{0, 5}, {17, 18}, {100, 200}, {377, 378}};
     std::vector<int> expected(s.units(), 1);
-    for (const auto& [first, last] : Ranges{{0, 5}, {17, 18}, {100, 200}, {377, 378}}) {
-        done.add({first, last});
+    for (const auto& [first, last] : done)
         for (std::uint64_t u = first; u < last; ++u) expected[u] = 0;
-    }
     EXPECT_EQ(given_out(s, done, 2), expected);
 }
 
@@ -76,21 +67,15 @@ TEST(WorkQueue, BeginsWithWhatIsDearAndKeepsTheOrderOfTheRest) {
 
 TEST(WorkLeft, IsNothingInTheEndAndLearnsFromWhatIsDone) {
     const Sweep s = sweep();
-    WorkLeft left(s);
-    const double modelled = left.seconds();
+    const double modelled = WorkLeft(s).seconds();
     EXPECT_GT(modelled, 0);
     WorkLeft slower(s);
     // Everything takes a hundred times what the model says: so will what is left.
     const UnitRange first{0, s.units() / 3};
-    const double part = modelled - [&] {
-        WorkLeft rest(s);
-        rest.forget({first});
-        return rest.seconds();
-    }();
+    const double part = modelled - WorkLeft(s, {first}).seconds();
     slower.finish({first}, part * 100);
     EXPECT_GT(slower.seconds(), 5 * (modelled - part));
-    left.forget({{0, s.units()}});
-    EXPECT_NEAR(left.seconds(), 0, 1e-9 * modelled);
+    EXPECT_NEAR(WorkLeft(s, {{0, s.units()}}).seconds(), 0, 1e-9 * modelled);
 }
 
 // Searches in 6 dimensions that are a thousand times faster than the model do not make those in the
