@@ -86,7 +86,7 @@ std::shared_ptr<std::FILE> spooled(const std::string& pipe, const RunContext& ru
 /// A picture by `stipple plot`, with the provenance of its set. False: no such
 /// picture.
 bool take_plot(Original& original, std::string_view picture) {
-    const Json note = Json::parse(io::picture_note(picture).value_or(""), nullptr, false);
+    const Json note = try_parse_json(io::picture_note(picture).value_or(""));
     if (!note.is_object() || note.contains("format") || !note.contains("command")) return false;
     original.plotted = note["command"].get<std::string>();
     if (!note.contains("meta"))

@@ -12,10 +12,17 @@
 namespace stipple {
 namespace {
 
-bool is_deeper(const Json& value, int most) {
-    if (!value.is_structured()) return false;
-    return most == 0 ||
-           std::ranges::any_of(value, [most](const Json& v) { return is_deeper(v, most - 1); });
+constexpr std::size_t deepest = 20;
+
+/// Of what Json::parse(text) threw.
+JsonError error_of(const Json::exception& error, std::string_view text) {
+    if (const auto* place = dynamic_cast<const Json::parse_error*>(&error))
+        return {"not JSON", std::min(place->byte > 0 ? place->byte - 1 : 0, text.size())};
+    // Its message ends in the number that is too large, in quotes.
+    const std::string_view message = error.what();
+    const auto number = split(message.substr(message.find('\'') + 1), '\'').front();
+    return {fmt::format("the number {} is beyond what a double holds", shown(number)),
+            std::min(text.find(number), text.size())};
 }
 
 }  // namespace
@@ -24,21 +31,38 @@ std::string json_text(const Json& value, int indent) {
     return value.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
-bool is_deep(const Json& value) { return is_deeper(value, 20); }
-
-std::string json_shown(const Json& value) {
-    return is_deep(value) ? fmt::format("'{}' with many others in each other", value.type_name())
-                          : shown(json_text(value));
+JsonExtent json_extent(std::string_view text) {
+    std::size_t depth = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        const bool closes = c == ']' || c == '}';
+        if (c == '"') {
+            for (++i; i < text.size() && text[i] != '"'; ++i)
+                if (text[i] == '\\') ++i;
+        } else if (c == '[' || c == '{') {
+            if (++depth > deepest) return {.too_deep = i};
+        } else if (depth == 0 && (closes || c == ',')) {
+            return {.size = i};
+        } else if (closes && --depth == 0) {
+            return {.size = i + 1};
+        }
+    }
+    return {};
 }
 
-JsonTrouble json_trouble(const std::exception& error, std::string_view text) {
-    if (const auto* place = dynamic_cast<const Json::parse_error*>(&error))
-        return {std::min(place->byte > 0 ? place->byte - 1 : 0, text.size()), "not JSON"};
-    // Its message ends in the number that is too large, in quotes.
-    const std::string_view message = error.what();
-    const auto number = split(message.substr(message.find('\'') + 1), '\'').front();
-    return {std::min(text.find(number), text.size()),
-            fmt::format("the number {} is beyond what a double holds", shown(number))};
+Json parse_json(std::string_view text) {
+    if (const auto at = json_extent(text).too_deep; at != std::string_view::npos)
+        throw JsonError("lists in lists too deep", at);
+    try {
+        return Json::parse(text);
+    } catch (const Json::exception& error) {
+        throw error_of(error, text);
+    }
+}
+
+Json try_parse_json(std::string_view text) {
+    const bool deep = json_extent(text).too_deep != std::string_view::npos;
+    return deep ? Json(Json::value_t::discarded) : Json::parse(text, nullptr, false);
 }
 
 }  // namespace stipple

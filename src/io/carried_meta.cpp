@@ -88,7 +88,7 @@ std::string to_text(const CarriedMeta& meta) {
 }
 
 CarriedMeta carried_meta(std::string_view text, const std::string& source) {
-    const Json json = Json::parse(text, nullptr, false);
+    const Json json = try_parse_json(text);
     if (!json.is_object() || json.value("format", Json()) != "stipple.meta" ||
         json.value("version", Json()) != 1 || !json.contains("meta"))
         fail(ErrorKind::input,

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "core/text.hpp"
 
 namespace stipple {
@@ -67,32 +68,14 @@ std::string extension_of(std::string_view path) {
     return extension;
 }
 
-/// Whether the line is a whole JSON object: its braces are closed, and not before its end.
-bool is_whole_object(std::string_view line) {
-    std::size_t depth = 0;
-    bool in_string = false;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        const char c = line[i];
-        if (in_string && c == '\\')
-            ++i;
-        else if (c == '"')
-            in_string = !in_string;
-        else if (!in_string && (c == '{' || c == '['))
-            ++depth;
-        else if (!in_string && (c == '}' || c == ']') && --depth == 0)
-            return i + 1 == line.size();
-    }
-    return false;
-}
-
 /// Text that begins with { or [: a value a line, or one value?
 const char* json_or_lines(std::string_view text) {
     const auto end = text.find('\n');
     const std::string_view line = trim(text.substr(0, end));
-    if (line.front() == '[' && !trim(line.substr(1)).starts_with('[') && is_whole_object(line))
-        return "jsonl";
+    const bool whole = json_extent(line).size == line.size();
+    if (whole && line.front() == '[' && !trim(line.substr(1)).starts_with('[')) return "jsonl";
     const bool more = end != std::string_view::npos && !trim(text.substr(end)).empty();
-    return more && is_whole_object(line) ? "jsonl" : "json";
+    return more && whole ? "jsonl" : "json";
 }
 
 }  // namespace

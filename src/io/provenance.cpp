@@ -10,6 +10,7 @@
 
 #include "core/json.hpp"
 #include "core/text.hpp"
+#include "core/utf8.hpp"
 
 namespace stipple::io {
 namespace {
@@ -114,7 +115,7 @@ std::optional<bool> take_value(std::string_view key, const Json& value, Provenan
 bool take(std::string_view key, const Json& value, Provenance& to) {
     const auto good = take_value(key, value, to);
     if (good == false && to.flaw.empty())
-        to.flaw = fmt::format("its {} cannot be {}", key, json_shown(value));
+        to.flaw = fmt::format("its {} cannot be {}", key, shown(json_text(value)));
     return good.has_value();
 }
 
@@ -162,7 +163,7 @@ std::string to_comment_lines(const Provenance& provenance, std::string_view begi
 bool take_comment_line(std::string_view line, Provenance& provenance) {
     const auto colon = line.find(": ");
     if (colon == std::string_view::npos) return false;
-    const Json value = Json::parse(line.substr(colon + 2), nullptr, false);
+    const Json value = try_parse_json(line.substr(colon + 2));
     if (!value.is_discarded()) return take(line.substr(0, colon), value, provenance);
     // A number that no double holds is no JSON either; words of others are left alone.
     const std::string text(line.substr(colon + 2));

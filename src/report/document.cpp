@@ -8,7 +8,6 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "core/error.hpp"
 #include "core/json.hpp"
@@ -253,18 +252,16 @@ bool looks_like_reports(std::string_view bytes) {
 
 std::vector<Measurement> read_reports(std::string_view bytes, const std::string& source) {
     std::vector<Measurement> found;
-    std::istringstream in{std::string(bytes)};
-    while (in >> std::ws, !in.eof()) {
+    while (!(bytes = trim(bytes)).empty()) {
+        const std::string_view piece = bytes.substr(0, json_extent(bytes).size);
+        bytes.remove_prefix(piece.size());
         Json text;
         try {
-            in >> text;
-        } catch (const Json::exception& e) {
-            const auto [at, what] = json_trouble(e, bytes);
-            fail(ErrorKind::input, "{}: no whole JSON, byte {} of a report: {}; {}", source, at + 1,
-                 what, wanted);
+            text = parse_json(piece);
+        } catch (const JsonError& e) {
+            fail(ErrorKind::input, "{}: no whole JSON, byte {} of a report: {}; {}", source,
+                 e.at + 1, e.what(), wanted);
         }
-        if (is_deep(text))
-            fail(ErrorKind::input, "{}: lists in lists too deep; {}", source, wanted);
         if (!text.is_array()) text = Json::array({std::move(text)});
         for (const Json& object : text) found.push_back(measurement_of(object, source));
     }

@@ -45,7 +45,7 @@ std::string text_in(const Json& value) {
 
 std::optional<std::vector<std::string>> json_fields(std::string_view line,
                                                     std::span<const TableCell> columns) {
-    const Json object = Json::parse(line, nullptr, false);
+    const Json object = try_parse_json(line);
     if (!object.is_object()) return std::nullopt;
     std::vector<std::string> fields;
     for (const TableCell& column : columns) {

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "core/json.hpp"
 #include "core/text.hpp"
+#include "core/utf8.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/pipeline.hpp"
 
@@ -111,14 +112,14 @@ class ConfigReader {
 
     [[nodiscard]] Json parsed(std::string_view text) const {
         try {
+            parse_json(text);  // which says what is wrong, and refuses what is too deep
             return Json::parse(text, Repetitions(source_));
-        } catch (const Json::exception& e) {
-            const auto [at, what] = json_trouble(e, text);
-            const auto before = text.substr(0, at);
+        } catch (const JsonError& e) {
+            const auto before = text.substr(0, e.at);
             const auto line = 1 + std::ranges::count(before, '\n');
             const auto last = before.rfind('\n');
-            const auto column = last == std::string_view::npos ? at + 1 : at - last;
-            fail(ErrorKind::input, "{}:{}:{}: {}", source_, line, column, what);
+            const auto column = last == std::string_view::npos ? e.at + 1 : e.at - last;
+            fail(ErrorKind::input, "{}:{}:{}: {}", source_, line, column, e.what());
         }
     }
 
@@ -130,7 +131,7 @@ class ConfigReader {
             return;
         }
         if (!value.is_boolean())
-            refuse(where, fmt::format("expected true or false, got {}", json_shown(value)));
+            refuse(where, fmt::format("expected true or false, got {}", shown(json_text(value))));
         // Seconds are left out by an option, all else is asked for by one.
         const bool left_out = name == "seconds";
         if (value.get<bool>() != left_out)
@@ -148,7 +149,7 @@ class ConfigReader {
     void read_unit(const std::string& key, const Json& value, const std::string& where) {
         if (!value.is_string() && !value.is_object())
             refuse(where, "expected a spec or {\"name\": ..., \"options\": {...}}, got " +
-                              json_shown(value));
+                              shown(json_text(value)));
         const std::string text =
             value.is_string() ? value.get<std::string>() : spec_of(key, value, where);
         checked(where, [&] { check_unit(key, parse_spec(text)); });
@@ -189,8 +190,8 @@ class ConfigReader {
         if (value.is_number_float()) return format_number(value.get<double>());
         if (value.is_number()) return json_text(value);
         if (!value.is_array() || lists == 0)
-            refuse(where,
-                   "expected a word, a number, true, false or a list, got " + json_shown(value));
+            refuse(where, "expected a word, a number, true, false or a list, got " +
+                              shown(json_text(value)));
         std::string text;
         for (const Json& item : value) {
             if (!text.empty()) text += item.is_array() ? ' ' : ',';

@@ -171,7 +171,7 @@ void StudyFile::read_journal() {
     open_journal();
     std::ifstream in(journal_of(path_), std::ios::binary);
     std::string line;
-    const Json head = whole_line(in, line) ? Json::parse(line, nullptr, false) : Json();
+    const Json head = whole_line(in, line) ? try_parse_json(line) : Json();
     if (!head.is_object() || !head.contains("study") || !head.contains("settings") ||
         !line.starts_with(fmt::format("{{\"format\":\"{}\",\"version\":2,", journal_format)))
         return begin_journal();

@@ -119,6 +119,10 @@ TEST(ReadDocument, RefusesWhatIsNoReport) {
     const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
     EXPECT_THAT(bad_json("{\"format\":\"stipple.report\",\"options\":" + deep + "}"),
                 HasSubstr("lists in lists too deep; expected the JSON"));
+    // The parser copies a value where another key follows it.
+    EXPECT_THAT(
+        bad_json("{\"format\":\"stipple.report\",\"input\":{\"source\":" + deep + ",\"count\":2}}"),
+        HasSubstr("byte 64 of a report: lists in lists too deep"));
     EXPECT_FALSE(looks_like_reports("x,y\n0.1,0.2\n"));
     EXPECT_FALSE(looks_like_reports("[[0.1,0.2]]"));
     EXPECT_FALSE(looks_like_reports("{\"format\":\"stipple.points\",\"version\":1}"));

@@ -22,6 +22,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.hpp"
+#include "core/json.hpp"
 #include "core/text.hpp"
 #include "core/utf8.hpp"
 #include "io/columns.hpp"
@@ -139,7 +140,7 @@ class Reader {
                 key == "points" ? read_points() : read_sets();
             } else {
                 const char* const at = p_;
-                take_key(text_, at, key, parse_json(text_, skip_value()), head);
+                take_key(text_, at, key, parse_piece(text_, skip_value()), head);
             }
         } while (accept(','));
         expect('}', "',' or '}'");
@@ -159,22 +160,14 @@ class Reader {
         ++p_;
     }
 
-    /// The text of a value that is not ours to scan.
+    /// The text of a value that is not ours to scan; all that is left, where it is too deep.
     std::string_view skip_value() {
-        const char* const begin = p_;
-        std::size_t depth = 0;
-        while (p_ != last_) {
-            if (*p_ == '"') {
-                skip_string();
-                continue;
-            }
-            if (depth == 0 && (*p_ == ',' || *p_ == '}' || *p_ == ']')) break;
-            depth += *p_ == '[' || *p_ == '{';
-            depth -= *p_ == ']' || *p_ == '}';
-            ++p_;
-        }
-        if (p_ == last_) refuse("',' or '}'");
-        return {begin, static_cast<std::size_t>(p_ - begin)};
+        const std::string_view rest(p_, last_);
+        const auto [size, too_deep] = json_extent(rest);
+        const std::string_view piece = rest.substr(0, size);
+        p_ += piece.size();
+        if (size == rest.npos && too_deep == rest.npos) refuse("',' or '}'");
+        return piece;
     }
 
     void read_sets() {

@@ -41,8 +41,6 @@ std::string json_head(const Layout& layout, const Counts& counts) {
 
 void take_key(const SourceText& text, const char* at, std::string_view key, const Json& value,
               JsonHead& head) {
-    if (key != "meta" && is_deep(value))
-        text.refuse(at, "lists in lists too deep; expected a value such as 1");
     if (key == "format" && value != "stipple.points")
         text.refuse(at, "the format is " + json_text(value).substr(0, 40) +
                             "; expected \"stipple.points\"");
@@ -68,12 +66,12 @@ void take_key(const SourceText& text, const char* at, std::string_view key, cons
     }
 }
 
-Json parse_json(const SourceText& text, std::string_view piece) {
+Json parse_piece(const SourceText& text, std::string_view piece) {
     try {
-        return Json::parse(piece);
-    } catch (const Json::exception& error) {
-        const auto [at, what] = json_trouble(error, piece);
-        text.refuse(piece.data() + at, what + "; expected a value such as 1, \"word\" or {}");
+        return parse_json(piece);
+    } catch (const JsonError& error) {
+        text.refuse(piece.data() + error.at,
+                    error.what() + std::string("; expected a value such as 1, \"word\" or {}"));
     }
 }
 

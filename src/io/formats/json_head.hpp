@@ -37,8 +37,8 @@ void take_key(const SourceText& text, const char* at, std::string_view key,
               const nlohmann::ordered_json& value, JsonHead& head);
 
 /// The JSON value of a piece of the text. @throws Error(input) at the byte where it stops being
-/// one.
-nlohmann::ordered_json parse_json(const SourceText& text, std::string_view piece);
+/// one, or is too deep.
+nlohmann::ordered_json parse_piece(const SourceText& text, std::string_view piece);
 
 /// Decides what the columns of rows of `width` numbers are.
 /// @throws Error(input) when the head says otherwise.

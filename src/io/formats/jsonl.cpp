@@ -38,7 +38,7 @@ JsonHead head_at(const SourceText& text, const char* line) {
     const std::string_view object = trim(line_at(text, line));
     JsonHead head;
     if (!object.starts_with('{')) return head;
-    const nlohmann::ordered_json keys = parse_json(text, object);
+    const nlohmann::ordered_json keys = parse_piece(text, object);
     for (const auto& [key, value] : keys.items()) take_key(text, object.data(), key, value, head);
     return head;
 }

@@ -121,9 +121,9 @@ TEST(Json, RefusesWhatIsNoFileOfPoints) {
               "input: p:1:11: the format is \"stipple.report\"; expected \"stipple.points\"");
     const std::string deep = std::string(200'000, '[') + std::string(200'000, ']');
     EXPECT_EQ(refused(with("\"format\":" + deep + ",")),
-              "input: p:1:11: lists in lists too deep; expected a value such as 1");
+              "input: p:1:31: lists in lists too deep; expected a value such as 1, \"word\" or {}");
     EXPECT_EQ(refused(with("\"version\":" + deep + ",")),
-              "input: p:1:12: lists in lists too deep; expected a value such as 1");
+              "input: p:1:32: lists in lists too deep; expected a value such as 1, \"word\" or {}");
     EXPECT_EQ(refused(with("\"version\":2,")),
               "input: p:1:12: version 2 of stipple.points; expected 1");
     EXPECT_EQ(refused(with("\"count\":3,")),
@@ -167,10 +167,10 @@ TEST(Json, SurvivesDeepNesting) {
     const std::string deep(100'000, '[');
     EXPECT_NE(refused(deep), "");
     EXPECT_NE(refused("{\"meta\":" + deep), "");
-    EXPECT_EQ(read_as("json", with("\"meta\":{\"options\":{\"a\":" + deep +
-                                   std::string(100'000, ']') + "}},"))
-                  .at(0),
-              two);
+    // The parser copies a value where another key follows it.
+    EXPECT_EQ(refused(with("\"meta\":{\"options\":{\"a\":" + deep + std::string(100'000, ']') +
+                           ",\"b\":1},\"seed\":1},")),
+              "input: p:1:43: lists in lists too deep; expected a value such as 1, \"word\" or {}");
 }
 
 }  // namespace stipple::testing::json_test
