@@ -2,8 +2,16 @@
 #include "core/point_set.hpp"
 
 #include "core/error.hpp"
+#include "core/machine/large_pages.hpp"
 
 namespace stipple {
+
+Rows Rows::unwritten(std::size_t count) {
+    Rows rows;
+    rows.fresh_ = unwritten_room<double>(count);
+    rows.view_ = {rows.fresh_.get(), count};
+    return rows;
+}
 
 PointSet::PointSet(Rows rows, std::size_t dimension)
     : domain(unit_cube(dimension)), rows_(std::move(rows)), dimension_(dimension) {

@@ -75,26 +75,20 @@ double beyond_range(const char* first, const char* end) {
 }  // namespace
 
 void append_number(std::string& out, double value, std::optional<int> precision) {
-    if (precision && std::isfinite(value))
-        append_cut(out, value, *precision);
-    else
-        fmt::format_to(std::back_inserter(out), FMT_COMPILE("{}"), value);
+    if (precision && std::isfinite(value)) return append_cut(out, value, *precision);
+    // Into a buffer on the stack: an inserter into the string costs a third more.
+    std::array<char, longest> text;
+    const char* const begin = text.data();
+    const char* const end = fmt::format_to(text.data(), FMT_COMPILE("{}"), value);
+    out.append(begin, end);
 }
 
 void append_rows(std::string& out, std::span<const double> rows, std::size_t width,
                  const RowStyle& style, std::optional<int> precision) {
-    std::array<char, longest> text;
     for (std::size_t i = 0; i < rows.size(); i += width) {
         for (std::size_t k = 0; k < width; ++k) {
             out += k == 0 ? style.open : style.between;
-            if (precision) {
-                append_number(out, rows[i + k], precision);
-                continue;
-            }
-            // Into a buffer on the stack: an inserter into the string costs a third more.
-            const char* begin = text.data();
-            const char* end = fmt::format_to(text.data(), FMT_COMPILE("{}"), rows[i + k]);
-            out.append(begin, end);
+            append_number(out, rows[i + k], precision);
         }
         out += style.close;
     }

@@ -25,10 +25,6 @@ struct Closing {
     }
 };
 
-[[noreturn]] void refuse_input(const std::string& name, int error) {
-    fail(ErrorKind::io, "{}: {}", name, file_trouble(error));
-}
-
 /// Waits until bytes (or their end) are there.
 void wait_for_bytes(int descriptor, const RunContext& run) {
     constexpr int patience = 50;  // milliseconds between two looks at the stop token
@@ -46,10 +42,10 @@ int open_to_read(const std::string& path, struct stat& status) {
     const int descriptor =
         path == "-" ? STDIN_FILENO
                     : ::open(FileRules::readable(path).c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    if (descriptor < 0 || ::fstat(descriptor, &status) != 0) refuse_input(source_name(path), errno);
+    if (descriptor < 0 || ::fstat(descriptor, &status) != 0) refuse_file(source_name(path), errno);
     if (S_ISDIR(status.st_mode)) {
         const Closing file{descriptor};
-        refuse_input(source_name(path), EISDIR);
+        refuse_file(source_name(path), EISDIR);
     }
     return descriptor;
 }
@@ -86,7 +82,7 @@ std::size_t Feed::fetch(std::span<char> bytes) {
         if (got > 0)
             done += static_cast<std::size_t>(got);
         else if (errno != EINTR && errno != EAGAIN)
-            refuse_input(name_, errno);
+            refuse_file(name_, errno);
     }
     return done;
 }

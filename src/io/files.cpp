@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
+#include <filesystem>
 #include <system_error>
 
 #include "core/bytes/file_bytes.hpp"
@@ -22,10 +22,6 @@
 namespace stipple::io {
 namespace {
 
-[[noreturn]] void refuse(const std::string& name, int error) {
-    fail(ErrorKind::io, "{}: {}", name, file_trouble(error));
-}
-
 /// /dev/fd/3 -> 3; else nothing.
 std::optional<int> standard_descriptor(const std::string& path) {
     if (path == "-" || path == "/dev/stdout" || path == "/dev/fd/1") return STDOUT_FILENO;
@@ -34,23 +30,11 @@ std::optional<int> standard_descriptor(const std::string& path) {
 }
 
 /// What a chain of symbolic links ends in, whether it is there or not.
-std::string follow_links(std::string path) {
-    std::array<char, 4096> target;
-    for (int links = 0; links < 40; ++links) {
-        const auto size = ::readlink(path.c_str(), target.data(), target.size());
-        if (size < 0) break;
-        std::string next(target.data(), static_cast<std::size_t>(size));
-        const auto slash = path.rfind('/');
-        if (!next.starts_with('/') && slash != std::string::npos)
-            next.insert(0, path.substr(0, slash + 1));
-        path = std::move(next);
-    }
+std::filesystem::path follow_links(std::filesystem::path path) {
+    std::error_code none;
+    for (int links = 0; links < 40 && std::filesystem::is_symlink(path, none); ++links)
+        path = path.parent_path() / std::filesystem::read_symlink(path, none);
     return path;
-}
-
-std::string folder_of(const std::string& path) {
-    const auto slash = path.rfind('/');
-    return slash == std::string::npos ? "." : path.substr(0, std::max<std::size_t>(slash, 1));
 }
 
 }  // namespace
@@ -82,8 +66,8 @@ Output::Output(std::string path, std::stop_token stop)
     target_ = follow_links(path_);
     struct stat status {};
     const bool there = ::stat(path_.c_str(), &status) == 0;
-    if (!there && errno != ENOENT) refuse(path_, errno);
-    if (there && S_ISDIR(status.st_mode)) refuse(path_, EISDIR);
+    if (!there && errno != ENOENT) refuse_file(path_, errno);
+    if (there && S_ISDIR(status.st_mode)) refuse_file(path_, EISDIR);
     if (there && !S_ISREG(status.st_mode)) {
         open_in_place();
         return;
@@ -103,12 +87,13 @@ Output::Output(Sink sink) : sink_(std::move(sink)) {}
 void Output::open_in_place() {
     descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
     if (descriptor_ < 0 && errno == EINTR) fail(ErrorKind::cancelled, "interrupted");
-    if (descriptor_ < 0) refuse(path_, errno);
+    if (descriptor_ < 0) refuse_file(path_, errno);
     owned_ = true;
 }
 
 void Output::open_beside(const std::string& target) {
-    const std::string folder = folder_of(target);
+    const auto parent = std::filesystem::path(target).parent_path();
+    const std::string folder = parent.empty() ? "." : parent.string();
     struct stat status {};
     if (::stat(folder.c_str(), &status) != 0 && errno == ENOENT)
         fail(ErrorKind::io, "{}: there is no folder {}", path_, shown(folder));
@@ -118,7 +103,7 @@ void Output::open_beside(const std::string& target) {
         if (descriptor_ >= 0 || errno == EEXIST) continue;
         temporary_.clear();
         if (errno == ENOENT) fail(ErrorKind::io, "{}: no file can be made in its folder", path_);
-        refuse(path_, errno);
+        refuse_file(path_, errno);
     }
     owned_ = true;
 }
@@ -143,7 +128,7 @@ bool Output::write(std::string_view bytes) {
             pollfd waiting{.fd = descriptor_, .events = POLLOUT, .revents = 0};
             ::poll(&waiting, 1, 50);
         } else if (errno != EINTR) {
-            refuse(path_, errno);
+            refuse_file(path_, errno);
         }
         if (stop_.stop_requested()) fail(ErrorKind::cancelled, "interrupted");
     }
@@ -154,13 +139,13 @@ void Output::close() {
     if (!owned_ || descriptor_ < 0) return;
     const int closed = ::close(descriptor_);
     descriptor_ = -1;
-    if (closed != 0) refuse(path_, errno);
+    if (closed != 0) refuse_file(path_, errno);
 }
 
 void Output::commit() {
     close();
     if (temporary_.empty()) return;
-    if (::rename(temporary_.c_str(), target_.c_str()) != 0) refuse(path_, errno);
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) refuse_file(path_, errno);
     temporary_.clear();
 }
 

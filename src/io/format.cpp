@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <numeric>
 
 #include "core/error.hpp"
@@ -58,11 +59,7 @@ namespace io {
 namespace {
 
 std::string extension_of(std::string_view path) {
-    const auto slash = path.rfind('/');
-    if (slash != std::string_view::npos) path.remove_prefix(slash + 1);
-    const auto dot = path.rfind('.');
-    if (dot == std::string_view::npos || dot == 0) return {};
-    std::string extension(path.substr(dot));
+    std::string extension = std::filesystem::path(path).extension().string();
     std::ranges::transform(extension, extension.begin(),
                            [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
     return extension;

@@ -106,6 +106,7 @@ class Encoder : public ErrorText {
                      static_cast<png_uint_32>(shape.height), shape.bits,
                      shape.colour ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
                      PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+        if (shape.linear) png_set_gAMA(png_, info_, 1);
         png_set_text(png_, info_, texts.data(), static_cast<int>(texts.size()));
         png_write_info(png_, info_);
         png_write_image(png_, rows.data());
@@ -223,27 +224,6 @@ std::optional<std::string> text_of_png(std::string_view png, std::string_view ke
         at += 12 + length;
     }
     return std::nullopt;
-}
-
-std::string png_of_grey(std::size_t width, std::size_t height,
-                        std::span<const std::uint16_t> samples) {
-    png_image image{};
-    image.version = PNG_IMAGE_VERSION;
-    image.width = static_cast<png_uint_32>(width);
-    image.height = static_cast<png_uint_32>(height);
-    image.format = PNG_FORMAT_LINEAR_Y;
-    png_alloc_size_t size = 0;
-    std::string bytes;
-    // The first call tells the size, the second writes.
-    bool done =
-        png_image_write_to_memory(&image, nullptr, &size, 0, samples.data(), 0, nullptr) != 0;
-    bytes.resize(size);
-    done = done && png_image_write_to_memory(&image, bytes.data(), &size, 0, samples.data(), 0,
-                                             nullptr) != 0;
-    if (!done)
-        fail(ErrorKind::limit, "a PNG picture of {} x {} pixels: {}", width, height, image.message);
-    bytes.resize(size);
-    return bytes;
 }
 
 std::string encode_png(const PngShape& shape, std::string_view bytes,

@@ -38,17 +38,13 @@ inline constexpr std::string_view png_magic = "\x89PNG\r\n\x1a\n";
 /// Error(limit)
 PngPicture read_png(std::string_view bytes, const std::string& source, const RunContext& run);
 
-/// A picture of 16 bits of grey, taken as linear; samples row after row from the top.
-/// @throws Error(limit) for a picture too large for PNG.
-std::string png_of_grey(std::size_t width, std::size_t height,
-                        std::span<const std::uint16_t> samples);
-
-/// The shape of a picture without gamma or colour profile.
+/// The shape of a picture without colour profile.
 struct PngShape {
     std::size_t width = 0;
     std::size_t height = 0;
     int bits = 8;         ///< of a sample: 8 or 16
     bool colour = false;  ///< red, green and blue samples; else grey
+    bool linear = false;  ///< says that samples are proportional to light; else no gamma is said
 };
 
 /// A keyword (1 to 79 letters of Latin-1) and what it says, in UTF-8; an iTXt chunk.

@@ -34,7 +34,7 @@ bool there(const std::string& path) {
     if (errno == ENOENT)
         fail(ErrorKind::io, "{}: {}", path,
              there(folder) ? "no file can be made in its folder" : "no such folder");
-    fail(ErrorKind::io, "{}: {}", path, file_trouble(errno));
+    refuse_file(path, errno);
 }
 
 int opened(const std::string& path, int flags) {

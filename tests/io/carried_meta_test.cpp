@@ -53,7 +53,7 @@ TEST(CarriedMeta, ComesBackFromPlyAndSvgAndLeavesTheRestAsItWas) {
 
 TEST(CarriedMeta, ComesBackFromAPictureThatStaysThePicture) {
     const std::array<std::uint16_t, 6> samples = {0, 1, 65535, 300, 7, 8};
-    const std::string plain = png_of_grey(3, 2, samples);
+    const std::string plain = encode_png({3, 2, 16}, png_bytes_of_samples(samples, 16), {});
     EXPECT_FALSE(io::find_carried_meta(plain, "p"));
     const std::string with =
         io::png_with_meta(plain, {.of = "mask-image", .provenance = awkward()});

@@ -14,8 +14,6 @@ namespace {
 
 constexpr std::size_t most_bytes = std::size_t{1} << 30;
 
-}  // namespace
-
 std::string file_trouble(int error) {
     switch (error) {
         case ENOENT:
@@ -38,11 +36,16 @@ std::string file_trouble(int error) {
     }
 }
 
+}  // namespace
+
+void refuse_file(const std::string& name, int error) {
+    fail(ErrorKind::io, "{}: {}", name, file_trouble(error));
+}
+
 std::string read_file(const std::string& path) {
-    const auto reason = [] { return file_trouble(errno); };
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
         std::fopen(FileRules::readable(path).c_str(), "rb"), &std::fclose);
-    if (!file) fail(ErrorKind::io, "{}: {}", path, reason());
+    if (!file) refuse_file(path, errno);
     std::string bytes;
     constexpr std::size_t step = std::size_t{1} << 16;
     for (std::size_t got = step; got == step;) {
@@ -52,7 +55,7 @@ std::string read_file(const std::string& path) {
         got = std::fread(bytes.data() + before, 1, step, file.get());
         bytes.resize(before + got);
     }
-    if (std::ferror(file.get()) != 0) fail(ErrorKind::io, "{}: {}", path, reason());
+    if (std::ferror(file.get()) != 0) refuse_file(path, errno);
     return bytes;
 }
 

@@ -7,8 +7,8 @@
 
 namespace stipple {
 
-/// What went wrong with a file, as messages say it. @param error errno
-std::string file_trouble(int error);
+/// @param error errno: what went wrong with the file. @throws Error(io) "NAME: what"
+[[noreturn]] void refuse_file(const std::string& name, int error);
 
 /// Reads the file at once. @throws Error(io): missing, a directory, unreadable, over 1 GiB.
 std::string read_file(const std::string& path);

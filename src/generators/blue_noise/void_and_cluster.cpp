@@ -116,7 +116,8 @@ std::string mask_png(const Torus& torus, const std::vector<std::uint32_t>& order
         samples[y * torus.width + order[rank] % torus.width] =
             static_cast<std::uint16_t>((2 * rank + 1) * 32768 / order.size());
     }
-    return png_of_grey(torus.width, torus.height, samples);
+    return encode_png({.width = torus.width, .height = torus.height, .bits = 16, .linear = true},
+                      png_bytes_of_samples(samples, 16), {});
 }
 
 /// How much of each of `parts` equal stretches is in stretch `number` of `all`: calls

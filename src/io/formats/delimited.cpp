@@ -51,7 +51,8 @@ const char* field_end(const char* p, const char* last, char separator) {
         if (close != last) p = close + 1;
     }
     if (separator == ' ') return std::find_if(p, last, is_blank);
-    return std::find(p, last, separator);
+    const std::string_view rest(p, last);
+    return p + std::min(rest.find(separator), rest.size());
 }
 
 Field field_between(const char* first, const char* last) {
@@ -65,18 +66,36 @@ Field field_between(const char* first, const char* last) {
     return {{first, static_cast<std::size_t>(last - first)}, at};
 }
 
+/// The fields of a line, one after the other.
+class FieldReader {
+  public:
+    FieldReader(std::string_view line, char separator)
+        : p_(line.data()), last_(line.data() + line.size()), separator_(separator) {}
+
+    /// Takes the next field. False: there is none.
+    bool next(Field& field) {
+        if (ended_) return false;
+        p_ = over_blanks(p_, last_, separator_);
+        if (separator_ == ' ' && p_ == last_) return false;
+        const char* const end = field_end(p_, last_, separator_);
+        field = field_between(p_, end);
+        ended_ = end == last_;
+        if (!ended_) p_ = end + 1;
+        return true;
+    }
+
+  private:
+    const char* p_;
+    const char* last_;
+    char separator_;
+    bool ended_ = false;
+};
+
 std::vector<Field> fields_of(std::string_view line, char separator) {
     std::vector<Field> fields;
-    const char* p = line.data();
-    const char* const last = p + line.size();
-    for (;;) {
-        p = over_blanks(p, last, separator);
-        if (separator == ' ' && p == last) return fields;
-        const char* end = field_end(p, last, separator);
-        fields.push_back(field_between(p, end));
-        if (end == last) return fields;
-        p = end + 1;
-    }
+    FieldReader reader(line, separator);
+    for (Field field{}; reader.next(field);) fields.push_back(field);
+    return fields;
 }
 
 bool is_number(std::string_view text) {
@@ -85,16 +104,20 @@ bool is_number(std::string_view text) {
     return !text.empty() && read_number(text.data(), last, value) == last;
 }
 
-/// What is wrong with a field that should hold a number, if anything.
-std::string trouble_with(const Field& field, double& value) {
+/// Takes the finite number that a field holds. False: it holds none.
+bool take_number(const Field& field, double& value) {
     const char* const last = field.text.data() + field.text.size();
+    return read_number(field.text.data(), last, value) == last && std::isfinite(value);
+}
+
+/// What is wrong with a field that does not hold one.
+std::string trouble_with(const Field& field) {
     if (field.text.empty()) return "an empty field; expected a number";
-    if (read_number(field.text.data(), last, value) != last) {
+    if (!is_number(field.text)) {
         const bool comma = std::ranges::count(field.text, ',') == 1;
         return shown(field.text) + " is not a number; expected " +
                (comma ? "a decimal point, as in 0.5" : "one such as 0.5 or 1e-3");
     }
-    if (std::isfinite(value)) return {};
     const bool digits =
         std::ranges::any_of(field.text, [](char c) { return c >= '0' && c <= '9'; });
     return shown(field.text) +
@@ -121,77 +144,25 @@ class RowReader {
         std::uint64_t count = 0;
         double set = unknown;
         while (p != last) {
-            const char* const line = p;
-            while (p != last && is_blank(*p)) ++p;
-            if (p == last) break;
-            if (ends_line(p, last)) {
-                p = next_line(p, last);
-            } else if (*p == (dialect_.brackets ? '{' : '#')) {
-                if (divides(line)) marks.push_back({count, line, unknown});
-                p = next_line(p, last);
-            } else {
-                double* const row = room.data() + count * columns_.dimension;
+            const std::string_view line = line_at(text_, p);
+            const char* const end = line.data() + line.size();
+            const char* const first = over_blanks(p, end, ' ');
+            const bool aside = first != end && *first == (dialect_.brackets ? '{' : '#');
+            if (aside && (dialect_.brackets || trim(line) == "#"))
+                marks.push_back({count, p, unknown});
+            if (first != end && !aside) {
                 double number = set;
-                const char* next = quick_row(line, last, row, number);
-                if (next == nullptr) {
-                    slow_row(line, row, number);
-                    next = next_line(p, last);
-                }
-                if (!std::isnan(number) && number != set) marks.push_back({count, line, number});
+                read_row(line, room.data() + count * columns_.dimension, number);
+                if (!std::isnan(number) && number != set) marks.push_back({count, p, number});
                 set = number;
                 ++count;
-                p = next;
             }
+            p = next_line(text_, end);
         }
         return count;
     }
 
   private:
-    bool ends_line(const char* p, const char* last) const {
-        return *p == text_.newline() || (*p == '\r' && (p + 1 == last || p[1] == '\n'));
-    }
-
-    const char* next_line(const char* p, const char* last) const {
-        const char* end = std::find(p, last, text_.newline());
-        return end == last ? last : end + 1;
-    }
-
-    bool divides(const char* line) const {
-        const std::string_view content = trim(line_at(text_, line));
-        return content == "#" || content.starts_with('{');
-    }
-
-    /// Takes a row of plain numbers; null for anything else.
-    const char* quick_row(const char* p, const char* last, double* row, double& set) const {
-        const char separator = dialect_.separator;
-        p = over_blanks(p, last, separator);
-        if (dialect_.brackets && *p++ != '[') return nullptr;
-        for (std::size_t c = 0; c < columns_.width(); ++c) {
-            if (c > 0 && separator != ' ' && (p == last || *p++ != separator)) return nullptr;
-            if (c > 0 && separator == ' ' && !is_blank(p[-1])) return nullptr;
-            p = over_blanks(p, last, separator);
-            double value = 0;
-            p = columns_.role[c] == Columns::skipped ? skip_field(p, last)
-                                                     : read_number(p, last, value);
-            if (p == nullptr || !std::isfinite(value) || !store(c, value, row, set)) return nullptr;
-            p = over_blanks(p, last, separator);
-        }
-        if (dialect_.brackets && (p == last || *p++ != ']')) return nullptr;
-        p = over_blanks(p, last, separator);
-        if (p == last) return p;
-        return ends_line(p, last) ? next_line(p, last) : nullptr;
-    }
-
-    /// Null for a quoted field, and for none.
-    const char* skip_field(const char* p, const char* last) const {
-        const char* const begin = p;
-        const auto ends = [&](char c) {
-            return c == dialect_.separator || (dialect_.separator == ' ' && is_blank(c));
-        };
-        while (p != last && *p != '"' && !ends(*p) && !ends_line(p, last)) ++p;
-        return p == last || *p == '"' || p == begin ? nullptr : p;
-    }
-
     /// Puts a value where its column belongs; false where it cannot be.
     bool store(std::size_t c, double value, double* row, double& set) const {
         const std::size_t role = columns_.role[c];
@@ -204,49 +175,47 @@ class RowReader {
         return true;
     }
 
-    /// Takes any row that can be understood. @throws Error(input)
-    void slow_row(const char* begin, double* row, double& set) const {
-        std::string_view line = line_at(text_, begin);
+    /// Takes a row. @throws Error(input)
+    void read_row(std::string_view line, double* row, double& set) const {
+        FieldReader fields(dialect_.brackets ? inside_brackets(line) : line, dialect_.separator);
+        const char* surplus = nullptr;  // the first field beyond the last column
+        std::size_t count = 0;
+        for (Field field{}; fields.next(field); ++count) {
+            if (count == columns_.width()) surplus = field.at;
+            if (count >= columns_.width() || columns_.role[count] == Columns::skipped) continue;
+            double value = 0;
+            if (!take_number(field, value)) refuse(line, field.at, trouble_with(field));
+            if (!store(count, value, row, set))
+                refuse(line, field.at,
+                       shown(field.text) + " is not the number of a set; expected 0, 1, 2...");
+        }
+        if (count == columns_.width()) return;
+        const std::string_view content = trim(line);
+        refuse(line, surplus != nullptr ? surplus : content.data() + content.size(),
+               fmt::format("the row has {} field{}; expected {}", count, count == 1 ? "" : "s",
+                           columns_.width()) +
+                   (dialect_.model_line > 0 ? fmt::format(", as line {} has", dialect_.model_line)
+                                            : std::string()));
+    }
+
+    /// Says first what is no text. @throws Error(input)
+    [[noreturn]] void refuse(std::string_view line, const char* at, const std::string& what) const {
         if (const char* bad = first_control_byte(line))
             text_.refuse(bad, fmt::format("byte 0x{:02X} is not text; expected numbers",
                                           static_cast<unsigned char>(*bad)));
-        if (dialect_.brackets) line = inside_brackets(line);
-        const std::vector<Field> fields = fields_of(line, dialect_.separator);
-        for (std::size_t c = 0; c < std::min(fields.size(), columns_.width()); ++c) {
-            if (columns_.role[c] == Columns::skipped) continue;
-            double value = 0;
-            if (const std::string trouble = trouble_with(fields[c], value); !trouble.empty())
-                text_.refuse(fields[c].at, trouble);
-            if (!store(c, value, row, set))
-                text_.refuse(fields[c].at, shown(fields[c].text) +
-                                               " is not the number of a set; expected 0, 1, 2...");
-        }
-        check_width(begin, fields);
-    }
-
-    void check_width(const char* begin, const std::vector<Field>& fields) const {
-        const std::size_t width = columns_.width();
-        if (fields.size() == width) return;
-        const bool more = fields.size() > width;
-        const std::string_view line = trim(line_at(text_, begin));
-        text_.refuse(
-            more ? fields[width].at : line.data() + line.size(),
-            fmt::format("the row has {} field{}; expected {}", fields.size(),
-                        fields.size() == 1 ? "" : "s", width) +
-                (dialect_.model_line > 0 ? fmt::format(", as line {} has", dialect_.model_line)
-                                         : std::string()));
+        text_.refuse(at, what);
     }
 
     std::string_view inside_brackets(std::string_view line) const {
         const std::string_view row = trim(line);
-        if (!row.starts_with('[')) text_.refuse(row.data(), "expected a point such as [0.1,0.2]");
+        if (!row.starts_with('[')) refuse(line, row.data(), "expected a point such as [0.1,0.2]");
         const auto close = row.find(']');
         if (close == std::string_view::npos)
-            text_.refuse(row.data() + row.size(), "the row ends too soon; expected ']'");
+            refuse(line, row.data() + row.size(), "the row ends too soon; expected ']'");
         if (close + 1 != row.size())
-            text_.refuse(row.data() + close + 1, shown(trim(row.substr(close + 1))) +
-                                                     " follows a point; expected the end "
-                                                     "of the line");
+            refuse(line, row.data() + close + 1,
+                   shown(trim(row.substr(close + 1))) +
+                       " follows a point; expected the end of the line");
         return row.substr(1, close - 1);
     }
 
@@ -270,9 +239,7 @@ struct Piece {
 std::vector<Piece> cut_at_lines(const SourceText& text, const char* body, const RowReader& reader,
                                 const RunContext& run) {
     const auto line_from = [&](std::uint64_t byte) {
-        if (byte == 0) return body;
-        const char* const end = std::find(body + byte - 1, text.end(), text.newline());
-        return end == text.end() ? end : end + 1;
+        return byte == 0 ? body : next_line(text, body + byte - 1);
     };
     const auto size = static_cast<std::uint64_t>(text.end() - body);
     std::vector<Piece> pieces(block_count(size, block_bytes));
@@ -326,9 +293,16 @@ bool is_header(const std::vector<Field>& fields) {
 }  // namespace
 
 std::string_view line_at(const SourceText& text, const char* begin) {
-    const char* end = std::find(begin, text.end(), text.newline());
-    if (text.newline() == '\n' && end != begin && end[-1] == '\r') --end;
-    return {begin, static_cast<std::size_t>(end - begin)};
+    std::string_view line(begin, text.end());
+    line = line.substr(0, line.find(text.newline()));
+    if (text.newline() == '\n' && line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+}
+
+const char* next_line(const SourceText& text, const char* at) {
+    const std::string_view rest(at, text.end());
+    const auto end = rest.find(text.newline());
+    return end == rest.npos ? text.end() : at + end + 1;
 }
 
 Rows read_rows(const SourceText& text, const char* body, const Columns& columns,
@@ -373,8 +347,7 @@ Top read_top(const SourceText& text) {
     bool ours = false;
     for (; top.first != text.end(); top.first = top.next) {
         const std::string_view raw = line_at(text, top.first);
-        const char* const end = std::find(top.first, text.end(), text.newline());
-        top.next = end == text.end() ? end : end + 1;
+        top.next = next_line(text, top.first);
         const std::string_view line = trim(raw);
         if (line.empty()) continue;
         if (line.front() != '#') {

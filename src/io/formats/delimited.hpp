@@ -61,6 +61,9 @@ Top read_top(const SourceText& text);
 /// The line that begins there, without what ends it.
 std::string_view line_at(const SourceText& text, const char* begin);
 
+/// Where the line below begins, or the end of the text.
+const char* next_line(const SourceText& text, const char* at);
+
 /// Reads csv, tsv and txt: whatever separates, with a header or without.
 std::vector<PointSet> read_delimited(std::string_view bytes, const ReadOptions& options,
                                      const RunContext& run);

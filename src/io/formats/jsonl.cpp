@@ -45,11 +45,9 @@ JsonHead head_at(const SourceText& text, const char* line) {
 
 /// The first line from `line` on that is neither blank nor an object.
 const char* first_row(const SourceText& text, const char* line) {
-    while (line != text.end()) {
+    for (; line != text.end(); line = next_line(text, line)) {
         const std::string_view content = trim(line_at(text, line));
         if (!content.empty() && content.front() != '{') return line;
-        const char* const end = std::find(line, text.end(), text.newline());
-        line = end == text.end() ? end : end + 1;
     }
     text.refuse_whole("the file holds no points; expected lines such as [0.1,0.2]");
 }
