@@ -41,32 +41,10 @@ void place_moments(const Moments& part, std::span<const std::size_t> at, Moments
     }
 }
 
-class UnitCube final : public Domain {
-  public:
-    explicit UnitCube(std::size_t dimension) : dimension_(dimension) {}
-    std::string spec() const override { return "unit-cube"; }
-    std::size_t dimension() const override { return dimension_; }
-    double measure() const override { return 1; }
-    bool contains(std::span<const double> point) const override {
-        return std::ranges::all_of(point, [](double x) { return x >= 0 && x <= 1; });
-    }
-    Box bounding_box() const override {
-        return {std::vector<double>(dimension_, 0), std::vector<double>(dimension_, 1)};
-    }
-    void to_cube(std::span<const double> point, std::span<double> cube) const override {
-        std::ranges::copy(point, cube.begin());
-    }
-    std::optional<Moments> moments() const override { return moments_of(bounding_box()); }
-    std::vector<std::string> cube_axes() const override { return axis_names(dimension_); }
-
-  private:
-    std::size_t dimension_;
-};
-
 class BoxDomain final : public Domain, public Weighable {
   public:
-    explicit BoxDomain(Box box) : box_(std::move(box)) {}
-    std::string spec() const override { return "box:bounds=[" + format_box(box_) + "]"; }
+    BoxDomain(Box box, std::string spec) : box_(std::move(box)), spec_(std::move(spec)) {}
+    std::string spec() const override { return spec_; }
     std::size_t dimension() const override { return box_.dimension(); }
     double measure() const override {
         double volume = 1;
@@ -89,6 +67,7 @@ class BoxDomain final : public Domain, public Weighable {
 
   private:
     Box box_;
+    std::string spec_;
 };
 
 class ProductDomain final : public Domain {
@@ -233,8 +212,14 @@ Estimate box_mass_by_axes(const Domain& domain, const Box& box) {
     return domain.probability(cell);
 }
 
-DomainPtr unit_cube(std::size_t dimension) { return std::make_shared<UnitCube>(dimension); }
-DomainPtr box_domain(Box box) { return std::make_shared<BoxDomain>(std::move(box)); }
+DomainPtr unit_cube(std::size_t dimension) {
+    const Box cube{std::vector<double>(dimension, 0), std::vector<double>(dimension, 1)};
+    return std::make_shared<BoxDomain>(cube, "unit-cube");
+}
+DomainPtr box_domain(Box box) {
+    const std::string spec = "box:bounds=[" + format_box(box) + "]";
+    return std::make_shared<BoxDomain>(std::move(box), spec);
+}
 DomainPtr product_domain(std::vector<Factor> factors) {
     return std::make_shared<ProductDomain>(std::move(factors));
 }

@@ -78,11 +78,6 @@ Cells densities(Cells cells, const std::string& path, bool invert) {
     return cells;
 }
 
-Cells cells_of_pfm(std::string_view bytes, const std::string& path, const RunContext& run) {
-    PfmPicture picture = read_pfm(bytes, path, run);
-    return {picture.width, picture.height, std::move(picture.grey)};
-}
-
 Cells read_cells(const std::string& path, bool invert, const RunContext& run) {
     const std::string bytes = read_file(path);
     if (bytes.empty())
@@ -94,7 +89,7 @@ Cells read_cells(const std::string& path, bool invert, const RunContext& run) {
     else if (bytes.starts_with(npy_magic))
         cells = densities(cells_of_array(bytes, path, run), path, invert);
     else if (looks_like_pfm(bytes))
-        cells = densities(cells_of_pfm(bytes, path, run), path, invert);
+        cells = densities(read_pfm(bytes, path, run), path, invert);
     else
         fail(ErrorKind::input, "{}: neither a PNG or PFM picture nor an NPY array", path);
     if (std::ranges::all_of(cells.values, [](double value) { return value == 0; }))

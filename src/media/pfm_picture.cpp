@@ -62,10 +62,10 @@ bool looks_like_pfm(std::string_view bytes) {
            ends_word(bytes[2]);
 }
 
-PfmPicture read_pfm(std::string_view bytes, const std::string& source, const RunContext& run) {
+PlaneValues read_pfm(std::string_view bytes, const std::string& source, const RunContext& run) {
     Head head(bytes, source);
     const std::size_t channels = head.word("PF or Pf") == "PF" ? 3 : 1;
-    PfmPicture picture;
+    PlaneValues picture;
     picture.width = head.extent("the width, a whole number above 0");
     picture.height = head.extent("the height, a whole number above 0");
     const bool big_endian = head.scale() > 0;
@@ -77,21 +77,21 @@ PfmPicture read_pfm(std::string_view bytes, const std::string& source, const Run
              head.size(), expected, found);
     run.need_memory(24 * pixels, "the picture " + source);
 
-    picture.grey.resize(picture.width * picture.height);
+    picture.values.resize(picture.width * picture.height);
     const RawType type{.kind = RawType::floating, .size = 4, .big_endian = big_endian};
     if (channels == 1) {
-        take_raw(bytes.substr(head.size()), type, picture.grey);
+        take_raw(bytes.substr(head.size()), type, picture.values);
         return picture;
     }
     std::array<double, 3> rgb{};
-    for (std::size_t i = 0; i < picture.grey.size(); ++i) {
+    for (std::size_t i = 0; i < picture.values.size(); ++i) {
         take_raw(bytes.substr(head.size() + 12 * i, 12), type, rgb);
         // A negative part must not hide behind the others.
         const bool good = rgb[0] >= 0 && rgb[1] >= 0 && rgb[2] >= 0;
-        picture.grey[i] = good ? 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]
-                               : std::min({rgb[0], rgb[1], rgb[2]});
+        picture.values[i] = good ? 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]
+                                 : std::min({rgb[0], rgb[1], rgb[2]});
         for (const double part : rgb)
-            if (std::isnan(part)) picture.grey[i] = part;
+            if (std::isnan(part)) picture.values[i] = part;
     }
     return picture;
 }

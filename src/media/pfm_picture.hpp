@@ -14,23 +14,18 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "media/density_map.hpp"
 #include "stipple/run.hpp"
 
 namespace stipple {
 
-struct PfmPicture {
-    std::size_t width = 0;
-    std::size_t height = 0;
-    std::vector<double> grey = {};  ///< row after row from the bottom; as they are, NaN included
-};
-
 /// Whether the bytes begin as a PFM picture does.
 bool looks_like_pfm(std::string_view bytes);
 
+/// The grey of each pixel as it is, NaN included.
 /// @throws Error(input) "SOURCE: what is wrong" for bytes that are no whole PFM picture,
 /// Error(limit)
-PfmPicture read_pfm(std::string_view bytes, const std::string& source, const RunContext& run);
+PlaneValues read_pfm(std::string_view bytes, const std::string& source, const RunContext& run);
 
 }  // namespace stipple

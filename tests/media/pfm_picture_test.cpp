@@ -9,7 +9,7 @@
 namespace stipple::testing::pfm_picture_test {
 namespace {
 
-PfmPicture read(const std::string& bytes) { return read_pfm(bytes, "p.pfm", {}); }
+PlaneValues read(const std::string& bytes) { return read_pfm(bytes, "p.pfm", {}); }
 
 std::string refused(const std::string& bytes) {
     return error_of([&] { read(bytes); });
@@ -20,31 +20,31 @@ std::string refused(const std::string& bytes) {
 TEST(PfmPicture, ReadsGreyInBothByteOrders) {
     const std::vector<float> samples = {0, 0.1F, -3, 1e30F, 1e-40F, 6};
     for (const bool big : {false, true}) {
-        const PfmPicture picture = read(pfm_of("Pf", 3, 2, samples, big));
+        const PlaneValues picture = read(pfm_of("Pf", 3, 2, samples, big));
         EXPECT_EQ(picture.width, 3U);
         EXPECT_EQ(picture.height, 2U);
-        EXPECT_EQ(picture.grey, std::vector<double>(samples.begin(), samples.end()));
+        EXPECT_EQ(picture.values, std::vector<double>(samples.begin(), samples.end()));
     }
 }
 
 // 1.0 as the format's readers know it: 3f 80 00 00, the low byte last where the scale is above 0.
 TEST(PfmPicture, ReadsBytesByHand) {
     using namespace std::string_literals;
-    EXPECT_EQ(read("Pf\n1 1\n1\n\x3f\x80\0\0"s).grey, std::vector{1.0});
-    EXPECT_EQ(read("Pf 1 1 -2.5 \0\0\x80\x3f"s).grey, std::vector{1.0});
-    EXPECT_EQ(read("Pf\r\n1  1\t-1\n\0\0\x80\x3f"s).grey, std::vector{1.0});
+    EXPECT_EQ(read("Pf\n1 1\n1\n\x3f\x80\0\0"s).values, std::vector{1.0});
+    EXPECT_EQ(read("Pf 1 1 -2.5 \0\0\x80\x3f"s).values, std::vector{1.0});
+    EXPECT_EQ(read("Pf\r\n1  1\t-1\n\0\0\x80\x3f"s).values, std::vector{1.0});
 }
 
 TEST(PfmPicture, TakesColourByItsLuminance) {
-    const PfmPicture picture = read(pfm_of("PF", 2, 1, {1, 0, 0, 0.5F, 2, 4}));
-    ASSERT_EQ(picture.grey.size(), 2U);
-    EXPECT_DOUBLE_EQ(picture.grey[0], 0.2126);
-    EXPECT_DOUBLE_EQ(picture.grey[1], 0.5 * 0.2126 + 2 * 0.7152 + 4 * 0.0722);
+    const PlaneValues picture = read(pfm_of("PF", 2, 1, {1, 0, 0, 0.5F, 2, 4}));
+    ASSERT_EQ(picture.values.size(), 2U);
+    EXPECT_DOUBLE_EQ(picture.values[0], 0.2126);
+    EXPECT_DOUBLE_EQ(picture.values[1], 0.5 * 0.2126 + 2 * 0.7152 + 4 * 0.0722);
 }
 
 TEST(PfmPicture, KeepsWhatIsNoLight) {
-    EXPECT_EQ(read(pfm_of("PF", 1, 1, {9, -1, 9})).grey[0], -1);
-    EXPECT_TRUE(std::isnan(read(pfm_of("PF", 1, 1, {9, -1, NAN})).grey[0]));
+    EXPECT_EQ(read(pfm_of("PF", 1, 1, {9, -1, 9})).values[0], -1);
+    EXPECT_TRUE(std::isnan(read(pfm_of("PF", 1, 1, {9, -1, NAN})).values[0]));
 }
 
 TEST(PfmPicture, SaysWhatIsWrongAndWhere) {
