@@ -41,7 +41,7 @@ void place_moments(const Moments& part, std::span<const std::size_t> at, Moments
     }
 }
 
-class BoxDomain final : public Domain, public Weighable {
+class BoxDomain final : public Domain {
   public:
     BoxDomain(Box box, std::string spec) : box_(std::move(box)), spec_(std::move(spec)) {}
     std::string spec() const override { return spec_; }
@@ -61,7 +61,9 @@ class BoxDomain final : public Domain, public Weighable {
         for (std::size_t k = 0; k < dimension(); ++k)
             cube[k] = std::clamp((point[k] - box_.low[k]) / box_.extent(k), 0.0, 1.0);
     }
-    Estimate box_mass(const Box& box) const override { return box_mass_by_axes(*this, box); }
+    std::optional<Estimate> box_mass(const Box& box) const override {
+        return box_mass_by_axes(*this, box);
+    }
     std::optional<Moments> moments() const override { return moments_of(box_); }
     std::vector<std::string> cube_axes() const override { return axis_names(dimension()); }
 
@@ -192,6 +194,11 @@ class ProductDomain final : public Domain {
 };
 
 }  // namespace
+
+Support Domain::support() const {
+    if (std::isinf(measure())) return {.finite = false, .boxes = {}};
+    return {.measure = Estimate{measure(), 0}, .boxes = {}};
+}
 
 Estimate box_mass_by_axes(const Domain& domain, const Box& box) {
     const std::size_t d = domain.dimension();

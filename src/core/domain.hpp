@@ -4,6 +4,7 @@
 // of known probability are plain boxes.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -31,6 +32,40 @@ struct Moments {
     std::vector<double> skewness;
 
     [[nodiscard]] std::size_t dimension() const { return mean.size(); }
+};
+
+/// The part of a domain where its density is not 0. A mean of f / p over points that follow p is the
+/// integral of f over that part alone, so that whoever compares it with an exact value must know it.
+struct Support {
+    bool whole = true;   ///< all of the domain, but for a set of measure 0
+    bool finite = true;  ///< its measure is, though perhaps not known
+
+    /// No point that follows the density, unrounded, is where density() says 0.
+    bool by_density = false;
+
+    /// Its measure, where that is known.
+    std::optional<Estimate> measure = {};
+
+    /// Boxes side by side that hold all of it; none where they would be many.
+    std::vector<Box> boxes = {};
+};
+
+/// Where normal . x = height on the unit sphere, for a unit vector `normal`.
+struct SphereCircle {
+    std::array<double, 3> normal;
+    double height = 0;
+};
+
+/// The circles at which a density on the sphere jumps, bends or is steep.
+struct Discontinuities {
+    std::vector<SphereCircle> circles;
+    bool level = true;  ///< constant between circles
+};
+
+/// What directions, unit vectors in space, lie about.
+struct Pole {
+    std::array<double, 3> axis;  ///< a unit vector
+    bool hemisphere;             ///< all are within a right angle of it; else there are all of them
 };
 
 class Domain {
@@ -85,20 +120,30 @@ class Domain {
 
     /// What the coordinates of to_cube mean, for people: "x", "area fraction r^2/R^2", "angle".
     [[nodiscard]] virtual std::vector<std::string> cube_axes() const = 0;
-};
 
-/// What a domain also is that knows the probability of boxes of its own space. A mixture has no
-/// coordinates that preserve probability: its cells are such boxes, or zones of the sphere.
-class Weighable {
-  public:
-    Weighable() = default;
-    Weighable(const Weighable&) = delete;
-    Weighable& operator=(const Weighable&) = delete;
-    virtual ~Weighable() = default;
+    /// Probability of a box of the domain's own space, which may be larger than the domain, and
+    /// reach to infinity, for points that follow density(); nothing where it is not known. A mixture
+    /// has no coordinates that preserve probability: its cells are such boxes, or zones of the
+    /// sphere.
+    [[nodiscard]] virtual std::optional<Estimate> box_mass(const Box& /*box*/) const {
+        return std::nullopt;
+    }
 
-    /// Of points that follow the domain's density; the box may be larger than the domain, and
-    /// reach to infinity.
-    [[nodiscard]] virtual Estimate box_mass(const Box& box) const = 0;
+    /// Where density() is not 0: everywhere, unless the domain says otherwise.
+    [[nodiscard]] virtual Support support() const;
+
+    /// Whether there may be gaps, and support() costs next to nothing and tells where they are, by
+    /// boxes or by_density.
+    [[nodiscard]] virtual bool shows_gaps() const { return false; }
+
+    /// Of directions, where their density is not smooth; nothing where their cells are zones of the
+    /// sphere themselves.
+    [[nodiscard]] virtual std::optional<Discontinuities> discontinuities() const {
+        return std::nullopt;
+    }
+
+    /// Of directions whose cube has a share of them nearer to the axis first, then a longitude.
+    [[nodiscard]] virtual std::optional<Pole> pole() const { return std::nullopt; }
 };
 
 /// Of a domain on which the coordinate k of to_cube depends on coordinate k of a point alone, and

@@ -96,7 +96,7 @@ struct Warp {
     std::string summary;
     std::string source;
     std::string strata;  ///< what becomes of each unit coordinate, and whether it is xi or 1 - xi
-    WarpTraits traits;
+    WarpTraits traits = {};
     Schema options;
     std::vector<std::string> aliases = {};  ///< other names that users of the field would type
 

@@ -57,7 +57,6 @@
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/spec.hpp"
-#include "core/support.hpp"
 #include "core/text.hpp"
 #include "math/densities/expression.hpp"
 #include "math/densities/quadrature.hpp"
@@ -473,7 +472,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
     if (domain.dimension() != points.dimension())
         fail(ErrorKind::input, "points of the domain {} have dimension {}; these have {}",
              domain.spec(), domain.dimension(), points.dimension());
-    const Support support = support_of(domain);
+    const Support support = domain.support();
     const RegionView view(domain, support);
     const std::vector<Task> tasks = tasks_of(domain, view, support, options);
     const bool comparing = options[compare];

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/directional.hpp"
-
 namespace stipple::analyzers {
 namespace {
 
@@ -40,9 +38,8 @@ std::array<Vector, 3> axes_about(const Vector& z) {
 
 RegionView::RegionView(const Domain& domain, const Support& support)
     : domain_(domain), finite_(support.finite), box_(filled_box(domain)) {
-    const auto* directions = dynamic_cast<const Directional*>(&domain);
-    if (!directions) return;
-    (directions->is_hemisphere() ? axes_ : pole_) = axes_about(directions->axis());
+    if (const auto pole = domain.pole())
+        (pole->hemisphere ? axes_ : pole_) = axes_about(pole->axis);
 }
 
 bool RegionView::has(Region region) const {

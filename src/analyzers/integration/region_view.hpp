@@ -10,8 +10,7 @@
 #include <string_view>
 
 #include "core/domain.hpp"
-#include "core/support.hpp"
-#include "math/integrands/integrand.hpp"
+#include "math/integrands/integrands.hpp"
 
 namespace stipple::analyzers {
 

@@ -68,7 +68,6 @@
 #include "analyzers/uniformity/verdict.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "core/support.hpp"
 
 namespace stipple::analyzers::chi_square {
 namespace {
@@ -98,9 +97,8 @@ constexpr std::uint64_t held_points = grid_counts[0];  ///< of a stream, before 
 class Gaps {
   public:
     explicit Gaps(DomainPtr domain) : domain_(std::move(domain)) {
-        const auto* gapped = dynamic_cast<const Gapped*>(domain_.get());
-        if (!gapped || !gapped->shows_gaps()) return;
-        support_ = gapped->support();
+        if (!domain_->shows_gaps()) return;
+        support_ = domain_->support();
         const Box around = domain_->bounding_box();
         for (std::size_t k = 0; k < around.dimension(); ++k)
             margins_.push_back(rounding *

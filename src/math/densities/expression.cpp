@@ -11,6 +11,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/error.hpp"
@@ -103,6 +104,42 @@ double power(double x, double y) {
     return x < 0 && odd ? -size : size;
 }
 
+constexpr std::pair<const char*, mu::fun_type1> functions_of_one[] = {
+    {"sin", sine},
+    {"cos", cosine},
+    {"tan", tangent},
+    {"asin", arc_sine},
+    {"acos", arc_cosine},
+    {"atan", [](double x) { return angle(x, 1); }},
+    {"sinh", sinh_of},
+    {"cosh", cosh_of},
+    {"tanh", tanh_of},
+    {"exp", exp_of},
+    {"log", log_of},
+    {"ln", log_of},
+    {"log2", [](double x) { return log_of(x) / std::numbers::ln2; }},
+    {"log10", [](double x) { return log_of(x) / std::numbers::ln10; }},
+    {"sqrt", [](double x) { return std::sqrt(x); }},
+    {"cbrt", [](double x) { return std::isfinite(x) ? cube_root(x) : x; }},
+    {"abs", [](double x) { return std::abs(x); }},
+    {"sign", [](double x) { return x > 0 ? 1 : (x < 0 ? -1 : x); }},
+    {"floor", [](double x) { return std::floor(x); }},
+    {"ceil", [](double x) { return std::ceil(x); }},
+    {"round", [](double x) { return std::round(x); }},
+};
+
+constexpr std::pair<const char*, mu::fun_type2> functions_of_two[] = {
+    {"atan2", angle},
+    {"pow", power},
+    {"mod", [](double x, double y) { return std::fmod(x, y); }},  // exact, so the same everywhere
+    {"hypot", [](double x, double y) { return std::sqrt(x * x + y * y); }},
+};
+
+constexpr std::pair<const char*, mu::multfun_type> functions_of_many[] = {
+    {"min", [](const double* x, int n) { return *std::min_element(x, x + n); }},
+    {"max", [](const double* x, int n) { return *std::max_element(x, x + n); }},
+};
+
 int read_number(const char* text, int* at, double* value) {
     const std::string_view rest(text);
     if (rest.empty() || rest.find_first_of("0123456789.") != 0) return 0;  // no sign, no word
@@ -140,48 +177,9 @@ class Parser final : public mu::ParserBase {
   protected:
     void InitCharSets() override {}
     void InitFun() override {
-        DefineFun("sin", sine);
-        DefineFun("cos", cosine);
-        DefineFun("tan", tangent);
-        DefineFun("asin", arc_sine);
-        DefineFun("acos", arc_cosine);
-        DefineFun(
-            "atan", +[](double x) { return angle(x, 1); });
-        DefineFun("atan2", angle);
-        DefineFun("sinh", sinh_of);
-        DefineFun("cosh", cosh_of);
-        DefineFun("tanh", tanh_of);
-        DefineFun("exp", exp_of);
-        DefineFun("log", log_of);
-        DefineFun("ln", log_of);
-        DefineFun(
-            "log2", +[](double x) { return log_of(x) / std::numbers::ln2; });
-        DefineFun(
-            "log10", +[](double x) { return log_of(x) / std::numbers::ln10; });
-        DefineFun(
-            "sqrt", +[](double x) { return std::sqrt(x); });
-        DefineFun(
-            "cbrt", +[](double x) { return std::isfinite(x) ? cube_root(x) : x; });
-        DefineFun("pow", power);
-        DefineFun(
-            "abs", +[](double x) { return std::abs(x); });
-        DefineFun(
-            "sign", +[](double x) { return x > 0 ? 1 : (x < 0 ? -1 : x); });
-        DefineFun(
-            "min", +[](const double* x, int n) { return *std::min_element(x, x + n); });
-        DefineFun(
-            "max", +[](const double* x, int n) { return *std::max_element(x, x + n); });
-        DefineFun(
-            "floor", +[](double x) { return std::floor(x); });
-        DefineFun(
-            "ceil", +[](double x) { return std::ceil(x); });
-        DefineFun(
-            "round", +[](double x) { return std::round(x); });
-        // Exact, so the same everywhere.
-        DefineFun(
-            "mod", +[](double x, double y) { return std::fmod(x, y); });
-        DefineFun(
-            "hypot", +[](double x, double y) { return std::sqrt(x * x + y * y); });
+        for (const auto& [name, f] : functions_of_one) DefineFun(name, f);
+        for (const auto& [name, f] : functions_of_two) DefineFun(name, f);
+        for (const auto& [name, f] : functions_of_many) DefineFun(name, f);
     }
     void InitConst() override {
         DefineConst("pi", std::numbers::pi);

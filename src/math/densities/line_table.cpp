@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/machine/wide.hpp"
 #include "math/densities/expression.hpp"
+#include "math/densities/quadrature.hpp"
 
 namespace stipple {
 namespace {
@@ -33,14 +34,7 @@ struct Sampled {
         return {boole, std::abs(boole - simpson)};
     }
     [[nodiscard]] double mass() const { return width() * 0.5 * (f[0] + f[4]); }
-    [[nodiscard]] double error() const {
-        double worst = 0;
-        for (std::size_t k = 1; k < 4; ++k) {
-            const double part = 0.25 * static_cast<double>(k);
-            worst = std::max(worst, std::abs(f[k] - ((1 - part) * f[0] + part * f[4])));
-        }
-        return worst * width();
-    }
+    [[nodiscard]] double error() const { return largest_bend(f) * width(); }
 };
 
 class LineTabulator {
@@ -229,6 +223,15 @@ void require_density(const std::string& what, std::span<const double> place, dou
          place_text(place));
 }
 
+double largest_bend(const std::array<double, 5>& f) {
+    double worst = 0;
+    for (std::size_t k = 1; k < 4; ++k) {
+        const double part = 0.25 * static_cast<double>(k);
+        worst = std::max(worst, std::abs(f[k] - ((1 - part) * f[0] + part * f[4])));
+    }
+    return worst;
+}
+
 std::vector<LinePiece> tabulate_line(const std::string& what, const BlockFunction& f,
                                      const LineRange& range, double tolerance,
                                      const RunContext& run) {
@@ -265,6 +268,20 @@ std::size_t LineTable::piece_of(double x) const {
 double LineTable::density(double x) const {
     const LinePiece& piece = pieces_[piece_of(x)];
     return density_in(piece, (x - piece.x_low) / (piece.x_high - piece.x_low));
+}
+
+LineMoments LineTable::moments_of(const std::function<double(double)>& f, double mass) const {
+    const auto expect = [&](double about, int power) {
+        const auto integrand = [&](double x) { return f(x) * std::pow(x - about, power); };
+        double sum = 0;
+        for (const LinePiece& piece : pieces_)
+            sum += gauss_kronrod(integrand, piece.x_low, piece.x_high).value;
+        return sum / mass;
+    };
+    const double middle =
+        pieces_.front().x_low + 0.5 * (pieces_.back().x_high - pieces_.front().x_low);
+    const double mean = middle + expect(middle, 1);
+    return {mean, expect(mean, 2), expect(mean, 3)};
 }
 
 std::vector<std::pair<double, double>> LineTable::positive_intervals() const {

@@ -21,6 +21,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -31,6 +32,7 @@
 
 #include "core/domain.hpp"
 #include "math/densities/guide_table.hpp"
+#include "math/geometry/law_moments.hpp"
 #include "stipple/run.hpp"
 
 namespace stipple {
@@ -62,6 +64,9 @@ std::vector<LinePiece> tabulate_line(const std::string& what, const BlockFunctio
 /// @throws Error(usage) for a value that no density has
 void require_density(const std::string& what, std::span<const double> place, double value);
 
+/// Largest difference of values at 0, 1/4, 1/2, 3/4 and 1 from a line between the first and the last.
+double largest_bend(const std::array<double, 5>& f);
+
 /// The share of a piece's width below which the share r of its mass lies, for densities a and b at
 /// its ends.
 inline double width_share(double a, double b, double r) {
@@ -85,6 +90,9 @@ class LineTable {
     [[nodiscard]] double density_in(const LinePiece& piece, double t) const {
         return ((1 - t) * piece.f_low + t * piece.f_high) / masses_.total();
     }
+
+    /// Of the density f / mass, smooth on each piece, by a rule there.
+    [[nodiscard]] LineMoments moments_of(const std::function<double(double)>& f, double mass) const;
 
     /// The intervals on which the density is not 0, side by side.
     [[nodiscard]] std::vector<std::pair<double, double>> positive_intervals() const;

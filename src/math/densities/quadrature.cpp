@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
-#include <limits>
+#include <functional>
 #include <queue>
 #include <vector>
 
@@ -12,65 +13,16 @@ namespace stipple {
 namespace {
 
 /// Nodes on [-1, 1] from 0 on, and their mirror images; every second one is a node of Gauss's rule.
-template <std::size_t n>
-struct KronrodRule {
-    std::array<double, n> nodes;
-    std::array<double, n> weights;
-    std::array<double, n / 2> gauss;  ///< weights of the nodes 0, 2, 4, ... in Gauss's rule
-};
+using Kronrod = boost::math::quadrature::gauss_kronrod<double, 15>;
+using Gauss = boost::math::quadrature::gauss<double, 7>;
 
-constexpr KronrodRule<8> fifteen{
-    {0, 0.20778495500789848, 0.40584515137739718, 0.58608723546769115, 0.74153118559939446,
-     0.8648644233597691, 0.94910791234275849, 0.99145537112081261},
-    {0.20948214108472782, 0.20443294007529889, 0.19035057806478542, 0.16900472663926791,
-     0.14065325971552592, 0.10479001032225019, 0.063092092629978558, 0.022935322010529224},
-    {0.4179591836734694, 0.38183005050511892, 0.27970539148927664, 0.1294849661688697}};
-
-constexpr KronrodRule<16> thirty_one{
-    {0, 0.10114206691871749, 0.20119409399743451, 0.29918000715316884, 0.39415134707756339,
-     0.4850818636402397, 0.57097217260853883, 0.65099674129741703, 0.72441773136017007,
-     0.79041850144246595, 0.84820658341042721, 0.89726453234408188, 0.93727339240070595,
-     0.96773907567913908, 0.98799251802048538, 0.99800229869339707},
-    {0.10133000701479154, 0.10076984552387559, 0.099173598721791961, 0.096642726983623681,
-     0.093126598170825317, 0.088564443056211764, 0.083080502823133021, 0.076849680757720376,
-     0.069854121318728257, 0.062009567800670642, 0.053481524690928088, 0.044589751324764879,
-     0.035346360791375847, 0.02546084732671532, 0.015007947329316122, 0.0053774798729233492},
-    {0.20257824192556129, 0.19843148532711158, 0.18616100001556221, 0.16626920581699392,
-     0.13957067792615432, 0.10715922046717194, 0.070366047488108124, 0.030753241996117269}};
-
-template <std::size_t n>
-Estimate by_rule(const KronrodRule<n>& rule, const std::function<double(double)>& f, double low,
-                 double high) {
-    const double middle = (high + low) / 2;
-    const double half = (high - low) / 2;
-    const double first = f(middle);
-    double kronrod = first * rule.weights[0];
-    double gauss = first * rule.gauss[0];
-    const auto pair = [&](std::size_t i) {
-        const double right = f(half * rule.nodes[i] + middle);
-        return right + f(half * -rule.nodes[i] + middle);
-    };
-    for (std::size_t i = 2; i < n; i += 2) {
-        const double sum = pair(i);
-        kronrod += sum * rule.weights[i];
-        gauss += sum * rule.gauss[i / 2];
-    }
-    for (std::size_t i = 1; i < n; i += 2) kronrod += pair(i) * rule.weights[i];
-    const double rounding = 2 * std::numeric_limits<double>::epsilon() * std::abs(kronrod);
-    return {half * kronrod, std::max(std::abs(kronrod - gauss), rounding)};
-}
-
-/// Halved where the error is above `tolerance`, and above 1e-10 of the value itself.
-Estimate by_halves(const std::function<double(double)>& f, double low, double high, int levels,
+/// By 31 points, halved up to `levels` times where the error is above `tolerance` of the value.
+Estimate by_halves(const std::function<double(double)>& f, double low, double high, unsigned levels,
                    double tolerance) {
-    const Estimate whole = by_rule(thirty_one, f, low, high);
-    const double relative = std::abs(whole.value * 1e-10);
-    const double goal = tolerance == 0 ? relative : tolerance;
-    if (levels == 0 || whole.error <= relative || whole.error <= goal) return whole;
-    const double middle = (low + high) / 2;
-    const Estimate left = by_halves(f, low, middle, levels - 1, goal / 2);
-    const Estimate right = by_halves(f, middle, high, levels - 1, goal / 2);
-    return {left.value + right.value, left.error + right.error};
+    Estimate sum;
+    sum.value = boost::math::quadrature::gauss_kronrod<double, 31>::integrate(
+        std::cref(f), low, high, levels, tolerance, &sum.error);
+    return sum;
 }
 
 struct Interval {
@@ -102,10 +54,10 @@ Interval measured(const std::function<double(double)>& f, double low, double hig
     double gauss = 0;
     for (std::size_t k = 0; k < 15; ++k) {
         const std::size_t node = k < 7 ? 7 - k : k - 7;
-        x[k] = middle + (k < 7 ? -half : half) * fifteen.nodes[node];
+        x[k] = middle + (k < 7 ? -half : half) * Kronrod::abscissa()[node];
         value[k] = f(x[k]);
-        kronrod += fifteen.weights[node] * value[k];
-        if (node % 2 == 0) gauss += fifteen.gauss[node / 2] * value[k];
+        kronrod += Kronrod::weights()[node] * value[k];
+        if (node % 2 == 0) gauss += Gauss::weights()[node / 2] * value[k];
     }
     // Just inside, where a jump at the end itself does not count.
     const double inset = 1e-9 * half;
@@ -117,12 +69,8 @@ Interval measured(const std::function<double(double)>& f, double low, double hig
 
 }  // namespace
 
-Estimate gauss_kronrod_15(const std::function<double(double)>& f, double low, double high) {
-    return by_rule(fifteen, f, low, high);
-}
-
-Estimate gauss_kronrod_31(const std::function<double(double)>& f, double low, double high) {
-    return by_rule(thirty_one, f, low, high);
+Estimate gauss_kronrod(const std::function<double(double)>& f, double low, double high) {
+    return by_halves(f, low, high, 0, 0);
 }
 
 Estimate integrate_smooth(const std::function<double(double)>& f, double low, double high) {
@@ -131,7 +79,25 @@ Estimate integrate_smooth(const std::function<double(double)>& f, double low, do
     const auto by_t = [&](double t) {
         return 6 * t * (1 - t) * width * f(std::min(low + width * (t * t * (3 - 2 * t)), high));
     };
-    return by_halves(by_t, 0, 1, 4, 0);
+    return by_halves(by_t, 0, 1, 4, 1e-10);
+}
+
+std::vector<double> ends_of(std::vector<double> cuts, double low, double high) {
+    std::erase_if(cuts, [&](double x) { return !(x > low && x < high); });
+    cuts.push_back(low);
+    cuts.push_back(high);
+    std::ranges::sort(cuts);
+    return cuts;
+}
+
+Estimate integrate_pieces(const std::function<double(double)>& f, std::span<const double> ends) {
+    Estimate total;
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+        const Estimate piece = integrate_smooth(f, ends[i], ends[i + 1]);
+        total.value += piece.value;
+        total.error += piece.error;
+    }
+    return total;
 }
 
 Estimate integrate_interval(const std::function<double(double)>& f, double low, double high,

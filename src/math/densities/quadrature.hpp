@@ -17,15 +17,15 @@
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "core/domain.hpp"
 
 namespace stipple {
 
-/// One rule of 15 or 31 points, exact for polynomials of degree 22 and 46. The error is the
-/// difference from the rule of Gauss that it contains, before it is scaled to the interval.
-Estimate gauss_kronrod_15(const std::function<double(double)>& f, double low, double high);
-Estimate gauss_kronrod_31(const std::function<double(double)>& f, double low, double high);
+/// One rule of 31 points, exact for polynomials of degree 46. The error is the difference from the
+/// rule of Gauss that it contains, before it is scaled to the interval.
+Estimate gauss_kronrod(const std::function<double(double)>& f, double low, double high);
 
 /// Of a function that is smooth between the ends, up to square roots at the ends, which
 ///
@@ -33,6 +33,12 @@ Estimate gauss_kronrod_31(const std::function<double(double)>& f, double low, do
 ///
 /// takes away; by 31 points, halved at most four times. The error is far above the true one.
 Estimate integrate_smooth(const std::function<double(double)>& f, double low, double high);
+
+/// The ends of the pieces of a range: those of `cuts` inside, and its own.
+std::vector<double> ends_of(std::vector<double> cuts, double low, double high);
+
+/// Of a function that is so between these ends.
+Estimate integrate_pieces(const std::function<double(double)>& f, std::span<const double> ends);
 
 /// How far an integral is taken: to this error relative to its value, or so many intervals.
 struct Effort {

@@ -18,6 +18,12 @@ constexpr std::size_t first_strips = 13;
 constexpr std::size_t first_patches = 7;
 constexpr std::size_t probes_a_side = 512;  // along each axis
 
+struct Strip {
+    double x_low;
+    double x_high;
+    std::vector<StripPatch> patches;
+};
+
 /// A patch with f on the lines x_low, the middle and x_high, at 0, 1/4, 1/2, 3/4 and 1 of it.
 struct SampledPatch {
     double low;
@@ -35,12 +41,7 @@ struct SampledPatch {
     /// Largest difference from a line along y.
     [[nodiscard]] double bend() const {
         double worst = hidden;
-        for (const auto& line : f)
-            for (std::size_t k = 1; k < 4; ++k) {
-                const double part = 0.25 * static_cast<double>(k);
-                worst =
-                    std::max(worst, std::abs(line[k] - ((1 - part) * line[0] + part * line[4])));
-            }
+        for (const auto& line : f) worst = std::max(worst, largest_bend(line));
         return worst;
     }
 
@@ -363,12 +364,9 @@ class StripTabulator {
 
 }  // namespace
 
-std::vector<Strip> tabulate_strips(const std::string& what, const BlockFunction& f, const Box& box,
-                                   double tolerance, const RunContext& run) {
-    return StripTabulator(what, f, box, tolerance, run).tabulate();
-}
-
-StripTable::StripTable(const std::vector<Strip>& strips) {
+StripTable::StripTable(const std::string& what, const BlockFunction& f, const Box& box,
+                       double tolerance, const RunContext& run) {
+    const auto strips = StripTabulator(what, f, box, tolerance, run).tabulate();
     double top = 0;
     for (const Strip& strip : strips)
         for (const StripPatch& patch : strip.patches)

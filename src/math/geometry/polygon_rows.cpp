@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "math/densities/line_table.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "math/geometry/planar_area.hpp"
 
@@ -46,11 +47,6 @@ double height_share(double f, double w0, double w1) {
     return f * (w0 + w1) / (w0 + root + null);
 }
 
-/// The way back: the share of the area that has the share t of the height.
-double area_share(double t, double w0, double w1) {
-    return w0 + w1 > 0 ? t * (2 * w0 + t * (w1 - w0)) / (w0 + w1) : 0;
-}
-
 /// A share in [0, 1] next to `share` that forward() finds in the piece [low, high) of the whole, on
 /// whose edge it may be.
 double share_within(double share, double whole, double low, double high) {
@@ -80,17 +76,15 @@ PolygonRows::PolygonRows(const std::vector<Ring>& rings, const RunContext& run) 
 }
 
 void PolygonRows::measure_rings(const std::vector<Ring>& rings) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    box_ = {{infinity, infinity}, {-infinity, -infinity}};
-    double size = 0;
+    std::vector<double> rows;
     for (const Ring& ring : rings)
         for (std::size_t i = 0; i < ring.size(); ++i) {
-            const PlanePoint p = ring[i];
-            rim_.emplace_back(p, ring[(i + 1) % ring.size()]);
-            size = std::max({size, std::abs(p.x), std::abs(p.y)});
-            box_ = {{std::min(box_.low[0], p.x), std::min(box_.low[1], p.y)},
-                    {std::max(box_.high[0], p.x), std::max(box_.high[1], p.y)}};
+            rim_.emplace_back(ring[i], ring[(i + 1) % ring.size()]);
+            rows.insert(rows.end(), {ring[i].x, ring[i].y});
         }
+    box_ = bounding_box(rows, 2);
+    double size = 0;
+    for (const double x : rows) size = std::max(size, std::abs(x));
     slack_ = 16 * std::numeric_limits<double>::epsilon() * size;
 }
 
@@ -224,9 +218,9 @@ PlanePoint PolygonRows::inverse(PlanePoint p) const {
     const double t = (y - slab.bottom) / slab.height();
     const double from_top = (slab.top - y) / slab.height();
     const double below =
-        slab.area_below + area_share(t, slab.width_bottom, slab.width_top) * slab.area;
+        slab.area_below + mass_share(slab.width_bottom, slab.width_top, t) * slab.area;
     const double above =
-        slab.area_above + area_share(from_top, slab.width_top, slab.width_bottom) * slab.area;
+        slab.area_above + mass_share(slab.width_top, slab.width_bottom, from_top) * slab.area;
     const double u = below < above ? below / area_ : 1 - above / area_;
     const bool topmost = &slab == &slabs_[last_filled_];
     return {

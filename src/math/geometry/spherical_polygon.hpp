@@ -24,7 +24,6 @@
 
 #include "core/domain.hpp"
 #include "math/geometry/vector3.hpp"
-#include "math/geometry/zone_integral.hpp"
 
 namespace stipple {
 

@@ -38,15 +38,6 @@ void add_corners(const SphereCircle& p, const SphereCircle& q, std::vector<doubl
     cuts.push_back(middle[2] - step);
 }
 
-/// The ends of the pieces of a range: those of `cuts` inside, and its own.
-std::vector<double> ends_of(std::vector<double> cuts, double low, double high) {
-    std::erase_if(cuts, [&](double x) { return !(x > low && x < high); });
-    cuts.push_back(low);
-    cuts.push_back(high);
-    std::ranges::sort(cuts);
-    return cuts;
-}
-
 std::vector<double> height_cuts(const Zone& zone, const Discontinuities& discontinuities) {
     std::vector<double> cuts;
     for (std::size_t i = 0; i < discontinuities.circles.size(); ++i) {
@@ -86,45 +77,35 @@ Estimate integrate_row(const SphereDensity& f, double z, const Zone& zone,
     const auto at = [&](double turn) {
         return f({r * std::cos(full_turn * turn), r * std::sin(full_turn * turn), z});
     };
-    Estimate sum;
     const auto turns = turn_cuts(z, zone, discontinuities);
-    for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
-        const double width = turns[i + 1] - turns[i];
-        if (!(width > 0)) continue;
-        if (discontinuities.level) {
-            sum.value += full_turn * width * at(turns[i] + 0.5 * width);
-            continue;
+    Estimate sum;
+    if (discontinuities.level)
+        for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
+            const double width = turns[i + 1] - turns[i];
+            if (width > 0) sum.value += width * at(turns[i] + 0.5 * width);
         }
-        const Estimate piece = integrate_smooth(at, turns[i], turns[i + 1]);
-        sum.value += full_turn * piece.value;
-        sum.error += full_turn * piece.error;
-    }
-    return sum;
+    else
+        sum = integrate_pieces(at, turns);
+    return {full_turn * sum.value, full_turn * sum.error};
 }
 
 }  // namespace
 
 Estimate integrate_zone(const SphereDensity& f, const Zone& zone,
                         const Discontinuities& discontinuities) {
-    Estimate total;
+    const double height = zone.z_high - zone.z_low;
     if (discontinuities.level && discontinuities.circles.empty()) {
-        const double z = zone.z_low + 0.5 * (zone.z_high - zone.z_low);
-        total.value = (zone.z_high - zone.z_low) * integrate_row(f, z, zone, discontinuities).value;
-        return total;
+        const double z = zone.z_low + 0.5 * height;
+        return {height * integrate_row(f, z, zone, discontinuities).value, 0};
     }
     double inner = 0;
-    const auto heights = height_cuts(zone, discontinuities);
-    for (std::size_t i = 0; i + 1 < heights.size(); ++i) {
-        const auto slice = [&](double z) {
-            const Estimate row = integrate_row(f, z, zone, discontinuities);
-            inner = std::max(inner, row.error);
-            return row.value;
-        };
-        const Estimate piece = integrate_smooth(slice, heights[i], heights[i + 1]);
-        total.value += piece.value;
-        total.error += piece.error;
-    }
-    total.error += inner * (zone.z_high - zone.z_low);
+    const auto slice = [&](double z) {
+        const Estimate row = integrate_row(f, z, zone, discontinuities);
+        inner = std::max(inner, row.error);
+        return row.value;
+    };
+    Estimate total = integrate_pieces(slice, height_cuts(zone, discontinuities));
+    total.error += inner * height;
     return total;
 }
 

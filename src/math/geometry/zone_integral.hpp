@@ -15,24 +15,11 @@
 #pragma once
 
 #include <functional>
-#include <vector>
 
 #include "core/domain.hpp"
 #include "math/geometry/vector3.hpp"
 
 namespace stipple {
-
-/// Where normal . x = height, for a unit vector `normal`.
-struct SphereCircle {
-    Vector3 normal;
-    double height = 0;
-};
-
-/// The circles at which a density on the sphere jumps, bends or is steep.
-struct Discontinuities {
-    std::vector<SphereCircle> circles;
-    bool level = true;  ///< constant between circles
-};
 
 /// Heights in [-1, 1], longitudes in turns in [0, 1].
 struct Zone {
@@ -46,16 +33,5 @@ using SphereDensity = std::function<double(const Vector3&)>;
 
 Estimate integrate_zone(const SphereDensity& f, const Zone& zone,
                         const Discontinuities& discontinuities);
-
-/// What a domain of directions also is that knows where its density is not smooth.
-class Discontinuous {
-  public:
-    Discontinuous() = default;
-    Discontinuous(const Discontinuous&) = delete;
-    Discontinuous& operator=(const Discontinuous&) = delete;
-    virtual ~Discontinuous() = default;
-
-    [[nodiscard]] virtual Discontinuities discontinuities() const = 0;
-};
 
 }  // namespace stipple

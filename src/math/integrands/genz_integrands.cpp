@@ -26,7 +26,7 @@
 //         F. Thomasset (eds.), Tools, Methods and Languages for Scientific and Engineering
 //         Computation, North-Holland (1984) 81-94.
 
-#include "math/integrands/integrand.hpp"
+#include "math/integrands/integrands.hpp"
 
 #include <algorithm>
 #include <cmath>

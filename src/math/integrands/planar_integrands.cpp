@@ -14,7 +14,7 @@
 // Shape   2 coordinates; values 0 and 1.
 // Promise areas to a few rounding errors.
 
-#include "math/integrands/integrand.hpp"
+#include "math/integrands/integrands.hpp"
 
 #include <algorithm>
 #include <array>
@@ -95,8 +95,7 @@ struct Scene {
     /// The share of the light that is seen.
     [[nodiscard]] double seen() const {
         Polygon shadow;
-        constexpr PlanePair corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-        for (const auto& [s, t] : corners) {
+        for (const auto& [s, t] : unit_square()) {
             const Vector3 at = light.met_by(sum(card.corner, s, card.side, t, card.other));
             shadow.push_back({at[0], at[1]});
         }

@@ -21,7 +21,7 @@
 //         I. M. Sobol', Reliability Engineering and System Safety 50 (1995) 225-239 (g-function).
 //         P. Moon, D. E. Spencer, Illuminating Engineering 37 (1942) 707-726 (overcast sky).
 
-#include "math/integrands/integrand.hpp"
+#include "math/integrands/integrands.hpp"
 
 #include <algorithm>
 #include <array>
@@ -70,8 +70,8 @@ std::complex<double> fresnel(double k) {
     std::complex<double> sum = 0;
     for (int j = 0; j < pieces; ++j) {
         const auto piece = [&](const std::function<double(double)>& f) {
-            return gauss_kronrod_31(f, static_cast<double>(j) / pieces,
-                                    static_cast<double>(j + 1) / pieces)
+            return gauss_kronrod(f, static_cast<double>(j) / pieces,
+                                 static_cast<double>(j + 1) / pieces)
                 .value;
         };
         sum += std::complex<double>(piece([k](double x) { return std::cos(k * x * x); }),

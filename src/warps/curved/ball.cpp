@@ -44,7 +44,7 @@ std::array<double, 3> shares(const Vector3& v) {
     return {std::min(r * r * r, 1.0), 0.5 * one_minus_cos(v), turns_of(v[0], v[1])};
 }
 
-class BallDomain final : public NamedDomain, public Weighable {
+class BallDomain final : public NamedDomain {
   public:
     BallDomain(const Sphere& sphere, std::string spec)
         : NamedDomain(std::move(spec), 3, 3), sphere_(sphere), slack_(sphere.rounding()) {}
@@ -64,40 +64,32 @@ class BallDomain final : public NamedDomain, public Weighable {
     }
     /// Disks of the ball between the box's sides, over z, which is cut where a disk meets a side or
     /// a corner.
-    Estimate box_mass(const Box& box) const override {
+    std::optional<Estimate> box_mass(const Box& box) const override {
         std::array<double, 3> low{};
         std::array<double, 3> high{};
         for (std::size_t k = 0; k < 3; ++k) {
             low[k] = std::max((box.low[k] - sphere_.center[k]) / sphere_.radius, -1.0);
             high[k] = std::min((box.high[k] - sphere_.center[k]) / sphere_.radius, 1.0);
-            if (!(low[k] < high[k])) return {};
+            if (!(low[k] < high[k])) return Estimate{};
         }
-        std::vector<double> cuts{low[2], high[2]};
+        std::vector<double> cuts;
         const auto cut = [&](double rr) {
-            const double z = rr < 1 ? std::sqrt(1 - rr) : 2;
-            for (const double at : {-z, z})
-                if (at > low[2] && at < high[2]) cuts.push_back(at);
+            if (rr < 1) cuts.insert(cuts.end(), {-std::sqrt(1 - rr), std::sqrt(1 - rr)});
         };
         for (const double x : {low[0], high[0]}) {
             cut(x * x);
             for (const double y : {low[1], high[1]}) cut(x * x + y * y);
         }
         for (const double y : {low[1], high[1]}) cut(y * y);
-        std::ranges::sort(cuts);
         const Polygon window{
             {low[0], low[1]}, {high[0], low[1]}, {high[0], high[1]}, {low[0], high[1]}};
-        Estimate volume;
-        for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
-            const auto slice = [&](double z) {
-                const double rr = std::max((1 - z) * (1 + z), 0.0);
-                return area_in_disk(window, {0, 0}, std::sqrt(rr));
-            };
-            const Estimate piece = integrate_smooth(slice, cuts[i], cuts[i + 1]);
-            volume.value += piece.value;
-            volume.error += piece.error;
-        }
+        const auto slice = [&](double z) {
+            const double rr = std::max((1 - z) * (1 + z), 0.0);
+            return area_in_disk(window, {0, 0}, std::sqrt(rr));
+        };
+        const Estimate volume = integrate_pieces(slice, ends_of(std::move(cuts), low[2], high[2]));
         constexpr double whole = 4 * std::numbers::pi / 3;
-        return {volume.value / whole, volume.error / whole};
+        return Estimate{volume.value / whole, volume.error / whole};
     }
     std::optional<Moments> moments() const override {
         const AxialMoments unit{.along = {0, 0.2, 0}, .across = 0.2};
@@ -138,7 +130,6 @@ Warp unit() {
             .strata =
                 "xi1 is the share of the volume within the radius, xi2 falls from the north "
                 "to the south pole, xi3 is the longitude; all as they are",
-            .traits = {},
             .options = Schema(ball_radius, center),
             .mapping = make};
 }

@@ -132,7 +132,7 @@ Warp unit() {
             .summary = "Circle, directions in the plane (square-normalize is biased, to show it)",
             .source = "Devroye 1986, doi:10.1007/978-1-4613-8643-8, chapter V.4",
             .strata = "xi1 turns from the x axis towards the y axis, as it is",
-            .traits = {.invertible = true, .drops = true, .biased = true},
+            .traits = {.drops = true, .biased = true},
             .options = Schema(method, radius, middle),
             .mapping = make};
 }

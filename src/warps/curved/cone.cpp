@@ -26,7 +26,6 @@
 #include "core/error.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "math/geometry/polar_direction.hpp"
-#include "math/geometry/zone_integral.hpp"
 #include "warps/curved/placement.hpp"
 #include "warps/row_mapping.hpp"
 
@@ -60,7 +59,7 @@ struct Cap {
     }
 };
 
-class ConeDomain final : public NamedDomain, public Discontinuous {
+class ConeDomain final : public NamedDomain {
   public:
     ConeDomain(const Cap& cap, std::string spec)
         : NamedDomain(std::move(spec), 3, 2),
@@ -96,8 +95,8 @@ class ConeDomain final : public NamedDomain, public Discontinuous {
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         put_clamped(cap_.shares(point), cube);
     }
-    Discontinuities discontinuities() const override {
-        return {.circles = {{cap_.frame.z, cap_.rim.cos}}};
+    std::optional<Discontinuities> discontinuities() const override {
+        return Discontinuities{.circles = {{cap_.frame.z, cap_.rim.cos}}};
     }
     std::optional<Moments> moments() const override {
         // By v = 1 - z, which is uniform up to that of the rim: thin cones keep digits.
@@ -151,7 +150,6 @@ Warp unit() {
             .strata =
                 "xi1 falls from the axis to the rim, as the share of the solid angle; xi2 is "
                 "the longitude; both as they are",
-            .traits = {},
             .options = Schema(half_angle, axis),
             .aliases = {"spherical-cap"},
             .mapping = make};

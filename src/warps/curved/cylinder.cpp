@@ -99,15 +99,7 @@ class CylinderDomain final : public NamedDomain {
         return distance >= shape_.radius - slack || (shape_.caps && beyond >= -slack);
     }
     Box bounding_box() const override {
-        Box box;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double along = shape_.frame.z[k];
-            const double reach = 0.5 * shape_.height * std::abs(along) +
-                                 shape_.radius * std::sqrt(std::max(0.0, 1 - along * along));
-            box.low.push_back(shape_.center[k] - reach);
-            box.high.push_back(shape_.center[k] + reach);
-        }
-        return box;
+        return box_about(shape_.center, shape_.frame.z, 0, 0.5 * shape_.height, shape_.radius);
     }
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         put_clamped(shape_.shares(point), cube);
@@ -170,7 +162,6 @@ Warp unit() {
             .strata =
                 "xi1 rises from the lower to the upper end (with --caps from centre to centre "
                 "of the caps), as the share of the area; xi2 is the angle; both as they are",
-            .traits = {},
             .options = Schema(radius, height, center, axis, caps),
             .mapping = make};
 }

@@ -41,7 +41,7 @@ struct Phase {
     static constexpr bool hemisphere = false;
     double g;
 
-    Tilt forward(double u) const {
+    CosSin forward(double u) const {
         const double rest = 1 - u;
         const double below = (1 + g) * rest + (1 - g) * u;
         const double near = (1 - g) / below;
@@ -91,7 +91,6 @@ Warp unit() {
             .strata =
                 "xi1 is the probability of the cone about the axis, 0 on it; xi2 turns about it; "
                 "both as they are",
-            .traits = {},
             .options = Schema(asymmetry, axis),
             .mapping = make};
 }

@@ -8,7 +8,7 @@
 //         double fraction(const Vector3& w) const;   // u of a direction in the frame of the axis
 //         double density(const Vector3& w) const;    // by solid angle
 //         AxialMoments moments() const;
-//         Tilt forward(double u) const;   // cosine and sine of theta; for lobe_mapping()
+//         CosSin forward(double u) const;  // cosine and sine of theta; for lobe_mapping()
 //         bool level() const;             // of a hemisphere: whether it is uniform
 //     };
 #pragma once
@@ -19,24 +19,16 @@
 #include <string>
 #include <utility>
 
-#include "core/directional.hpp"
 #include "math/functions/trigonometry.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "math/geometry/polar_direction.hpp"
 #include "math/geometry/vector3.hpp"
-#include "math/geometry/zone_integral.hpp"
 #include "warps/row_mapping.hpp"
 
 namespace stipple::warps {
 
-/// Cosine and sine of an angle from an axis.
-struct Tilt {
-    double cos;
-    double sin;
-};
-
 template <class Lobe>
-class LobeDomain final : public NamedDomain, public Discontinuous, public Directional {
+class LobeDomain final : public NamedDomain {
   public:
     LobeDomain(const Lobe& lobe, const Frame& frame, std::string spec)
         : NamedDomain(std::move(spec), 3, 2), lobe_(lobe), frame_(frame) {}
@@ -74,17 +66,16 @@ class LobeDomain final : public NamedDomain, public Discontinuous, public Direct
     }
     /// The horizon of a hemisphere; else where nearly all or nearly nothing is nearer to the axis,
     /// so that peaks are not missed.
-    Discontinuities discontinuities() const override {
+    std::optional<Discontinuities> discontinuities() const override {
         if constexpr (Lobe::hemisphere)
-            return {.circles = {{frame_.z, 0}}, .level = lobe_.level()};
+            return Discontinuities{.circles = {{frame_.z, 0}}, .level = lobe_.level()};
         else
             return steep_circles();
     }
     std::optional<Moments> moments() const override {
         return axial_moments(lobe_.moments(), frame_);
     }
-    Vector3 axis() const override { return frame_.z; }
-    bool is_hemisphere() const override { return Lobe::hemisphere; }
+    std::optional<Pole> pole() const override { return Pole{frame_.z, Lobe::hemisphere}; }
     std::vector<std::string> cube_axes() const override {
         return {"probability of the cone about the axis", "longitude in turns"};
     }

@@ -54,51 +54,23 @@ constexpr Param<Choice> attributes{
 
 using Pair = std::array<double, 2>;
 
-enum class Gives { position, normal, barycentric };
+// Numbers that a point has.
+constexpr std::size_t with_normal = 6;
+constexpr std::size_t with_barycentrics = 7;
 
-std::size_t size_of(Gives gives) {
-    return gives == Gives::position ? 3 : (gives == Gives::normal ? 6 : 7);
+/// The area of each triangle and those before it. @throws Error(input) where there is none
+std::vector<double> areas_up_to(const TriangleMesh& mesh, const std::string& name,
+                                const RunContext& run) {
+    std::vector<double> areas;
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        if (i % 65536 == 0) run.check_stop();
+        const auto [a, b, c] = mesh.corners(i);
+        areas.push_back(0.5 * length(cross(minus(b, a), minus(c, a))));
+    }
+    std::vector<double> sums = running_sums(areas);
+    if (!(sums.back() > 0)) fail(ErrorKind::input, "{}: the mesh has no area", name);
+    return sums;
 }
-
-/// The triangles' shares of the area, end to end.
-class Shares {
-  public:
-    Shares(const TriangleMesh& mesh, const std::string& name, const RunContext& run) {
-        std::vector<double> areas;
-        for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-            if (i % 65536 == 0) run.check_stop();
-            const auto [a, b, c] = mesh.corners(i);
-            areas.push_back(0.5 * length(cross(minus(b, a), minus(c, a))));
-        }
-        std::vector<double> ends = running_sums(areas);
-        area_ = ends.back();
-        if (!(area_ > 0)) fail(ErrorKind::input, "{}: the mesh has no area", name);
-        for (double& end : ends) end /= area_;
-        const std::size_t count = ends.size();
-        shares_ = GuideTable(std::move(ends), count);
-    }
-
-    double area() const { return area_; }
-
-    /// The share up to the part t of a triangle, never that of the next one.
-    double up_to(std::size_t i, double t) const {
-        const double share = shares_.begin(i) + t * shares_.width(i);
-        const double end = shares_.end(i);
-        return std::min(share, end == 1 ? 1 : std::nextafter(end, 0));
-    }
-
-    /// The part of a triangle before a share that it holds.
-    double part(std::size_t i, double share) const {
-        return std::min((share - shares_.begin(i)) / shares_.width(i), 1.0);
-    }
-
-    /// The triangle that holds this share; the last with an area for 1.
-    std::size_t at(double share) const { return shares_.at(share); }
-
-  private:
-    GuideTable shares_;
-    double area_ = 0;
-};
 
 Vector3 weighted(const std::array<Vector3, 3>& v, const std::array<double, 3>& w) {
     return {w[0] * v[0][0] + w[1] * v[1][0] + w[2] * v[2][0] + 0.0,  // never -0
@@ -108,19 +80,19 @@ Vector3 weighted(const std::array<Vector3, 3>& v, const std::array<double, 3>& w
 
 class MeshDomain final : public NamedDomain {
   public:
-    MeshDomain(TriangleMesh mesh, Gives gives, const std::string& name, std::string spec,
+    MeshDomain(TriangleMesh mesh, std::size_t numbers, const std::string& name, std::string spec,
                const RunContext& run)
-        : NamedDomain(std::move(spec), size_of(gives), 2),
-          mesh_(std::move(mesh)),
-          shares_(mesh_, name, run),
-          tree_(mesh_, run),
-          gives_(gives) {
+        : NamedDomain(std::move(spec), numbers, 2), mesh_(std::move(mesh)), tree_(mesh_, run) {
+        std::vector<double> ends = areas_up_to(mesh_, name, run);
+        area_ = ends.back();
+        for (double& end : ends) end /= area_;
+        shares_ = GuideTable(std::move(ends), mesh_.triangles.size());
         const Box box = positions();
         for (std::size_t k = 0; k < 3; ++k)
             size_ = std::max({size_, std::abs(box.low[k]), std::abs(box.high[k])});
     }
 
-    double measure() const override { return shares_.area(); }
+    double measure() const override { return area_; }
 
     /// Up to 16 epsilon of the largest coordinate away from a triangle: the rounding of a point
     /// that was made. Normals and barycentrics must be those of a triangle there, within 1e-12.
@@ -128,10 +100,10 @@ class MeshDomain final : public NamedDomain {
 
     Box bounding_box() const override {
         Box box = positions();
-        if (gives_ == Gives::normal) {
-            box.low.resize(6, -1);
-            box.high.resize(6, 1);
-        } else if (gives_ == Gives::barycentric) {
+        if (dimension() == with_normal) {
+            box.low.resize(with_normal, -1);
+            box.high.resize(with_normal, 1);
+        } else if (dimension() == with_barycentrics) {
             box.low.resize(7, 0);
             box.high.push_back(static_cast<double>(mesh_.triangles.size()));
             box.high.resize(7, 1);
@@ -163,25 +135,25 @@ class MeshDomain final : public NamedDomain {
     };
     Place place(double u, double v) const {
         const std::size_t i = shares_.at(u);
-        const double root = std::sqrt(shares_.part(i, u));
+        const double part = std::min((u - shares_.begin(i)) / shares_.width(i), 1.0);
+        const double root = std::sqrt(part);
         return {i, {1 - root, root * v, root * (1 - v)}};
     }
     Vector3 position(const Place& at) const {
         return weighted(mesh_.corners(at.triangle), at.weights);
     }
-    Gives gives() const { return gives_; }
 
     /// xi0 and xi1 of a point of the surface, if it is one.
     std::optional<Pair> find(std::span<const double> point) const {
         const Vector3 at = vector_of(point);
         const double reach = 16 * epsilon * size_;
-        if (gives_ == Gives::barycentric) return find_by_number(point, reach);
+        if (dimension() == with_barycentrics) return find_by_number(point, reach);
         std::optional<Pair> best;
         double least = std::numeric_limits<double>::infinity();
         std::uint32_t first = 0;
         // Where triangles meet, the one from which the way forward comes nearest.
         tree_.visit(at, reach, [&](std::uint32_t i, const Foot& foot) {
-            if (gives_ == Gives::normal &&
+            if (dimension() == with_normal &&
                 !(largest(minus(normal(i), vector_of(point.subspan(3)))) <= 1e-12))
                 return;
             const Pair cube = shares_in({i, foot.weights});
@@ -210,9 +182,9 @@ class MeshDomain final : public NamedDomain {
         std::array<std::vector<double>, 3> rows;
         for (std::size_t k = 0; k < 3; ++k) {
             rows[k].assign(corners[k].begin(), corners[k].end());
-            if (gives_ == Gives::normal)
+            if (dimension() == with_normal)
                 rows[k].insert(rows[k].end(), normal.begin(), normal.end());
-            if (gives_ != Gives::barycentric) continue;
+            if (dimension() != with_barycentrics) continue;
             rows[k].resize(7, 0.0);
             rows[k][3] = static_cast<double>(i);
             rows[k][4 + k] = 1;
@@ -231,7 +203,9 @@ class MeshDomain final : public NamedDomain {
     Pair shares_in(const Place& at) const {
         const double sum = at.weights[1] + at.weights[2];
         const double root = std::min(sum, 1.0);
-        return {shares_.up_to(at.triangle, root * root),
+        const double share = shares_.begin(at.triangle) + root * root * shares_.width(at.triangle);
+        const double end = shares_.end(at.triangle);  // where the next triangle begins
+        return {std::min(share, end == 1 ? 1 : std::nextafter(end, 0)),
                 sum > 0 ? std::min(at.weights[1] / sum, 1.0) : 0};
     }
 
@@ -251,9 +225,9 @@ class MeshDomain final : public NamedDomain {
     }
 
     TriangleMesh mesh_;
-    Shares shares_;
     TriangleTree tree_;
-    Gives gives_;
+    GuideTable shares_;  ///< of the triangles in the area, side by side
+    double area_ = 0;
     double size_ = 0;
 };
 
@@ -281,9 +255,9 @@ class Mesh final : public Mapping {
   private:
     void write(const MeshDomain::Place& at, std::span<double> image) const {
         std::ranges::copy(surface_.position(at), image.begin());
-        if (surface_.gives() == Gives::normal)
+        if (surface_.dimension() == with_normal)
             std::ranges::copy(surface_.normal(at.triangle), image.begin() + 3);
-        if (surface_.gives() == Gives::barycentric) {
+        if (surface_.dimension() == with_barycentrics) {
             image[3] = static_cast<double>(at.triangle);
             std::ranges::copy(at.weights, image.begin() + 4);
         }
@@ -296,11 +270,11 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     if (!want.options.given(mesh_file))
         fail(ErrorKind::usage, "--file: name a PLY or OBJ file with a triangle mesh");
     const std::string how = want.options[attributes];
-    const Gives gives = how == "normal"        ? Gives::normal
-                        : how == "barycentric" ? Gives::barycentric
-                                               : Gives::position;
+    const std::size_t numbers = how == "normal"        ? with_normal
+                                : how == "barycentric" ? with_barycentrics
+                                                       : 3;
     const std::string path = want.options[mesh_file];
-    return std::make_unique<Mesh>(std::make_shared<MeshDomain>(read_mesh(path, want.run), gives,
+    return std::make_unique<Mesh>(std::make_shared<MeshDomain>(read_mesh(path, want.run), numbers,
                                                                path, want.spec(), want.run));
 }
 
@@ -314,7 +288,6 @@ Warp unit() {
                 "xi1 goes through the triangles in the order of the file by their areas, in "
                 "each from its first corner to the opposite edge; xi2 runs along that edge; "
                 "both as they are",
-            .traits = {},
             .options = Schema(mesh_file, attributes),
             .mapping = make};
 }

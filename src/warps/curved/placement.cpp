@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "warps/curved/placement.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "core/error.hpp"
@@ -26,11 +28,15 @@ Frame frame_of(const Values& options) {
     return frame_about(normalized(along));
 }
 
-Box Sphere::bounding_box() const {
+Box box_about(const Vector3& middle, const Vector3& direction, double beyond, double along,
+              double across) {
     Box box;
-    for (const double x : center) {
-        box.low.push_back(x - radius);
-        box.high.push_back(x + radius);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double z = direction[k];
+        const double reach =
+            beyond + along * std::abs(z) + across * std::sqrt(std::max(0.0, 1 - z * z));
+        box.low.push_back(middle[k] - reach);
+        box.high.push_back(middle[k] + reach);
     }
     return box;
 }

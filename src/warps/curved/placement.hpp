@@ -30,6 +30,11 @@ Frame frame_of(const Values& options);
 /// Three numbers of an option. @throws Error(usage) naming it.
 Vector3 vector_of(const Param<Numbers>& option, const std::vector<double>& numbers);
 
+/// The box around all that is within `beyond` of a cylinder about a point: `along` a direction to
+/// both sides, with the radius `across`.
+Box box_about(const Vector3& middle, const Vector3& direction, double beyond, double along,
+              double across);
+
 /// A sphere or ball of this radius about a centre.
 struct Sphere {
     double radius;
@@ -46,7 +51,7 @@ struct Sphere {
         return {center[0] + radius * v[0], center[1] + radius * v[1], center[2] + radius * v[2]};
     }
 
-    [[nodiscard]] Box bounding_box() const;
+    [[nodiscard]] Box bounding_box() const { return box_about(center, {}, radius, 0, 0); }
 
     /// How far rounding may take a point from where it should be, in radii: 8 epsilon (R + largest
     /// |c|) / R.

@@ -149,7 +149,7 @@ Warp unit() {
             .strata =
                 "xi1 falls from the north pole z = R to the south pole, as the share of the "
                 "area; xi2 is the longitude; both as they are",
-            .traits = {.invertible = true, .drops = true, .biased = true},
+            .traits = {.drops = true, .biased = true},
             .options = Schema(method, radius, center, inner),
             .mapping = make};
 }

@@ -4,6 +4,10 @@
 // other than the warp's own, so that they do not line up with its strata.
 #pragma once
 
+#include <array>
+#include <functional>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,17 +18,18 @@
 
 namespace stipple::warps {
 
-/// @param Cells has inverse(point), the map's way back
-template <class Cells>
-class SphericalDomain final : public NamedDomain, public Discontinuous {
+class SphericalDomain final : public NamedDomain {
   public:
+    using Cells = std::function<std::array<double, 2>(std::span<const double>)>;
+
+    /// @param cells the map's way back
     /// @param slack how far beyond the planes of the edges, and how much longer or shorter than 1,
     /// rounding may take a direction that was made
-    SphericalDomain(std::string spec, SphericalPolygon polygon, const Cells& cells, double area,
+    SphericalDomain(std::string spec, SphericalPolygon polygon, Cells cells, double area,
                     double slack, std::vector<std::string> axes)
         : NamedDomain(std::move(spec), 3, 2),
           polygon_(std::move(polygon)),
-          cells_(cells),
+          cells_(std::move(cells)),
           area_(area),
           slack_(slack),
           axes_(std::move(axes)) {}
@@ -35,9 +40,11 @@ class SphericalDomain final : public NamedDomain, public Discontinuous {
     }
     Box bounding_box() const override { return polygon_.bounding_box(); }
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
-        put_clamped(cells_.inverse(point), cube);
+        put_clamped(cells_(point), cube);
     }
-    Discontinuities discontinuities() const override { return {.circles = polygon_.edges()}; }
+    std::optional<Discontinuities> discontinuities() const override {
+        return Discontinuities{.circles = polygon_.edges()};
+    }
     std::optional<Moments> moments() const override { return polygon_.moments(area_); }
     std::vector<std::string> cube_axes() const override { return axes_; }
 

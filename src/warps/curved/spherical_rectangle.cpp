@@ -207,16 +207,6 @@ class Urena {
     CosSin both_{};  ///< of their sum
 };
 
-/// Urena's map back with x and y exchanged.
-struct Transposed {
-    Urena map;
-
-    std::array<double, 2> inverse(std::span<const double> point) const {
-        const auto [v, u] = map.inverse(point);
-        return {u, v};
-    }
-};
-
 /// @throws Error(usage) when these are not the edges of a rectangle.
 void check_edges(const Table& table, double size_x, double size_y, double cosine) {
     if (!(size_x > 0 && size_y > 0))
@@ -267,10 +257,15 @@ Rectangle rectangle_of(const Values& options) {
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const Rectangle rectangle = rectangle_of(want.options);
+    // Cells are Urena's map back with x and y exchanged.
     const Urena turned(rectangle.transposed());
-    const auto domain = std::make_shared<SphericalDomain<Transposed>>(
-        want.spec(), SphericalPolygon(rectangle.corners()), Transposed{turned},
-        turned.solid_angle(), 16 * epsilon,
+    const auto cells = [turned](std::span<const double> point) {
+        const auto [v, u] = turned.inverse(point);
+        return std::array{u, v};
+    };
+    const auto domain = std::make_shared<SphericalDomain>(
+        want.spec(), SphericalPolygon(rectangle.corners()), cells, turned.solid_angle(),
+        16 * epsilon,
         std::vector<std::string>{"place along ex, as sine of the angle",
                                  "share of the solid angle along ey"});
     return row_mapping(domain, Urena(rectangle));
@@ -285,7 +280,6 @@ Warp unit() {
             .strata =
                 "xi1 is the share of the solid angle along the first edge, xi2 the place "
                 "along the second, as the sine of the elevation; both as they are",
-            .traits = {},
             .options = Schema(corner, edges, origin),
             .mapping = make};
 }

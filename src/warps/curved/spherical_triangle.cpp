@@ -158,8 +158,11 @@ Corners corners_of(const Table& table) {
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const Corners v = corners_of(want.options[vertices]);
     // Cells are Arvo's map back about the next corner.
-    const auto domain = std::make_shared<SphericalDomain<Arvo>>(
-        want.spec(), SphericalPolygon({v[0], v[1], v[2]}), Arvo(v[1], v[2], v[0]),
+    const auto cells = [next = Arvo(v[1], v[2], v[0])](std::span<const double> point) {
+        return next.inverse(point);
+    };
+    const auto domain = std::make_shared<SphericalDomain>(
+        want.spec(), SphericalPolygon({v[0], v[1], v[2]}), cells,
         4 * std::numbers::pi * half_area_turns(v[0], v[1], v[2]), slack_of(v),
         std::vector<std::string>{"share of the area next to bc", "share on the way from c"});
     return row_mapping(domain, Arvo(v[0], v[1], v[2]));
@@ -174,7 +177,6 @@ Warp unit() {
             .strata =
                 "xi1 is the share of the area from the edge of the first two corners towards "
                 "the third, xi2 the share on the way from the second corner; both as they are",
-            .traits = {},
             .options = Schema(vertices),
             .mapping = make};
 }

@@ -157,15 +157,7 @@ class TorusDomain final : public NamedDomain {
         return std::abs(torus_.section(point).tube - torus_.minor) <= torus_.slack();
     }
     Box bounding_box() const override {
-        Box box;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const double along = torus_.frame.z[k];
-            const double reach =
-                torus_.minor + torus_.major * std::sqrt(std::max(0.0, 1 - along * along));
-            box.low.push_back(torus_.center[k] - reach);
-            box.high.push_back(torus_.center[k] + reach);
-        }
-        return box;
+        return box_about(torus_.center, torus_.frame.z, torus_.minor, 0, torus_.major);
     }
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         put_clamped(torus_.shares(point), cube);
@@ -219,7 +211,6 @@ Warp unit() {
             .strata =
                 "xi1 turns around the tube from its outermost point upwards, as the share of "
                 "the area; xi2 turns around the axis; both as they are",
-            .traits = {},
             .options = Schema(major_radius, minor_radius, center, axis),
             .aliases = {"torus"},
             .mapping = make};

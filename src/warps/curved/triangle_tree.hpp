@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
 //
-// Which triangles of a mesh a point lies on: a tree of boxes, each cut at the median of its
-// triangles' middles along its longest side.
+// Which triangles of a mesh a point lies on: Boost's tree of the boxes around them.
 //
 // Shape   any number of triangles, also without area.
 // Cost    O(n log n) to build, O(log n) for a point on a mesh whose triangles are well spread.
 // Promise every triangle within the reach, and no other; in no order to rely on.
 #pragma once
 
+#include <array>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
 #include <cstdint>
 #include <functional>
-#include <vector>
+#include <utility>
 
 #include "media/triangle_mesh.hpp"
 #include "stipple/run.hpp"
@@ -35,20 +38,12 @@ class TriangleTree {
                const std::function<void(std::uint32_t, const Foot&)>& seen) const;
 
   private:
-    struct Node {
-        Vector3 low;
-        Vector3 high;
-        std::uint32_t first;  ///< of its triangles in order_
-        std::uint32_t count;
-        std::uint32_t right = 0;  ///< its second child, the first follows it; 0 in a leaf
-    };
-
-    void build(std::uint32_t first, std::uint32_t count, const RunContext& run);
-    [[nodiscard]] Node enclose(std::uint32_t first, std::uint32_t count) const;
+    using Corner = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
+    using Bounds = boost::geometry::model::box<Corner>;
+    using Entry = std::pair<Bounds, std::uint32_t>;
 
     const TriangleMesh& mesh_;
-    std::vector<std::uint32_t> order_;
-    std::vector<Node> nodes_;
+    boost::geometry::index::rtree<Entry, boost::geometry::index::linear<16>> boxes_;
 };
 
 }  // namespace stipple

@@ -56,7 +56,7 @@ class Fisher {
         last_ = both ? 0 : std::min(2.0, most / kappa_);
     }
 
-    Tilt forward(double u) const {
+    CosSin forward(double u) const {
         const bool near = u < turn_;
         const double inside = near ? u * near_factor_ : (1 - u) * far_factor_;
         const double size = std::abs(log_1p(u < 1 ? inside : 0)) / kappa_;
@@ -121,7 +121,6 @@ Warp unit() {
             .strata =
                 "xi1 is the probability of the cone about the axis, 0 on it; xi2 turns about it; "
                 "both as they are",
-            .traits = {},
             .options = Schema(concentration, axis),
             .aliases = {"vmf"},
             .mapping = make};

@@ -48,14 +48,14 @@ constexpr Param<Choice> method{
 constexpr Param<bool> normalize{.name = "normalize",
                                 .help = "Divide the probabilities by their sum"};
 
-/// What all methods know; shared by the coordinates.
-struct Outcomes {
-    std::vector<double> probability;
+/// Outcomes with their probabilities.
+struct Outcomes : LineDistribution {
+    std::vector<double> weight;  ///< probability
     std::vector<double> value;
     GuideTable sums;                 ///< of probabilities, the last is 1
     std::vector<std::size_t> order;  ///< of outcomes by value
-    std::vector<double> share;       ///< q of each slot
-    std::vector<std::uint32_t> alias;
+
+    explicit Outcomes(const Values& options);
 
     std::size_t count() const { return value.size(); }
 
@@ -65,101 +65,73 @@ struct Outcomes {
             std::ranges::lower_bound(order, x, {}, [&](std::size_t i) { return value[i]; });
         return at != order.end() && value[*at] == x ? *at : count();
     }
-};
-
-using OutcomesPtr = std::shared_ptr<const Outcomes>;
-
-/// What does not depend on how outcomes are drawn.
-struct Drawn : LineDistribution {
-    OutcomesPtr of;
 
     double inverse(double x) const override {
-        const std::size_t i = of->find(x);
-        return 0.5 * (of->sums.begin(i) + of->sums.end(i));
+        const std::size_t i = find(x);
+        return 0.5 * (sums.begin(i) + sums.end(i));
     }
     /// Outcomes have equal cells in the cube.
     bool even() const override { return false; }
     double cube_coordinate(double x) const override {
-        return (static_cast<double>(of->find(x)) + 0.5) / static_cast<double>(of->count());
+        return (static_cast<double>(find(x)) + 0.5) / static_cast<double>(count());
     }
     double density(double x) const override {
-        const std::size_t i = of->find(x);
-        return i < of->count() ? of->probability[i] : 0;
+        const std::size_t i = find(x);
+        return i < count() ? weight[i] : 0;
     }
-    bool contains(double x) const override { return of->find(x) < of->count(); }
-    double measure() const override { return static_cast<double>(of->count()); }
+    bool contains(double x) const override { return find(x) < count(); }
+    double measure() const override { return static_cast<double>(count()); }
     /// Outcomes that can come.
     Positive positive() const override {
-        return {{}, static_cast<double>(std::ranges::count_if(of->probability, [](double p) {
-                    return p > 0;
-                }))};
+        const auto likely = std::ranges::count_if(weight, [](double p) { return p > 0; });
+        return {{}, static_cast<double>(likely)};
     }
     std::pair<double, double> range() const override {
-        return {of->value[of->order.front()], of->value[of->order.back()]};
+        return {value[order.front()], value[order.back()]};
     }
     LineMoments moments() const override {
         LineMoments m;
-        for (std::size_t i = 0; i < of->count(); ++i) m.mean += of->probability[i] * of->value[i];
-        for (std::size_t i = 0; i < of->count(); ++i) {
-            const double from = of->value[i] - m.mean;
-            m.variance += of->probability[i] * from * from;
-            m.third += of->probability[i] * from * from * from;
+        for (std::size_t i = 0; i < count(); ++i) m.mean += weight[i] * value[i];
+        for (std::size_t i = 0; i < count(); ++i) {
+            const double from = value[i] - m.mean;
+            m.variance += weight[i] * from * from;
+            m.third += weight[i] * from * from * from;
         }
         return m;
     }
-    /// Probability of the outcomes whose cube coordinates are in [low, high).
+    /// Of the outcomes whose cube coordinates are in [low, high).
     Estimate probability(double low, double high) const override {
         double sum = 0;
-        for (std::size_t i = 0; i < of->count(); ++i) {
-            const double at = (static_cast<double>(i) + 0.5) / static_cast<double>(of->count());
-            if (at >= low && at < high) sum += of->probability[i];
+        for (std::size_t i = 0; i < count(); ++i) {
+            const double at = (static_cast<double>(i) + 0.5) / static_cast<double>(count());
+            if (at >= low && at < high) sum += weight[i];
         }
         return {sum, 0};
     }
 };
 
-struct ByInversion final : Drawn {
-    double forward(double u) const { return of->value[of->sums.at(u)]; }
-};
+struct ByInversion final : Outcomes {
+    using Outcomes::Outcomes;
 
-struct ByAlias final : Drawn {
-    double forward(double u) const {
-        const double at = u * static_cast<double>(of->count());
-        const std::size_t i = std::min(static_cast<std::size_t>(at), of->count() - 1);
-        return of->value[at - static_cast<double>(i) < of->share[i] ? i : of->alias[i]];
+    void forward_all(std::span<double> numbers) const {
+        for (double& u : numbers) u = value[sums.at(u)];
     }
 };
 
-/// Vose's way: slots that are short are filled up from outcomes that have more than one slot.
-void fill_slots(Outcomes& of) {
-    const std::size_t m = of.count();
-    of.share.resize(m);
-    of.alias.resize(m);
-    std::iota(of.alias.begin(), of.alias.end(), 0U);
-    std::vector<std::uint32_t> small, large;
-    for (std::size_t i = 0; i < m; ++i) {
-        of.share[i] = of.probability[i] * static_cast<double>(m);
-        (of.share[i] < 1 ? small : large).push_back(static_cast<std::uint32_t>(i));
+struct ByAlias final : Outcomes {
+    explicit ByAlias(const Values& options);
+
+    std::vector<double> share;  ///< q of each slot
+    std::vector<std::uint32_t> alias;
+
+    void forward_all(std::span<double> numbers) const {
+        for (double& u : numbers) {
+            const double at = u * static_cast<double>(count());
+            const std::size_t i = std::min(static_cast<std::size_t>(at), count() - 1);
+            u = value[at - static_cast<double>(i) < share[i] ? i : alias[i]];
+        }
     }
-    const auto likeliest = std::ranges::max_element(of.probability) - of.probability.begin();
-    while (!small.empty() && !large.empty()) {
-        const std::uint32_t s = small.back();
-        const std::uint32_t l = large.back();
-        small.pop_back();
-        of.alias[s] = l;
-        of.share[l] -= 1 - of.share[s];
-        if (of.share[l] >= 1) continue;
-        large.pop_back();
-        small.push_back(l);
-    }
-    for (const std::uint32_t i : large) of.share[i] = 1;
-    for (const std::uint32_t i : small) {  // short by rounding alone
-        if (of.probability[i] > 0)
-            of.share[i] = 1;
-        else
-            of.alias[i] = static_cast<std::uint32_t>(likeliest);
-    }
-}
+};
 
 std::vector<double> probabilities_of(const Values& options) {
     const std::vector<double> p = options[probabilities];
@@ -181,26 +153,50 @@ std::vector<double> values_of(const Values& options, std::size_t m) {
     return values;
 }
 
-OutcomesPtr outcomes_of(const Values& options) {
-    auto of = std::make_shared<Outcomes>();
-    of->probability = probabilities_of(options);
-    of->value = values_of(options, of->probability.size());
-    of->order.resize(of->count());
-    std::iota(of->order.begin(), of->order.end(), std::size_t{0});
-    std::ranges::sort(of->order, {}, [&](std::size_t i) { return of->value[i]; });
-    for (std::size_t i = 1; i < of->count(); ++i)
-        if (of->value[of->order[i]] == of->value[of->order[i - 1]])
-            fail(ErrorKind::usage, "--values: {} stands twice", of->value[of->order[i]]);
-    of->sums = GuideTable(sums_to_1(of->probability), 2 * of->count());
-    fill_slots(*of);
-    return of;
+Outcomes::Outcomes(const Values& options)
+    : weight(probabilities_of(options)), value(values_of(options, weight.size())), order(count()) {
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, {}, [&](std::size_t i) { return value[i]; });
+    for (std::size_t i = 1; i < count(); ++i)
+        if (value[order[i]] == value[order[i - 1]])
+            fail(ErrorKind::usage, "--values: {} stands twice", value[order[i]]);
+    sums = GuideTable(sums_to_1(weight), 2 * count());
+}
+
+/// Vose's way: slots that are short are filled up from outcomes that have more than one slot.
+ByAlias::ByAlias(const Values& options) : Outcomes(options) {
+    const std::size_t m = count();
+    share.resize(m);
+    alias.resize(m);
+    std::iota(alias.begin(), alias.end(), 0U);
+    std::vector<std::uint32_t> small, large;
+    for (std::size_t i = 0; i < m; ++i) {
+        share[i] = weight[i] * static_cast<double>(m);
+        (share[i] < 1 ? small : large).push_back(static_cast<std::uint32_t>(i));
+    }
+    const auto likeliest = std::ranges::max_element(weight) - weight.begin();
+    while (!small.empty() && !large.empty()) {
+        const std::uint32_t s = small.back();
+        const std::uint32_t l = large.back();
+        small.pop_back();
+        alias[s] = l;
+        share[l] -= 1 - share[s];
+        if (share[l] >= 1) continue;
+        large.pop_back();
+        small.push_back(l);
+    }
+    for (const std::uint32_t i : large) share[i] = 1;
+    for (const std::uint32_t i : small) {  // short by rounding alone
+        if (weight[i] > 0)
+            share[i] = 1;
+        else
+            alias[i] = static_cast<std::uint32_t>(likeliest);
+    }
 }
 
 template <class Law>
 std::unique_ptr<Mapping> mapping_by(const WarpRequest& want, std::string no_way_back) {
-    Law law;
-    law.of = outcomes_of(want.options);
-    return line_mapping(std::vector{law}, want.given,
+    return line_mapping(std::vector{std::make_shared<const Law>(want.options)}, want.given,
                         want.spec({probabilities.name, outcomes.name, normalize.name}),
                         "outcome, (i + 1/2) / m", std::move(no_way_back));
 }

@@ -53,11 +53,11 @@ struct Decay final : LineDistribution {
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const std::vector<double> rates = want.options[rate];
-    std::vector<Decay> laws;
+    std::vector<std::shared_ptr<const Decay>> laws;
     for (const double lambda : rates) {
         if (!(lambda >= 1e-300 && lambda <= 1e300))
             fail(ErrorKind::usage, "--rate: {} is outside [1e-300, 1e+300]", lambda);
-        laws.emplace_back(lambda);
+        laws.push_back(std::make_shared<Decay>(lambda));
     }
     return line_mapping(std::move(laws), want.given, want.spec(), "probability 1 - exp(-rate x)");
 }
@@ -69,7 +69,6 @@ Warp unit() {
             .summary = "Exponential distribution on each coordinate, by inversion",
             .source = "Inverse of the distribution function 1 - exp(-rate x)",
             .strata = "xi is the probability below x, as it is: small xi is near 0",
-            .traits = {},
             .options = Schema(rate),
             .mapping = make};
 }

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "core/domain.hpp"
 #include "core/error.hpp"
@@ -59,80 +60,59 @@ LineRange range_of(const Values& options) {
     return out;
 }
 
-/// The formula and its table, which all copies of the distribution share.
-struct Tabulated {
-    Tabulated(Expression formula, const LineRange& ends, double within, const RunContext& run)
-        : f(std::move(formula)),
-          table(tabulate_line(
-              "--density: " + f.text(),
-              [this](std::span<const double> at, std::span<double> values) {
-                  f.evaluate(at, values);
-              },
-              ends, within, run)) {
-        for (const LinePiece& piece : table.pieces()) {
-            before.push_back(total.value);
-            total.value += piece.integral.value;
-            total.error += piece.integral.error;
+/// Cells are of nearly equal mass, by the table; probability() gives their true one.
+class ByFormula final : public LineDistribution {
+  public:
+    ByFormula(Expression formula, const LineRange& ends, double within, const RunContext& run)
+        : f_(std::move(formula)),
+          table_(tabulate_line("--density: " + f_.text(),
+                               std::bind_front(&Expression::evaluate, &f_), ends, within, run)) {
+        for (const LinePiece& piece : table_.pieces()) {
+            before_.push_back(total_.value);
+            total_.value += piece.integral.value;
+            total_.error += piece.integral.error;
         }
     }
 
-    double at(double x) const { return f.at({&x, 1}); }
-
-    /// Integral of f up to x.
-    double mass_below(double x) const {
-        if (x >= table.pieces().back().x_high) return total.value;
-        const std::size_t i = table.piece_of(x);
-        const double from = table.pieces()[i].x_low;
-        if (!(from < x)) return before[i];
-        return before[i] + gauss_kronrod_15([this](double y) { return at(y); }, from, x).value;
-    }
-
-    Expression f;
-    LineTable table;
-    std::vector<double> before;  ///< integral of f up to each piece
-    Estimate total = {};
-};
-
-/// Cells are of nearly equal mass, by the table; probability() gives their true one.
-struct ByFormula final : LineDistribution {
-    explicit ByFormula(std::shared_ptr<const Tabulated> shared) : of(std::move(shared)) {}
-
-    std::shared_ptr<const Tabulated> of;
-
-    void forward_all(std::span<double> numbers) const { of->table.quantiles(numbers); }
-    double inverse(double x) const override { return of->table.fraction(x); }
-    double density(double x) const override {
-        return contains(x) ? of->at(x) / of->total.value : 0;
-    }
+    void forward_all(std::span<double> numbers) const { table_.quantiles(numbers); }
+    double inverse(double x) const override { return table_.fraction(x); }
+    double density(double x) const override { return contains(x) ? at(x) / total_.value : 0; }
     std::pair<double, double> range() const override {
-        return {of->table.pieces().front().x_low, of->table.pieces().back().x_high};
+        return {table_.pieces().front().x_low, table_.pieces().back().x_high};
     }
     bool even() const override { return false; }
     Estimate probability(double low, double high) const override {
         const auto mass = [&](double share) {
-            if (share <= 0 || share >= 1) return share <= 0 ? 0 : of->total.value;
-            return of->mass_below(of->table.quantile(share));
+            if (share <= 0 || share >= 1) return share <= 0 ? 0 : total_.value;
+            return mass_below(table_.quantile(share));
         };
-        const double total = of->total.value;
-        return {std::max(mass(high) - mass(low), 0.0) / total, 2 * of->total.error / total};
+        const double total = total_.value;
+        return {std::max(mass(high) - mass(low), 0.0) / total, 2 * total_.error / total};
     }
 
-    /// By a rule on each piece of the table, as exact as the integral of f.
     LineMoments moments() const override {
-        const double middle = range().first + 0.5 * measure();
-        const auto expect = [&](double about, int power) {
-            const auto integrand = [&](double x) { return of->at(x) * std::pow(x - about, power); };
-            double sum = 0;
-            for (const LinePiece& piece : of->table.pieces())
-                sum += gauss_kronrod_15(integrand, piece.x_low, piece.x_high).value;
-            return sum / of->total.value;
-        };
-        const double mean = middle + expect(middle, 1);
-        return {mean, expect(mean, 2), expect(mean, 3)};
+        return table_.moments_of([this](double x) { return at(x); }, total_.value);
     }
 
     /// Pieces of the table without mass are gaps; their ends are as near as the tolerance asks.
-    Positive positive() const override { return all_of(of->table.positive_intervals()); }
+    Positive positive() const override { return all_of(table_.positive_intervals()); }
+
+  private:
+    double at(double x) const { return f_.at({&x, 1}); }
+
+    /// Integral of f up to x.
+    double mass_below(double x) const {
+        if (x >= table_.pieces().back().x_high) return total_.value;
+        const std::size_t i = table_.piece_of(x);
+        const double from = table_.pieces()[i].x_low;
+        if (!(from < x)) return before_[i];
+        return before_[i] + gauss_kronrod([this](double y) { return at(y); }, from, x).value;
+    }
+
+    Expression f_;
+    LineTable table_;
+    std::vector<double> before_;  ///< integral of f up to each piece
+    Estimate total_;
 };
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
@@ -142,10 +122,9 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     Expression f(density.name, want.options[density], 1);
     Values plain = want.options;  // without blanks: the spec is one word
     plain.put(density.name, f.text());
-    const auto table =
-        std::make_shared<const Tabulated>(std::move(f), ends, want.options[tolerance], want.run);
-    return line_mapping(std::vector{ByFormula(table)}, 1,
-                        format_spec(want.warp.name, plain, want.warp.options),
+    const auto law =
+        std::make_shared<const ByFormula>(std::move(f), ends, want.options[tolerance], want.run);
+    return line_mapping(std::vector{law}, 1, format_spec(want.warp.name, plain, want.warp.options),
                         "share of the mass below x");
 }
 
@@ -158,7 +137,6 @@ Warp unit() {
                 "Inversion of a tabulated distribution function: L. Devroye, Non-Uniform "
                 "Random Variate Generation (1986), ch. II and VIII",
             .strata = "xi1 is the share of the mass below x, as it is",
-            .traits = {},
             .options = Schema(density, range, breaks, tolerance),
             .aliases = {"formula-1d"},
             .mapping = make};

@@ -18,14 +18,16 @@
 //         No point where f is 0 beside a jump, but for what 9 points of a patch do not show.
 // Beware  never F(x, y) / F(x, y_max), which is the distribution of y given X <= x.
 
-#include <algorithm>
-#include <cmath>
+#include <array>
+#include <functional>
+#include <memory>
+#include <span>
 
 #include "core/error.hpp"
 #include "core/spec.hpp"
 #include "math/densities/strip_table.hpp"
 #include "warps/densities/formula_box.hpp"
-#include "warps/warp.hpp"
+#include "warps/row_mapping.hpp"
 
 namespace stipple::warps::expression_2d {
 namespace {
@@ -44,37 +46,15 @@ constexpr Param<double> tolerance{.name = "tolerance",
                                   .high = 0.1,
                                   .help = "What any probability may be off by"};
 
-class Formula final : public Mapping {
-  public:
-    Formula(const std::shared_ptr<const FormulaBox>& box, double within, const RunContext& run)
-        : Mapping(box),
-          table_(tabulate_strips(
-              "--density: " + box->formula().text(),
-              [&](std::span<const double> at, std::span<double> values) {
-                  box->formula().evaluate(at, values);
-              },
-              box->box(), within, run)) {}
+struct ByTable {
+    std::shared_ptr<const StripTable> table;
 
-    void forward(std::span<const double> cube, std::span<double> image,
-                 std::span<std::uint8_t> /*keep*/) const override {
-        for (std::size_t i = 0; i + 1 < cube.size(); i += 2) {
-            const auto [x, y] = table_.quantile(cube[i], cube[i + 1]);
-            image[i] = x;
-            image[i + 1] = y;
-        }
+    std::array<double, 2> forward(const std::array<double, 2>& xi) const {
+        return table->quantile(xi[0], xi[1]);
     }
-
-    void inverse(std::span<const double> image, std::span<double> cube) const override {
-        expect_inside(image);
-        for (std::size_t i = 0; i + 1 < image.size(); i += 2) {
-            const auto [u, v] = table_.fraction(image[i], image[i + 1]);
-            cube[i] = u;
-            cube[i + 1] = v;
-        }
+    std::array<double, 2> inverse(std::span<const double> point) const {
+        return table->fraction(point[0], point[1]);
     }
-
-  private:
-    StripTable table_;
 };
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
@@ -84,10 +64,13 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     Expression f(density.name, want.options[density], 2);
     Values plain = want.options;  // without blanks: the spec is one word
     plain.put(density.name, f.text());
-    return std::make_unique<Formula>(
-        std::make_shared<FormulaBox>(format_spec(want.warp.name, plain, want.warp.options),
-                                     std::move(f), box),
+    const auto domain = std::make_shared<FormulaBox>(
+        format_spec(want.warp.name, plain, want.warp.options), std::move(f), box);
+    const Expression& formula = domain->formula();
+    const auto table = std::make_shared<const StripTable>(
+        "--density: " + formula.text(), std::bind_front(&Expression::evaluate, &formula), box,
         want.options[tolerance], want.run);
+    return row_mapping(domain, ByTable{table});
 }
 
 }  // namespace
@@ -101,7 +84,6 @@ Warp unit() {
             .strata =
                 "xi1 is the share of the mass left of x, xi2 the share below y of what is "
                 "at that x, both as they are",
-            .traits = {},
             .options = Schema(density, bounds, tolerance),
             .aliases = {"formula-2d"},
             .mapping = make};

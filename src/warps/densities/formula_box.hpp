@@ -9,13 +9,12 @@
 #include <string>
 
 #include "core/domain.hpp"
-#include "core/support.hpp"
 #include "math/densities/expression.hpp"
 #include "warps/named_domain.hpp"
 
 namespace stipple::warps {
 
-class FormulaBox final : public NamedDomain, public Gapped, public Weighable {
+class FormulaBox final : public NamedDomain {
   public:
     FormulaBox(std::string spec, Expression f, Box box);
 
@@ -30,7 +29,9 @@ class FormulaBox final : public NamedDomain, public Gapped, public Weighable {
     }
     bool even() const override { return false; }
     Estimate probability(const Box& cell) const override;
-    Estimate box_mass(const Box& box) const override { return box_mass_by_axes(*this, box); }
+    std::optional<Estimate> box_mass(const Box& box) const override {
+        return box_mass_by_axes(*this, box);
+    }
     std::vector<std::string> cube_axes() const override { return place_->cube_axes(); }
 
     /// By quadrature, within 1e-6 of the box's extents; none where that is not reached, or in three

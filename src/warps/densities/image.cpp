@@ -24,7 +24,6 @@
 
 #include "core/domain.hpp"
 #include "core/error.hpp"
-#include "core/support.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "media/density_map.hpp"
 #include "warps/domain_mapping.hpp"
@@ -40,7 +39,7 @@ constexpr Param<Path> file{
 constexpr Param<bool> invert{.name = "invert",
                              .help = "Points where the picture is dark, as ink on paper"};
 
-class ImageDomain final : public NamedDomain, public Gapped, public Weighable {
+class ImageDomain final : public NamedDomain {
   public:
     explicit ImageDomain(const WarpRequest& want)
         : NamedDomain(want.spec(), 2, 2),
@@ -60,7 +59,7 @@ class ImageDomain final : public NamedDomain, public Gapped, public Weighable {
         cube[1] = v;
     }
     /// Within a row of pixels the share left of x is the same at all heights.
-    Estimate box_mass(const Box& box) const override {
+    std::optional<Estimate> box_mass(const Box& box) const override {
         const double left = std::clamp(box.low[0], 0.0, 1.0);
         const double right = std::clamp(box.high[0], 0.0, 1.0);
         const double top = std::clamp(box.high[1], 0.0, 1.0);
@@ -128,7 +127,6 @@ Warp unit() {
             .strata =
                 "xi2 is the share of the mass below y, xi1 the share of that row's mass left "
                 "of x, both as they are",
-            .traits = {},
             .options = Schema(file, invert),
             .aliases = {"picture", "density-map"},
             .mapping = make};

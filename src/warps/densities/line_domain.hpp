@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Coordinates that are independent of each other, each by a distribution on the line, and the
-// mapping onto them by inversion. A distribution is a value:
+// mapping onto them by inversion. A distribution is
 //
 //     struct Decay final : LineDistribution {
 //         double forward(double u) const;   // the quantile of u in [0, 1]
@@ -9,11 +9,14 @@
 //     };
 //
 // or has `void forward_all(std::span<double> numbers) const` in place of forward(), which takes
-// many numbers at a time.
+// many numbers at a time and does not copy what it is made of.
 #pragma once
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -23,7 +26,6 @@
 
 #include "core/domain.hpp"
 #include "core/machine/wide.hpp"
-#include "core/support.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "warps/named_domain.hpp"
 #include "warps/warp.hpp"
@@ -74,28 +76,99 @@ class LineDistribution {
     LineDistribution& operator=(const LineDistribution&) = default;
 };
 
-class LineDomain final : public NamedDomain, public Gapped, public Weighable {
+class LineDomain final : public NamedDomain {
   public:
     /// @param distributions one for each coordinate
     /// @param what what the coordinates of the cube are, for people
     LineDomain(std::vector<std::shared_ptr<const LineDistribution>> distributions, std::string spec,
-               std::string what);
+               std::string what)
+        : NamedDomain(std::move(spec), distributions.size(), distributions.size()),
+          axes_(std::move(distributions)),
+          what_(std::move(what)) {}
 
-    double measure() const override;
-    bool contains(std::span<const double> point) const override;
-    Box bounding_box() const override;
-    double density(std::span<const double> point) const override;
-    void to_cube(std::span<const double> point, std::span<double> cube) const override;
+    double measure() const override {
+        double product = 1;
+        for (const auto& axis : axes_) product *= axis->measure();
+        return product;
+    }
+    bool contains(std::span<const double> point) const override {
+        for (std::size_t k = 0; k < axes_.size(); ++k)
+            if (!axes_[k]->contains(point[k])) return false;
+        return true;
+    }
+    Box bounding_box() const override {
+        Box box;
+        for (const auto& axis : axes_) {
+            const auto [low, high] = axis->range();
+            box.low.push_back(low);
+            box.high.push_back(high);
+        }
+        return box;
+    }
+    double density(std::span<const double> point) const override {
+        double product = 1;
+        for (std::size_t k = 0; k < axes_.size(); ++k) product *= axes_[k]->density(point[k]);
+        return product;
+    }
+    void to_cube(std::span<const double> point, std::span<double> cube) const override {
+        for (std::size_t k = 0; k < axes_.size(); ++k)
+            cube[k] = std::clamp(axes_[k]->cube_coordinate(point[k]), 0.0, 1.0);
+    }
     bool even() const override { return axes_[0]->even(); }
-    Estimate probability(const Box& cell) const override;
-    Estimate box_mass(const Box& box) const override { return box_mass_by_axes(*this, box); }
-    std::optional<Moments> moments() const override;
-    std::vector<std::string> cube_axes() const override;
-    Support support() const override;
+    Estimate probability(const Box& cell) const override {
+        Estimate product{1, 0};
+        for (std::size_t k = 0; k < axes_.size(); ++k) {
+            const Estimate one = axes_[k]->probability(cell.low[k], cell.high[k]);
+            product = {product.value * one.value,
+                       product.error * one.value + product.value * one.error};
+        }
+        return product;
+    }
+    std::optional<Estimate> box_mass(const Box& box) const override {
+        return box_mass_by_axes(*this, box);
+    }
+    std::optional<Moments> moments() const override {
+        std::vector<LineMoments> each;
+        for (const auto& axis : axes_) each.push_back(axis->moments());
+        return independent_moments(each);
+    }
+    std::vector<std::string> cube_axes() const override {
+        if (axes_.size() == 1) return {what_};
+        std::vector<std::string> names;
+        for (std::size_t k = 1; k <= axes_.size(); ++k)
+            names.push_back(fmt::format("{} of x{}", what_, k));
+        return names;
+    }
+    Support support() const override {
+        constexpr std::size_t most_boxes = 64;
+        Support all{.measure = Estimate{1, 0}, .boxes = {Box{}}};
+        for (const auto& axis : axes_) {
+            const auto [intervals, length] = axis->positive();
+            all.whole = all.whole && length >= axis->measure();
+            all.measure->value *= length;
+            std::vector<Box> boxes;
+            if (axes_.size() == 1 || all.boxes.size() * intervals.size() <= most_boxes)
+                for (const Box& before : all.boxes)
+                    for (const auto& [low, high] : intervals) {
+                        boxes.push_back(before);
+                        boxes.back().low.push_back(low);
+                        boxes.back().high.push_back(high);
+                    }
+            all.boxes = std::move(boxes);
+        }
+        all.finite = all.measure->value < std::numeric_limits<double>::infinity();
+        if (!all.finite) all.measure.reset();
+        return all;
+    }
     bool shows_gaps() const override { return true; }
 
     /// The distributions' ways back, point after point, of points that it contains.
-    void inverse(std::span<const double> image, std::span<double> cube) const;
+    void inverse(std::span<const double> image, std::span<double> cube) const {
+        const std::size_t d = axes_.size();
+        for (std::size_t i = 0; i < image.size(); i += d)
+            for (std::size_t k = 0; k < d; ++k)
+                cube[i + k] = std::clamp(axes_[k]->inverse(image[i + k]), 0.0, 1.0);
+    }
 
   private:
     std::vector<std::shared_ptr<const LineDistribution>> axes_;
@@ -112,14 +185,14 @@ STIPPLE_WIDE [[gnu::flatten]] void map_numbers(const Law law, std::span<double> 
 template <class Law>
 class LineMapping final : public Mapping {
   public:
-    LineMapping(std::vector<Law> laws, const std::shared_ptr<const LineDomain>& domain,
-                std::string no_way_back)
+    LineMapping(std::vector<std::shared_ptr<const Law>> laws,
+                const std::shared_ptr<const LineDomain>& domain, std::string no_way_back)
         : Mapping(domain, std::move(no_way_back)), laws_(std::move(laws)), line_(*domain) {}
 
     void forward(std::span<const double> cube, std::span<double> image,
                  std::span<std::uint8_t> /*keep*/) const override {
         std::ranges::copy(cube, image.begin());
-        if (laws_.size() == 1) return apply(laws_[0], image);
+        if (laws_.size() == 1) return apply(*laws_[0], image);
         for (std::size_t k = 0; k < laws_.size(); ++k) map_column(k, image);
     }
     void inverse(std::span<const double> image, std::span<double> cube) const override {
@@ -143,22 +216,22 @@ class LineMapping final : public Mapping {
         for (std::size_t first = 0; first < count; first += column.size()) {
             const std::size_t size = std::min(column.size(), count - first);
             for (std::size_t i = 0; i < size; ++i) column[i] = rows[(first + i) * d + k];
-            apply(laws_[k], std::span(column).first(size));
+            apply(*laws_[k], std::span(column).first(size));
             for (std::size_t i = 0; i < size; ++i) rows[(first + i) * d + k] = column[i];
         }
     }
 
-    std::vector<Law> laws_;  ///< one for all coordinates, or one for each
+    std::vector<std::shared_ptr<const Law>> laws_;  ///< one for all coordinates, or one for each
     const LineDomain& line_;
 };
 
 /// The mapping of d coordinates by one distribution for all, or by one for each.
 /// @param no_way_back why there is no inverse; empty where there is one
 template <class Law>
-std::unique_ptr<Mapping> line_mapping(std::vector<Law> laws, std::size_t d, std::string spec,
-                                      std::string what, std::string no_way_back = {}) {
-    std::vector<std::shared_ptr<const LineDistribution>> axes;
-    for (const Law& law : laws) axes.push_back(std::make_shared<Law>(law));
+std::unique_ptr<Mapping> line_mapping(std::vector<std::shared_ptr<const Law>> laws, std::size_t d,
+                                      std::string spec, std::string what,
+                                      std::string no_way_back = {}) {
+    std::vector<std::shared_ptr<const LineDistribution>> axes(laws.begin(), laws.end());
     if (laws.size() == 1) axes.resize(d, axes[0]);
     const auto domain =
         std::make_shared<const LineDomain>(std::move(axes), std::move(spec), std::move(what));

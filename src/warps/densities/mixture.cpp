@@ -64,7 +64,8 @@ DomainPtr domain_of(const std::vector<Component>& parts, std::string spec) {
         domains.push_back(part.mapping->domain());
         weights_of_them.push_back(part.weight);
     }
-    return mixture_domain(std::move(domains), std::move(weights_of_them), std::move(spec));
+    return std::make_shared<MixtureDomain>(std::move(domains), std::move(weights_of_them),
+                                           std::move(spec));
 }
 
 class Mixture final : public Mapping {

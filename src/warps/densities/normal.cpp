@@ -97,7 +97,7 @@ STIPPLE_WIDE void mix(const double* middle, const double* factor, std::size_t d,
         }
 }
 
-class NormalDomain final : public NamedDomain, public Weighable {
+class NormalDomain final : public NamedDomain {
   public:
     NormalDomain(Shape shape, std::string spec)
         : NamedDomain(std::move(spec), shape.dimension(), shape.dimension()),
@@ -135,7 +135,7 @@ class NormalDomain final : public NamedDomain, public Weighable {
         standardise(point, cube);
         for (double& x : cube) x = normal_distribution(x);
     }
-    Estimate box_mass(const Box& box) const override {
+    std::optional<Estimate> box_mass(const Box& box) const override {
         std::vector<double> z(dimension());
         return mass_from(box, z, 0);
     }
@@ -267,7 +267,6 @@ Warp unit() {
             .strata =
                 "xi_k is the probability below x_k given those before it, as it is: small xi is "
                 "far below the mean",
-            .traits = {},
             .options = Schema(mean, deviation, covariance),
             .aliases = {"gaussian"},
             .mapping = make};

@@ -117,7 +117,7 @@ LineMoments PowerLaw::narrow_moments() const {
         const auto integrand = [&](double x) {
             return std::pow(x - about, n) * real_power(std::abs(x / middle), p - 1);
         };
-        return gauss_kronrod_31(integrand, a, b).value;
+        return gauss_kronrod(integrand, a, b).value;
     };
     const double mass = sum(0, 0);
     const double mean = middle + sum(1, middle) / mass;
@@ -202,7 +202,8 @@ struct TwoSided final : PowerLaw {
 
 template <class Law>
 std::unique_ptr<Mapping> mapping_by(const Law& law, const WarpRequest& want) {
-    return line_mapping(std::vector{law}, want.given, want.spec(), "probability below x");
+    return line_mapping(std::vector{std::make_shared<const Law>(law)}, want.given, want.spec(),
+                        "probability below x");
 }
 
 template <Root root>
@@ -310,7 +311,6 @@ Warp unit() {
             .summary = "Density x^k on an interval, on each coordinate, by inversion",
             .source = "Inverse of the distribution function, a power or a logarithm",
             .strata = "xi is the probability below x, as it is: xi = 0 is the lower end",
-            .traits = {},
             .options = Schema(exponent, range),
             .mapping = make};
 }

@@ -45,9 +45,9 @@ constexpr Param<Choice> interpolation{
     .help = "linear: straight between rows; constant: each density holds up to the next x"};
 
 struct Tabulated final : LineDistribution {
-    explicit Tabulated(std::shared_ptr<const LineTable> pieces) : table(std::move(pieces)) {}
+    explicit Tabulated(LineTable pieces) : table(std::move(pieces)) {}
 
-    std::shared_ptr<const LineTable> table;
+    LineTable table;
 
     /// 1 itself is the upper end.
     void forward_all(std::span<double> numbers) const {
@@ -56,41 +56,20 @@ struct Tabulated final : LineDistribution {
             const auto some =
                 numbers.subspan(first, std::min(is_one.size(), numbers.size() - first));
             for (std::size_t i = 0; i < some.size(); ++i) is_one[i] = some[i] >= 1;
-            table->quantiles(some);
+            table.quantiles(some);
             for (std::size_t i = 0; i < some.size(); ++i)
-                if (is_one[i] != 0) some[i] = table->pieces().back().x_high;
+                if (is_one[i] != 0) some[i] = table.pieces().back().x_high;
         }
     }
-    double inverse(double x) const override { return table->fraction(x); }
-    double density(double x) const override { return contains(x) ? table->density(x) : 0; }
+    double inverse(double x) const override { return table.fraction(x); }
+    double density(double x) const override { return contains(x) ? table.density(x) : 0; }
     std::pair<double, double> range() const override {
-        return {table->pieces().front().x_low, table->pieces().back().x_high};
+        return {table.pieces().front().x_low, table.pieces().back().x_high};
     }
     LineMoments moments() const override {
-        LineMoments m{.mean = expectation([](double x) { return x; })};
-        const double c = m.mean;
-        m.variance = expectation([c](double x) { return (x - c) * (x - c); });
-        m.third = expectation([c](double x) { return (x - c) * (x - c) * (x - c); });
-        return m;
+        return table.moments_of([this](double x) { return table.density(x); }, 1);
     }
-    Positive positive() const override { return all_of(table->positive_intervals()); }
-
-  private:
-    /// E f, exact for polynomials of degree 4, by Gauss's rule of 3 points on each piece.
-    template <class F>
-    double expectation(const F& f) const {
-        constexpr double nodes[] = {0.1127016653792583, 0.5, 0.8872983346207417};
-        constexpr double weights[] = {5 / 18.0, 8 / 18.0, 5 / 18.0};
-        double sum = 0;
-        for (const LinePiece& p : table->pieces()) {
-            const double width = p.x_high - p.x_low;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const double x = p.x_low + nodes[k] * width;
-                sum += weights[k] * width * table->density_in(p, nodes[k]) * f(x);
-            }
-        }
-        return sum;
-    }
+    Positive positive() const override { return all_of(table.positive_intervals()); }
 };
 
 /// Numbers of the table in order, with the name that messages give it. @throws Error
@@ -128,7 +107,7 @@ void check_rows(const Table& table, bool linear, ErrorKind kind, const std::stri
     }
 }
 
-std::shared_ptr<const LineTable> table_from(const Values& options, const RunContext& run) {
+LineTable table_from(const Values& options, const RunContext& run) {
     const std::string name = options.given(file) ? options[file] : "--rows";
     const auto kind = options.given(file) ? ErrorKind::input : ErrorKind::usage;
     const bool linear = std::string(options[interpolation]) == "linear";
@@ -148,12 +127,12 @@ std::shared_ptr<const LineTable> table_from(const Values& options, const RunCont
     }
     if (!(mass > 1e-290 && mass < 1e290))
         fail(kind, "{}: the density's integral is {}; it must be in [1e-290, 1e290]", name, mass);
-    return std::make_shared<LineTable>(std::move(pieces));
+    return LineTable(std::move(pieces));
 }
 
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
-    return line_mapping(std::vector{Tabulated(table_from(want.options, want.run))}, want.given,
-                        want.spec(), "probability below x");
+    const auto law = std::make_shared<const Tabulated>(table_from(want.options, want.run));
+    return line_mapping(std::vector{law}, want.given, want.spec(), "probability below x");
 }
 
 }  // namespace
@@ -163,7 +142,6 @@ Warp unit() {
             .summary = "Density from a table, on each coordinate, by exact inversion",
             .source = "Inverse of a distribution function of straight or parabolic pieces",
             .strata = "xi is the probability below x, as it is: xi = 0 is the lower end",
-            .traits = {},
             .options = Schema(rows, file, interpolation),
             .stream_version = 2,
             .mapping = make};

@@ -73,7 +73,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const auto radii = one_for_each(radius, want.options[radius], want.given);
     const auto centers = one_for_each(center, want.options[center], want.given);
     const bool same = want.options[radius].size() == 1 && want.options[center].size() == 1;
-    std::vector<Tent> axes;
+    std::vector<std::shared_ptr<const Tent>> axes;
     for (std::size_t k = 0; k < (same ? 1 : want.given); ++k) {
         const double r = radii[k];
         const double c = centers[k] + 0.0;  // -0 would show in points
@@ -82,7 +82,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
         if (!(r > 64 * std::numeric_limits<double>::epsilon() * std::abs(c)))
             fail(ErrorKind::usage, "--center: {} is so far that a radius of {} is lost in rounding",
                  c, r);
-        axes.emplace_back(r, c);
+        axes.push_back(std::make_shared<Tent>(r, c));
     }
     return line_mapping(std::move(axes), want.given, want.spec(), "share of the tent left");
 }
@@ -94,7 +94,6 @@ Warp unit() {
             .summary = "Box with the tent density, the triangle filter, in any dimension",
             .source = "the inverse of the distribution function of the triangle density",
             .strata = "each xi is the share of the tent on the left, as it is; strata become boxes",
-            .traits = {},
             .options = Schema(radius, center),
             .aliases = {"triangle-filter"},
             .mapping = make};

@@ -47,7 +47,6 @@ Warp unit() {
             .strata =
                 "xi1 is the share of the area within the radius, xi2 the angle, both as they "
                 "are",
-            .traits = {},
             .options = Schema(inner, radius, shape_center),
             .aliases = {"ring"},
             .mapping = make};

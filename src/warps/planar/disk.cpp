@@ -102,7 +102,7 @@ Warp unit() {
             .strata =
                 "polar: xi1 is the share of the area within the radius, xi2 the angle, both as "
                 "they are; concentric: squares about the centre become rings, left stays left",
-            .traits = {.invertible = true, .drops = true, .biased = true},
+            .traits = {.drops = true, .biased = true},
             .options = Schema(method, radius, shape_center),
             .aliases = {"disc"},
             .mapping = make};

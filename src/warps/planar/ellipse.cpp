@@ -119,7 +119,6 @@ Warp unit() {
                 "polar: xi1 is the share of the area within an ellipse of the same shape, xi2 the "
                 "angle from the first axis, both as they are; concentric: squares about the centre "
                 "become ellipses",
-            .traits = {},
             .options = Schema(method, axes, rotation, shape_center),
             .stream_version = 2,
             .mapping = make};

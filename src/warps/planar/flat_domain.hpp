@@ -16,7 +16,7 @@
 
 namespace stipple::warps {
 
-class FlatDomain : public NamedDomain, public Weighable {
+class FlatDomain : public NamedDomain {
   public:
     /// @param corners in their order, 3 or 4, of 2 or 3 coordinates
     /// @param frame of the edges from the first corner to the second and to the last; not flat
@@ -48,7 +48,7 @@ class FlatDomain : public NamedDomain, public Weighable {
     }
 
     /// In the plane.
-    Estimate box_mass(const Box& box) const final {
+    std::optional<Estimate> box_mass(const Box& box) const final {
         return area_share(box, *this, [&](const Polygon& window) {
             Polygon shape;
             for (const auto& corner : corners_) shape.push_back({corner[0], corner[1]});

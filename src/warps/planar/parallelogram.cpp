@@ -122,7 +122,6 @@ Warp unit() {
             .strata =
                 "xi1 is the place along the first edge, xi2 along the second, both as they "
                 "are; strata become parallelograms",
-            .traits = {},
             .options = Schema(corner, edges),
             .mapping = make};
 }

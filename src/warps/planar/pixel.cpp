@@ -100,7 +100,6 @@ Warp unit() {
             .strata =
                 "xi1 is the place along the rows, xi2 along the columns, both as they are; "
                 "an N W x N H grid of strata is N x N in each pixel",
-            .traits = {},
             .options = Schema(resolution, pixel_index),
             .mapping = make};
 }

@@ -4,12 +4,16 @@
 #include "core/error.hpp"
 
 namespace stipple::warps {
+namespace {
 
+/// An angle in degrees as turns in [0, 1).
 double turn_of_degrees(double degrees) {
     const double turns = degrees / 360;
     const double rest = turns - std::floor(turns);
     return rest < 1 ? rest : 0;  // just below a whole turn, the difference rounds to 1
 }
+
+}  // namespace
 
 Placement place(const std::vector<double>& center, double size, double degrees, double finest,
                 std::string_view what) {

@@ -56,11 +56,8 @@ inline constexpr double lost_in_rounding = 64 * std::numeric_limits<double>::eps
 Placement place(const std::vector<double>& center, double size, double degrees, double finest,
                 std::string_view what);
 
-/// An angle in degrees as turns in [0, 1).
-double turn_of_degrees(double degrees);
-
 template <class Shape>
-class PlacedDomain final : public NamedDomain, public Weighable {
+class PlacedDomain final : public NamedDomain {
   public:
     PlacedDomain(std::string spec, Shape shape, const Placement& at)
         : NamedDomain(std::move(spec), 2, 2), shape_(std::move(shape)), at_(at) {
@@ -76,14 +73,12 @@ class PlacedDomain final : public NamedDomain, public Weighable {
     }
 
     Box bounding_box() const override {
-        constexpr double infinity = std::numeric_limits<double>::infinity();
-        Box box{{infinity, infinity}, {-infinity, -infinity}};
+        std::vector<double> rows;
         for (const PlanePoint& q : shape_.hull(at_.turn)) {
             const auto [x, y] = at_.to_world(q);
-            box = {{std::min(box.low[0], x), std::min(box.low[1], y)},
-                   {std::max(box.high[0], x), std::max(box.high[1], y)}};
+            rows.insert(rows.end(), {x, y});
         }
-        return box;
+        return stipple::bounding_box(rows, 2);
     }
 
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
@@ -91,7 +86,7 @@ class PlacedDomain final : public NamedDomain, public Weighable {
         const auto [u, v] = shape_.inverse(x, y);
         put_clamped<2>({u, v}, cube);
     }
-    Estimate box_mass(const Box& box) const override {
+    std::optional<Estimate> box_mass(const Box& box) const override {
         return area_share(box, *this, [&](Polygon window) {
             for (PlanePair& corner : window) {
                 const auto [x, y] = at_.to_frame(corner[0], corner[1]);

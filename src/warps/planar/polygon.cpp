@@ -159,7 +159,7 @@ std::vector<Ring> rings_of(const Values& options, const Source& source, const Ru
     return rings;
 }
 
-class PolygonDomain final : public NamedDomain, public Weighable {
+class PolygonDomain final : public NamedDomain {
   public:
     PolygonDomain(std::string spec, PolygonRows rows)
         : NamedDomain(std::move(spec), 2, 2), rows_(std::move(rows)) {}
@@ -174,7 +174,7 @@ class PolygonDomain final : public NamedDomain, public Weighable {
         cube[0] = u;
         cube[1] = v;
     }
-    Estimate box_mass(const Box& box) const override {
+    std::optional<Estimate> box_mass(const Box& box) const override {
         return area_share(box, *this, [&](const Polygon& window) {
             return rows_.area_in({{window[0][0], window[0][1]}, {window[2][0], window[2][1]}});
         });
@@ -220,7 +220,6 @@ Warp unit() {
             .strata =
                 "xi1 is the share of the area below, xi2 the place along the row, both as "
                 "they are; strata become pieces of horizontal bands",
-            .traits = {},
             .options = Schema(vertices, file),
             .mapping = make};
 }

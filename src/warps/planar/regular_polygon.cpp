@@ -128,7 +128,6 @@ Warp unit() {
             .strata =
                 "xi1 is the share of the area within a polygon of the same shape, xi2 the "
                 "way around it from the first vertex, both as they are",
-            .traits = {},
             .options = Schema(sides, radius, rotation, shape_center),
             .mapping = make};
 }

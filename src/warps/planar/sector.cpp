@@ -79,7 +79,6 @@ Warp unit() {
             .strata =
                 "xi1 is the share of the area within the radius, xi2 the place between the "
                 "two angles, both as they are",
-            .traits = {},
             .options = Schema(angles, inner, radius, shape_center),
             .stream_version = 2,
             .mapping = make};

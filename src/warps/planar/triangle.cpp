@@ -54,11 +54,7 @@ constexpr Param<Points> vertices{
      .fallback = "0,0 1,0 0,1",
      .help = "Three corners v0 v1 v2, in 2 or 3 dimensions; xi1 = xi2 = 0 is v0"}};
 
-struct Barycentrics {
-    double l0;
-    double l1;
-    double l2;
-};
+using Barycentrics = std::array<double, 3>;
 
 class TriangleDomain final : public FlatDomain {
   public:
@@ -174,7 +170,6 @@ Warp unit() {
                 "sqrt: xi1 is the share of the area between the first vertex and a parallel of the "
                 "opposite side, xi2 the place along it, both as they are; low-distortion: the "
                 "diagonal becomes the median from the first vertex, linear on either side",
-            .traits = {},
             .options = Schema(method, vertices),
             .mapping = make};
 }
