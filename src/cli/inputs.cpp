@@ -13,6 +13,7 @@
 #include "io/files.hpp"
 #include "io/source_text.hpp"
 #include "pipeline/chain.hpp"
+#include "pipeline/units.hpp"
 
 namespace stipple::cli {
 
@@ -63,6 +64,7 @@ std::vector<PointSet> named(std::vector<PointSet> sets, const Arguments& argumen
         set.provenance.domain = set.domain->spec();
         set.provenance.count = set.count();
         set.provenance.dimension = set.dimension();
+        complete(set.provenance);
     }
     return sets;
 }

@@ -57,10 +57,11 @@ inline std::unique_ptr<Sequence> sequence_of(Sequence::Fill fill, bool random_ac
 struct GeneratorTraits {
     std::size_t min_dimension = 1;
     std::size_t max_dimension = 1'000'000;
-    bool sequence = true;  ///< streams in constant memory, shards
-    bool prefix = true;    ///< point i does not depend on the count; --start works
-    bool seeded = true;    ///< uses the seed, at least under some options
-    bool boxed = false;    ///< takes the bounds itself, since its distances hold in them
+    bool sequence = true;      ///< streams in constant memory, shards
+    bool prefix = true;        ///< point i does not depend on the count; --start works
+    bool seeded = true;        ///< uses the seed, at least under some options
+    bool boxed = false;        ///< takes the bounds itself, since its distances hold in them
+    bool independent = false;  ///< no point tells anything of another
     std::uint64_t max_index = std::uint64_t{1} << 53;  ///< start + count is at most this
     std::string more_dimensions = {};  ///< option with a file that has more than max_dimension
 };

@@ -210,9 +210,11 @@ std::vector<PointSet> read_sets(const std::string& path, const ReadFileOptions& 
     inner.single = options.single;
     const Format* format = options.format.empty() ? nullptr : &io::format_named(options.format);
     std::vector<PointSet> sets = io::read_points(path, inner, run, format);
-    for (PointSet& set : sets)
+    for (PointSet& set : sets) {
+        complete(set.provenance);
         if (const std::string& domain = set.provenance.domain; !domain.empty())
             set.domain = parse_domain(domain, set.dimension(), run);
+    }
     return sets;
 }
 

@@ -186,7 +186,8 @@ Provenance GeneratedSets::provenance(std::uint64_t set, std::uint64_t count) con
                     .domain = domain_->spec(),
                     .bounds = {},
                     .shard = {},
-                    .command = {}};
+                    .command = {},
+                    .independent = generator_.traits.independent};
     if (asked_.request.bounds) meta.bounds = format_box(*asked_.request.bounds);
     meta.inputs = inputs_;
     if (generator_.stream_version > 1)

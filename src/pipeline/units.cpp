@@ -45,9 +45,17 @@ const Generator& find_generator(std::string_view name) {
     return find_unit("generator", generators::all(), name);
 }
 const Warp& find_warp(std::string_view name) { return find_unit("warp", warps::all(), name); }
+const Generator* generator_named(std::string_view name) {
+    return try_unit(generators::all(), name);
+}
 const Scramble* scramble_named(std::string_view name) { return try_unit(scrambles::all(), name); }
 const Analyzer& find_analyzer(std::string_view name) {
     return find_unit("analyzer", analyzers::all(), name);
+}
+
+void complete(Provenance& provenance) {
+    const Generator* generator = generator_named(provenance.generator);
+    provenance.independent = generator != nullptr && generator->traits.independent;
 }
 
 }  // namespace stipple

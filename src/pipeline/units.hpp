@@ -21,7 +21,11 @@ const Generator& find_generator(std::string_view name);
 const Warp& find_warp(std::string_view name);  ///< suggests scrambles, too
 const Analyzer& find_analyzer(std::string_view name);
 
-/// The scramble of that name or alias; nullptr if there is none.
+/// The unit of that name or alias; nullptr if there is none.
+const Generator* generator_named(std::string_view name);
 const Scramble* scramble_named(std::string_view name);
+
+/// Adds to the provenance that a file holds what the record of its generator knows.
+void complete(Provenance& provenance);
 
 }  // namespace stipple

@@ -7,19 +7,10 @@
 
 #include "core/error.hpp"
 #include "core/spec.hpp"
-#include "pipeline/pipeline.hpp"
+#include "pipeline/units.hpp"
 
 namespace stipple::plot {
 namespace {
-
-/// The generator, if this program has it.
-const Generator* known_generator(const std::string& name) {
-    try {
-        return &find_generator(name);
-    } catch (const Error&) {
-        return nullptr;
-    }
-}
 
 bool seed_matters(const Generator& generator, const Provenance& from) {
     try {
@@ -50,7 +41,7 @@ std::string title_of_points(const PointSet& points, const std::string& source) {
 std::string subtitle_of_points(const PointSet& points) {
     const Provenance& from = points.provenance;
     std::string text = fmt::format("{} point{}", points.count(), points.count() == 1 ? "" : "s");
-    const Generator* generator = known_generator(from.generator);
+    const Generator* generator = generator_named(from.generator);
     if (generator == nullptr) return text;
     if (std::ranges::any_of(from.warps, is_scramble) || seed_matters(*generator, from))
         text += fmt::format(", seed {}", from.seed);

@@ -88,6 +88,8 @@ struct Provenance {
     std::vector<std::pair<std::string, std::uint64_t>> stream_versions = {};
     /// What no such value can be, of one that was read; empty: nothing.
     std::string flaw = {};
+    /// The generator's points are independent of one another; not written, but known by its name.
+    bool independent = false;
 
     bool operator==(const Provenance&) const = default;
 };

@@ -161,6 +161,7 @@ void make(MadeSet& made, const Sweep& sweep, const Cell& cell, std::uint64_t see
     PointSet& points = made.before;
     points = make_points(*generator.unit, request, generator.values, run);
     points.provenance.generator = generator.unit->name;
+    points.provenance.independent = generator.unit->traits.independent;
     const ChainSet set{.seed = seed, .count = points.count()};
     const std::size_t d = points.dimension();
     if (!sweep.scrambles().empty())

@@ -9,8 +9,8 @@
 // box, its integral multiplied by the volume.
 //
 // Standard error: of one set, sqrt(variance of f / p over n) is right for independent points alone,
-// and far too large for low-discrepancy ones; it is given where the set's meta says that the
-// generator is `random`, else left out. Of R sets (--average) it is the spread of their estimates,
+// and far too large for low-discrepancy ones; it is given where the set is known to be from a
+// generator of such points, else left out. Of R sets (--average) it is the spread of their estimates,
 //
 //     standard_error = sqrt(sum_r (estimate_r - mean)^2 / (R (R - 1))),
 //
@@ -382,9 +382,6 @@ Sums sums_over(const PointSet& points, const RegionView& view, const std::vector
 
 // ---------------------------------------------------------------- results
 
-/// Whether the points are known to be independent of one another.
-bool independent(const PointSet& points) { return points.provenance.generator == "random"; }
-
 double ratio_of(double uniform, double importance) {
     return uniform == importance ? 1 : uniform / importance;  // 0 / 0 where f is level, too
 }
@@ -462,7 +459,7 @@ void tell_measure(const Tally& found, const PointSet& points, Report& report) {
     Report part;
     if (const auto* item = report.find("support")) part = std::get<Report>(*item);
     part.add("measure", found.mean());
-    if (independent(points)) part.add("measure_error", found.standard_error());
+    if (points.provenance.independent) part.add("measure_error", found.standard_error());
     part.add("measure_is_estimate", true);
     report.add("support", std::move(part));
 }
@@ -488,7 +485,7 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
             one.add("exact", known->value).add("error", values.mean() - known->value);
             if (known->error > 0) one.add("exact_error", known->error);
         }
-        if (independent(points) && points.count() > 1)
+        if (points.provenance.independent && points.count() > 1)
             one.add("standard_error", values.standard_error());
         report.add(tasks[k].name, std::move(one));
     }
@@ -557,7 +554,7 @@ std::vector<ResultKey> results() {
             {"support.meaning", "the same in words", false},
             {"INTEGRAND.standard_error",
              "of the estimate: of several sets (--average) from the spread between them; of one "
-             "set only if its meta says that its points are independent (generator random)",
+             "set only if its meta names a generator of independent points",
              false},
             {"INTEGRAND.interval_low",
              "of several sets (--average): the 95 % confidence interval, by Student's t", false},

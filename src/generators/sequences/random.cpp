@@ -83,7 +83,7 @@ Generator unit() {
     return {.name = "random",
             .summary = "Independent uniform random points; legacy engines are sequential",
             .source = "Salmon et al. 2011, doi:10.1145/2063384.2063405",
-            .traits = {},
+            .traits = {.independent = true},
             .options = Schema(engine),
             .aliases = {"uniform", "independent", "white-noise"},
             .sequence = make,

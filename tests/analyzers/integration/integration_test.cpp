@@ -107,13 +107,13 @@ TEST(Integration, MeansOfAFewPointsByHand) {
 
 TEST(Integration, StandardErrorOfOneSetIsForIndependentPointsOnly) {
     PointSet three = points_of({{0.25}, {0.5}, {1}});  // sobol-g is 1, 0, 2
-    three.provenance.generator = "random";
+    three.provenance.independent = true;
     const Report known = integrate(three, "sobol-g");
     EXPECT_DOUBLE_EQ(known.number("sobol-g.standard_error"), std::sqrt(1.0 / 3));
-    three.provenance.generator = "halton";
+    three.provenance.independent = false;
     EXPECT_EQ(integrate(three, "sobol-g").find("sobol-g.standard_error"), nullptr);
     PointSet one = points_of({{0.25}});
-    one.provenance.generator = "random";
+    one.provenance.independent = true;
     EXPECT_EQ(integrate(one, "sobol-g").find("sobol-g.standard_error"), nullptr);
 }
 
@@ -173,7 +173,7 @@ TEST(Integration, ErrorsFallFasterForNetsThanForRandomPoints) {
 TEST(Integration, OfAllIntegrandsIsUnbiasedInAnyDimension) {
     for (const std::size_t d : {1, 2, 3, 8, 30}) {
         PointSet set = random_points(20'000, d, 7);
-        set.provenance.generator = "random";
+        set.provenance.independent = true;
         const Report all = analyze("integration", set);
         EXPECT_GE(all.entries().size(), 7U);
         for (const auto& [name, value, unit] : all.entries()) {
@@ -204,7 +204,7 @@ TEST(Integration, WithADensityIsUnbiasedAndAWrongDensityIsSeen) {
     for (const std::string name : {"smooth-gaussian", "genz-corner-peak", "measure"}) {
         const auto off = [&](DomainPtr domain) {
             PointSet set = on_ramp(random_points(200'000, 2, 3), std::move(domain));
-            set.provenance.generator = "random";
+            set.provenance.independent = true;
             const Report found = integrate(set, name);
             return std::abs(found.number(name + ".error")) / found.number(name + ".standard_error");
         };
