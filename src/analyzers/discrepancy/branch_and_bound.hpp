@@ -70,12 +70,6 @@ class Problem {
     virtual void look_around(Known& /*known*/, std::uint64_t /*work*/) {}
 };
 
-struct SearchResult {
-    WorstBox worst;
-    double upper;   ///< no value is above this
-    Ending ending;  ///< if `complete`, the worst box is the worst of all
-};
-
 /// Searches on from what is known. Once a stop is requested, it ends with what is certain. The
 /// result does not depend on the number of threads, nor of peers, unless a deadline or a stop ends
 /// it; all peers get the same.

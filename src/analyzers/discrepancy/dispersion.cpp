@@ -24,8 +24,6 @@
 //         and the dispersion of point sequences", Math. Comput. Modelling 23 (1996) 9-23,
 //         doi:10.1016/0895-7177(96)00155-3 (the measure).
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "analyzers/analyzer.hpp"
@@ -48,11 +46,10 @@ constexpr std::size_t max_count = std::size_t{1} << 29;
 SearchResult largest_empty_box(const BoxGrid& grid, const PointSet& points,
                                const SearchLimits& limits, const RunContext& run) {
     if (grid.dimension() != 2) return extreme::find_worst(grid, limits, run);
-    const auto [worst, complete] = largest_empty_rectangle(grid, limits, run);
-    if (complete) return {worst, worst.value(), Ending::complete};
-    const double upper = extreme::quick_bound(points, grid.family, run);
-    return {worst, std::max(worst.value(), upper),
-            limits.late(run) ? Ending::time : Ending::stopped};
+    SearchResult found = largest_empty_rectangle(grid, limits, run);
+    if (found.ending != Ending::complete)
+        found.upper = std::max(found.worst.value(), extreme::quick_bound(points, grid.family, run));
+    return found;
 }
 
 const char* how(std::size_t dimension) {
@@ -62,7 +59,6 @@ const char* how(std::size_t dimension) {
 
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
     const std::size_t d = points.dimension();
-    if (points.count() == 0) fail(ErrorKind::input, "dispersion needs at least one point");
     if (points.count() > max_count)
         fail(ErrorKind::limit, "dispersion takes up to {} points; these are {}", max_count,
              points.count());
@@ -72,20 +68,12 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
                     "the search for the largest empty box");
     const BoxGrid grid =
         box_grid(points, options[torus] ? Family::torus : Family::cube, run, Measure::emptiness);
-    const auto [worst, upper, ending] = largest_empty_box(grid, points, limits.search, run);
-    limits.judge({worst.value(), upper, ending}, "the largest empty box",
-                 fmt::format("{} points in {} dimensions", points.count(), d), run);
+    const SearchResult found = largest_empty_box(grid, points, limits.search, run);
+    limits.judge(found, "the largest empty box", points, run);
     Report box;
-    box.add("lower_corner", worst.corner(&Interval::lower));
-    box.add("upper_corner", worst.corner(&Interval::upper));
-    Report results;
-    results.add("value", worst.value());
-    results.add("lower", worst.value());
-    results.add("upper", upper);
-    results.add("exact", upper == worst.value());
-    results.add("method", how(d));
-    results.add("box", std::move(box));
-    return results;
+    box.add("lower_corner", found.worst.corner(&Interval::lower));
+    box.add("upper_corner", found.worst.corner(&Interval::upper));
+    return report_of(found, how(d)).add("box", std::move(box));
 }
 
 /// A mean of boxes is none.

@@ -60,10 +60,10 @@ class Sweep {
             position_of_[grid.order[0][position]] = static_cast<std::uint32_t>(position);
     }
 
-    EmptyRectangle run() {
+    SearchResult run() {
         const bool complete = sweep();
         if (!complete) offer_gaps();
-        return {worst_, complete};
+        return result_of_sweep(worst_, complete, limits_, run_);
     }
 
   private:
@@ -228,8 +228,8 @@ class Sweep {
 
 }  // namespace
 
-EmptyRectangle largest_empty_rectangle(const BoxGrid& grid, const SearchLimits& limits,
-                                       const RunContext& run) {
+SearchResult largest_empty_rectangle(const BoxGrid& grid, const SearchLimits& limits,
+                                     const RunContext& run) {
     return Sweep(grid, limits, run).run();
 }
 

@@ -16,15 +16,10 @@
 
 namespace stipple::discrepancy {
 
-struct EmptyRectangle {
-    WorstBox worst;
-    bool complete;  ///< none is larger
-};
-
 /// The largest empty rectangle of a grid of two axes that measures emptiness. Ends early at the
 /// deadline, or when a stop is requested, with the largest one so far, or a gap between neighbours.
-EmptyRectangle largest_empty_rectangle(const BoxGrid& grid, const SearchLimits& limits,
-                                       const RunContext& run);
+SearchResult largest_empty_rectangle(const BoxGrid& grid, const SearchLimits& limits,
+                                     const RunContext& run);
 
 /// Bytes for each point, besides the grid.
 constexpr std::size_t rectangle_bytes = 16;

@@ -16,6 +16,20 @@ SearchLimits SearchLimits::after(std::uint64_t spent) const {
     return left;
 }
 
+SearchResult result_of_sweep(WorstBox worst, bool complete, const SearchLimits& limits,
+                             const RunContext& run) {
+    const double value = worst.value();
+    if (complete) return {std::move(worst), value, Ending::complete};
+    return {std::move(worst), 1, limits.late(run) ? Ending::time : Ending::stopped};
+}
+
+Report report_of(const SearchResult& found, const char* method) {
+    const double value = found.worst.value();
+    Report results;
+    results.add("value", value).add("lower", value).add("upper", found.upper);
+    return results.add("exact", found.upper == value).add("method", method);
+}
+
 void report_gap(double lower, double upper, const RunContext& run) {
     if (!run.progress) return run.check_stop();
     constexpr std::uint64_t parts = 1'000'000;
@@ -54,23 +68,26 @@ Limits Limits::part(double of_work, double of_time, const RunContext& run) const
     return mine;
 }
 
-void Limits::give_up(const Bounds& found, const std::string& what, const std::string& whose) const {
+void Limits::give_up(const SearchResult& found, const std::string& what,
+                     const PointSet& points) const {
     const bool time = found.ending == Ending::time;
-    fail_with_hint(ErrorKind::limit,
-                   fmt::format("a larger {}, or fewer points, may give the exact value; --method "
-                               "bounds is content with bounds",
-                               time ? "--time-limit" : "--max-work"),
-                   "{} of {} takes more than {}; certain so far: it is between {} and {}", what,
-                   whose,
-                   time ? fmt::format("{} seconds (--time-limit)", seconds_)
-                        : fmt::format("{} comparisons (--max-work)", work_),
-                   format_number(found.lower), format_number(found.upper));
+    fail_with_hint(
+        ErrorKind::limit,
+        fmt::format("a larger {}, or fewer points, may give the exact value; --method "
+                    "bounds is content with bounds",
+                    time ? "--time-limit" : "--max-work"),
+        "{} of {} points in {} dimensions takes more than {}; certain so far: it is between "
+        "{} and {}",
+        what, points.count(), points.dimension(),
+        time ? fmt::format("{} seconds (--time-limit)", seconds_)
+             : fmt::format("{} comparisons (--max-work)", work_),
+        format_number(found.worst.value()), format_number(found.upper));
 }
 
-void Limits::judge(const Bounds& found, const std::string& what, const std::string& whose,
+void Limits::judge(const SearchResult& found, const std::string& what, const PointSet& points,
                    const RunContext& run) const {
     const bool cut = found.ending == Ending::work || found.ending == Ending::time;
-    if (exact && (cut || found.ending == Ending::tolerance)) give_up(found, what, whose);
+    if (exact && (cut || found.ending == Ending::tolerance)) give_up(found, what, points);
     if (!cut) return;
     const std::string missed =
         search.tolerance > 0
@@ -78,7 +95,7 @@ void Limits::judge(const Bounds& found, const std::string& what, const std::stri
             : "";
     run.notify(fmt::format(
         "{} is not exact, but between {} and {}{}; the value given is the lower of these", what,
-        format_number(found.lower), format_number(found.upper), missed));
+        format_number(found.worst.value()), format_number(found.upper), missed));
 }
 
 }  // namespace stipple::discrepancy

@@ -8,7 +8,9 @@
 #include <limits>
 #include <string>
 
+#include "analyzers/discrepancy/box_grid.hpp"
 #include "core/options.hpp"
+#include "stipple/report.hpp"
 #include "stipple/run.hpp"
 
 namespace stipple::discrepancy {
@@ -86,11 +88,18 @@ struct SearchLimits {
 enum class Ending { complete, tolerance, work, time, stopped };
 
 /// What is certain when a search ended.
-struct Bounds {
-    double lower;
-    double upper;
-    Ending ending;
+struct SearchResult {
+    WorstBox worst;
+    double upper;   ///< no value is above this
+    Ending ending;  ///< if `complete`, the worst box is the worst of all
 };
+
+/// Of one that found the worst of all, or was cut short, so that any value may be its upper bound.
+SearchResult result_of_sweep(WorstBox worst, bool complete, const SearchLimits& limits,
+                             const RunContext& run);
+
+/// The results that every search has: value, lower, upper, exact, method.
+Report report_of(const SearchResult& found, const char* method);
 
 /// Progress of a search for what is between these bounds: how much of the gap is closed, and words
 /// that say where it is. Ticks.
@@ -105,9 +114,9 @@ class Limits {
     /// Those of a part of the whole, which has these shares of the work and of the time left.
     [[nodiscard]] Limits part(double of_work, double of_time, const RunContext& run) const;
 
-    /// Says where bounds are all that is known of `what`, "the star discrepancy", of `whose`, "100
-    /// points in 7 dimensions". @throws Error(limit) where nothing but the exact value will do
-    void judge(const Bounds& found, const std::string& what, const std::string& whose,
+    /// Says where bounds are all that is known of `what`, "the star discrepancy".
+    /// @throws Error(limit) where nothing but the exact value will do
+    void judge(const SearchResult& found, const std::string& what, const PointSet& points,
                const RunContext& run) const;
 
     SearchLimits search;
@@ -116,8 +125,8 @@ class Limits {
     double start = 0;
 
   private:
-    [[noreturn]] void give_up(const Bounds& found, const std::string& what,
-                              const std::string& whose) const;
+    [[noreturn]] void give_up(const SearchResult& found, const std::string& what,
+                              const PointSet& points) const;
 
     double seconds_ = std::numeric_limits<double>::infinity();
     std::int64_t work_ = 0;

@@ -162,7 +162,6 @@ Report in_spaces(const PointSet& points, const std::vector<l2::Kind>& kinds,
 }
 
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
-    if (points.count() == 0) fail(ErrorKind::input, "l2-discrepancy needs at least one point");
     if (points.count() > max_count)
         fail(ErrorKind::limit, "l2-discrepancy takes up to {} points; these are {}", max_count,
              points.count());

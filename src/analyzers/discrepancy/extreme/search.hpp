@@ -18,12 +18,9 @@ SearchResult search(const BoxGrid& grid, WorstBox worst, const SearchLimits& lim
 SearchResult find_worst(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run,
                         double upper = 1);
 
-/// An upper bound from that of the star discrepancy, for a small part of the work and time that a search may take.
-double star_bound(const PointSet& points, Family family, const SearchLimits& share,
-                  const RunContext& run);
-
-/// What that may take: little of a long search, nothing to speak of where no end is set.
-SearchLimits share_for_bound(const SearchLimits& limits, const RunContext& run);
+/// The same after a bound from the star discrepancy of the points, which is a small part of the work.
+SearchResult find_worst(const PointSet& points, const BoxGrid& grid, const SearchLimits& limits,
+                        const RunContext& run);
 
 /// One of milliseconds, or some more of many points. Goes on when a stop is requested.
 double quick_bound(const PointSet& points, Family family, const RunContext& run);

@@ -32,8 +32,8 @@ double factor(Family family, double dimension) {
            (1 + 0x1p-50);
 }
 
-}  // namespace
-
+/// An upper bound from that of the star discrepancy, for a small part of the work and time that a
+/// search may take.
 double star_bound(const PointSet& points, Family family, const SearchLimits& share,
                   const RunContext& run) {
     const auto d = static_cast<double>(points.dimension());
@@ -43,16 +43,12 @@ double star_bound(const PointSet& points, Family family, const SearchLimits& sha
     const double known = star::quick_bound(grid, run, factor(family, 1), factor(family, d));
     const double promised = 0.6 * std::sqrt(d / n);  // of random points, about
     if ((d > 2 && factor(family, d) * promised >= 1) || run.stop.stop_requested()) return known;
-    double bound = 1;
-    if (d > 2) {
-        bound = star::find_worst(grid, share, run).upper;
-    } else {
-        const star::Sweep sweep = star::sweep_2d(grid, share, run);
-        if (sweep.complete) bound = sweep.worst.value();
-    }
-    return std::min(known, factor(family, d) * bound);
+    const SearchResult found =
+        d > 2 ? star::find_worst(grid, share, run) : star::sweep_2d(grid, share, run);
+    return std::min(known, factor(family, d) * found.upper);
 }
 
+/// What that may take: little of a long search, nothing to speak of where no end is set.
 SearchLimits share_for_bound(const SearchLimits& limits, const RunContext& run) {
     constexpr double part = 0.1;
     constexpr std::uint64_t short_work = 1U << 27;
@@ -62,6 +58,15 @@ SearchLimits share_for_bound(const SearchLimits& limits, const RunContext& run) 
     else
         share.work = std::min(share.work, short_work);
     return share;
+}
+
+}  // namespace
+
+SearchResult find_worst(const PointSet& points, const BoxGrid& grid, const SearchLimits& limits,
+                        const RunContext& run) {
+    const SearchLimits share = share_for_bound(limits, run);
+    const double upper = star_bound(points, grid.family, share, silent(run));
+    return find_worst(grid, limits.after(share.work), run, upper);
 }
 
 double quick_bound(const PointSet& points, Family family, const RunContext& run) {

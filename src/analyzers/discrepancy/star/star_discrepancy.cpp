@@ -84,21 +84,14 @@ struct Found {
 };
 
 Report report(const Found& found, Family family) {
-    const auto& [worst, upper, ending] = found.result;
+    const WorstBox& worst = found.result.worst;
     Report box;
     if (family >= Family::cube) box.add("lower_corner", worst.corner(&Interval::lower));
     box.add("corner", worst.corner(&Interval::upper));
     box.add("closed", worst.closed());
     box.add("points", worst.points());
     box.add("volume", worst.volume());
-    Report results;
-    results.add("value", worst.value());
-    results.add("lower", worst.value());
-    results.add("upper", upper);
-    results.add("exact", upper == worst.value());
-    results.add("method", found.method);
-    results.add("worst_box", std::move(box));
-    return results;
+    return report_of(found.result, found.method).add("worst_box", std::move(box));
 }
 
 Family family_of(const Values& options) {
@@ -133,27 +126,18 @@ Found sweep_or_search(const BoxGrid& grid, const Limits& limits, const RunContex
     constexpr double part = 0.7;  // what is left is for bounds
     SearchLimits first = limits.search;
     first.deadline = limits.start + part * (first.deadline - limits.start);
-    const star::Sweep sweep = star::sweep_2d(grid, first, run);
-    if (sweep.complete) return {{sweep.worst, sweep.worst.value(), Ending::complete}, "sweep-2d"};
+    const SearchResult sweep = star::sweep_2d(grid, first, run);
+    if (sweep.ending == Ending::complete) return {sweep, "sweep-2d"};
     const bool stopped = run.stop.stop_requested();
     return {star::search(grid, sweep.worst, limits.search, run),
             stopped ? "sweep-2d" : "branch-and-bound"};
 }
 
-Found search_free_boxes(const BoxGrid& grid, const star::Member& set, const RunContext& run) {
-    const SearchLimits& limits = set.limits.search;
-    const SearchLimits share = extreme::share_for_bound(limits, run);
-    const double upper = extreme::star_bound(set.points, grid.family, share, silent(run));
-    return {extreme::find_worst(grid, limits.after(share.work), run, upper),
-            grid.dimension() == 1 ? "sweep-1d" : "branch-and-bound"};
-}
-
 Found search(const BoxGrid& grid, const star::Member& set, const RunContext& run) {
-    if (!grid.anchored()) return search_free_boxes(grid, set, run);
-    if (grid.dimension() == 1) {
-        const WorstBox worst = star::sweep_1d(grid, run);
-        return {{worst, worst.value(), Ending::complete}, "sweep-1d"};
-    }
+    if (!grid.anchored())
+        return {extreme::find_worst(set.points, grid, set.limits.search, run),
+                grid.dimension() == 1 ? "sweep-1d" : "branch-and-bound"};
+    if (grid.dimension() == 1) return {star::sweep_1d(grid, run), "sweep-1d"};
     if (grid.dimension() == 2 && !set.limits.bounded) return sweep_or_search(grid, set.limits, run);
     return {star::find_worst(grid, set.limits.search, run, set.peers)};
 }
@@ -169,10 +153,7 @@ Report measure(const star::Member& set, const Values& options, const RunContext&
     // Peers stop together, in the search.
     const BoxGrid grid = box_grid(points, family, set.peers != nullptr ? unstopped(run) : run);
     const Found found = search(grid, set, run);
-    const auto& [worst, upper, ending] = found.result;
-    set.limits.judge(
-        {worst.value(), upper, ending}, fmt::format("the {} discrepancy", options[kind]),
-        fmt::format("{} points in {} dimensions", points.count(), points.dimension()), run);
+    set.limits.judge(found.result, fmt::format("the {} discrepancy", options[kind]), points, run);
     return report(found, family);
 }
 

@@ -14,27 +14,9 @@ namespace {
 
 constexpr std::size_t ticks_apart = 256;  // points between two looks at the stop token
 
-/// Progress of several sweeps at once.
-class SharedProgress {
-  public:
-    SharedProgress(const RunContext& run, std::uint64_t total) : run_(run), total_(total) {}
-
-    void add(std::uint64_t done) {
-        const std::lock_guard lock(mutex_);
-        done_ += done;
-        run_.tick(done_, total_);
-    }
-
-  private:
-    const RunContext& run_;
-    std::mutex mutex_;
-    std::uint64_t done_ = 0;
-    std::uint64_t total_;
-};
-
 }  // namespace
 
-WorstBox sweep_1d(const BoxGrid& grid, const RunContext& run) {
+SearchResult sweep_1d(const BoxGrid& grid, const RunContext& run) {
     WorstBox worst(grid);
     const auto& values = grid.values[0];
     const auto points = points_at(grid, 0);
@@ -46,7 +28,7 @@ WorstBox sweep_1d(const BoxGrid& grid, const RunContext& run) {
         if (a % ticks_apart == 0) run.tick(a, values.size());
     }
     run.tick(1, 1);
-    return worst;
+    return {worst, worst.value(), Ending::complete};
 }
 
 namespace {
@@ -60,7 +42,12 @@ void sweep_parts(const Plane& points, std::vector<WorstBox>& worst, const Search
     const std::size_t n = points.grid->count;
     const std::size_t strips = points.strips.count();
     const std::size_t parts = worst.size() / 2;
-    SharedProgress progress(run, 2 * n);
+    std::mutex reporting;
+    std::uint64_t done = 0;
+    const auto report = [&](std::uint64_t dots) {
+        const std::lock_guard lock(reporting);
+        run.tick(done += dots, 2 * n);
+    };
     for_each_block(silent(worth_threads(run, 3e-7 * static_cast<double>(n))), worst.size(), 1,
                    [&](const Block& block) {
                        const std::size_t part = block.index / 2;
@@ -71,15 +58,15 @@ void sweep_parts(const Plane& points, std::vector<WorstBox>& worst, const Search
                                         passed += dots;
                                         if (passed < ticks_apart) return;
                                         if (limits.over(run)) throw Halt{};
-                                        progress.add(std::exchange(passed, 0));
+                                        report(std::exchange(passed, 0));
                                     });
-                       progress.add(passed);
+                       report(passed);
                    });
 }
 
 }  // namespace
 
-Sweep sweep_2d(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run) {
+SearchResult sweep_2d(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run) {
     const double each = 24 + 12 * std::min(4.0, static_cast<double>(run.thread_count()));
     run.need_memory(each * static_cast<double>(grid.count), "the sweep over the square");
     // Each part takes in what lies left of it first, and has a worst box to find of its own.
@@ -97,7 +84,7 @@ Sweep sweep_2d(const BoxGrid& grid, const SearchLimits& limits, const RunContext
         complete = false;
     }
     for (std::size_t i = 1; i < worst.size(); ++i) worst[0].offer(worst[i]);
-    return {worst[0], complete};
+    return result_of_sweep(worst[0], complete, limits, run);
 }
 
 }  // namespace stipple::discrepancy::star

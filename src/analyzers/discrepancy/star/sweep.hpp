@@ -10,15 +10,10 @@
 namespace stipple::discrepancy::star {
 
 /// O(n) after sorting.
-WorstBox sweep_1d(const BoxGrid& grid, const RunContext& run);
-
-struct Sweep {
-    WorstBox worst;
-    bool complete;  ///< nothing is worse
-};
+SearchResult sweep_1d(const BoxGrid& grid, const RunContext& run);
 
 /// O(n^(4/3)) time in practice, O(n) memory; see strips.hpp. Ends early at the deadline, or when a
 /// stop is requested, with what it has.
-Sweep sweep_2d(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run);
+SearchResult sweep_2d(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run);
 
 }  // namespace stipple::discrepancy::star
