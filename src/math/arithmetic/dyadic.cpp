@@ -1,27 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "math/arithmetic/dyadic.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 
 namespace stipple {
 
 Dyadic dyadic(double x) {
-    constexpr std::uint64_t implicit = std::uint64_t{1} << 52;
-    const auto bits = std::bit_cast<std::uint64_t>(x + 0.0);  // -0 becomes 0
-    const auto exponent = static_cast<unsigned>(bits >> 52);
-    const std::uint64_t mantissa = bits % implicit + (exponent > 0 ? implicit : 0);
-    if (mantissa == 0) return {0, 0};
-    const auto zeros = static_cast<unsigned>(std::countr_zero(mantissa));
-    return {mantissa >> zeros, 1075 - std::max(exponent, 1U) - zeros};
+    if (x == 0) return {0, 0};
+    int exponent = 0;
+    const auto mantissa = static_cast<std::uint64_t>(std::frexp(x, &exponent) * 0x1p53);
+    const int zeros = std::countr_zero(mantissa);
+    return {mantissa >> zeros, static_cast<unsigned>(53 - exponent - zeros)};
 }
 
 Integer scaled(double x, unsigned places) {
     const Dyadic fraction = dyadic(x);
-    Integer whole = fraction.mantissa;
-    whole <<= places - fraction.places;
-    return whole;
+    return Integer(fraction.mantissa) << (places - fraction.places);
 }
 
 Integer power_of_two(unsigned exponent) {

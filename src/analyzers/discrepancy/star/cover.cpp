@@ -82,53 +82,35 @@ std::vector<std::uint32_t> corner_counts(const BoxGrid& grid, const std::vector<
     return counts;
 }
 
-/// The worst cell's bound.
-class Cover {
-  public:
-    Cover(const BoxGrid& grid, const std::vector<double>& cuts, const RunContext& run)
-        : axes_(grid.dimension()),
-          points_(static_cast<double>(grid.count)),
-          cuts_(cuts),
-          run_(run),
-          counts_(corner_counts(grid, cuts, run)) {
-        for (std::size_t k = 1; k < axes_; ++k) across_ = across_ * cuts.size() + 1;
-    }
-
-    double worst() {
-        visit(0, 0, 1, 1);
-        return worst_;
-    }
-
-  private:
-    /// Cells whose lower corners have index `base` and these volumes on the axes before.
-    void visit(std::size_t axis, std::size_t base, double low, double high) {
-        if (axis + 1 == axes_) return visit_line(base * cuts_.size(), low, high);
-        for (std::size_t i = 0; i + 1 < cuts_.size(); ++i)
-            visit(axis + 1, base * cuts_.size() + i, low * cuts_[i], high * cuts_[i + 1]);
-    }
-
-    void visit_line(std::size_t base, double low, double high) {
-        if (++lines_ % 65536 == 0) run_.check_stop();
-        const std::uint32_t* below = counts_.data() + base;
-        const std::uint32_t* within = below + across_;
-        double worst = worst_;
-        for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {
-            const double open = high * cuts_[i + 1] - below[i] / points_;
-            const double closed = within[i] / points_ - low * cuts_[i];
+/// The worst cell's bound, from cells along the last axis one after the other.
+double worst_cell(const BoxGrid& grid, const std::vector<double>& cuts, const RunContext& run) {
+    const auto counts = corner_counts(grid, cuts, run);
+    const auto points = static_cast<double>(grid.count);
+    const std::size_t side = cuts.size();
+    std::size_t across = 1;  // from the index of a cell's lower corner to that of the upper one
+    for (std::size_t k = 1; k < grid.dimension(); ++k) across = across * side + 1;
+    double worst = 0;
+    for (std::size_t line = 0; line * side + across < counts.size(); ++line) {
+        if (line % 65536 == 0) run.check_stop();
+        double low = 1;  // volumes of the corners on the axes before the last
+        double high = 1;
+        std::size_t rest = line;
+        for (std::size_t k = 1; k < grid.dimension(); ++k, rest /= side) {
+            const std::size_t at = rest % side;
+            low *= cuts[at];
+            high *= at + 1 < side ? cuts[at + 1] : 0;
+        }
+        if (high == 0) continue;  // no cells begin at 1
+        const std::uint32_t* below = &counts[line * side];
+        const std::uint32_t* within = below + across;
+        for (std::size_t i = 0; i + 1 < side; ++i) {
+            const double open = high * cuts[i + 1] - below[i] / points;
+            const double closed = within[i] / points - low * cuts[i];
             worst = std::max(worst, std::max(open, closed));
         }
-        worst_ = worst;
     }
-
-    std::size_t axes_;
-    double points_;
-    const std::vector<double>& cuts_;
-    const RunContext& run_;
-    std::vector<std::uint32_t> counts_;
-    std::size_t across_ = 1;  ///< from the index of a cell's lower corner to that of the upper one
-    std::size_t lines_ = 0;
-    double worst_ = 0;
-};
+    return worst;
+}
 
 }  // namespace
 
@@ -136,7 +118,7 @@ double cover_bound(const BoxGrid& grid, std::uint64_t most_corners, const RunCon
     const std::size_t d = grid.dimension();
     const auto cuts = finest_cuts(d, std::min(static_cast<double>(most_corners), 0x1p31));
     if (cuts.empty()) return 1;
-    const double worst = Cover(grid, cuts, run).worst();
+    const double worst = worst_cell(grid, cuts, run);
     const double rounding = 4e-16 * static_cast<double>(d + 2);
     return std::min(1.0, worst + rounding);
 }
