@@ -142,7 +142,7 @@ bool takes(const Chosen<Analyzer>& measure, const WarpChain& chain, const RunCon
     if (measure.unit->traits.unit_cube) return false;
     if (measure.unit->traits.boxed && !spec.starts_with("box")) return false;
     const PointSet points = some_points(chain.dimension_in());
-    return takes_points(measure, image_of(points, chain, silent(run)), run) ||
+    return takes_points(measure, chain.image(points, silent(run)), run) ||
            !takes_points(measure, points, run);
 }
 
@@ -328,7 +328,7 @@ std::optional<Error> UnitRunner::refusal_of(std::size_t measure, std::size_t dim
     const auto warps = sweep_.later_warps();
     try {
         if (!warps.empty() && takes_image(dimension, measure))
-            points = image_of(points, WarpChain(warps, dimension, {}, run), silent(run));
+            points = WarpChain(warps, dimension, {}, run).image(points, silent(run));
     } catch (const Error& e) {
         if (e.kind() == ErrorKind::cancelled) throw;
         return std::nullopt;  // the rows will say what is wrong
