@@ -18,12 +18,6 @@ constexpr std::size_t first_strips = 13;
 constexpr std::size_t first_patches = 7;
 constexpr std::size_t probes_a_side = 512;  // along each axis
 
-struct Strip {
-    double x_low;
-    double x_high;
-    std::vector<StripPatch> patches;
-};
-
 /// A patch with f on the lines x_low, the middle and x_high, at 0, 1/4, 1/2, 3/4 and 1 of it.
 struct SampledPatch {
     double low;
@@ -364,9 +358,12 @@ class StripTabulator {
 
 }  // namespace
 
-StripTable::StripTable(const std::string& what, const BlockFunction& f, const Box& box,
-                       double tolerance, const RunContext& run) {
-    const auto strips = StripTabulator(what, f, box, tolerance, run).tabulate();
+std::vector<Strip> tabulate_strips(const std::string& what, const BlockFunction& f, const Box& box,
+                                   double tolerance, const RunContext& run) {
+    return StripTabulator(what, f, box, tolerance, run).tabulate();
+}
+
+StripTable::StripTable(const std::vector<Strip>& strips) {
     double top = 0;
     for (const Strip& strip : strips)
         for (const StripPatch& patch : strip.patches)

@@ -45,12 +45,20 @@ struct StripPatch {
     }
 };
 
+struct Strip {
+    double x_low;
+    double x_high;
+    std::vector<StripPatch> patches;
+};
+
+/// Strips for f, whose points stand one after the other. `what` names it.
+/// @throws Error(usage): negative, not finite, 0 everywhere; Error(limit): tolerance out of reach
+std::vector<Strip> tabulate_strips(const std::string& what, const BlockFunction& f, const Box& box,
+                                   double tolerance, const RunContext& run);
+
 class StripTable {
   public:
-    /// Of f, whose points stand one after the other. `what` names it.
-    /// @throws Error(usage): negative, not finite, 0 everywhere; Error(limit): tolerance out of reach
-    StripTable(const std::string& what, const BlockFunction& f, const Box& box, double tolerance,
-               const RunContext& run);
+    explicit StripTable(const std::vector<Strip>& strips);
 
     [[nodiscard]] std::array<double, 2> quantile(double u, double v) const;
     [[nodiscard]] std::array<double, 2> fraction(double x, double y) const;

@@ -93,10 +93,11 @@ Estimate integrate_row(const SphereDensity& f, double z, const Zone& zone,
 
 Estimate integrate_zone(const SphereDensity& f, const Zone& zone,
                         const Discontinuities& discontinuities) {
-    const double height = zone.z_high - zone.z_low;
+    Estimate total;
     if (discontinuities.level && discontinuities.circles.empty()) {
-        const double z = zone.z_low + 0.5 * height;
-        return {height * integrate_row(f, z, zone, discontinuities).value, 0};
+        const double z = zone.z_low + 0.5 * (zone.z_high - zone.z_low);
+        total.value = (zone.z_high - zone.z_low) * integrate_row(f, z, zone, discontinuities).value;
+        return total;
     }
     double inner = 0;
     const auto slice = [&](double z) {
@@ -104,8 +105,8 @@ Estimate integrate_zone(const SphereDensity& f, const Zone& zone,
         inner = std::max(inner, row.error);
         return row.value;
     };
-    Estimate total = integrate_pieces(slice, height_cuts(zone, discontinuities));
-    total.error += inner * height;
+    total = integrate_pieces(slice, height_cuts(zone, discontinuities));
+    total.error += inner * (zone.z_high - zone.z_low);
     return total;
 }
 

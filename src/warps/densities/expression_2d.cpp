@@ -19,7 +19,6 @@
 // Beware  never F(x, y) / F(x, y_max), which is the distribution of y given X <= x.
 
 #include <array>
-#include <functional>
 #include <memory>
 #include <span>
 
@@ -67,9 +66,10 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const auto domain = std::make_shared<FormulaBox>(
         format_spec(want.warp.name, plain, want.warp.options), std::move(f), box);
     const Expression& formula = domain->formula();
-    const auto table = std::make_shared<const StripTable>(
-        "--density: " + formula.text(), std::bind_front(&Expression::evaluate, &formula), box,
-        want.options[tolerance], want.run);
+    const auto table = std::make_shared<const StripTable>(tabulate_strips(
+        "--density: " + formula.text(),
+        [&](std::span<const double> at, std::span<double> values) { formula.evaluate(at, values); },
+        box, want.options[tolerance], want.run));
     return row_mapping(domain, ByTable{table});
 }
 

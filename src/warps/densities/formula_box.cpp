@@ -113,22 +113,26 @@ std::optional<Moments> FormulaBox::moments() const {
 Support FormulaBox::support() const {
     const std::size_t d = dimension();
     const std::size_t steps = d == 1 ? 256 : (d == 2 ? 16 : 4);
-    std::size_t cells = 1;
-    for (std::size_t k = 0; k < d; ++k) cells *= steps;
+    std::vector<std::size_t> at(d, 0);
     Estimate positive;
-    for (std::size_t i = 0; i < cells; ++i) {
-        Box cell = box_;
-        for (std::size_t k = 0, rest = i; k < d; ++k, rest /= steps) {
-            const std::size_t at = rest % steps;
+    const auto cell = [&] {
+        Box part = box_;
+        for (std::size_t k = 0; k < d; ++k) {
             const double step = box_.extent(k) / static_cast<double>(steps);
-            cell.low[k] += static_cast<double>(at) * step;
-            if (at + 1 < steps) cell.high[k] = cell.low[k] + step;
+            part.low[k] += static_cast<double>(at[k]) * step;
+            part.high[k] = at[k] + 1 < steps ? part.low[k] + step : box_.high[k];
         }
+        return part;
+    };
+    for (bool more = true; more;) {
         const Estimate part = integrate_box(
-            [&](std::span<const double> point) { return f_.at(point) > 0 ? 1.0 : 0.0; }, cell,
+            [&](std::span<const double> point) { return f_.at(point) > 0 ? 1.0 : 0.0; }, cell(),
             {1e-7, 16});
         positive.value += part.value;
         positive.error += part.error;
+        std::size_t k = 0;
+        while (k < d && ++at[k] == steps) at[k++] = 0;
+        more = k < d;
     }
     // Less than the whole by more than rounding: there is a gap.
     const double whole = measure();

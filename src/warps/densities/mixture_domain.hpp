@@ -39,6 +39,9 @@ class MixtureDomain final : public NamedDomain {
             const Box box = part->bounding_box();
             box_ = stipple::bounding_box(box.low, stipple::bounding_box(box.high, box_));
         }
+        fills_box_ = !directions() && std::ranges::all_of(parts_, [&](const DomainPtr& part) {
+            return fills(*part);
+        });
     }
 
     /// That of all directions where a part has them all, and of the box that each part fills; else
@@ -48,10 +51,7 @@ class MixtureDomain final : public NamedDomain {
             return part->measure() > (1 - 1e-12) * all_directions();
         };
         if (directions() && std::ranges::any_of(parts_, has_all)) return all_directions();
-        const bool filled =
-            !directions() &&
-            std::ranges::all_of(parts_, [&](const DomainPtr& part) { return fills_box(*part); });
-        return filled ? box_volume() : std::numeric_limits<double>::infinity();
+        return fills_box_ ? box_volume() : std::numeric_limits<double>::infinity();
     }
 
     /// What any of the parts covers.
@@ -131,7 +131,7 @@ class MixtureDomain final : public NamedDomain {
 
   private:
     /// Whether a part fills the box around all parts.
-    bool fills_box(const Domain& part) const {
+    bool fills(const Domain& part) const {
         return part.bounding_box() == box_ &&
                std::abs(part.measure() - box_volume()) <= 1e-12 * box_volume();
     }
@@ -175,6 +175,7 @@ class MixtureDomain final : public NamedDomain {
     std::vector<DomainPtr> parts_;
     std::vector<double> weights_;
     Box box_;
+    bool fills_box_ = false;  ///< each part does
 };
 
 }  // namespace stipple::warps
