@@ -45,7 +45,6 @@ class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
         }
     }
 
-    [[nodiscard]] bool has_gaps() const { return !gaps.empty(); }
     void drop() {
         near_ = {};
         this->pending = {};
@@ -76,8 +75,6 @@ class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
             if (!visit(p.at, p.cell)) return;
     }
 
-    std::vector<Gap<D>> gaps;
-
   private:
     static constexpr double reaching = 1 + 1e-9;  ///< squared, with room for rounding
 
@@ -93,21 +90,11 @@ class BoxTile : public Tile<D, box_tile_bits<D>, 1> {
 };
 
 template <std::size_t D>
-struct BoxWorkspace {
-    std::vector<PendingDart<D>> pending;
-    std::vector<Gap<D>> gaps;
-    NearDisks<D, float> near;
-    NearDisks<D, float> reaching;
-    NearDisks<D, double> exactly_near;
-    NearDisks<D, double> exactly_reaching;
-};
-
-template <std::size_t D>
 class BoxSampler {
     using T = BoxTile<D>;
     using Cell = typename T::Cell;
     using Point = typename T::Point;
-    using Workspace = BoxWorkspace<D>;
+    using Workspace = GapWorkspace<D>;
     using Counts = std::vector<PoissonCounts>;
 
   public:
@@ -122,9 +109,7 @@ class BoxSampler {
             1.25 / unit_ball_volume(D), growth,
             [&](T& tile, const Counts& counts, std::uint64_t key, Workspace& work, bool first) {
                 if (first) make_gaps(tile);
-                work.gaps.clear();
                 throw_at_gaps(tile, counts, key, work);
-                tile.gaps = std::vector(work.gaps.begin(), work.gaps.end());
             });
         return rounds_.collect();
     }

@@ -41,18 +41,19 @@ Rows sample(const BoxSpace& space, double radius, double cell_radius, std::uint6
 
 /// Bytes that so many points take, in so many cells along each direction.
 double memory_for(const std::vector<double>& along, bool fine, double points) {
-    const double d = static_cast<double>(along.size());
+    const auto d = static_cast<double>(along.size());
+    const unsigned bits = along.size() == 2 ? plane_tile_bits : space_tile_bits;
     double cells = 1;
-    for (const double count : along) cells *= count;
-    if (fine && along.size() == 2)  // what tiles know; a point, its copy, pending darts; gaps
-        return plane_tile_memory(along[0], along[1]) + 45 * points + 4 * cells;
-    if (fine) {  // what tiles know; a point, its copy, what others know of it; gaps
-        double tiles = 1;
-        for (const double count : along) tiles *= std::ceil(count / (1U << space_tile_bits));
-        return space_tile_memory(tiles) + 140 * points;
+    double tiles = 1;
+    for (const double count : along) {
+        cells *= count;
+        tiles *= std::ceil(count / (1U << bits));
     }
     // A point, its copies; gaps, to begin with one a cell.
-    return points * (5 * 8 * d) + 2 * cells * (8 * d + 8);
+    if (!fine) return points * (5 * 8 * d) + 2 * cells * (8 * d + 8);
+    // What tiles know; a point, its copy, pending darts or what others know of it; gaps.
+    return along.size() == 2 ? tiles * plane_tile_bytes + 45 * points + 4 * cells
+                             : tiles * space_tile_bytes + 140 * points;
 }
 
 /// @throws Error(limit) when the points for this radius do not fit the memory, or the indices.

@@ -9,10 +9,8 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include "core/machine/fetch.hpp"
 #include "generators/poisson_disk/grid.hpp"
 
 namespace stipple::poisson_disk {
@@ -77,12 +75,6 @@ class PendingDarts {
     [[nodiscard]] const std::vector<Dart>& all() const { return all_; }
     /// Whether they are those of that round.
     [[nodiscard]] bool of(std::uint64_t round) const { return round_ == round; }
-
-    /// Fetches what is looked at in no order when darts are decided.
-    void fetch() const {
-        stipple::fetch(std::as_bytes(std::span<const Dart>(all_)));
-        stipple::fetch(std::span<const std::uint16_t>(first_));
-    }
 
     /// Calls visit(dart) for those in the blocks of the cells from low to high along each
     /// direction, and maybe beyond the tile, until that is true; returns whether it ever was.

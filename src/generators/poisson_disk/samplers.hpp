@@ -37,10 +37,8 @@ Rows box_sample(const Task<D>& task, const RunContext& run);
 Rows plane_sample(const Task<2>& task, const RunContext& run);
 Rows space_sample(const Task<3>& task, const RunContext& run);
 
-/// Bytes that tiles take with so many cells along both directions, without points.
-double plane_tile_memory(double columns, double rows);
-
-/// Bytes that so many tiles take, without points.
-double space_tile_memory(double tiles);
+/// Bytes that a tile takes at most, without points.
+extern const double plane_tile_bytes;
+extern const double space_tile_bytes;
 
 }  // namespace stipple::poisson_disk

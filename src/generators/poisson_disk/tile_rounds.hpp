@@ -43,7 +43,6 @@ struct Addition {
 /// What every tile has: its cells, neighbours, pending darts and points. A tile of a sampler
 /// derives from it and has
 ///     take(additions)   adds points that were accepted, the own ones in the order of points();
-///     has_gaps()        whether anything may be uncovered, once gaps are known;
 ///     drop()            gives back its own memory, but that of the points;
 ///     for_about(cell, visit)   calls visit(point, its cell) for points that may reach into a cell,
 ///                       as long as that is true.
@@ -113,6 +112,7 @@ class Tile {
     };
     std::vector<Neighbour> neighbours;
     std::array<Pending, 2> pending;  ///< of even and odd rounds
+    std::vector<Gap<D>> gaps;        ///< where something may be uncovered, once they are known
 
   protected:
     Index first_{};  ///< cell
@@ -120,19 +120,16 @@ class Tile {
     std::vector<double> points_;
 };
 
-/// Lists the points about a cell of a tile, from its corner.
-template <class T, std::size_t D>
-void gather_exactly(const T& tile, const Grid<D>& grid, const TileCell<D>& own,
-                    NearDisks<D, double>& near) {
-    near.clear();
-    tile.for_about(own, [&](const std::array<double, D>& p, const TileCell<D>& cell) {
-        std::array<double, D> off = tile.in_cell(grid, p, cell);
-        for (std::size_t k = 0; k < D; ++k) off[k] = (off[k] + cell[k] - own[k]) * grid.scales[k];
-        near.add(off);
-        return true;
-    });
-    near.close();
-}
+/// What one thread needs to work on the gaps of a tile.
+template <std::size_t D>
+struct GapWorkspace {
+    std::vector<PendingDart<D>> pending;
+    std::vector<Gap<D>> gaps;  ///< what is left of them
+    NearDisks<D, float> near;
+    NearDisks<D, float> reaching;
+    NearDisks<D, double> exactly_near;
+    NearDisks<D, double> exactly_reaching;
+};
 
 /// Whether a place of a cell is too near to a point.
 template <class T, std::size_t D>
@@ -169,7 +166,7 @@ void throw_at_gap(const Gap<D>& gap, SubcellBits open, const PoissonCounts& coun
     narrow(gap, open, counts.mean(count) >= enough, left);
 }
 
-/// @tparam T a tile @tparam Workspace what one thread needs to work on a tile, with `pending`
+/// @tparam T a tile @tparam Workspace a GapWorkspace, maybe with more
 template <class T, class Workspace>
 class TileRounds {
   public:
@@ -207,7 +204,6 @@ class TileRounds {
             of_round(tile, round_).renew(round_, work.pending);
         });
         for_open([&](T& tile, std::uint32_t) {
-            of_round(tile, round_).fetch();
             for (const Dart& d : of_round(tile, round_).all())
                 if (decide(tile, d) == Status::accepted)
                     tile.points().insert(tile.points().end(), d.at.begin(), d.at.end());
@@ -218,7 +214,7 @@ class TileRounds {
     }
 
     /// Rounds until no tile has gaps: draw(tile, counts, key, workspace, first), counts for gaps of
-    /// each level, `first` while gaps are not known yet.
+    /// each level, `first` while gaps are not known yet. What is left of gaps goes to the workspace.
     /// @param density of darts to r^D, `growth` times as many in each next round
     template <class Draw>
     void close_gaps(double density, double growth, const Draw& draw) {
@@ -229,9 +225,11 @@ class TileRounds {
                  ++level, mean /= static_cast<double>(power(2, D)))
                 counts.emplace_back(mean, all_subcells<D>);
             round([&](T& tile, std::uint64_t key, Workspace& work) {
+                work.gaps.clear();
                 draw(tile, counts, key, work, first);
+                tile.gaps = std::vector(work.gaps.begin(), work.gaps.end());
             });
-            std::erase_if(open_, [&](std::uint32_t t) { return !tiles_[t].has_gaps(); });
+            std::erase_if(open_, [&](std::uint32_t t) { return tiles_[t].gaps.empty(); });
         }
     }
 
@@ -240,6 +238,24 @@ class TileRounds {
     static double to_a_subcell(double density) {
         return density / std::sqrt(static_cast<double>(power(D, D))) /
                static_cast<double>(all_subcells<D>);
+    }
+
+    /// Sub-cells of a gap that no disk covers alone, as far as doubles tell.
+    [[nodiscard]] SubcellBits exactly_open(const T& tile, const Gap<D>& gap,
+                                           Workspace& work) const {
+        const Grid<D>& grid = task_.grid;
+        const Cell own = T::cell_at(gap.place);
+        work.exactly_near.clear();
+        tile.for_about(own, [&](const std::array<double, D>& p, const Cell& cell) {
+            std::array<double, D> off = tile.in_cell(grid, p, cell);
+            for (std::size_t k = 0; k < D; ++k)
+                off[k] = (off[k] + cell[k] - own[k]) * grid.scales[k];
+            work.exactly_near.add(off);
+            return true;
+        });
+        work.exactly_near.close();
+        return uncovered<D, double>(work.exactly_near, {gap, grid.scales}, task_.slack,
+                                    work.exactly_reaching);
     }
 
     /// Whether no arithmetic could tell a gap of this size from none.

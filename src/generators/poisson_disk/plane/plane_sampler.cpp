@@ -47,18 +47,12 @@ struct Dart {
 };
 
 /// What one thread needs to work on a tile.
-struct PlaneWorkspace {
+struct PlaneWorkspace : GapWorkspace<2> {
     std::vector<Dart> darts;
     std::vector<std::uint64_t> order;  ///< of the darts in time
     std::vector<Point> places;         ///< of darts on gaps, in cells from the tile's first
-    std::vector<PendingDart<2>> pending;
     std::array<std::uint64_t, plane_side + 4> waiting;  ///< cells with such; from two rows before
                                                         ///< the first on
-    std::vector<Gap<2>> gaps;
-    NearDisks<2, float> near;
-    NearDisks<2, float> reaching;
-    NearDisks<2, double> exactly_near;
-    NearDisks<2, double> exactly_reaching;
 };
 
 /// Lists the darts in order of time, equal ones as they are.
@@ -105,13 +99,11 @@ class Thrower {
 
   private:
     void insert(const Dart& d, const Cell& cell, FixedPosition position, Hit hit) {
-        const auto* mask = rules_.table.about({d.x << 6, d.y << 6});
-        for (std::size_t line = 0; line < 4; ++line)
-            __builtin_prefetch(reinterpret_cast<const char*>(mask) + 64 * line);
         PendingDart<2> dart{{}, d.time, PlaneTile::place_of(cell)};
         if (!tile_.locate(rules_.grid, {0, 0}, place_of(d), dart.at)) return;
         if (hit == Hit::unsure && hits_point(tile_, rules_.grid, cell, dart.at)) return;
-        if (!waits(cell, dart.at)) return tile_.add(cell, position, dart.at, mask);
+        if (!waits(cell, dart.at))
+            return tile_.add(cell, position, dart.at, rules_.table.about({d.x << 6, d.y << 6}));
         work_.waiting[static_cast<std::size_t>(cell[1] + 2)] |= std::uint64_t{1} << cell[0];
         work_.pending.push_back(dart);
     }
@@ -212,7 +204,7 @@ STIPPLE_WIDE void gather(const PlaneTile& tile, const Gap<2>& gap, NearDisks<2, 
 class PlaneSampler {
   public:
     PlaneSampler(const Task<2>& task, const RunContext& run)
-        : grid_(task.grid), rules_(grid_, task.slack), slack_(task.slack), rounds_(task, run) {
+        : grid_(task.grid), rules_(grid_, task.slack), rounds_(task, run) {
         std::vector<std::size_t> before{0};
         for (std::size_t t = 0; t < grid_.tile_count; ++t) {
             const auto [first, last] = grid_.tile(t);
@@ -272,11 +264,9 @@ class PlaneSampler {
     void throw_at_gaps(PlaneTile& tile, const Counts& counts, std::uint64_t key,
                        PlaneWorkspace& work, bool first) const {
         start(work);
-        work.gaps.clear();
         if (first) make_gaps(tile);
         for (const Gap<2>& gap : tile.gaps) draw_on_gap(tile, gap, counts[gap.level], key, work);
         try_all(tile, work);
-        tile.gaps.assign(work.gaps.begin(), work.gaps.end());
     }
 
     /// The first gaps: about what is open of cells as far as that is known.
@@ -295,8 +285,8 @@ class PlaneSampler {
                      std::uint64_t key, PlaneWorkspace& work) const {
         const Cell cell = PlaneTile::cell_at(gap.place);
         if (tile.taken(PlaneTile::number_of(cell)) || rounds_.too_small(gap)) return;
-        const SubcellBits open =
-            gap.level < deep ? roughly_open(tile, gap, work) : exactly_open(tile, gap, work);
+        const SubcellBits open = gap.level < deep ? roughly_open(tile, gap, work)
+                                                  : rounds_.exactly_open(tile, gap, work);
         if (open == 0) return;
         SplitMix64 mixer = stream_of(key, gap);
         throw_at_gap(gap, open, counts, mixer, work.gaps, [&](Point place) {
@@ -319,16 +309,8 @@ class PlaneSampler {
         return uncovered<2, float>(work.near, from_corner, slack, work.reaching);
     }
 
-    /// The same for small gaps.
-    SubcellBits exactly_open(const PlaneTile& tile, const Gap<2>& gap, PlaneWorkspace& work) const {
-        gather_exactly(tile, grid_, PlaneTile::cell_at(gap.place), work.exactly_near);
-        return uncovered<2, double>(work.exactly_near, {gap, grid_.scales}, slack_,
-                                    work.exactly_reaching);
-    }
-
     const Grid<2>& grid_;
     PlaneRules rules_;
-    double slack_;
     std::unique_ptr<FixedPosition[]> positions_;  ///< of all tiles' cells, as the next two
     std::unique_ptr<SubcellBits[]> covered_;
     std::unique_ptr<std::uint16_t[]> indices_;
@@ -341,11 +323,8 @@ Rows plane_sample(const Task<2>& task, const RunContext& run) {
     return PlaneSampler(task, run).sample();
 }
 
-double plane_tile_memory(double columns, double rows) {
-    constexpr std::size_t bytes =
-        sizeof(FixedPosition) + sizeof(SubcellBits) + sizeof(std::uint16_t);
-    return static_cast<double>(bytes * FixedPositions::stride) * std::ceil(columns / plane_side) *
-           (rows + 4 * std::ceil(rows / plane_side));
-}
+const double plane_tile_bytes =
+    FixedPositions::needed(plane_side) *
+    (sizeof(FixedPosition) + sizeof(SubcellBits) + sizeof(std::uint16_t));
 
 }  // namespace stipple::poisson_disk

@@ -13,7 +13,6 @@
 #include <span>
 #include <vector>
 
-#include "core/machine/fetch.hpp"
 #include "generators/poisson_disk/plane/coverage_table.hpp"
 #include "generators/poisson_disk/plane/fixed_positions.hpp"
 #include "generators/poisson_disk/tile_rounds.hpp"
@@ -78,8 +77,6 @@ class PlaneTile : public Tile<2, plane_tile_bits, 2> {
 
     [[nodiscard]] const FixedPositions& positions() const { return positions_; }
 
-    [[nodiscard]] bool has_gaps() const { return !gaps.empty(); }
-
     /// Calls visit(point, cell) for the points of the 25 cells about one, as long as that is true.
     template <class Visit>
     void for_about(const Cell& cell, const Visit& visit) const {
@@ -102,7 +99,6 @@ class PlaneTile : public Tile<2, plane_tile_bits, 2> {
     }
 
     void take(std::span<const Addition<2>> additions) {
-        fetch();
         for (const Addition<2>& a : additions) take(a);
     }
 
@@ -111,8 +107,6 @@ class PlaneTile : public Tile<2, plane_tile_bits, 2> {
         halo_ = {};
         pending = {};
     }
-
-    std::vector<Gap<2>> gaps;
 
   private:
     static constexpr int halo = FixedPositions::halo;
@@ -156,14 +150,6 @@ class PlaneTile : public Tile<2, plane_tile_bits, 2> {
                  ++x)
                 covered_[number_of({x, y})] |=
                     mask[y - row + halo][static_cast<std::size_t>(x - column + halo)];
-    }
-
-    /// Fetches what is looked at in no order when darts are thrown.
-    void fetch() const {
-        const std::size_t cells = FixedPositions::needed(static_cast<std::size_t>(size_[1]));
-        stipple::fetch(std::span<const SubcellBits>(covered_, cells));
-        stipple::fetch(std::span<const FixedPosition>(positions_.from(0), cells));
-        stipple::fetch(std::span<const std::uint16_t>(index_, cells));
     }
 
     const PlaneRules* rules_ = nullptr;

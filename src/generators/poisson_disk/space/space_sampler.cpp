@@ -14,7 +14,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/machine/large_pages.hpp"
 #include "core/machine/wide.hpp"
 #include "generators/poisson_disk/samplers.hpp"
 #include "generators/poisson_disk/space/space_tile.hpp"
@@ -37,15 +36,10 @@ struct SubcellDart {
 };
 
 /// What one thread needs to work on a tile.
-struct SpaceWorkspace {
-    std::vector<PendingDart<3>> pending;
+struct SpaceWorkspace : GapWorkspace<3> {
     std::vector<SubcellDart> drawn;  ///< on a layer of cells
-    NearBalls near;
     std::vector<Gap<3>> of_cell;
     std::vector<SubcellBits> open;  ///< of these
-    std::vector<Gap<3>> gaps;
-    NearDisks<3, double> exactly_near;
-    NearDisks<3, double> exactly_reaching;
 };
 
 /// Sub-cells that share a Poisson number: two lines of 32 in each of four layers. One sub-cell more
@@ -132,13 +126,8 @@ std::size_t subcell_at(const Point& place) {
 class SpaceSampler {
   public:
     SpaceSampler(const Task<3>& task, const RunContext& run)
-        : grid_(task.grid), rules_(grid_), slack_(task.slack), rounds_(task, run) {
-        lines_ = unwritten_room<std::uint32_t>(BallLines::room * grid_.tile_count);
-        numbers_ = unwritten_room<std::uint16_t>(SpaceTile::halo_cells * grid_.tile_count);
-        rounds_.make_tiles([&](std::uint32_t t) {
-            return SpaceTile(rules_, t, lines_.get() + BallLines::room * t,
-                             numbers_.get() + SpaceTile::halo_cells * t);
-        });
+        : grid_(task.grid), rules_(grid_), rounds_(task, run) {
+        rounds_.make_tiles([&](std::uint32_t number) { return SpaceTile(rules_, number); });
     }
 
     Rows sample() {
@@ -152,15 +141,11 @@ class SpaceSampler {
         rounds_.close_gaps(480, growth,
                            [&](SpaceTile& tile, const Counts& counts, std::uint64_t key,
                                SpaceWorkspace& work, bool first) {
-                               work.gaps.clear();
                                if (first)
                                    throw_at_first_gaps(tile, counts, key, work);
                                else
                                    throw_at_gaps(tile, counts, key, work);
-                               tile.gaps = std::vector(work.gaps.begin(), work.gaps.end());
                            });
-        lines_.reset();
-        numbers_.reset();
         return rounds_.collect();
     }
 
@@ -220,7 +205,7 @@ class SpaceSampler {
         for (std::size_t i = 0; i < work.of_cell.size(); ++i) {
             const Gap<3>& gap = work.of_cell[i];
             SubcellBits open = work.open[i];
-            if (open != 0 && gap.level >= deep) open = exactly_open(tile, cell, gap, work);
+            if (open != 0 && gap.level >= deep) open = rounds_.exactly_open(tile, gap, work);
             if (open != 0 && !rounds_.too_small(gap))
                 throw_at(gap, tile, cell, open, counts, mixer, work);
         }
@@ -232,23 +217,13 @@ class SpaceSampler {
             std::array<float, 3> off;
             for (std::size_t k = 0; k < 3; ++k)
                 off[k] = static_cast<float>(place[k]) * rules_.scales[k];
-            add_pending(tile, grid_, cell, place, find_hit(work.near, off), mixer.next(),
-                        work.pending);
+            add_pending(tile, grid_, cell, place, hits<3, float>(work.near, off, float_slack),
+                        mixer.next(), work.pending);
         });
-    }
-
-    SubcellBits exactly_open(const SpaceTile& tile, const Cell& cell, const Gap<3>& gap,
-                             SpaceWorkspace& work) const {
-        gather_exactly(tile, grid_, cell, work.exactly_near);
-        return uncovered<3, double>(work.exactly_near, {gap, grid_.scales}, slack_,
-                                    work.exactly_reaching);
     }
 
     const Grid<3>& grid_;
     SpaceRules rules_;
-    double slack_;
-    std::unique_ptr<std::uint32_t[]> lines_;  ///< of all tiles, as the next
-    std::unique_ptr<std::uint16_t[]> numbers_;
     Rounds rounds_;
 };
 
@@ -258,8 +233,7 @@ Rows space_sample(const Task<3>& task, const RunContext& run) {
     return SpaceSampler(task, run).sample();
 }
 
-double space_tile_memory(double tiles) {
-    return static_cast<double>(SpaceTile::bytes + sizeof(SpaceTile)) * tiles;
-}
+const double space_tile_bytes = BallLines::room * sizeof(std::uint32_t) +
+                                SpaceTile::halo_cells * sizeof(std::uint16_t) + sizeof(SpaceTile);
 
 }  // namespace stipple::poisson_disk

@@ -3,9 +3,6 @@
 // Tiles of cells in space, each with all that is needed to throw darts at it: its own points and
 // what they cover, and those of two layers of cells about it.
 //
-// What a tile knows lies in one piece, so that it is fetched in order and then stays near while the
-// tile is worked on.
-//
 // Shape   cells that hold one point at most, a radius leading across two of them; five along each
 //         direction, or more. Up to 32 cells along each side of a tile; a tile may be its own
 //         neighbour on a torus.
@@ -20,7 +17,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/machine/fetch.hpp"
 #include "generators/poisson_disk/space/ball_kernels.hpp"
 #include "generators/poisson_disk/space/ball_lines.hpp"
 #include "generators/poisson_disk/tile_rounds.hpp"
@@ -116,15 +112,13 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
   public:
     static constexpr int halo = 2;
     static constexpr std::size_t halo_cells = power(std::size_t{space_across}, 3);
-    /// What a tile takes, however few cells it has, and without points.
-    static constexpr std::size_t bytes =
-        BallLines::room * sizeof(std::uint32_t) + halo_cells * sizeof(std::uint16_t);
 
     SpaceTile() = default;
-    /// @param lines room for BallLines::room words @param numbers room for halo_cells
-    SpaceTile(const SpaceRules& rules, std::size_t number, std::uint32_t* lines,
-              std::uint16_t* numbers)
-        : Tile(rules.grid, number), rules_(&rules), lines_(lines), numbers_(numbers) {
+    SpaceTile(const SpaceRules& rules, std::size_t number)
+        : Tile(rules.grid, number),
+          rules_(&rules),
+          lines_(BallLines::room, ~std::uint32_t{0}),
+          numbers_(halo_cells) {
         open_cells();
         const std::size_t own = typical_points(rules.grid);
         places_.reserve(typical_points(rules.grid, halo));
@@ -133,32 +127,27 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
     }
 
     /// Sub-cells that a point covers alone.
-    [[nodiscard]] const std::uint32_t* lines() const { return lines_; }
+    [[nodiscard]] const std::uint32_t* lines() const { return lines_.data(); }
     [[nodiscard]] bool taken(const Cell& cell) const { return taken_.has(cell); }
 
     void take(std::span<const Addition<3>> additions) {
-        constexpr std::size_t many = 50;  // less takes the time that they save
-        if (additions.size() > many) fetch();
         thread_local std::vector<PlacedBall> balls;
         balls.clear();
         for (const Addition<3>& a : additions) balls.push_back(add(a));
-        cover_lines(rules_->scales, balls, lines_);
+        cover_lines(rules_->scales, balls, lines_.data());
     }
 
-    [[nodiscard]] bool has_gaps() const { return !gaps.empty(); }
-
     /// Points that reach into some sub-cells of a cell, and some more.
-    void gather(const TileCell<3>& cell, SubcellBits some, NearBalls& near) const {
+    void gather(const TileCell<3>& cell, SubcellBits some, NearDisks<3, float>& near) const {
         const std::uint16_t* numbers = &numbers_[number_of(cell)];
         const SpaceBits::Layers masks = reaching(some);
-        near.size = 0;
+        near.clear();
         for (std::size_t z = 0; z < SpaceBits::layers; ++z) {
             std::uint64_t found = taken_.layer(cell, z) & masks[z];
             for (; found != 0; found &= found - 1) {
                 const std::size_t b = 40 * z + static_cast<std::size_t>(std::countr_zero(found));
                 const SpaceRules::Quad at = places_[numbers[rules_->cells[b]]] + rules_->about[b];
-                for (std::size_t k = 0; k < 3; ++k) near.at[k][near.size] = at[k];
-                ++near.size;
+                near.add({at[0], at[1], at[2]});
             }
         }
         near.close();
@@ -204,9 +193,9 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
         }
     }
 
-    std::vector<Gap<3>> gaps;
-
     void drop() {
+        lines_ = {};
+        numbers_ = {};
         places_ = {};
         exact_ = {};
         pending = {};
@@ -234,21 +223,13 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
         return added;
     }
 
-    /// Fetches what is looked at in no order when balls are added and darts are thrown.
-    void fetch() const {
-        stipple::fetch(std::span<const std::uint32_t>(lines_, BallLines::room));
-        stipple::fetch(std::span<const std::uint16_t>(numbers_, halo_cells));
-        stipple::fetch(std::span<const SpaceRules::Quad>(places_));
-    }
-
     /// Nothing is covered of the tile's cells, everything beyond the last of them.
     void open_cells() {
-        std::fill_n(lines_, BallLines::room, ~std::uint32_t{0});
         for (int z = 0; z < 4 * size_[2]; ++z)
             for (std::size_t word = 0; word < BallLines::words; ++word) {
                 const int cells = std::clamp(size_[0] - 8 * static_cast<int>(word), 0, 8);
                 const auto open = static_cast<std::uint32_t>((std::uint64_t{1} << (4 * cells)) - 1);
-                std::fill_n(lines_ + BallLines::at(word, 0, static_cast<std::size_t>(z)),
+                std::fill_n(lines_.data() + BallLines::at(word, 0, static_cast<std::size_t>(z)),
                             4 * size_[1], ~open);
             }
     }
@@ -268,9 +249,9 @@ class SpaceTile : public Tile<3, space_tile_bits, 2> {
     }
 
     const SpaceRules* rules_ = nullptr;
-    std::uint32_t* lines_ = nullptr;
+    std::vector<std::uint32_t> lines_;
     SpaceBits taken_;
-    std::uint16_t* numbers_ = nullptr;  ///< of the points in cells, where taken
+    std::vector<std::uint16_t> numbers_;  ///< of the points in cells, where taken
     /// Of points, from the corners of their cells; and which it is of the own points, or
     /// -1 - that of the others, all small whole numbers.
     std::vector<SpaceRules::Quad> places_;

@@ -17,7 +17,7 @@ namespace {
 
 /// Balls about a cell, and the sides of that.
 struct Scene {
-    NearBalls near;
+    NearDisks<3, float> near;
     std::vector<std::array<float, 3>> centers;
     std::array<float, 3> scales;
 
@@ -26,10 +26,10 @@ struct Scene {
         std::uint64_t i = 0;
         const auto draw = [&] { return static_cast<float>(rng.uniform(i++)); };
         for (float& scale : scales) scale = 0.4F + 0.17F * draw();
-        near.size = count;
         for (std::size_t n = 0; n < count; ++n) {
             std::array<float, 3> center;
-            for (std::size_t k = 0; k < 3; ++k) near.at[k][n] = center[k] = 2.6F * draw() - 1;
+            for (float& x : center) x = 2.6F * draw() - 1;
+            near.add(center);
             centers.push_back(center);
         }
         near.close();
@@ -141,7 +141,7 @@ TEST(BallKernels, HitsAreThoseOfAnyBall) {
             std::array<float, 3> place;
             for (std::size_t k = 0; k < 3; ++k)
                 place[k] = static_cast<float>(rng.uniform(3 * i + k)) * 0.5F;
-            const Hit hit = find_hit(scene.near, place);
+            const Hit hit = hits<3, float>(scene.near, place, float_slack);
             const double depth = scene.depth({place[0], place[1], place[2]}, {0, 0, 0});
             if (std::abs(depth) < 2e-6) {
                 EXPECT_EQ(hit, Hit::unsure);

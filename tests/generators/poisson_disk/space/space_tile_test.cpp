@@ -17,9 +17,7 @@ struct Scene {
     BoxSpace space;
     poisson_disk::Grid<3> grid{space, 1, 1, space_side};
     SpaceRules rules{grid};
-    std::vector<std::uint32_t> lines = std::vector<std::uint32_t>(BallLines::room);
-    std::vector<std::uint16_t> numbers = std::vector<std::uint16_t>(SpaceTile::halo_cells);
-    SpaceTile tile{rules, 0, lines.data(), numbers.data()};
+    SpaceTile tile{rules, 0};
     std::vector<std::array<double, 3>> places;  ///< of the points, in cells
 
     Scene(std::uint64_t seed, double side) : space{{{0, 0, 0}, {side, side, side}}, true} {
@@ -89,9 +87,10 @@ TEST(SpaceTile, TellWhatPointsCoverInTheTileAndBeyondItsFaces) {
             if ((subcells_of(scene.tile.lines(), cell) >> subcell & 1) != 0) {
                 EXPECT_LT(nearest, 1) << i;
             }
-            NearBalls near;
+            NearDisks<3, float> near;
             scene.tile.gather(cell, SubcellBits{1} << subcell, near);
-            EXPECT_EQ(find_hit(near, {off[0], off[1], off[2]}), scene.tile.hit(cell, subcell, off))
+            const std::array<float, 3> at{off[0], off[1], off[2]};
+            EXPECT_EQ((hits<3, float>(near, at, float_slack)), scene.tile.hit(cell, subcell, off))
                 << i;
             ++counts[nearest < 1 ? 1 : 0];
         }
