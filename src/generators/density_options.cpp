@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "generators/density_options.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "core/error.hpp"
+#include "core/rng.hpp"
 
 namespace stipple {
 
@@ -21,6 +26,17 @@ std::optional<DensityMap> given_density(const Values& options, const RunContext&
     check_invert(options);
     if (!options.given(density_option)) return {};
     return read_density(options[density_option], options[invert_option], run);
+}
+
+double follow(const DensityMap& map, const Box& box, double* point) {
+    std::array<double, 2> at{};
+    for (std::size_t k = 0; k < 2; ++k)
+        at[k] = std::min((point[k] - box.low[k]) / box.extent(k), one_minus_ulp);
+    at = map.place(at[0], at[1]);
+    for (std::size_t k = 0; k < 2; ++k)
+        point[k] =
+            std::min(box.low[k] + at[k] * box.extent(k), std::nextafter(box.high[k], box.low[k]));
+    return 1 / std::sqrt(map.at(at[0], at[1]));
 }
 
 void note_density(const Values& options, PointSet& points) {

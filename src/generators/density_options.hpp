@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 //
-// The options of generators whose points follow a density (media/density_map.hpp).
+// The options of generators whose points follow a density (media/density_map.hpp), and how they do.
 #pragma once
 
 #include <cstddef>
 #include <optional>
 
+#include "core/domain.hpp"
 #include "core/options.hpp"
 #include "core/point_set.hpp"
 #include "media/density_map.hpp"
@@ -29,6 +30,10 @@ void check_density(const Values& options, std::size_t dimension);
 /// The density of --density; nothing where it is not given, or the unit has no such option.
 /// @throws as check_invert, read_density
 std::optional<DensityMap> given_density(const Values& options, const RunContext& run);
+
+/// Moves a uniform point of a rectangle to where the density has it.
+/// @return 1 / sqrt(density there), the mean density being 1: as far apart as such points are
+double follow(const DensityMap& map, const Box& box, double* point);
 
 /// Puts these options, where they are given, into the points' provenance.
 void note_density(const Values& options, PointSet& points);

@@ -101,24 +101,12 @@ void shake(EqualCells& cells, const Rng& rng) {
     }
 }
 
-/// Random places of the density, for points that have lost their cells.
-std::vector<Vec2> random_places(std::size_t n, const Planar& planar,
-                                const std::optional<DensityMap>& density, const Rng& rng) {
-    std::vector<Vec2> places(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        std::array<double, 2> at = {rng.uniform(2 * i), rng.uniform(2 * i + 1)};
-        if (density) at = density->place(at[0], at[1]);
-        places[i] = {at[0] * planar.sides.x, at[1] * planar.sides.y};
-    }
-    return places;
-}
-
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     auto [planar, density, rows] = planar_start(plan, options, 300, "the transport", run);
     const auto floor = [](double value) { return std::max(value, 1e-3); };
     const auto moments = planar_moments(density, floor, planar, run);
-    const std::size_t n = rows.size() / 2;
-    const auto rescue = random_places(n, planar, density, Rng(plan.seed, 1));
+    // For points that have lost their cells.
+    const auto rescue = random_places(rows.size() / 2, planar, density, Rng(plan.seed, 1));
     run.tick(0, 1);
     EqualCells cells(planar, moments, rows, run);
     const auto steps = static_cast<std::uint64_t>(options[iterations]);
@@ -133,12 +121,8 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     const double off = cells.equalize(fine, rescue);
     if (off > promised)
         run.notify("the cells' masses differ by up to " + format_number(off) + " of their mean");
-    for (std::size_t i = 0; i < n; ++i) {
-        rows[2 * i] = cells[i].x;
-        rows[2 * i + 1] = cells[i].y;
-    }
     run.tick(1, 1);
-    return planar_points(plan, planar, std::move(rows));
+    return planar_points(plan, planar, cells.sites());
 }
 
 }  // namespace

@@ -30,7 +30,6 @@
 #include <utility>
 
 #include "core/text.hpp"
-#include "generators/blue_noise/density_points.hpp"
 #include "generators/box_space.hpp"
 #include "generators/density_options.hpp"
 #include "generators/generator.hpp"

@@ -109,7 +109,7 @@ class FarthestPoint {
         return found.squared > nearest * (1 + 1e-9);
     }
 
-    [[nodiscard]] Vec2 operator[](std::size_t i) const { return sites_[i]; }
+    [[nodiscard]] const PeriodicVoronoi& sites() const { return sites_; }
 
   private:
     void refresh(std::size_t i) {
@@ -187,12 +187,8 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
             moved |= set.improve(i);
         }
     }
-    for (std::size_t i = 0; i < n; ++i) {
-        rows[2 * i] = set[i].x;
-        rows[2 * i + 1] = set[i].y;
-    }
     run.tick(1, 1);
-    return planar_points(plan, planar, std::move(rows));
+    return planar_points(plan, planar, set.sites());
 }
 
 }  // namespace

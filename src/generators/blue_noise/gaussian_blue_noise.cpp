@@ -54,13 +54,6 @@ Plan plan(const Request& request, const Values& options) {
     return plan;
 }
 
-/// Points at random, in proportion to the density.
-void scatter(const DensityMap& map, std::uint64_t seed, PointSet& points) {
-    const Rng rng(seed);
-    for (std::size_t i = 0; i < points.count(); ++i)
-        std::ranges::copy(map.place(rng.uniform(2 * i), rng.uniform(2 * i + 1)), points[i].begin());
-}
-
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     constexpr double most = 0x1p32;  // indices have 32 bits
     if (static_cast<double>(plan.count) >= most)
@@ -76,11 +69,12 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
     const std::int64_t usual = map ? usual_steps_to_density : usual_steps;
     const std::int64_t steps = options.given(iterations) ? options[iterations] : usual;
     PointSet points(plan.count, plan.dimension);
+    Rng(plan.seed).fill(0, points.flat());
     if (map) {
-        scatter(*map, plan.seed, points);
+        for (std::size_t i = 0; i < points.count(); ++i)
+            std::ranges::copy(map->place(points[i][0], points[i][1]), points[i].begin());
         relax_to_density(points.flat(), *map, static_cast<std::uint64_t>(steps), run, extents);
     } else {
-        Rng(plan.seed).fill(0, points.flat());
         relax_gaussian(points.flat(), plan.dimension, static_cast<std::uint64_t>(steps), run,
                        extents);
     }

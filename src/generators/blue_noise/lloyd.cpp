@@ -74,12 +74,8 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
         for (std::size_t i = 0; i < n; ++i) sites.move(i, next[i]);
         run.tick(step + 1, steps);
     }
-    for (std::size_t i = 0; i < n; ++i) {
-        rows[2 * order[i]] = sites[i].x;
-        rows[2 * order[i] + 1] = sites[i].y;
-    }
     run.tick(1, 1);
-    return planar_points(plan, planar, std::move(rows));
+    return planar_points(plan, planar, sites, order);
 }
 
 }  // namespace

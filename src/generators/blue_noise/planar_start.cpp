@@ -2,12 +2,12 @@
 #include "generators/blue_noise/planar_start.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <tuple>
 
 #include "core/error.hpp"
-#include "core/rng.hpp"
 #include "core/text.hpp"
 #include "io/files.hpp"
 #include "math/functions/powers.hpp"
@@ -46,10 +46,15 @@ std::vector<double> jittered_rows(std::uint64_t n, const Rng& rng, const RunCont
     return rows;
 }
 
-std::vector<double> random_rows(std::uint64_t n, const Rng& rng) {
-    std::vector<double> rows(2 * n);
-    rng.fill(0, rows);
-    return rows;
+/// Moves points of the unit square to where the density has them, and into the rectangle.
+void place_all(const Planar& planar, const std::optional<DensityMap>& density,
+               std::vector<double>& rows) {
+    for (std::size_t i = 0; i < rows.size(); i += 2) {
+        std::array<double, 2> at{rows[i], rows[i + 1]};
+        if (density) at = density->place(at[0], at[1]);
+        rows[i] = at[0] * planar.sides.x;
+        rows[i + 1] = at[1] * planar.sides.y;
+    }
 }
 
 /// Points of a file, seen from the lower corner of the box.
@@ -80,15 +85,10 @@ std::vector<double> starting_rows(const Plan& plan, const Values& options, const
     if (plan.count >= 0xffff'ffff)
         fail(ErrorKind::limit, "--count: {} points are too many; at most 2^32 - 2", plan.count);
     const Rng rng(plan.seed);
-    auto rows = options[planar::initial] == "random" ? random_rows(plan.count, rng)
-                                                     : jittered_rows(plan.count, rng, run);
-    for (std::size_t i = 0; i < rows.size(); i += 2) {
-        if (density)
-            std::ranges::copy(density->place(rows[i], rows[i + 1]),
-                              rows.begin() + static_cast<std::ptrdiff_t>(i));
-        rows[i] *= planar.sides.x;
-        rows[i + 1] *= planar.sides.y;
-    }
+    if (options[planar::initial] == "random")
+        return random_places(plan.count, planar, density, rng);
+    auto rows = jittered_rows(plan.count, rng, run);
+    place_all(planar, density, rows);
     return rows;
 }
 
@@ -155,15 +155,25 @@ std::vector<std::uint32_t> along_strips(const std::vector<double>& rows, const P
     return order;
 }
 
-PointSet planar_points(const Plan& plan, const Planar& planar, std::vector<double> rows) {
+std::vector<double> random_places(std::uint64_t n, const Planar& planar,
+                                  const std::optional<DensityMap>& density, const Rng& rng) {
+    std::vector<double> rows(2 * n);
+    rng.fill(0, rows);
+    place_all(planar, density, rows);
+    return rows;
+}
+
+PointSet planar_points(const Plan& plan, const Planar& planar, const PeriodicVoronoi& sites,
+                       std::span<const std::uint32_t> order) {
     const auto put = [](double x, double low, double high) {
         return std::min(low + x, std::nextafter(high, low));
     };
-    for (std::size_t i = 0; i < rows.size(); i += 2) {
-        rows[i] = put(rows[i], planar.low.x, plan.bounds ? plan.bounds->high[0] : 1);
-        rows[i + 1] = put(rows[i + 1], planar.low.y, plan.bounds ? plan.bounds->high[1] : 1);
+    PointSet points(sites.count(), 2);
+    for (std::size_t i = 0; i < sites.count(); ++i) {
+        const auto point = points[order.empty() ? i : order[i]];
+        point[0] = put(sites[i].x, planar.low.x, plan.bounds ? plan.bounds->high[0] : 1);
+        point[1] = put(sites[i].y, planar.low.y, plan.bounds ? plan.bounds->high[1] : 1);
     }
-    PointSet points(std::move(rows), 2);
     if (plan.bounds) points.domain = box_domain(*plan.bounds);
     return points;
 }

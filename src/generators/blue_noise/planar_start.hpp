@@ -10,9 +10,11 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
+#include "core/rng.hpp"
 #include "generators/box_space.hpp"
 #include "generators/density_options.hpp"
 #include "generators/generator.hpp"
@@ -76,7 +78,13 @@ std::optional<DensityMoments> planar_moments(const std::optional<DensityMap>& de
 std::vector<std::uint32_t> along_strips(const std::vector<double>& rows, const Planar& planar,
                                         const RunContext& run);
 
-/// Points of [0, side) at their places in the box of the plan.
-PointSet planar_points(const Plan& plan, const Planar& planar, std::vector<double> rows);
+/// Random places of the rectangle, in proportion to the density: x, y in [0, side).
+std::vector<double> random_places(std::uint64_t n, const Planar& planar,
+                                  const std::optional<DensityMap>& density, const Rng& rng);
+
+/// The sites at their places in the box of the plan.
+/// @param order number of each site's point; none: the site's own
+PointSet planar_points(const Plan& plan, const Planar& planar, const PeriodicVoronoi& sites,
+                       std::span<const std::uint32_t> order = {});
 
 }  // namespace stipple

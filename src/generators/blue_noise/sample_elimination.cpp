@@ -34,7 +34,6 @@
 
 #include "core/text.hpp"
 #include "generators/blue_noise/crowd_extent.hpp"
-#include "generators/blue_noise/density_points.hpp"
 #include "generators/blue_noise/eliminator.hpp"
 #include "generators/box_space.hpp"
 #include "generators/density_options.hpp"
@@ -152,12 +151,6 @@ Crowd crowd_of_file(const Plan& plan, const Values& options, const RunContext& r
     return {{points.flat().begin(), points.flat().end()}, std::move(space)};
 }
 
-/// Moves uniform points to where the density has them.
-void follow_all(const DensityMap& map, Crowd& crowd) {
-    for (std::size_t i = 0; i < crowd.rows.size(); i += 2)
-        crowd.shares.push_back(follow(map, crowd.space.box, &crowd.rows[i]));
-}
-
 Crowd random_crowd(const Plan& plan, const Values& options, const RunContext& run) {
     const double wanted = std::ceil(options[ratio] * static_cast<double>(plan.count));
     const bool dense = options.given(density_option);
@@ -173,7 +166,9 @@ Crowd random_crowd(const Plan& plan, const Values& options, const RunContext& ru
         if (i % 65536 == 0) run.check_stop();
         draws.point(crowd.space.box, crowd.rows.data() + i * plan.dimension);
     }
-    if (const auto map = given_density(options, run)) follow_all(*map, crowd);
+    if (const auto map = given_density(options, run))
+        for (std::size_t i = 0; i < crowd.rows.size(); i += 2)
+            crowd.shares.push_back(follow(*map, crowd.space.box, &crowd.rows[i]));
     return crowd;
 }
 

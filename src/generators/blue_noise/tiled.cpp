@@ -4,10 +4,19 @@
 //
 //     K x K tiles,  K = least with K^2 T >= n,  of  t = ceil(n / K^2) points,   T = --tile-points.
 //
-// The tile is a torus of ranked points (ranked_tile.hpp). Points i of the set stand by
-// rank: those of rank 0 in all tiles, row after row; then those of rank 1, ...; of the last rank
-// n - K^2 (t - 1) are there, spread evenly over the tiles: m of K^2, the j-th in tile
-// floor(j K^2 / m).
+// The tile is toroidal Gaussian blue noise (gaussian_relaxation.hpp) whose points have ranks: the
+// first m of them are well spread, for every m. They are ranked from the last to the first: each
+// time the point goes that feels most of those left,
+//
+//     argmax over i of  sum over j of exp(-|x_i - x_j|^2 / (2 sigma^2)),
+//
+// as void-and-cluster takes cells away; sigma is 0.47 of the mean distance of all points, and
+// doubles when a quarter is left. Coordinates are multiples of 2^-28, so that those of repeated
+// tiles are exact sums.
+//
+// Points i of the set stand by rank: those of rank 0 in all tiles, row after row; then those of
+// rank 1, ...; of the last rank n - K^2 (t - 1) are there, spread evenly over the tiles: m of K^2,
+// the j-th in tile floor(j K^2 / m).
 //
 // --bounds    K x L tiles in a box that is no square: just as many as needed, nearly squares. The
 //             tile is made even with the sides that it has in the box, so the set is even there,
@@ -36,20 +45,25 @@
 //         doi:10.1145/882262.882265, of which this is the case of a single tile. Ranks for a
 //         density: J. Kopf, D. Cohen-Or, O. Deussen, D. Lischinski, "Recursive Wang tiles for
 //         real-time blue noise", ACM Trans. Graph. 25(3) (2006) 509-518,
-//         doi:10.1145/1141911.1141916.
+//         doi:10.1145/1141911.1141916. The order: R. Ulichney, "The void-and-cluster method for
+//         dither array generation", Proc. SPIE 1913 (1993) 332-343, doi:10.1117/12.152707.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/machine/int128.hpp"
 #include "core/machine/wide.hpp"
-#include "generators/blue_noise/ranked_tile.hpp"
+#include "core/rng.hpp"
+#include "generators/blue_noise/relaxation/gaussian_relaxation.hpp"
 #include "generators/blue_noise/thinned_tiles.hpp"
 #include "generators/box_space.hpp"
 #include "generators/density_options.hpp"
 #include "generators/generator.hpp"
+#include "math/functions/exponential.hpp"
+#include "math/neighbors/periodic_voronoi.hpp"
 
 namespace stipple::generators::tiled {
 namespace {
@@ -67,6 +81,46 @@ constexpr Param<std::int64_t> iterations{.name = "iterations",
                                          .high = 1'000'000,
                                          .unit = "steps",
                                          .help = "Steps that make the tile even"};
+
+double difference(double a, double b) {
+    const double t = std::abs(a - b);
+    return std::min(t, 1 - t);
+}
+
+/// The points of the torus, those taken last in front.
+std::vector<Vec2> ranked(std::vector<Vec2> points, Vec2 sides, const RunContext& run) {
+    const Vec2 torus{std::sqrt(sides.x / sides.y), std::sqrt(sides.y / sides.x)};  // of area 1
+    const auto felt = [&](const Vec2& p, const Vec2& q, double sharpness) {
+        const double x = torus.x * difference(p.x, q.x);
+        const double y = torus.y * difference(p.y, q.y);
+        return exponential(-sharpness * (x * x + y * y));
+    };
+    std::vector<double> energies(points.size());
+    std::size_t widen = points.size();
+    // 1 / (2 sigma^2): to begin with, sigma is 0.47 of the mean distance.
+    double sharpness = 4 * 0.5 * static_cast<double>(points.size()) / (0.47 * 0.47);
+    for (std::size_t left = points.size(); left > 0; --left) {
+        run.tick(points.size() - left, points.size());
+        if (left == widen) {
+            sharpness /= 4;
+            widen /= 4;
+            for (std::size_t i = 0; i < left; ++i) {
+                if (i % 64 == 0) run.check_stop();
+                energies[i] = 0;
+                for (std::size_t j = 0; j < left; ++j)
+                    energies[i] += felt(points[i], points[j], sharpness);
+            }
+        }
+        const auto end = energies.begin() + static_cast<std::ptrdiff_t>(left);
+        const auto fullest =
+            static_cast<std::size_t>(std::max_element(energies.begin(), end) - energies.begin());
+        std::swap(points[fullest], points[left - 1]);
+        std::swap(energies[fullest], energies[left - 1]);
+        for (std::size_t i = 0; i + 1 < left; ++i)
+            energies[i] -= felt(points[i], points[left - 1], sharpness);
+    }
+    return points;
+}
 
 /// row[j] = ((column + j + x) / columns, y) for j < count.
 STIPPLE_WIDE void place_row(double* row, std::size_t count, double column, double x, double y,
@@ -129,13 +183,22 @@ Tiling tiling_of(std::uint64_t least, Vec2 sides) {
     return sides.x > sides.y ? Tiling{along(across), across} : Tiling{across, along(across)};
 }
 
-/// The tile for so many repetitions.
-std::vector<Vec2> tile_for(std::uint64_t points, const Tiling& tiling, Vec2 sides, const Plan& plan,
+/// The tile for so many repetitions: points of [0, 1)^2, those of the lowest rank in front.
+std::vector<Vec2> tile_for(std::size_t count, const Tiling& tiling, Vec2 sides, const Plan& plan,
                            const Values& options, const RunContext& run) {
+    constexpr double grain = 0x1p28;
     const Vec2 own{sides.x / static_cast<double>(tiling.columns),
                    sides.y / static_cast<double>(tiling.rows)};
-    return ranked_tile(points, static_cast<std::uint64_t>(options[iterations]), own, plan.seed,
-                       run);
+    run.need_memory(relaxation_bytes(count, 2) + 56 * static_cast<double>(count), "the tile");
+    std::vector<double> rows(2 * count);
+    Rng(plan.seed).fill(0, rows);
+    relax_gaussian(rows, 2, static_cast<std::uint64_t>(options[iterations]), run.stage(0, 0.7),
+                   std::array{own.x, own.y});
+    std::vector<Vec2> points(count);
+    for (std::size_t i = 0; i < count; ++i)
+        points[i] = {std::floor(rows[2 * i] * grain) / grain,
+                     std::floor(rows[2 * i + 1] * grain) / grain};
+    return ranked(std::move(points), own, run.stage(0.7, 1));
 }
 
 std::unique_ptr<Sequence> make_even(const Plan& plan, const Values& options, Vec2 sides,

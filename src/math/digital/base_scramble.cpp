@@ -188,13 +188,13 @@ BaseOwen::BaseOwen(std::uint64_t seed, std::size_t coordinate, std::uint32_t bas
         block_ *= base_;
         ++low_digits_;
     } while (block_ * base_ <= largest_digit_table);
-    images_ = low_digits_ == 1 ? first_images() : std::vector<std::uint64_t>();
+    for (std::uint64_t q = 0; q < block_; ++q) lengths_.push_back(length(q, base_));
+    images_ = first_images();
+    for (std::size_t depth = 1; depth < low_digits_; ++depth) append_digits(depth);
     for (std::uint64_t q = 0; q < block_; ++q) {
-        if (low_digits_ > 1) images_.push_back(image_of(q, low_digits_));
-        lengths_.push_back(length(q, base_));
         // A number of fewer than t digits has a wider interval, and all behind is its tail.
-        const std::uint64_t image = images_[q] / powers_[low_digits_ - lengths_.back()];
-        short_.push_back(inside(image, mixed(q, keys_), power(base_, lengths_.back())));
+        const std::uint64_t image = images_[q] / powers_[low_digits_ - lengths_[q]];
+        short_.push_back(inside(image, mixed(q, keys_), power(base_, lengths_[q])));
     }
 }
 
@@ -213,28 +213,6 @@ std::vector<std::uint64_t> BaseOwen::first_images() const {
     for (std::uint32_t rank = 0; rank < order.size(); ++rank)
         images[order[rank].second] = (images[0] + 1 + rank) % base_;
     return images;
-}
-
-std::uint64_t BaseOwen::image_of(std::uint64_t q, std::size_t count) const {
-    std::uint64_t image = 0;
-    std::uint64_t prefix = 0;
-    std::uint64_t place = 1;
-    for (std::size_t depth = 0; depth < count; ++depth, q /= base_, place *= base_) {
-        const auto digit = static_cast<std::uint32_t>(q % base_);
-        const std::uint64_t random = mixed(prefix, keys_);
-        std::uint64_t image_digit =
-            uniform_digit(random, powers_[depth - length(prefix, base_)], base_);
-        if (digit > 0) {
-            Prefixes at;
-            std::uint32_t rank = 0;
-            split(random, depth, keys_.digit, at.low[0], at.high[0]);
-            rank_digits(at, 1, static_cast<std::uint32_t>(base_), digit, &rank);
-            image_digit = (image_digit + 1 + rank) % base_;
-        }
-        image = image * base_ + image_digit;
-        prefix += digit * place;
-    }
-    return image;
 }
 
 double BaseOwen::of(std::uint64_t reversed) const {
@@ -257,9 +235,9 @@ void BaseOwen::fill_binary(std::uint64_t first, std::size_t count, double* out,
 
 /// Consecutive numbers with the same digits above the t low ones.
 struct BaseOwen::Stretch {
-    std::uint64_t low;   ///< the low digits of the first
-    std::uint64_t high;  ///< not zero
-    std::size_t count;   ///< at most `lanes`
+    std::uint64_t low;  ///< the low digits of the first
+    std::uint64_t high;
+    std::size_t count;  ///< at most `lanes`
 };
 
 /// Puts the images of one digit, `digit`, behind those of the digits before it, which are the low
@@ -284,6 +262,19 @@ void BaseOwen::append_digit(const Stretch& stretch, std::uint64_t above, std::si
         if (digit > 0) turned += 1 + rank[i];
         image[i] = image[i] * base_ + (turned < base_ ? turned : turned - base_);
     }
+}
+
+/// Goes from the images of `depth` digits to those of one digit more.
+void BaseOwen::append_digits(std::size_t depth) {
+    const std::size_t prefixes = images_.size();
+    std::vector<std::uint64_t> longer;
+    for (std::uint32_t digit = 0; digit < base_; ++digit) {
+        longer.insert(longer.end(), images_.begin(), images_.end());
+        for (std::size_t low = 0; low < prefixes; low += lanes)
+            append_digit({.low = low, .high = 0, .count = std::min(lanes, prefixes - low)}, 0,
+                         depth, digit, &longer[digit * prefixes + low]);
+    }
+    images_ = std::move(longer);
 }
 
 void BaseOwen::join(const Stretch& stretch, double* out, std::size_t stride) const {

@@ -87,11 +87,11 @@ class BaseOwen {
 
   private:
     struct Stretch;
-    [[nodiscard]] std::uint64_t image_of(std::uint64_t q, std::size_t count) const;
     [[nodiscard]] std::vector<std::uint64_t> first_images() const;
     void fill_binary(std::uint64_t first, std::size_t count, double* out, std::size_t stride) const;
     void append_digit(const Stretch& stretch, std::uint64_t above, std::size_t depth,
                       std::uint32_t digit, std::uint64_t* image) const;
+    void append_digits(std::size_t depth);
     void join(const Stretch& stretch, double* out, std::size_t stride) const;
 
     std::uint64_t base_;

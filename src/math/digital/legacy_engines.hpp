@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <random>
@@ -71,29 +72,22 @@ class Ranmar {
     std::uint32_t arithmetic_ = 362436;
 };
 
-/// The standard library's engine of this name; 53 high bits.
-class MersenneTwister {
+/// An engine of the standard library; the 53 high bits of its numbers, or all that it has.
+template <class Engine, std::uint64_t most>
+class StandardEngine {
   public:
-    static constexpr std::uint64_t max_seed = ~std::uint64_t{0};
+    static constexpr std::uint64_t max_seed = most;
 
-    explicit MersenneTwister(std::uint64_t seed) : engine_(seed) {}
-    double next() { return to_unit(engine_()); }
+    explicit StandardEngine(std::uint64_t seed) : engine_(seed) {}
+    double next() { return to_unit(engine_() << std::countl_zero(std::uint64_t{Engine::max()})); }
 
   private:
-    std::mt19937_64 engine_;
+    Engine engine_;
 };
 
-/// The standard library's engine of this name; x / 2^48.
+using MersenneTwister = StandardEngine<std::mt19937_64, ~std::uint64_t{0}>;
+
 /// Beware  seeds 0 and 19780503 are the same to it; from 2147483563 on seeds would come again.
-class Ranlux48 {
-  public:
-    static constexpr std::uint64_t max_seed = 2147483562;
-
-    explicit Ranlux48(std::uint64_t seed) : engine_(seed) {}
-    double next() { return static_cast<double>(engine_()) * 0x1p-48; }
-
-  private:
-    std::ranlux48 engine_;
-};
+using Ranlux48 = StandardEngine<std::ranlux48, 2147483562>;
 
 }  // namespace stipple

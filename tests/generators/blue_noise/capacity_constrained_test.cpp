@@ -47,7 +47,7 @@ double cost(const PointSet& set) {
     const std::optional<DensityMoments> even;
     const std::vector<double> rows(set.flat().begin(), set.flat().end());
     EqualCells cells({.low = {0, 0}, .sides = {1, 1}, .torus = true}, even, rows, {});
-    EXPECT_LE(cells.equalize(1e-6, std::vector<Vec2>(set.count())), 1e-6);
+    EXPECT_LE(cells.equalize(1e-6, std::vector<double>(2 * set.count())), 1e-6);
     double energy = 0;
     for (const CellMoments& cell : cells.moments()) energy += cell.second;
     return energy * static_cast<double>(set.count());

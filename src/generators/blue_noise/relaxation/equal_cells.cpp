@@ -134,17 +134,17 @@ bool EqualCells::try_steps(const std::vector<double>& step) {
     return false;
 }
 
-void EqualCells::revive(const std::vector<Vec2>& rescue) {
+void EqualCells::revive(std::span<const double> rescue) {
     measure();
     if (least_mass() > 0) return;
     std::ranges::fill(weights_, 0.0);
     measure();
     for (std::size_t i = 0; i < count(); ++i)
-        if (!(moments_[i].mass > 0)) sites_.move(i, sites_.inside(rescue[i]));
+        if (!(moments_[i].mass > 0)) move(i, {rescue[2 * i], rescue[2 * i + 1]});
     measure();
 }
 
-double EqualCells::equalize(double tolerance, const std::vector<Vec2>& rescue, std::size_t steps) {
+double EqualCells::equalize(double tolerance, std::span<const double> rescue, std::size_t steps) {
     revive(rescue);
     for (std::size_t k = 0; k < steps && worst() > tolerance && least_mass() > 0; ++k)
         if (!try_steps(newton_step())) break;

@@ -22,6 +22,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "generators/blue_noise/planar_start.hpp"
@@ -46,9 +47,9 @@ class EqualCells {
 
     /// Finds the weights, from the present ones on; those of sites that have lost their cells are
     /// 0 again, and so all others. Sites that have no mass even then are put to places of `rescue`
-    /// (n of them). Returns the largest |m_i n / total - 1|, above `tolerance` only after so many
+    /// (n rows). Returns the largest |m_i n / total - 1|, above `tolerance` only after so many
     /// steps, or where rounding keeps it there.
-    double equalize(double tolerance, const std::vector<Vec2>& rescue, std::size_t steps = 1000);
+    double equalize(double tolerance, std::span<const double> rescue, std::size_t steps = 1000);
 
     /// Moves every site to the centroid of its cell.
     void move_to_centroids();
@@ -69,7 +70,7 @@ class EqualCells {
     [[nodiscard]] double worst() const;
     [[nodiscard]] double error() const;
     [[nodiscard]] double least_mass() const;
-    void revive(const std::vector<Vec2>& rescue);
+    void revive(std::span<const double> rescue);
     [[nodiscard]] std::vector<double> newton_step() const;
     bool try_steps(const std::vector<double>& step);
 

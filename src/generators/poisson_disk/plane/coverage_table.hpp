@@ -17,7 +17,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/machine/large_pages.hpp"
 #include "generators/poisson_disk/gaps.hpp"
 #include "generators/poisson_disk/grid.hpp"
 #include "generators/poisson_disk/near_disks.hpp"
@@ -35,7 +34,6 @@ class CoverageTable {
         while (places_ * 2 <= most_places && places_ * places_ * worth < grid.cell_count)
             places_ *= 2, ++place_bits_;
         rows_.reserve(places_ * places_ * 5);
-        ask_for_large_pages(rows_.data(), rows_.capacity() * sizeof(Row));
         for (std::size_t place = 0; place < places_ * places_; ++place)
             for (std::size_t row = 0; row < 5; ++row) rows_.push_back(row_of(place, row));
     }

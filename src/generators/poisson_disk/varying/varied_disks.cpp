@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <tuple>
 #include <vector>
 
 #include "core/error.hpp"
@@ -43,8 +44,7 @@ class VariedSampler {
           keys_(seed),
           run_(run),
           expected_(expected_varied(field, scale)),
-          index_(space, scale * field.least(), static_cast<std::size_t>(expected_)),
-          buckets_(bucket_count) {
+          index_(space, scale * field.least(), static_cast<std::size_t>(expected_)) {
         finest_ = space.largest_coordinate() * 0x1p-48;
     }
 
@@ -71,8 +71,7 @@ class VariedSampler {
     static constexpr double first_density = 0.4;
     static constexpr double growth = 3;
     static constexpr double most_darts = 1.5;  ///< mean on a gap
-    static constexpr std::size_t bucket_count = 1024;
-    static constexpr std::size_t often = 256;  ///< gaps between two questions for a stop
+    static constexpr std::size_t often = 256;  ///< gaps, or darts, between two questions for a stop
 
     /// Darts on all gaps: pending ones, and the gaps for the next round.
     void throw_at_gaps() {
@@ -177,7 +176,7 @@ class VariedSampler {
                                  : field_.within(gap.node, dart.disk.at[0], dart.disk.at[1]);
             if (!(chance * most_darts < mean * (least / f) * (least / f))) continue;
             dart.disk.radius = scale_ * f;
-            if (!blocked(dart.disk, first)) buckets_[dart.time >> 54].push_back(dart);
+            if (!blocked(dart.disk, first)) pending_.push_back(dart);
         }
     }
 
@@ -216,15 +215,13 @@ class VariedSampler {
 
     /// Pending darts come in the order of their times.
     void decide() {
-        for (std::vector<TimedDart>& bucket : buckets_) {
-            std::ranges::sort(bucket, [](const TimedDart& a, const TimedDart& b) {
-                return a.time != b.time ? a.time < b.time : a.disk.at < b.disk.at;
-            });
-            for (const TimedDart& c : bucket)
-                if (!index_.blocks(c.disk)) index_.add(c.disk);
-            bucket.clear();
-            report();
+        std::ranges::sort(pending_, {},
+                          [](const TimedDart& d) { return std::tie(d.time, d.disk.at); });
+        for (const TimedDart& d : pending_) {
+            if (tried_++ % often == 0) report();
+            if (!index_.blocks(d.disk)) index_.add(d.disk);
         }
+        pending_.clear();
     }
 
     void report() const {
@@ -248,7 +245,7 @@ class VariedSampler {
     std::vector<Disk> near_;
     std::size_t divided_ = 0;
     std::size_t tried_ = 0;
-    std::vector<std::vector<TimedDart>> buckets_;  ///< by the first bits of their times
+    std::vector<TimedDart> pending_;
 };
 
 /// @throws Error(limit) when the least radius is too small for the coordinates, or the memory.
