@@ -75,6 +75,50 @@ void widen(double* box, const double* low, const double* high, std::size_t d) {
     }
 }
 
+/// The nearest point but one.
+struct NearestBut {
+    std::size_t except;
+    Neighbor best = {std::numeric_limits<double>::infinity(), KdTree::none};
+
+    [[nodiscard]] static bool skips_node(std::size_t) { return false; }
+    [[nodiscard]] bool wants(const Neighbor& bound) const { return bound < best; }
+    void visit(std::size_t, const Neighbor& point) {
+        if (point < best && point.index != except) best = point;
+    }
+};
+
+/// The nearest point that is not of a group.
+struct NearestOfOthers {
+    const KdTree::Groups& groups;
+    std::uint32_t own;
+    Neighbor best;  ///< at a finite distance, as nodes are passed over
+
+    [[nodiscard]] bool skips_node(std::size_t node) const { return groups.nodes[node] == own; }
+    [[nodiscard]] bool wants(const Neighbor& bound) const { return bound < best; }
+    void visit(std::size_t rank, const Neighbor& point) {
+        if (point < best && groups.points[rank] != own) best = point;
+    }
+};
+
+/// The k nearest points.
+struct Several {
+    std::size_t k;
+    std::vector<Neighbor> heap = {};  ///< the farthest on top
+
+    [[nodiscard]] static bool skips_node(std::size_t) { return false; }
+    [[nodiscard]] bool wants(const Neighbor& bound) const {
+        return heap.size() < k || bound < heap.front();
+    }
+    void visit(std::size_t, const Neighbor& point) {
+        if (!wants(point)) return;
+        heap.push_back(point);
+        std::push_heap(heap.begin(), heap.end());
+        if (heap.size() <= k) return;
+        std::pop_heap(heap.begin(), heap.end());
+        heap.pop_back();
+    }
+};
+
 }  // namespace
 
 /// Sorts the points into the leaves, level by level.
@@ -213,16 +257,18 @@ auto KdTree::with_metric(const Work& work) const {
     }
 }
 
-/// Goes to the query's leaves, the nearest first. A query has a bound for a node's points; wants a
-/// node when a point at that bound, of the node's lowest index, could change its answer.
-template <class Query>
-void KdTree::search(Query& query) const {
+/// Goes to the leaves that the query wants, the nearest first. It wants a node when a point at the
+/// node's bound, of the node's lowest index, could change its answer.
+template <class Metric, class Query>
+void KdTree::search(const Metric& metric, const double* place, Query& query) const {
     struct Entry {
         std::size_t node;
         Neighbor bound;
     };
     const auto entry = [&](std::size_t node) {
-        return Entry{node, {query.bound(node), lowest_[node]}};
+        const double bound = query.skips_node(node) ? std::numeric_limits<double>::infinity()
+                                                    : metric.nearest(box_of(node), place);
+        return Entry{node, {bound, lowest_[node]}};
     };
     std::array<Entry, 66> stack;
     std::size_t size = 0;
@@ -238,81 +284,14 @@ void KdTree::search(Query& query) const {
         }
         const auto [first, last] = range_of(now.node);
         for (std::size_t i = first; i < last; ++i)
-            query.visit(i, {query.metric.distance(query.place, row(i)), indices_[i]});
+            query.visit(i, {metric.distance(place, row(i)), indices_[i]});
     }
 }
 
-/// Passes over one point.
-struct KdTree::AllBut {
-    const KdTree& tree;
-    std::size_t except;
-
-    [[nodiscard]] static bool skips_node(std::size_t) { return false; }
-    [[nodiscard]] bool skips(std::size_t rank) const { return tree.indices_[rank] == except; }
-};
-
-/// Passes over the points of a group.
-struct KdTree::OtherGroups {
-    const Groups& groups;
-    std::uint32_t own;
-
-    [[nodiscard]] bool skips_node(std::size_t node) const { return groups.nodes[node] == own; }
-    [[nodiscard]] bool skips(std::size_t rank) const { return groups.points[rank] == own; }
-};
-
-template <class Metric, class Choice>
-struct KdTree::Nearest {
-    const KdTree& tree;
-    const Metric& metric;
-    const double* place;
-    Choice choice;
-    static constexpr double infinity = std::numeric_limits<double>::infinity();
-    Neighbor best;  ///< at a finite distance where nodes are passed over
-
-    Nearest(const KdTree& in, const Metric& by, const double* from, Choice of,
-            const Neighbor& farthest = {infinity, none})
-        : tree(in), metric(by), place(from), choice(of), best(farthest) {}
-
-    [[nodiscard]] double bound(std::size_t node) const {
-        return choice.skips_node(node) ? infinity : metric.nearest(tree.box_of(node), place);
-    }
-    [[nodiscard]] bool wants(const Neighbor& bound) const { return bound < best; }
-    void visit(std::size_t rank, const Neighbor& point) {
-        if (point < best && !choice.skips(rank)) best = point;
-    }
-};
-
-template <class Metric>
-struct KdTree::Several {
-    const KdTree& tree;
-    const Metric& metric;
-    const double* place;
-    std::size_t k;
-    std::vector<Neighbor> heap;  ///< the farthest on top
-
-    Several(const KdTree& in, const Metric& by, const double* from, std::size_t most)
-        : tree(in), metric(by), place(from), k(most) {}
-
-    [[nodiscard]] double bound(std::size_t node) const {
-        return metric.nearest(tree.box_of(node), place);
-    }
-    [[nodiscard]] bool wants(const Neighbor& bound) const {
-        return heap.size() < k || bound < heap.front();
-    }
-    void visit(std::size_t, const Neighbor& point) {
-        if (!wants(point)) return;
-        heap.push_back(point);
-        std::push_heap(heap.begin(), heap.end());
-        if (heap.size() <= k) return;
-        std::pop_heap(heap.begin(), heap.end());
-        heap.pop_back();
-    }
-};
-
 Neighbor KdTree::nearest(std::span<const double> place) const {
     return with_metric([&](const auto metric) {
-        Nearest query{*this, metric, place.data(), AllBut{*this, none}};
-        search(query);
+        NearestBut query{none};
+        search(metric, place.data(), query);
         return query.best;
     });
 }
@@ -334,17 +313,17 @@ void KdTree::spread(Groups& groups) const {
 
 Neighbor KdTree::nearest_of_others(std::size_t rank, const Groups& groups, double squared) const {
     return with_metric([&](const auto metric) {
-        Nearest query{*this, metric, row(rank), OtherGroups{groups, groups.points[rank]},
-                      Neighbor{std::min(squared, std::numeric_limits<double>::max()), none}};
-        search(query);
+        const double farthest = std::min(squared, std::numeric_limits<double>::max());
+        NearestOfOthers query{groups, groups.points[rank], {farthest, none}};
+        search(metric, row(rank), query);
         return query.best;
     });
 }
 
 std::vector<Neighbor> KdTree::nearest_several(std::span<const double> place, std::size_t k) const {
     return with_metric([&](const auto metric) {
-        Several query{*this, metric, place.data(), k};
-        search(query);
+        Several query{k};
+        search(metric, place.data(), query);
         std::sort_heap(query.heap.begin(), query.heap.end());
         return std::move(query.heap);
     });
@@ -377,8 +356,8 @@ std::vector<Neighbor> KdTree::all_nearest(const RunContext& run) const {
     for_each_block(run, count(), block, [&](const Block& b) {
         with_metric([&](const auto metric) {
             for (std::size_t i = b.first; i < b.last; ++i) {
-                Nearest query{*this, metric, row(i), AllBut{*this, indices_[i]}};
-                search(query);
+                NearestBut query{indices_[i]};
+                search(metric, row(i), query);
                 found[indices_[i]] = query.best;
             }
         });

@@ -22,7 +22,6 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -111,18 +110,11 @@ class KdTree {
     class Builder;
     template <class Work>
     auto with_metric(const Work& work) const;
-    template <class Query>
-    void search(Query& query) const;
+    template <class Metric, class Query>
+    void search(const Metric& metric, const double* place, Query& query) const;
     template <class Metric>
     std::size_t count_nearer(const Metric& metric, const double* place, double squared,
                              std::size_t node) const;
-
-    struct AllBut;
-    struct OtherGroups;
-    template <class Metric, class Choice>
-    struct Nearest;
-    template <class Metric>
-    struct Several;
 
     std::size_t dimension_;
     std::vector<double> sides_;
