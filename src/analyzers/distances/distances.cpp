@@ -126,13 +126,18 @@ double mean_distance(const Box& box, std::size_t n) {
                     1 / static_cast<double>(box.dimension()));
 }
 
+bool all_equal(const PointSet& points) {
+    for (std::size_t i = 1; i < points.count(); ++i)
+        if (!std::ranges::equal(points[i], points[0])) return false;
+    return true;
+}
+
 void require_places(const PointSet& points, const char* analyzer) {
     if (points.count() < 2)
         fail(ErrorKind::input, "{} needs at least two points; this is one", analyzer);
-    for (std::size_t i = 1; i < points.count(); ++i)
-        if (!std::ranges::equal(points[i], points[0])) return;
-    fail(ErrorKind::input, "{} needs points at two places at least; all {} are at one", analyzer,
-         points.count());
+    if (all_equal(points))
+        fail(ErrorKind::input, "{} needs points at two places at least; all {} are at one",
+             analyzer, points.count());
 }
 
 std::vector<Neighbor> nearest_neighbors(const PointSet& points, const Distances& distances,

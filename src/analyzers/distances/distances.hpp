@@ -51,6 +51,9 @@ double shortest_side(const Box& box);
 /// Of so many points in the box: (V / n)^(1/d).
 double mean_distance(const Box& box, std::size_t n);
 
+/// Whether all points are at one place.
+bool all_equal(const PointSet& points);
+
 /// @throws Error(input) unless there are points at two places at least
 void require_places(const PointSet& points, const char* analyzer);
 

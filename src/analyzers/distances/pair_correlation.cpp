@@ -224,12 +224,6 @@ Curves smooth(const Plan& plan, const PairCounts& counts, const RunContext& run)
     return curves;
 }
 
-bool all_equal(const PointSet& points) {
-    for (std::size_t i = 1; i < points.count(); ++i)
-        if (!std::ranges::equal(points[i], points[0])) return false;
-    return true;
-}
-
 Report analyze(const PointSet& points, const Values& options, const RunContext& run) {
     if (points.count() < 2)
         fail(ErrorKind::input, "pair-correlation needs at least two points; this is one");
