@@ -5,7 +5,7 @@
 
 #include <span>
 
-#include "math/fourier/interpolator.hpp"
+#include "math/fourier/kaiser_bessel.hpp"
 #include "math/fourier/nufft.hpp"
 
 namespace stipple::testing {

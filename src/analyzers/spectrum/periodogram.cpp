@@ -38,8 +38,7 @@
 // Cost    O(n w^d + (4F)^d log F), see math/fourier/nufft.hpp; `direct` O(n (2F)^d). Sets of up to
 //         2^20 points are kept until their number is known; of more, no more than a batch.
 // Promise the same for any number of threads, and whether points come at once or in pieces; in any
-//         run, too, but for last bits where FFTW measures its plans: with --wisdom, and for
-//         transforms of more than 10 seconds.
+//         run, too, but for last bits with --wisdom, where FFTW measures its plans.
 // Beware  one set's power has a standard deviation of 100 % at every frequency: average sets. A
 //         mean of anisotropies is not the anisotropy of the mean power; so the power itself goes
 //         into the report, and refine() works out all else from its mean.
@@ -415,8 +414,7 @@ class Summation final : public SharedAccumulator {
 
     FourierSums sums(const RunContext& run) {
         if (direct_) return direct_->finish();
-        const Planning planning =
-            options_.given(wisdom) ? Planning::measured : planning_for(d_, nufft_->side());
+        const Planning planning = options_.given(wisdom) ? Planning::measured : Planning::estimated;
         FourierSums found = sum_->finish(planning, run);
         sum_.reset();
         return found;

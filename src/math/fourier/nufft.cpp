@@ -16,7 +16,7 @@ namespace {
 
 /// Seconds, nearly, of one core.
 double cost_of(std::uint64_t count, std::size_t dimension, std::size_t side,
-               const Interpolator& window) {
+               const KaiserBessel& window) {
     const auto width = static_cast<double>(window.width());
     // Vectors of four or of eight: the choice does not depend on the machine.
     const double vectors = std::ceil(width / 4) / 2 + std::ceil(width / 8);
@@ -31,35 +31,17 @@ double cost_of(std::uint64_t count, std::size_t dimension, std::size_t side,
     return spreading + transform_seconds(dimension, side) + cells * touching;
 }
 
-/// How many points of a tile are added up in a row, before their sums are added to the grid.
-struct Folding {
-    std::size_t fold_after;
-    double rounding;  ///< of sums over points in one place, a point, which are largest; by trying
-};
-constexpr Folding rare{2048, 2e-14};
-constexpr Folding usual{512, 1e-15};
-constexpr Folding frequent{64, 5e-16};
-
 /// What the tolerance is times the errors of all axes: the rest is left to rounding errors, and to
-/// places where the interpolator was not looked at.
+/// places where the window was not looked at.
 constexpr double reserve = 1.2;
 
 /// Whether the division by the scaling factors leaves rounding errors as they should be.
-bool keeps_digits(const Interpolator& window, std::size_t dimension, double allowed,
-                  const Folding& folding) {
-    // Those of the polynomials, found by trying, too, are of one axis each.
+bool keeps_digits(const KaiserBessel& window, std::size_t dimension, double allowed) {
+    // By trying: of sums over points in one place, a point, which are largest; and of the
+    // polynomials, which are of one axis each.
     const double times = window.magnification();
-    return folding.rounding * std::pow(times, dimension) <= std::max(allowed / 8, 2e-14) &&
+    return 1e-15 * std::pow(times, dimension) <= std::max(allowed / 8, 2e-14) &&
            6e-15 * times <= std::max(allowed / 16, 4e-14);
-}
-
-/// The fewest foldings that keep digits; few points fill few tiles, where many foldings cost
-/// little.
-const Folding& folding_for(const Interpolator& window, std::size_t dimension, double allowed,
-                           std::uint64_t count) {
-    constexpr std::uint64_t few = std::uint64_t{1} << 17;
-    if (count <= few) return frequent;
-    return keeps_digits(window, dimension, allowed, rare) ? rare : usual;
 }
 
 }  // namespace
@@ -76,7 +58,7 @@ Nufft::Nufft(std::uint64_t count, std::size_t dimension, std::size_t max_frequen
       dimension_(dimension),
       frequency_(max_frequency),
       weighted_(weighted),
-      window_(Interpolator::min_width, 0.25) {
+      window_(KaiserBessel::min_width, 0.25) {
     assert(dimension >= 1 && dimension <= 3 && max_frequency >= 1);
     // Of each point, in each dimension; less than rounding errors leave would be of no use.
     const double allowed = std::max(tolerance / std::sqrt(static_cast<double>(count)), 3e-14) /
@@ -91,17 +73,14 @@ Nufft::Nufft(std::uint64_t count, std::size_t dimension, std::size_t max_frequen
         side = quick_length(side);
         if (transform_seconds(dimension, side) >= cheapest) break;
         const double band = static_cast<double>(frequency_) / static_cast<double>(side);
-        const Interpolator window = interpolator_for(allowed, band);
+        const KaiserBessel window = window_for(allowed, band);
         const double cost = cost_of(likely, dimension, side, window);
-        const Folding& folding = folding_for(window, dimension, allowed, count);
-        const bool exact =
-            window.error() <= allowed && keeps_digits(window, dimension, allowed, folding);
+        const bool exact = window.error() <= allowed && keeps_digits(window, dimension, allowed);
         const bool finest = side_ == 0 && static_cast<double>(side) > 3.9 * wanted;
         if (cost >= cheapest || !(exact || finest)) continue;
         cheapest = cost;
         side_ = side;
         window_ = window;
-        fold_after_ = folding.fold_after;
     }
 }
 
@@ -144,7 +123,7 @@ FourierSummation::FourierSummation(const Nufft& nufft)
             .side = nufft.side(),
             .stride = stride_of(nufft.side()),
             .cells = cells_.get()},
-      spreader_(nufft.window(), grid_, nufft.count(), nufft.fold_after(), nufft.weighted()),
+      spreader_(nufft.window(), grid_, nufft.count(), nufft.weighted()),
       block_(block_of(nufft)) {}
 
 std::uint64_t FourierSummation::block_of(const Nufft& nufft) {
@@ -224,59 +203,41 @@ void phases(double x, std::size_t last, std::complex<double>* out) {
     }
 }
 
-/// Phases of a few points at a time, for each axis: [axis][point][0..F].
-class PhaseTables {
-  public:
-    PhaseTables(std::size_t dimension, std::size_t last)
-        : dimension_(dimension),
-          last_(last),
-          capacity_(std::clamp<std::size_t>((std::size_t{1} << 20) / (last + 1), 1, 64)),
-          table_(dimension * capacity_ * (last + 1)) {}
+/// Phases of some points along each axis: [point][axis][0..F]; a strength multiplies those along the
+/// first.
+struct PhaseTable {
+    std::size_t dimension;
+    std::size_t last;
+    std::vector<std::complex<double>> values = {};
 
-    /// Points that fit.
-    [[nodiscard]] std::size_t capacity() const { return capacity_; }
-
-    /// @param numbers of a row: the coordinates, and perhaps a strength.
     void fill(std::span<const double> rows, std::size_t numbers, const RunContext& run) {
-        count_ = rows.size() / numbers;
-        for (std::size_t i = 0; i < count_; ++i, run.check_stop()) {
-            for (std::size_t k = 0; k < dimension_; ++k)
-                phases(rows[i * numbers + k], last_, at(k, i));
-            if (numbers > dimension_)
-                for (std::size_t f = 0; f <= last_; ++f)
-                    at(0, i)[f] *= rows[i * numbers + dimension_];
-        }
+        values.resize(rows.size() / numbers * dimension * (last + 1));
+        auto* out = values.data();
+        for (std::size_t at = 0; at < rows.size(); at += numbers, run.check_stop())
+            for (std::size_t k = 0; k < dimension; ++k, out += last + 1) {
+                phases(rows[at + k], last, out);
+                if (k == 0 && numbers > dimension)
+                    for (std::size_t f = 0; f <= last; ++f) out[f] *= rows[at + dimension];
+            }
     }
 
-    /// Adds exp(-2 pi i f.x) of all points, f_0 = 0..F, to a row of sums with the given f_1, f_2.
-    void add(std::int64_t f1, std::int64_t f2, std::complex<double>* row) {
-        for (std::size_t i = 0; i < count_; ++i) {
-            const std::complex<double> factor = value(1, i, f1) * value(2, i, f2);
-            const std::complex<double>* along = at(0, i);
-            for (std::size_t f = 0; f <= last_; ++f) {
-                const double re = along[f].real();
-                const double im = along[f].imag();
-                row[f] += std::complex<double>(re * factor.real() - im * factor.imag(),
+    /// Adds exp(-2 pi i f.x) of all points, f_0 = 0..F, to a row of sums.
+    void add(const std::array<std::int64_t, 3>& f, std::span<std::complex<double>> row) const {
+        for (std::size_t at = 0; at < values.size(); at += dimension * (last + 1)) {
+            std::complex<double> factor = 1;
+            for (std::size_t k = 1; k < dimension; ++k) {
+                const auto along = static_cast<std::size_t>(std::abs(f[k]));
+                const auto phase = values[at + k * (last + 1) + along];
+                factor *= f[k] < 0 ? std::conj(phase) : phase;
+            }
+            for (std::size_t i = 0; i < row.size(); ++i) {
+                const double re = values[at + i].real();
+                const double im = values[at + i].imag();
+                row[i] += std::complex<double>(re * factor.real() - im * factor.imag(),
                                                re * factor.imag() + im * factor.real());
             }
         }
     }
-
-  private:
-    std::complex<double>* at(std::size_t k, std::size_t i) {
-        return table_.data() + (k * capacity_ + i) * (last_ + 1);
-    }
-    std::complex<double> value(std::size_t k, std::size_t i, std::int64_t f) {
-        if (k >= dimension_) return 1;
-        const auto v = at(k, i)[std::abs(f)];
-        return f < 0 ? std::conj(v) : v;
-    }
-
-    std::size_t dimension_;
-    std::size_t last_;
-    std::size_t capacity_;
-    std::size_t count_ = 0;
-    std::vector<std::complex<double>> table_;
 };
 
 }  // namespace
@@ -287,28 +248,26 @@ DirectSummation::DirectSummation(std::size_t dimension, std::size_t max_frequenc
 }
 
 void DirectSummation::add(std::span<const double> rows, const RunContext& run) {
-    const std::size_t dimension = sums_.dimension;
-    const std::size_t numbers = dimension + (weighted_ ? 1 : 0);
+    const std::size_t numbers = sums_.dimension + (weighted_ ? 1 : 0);
     const std::size_t width = sums_.max_frequency + 1;
     const std::size_t span = 2 * sums_.max_frequency + 1;
-    PhaseTables tables(dimension, sums_.max_frequency);
-    const std::size_t portion = tables.capacity() * numbers;
     const auto last = static_cast<std::int64_t>(sums_.max_frequency);
+    PhaseTable table{sums_.dimension, sums_.max_frequency};
+    const std::size_t portion =
+        std::clamp<std::size_t>((std::size_t{1} << 20) / width, 1, 64) * numbers;
     for (std::size_t at = 0; at < rows.size(); at += portion) {
-        tables.fill(rows.subspan(at, std::min(portion, rows.size() - at)), numbers, run);
-        for_each_block(silent(run), sums_.values.size() / width,
-                       std::max<std::size_t>(1, 4096 / width), [&](const Block& b) {
-                           for (std::size_t i = b.first; i < b.last; ++i) {
-                               // Sums of a portion first: rounding errors of long sums stay small.
-                               std::vector<std::complex<double>> row(width);
-                               const auto f1 =
-                                   dimension > 1 ? static_cast<std::int64_t>(i % span) - last : 0;
-                               const auto f2 = static_cast<std::int64_t>(i / span) - last;
-                               tables.add(f1, f2, row.data());
-                               for (std::size_t f = 0; f < width; ++f)
-                                   sums_.values[i * width + f] += row[f];
-                           }
-                       });
+        table.fill(rows.subspan(at, std::min(portion, rows.size() - at)), numbers, run);
+        const std::size_t some = std::max<std::size_t>(1, 4096 / width);
+        for_each_block(silent(run), sums_.values.size() / width, some, [&](const Block& b) {
+            for (std::size_t i = b.first; i < b.last; ++i) {
+                // Sums of a portion first: rounding errors of long sums stay small.
+                std::vector<std::complex<double>> row(width);
+                table.add({0, static_cast<std::int64_t>(i % span) - last,
+                           static_cast<std::int64_t>(i / span) - last},
+                          row);
+                for (std::size_t f = 0; f < width; ++f) sums_.values[i * width + f] += row[f];
+            }
+        });
         run.tick(std::min(at + portion, rows.size()), rows.size());
     }
 }

@@ -7,13 +7,13 @@
 // or, with strengths s_j, sum_j s_j exp(-2 pi i f.x_j),
 //
 // by a non-uniform fast Fourier transform: the points are spread over a grid of M > 2F + 1 cells a
-// side with the weights of an interpolator, the real grid is transformed, and the result divided by
-// its scaling factors. Grid and interpolator are the cheapest that meet the tolerance.
+// side by a window, the real grid is transformed, and the result divided by the window's transform.
+// Grid and window are the cheapest that meet the tolerance.
 //
 // Shape   f_0 = 0..F, the fastest index; f_1, f_2 = -F..F. The other half is S(-f) = conj S(f).
 // Cost    O(n w^d + M^d log M) time for windows w <= 16 cells wide; memory: bytes(), however many
 //         points come.
-// Promise |error| <= max(tolerance, floor) sqrt(n) at every f, for every set: the weights' error is
+// Promise |error| <= max(tolerance, floor) sqrt(n) at every f, for every set: the window's error is
 //         held below tolerance / sqrt(n) for each point, so that not even points in phase exceed
 //         it. floor = rounding_floor(n), about 1.5e-13 sqrt(n), is what float64 may leave when all
 //         n points are in phase; where they are not, smaller tolerances hold as well. With
@@ -33,7 +33,7 @@
 #include <vector>
 
 #include "math/fourier/grid_sum.hpp"
-#include "math/fourier/interpolator.hpp"
+#include "math/fourier/kaiser_bessel.hpp"
 #include "math/fourier/spreading.hpp"
 #include "math/fourier/transform.hpp"
 #include "stipple/run.hpp"
@@ -58,10 +58,7 @@ class Nufft {
     [[nodiscard]] std::size_t max_frequency() const { return frequency_; }
     [[nodiscard]] bool weighted() const { return weighted_; }
     [[nodiscard]] std::size_t side() const { return side_; }
-    [[nodiscard]] const Interpolator& window() const { return window_; }
-
-    /// Points of a tile of the grid that are added up in a row (math/fourier/spreading.hpp).
-    [[nodiscard]] std::size_t fold_after() const { return fold_after_; }
+    [[nodiscard]] const KaiserBessel& window() const { return window_; }
 
     /// Bound of the error beside that of rounding, relative to sqrt(count), of so many points.
     [[nodiscard]] double error(double count) const;
@@ -72,8 +69,7 @@ class Nufft {
     std::size_t frequency_;
     bool weighted_;
     std::size_t side_ = 0;
-    Interpolator window_;
-    std::size_t fold_after_ = 1;
+    KaiserBessel window_;
 };
 
 /// A transform whose points come in portions. They are spread over a grid for every block of them,

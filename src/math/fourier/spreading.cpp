@@ -29,6 +29,10 @@ constexpr std::size_t round_of_streams = streams * stream_chunk;
 constexpr std::size_t sorting_block = std::size_t{1} << 12;  // points that the caches hold
 constexpr std::size_t tiles_at_a_time = 128;                 // of a colour
 
+/// Points of a tile that are added up in a row, before their sums are added to the grid: rounding
+/// errors of long sums stay small.
+constexpr std::size_t fold_after = 512;
+
 /// Points that are sorted at a time: about as many as cells, but at least 2^20 and at most 2^22.
 std::size_t spreading_batch(const CellGrid& grid) {
     constexpr std::size_t most = std::size_t{1} << 30;  // counters of 32 bits are enough for it
@@ -132,15 +136,14 @@ class Spreader::Tiling {
     SpreadTile common_{};
 };
 
-Spreader::Spreader(const Interpolator& window, const CellGrid& grid, std::uint64_t count,
-                   std::size_t fold_after, bool weighted)
+Spreader::Spreader(const KaiserBessel& window, const CellGrid& grid, std::uint64_t count,
+                   bool weighted)
     : table_(window),
       tiling_(std::make_unique<Tiling>(grid, table_, weighted)),
       dimension_(grid.dimension),
       width_(grid.dimension + (weighted ? 1 : 0)),
       batch_(static_cast<std::size_t>(std::min<std::uint64_t>(
-          spreading_batch(grid), (count / round_of_streams + 1) * round_of_streams))),
-      fold_after_(fold_after) {
+          spreading_batch(grid), (count / round_of_streams + 1) * round_of_streams))) {
     assert(grid.side % 2 == 0 && grid.side >= CellGrid::smallest_side && grid.side < 1U << 24);
 }
 
@@ -232,7 +235,7 @@ void Spreader::spread_tile(std::size_t number, double* buffer, const RunContext&
     };
     visit(number, [&](std::span<const double> rows) {
         run.check_stop();
-        if (count + rows.size() / width_ > fold_after_) add_back();
+        if (count + rows.size() / width_ > fold_after) add_back();
         count += rows.size() / width_;
         spread_points(rows, dimension_, tile, buffer);
     });

@@ -24,7 +24,7 @@
 #include <span>
 #include <vector>
 
-#include "math/fourier/interpolator.hpp"
+#include "math/fourier/kaiser_bessel.hpp"
 #include "math/fourier/tile_points.hpp"
 #include "stipple/run.hpp"
 
@@ -37,17 +37,15 @@ struct CellGrid {
     std::size_t stride = 0;     ///< numbers from one row to the next, at least `side`
     double* cells = nullptr;    ///< stride * side^(dimension - 1) numbers
 
-    static constexpr std::size_t smallest_side = 2 * Interpolator::max_width;
+    static constexpr std::size_t smallest_side = 2 * KaiserBessel::max_width;
 };
 
 class Spreader {
   public:
     /// @param count points that are expected; more may come.
-    /// @param fold_after points of a tile that are added up in a row, before their sums are added to
-    /// the grid: rounding errors of long sums stay small.
     /// @param weighted whether a row holds the point's strength behind its coordinates.
-    Spreader(const Interpolator& window, const CellGrid& grid, std::uint64_t count,
-             std::size_t fold_after, bool weighted = false);
+    Spreader(const KaiserBessel& window, const CellGrid& grid, std::uint64_t count,
+             bool weighted = false);
     Spreader(const Spreader&) = delete;
     Spreader& operator=(const Spreader&) = delete;
     ~Spreader();
@@ -76,7 +74,6 @@ class Spreader {
     std::size_t dimension_;
     std::size_t width_;               ///< numbers of a row
     std::size_t batch_;               ///< points of a batch
-    std::size_t fold_after_;          ///< points of a tile that are added up in a row
     std::size_t waits_ = 0;           ///< points that are sorted, and not spread yet
     std::vector<TilePoints> points_;  ///< of each stream that has some
 };

@@ -169,11 +169,6 @@ double fourier_sums_size(std::size_t dimension, std::size_t max_frequency) {
            static_cast<double>(max_frequency + 1);
 }
 
-Planning planning_for(std::size_t dimension, std::size_t side) {
-    // To try takes about half a second a plan, and gains a tenth.
-    return transform_seconds(dimension, side) > 10 ? Planning::measured : Planning::estimated;
-}
-
 std::size_t stride_of(std::size_t side) { return side / 8 * 8 + 16; }
 
 std::size_t quick_length(std::size_t least) {

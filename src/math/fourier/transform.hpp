@@ -42,9 +42,6 @@ double fourier_sums_size(std::size_t dimension, std::size_t max_frequency);
 /// change last bits from run to run.
 enum class Planning { estimated, measured };
 
-/// Measured where the transforms take so long that trying pays in the same run.
-Planning planning_for(std::size_t dimension, std::size_t side);
-
 /// Numbers from one row of a grid to the next: room for the transform of a row in place, and no
 /// power of two, which would put a column into few lines of the cache.
 std::size_t stride_of(std::size_t side);

@@ -227,7 +227,7 @@ void add_all(std::span<const double> rows, const SpreadTile& tile, double* buffe
     }
 }
 
-template <std::size_t Dimension, std::size_t Fours = Interpolator::max_width / 4>
+template <std::size_t Dimension, std::size_t Fours = KaiserBessel::max_width / 4>
 void add_wide(std::span<const double> rows, const SpreadTile& tile, double* buffer) {
     if constexpr (Fours > 1)
         if (tile.width <= 4 * (Fours - 1))

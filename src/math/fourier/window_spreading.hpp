@@ -14,7 +14,7 @@
 #include <span>
 
 #include "core/machine/vectors.hpp"
-#include "math/fourier/interpolator.hpp"
+#include "math/fourier/kaiser_bessel.hpp"
 
 namespace stipple {
 

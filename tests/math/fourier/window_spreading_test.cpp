@@ -21,7 +21,7 @@ constexpr std::size_t tiles = 5;
 /// Of a point's window, along an axis.
 struct Along {
     std::size_t first;  ///< grid point
-    std::array<double, Interpolator::max_width> weights;
+    std::array<double, KaiserBessel::max_width> weights;
 };
 
 /// A window of so many cells over a grid of 64 cells a side, and a buffer that takes all of it.
@@ -68,7 +68,7 @@ struct Plane {
         return places;
     }
 
-    Interpolator window;
+    KaiserBessel window;
     WeightTable table;
     SpreadTile tile;
     std::size_t d;
@@ -92,7 +92,7 @@ std::vector<double> inner_points(std::size_t count, std::size_t numbers, std::ui
 // By the table's weights, cell after cell.
 TEST(WindowSpreading, AddsTheWindowsValues) {
     for (std::size_t d = 1; d <= 2; ++d)
-        for (std::size_t width = Interpolator::min_width; width <= Interpolator::max_width; ++width)
+        for (std::size_t width = KaiserBessel::min_width; width <= KaiserBessel::max_width; ++width)
             for (const bool weighted : {false, true}) {
                 const Plane plane(width, d, weighted);
                 const std::size_t numbers = plane.tile.numbers;
