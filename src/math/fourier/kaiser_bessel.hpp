@@ -11,12 +11,12 @@
 // With xi in cycles a cell it holds in the band |xi| <= band of frequencies that are wanted, but for
 // the error of the window's aliases.
 //
-// The window is taken from polynomials of a point's place u between two grid points, so that spreading
-// a point takes no Bessel functions.
+// The window is taken from polynomials of a point's place u between two grid points, so that
+// spreading a point takes no Bessel functions.
 //
-// Source  J. F. Kaiser, R. W. Schafer, IEEE Trans. Acoust. Speech Signal Process. 28 (1980) 105-107,
-//         doi:10.1109/TASSP.1980.1163349; J. A. Fessler, B. P. Sutton, IEEE Trans. Signal Process. 51
-//         (2003) 560-574, doi:10.1109/TSP.2002.807005 (its error beside that of the best weights).
+// Source  J. F. Kaiser, R. W. Schafer, IEEE Trans. Acoust. Speech Signal Process. 28 (1980)
+//         105-107, doi:10.1109/TASSP.1980.1163349; J. A. Fessler, B. P. Sutton, IEEE Trans. Signal
+//         Process. 51 (2003) 560-574, doi:10.1109/TSP.2002.807005 (its error beside that of the best weights).
 #pragma once
 
 #include <array>

@@ -217,14 +217,6 @@ void Spreader::spread_colour(std::size_t colour, std::size_t first, std::size_t 
     });
 }
 
-template <class Visit>
-void Spreader::visit(std::size_t tile, Visit&& visit) const {
-    for (std::size_t s = 0; s < points_.size(); ++s) {
-        if (s + 1 < points_.size()) points_[s + 1].expect(tile);
-        points_[s].visit(tile, visit);
-    }
-}
-
 /// Spreads the points of a tile, by way of a buffer of zeros, which it leaves as it was.
 void Spreader::spread_tile(std::size_t number, double* buffer, const RunContext& run) const {
     const SpreadTile tile = tiling_->describe(number);
@@ -233,12 +225,13 @@ void Spreader::spread_tile(std::size_t number, double* buffer, const RunContext&
         if (count > 0) tiling_->add_back(tile, buffer);
         count = 0;
     };
-    visit(number, [&](std::span<const double> rows) {
+    const auto spread = [&](std::span<const double> rows) {
         run.check_stop();
         if (count + rows.size() / width_ > fold_after) add_back();
         count += rows.size() / width_;
         spread_points(rows, dimension_, tile, buffer);
-    });
+    };
+    for (const TilePoints& points : points_) points.visit(number, spread);
     add_back();
 }
 

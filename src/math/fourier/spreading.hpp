@@ -66,8 +66,6 @@ class Spreader {
     void spread_colour(std::size_t colour, std::size_t first, std::size_t last,
                        const RunContext& run);
     void spread_tile(std::size_t number, double* buffer, const RunContext& run) const;
-    template <class Visit>
-    void visit(std::size_t tile, Visit&& visit) const;
 
     WeightTable table_;
     std::unique_ptr<Tiling> tiling_;

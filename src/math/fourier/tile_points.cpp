@@ -23,18 +23,14 @@ TilePoints::TilePoints(std::size_t tiles, std::size_t numbers, std::size_t capac
 
 std::uint32_t TilePoints::next_block(List& list) {
     const std::uint32_t fresh = used_++;
-    fetch<1>(fresh);  // the nearest caches have no room for a block of every tile
     (list.end == 0 ? list.first : next_[list.end / block - 1]) = fresh;
     return fresh * static_cast<std::uint32_t>(block);
 }
 
 template <std::size_t Numbers>
 void TilePoints::append(const double* rows, const std::uint32_t* tile_of, std::size_t count) {
-    constexpr std::size_t ahead = 8;  // the nearest cache has no room for a line of every tile
     double* room = room_.numbers().data();
     for (std::size_t i = 0; i < count; ++i) {
-        const List& later = lists_[tile_of[std::min(i + ahead, count - 1)]];
-        __builtin_prefetch(room + std::size_t{later.end} * Numbers, 1);
         List& list = lists_[tile_of[i]];
         if (list.end % block == 0) list.end = next_block(list);
         std::copy_n(rows + i * Numbers, Numbers, room + std::size_t{list.end++} * Numbers);

@@ -27,9 +27,6 @@ class TilePoints {
     /// Adds rows to their tiles.
     void add(const double* rows, const std::uint32_t* tile_of, std::size_t count);
 
-    /// Tells the processor that the tile is visited soon.
-    void expect(std::size_t tile) const { fetch<3>(lists_[tile].first); }
-
     /// Calls visit(rows) for the tile's points, up to `block` of them at a time.
     template <class Visit>
     void visit(std::size_t tile, Visit&& visit) const {
@@ -39,9 +36,6 @@ class TilePoints {
         for (std::uint32_t at = list.first;; at = next_[at]) {
             const double* rows = room_.numbers().data() + at * block * numbers_;
             if (at == last) return visit(std::span(rows, (list.end - at * block) * numbers_));
-            const std::uint32_t next = next_[at];
-            fetch<3>(next);
-            __builtin_prefetch(&next_[next]);
             visit(std::span(rows, block * numbers_));
         }
     }
@@ -60,14 +54,6 @@ class TilePoints {
     template <std::size_t Numbers>
     void append(const double* rows, const std::uint32_t* tile_of, std::size_t count);
     std::uint32_t next_block(List& list);
-
-    /// Tells the processor that a block is wanted soon, and how near.
-    template <int Locality>
-    void fetch(std::uint32_t at) const {
-        const double* rows = room_.numbers().data() + at * block * numbers_;
-        for (std::size_t i = 0; i < block * numbers_; i += 8)
-            __builtin_prefetch(rows + i, 0, Locality);
-    }
 
     std::size_t numbers_;
     Rows room_;
