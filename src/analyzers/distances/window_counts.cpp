@@ -21,74 +21,52 @@ struct Sums {
 
 constexpr std::uint64_t windows_in_block = 256;  ///< windows, of a thread
 
+/// Adds the numbers of points within each radius of the window's centre.
 template <std::size_t D>
-class WindowCounter {
-  public:
-    WindowCounter(const PointSet& points, const Box& box, std::span<const double> radii,
-                  const RunContext& run)
-        : box_(box),
-          radii_(radii),
-          run_(run),
-          points_(GridFrame<D>(box, false, radii.back() / 4, static_cast<double>(points.count())),
-                  points.flat(), run) {
-        for (const double radius : radii) squares_.push_back(radius * radius);
+void add_window(const SortedPoints<D>& points, const Box& box, std::span<const double> radii,
+                std::uint64_t window, Sums& sums) {
+    const Rng places(0, 0);
+    std::array<double, D> center;
+    for (std::size_t k = 0; k < D; ++k) {
+        const double room = box.extent(k) - 2 * radii.back();
+        center[k] = box.low[k] + radii.back() + room * places.uniform(window * D + k);
     }
-
-    [[nodiscard]] WindowCounts count(std::size_t windows) const {
-        std::vector<Sums> parts(block_count(windows, windows_in_block));
-        for_each_block(run_, windows, windows_in_block, [&](const Block& b) {
-            Sums sums{std::vector<std::uint64_t>(radii_.size()),
-                      std::vector<std::uint64_t>(radii_.size())};
-            for (std::uint64_t w = b.first; w < b.last; ++w) {
-                run_.check_stop();
-                add_window(w, sums);
-            }
-            parts[b.index] = std::move(sums);
-        });
-        WindowCounts found;
-        const auto all = static_cast<double>(windows);
-        for (std::size_t k = 0; k < radii_.size(); ++k) {
-            std::uint64_t count = 0;
-            std::uint64_t squares = 0;
-            for (const Sums& part : parts) {
-                count += part.counts[k];
-                squares += part.squares[k];
-            }
-            const double mean = static_cast<double>(count) / all;
-            const double spread = static_cast<double>(squares) / all - mean * mean;
-            found.mean.push_back(mean);
-            found.variance.push_back(std::max(0.0, spread) * all / (all - 1));
-        }
-        return found;
+    const auto squared_radius = [](double radius) { return radius * radius; };
+    std::vector<std::uint64_t> shells(radii.size());
+    points.visit(center.data(), radii.back(), [&](std::size_t, double squared) {
+        const auto at = std::ranges::lower_bound(radii, squared, {}, squared_radius);
+        if (at != radii.end()) ++shells[static_cast<std::size_t>(at - radii.begin())];
+    });
+    std::uint64_t inside = 0;
+    for (std::size_t k = 0; k < shells.size(); ++k) {
+        inside += shells[k];
+        sums.counts[k] += inside;
+        sums.squares[k] += inside * inside;
     }
+}
 
-  private:
-    void add_window(std::uint64_t window, Sums& sums) const {
-        const Rng places(0, 0);
-        std::array<double, D> center;
-        for (std::size_t k = 0; k < D; ++k) {
-            const double room = box_.extent(k) - 2 * radii_.back();
-            center[k] = box_.low[k] + radii_.back() + room * places.uniform(window * D + k);
+template <std::size_t D>
+Sums count_all(const PointSet& points, const Box& box, std::span<const double> radii,
+               std::size_t windows, const RunContext& run) {
+    const SortedPoints<D> sorted(
+        GridFrame<D>(box, false, radii.back() / 4, static_cast<double>(points.count())),
+        points.flat(), run);
+    const std::vector<std::uint64_t> none(radii.size());
+    std::vector<Sums> parts(block_count(windows, windows_in_block), {none, none});
+    for_each_block(run, windows, windows_in_block, [&](const Block& b) {
+        for (std::uint64_t w = b.first; w < b.last; ++w) {
+            run.check_stop();
+            add_window(sorted, box, radii, w, parts[b.index]);
         }
-        std::vector<std::uint64_t> shells(radii_.size());
-        points_.visit(center.data(), radii_.back(), [&](std::size_t, double squared) {
-            const auto at = std::ranges::lower_bound(squares_, squared);
-            if (at != squares_.end()) ++shells[static_cast<std::size_t>(at - squares_.begin())];
-        });
-        std::uint64_t inside = 0;
-        for (std::size_t k = 0; k < shells.size(); ++k) {
-            inside += shells[k];
-            sums.counts[k] += inside;
-            sums.squares[k] += inside * inside;
+    });
+    Sums all{none, none};
+    for (const Sums& part : parts)
+        for (std::size_t k = 0; k < radii.size(); ++k) {
+            all.counts[k] += part.counts[k];
+            all.squares[k] += part.squares[k];
         }
-    }
-
-    const Box& box_;
-    std::span<const double> radii_;
-    const RunContext& run_;
-    SortedPoints<D> points_;
-    std::vector<double> squares_;  ///< of the radii
-};
+    return all;
+}
 
 }  // namespace
 
@@ -98,9 +76,18 @@ WindowCounts count_in_windows(const PointSet& points, const Box& box, std::span<
     const auto sums = static_cast<double>(block_count(windows, windows_in_block) * radii.size());
     run.need_memory(n * (16 * static_cast<double>(points.dimension()) + 12) + 16 * sums,
                     "the counts in windows");
-    if (points.dimension() == 1) return WindowCounter<1>(points, box, radii, run).count(windows);
-    if (points.dimension() == 2) return WindowCounter<2>(points, box, radii, run).count(windows);
-    return WindowCounter<3>(points, box, radii, run).count(windows);
+    const Sums all = points.dimension() == 1   ? count_all<1>(points, box, radii, windows, run)
+                     : points.dimension() == 2 ? count_all<2>(points, box, radii, windows, run)
+                                               : count_all<3>(points, box, radii, windows, run);
+    WindowCounts found;
+    const auto number = static_cast<double>(windows);
+    for (std::size_t k = 0; k < radii.size(); ++k) {
+        const double mean = static_cast<double>(all.counts[k]) / number;
+        const double spread = static_cast<double>(all.squares[k]) / number - mean * mean;
+        found.mean.push_back(mean);
+        found.variance.push_back(std::max(0.0, spread) * number / (number - 1));
+    }
+    return found;
 }
 
 }  // namespace stipple::analyzers
