@@ -8,6 +8,7 @@
 #include <chrono>
 #include <list>
 #include <optional>
+#include <utility>
 
 #include "cli/inputs.hpp"
 #include "cli/launched.hpp"
@@ -97,6 +98,11 @@ std::string report_format(const Arguments& arguments, const std::string& path) {
     return people || path.ends_with(".txt") ? "text" : "json";
 }
 
+// Sets wait to be measured side by side, a few megabytes at a time.
+constexpr std::size_t large = std::size_t{1} << 18;     // coordinates of a set that does not
+constexpr std::size_t together = std::size_t{1} << 20;  // of all that wait
+constexpr std::size_t most_waiting = std::size_t{1} << 12;
+
 /// One call: its measurements, checks and outputs.
 class Analysis {
   public:
@@ -110,13 +116,7 @@ class Analysis {
           path_(output_of(arguments)),
           format_(report_format(arguments, path_)),
           averaged_(arguments.has("average")),
-          strengths_(text_of(analyzer_.strengths).value_or("")),
-          batch_(
-              session.run(),
-              [this](const FoundSet& set, const RunContext& run) { return measured(set, run); },
-              [this](const FoundSet& set, Measurement m) {
-                  keep(std::move(m), inputs_.size() > 1 || set.of > 1);
-              }) {
+          strengths_(text_of(analyzer_.strengths).value_or("")) {
         for (const auto& text : arguments.all("check"))
             checks_.push_back(check_of(text, analyzer_));
     }
@@ -128,7 +128,7 @@ class Analysis {
             share();
         else
             arguments_.has("generate") ? add_generated() : add_inputs();
-        batch_.finish();
+        measure_waiting();
         if (ranks_.rank() > 0) return 0;  // rank 0 speaks
         if (interrupted()) return print_what_is_known();
         if (averaged_) finish_average();
@@ -240,7 +240,7 @@ class Analysis {
                                         text, number_of(set, sets), quiet),
                      sets > 1);
             else
-                batch_.add({of_the_cube(generated.made(set, quiet), analyzer_), text, set, sets});
+                add({of_the_cube(generated.made(set, quiet), analyzer_), text, set, sets});
         }
     }
 
@@ -291,8 +291,29 @@ class Analysis {
                 naming(input,
                        [&] { sets[set] = prepared(std::move(sets[set]), analyzer_, arguments_); });
             });
-            batch_.add({std::move(sets[set]), input, set, sets.size()});
+            add({std::move(sets[set]), input, set, sets.size()});
         }
+    }
+
+    /// Takes a set, and measures those that wait when they have become many. Large sets do not
+    /// wait: they get all threads, and the memory, for themselves.
+    void add(FoundSet set) {
+        const std::size_t numbers = set.points.flat().size();
+        if (numbers >= large) measure_waiting();
+        waiting_.push_back(std::move(set));
+        numbers_ += numbers;
+        if (numbers >= large || numbers_ >= together || waiting_.size() >= most_waiting)
+            measure_waiting();
+    }
+
+    void measure_waiting() {
+        numbers_ = 0;
+        measure_sets(
+            std::exchange(waiting_, {}), session_.run(),
+            [this](const FoundSet& set, const RunContext& run) { return measured(set, run); },
+            [this](const FoundSet& set, Measurement m) {
+                keep(std::move(m), inputs_.size() > 1 || set.of > 1);
+            });
     }
 
     /// Errors of an input are reported after the sets before it have been measured.
@@ -301,7 +322,7 @@ class Analysis {
         try {
             work();
         } catch (...) {
-            batch_.finish();
+            measure_waiting();
             throw;
         }
     }
@@ -507,7 +528,8 @@ class Analysis {
     std::vector<std::string> followed_;  ///< options that the first of averaged sets decided
     std::vector<Report> singles_;        ///< what was averaged, where it is needed
     std::list<io::Output> beside_;       ///< files that come with the report
-    SetBatch batch_;
+    std::vector<FoundSet> waiting_;      ///< to be measured
+    std::size_t numbers_ = 0;            ///< coordinates of these
 };
 
 }  // namespace

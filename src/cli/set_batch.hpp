@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 //
-// Sets that wait to be measured, to be spread over the threads a few megabytes at a time; what
-// comes of it is handed on in their order, as if they had been measured one after the other.
+// Sets that are measured side by side; what comes of them is handed on in their order, as if they
+// had been measured one after the other.
 #pragma once
 
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <string>
-#include <vector>
 
 #include "core/point_set.hpp"
 #include "report/document.hpp"
@@ -23,30 +23,11 @@ struct FoundSet {
     std::size_t of;      ///< sets in its file
 };
 
-class SetBatch {
-  public:
-    using Measure = std::function<Measurement(const FoundSet&, const RunContext&)>;
-    using Keep = std::function<void(const FoundSet&, Measurement)>;
-
-    /// `measure` is called from several threads at once, `keep` from one.
-    SetBatch(const RunContext& run, Measure measure, Keep keep);
-
-    /// Takes a set, and measures those that wait when they have become many. Large sets do not
-    /// wait: they get all threads, and the memory, for themselves.
-    void add(FoundSet set);
-
-    /// Measures all that wait. @throws the first error, in the order of the sets; once a stop was
-    /// requested and all sets that had begun were measured nevertheless, leaves the others.
-    void finish();
-
-  private:
-    void alone(const FoundSet& set);
-
-    const RunContext& run_;
-    Measure measure_;
-    Keep keep_;
-    std::vector<FoundSet> waiting_;
-    std::size_t numbers_ = 0;  ///< coordinates of these
-};
+/// `measure` is called from several threads at once, `keep` from one.
+/// @throws the first error, in the order of the sets; once a stop was requested and all sets that
+/// had begun were measured nevertheless, leaves the others.
+void measure_sets(std::span<const FoundSet> sets, const RunContext& run,
+                  const std::function<Measurement(const FoundSet&, const RunContext&)>& measure,
+                  const std::function<void(const FoundSet&, Measurement)>& keep);
 
 }  // namespace stipple::cli

@@ -18,16 +18,6 @@
 namespace stipple {
 namespace {
 
-/// Columns of rows as rows of their own.
-std::vector<double> gather(std::span<const double> rows, std::size_t width,
-                           std::span<const std::size_t> columns) {
-    std::vector<double> out;
-    out.reserve(rows.size() / width * columns.size());
-    for (std::size_t i = 0; i < rows.size(); i += width)
-        for (const std::size_t k : columns) out.push_back(rows[i + k]);
-    return out;
-}
-
 /// Coordinates of a row of `width` numbers that are not in `taken`, in order.
 std::vector<std::size_t> others(std::size_t width, std::span<const std::size_t> taken) {
     std::vector<std::size_t> rest;
@@ -123,6 +113,19 @@ DomainPtr filled_up(std::vector<Factor> factors, std::size_t dimension) {
 
 }  // namespace
 
+std::vector<double> gather(std::span<const double> rows, std::size_t width,
+                           std::span<const std::size_t> columns) {
+    std::vector<double> out;
+    out.reserve(rows.size() / width * columns.size());
+    for (std::size_t i = 0; i < rows.size(); i += width)
+        for (const std::size_t k : columns) out.push_back(rows[i + k]);
+    return out;
+}
+
+std::vector<std::size_t> named_or_all(const Spec& spec, std::size_t dimension) {
+    return spec.coordinates.empty() ? all_of(dimension) : spec.coordinates;
+}
+
 WarpChain::WarpChain(std::span<const Spec> specs, std::size_t dimension, const ChainSet& set,
                      const RunContext& run, std::vector<Factor> warped)
     : dimension_in_(dimension), dimension_out_(dimension) {
@@ -145,9 +148,9 @@ void WarpChain::add(const Spec& spec, const ChainSet& set, const RunContext& run
         add_warp(find_warp(spec.name), spec, run);
 }
 
-/// The coordinates that a spec names, or all. They must be there, and still be uniform.
+/// They must be there, and still be uniform.
 std::vector<std::size_t> WarpChain::coordinates_of(const Spec& spec) const {
-    const auto named = spec.coordinates.empty() ? all_of(dimension_out_) : spec.coordinates;
+    const auto named = named_or_all(spec, dimension_out_);
     for (const std::size_t k : named) {
         if (k >= dimension_out_)
             fail(ErrorKind::usage, "{}@{}: the points have coordinates 1 to {}", spec.name,
@@ -403,8 +406,7 @@ std::vector<Factor> parse_factors(std::string_view text, std::size_t dimension,
             const Warp& warp = warp_of_domain(spec.name);
             domain = warp.make(spec.values(warp.options), given, run)->domain();
         }
-        factors.push_back(
-            {std::move(domain), spec.coordinates.empty() ? all_of(dimension) : spec.coordinates});
+        factors.push_back({std::move(domain), named_or_all(spec, dimension)});
     }
     return factors;
 }

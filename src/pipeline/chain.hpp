@@ -127,6 +127,13 @@ class WarpChain {
     DomainPtr domain_;
 };
 
+/// Columns of rows as rows of their own.
+std::vector<double> gather(std::span<const double> rows, std::size_t width,
+                           std::span<const std::size_t> columns);
+
+/// The coordinates that a spec names, or all.
+std::vector<std::size_t> named_or_all(const Spec& spec, std::size_t dimension);
+
 /// Files that options name, for reading; in order.
 std::vector<std::string> files_of(const Schema& schema, const Values& values,
                                   std::span<const std::string> written = {});

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/pipeline.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
-#include "core/text.hpp"
+#include "pipeline/chain.hpp"
 
 namespace stipple {
 
@@ -59,19 +61,28 @@ std::string way_to_cube(const PointSet& points) {
                        quote);
 }
 
-void require_unit_cube(const PointSet& points) {
-    const auto outside = [](double x) { return !(x >= 0 && x <= 1); };
+bool in_cube(std::span<const double> row, std::span<const std::size_t> coordinates) {
+    return std::ranges::all_of(coordinates,
+                               [&](std::size_t k) { return row[k] >= 0 && row[k] <= 1; });
+}
+
+void require_in_cube(const PointSet& points, std::span<const std::size_t> coordinates,
+                     const std::string& cube, const std::string& hint) {
     std::size_t count = 0;
     std::size_t first = 0;
     for (std::size_t i = 0; i < points.count(); ++i)
-        if (std::ranges::any_of(points[i], outside) && count++ == 0) first = i;
+        if (!in_cube(points[i], coordinates) && count++ == 0) first = i;
     if (count == 0) return;
-    std::vector<std::string> numbers;
-    for (const double x : points[first]) numbers.push_back(format_number(x));
-    fail_with_hint(
-        ErrorKind::input, way_to_cube(points),
-        "{} of {} points are outside the unit cube [0, 1]^{}; the first is point {}: ({})", count,
-        points.count(), points.dimension(), first, join(numbers, ", "));
+    fail_with_hint(ErrorKind::input, hint,
+                   "{} of {} points are outside {}; the first is point {}: ({})", count,
+                   points.count(), cube, first,
+                   fmt::join(gather(points[first], points.dimension(), coordinates), ", "));
+}
+
+void require_unit_cube(const PointSet& points) {
+    const std::size_t d = points.dimension();
+    require_in_cube(points, named_or_all({}, d), fmt::format("the unit cube [0, 1]^{}", d),
+                    way_to_cube(points));
 }
 
 Report analyze(const Analyzer& analyzer, const PointSet& points, const Values& options,

@@ -29,7 +29,16 @@ std::unique_ptr<Accumulator> accumulator_for(const Analyzer& analyzer, const Arr
 /// A sentence on how points that are on another domain get into the unit cube.
 std::string way_to_cube(const PointSet& points);
 
-/// @throws Error(input) counting the points outside the closed unit cube and naming the first
+/// Whether these coordinates of a row are in [0, 1].
+bool in_cube(std::span<const double> row, std::span<const std::size_t> coordinates);
+
+/// @throws Error(input) counting the points of which some of the coordinates are not in [0, 1], and
+/// naming the first
+/// @param cube what the message calls the place where they should be
+void require_in_cube(const PointSet& points, std::span<const std::size_t> coordinates,
+                     const std::string& cube, const std::string& hint = {});
+
+/// The same for all coordinates and, as a hint, way_to_cube().
 void require_unit_cube(const PointSet& points);
 
 /// Measures a set after checking that the analyzer takes it: its dimension and, where the analyzer

@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/produce.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <memory>
-#include <numeric>
 
 #include "core/error.hpp"
 #include "core/machine/int128.hpp"
 #include "core/parallel.hpp"
-#include "core/text.hpp"
 #include "generators/density_options.hpp"
 #include "io/carried_meta.hpp"
 #include "media/png_picture.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/generated.hpp"
+#include "pipeline/pipeline.hpp"
 #include "pipeline/units.hpp"
 
 namespace stipple {
@@ -100,62 +101,12 @@ std::size_t dimension_before(const Spec& spec, std::size_t after, const RunConte
     return after - gives + mapping->cube_dimension();
 }
 
-/// The coordinates that a unit takes, of rows of d: no others need be in the unit cube.
-class Taken {
-  public:
-    Taken(const Spec& spec, std::size_t d) : d_(d), named_(!spec.coordinates.empty()) {
-        for (const std::size_t k : spec.coordinates)
-            if (k < d) at_.push_back(k);  // what is beyond is refused later
-        if (named_) return;
-        at_.resize(d);
-        std::iota(at_.begin(), at_.end(), std::size_t{0});
-    }
-
-    [[nodiscard]] const std::vector<std::size_t>& coordinates() const { return at_; }
-
-    /// @throws Error(input) counting the points outside
-    void require_in_cube(const PointSet& points) const {
-        std::size_t count = 0;
-        std::size_t first = 0;
-        for (std::size_t i = 0; i < points.count(); ++i)
-            if (!in_cube(points[i]) && count++ == 0) first = i;
-        if (count == 0) return;
-        fail(ErrorKind::input, "{} of {} points are outside {}; the first is point {}: ({})", count,
-             points.count(), cube(), first, numbers(points[first]));
-    }
-
-    /// The points of a stream before these are in the cube; so must these be.
-    void require_in_cube(std::span<const double> rows, std::uint64_t first) const {
-        for (std::size_t i = 0; i < rows.size(); i += d_)
-            if (const auto row = rows.subspan(i, d_); !in_cube(row))
-                fail(ErrorKind::input, "point {} is outside {}: ({})", first + i / d_, cube(),
-                     numbers(row));
-    }
-
-  private:
-    [[nodiscard]] bool in_cube(std::span<const double> row) const {
-        return std::ranges::all_of(at_, [&](std::size_t k) { return row[k] >= 0 && row[k] <= 1; });
-    }
-    [[nodiscard]] std::string cube() const {
-        const std::string all = fmt::format("the unit cube [0, 1]^{}", at_.size());
-        return named_ ? fmt::format("{} in coordinates {}", all, format_coordinates(at_)) : all;
-    }
-    [[nodiscard]] std::string numbers(std::span<const double> row) const {
-        std::vector<std::string> texts;
-        for (const std::size_t k : at_) texts.push_back(format_number(row[k]));
-        return join(texts, ", ");
-    }
-
-    std::size_t d_;
-    bool named_;
-    std::vector<std::size_t> at_;
-};
-
 /// Whether all coordinates that are neither taken nor warped before are in the unit cube, on which
 /// they are said to be.
-bool others_in_cube(const PointSet& points, const Taken& taken, const std::vector<Factor>& warped) {
+bool others_in_cube(const PointSet& points, std::span<const std::size_t> taken,
+                    const std::vector<Factor>& warped) {
     std::vector<bool> known(points.dimension());
-    for (const std::size_t k : taken.coordinates()) known[k] = true;
+    for (const std::size_t k : taken) known[k] = true;
     for (const Factor& factor : warped)
         for (const std::size_t k : factor.coordinates) known[k] = true;
     for (std::size_t k = 0; k < known.size(); ++k)
@@ -175,9 +126,9 @@ void refuse_second_set(io::PointStream& stream) {
 struct Warping {
     Warping(const Spec& spec, bool back, const DomainPtr& on, const Target& target,
             const RunContext& run, const ChainSet& set = {})
-        : inverse(back), taken(spec, on->dimension()) {
+        : inverse(back), taken(named_or_all(spec, on->dimension())) {
         const std::size_t d = on->dimension();
-        if (!inverse) before = warped_factors(on, taken.coordinates(), run);
+        if (!inverse) before = warped_factors(on, taken, run);
         chain = std::make_shared<WarpChain>(
             std::span(&spec, 1), inverse ? dimension_before(spec, d, run) : d, set, run, before);
         if (inverse && target.columns.any())
@@ -185,19 +136,30 @@ struct Warping {
                  "--with-{}: the inverse gives points of the unit cube, density 1",
                  target.columns.names().front());
         inputs = fingerprints(chain->files());
+        cube = fmt::format("the unit cube [0, 1]^{}", taken.size());
+        if (!spec.coordinates.empty()) cube += " in coordinates " + format_coordinates(taken);
+    }
+
+    /// The points of a stream before these are in the cube; so must these be.
+    void require_in_cube(std::span<const double> rows, std::size_t d, std::uint64_t first) const {
+        for (std::size_t i = 0; i < rows.size(); i += d)
+            if (const auto row = rows.subspan(i, d); !in_cube(row, taken))
+                fail(ErrorKind::input, "point {} is outside {}: ({})", first + i / d, cube,
+                     fmt::join(gather(row, d, taken), ", "));
     }
 
     bool inverse;
-    Taken taken;
-    std::vector<Factor> before;  ///< what the points are on besides the unit cube
+    std::vector<std::size_t> taken;  ///< coordinates; no others need be in the unit cube
+    std::string cube;                ///< of these, for messages
+    std::vector<Factor> before;      ///< what the points are on besides the unit cube
     std::shared_ptr<const WarpChain> chain;
     std::vector<std::pair<std::string, std::string>> inputs = {};
 };
 
 /// The image of a set, as its provenance tells it.
 PointSet warped(const PointSet& set, const Warping& warping, const RunContext& run) {
-    const auto& [inverse, taken, before, chain, inputs] = warping;
-    if (!inverse) taken.require_in_cube(set);
+    const auto& [inverse, taken, cube, before, chain, inputs] = warping;
+    if (!inverse) require_in_cube(set, taken, cube);
     const bool said = inverse || others_in_cube(set, taken, before);
     PointSet image = inverse ? chain->preimage(set, run) : chain->image(set, run);
     record_warp(image, *chain, inverse, inputs);
@@ -217,7 +179,7 @@ NextRows warped_rows(io::PointStream& stream, const Warping& warping, std::size_
             const std::size_t count = stream.read(taken);
             if (count == 0) break;
             const auto points = std::span(taken).first(count * d);
-            if (!warping.inverse) warping.taken.require_in_cube(points, came);
+            if (!warping.inverse) warping.require_in_cube(points, d, came);
             const auto images = warping.chain->mapped(points, warping.inverse, came, quiet);
             std::ranges::copy(images, rows.begin());
             came += count;

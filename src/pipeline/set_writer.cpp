@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline/set_writer.hpp"
 
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <list>
@@ -18,12 +20,10 @@ namespace {
 /// Files hold no infinite numbers: no reader would take them.
 double finite(const char* column, double value, std::span<const double> point, bool starts) {
     if (std::isfinite(value)) return value;
-    std::vector<std::string> words;
-    for (const double x : point) words.push_back(format_number(x));
     fail_with_hint(
         ErrorKind::input,
         starts ? "--start 1 leaves out a sequence's first point, where coordinates are 0" : "",
-        "--with-{}: it is infinite at the point ({})", column, join(words, ", "));
+        "--with-{}: it is infinite at the point ({})", column, fmt::join(point, ", "));
 }
 
 /// The rows of one set as bytes of the output, a batch of blocks at a time; `set` is its number in
