@@ -46,11 +46,7 @@ class BoxDomain final : public Domain {
     BoxDomain(Box box, std::string spec) : box_(std::move(box)), spec_(std::move(spec)) {}
     std::string spec() const override { return spec_; }
     std::size_t dimension() const override { return box_.dimension(); }
-    double measure() const override {
-        double volume = 1;
-        for (std::size_t k = 0; k < dimension(); ++k) volume *= box_.extent(k);
-        return volume;
-    }
+    double measure() const override { return volume_of(box_); }
     bool contains(std::span<const double> point) const override {
         for (std::size_t k = 0; k < dimension(); ++k)
             if (!(point[k] >= box_.low[k] && point[k] <= box_.high[k])) return false;
@@ -194,6 +190,12 @@ class ProductDomain final : public Domain {
 };
 
 }  // namespace
+
+double volume_of(const Box& box) {
+    double volume = 1;
+    for (std::size_t k = 0; k < box.dimension(); ++k) volume *= box.extent(k);
+    return volume;
+}
 
 Support Domain::support() const {
     if (std::isinf(measure())) return {.finite = false, .boxes = {}};

@@ -17,6 +17,9 @@
 
 namespace stipple {
 
+/// The product of a box's extents.
+double volume_of(const Box& box);
+
 /// A number that was worked out to a tolerance: the right one is within `error`; 0: it is exact, up
 /// to its rounding.
 struct Estimate {
@@ -110,9 +113,7 @@ class Domain {
 
     /// Probability of a box of the cube, for points that follow density().
     [[nodiscard]] virtual Estimate probability(const Box& cell) const {
-        double volume = 1;
-        for (std::size_t k = 0; k < cell.dimension(); ++k) volume *= cell.extent(k);
-        return {volume, 0};
+        return {volume_of(cell), 0};
     }
 
     /// Moments of points that follow density(); nothing where no closed form is known.

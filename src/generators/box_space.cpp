@@ -55,8 +55,6 @@ void BoxSpace::check_resolution(double radius, std::string_view name) const {
              name, format_number(radius), format_number(largest), finest);
 }
 
-double BoxSpace::measure() const { return box_domain(box)->measure(); }
-
 BoxSpace space_of(const Plan& plan, bool torus) {
     if (plan.bounds) return {*plan.bounds, torus};
     return {{std::vector<double>(plan.dimension, 0.0), std::vector<double>(plan.dimension, 1.0)},

@@ -51,9 +51,6 @@ struct BoxSpace {
     /// @throws Error(limit) when `name` is so small a radius that rounding moves points by more
     /// than a thousandth of it.
     void check_resolution(double radius, std::string_view name) const;
-
-    /// Length, area, volume...
-    [[nodiscard]] double measure() const;
 };
 
 /// The plan's box, or the unit cube.

@@ -64,8 +64,7 @@ bool frame_is_outline(const PointsPicture& picture) {
 /// How much of its box a domain of the plane takes.
 double share_of_box(const PointSet& set) {
     if (set.dimension() != 2 || without_domain(set)) return 1;
-    const Box box = set.domain->bounding_box();
-    const double share = set.domain->measure() / (box.extent(0) * box.extent(1));
+    const double share = set.domain->measure() / volume_of(set.domain->bounding_box());
     return share > 0.02 && share < 1 ? share : 1;
 }
 

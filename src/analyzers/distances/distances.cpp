@@ -109,12 +109,6 @@ Distances distances_in_box(const PointSet& points, const std::string& asked, con
     return {.torus = asked != "euclidean", .box = box};
 }
 
-double volume_of(const Box& box) {
-    double volume = 1;
-    for (std::size_t k = 0; k < box.dimension(); ++k) volume *= box.extent(k);
-    return volume;
-}
-
 double shortest_side(const Box& box) {
     double shortest = box.extent(0);
     for (std::size_t k = 1; k < box.dimension(); ++k) shortest = std::min(shortest, box.extent(k));

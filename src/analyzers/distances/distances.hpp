@@ -45,7 +45,6 @@ Distances distances_of(const PointSet& points, const std::string& asked);
 /// The same for measures that need to know the box. @throws Error(input) as well without one
 Distances distances_in_box(const PointSet& points, const std::string& asked, const char* analyzer);
 
-double volume_of(const Box& box);
 double shortest_side(const Box& box);
 
 /// Of so many points in the box: (V / n)^(1/d).

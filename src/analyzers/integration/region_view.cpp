@@ -14,8 +14,7 @@ using Vector = std::array<double, 3>;
 std::optional<Box> filled_box(const Domain& domain) {
     if (domain.cube_dimension() != domain.dimension()) return std::nullopt;
     Box box = domain.bounding_box();
-    double volume = 1;
-    for (std::size_t k = 0; k < box.dimension(); ++k) volume *= box.extent(k);
+    const double volume = volume_of(box);
     const double measure = domain.measure();
     if (!(volume > 0) || !(std::abs(measure - volume) <= 1e-12 * volume)) return std::nullopt;
     return box;

@@ -180,7 +180,7 @@ CrowdExtent extent_of_file(const Crowd& crowd, const Values& options, const RunC
     const bool said = options.given(manifold);
     const std::size_t wanted = said ? static_cast<std::size_t>(options[manifold]) : 0;
     if (options.given(measure)) return {said ? wanted : d, options[measure]};
-    const CrowdExtent box{d, space.measure()};
+    const CrowdExtent box{d, volume_of(space.box)};
     if (space.torus || wanted == d) return box;
     const CrowdExtent whole = crowd_extent(crowd.rows, d, d, run);
     if (!said && (whole.dimension == 0 || whole.measure >= most_of_it * box.measure)) return box;
@@ -248,7 +248,7 @@ PointSet make(const Plan& plan, const Values& options, const RunContext& outside
     Crowd crowd = file ? crowd_of_file(plan, options, run) : random_crowd(plan, options, run);
     const std::size_t d = plan.dimension;
     crowd.extent =
-        file ? extent_of_file(crowd, options, run) : CrowdExtent{d, crowd.space.measure()};
+        file ? extent_of_file(crowd, options, run) : CrowdExtent{d, volume_of(crowd.space.box)};
     if (!(radius_for(crowd, plan.count) > 0))
         fail_with_hint(ErrorKind::input,
                        "--measure, with --manifold-dimension, tells what they are on",

@@ -19,7 +19,6 @@
 #include "core/domain.hpp"
 #include "core/error.hpp"
 #include "math/functions/normal_distribution.hpp"
-#include "math/functions/normal_quantile.hpp"
 #include "math/functions/trigonometry.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "math/geometry/zone_integral.hpp"
@@ -51,7 +50,7 @@ class MixtureDomain final : public NamedDomain {
             return part->measure() > (1 - 1e-12) * all_directions();
         };
         if (directions() && std::ranges::any_of(parts_, has_all)) return all_directions();
-        return fills_box_ ? box_volume() : std::numeric_limits<double>::infinity();
+        return fills_box_ ? volume_of(box_) : std::numeric_limits<double>::infinity();
     }
 
     /// What any of the parts covers.
@@ -133,9 +132,8 @@ class MixtureDomain final : public NamedDomain {
     /// Whether a part fills the box around all parts.
     bool fills(const Domain& part) const {
         return part.bounding_box() == box_ &&
-               std::abs(part.measure() - box_volume()) <= 1e-12 * box_volume();
+               std::abs(part.measure() - volume_of(box_)) <= 1e-12 * volume_of(box_);
     }
-    double box_volume() const { return box_domain(box_)->measure(); }
     bool directions() const { return cube_dimension() < dimension(); }
     double all_directions() const {
         return dimension() == 3 ? 4 * std::numbers::pi : 2 * std::numbers::pi;

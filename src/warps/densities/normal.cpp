@@ -19,7 +19,7 @@
 //         Both ways and the density give the same bits on every machine.
 // Source  M. Rosenblatt, Annals of Mathematical Statistics 23 (1952) 470-472,
 //         doi:10.1214/aoms/1177729394. Phi^-1: Wichura 1988, see
-//         math/functions/normal_quantile.hpp.
+//         math/functions/normal_distribution.hpp.
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,6 @@
 #include "math/functions/exponential.hpp"
 #include "math/functions/logarithm.hpp"
 #include "math/functions/normal_distribution.hpp"
-#include "math/functions/normal_quantile.hpp"
 #include "warps/common_options.hpp"
 #include "warps/domain_mapping.hpp"
 #include "warps/named_domain.hpp"

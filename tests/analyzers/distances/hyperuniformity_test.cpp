@@ -48,8 +48,7 @@ TEST(Hyperuniformity, VarianceIsTheSumOverPairsOfTheirOverlaps) {
         std::ranges::copy(set[3], set[5].begin());
         for (std::size_t k = 0; k < box.dimension(); ++k) set[7][k] = box.high[k];
         const Report found = report(set, {{"radii", "3"}});
-        double volume = 1;
-        for (std::size_t k = 0; k < box.dimension(); ++k) volume *= box.extent(k);
+        const double volume = volume_of(box);
         for (std::size_t at = 0; at < 3; ++at) {
             const double radius = found.curve("radius")[at] * found.number("mean_distance");
             const double ball = volume_of_ball(box.dimension(), radius);

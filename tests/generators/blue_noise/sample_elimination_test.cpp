@@ -81,7 +81,7 @@ TEST(SampleElimination, GoesAsTheFormulaSaysPointByPoint) {
             std::copy_n(space.box.low.begin(), d, set[50].begin());
             std::copy_n(space.box.high.begin(), d, set[51].begin());
             const BoxSpace box{space.box, space.torus};
-            const double r = packing_radius(static_cast<double>(kept), d, box.measure());
+            const double r = packing_radius(static_cast<double>(kept), d, volume_of(box.box));
             EXPECT_EQ(eliminate(set.flat(), box, r, kept, {}),
                       eliminate_plainly(set, space, r, kept))
                 << space.name() << ", " << kept;
@@ -99,7 +99,7 @@ TEST(SampleElimination, GoesAsTheFormulaSaysWithRadiiOfTheirOwn) {
                              : i < 50 ? 0.3 + Rng(3).uniform(i)
                                       : std::pow(10.0, -2 * Rng(4).uniform(i)));
         const BoxSpace box{space.box, space.torus};
-        const double r = packing_radius(20, d, box.measure());
+        const double r = packing_radius(20, d, volume_of(box.box));
         // A radius beyond the box counts as its largest distance.
         std::vector<double> cut = shares;
         for (double& share : cut) share = std::min(share, box.largest_distance() / r);

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "core/rng.hpp"
-#include "math/functions/normal_quantile.hpp"
 #include "support/ulps.hpp"
 
 namespace stipple::testing::normal_distribution_test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "math/functions/normal_quantile.hpp"
+#include "math/functions/normal_distribution.hpp"
 
 #include <gtest/gtest.h>
 
