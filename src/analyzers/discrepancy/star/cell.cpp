@@ -33,7 +33,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <span>
 
@@ -82,30 +81,15 @@ STIPPLE_WIDE void gather(const std::int32_t* from, const std::uint32_t* kept, st
     for (std::size_t i = 0; i < size; ++i) to[i] = from[kept[i]];
 }
 
-/// Candidates are worked on eight at a time.
-constexpr std::size_t lanes = 8;
-using Doubles = double __attribute__((vector_size(64)));
-using Integers = std::int32_t __attribute__((vector_size(32)));
-
-/// terms[i] = (values[ranks[i]] - origin) * weight + counts[i] * inverse, for a multiple of eight
-/// ranks; gives the least.
+/// terms[i] = (values[ranks[i]] - origin) * weight + counts[i] * inverse; gives the least.
 STIPPLE_WIDE double fill_terms(const double* values, const std::int32_t* ranks,
                                const std::int32_t* counts, std::size_t size, double origin,
                                double weight, double inverse, double* terms) {
-    Doubles least = infinity - Doubles{};
-    for (std::size_t i = 0; i < size; i += lanes) {
-        Doubles value;
-        for (std::size_t l = 0; l < lanes; ++l) value[l] = values[ranks[i + l]];
-        Integers count;
-        std::memcpy(&count, counts + i, sizeof count);
-        const Doubles term =
-            (value - origin) * weight + __builtin_convertvector(count, Doubles) * inverse;
-        std::memcpy(terms + i, &term, sizeof term);
-        least = term < least ? term : least;
-    }
-    double least_of_all = least[0];
-    for (std::size_t l = 1; l < lanes; ++l) least_of_all = std::min(least_of_all, least[l]);
-    return least_of_all;
+    for (std::size_t i = 0; i < size; ++i)
+        terms[i] = (values[ranks[i]] - origin) * weight + counts[i] * inverse;
+    double least = infinity;
+    for (std::size_t i = 0; i < size; ++i) least = std::min(least, terms[i]);
+    return least;
 }
 
 }  // namespace
@@ -288,13 +272,13 @@ void CellBounder<side>::fill_bins(const Cell& cell, const Active& active, std::s
 }
 
 /// The candidates of an axis, with c_k(y) for open boxes, which end before their point, and -c_k(y)
-/// for closed ones. The last one fills up the eight.
+/// for closed ones.
 template <Side side>
 void CellBounder<side>::list_candidates(std::size_t k) {
     const auto bins = std::span(bins_[k]).subspan(dummy_bins);
     auto& [found, ranks, counts] = candidates_[k];
-    if (ranks.size() < bins.size() + lanes) {
-        ranks.resize(bins.size() + lanes);
+    if (ranks.size() <= bins.size()) {
+        ranks.resize(bins.size() + 1);
         counts.resize(ranks.size());
         terms_[k].resize(ranks.size());
     }
@@ -308,10 +292,6 @@ void CellBounder<side>::list_candidates(std::size_t k) {
         size += bins[y] / candidate;
     }
     found = size;
-    for (std::size_t i = size; i % lanes != 0; ++i) {
-        ranks[i] = ranks[size - 1];
-        counts[i] = counts[size - 1];
-    }
 }
 
 template <Side side>
