@@ -12,7 +12,6 @@
 #include "core/machine/large_pages.hpp"
 #include "core/rng.hpp"
 #include "core/text.hpp"
-#include "media/pfm_picture.hpp"
 #include "media/png_picture.hpp"
 
 namespace stipple {

@@ -30,16 +30,10 @@
 #include <vector>
 
 #include "math/densities/guide_table.hpp"
+#include "media/pfm_picture.hpp"
 #include "stipple/run.hpp"
 
 namespace stipple {
-
-/// Values on the cells of a grid, row after row from y = 0.
-struct PlaneValues {
-    std::size_t width = 0;
-    std::size_t height = 0;
-    std::vector<double> values = {};
-};
 
 class DensityMap {
   public:

@@ -12,13 +12,21 @@
 // Source  P. Debevec, "PFM Portable FloatMap Image Format", the format of HDR Shop.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "media/density_map.hpp"
 #include "stipple/run.hpp"
 
 namespace stipple {
+
+/// Values on the cells of a grid, row after row from y = 0.
+struct PlaneValues {
+    std::size_t width = 0;
+    std::size_t height = 0;
+    std::vector<double> values = {};
+};
 
 /// Whether the bytes begin as a PFM picture does.
 bool looks_like_pfm(std::string_view bytes);
