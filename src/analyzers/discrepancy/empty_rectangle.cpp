@@ -128,12 +128,6 @@ class Sweep {
         const double area =
             grid_.length(0, across, Side::open) * grid_.length(1, along, Side::open);
         if (area <= worst_.value() - margin_) return;
-        if (area <= worst_.value() + margin_) {
-            if (margin_ == 0) return;
-            const Integer exact = grid_.exact_length(0, across, Side::open) *
-                                  grid_.exact_length(1, along, Side::open);
-            if (exact <= worst_.exact_excess()) return;
-        }
         worst_.offer({.side = Side::open, .axes = {across, along}}, 0);
     }
 

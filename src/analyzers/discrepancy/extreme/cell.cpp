@@ -13,12 +13,19 @@ constexpr double huge = 1e300;
 
 /// Maxima of differences of P and Q, one point after the other; see worst_interval.hpp.
 struct Maxima {
+    double all;         ///< section of the boxes, times the scale
+    double weight;      ///< of a point
+    double before = 0;  ///< weight of the points that went by
     double highest = -huge;
     double lowest = huge;
     double ordered = -huge;   ///< P_j - Q_i, i < j
     double reversed = -huge;  ///< P_i - Q_j, i <= j
 
-    void add(double p, double q) {
+    void add(const Entry& entry) {
+        before += weight * entry.pruned;
+        const double p = all * entry.x - before;
+        before += weight;
+        const double q = all * entry.x - before;
         ordered = std::max(ordered, p - lowest);
         highest = std::max(highest, p);
         reversed = std::max(reversed, highest - q);
@@ -294,18 +301,15 @@ double CellBounder::bound(const Line& line) const {
     const bool open = side_ == Side::open;
     const bool torus = grid_.torus();
     const double all = open ? largest_ : smallest_;
-    Maxima found;
+    Maxima found{.all = all, .weight = weight_};
     if (open && !torus) found.lowest = 0;
-    double before = 0;
     for (const Entry& entry : line.entries) {
-        before += weight_ * entry.pruned;
-        if (open && entry.undecided) continue;
-        const double p = all * entry.x - before;
-        before += weight_;
-        found.add(p, all * entry.x - before);
+        if (open && entry.undecided)
+            found.before += weight_ * entry.pruned;
+        else
+            found.add(entry);
     }
-    before += weight_ * line.pruned;
-    const double rest = all - before;
+    const double rest = all - (found.before + weight_ * line.pruned);
     if (open && torus) return std::max({found.ordered, rest + found.reversed, rest});
     if (open) return std::max(found.ordered, rest - found.lowest);
     return torus ? std::max(found.reversed, found.ordered - rest) : found.reversed;
@@ -327,16 +331,8 @@ bool CellBounder::check_exactly(const Cell& cell, const Line& line, double bound
 /// Excess of the worst interval between two points of a stretch.
 double CellBounder::worst_inside(const Stretch& stretch, const Line& line) const {
     const bool open = side_ == Side::open;
-    const double all = open ? largest_ : smallest_;
-    Maxima found;
-    double before = 0;
-    for (std::size_t i = stretch.first; i < stretch.last; ++i) {
-        const double x = all * line.entries[i].x;
-        if (i > stretch.first) before += weight_ * line.entries[i].pruned;
-        const double p = x - before;
-        before += weight_;
-        found.add(p, x - before);
-    }
+    Maxima found{.all = open ? largest_ : smallest_, .weight = weight_};
+    for (std::size_t i = stretch.first; i < stretch.last; ++i) found.add(line.entries[i]);
     return open ? found.ordered : found.reversed;
 }
 
