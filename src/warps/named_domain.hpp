@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: MIT
 //
-// What the domains of warps have in common: they are told their spec and their dimensions.
+// What the domains of warps have in common: they are told their spec and their dimensions. And the
+// mapping onto one that knows both ways itself: to_cube(), and
+//
+//     void from_cube(std::span<const double> cube, std::span<double> image) const;   // many points
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
 
 #include "core/domain.hpp"
+#include "warps/warp.hpp"
 
 namespace stipple::warps {
 
@@ -32,6 +37,28 @@ class NamedDomain : public Domain {
 template <std::size_t d>
 void put_clamped(const std::array<double, d>& from, std::span<double> cube) {
     for (std::size_t k = 0; k < d; ++k) cube[k] = std::clamp(from[k], 0.0, 1.0);
+}
+
+template <class Known>
+class DomainMapping final : public Mapping {
+  public:
+    explicit DomainMapping(const std::shared_ptr<const Known>& domain)
+        : Mapping(domain), known_(*domain) {}
+
+    void forward(std::span<const double> cube, std::span<double> image,
+                 std::span<std::uint8_t> /*keep*/) const override {
+        known_.from_cube(cube, image);
+    }
+
+  private:
+    const Known& known_;
+};
+
+/// The mapping onto the domain that is made of these.
+template <class Known, class... Args>
+std::unique_ptr<Mapping> domain_mapping(Args&&... args) {
+    return std::make_unique<DomainMapping<Known>>(
+        std::make_shared<const Known>(std::forward<Args>(args)...));
 }
 
 }  // namespace stipple::warps

@@ -19,7 +19,6 @@
 #include <span>
 #include <vector>
 
-#include "math/fourier/fftw.hpp"
 #include "math/fourier/grid_cells.hpp"
 #include "stipple/run.hpp"
 

@@ -13,7 +13,7 @@
 #include "core/error.hpp"
 #include "core/machine/large_pages.hpp"
 #include "core/parallel.hpp"
-#include "math/fourier/fftw.hpp"
+#include "math/fourier/grid_cells.hpp"
 #include "math/functions/powers.hpp"
 
 namespace stipple {

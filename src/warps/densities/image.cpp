@@ -26,7 +26,6 @@
 #include "core/error.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "media/density_map.hpp"
-#include "warps/domain_mapping.hpp"
 #include "warps/named_domain.hpp"
 
 namespace stipple::warps::image {

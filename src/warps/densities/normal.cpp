@@ -35,7 +35,6 @@
 #include "math/functions/logarithm.hpp"
 #include "math/functions/normal_distribution.hpp"
 #include "warps/common_options.hpp"
-#include "warps/domain_mapping.hpp"
 #include "warps/named_domain.hpp"
 #include "warps/warp.hpp"
 

@@ -33,7 +33,6 @@
 #include "core/text.hpp"
 #include "io/formats/delimited.hpp"
 #include "math/geometry/polygon_rows.hpp"
-#include "warps/domain_mapping.hpp"
 #include "warps/named_domain.hpp"
 #include "warps/planar/area_share.hpp"
 
