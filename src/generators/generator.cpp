@@ -65,16 +65,28 @@ bool uses_seed(const Generator& generator, const Values& options) {
     return generator.uses_seed ? generator.uses_seed(options) : generator.traits.seeded;
 }
 
+void refuse_count(std::uint64_t count, const std::string& what, const std::string& who,
+                  std::uint64_t below, std::uint64_t above) {
+    const std::string nearest = below == 0 ? fmt::format("{} is the least", above)
+                                : above > std::uint64_t{1} << 53
+                                    ? fmt::format("{} is the nearest", below)
+                                    : fmt::format("{} and {} are the nearest", below, above);
+    fail(ErrorKind::usage, "--count: {} is not {}, as {} needs; {}", count, what, who, nearest);
+}
+
 std::uint64_t exact_root(std::uint64_t count, std::size_t dimension, const std::string& who) {
     const std::uint64_t k = floor_root(count, dimension);
     const std::uint64_t below = saturating_power(k, dimension);
     if (below == count) return k;
-    const std::uint64_t above = saturating_power(k + 1, dimension);
-    if (above > std::uint64_t{1} << 53)
-        fail(ErrorKind::usage, "--count: {} is not k^{}, as {} needs; {} is the nearest", count,
-             dimension, who, below);
-    fail(ErrorKind::usage, "--count: {} is not k^{}, as {} needs; {} and {} are the nearest", count,
-         dimension, who, below, above);
+    refuse_count(count, fmt::format("k^{}", dimension), who, below,
+                 saturating_power(k + 1, dimension));
+}
+
+Plan plan_of_cubes(const Request& request, const std::string& who) {
+    const std::size_t dimension = request.dimension.value_or(2);
+    const Plan plan = default_plan(request, nearest_power(1024, dimension), dimension);
+    exact_root(plan.count, dimension, who);
+    return plan;
 }
 
 }  // namespace stipple

@@ -114,8 +114,16 @@ bool uses_seed(const Generator& generator, const Values& options);
 /// What generator.plan does where it is empty.
 Plan default_plan(const Request& request, std::uint64_t count = 1024, std::size_t dimension = 2);
 
+/// Refuses a count that is not `what`, as `who` needs, and names those that are: `below`, if not 0,
+/// and `above`, if up to 2^53. @throws Error(usage)
+[[noreturn]] void refuse_count(std::uint64_t count, const std::string& what, const std::string& who,
+                               std::uint64_t below, std::uint64_t above);
+
 /// k with k^dimension == count. @throws Error(usage) naming the two nearest counts that have one.
 std::uint64_t exact_root(std::uint64_t count, std::size_t dimension, const std::string& who);
+
+/// The plan of k^dimension points; without a count, the nearest to 1024. @throws as exact_root
+Plan plan_of_cubes(const Request& request, const std::string& who);
 
 namespace generators {
 /// All generators, in alphabetical order.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "generators/spread_order.hpp"
 
-#include <algorithm>
 #include <vector>
 
 #include "math/neighbors/point_grid.hpp"
@@ -18,18 +17,15 @@ Rows in_order(std::span<const double> rows, const BoxSpace& space, double radius
     std::vector<const double*> left;
     for (std::size_t i = 0; i < rows.size(); i += D) left.push_back(rows.data() + i);
     const std::size_t count = left.size();
-    for (double r = space.largest_distance(); !left.empty(); r *= step) {
-        const bool all = r <= radius;  // nothing that is left is too near
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < left.size(); ++i) {
-            if (i % often == 0) run.tick(chosen.count(), count);
-            if (all || !chosen.any_nearer(left[i], r))
-                chosen.add(left[i]);
-            else
-                left[kept++] = left[i];
-        }
-        left.resize(kept);
-    }
+    std::size_t asked = 0;
+    for (double r = space.largest_distance(); !left.empty(); r *= step)
+        std::erase_if(left, [&](const double* p) {
+            if (asked++ % often == 0) run.tick(chosen.count(), count);
+            // In the end, nothing that is left is too near.
+            if (r > radius && chosen.any_nearer(p, r)) return false;
+            chosen.add(p);
+            return true;
+        });
     return Rows(chosen.rows());
 }
 

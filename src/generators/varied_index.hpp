@@ -62,10 +62,11 @@ class VariedIndex {
         link(static_cast<std::uint32_t>(disks_.size() - 1));
     }
 
-    /// Squared distance as in math/neighbors/spaced_points.hpp.
-    [[nodiscard]] double squared(const std::array<double, 2>& p,
-                                 const std::array<double, 2>& q) const {
-        return squared_distance<2>(p.data(), q.data(), sides_, torus_);
+    /// Whether two disks are nearer than the smaller radius, by the squared distance of
+    /// math/neighbors/spaced_points.hpp.
+    [[nodiscard]] bool too_near(const Disk& a, const Disk& b) const {
+        const double r = std::min(a.radius, b.radius);
+        return squared_distance<2>(a.at.data(), b.at.data(), sides_, torus_) < r * r;
     }
 
     /// Distance of two coordinates.
@@ -97,12 +98,10 @@ class VariedIndex {
         return false;
     }
 
-    /// Whether a disk would be too near to one that is there: nearer than the smaller radius.
+    /// Whether a disk would be too near to one that is there.
     [[nodiscard]] bool blocks(const Disk& disk) const {
-        return any_near(disk.at, disk.at, disk.radius, [&](const Disk& other) {
-            const double r = std::min(disk.radius, other.radius);
-            return squared(disk.at, other.at) < r * r;
-        });
+        return any_near(disk.at, disk.at, disk.radius,
+                        [&](const Disk& other) { return too_near(disk, other); });
     }
 
   private:

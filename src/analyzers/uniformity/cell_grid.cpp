@@ -16,8 +16,7 @@ namespace {
 std::size_t odd_prime_near(double x, std::size_t cap) {
     auto below = std::min(cap, std::max<std::size_t>(3, static_cast<std::size_t>(x)));
     while (!is_prime(below)) --below;
-    auto above = below + 1;
-    while (!is_prime(above)) ++above;
+    const std::size_t above = next_prime(below + 1);
     const bool nearer = static_cast<double>(above) / x < x / static_cast<double>(below);
     return nearer && above <= cap ? above : below;
 }

@@ -138,8 +138,7 @@ class DenseDarts {
         constexpr double rounded = 1 + 0x1p-50;
         const double share = r == indexed_ ? 1 : r / indexed_ * rounded;
         return disks_->any_near(dart.at, dart.at, dart.radius, [&](const Disk& other) {
-            const double least = std::min(dart.radius, other.radius * share);
-            return disks_->squared(dart.at, other.at) < least * least;
+            return disks_->too_near(dart, {other.at, other.radius * share});
         });
     }
 

@@ -33,11 +33,7 @@ constexpr Param<std::int64_t> base_option{
     .help = "Base of the digits, a prime not below the dimension; else the smallest such prime"};
 
 std::uint32_t base_for(std::size_t dimension, const Values& options) {
-    if (!options.given(base_option)) {
-        auto base = static_cast<std::uint32_t>(std::max<std::size_t>(dimension, 2));
-        while (!is_prime(base)) ++base;
-        return base;
-    }
+    if (!options.given(base_option)) return static_cast<std::uint32_t>(next_prime(dimension));
     const std::uint32_t base = prime_base(options[base_option]);
     if (base < dimension)
         fail(ErrorKind::usage,

@@ -123,10 +123,7 @@ std::uint64_t fibonacci_before(std::uint64_t n) {
     std::uint64_t above = 1;
     while (above < n) below = std::exchange(above, above + below);
     if (above == n) return below;
-    fail(ErrorKind::usage,
-         "--count: {} is not a Fibonacci number, as the rule fibonacci needs; {} and {} are the "
-         "nearest",
-         n, below, above);
+    refuse_count(n, "a Fibonacci number", "the rule fibonacci", below, above);
 }
 
 Plan plan(const Request& request, const Values& options) {

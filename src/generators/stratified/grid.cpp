@@ -9,11 +9,9 @@
 // Cost    O(n d).
 // Promise every coordinate is correctly rounded, and below 1.
 
-#include "core/error.hpp"
 #include "generators/generator.hpp"
 #include "generators/stratified/stratified.hpp"
 #include "math/arithmetic/ratio.hpp"
-#include "math/functions/powers.hpp"
 #include "math/geometry/lattice.hpp"
 
 namespace stipple::generators::grid {
@@ -40,10 +38,7 @@ void place(double* x, std::size_t stride, bool centered, std::uint64_t first, st
 
 Plan plan(const Request& request, const Values& options) {
     if (options.given(shape)) return plan_of_shape(request, options[shape], "points");
-    const std::size_t dimension = request.dimension.value_or(2);
-    const Plan plan = default_plan(request, nearest_power(1024, dimension), dimension);
-    exact_root(plan.count, dimension, "grid");
-    return plan;
+    return plan_of_cubes(request, "grid");
 }
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {

@@ -88,11 +88,8 @@ void place_in_cubes(std::span<const std::uint64_t> shape, bool centered, std::ui
 }
 
 Plan plan(const Request& request, const Values&) {
-    const std::size_t dimension = request.dimension.value_or(2);
-    const std::uint64_t count = dimension == 2 ? 1024 : nearest_power(1024, dimension);
-    const Plan plan = default_plan(request, count, dimension);
-    if (dimension > 2) exact_root(plan.count, dimension, "jittered");
-    return plan;
+    if (request.dimension.value_or(2) == 2) return default_plan(request);
+    return plan_of_cubes(request, "jittered");
 }
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {

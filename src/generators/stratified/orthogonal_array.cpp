@@ -18,7 +18,6 @@
 
 #include "core/error.hpp"
 #include "generators/stratified/orthogonal_points.hpp"
-#include "math/functions/powers.hpp"
 
 namespace stipple::generators::orthogonal_array {
 namespace {
@@ -60,12 +59,9 @@ std::size_t strength_of(const Values& options, std::size_t dimension) {
 std::string who(const Values& options) { return "orthogonal-array by " + options[construction]; }
 
 Plan plan(const Request& request, const Values& options) {
-    const std::size_t dimension = request.dimension.value_or(2);
-    const std::size_t t = strength_of(options, dimension);
-    if (options[construction] != "cmj") return plan_by_polynomials(request, t, who(options));
-    const Plan plan = default_plan(request, nearest_power(1024, dimension), dimension);
-    exact_root(plan.count, dimension, who(options));
-    return plan;
+    const std::size_t t = strength_of(options, request.dimension.value_or(2));
+    if (options[construction] == "cmj") return plan_of_cubes(request, who(options));
+    return plan_by_polynomials(request, t, who(options));
 }
 
 std::unique_ptr<Sequence> make(const Plan& plan, const Values& options, const RunContext&) {

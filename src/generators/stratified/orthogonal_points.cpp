@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "generators/stratified/orthogonal_points.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "core/error.hpp"
@@ -10,11 +12,6 @@
 
 namespace stipple::generators {
 namespace {
-
-std::uint64_t next_prime(std::uint64_t from) {
-    while (!is_prime(from)) ++from;
-    return from;
-}
 
 class OrthogonalPoints {
   public:
@@ -100,18 +97,8 @@ std::uint64_t prime_root(std::uint64_t count, std::size_t strength, const std::s
     if (is_prime(below) && saturating_power(below, strength) == count) return below;
     const std::uint64_t above = saturating_power(next_prime(below + 1), strength);
     while (below >= 2 && !is_prime(below)) --below;
-    const std::uint64_t power = saturating_power(below, strength);
-    if (below < 2)
-        fail(ErrorKind::usage,
-             "--count: {} is not p^{} for a prime p, as {} needs; {} is the least", count, strength,
-             who, above);
-    if (above > std::uint64_t{1} << 53)
-        fail(ErrorKind::usage,
-             "--count: {} is not p^{} for a prime p, as {} needs; {} is the nearest", count,
-             strength, who, power);
-    fail(ErrorKind::usage,
-         "--count: {} is not p^{} for a prime p, as {} needs; {} and {} are the nearest", count,
-         strength, who, power, above);
+    refuse_count(count, fmt::format("p^{} for a prime p", strength), who,
+                 below < 2 ? 0 : saturating_power(below, strength), above);
 }
 
 Plan plan_by_polynomials(const Request& request, std::size_t strength, const std::string& who) {

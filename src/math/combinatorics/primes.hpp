@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 //
-// The first 1000 primes: 2, 3, 5, ..., 7919, and whether a number is one.
+// The first 1000 primes: 2, 3, 5, ..., 7919, whether a number is one, and the next that is.
 #pragma once
 
 #include <array>
@@ -33,5 +33,11 @@ constexpr std::uint64_t smallest_factor(std::uint64_t n) {
 }
 
 constexpr bool is_prime(std::uint64_t n) { return n >= 2 && smallest_factor(n) == n; }
+
+/// The smallest prime that is not below n.
+constexpr std::uint64_t next_prime(std::uint64_t n) {
+    while (!is_prime(n)) ++n;
+    return n;
+}
 
 }  // namespace stipple

@@ -268,6 +268,9 @@ TEST(Rank1Lattice, RefusesWhatItCannotMake) {
         error(1000, 2, {{"rule", "fibonacci"}}),
         "usage: --count: 1000 is not a Fibonacci number, as the rule fibonacci needs; 987 and "
         "1597 are the nearest");
+    EXPECT_EQ(error(9'000'000'000'000'000, 2, {{"rule", "fibonacci"}}),
+              "usage: --count: 9000000000000000 is not a Fibonacci number, as the rule fibonacci "
+              "needs; 8944394323791464 is the nearest");
     EXPECT_EQ(error(8, 3, {{"rule", "fibonacci"}}),
               "usage: --dimension: 3 is outside [1, 2], what fibonacci can make");
     EXPECT_EQ(error(std::uint64_t{1} << 30, 2, {}),

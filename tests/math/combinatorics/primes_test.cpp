@@ -23,6 +23,9 @@ TEST(Primes, KnowsThemAndTheSmallestFactorOfOthers) {
     for (std::uint64_t n = 0; n < 7920; ++n) {
         const bool listed = next < primes.size() && primes[next] == n;
         EXPECT_EQ(is_prime(n), listed) << n;
+        if (next < primes.size()) {
+            EXPECT_EQ(next_prime(n), primes[next]) << n;
+        }
         next += listed;
     }
     EXPECT_EQ(smallest_factor(9), 3U);

@@ -125,13 +125,8 @@ class Octave {
     /// Adds all within reach of a body of sigma^2 = a at (x, y), on all images.
     void gather(double x, double y, double a, NearBodies& near) const {
         const double far = reach * std::sqrt((a + most_) / 2);
-        const auto low = [&](double c) {
-            return static_cast<std::int64_t>((c - far) / widths_[1]) - 1;
-        };
-        const auto high = [&](double c) {
-            return static_cast<std::int64_t>((c + far) / widths_[1]) + 1;
-        };
-        for (std::int64_t row = low(y); row <= high(y); ++row) {
+        const auto row_of = [&](double c) { return static_cast<std::int64_t>(c / widths_[1]); };
+        for (std::int64_t row = row_of(y - far) - 1; row <= row_of(y + far) + 1; ++row) {
             // Rows of cells that lie far off in y are met in a shorter stretch of x.
             const double below = static_cast<double>(row) * widths_[1] - y;
             const double gap = std::max({0.0, below, -below - widths_[1]});

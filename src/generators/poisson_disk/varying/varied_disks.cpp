@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <deque>
+#include <ranges>
 #include <tuple>
 #include <vector>
 
@@ -181,11 +182,8 @@ class VariedSampler {
     }
 
     [[nodiscard]] bool blocked(const Disk& disk, std::size_t first) const {
-        for (std::size_t i = first; i < near_.size(); ++i) {
-            const double r = std::min(disk.radius, near_[i].radius);
-            if (index_.squared(disk.at, near_[i].at) < r * r) return true;
-        }
-        return false;
+        return std::ranges::any_of(near_ | std::views::drop(first),
+                                   [&](const Disk& other) { return index_.too_near(disk, other); });
     }
 
     /// Whether a dart on the gap could be too near, where no radius is above `most`.
@@ -282,25 +280,22 @@ Rows spread_varied(std::span<const double> rows, const BoxSpace& space, const Ra
     for (std::size_t i = 0; i < rows.size(); i += 2)
         left.push_back({{rows[i], rows[i + 1]}, field.at(rows[i], rows[i + 1])});
     std::vector<Disk> chosen;
+    std::size_t asked = 0;
     for (double s = space.largest_distance() / field.least(); !left.empty(); s *= step) {
-        const bool all = s <= scale;  // nothing that is left is too near
         VariedIndex index(space, s * field.least(), chosen.size());
         for (std::size_t i = 0; i < chosen.size(); ++i) {
             if (i % often == 0) run.check_stop();
             index.add({chosen[i].at, s * chosen[i].radius});
         }
-        std::size_t kept = 0;
-        for (std::size_t i = 0; i < left.size(); ++i) {
-            if (i % often == 0) run.tick(chosen.size(), rows.size() / 2);
-            const Disk scaled{left[i].at, s * left[i].radius};
-            if (!all && index.blocks(scaled)) {
-                left[kept++] = left[i];
-                continue;
-            }
-            if (!all) index.add(scaled);
-            chosen.push_back(left[i]);
-        }
-        left.resize(kept);
+        std::erase_if(left, [&](const Disk& disk) {
+            if (asked++ % often == 0) run.tick(chosen.size(), rows.size() / 2);
+            const Disk scaled{disk.at, s * disk.radius};
+            // In the end, nothing that is left is too near.
+            if (s > scale && index.blocks(scaled)) return false;
+            index.add(scaled);
+            chosen.push_back(disk);
+            return true;
+        });
     }
     Rows out = Rows::unwritten(rows.size());
     auto to = out.numbers().begin();
