@@ -13,7 +13,7 @@
 //
 // Darts are thrown in rounds, at all tiles of the box (generators/poisson_disk/tile_rounds.hpp).
 // Boxes of five cells or more along each direction have samplers of their own in the plane and in
-// space (plane/, space/); box_sampler.hpp takes all others.
+// space (plane/, space/); box_sampler.cpp takes all others.
 //
 // Shape   d = 2 ... 6; any box; r up to its diagonal.
 // Cost    O(n) time for fixed d: on one core 0.4 us a point (d = 2), 2 us (3), 0.4 ms (4), 2 ms
