@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "cli/set_batch.hpp"
 
+#include <exception>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/parallel.hpp"
 
 namespace stipple::cli {
@@ -13,7 +15,8 @@ namespace {
 /// What became of a set; nothing where a stop came before it.
 struct Outcome {
     std::optional<Measurement> measurement;
-    bool failed = false;
+    std::exception_ptr error;
+    bool over_limit = false;  ///< it would need more than its share of the memory, say
     std::vector<std::string> warnings;
 };
 
@@ -37,18 +40,21 @@ void measure_sets(std::span<const FoundSet> sets, const RunContext& run,
         one.warn = [&outcome](const std::string& text) { outcome.warnings.push_back(text); };
         try {
             outcome.measurement = measure(sets[block.index], one);
+        } catch (const Error& e) {
+            outcome.error = std::current_exception();
+            outcome.over_limit = e.kind() == ErrorKind::limit;
         } catch (...) {
-            outcome.failed = true;
+            outcome.error = std::current_exception();
         }
     });
     for (std::size_t i = 0; i < spread; ++i) {
         Outcome& outcome = outcomes[i];
-        if (outcome.failed) {
-            // It may only need more than its share of the memory; else this fails again, and tells.
-            keep(sets[i], measure(sets[i], run));
+        if (outcome.over_limit) {
+            if (!run.stop.stop_requested()) keep(sets[i], measure(sets[i], run));
             continue;
         }
         for (const auto& sentence : outcome.warnings) run.notify(sentence);
+        if (outcome.error) std::rethrow_exception(outcome.error);
         if (outcome.measurement) keep(sets[i], std::move(*outcome.measurement));
     }
     for (const FoundSet& set : sets.subspan(spread))
