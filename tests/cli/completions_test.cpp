@@ -42,8 +42,8 @@ TEST(Completions, OfBashKnowVerbsUnitsAndOptions) {
     const Sandbox box;
     EXPECT_THAT(offered(box, "stipple gen"), ElementsAre("generate"));
     EXPECT_THAT(offered(box, "stipple ''"), IsSupersetOf({"generate", "analyze", "reproduce"}));
-    EXPECT_THAT(offered(box, "stipple generate hal"), ElementsAre("halton"));
-    EXPECT_THAT(offered(box, "stipple generate -n 100 hal"), ElementsAre("halton"));
+    EXPECT_THAT(offered(box, "stipple generate ham"), ElementsAre("hammersley"));
+    EXPECT_THAT(offered(box, "stipple generate -n 100 ham"), ElementsAre("hammersley"));
     EXPECT_THAT(offered(box, "stipple generate halton --scr"), ElementsAre("--scramble"));
     EXPECT_THAT(offered(box, "stipple generate random --scr"), IsEmpty());
     EXPECT_THAT(offered(box, "stipple generate lhs --cen"), ElementsAre("--centered"));
