@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <list>
 #include <optional>
 #include <utility>
 
@@ -17,7 +16,7 @@
 #include "core/error.hpp"
 #include "core/spec.hpp"
 #include "core/text.hpp"
-#include "io/files.hpp"
+#include "io/output.hpp"
 #include "io/source_text.hpp"
 #include "math/fourier/transform.hpp"
 #include "pipeline/chain.hpp"
@@ -93,9 +92,7 @@ void check_side_files(const Values& options, const std::string& output) {
 std::string report_format(const Arguments& arguments, const std::string& path) {
     if (const auto format = arguments.get("format")) return *format;
     if (path.ends_with(".csv")) return "csv";
-    // A launcher gives the process that prints for all a terminal of its own.
-    const bool people = is_terminal(path) && launched_ranks() == 1;
-    return people || path.ends_with(".txt") ? "text" : "json";
+    return is_terminal(path) || path.ends_with(".txt") ? "text" : "json";
 }
 
 // Sets wait to be measured side by side, a few megabytes at a time.
@@ -135,7 +132,7 @@ class Analysis {
         save_wisdom();
         const bool fine = verdict();
         print();
-        for (io::Output& file : beside_) file.commit();
+        files_.commit();
         return fine ? 0 : 1;
     }
 
@@ -448,11 +445,9 @@ class Analysis {
         if (const auto path = text_of("wisdom")) save_beside(*path, wisdom_text());
     }
 
-    /// Files that come with the report are put in their places when it is out.
+    /// Files that come with the report are put in their places with it.
     void save_beside(const std::string& path, const std::string& bytes) {
-        io::Output& file = beside_.emplace_back(path, session_.run().stop);
-        file.write(bytes);
-        file.close();
+        files_.add(path, session_.run().stop).write(bytes);
     }
 
     /// How the options say that a grid is drawn.
@@ -497,18 +492,19 @@ class Analysis {
 
     /// Results that came back although a stop was requested are as good as was possible till then;
     /// a mean of some sets would not be what was asked for, nor would a file.
-    int print_what_is_known() const {
-        if (averaged_ || path_ != "-") session_.run().check_stop();
+    int print_what_is_known() {
+        if (averaged_ || path_ != "-" || ranks_.size() > 1) session_.run().check_stop();
         print();
         say_line("interrupted");
         constexpr int exit_code = 130;
         return exit_code;
     }
 
-    void print() const {
-        write_text(path_, format_ == "json"  ? to_json(measurements_)
-                          : format_ == "csv" ? to_csv(measurements_)
-                                             : to_text(measurements_));
+    void print() {
+        files_.add(path_, std::stop_token())
+            .write(format_ == "json"  ? to_json(measurements_)
+                   : format_ == "csv" ? to_csv(measurements_)
+                                      : to_text(measurements_));
     }
 
     const Arguments& arguments_;
@@ -527,9 +523,9 @@ class Analysis {
     ReportAverage average_;
     std::vector<std::string> followed_;  ///< options that the first of averaged sets decided
     std::vector<Report> singles_;        ///< what was averaged, where it is needed
-    std::list<io::Output> beside_;       ///< files that come with the report
     std::vector<FoundSet> waiting_;      ///< to be measured
     std::size_t numbers_ = 0;            ///< coordinates of these
+    io::Outputs files_;                  ///< the report, and what comes with it
 };
 
 }  // namespace

@@ -14,7 +14,7 @@
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "io/files.hpp"
+#include "io/output.hpp"
 
 namespace stipple::cli {
 namespace {
@@ -56,15 +56,17 @@ int dispatch(const Arguments& arguments) {
         {Verb::generate, generate}, {Verb::warp, warp},          {Verb::analyze, analyze},
         {Verb::convert, convert},   {Verb::plot, plot},          {Verb::study, study},
         {Verb::report, report},     {Verb::reproduce, reproduce}};
-    return work.at(*arguments.verb)(arguments, session);
+    const int code = work.at(*arguments.verb)(arguments, session);
+    session.tell_warnings();
+    return code;
 }
 
-/// One line, and the hint in a second sentence of it.
-int report_error(std::string_view verb, const std::string& what, const std::string& hint,
-                 int code) {
-    if (is_mute(verb)) return code;
-    say_line(hint.empty() ? what : what + "; " + hint);
-    return code;
+/// Says in one line what ended the program, unless another process does; the exit code.
+int end_with(std::string_view verb, const Error& error) {
+    const Error cause = shared_failure(error);
+    const std::string what = cause.what();
+    if (!is_mute(verb)) say_line(cause.hint().empty() ? what : what + "; " + cause.hint());
+    return exit_code(cause.kind());
 }
 
 }  // namespace
@@ -107,17 +109,16 @@ int run_verb(int argc, char** argv) {
         }
         return dispatch(parse_arguments(argc, argv));
     } catch (const Error& e) {
-        return report_error(verb, e.what(), e.hint(), exit_code(e.kind()));
+        return end_with(verb, e);
     } catch (const std::bad_alloc&) {
-        return report_error(verb, "out of memory", "", exit_code(ErrorKind::limit));
+        return end_with(verb, {ErrorKind::limit, "out of memory"});
+    } catch (const std::system_error& e) {
+        if (e.code() == std::errc::resource_unavailable_try_again)
+            return end_with(verb, {ErrorKind::limit, "a thread does not start",
+                                   "limits (ulimit) may allow fewer: --threads"});
+        return end_with(verb, {ErrorKind::io, fmt::format("internal error: {}", e.what())});
     } catch (const std::exception& e) {
-        const auto* failed = dynamic_cast<const std::system_error*>(&e);
-        if (failed != nullptr && failed->code() == std::errc::resource_unavailable_try_again)
-            return report_error(verb, "a thread does not start",
-                                "limits (ulimit) may allow fewer: --threads",
-                                exit_code(ErrorKind::limit));
-        return report_error(verb, fmt::format("internal error: {}", e.what()), "",
-                            exit_code(ErrorKind::io));
+        return end_with(verb, {ErrorKind::io, fmt::format("internal error: {}", e.what())});
     }
 }
 

@@ -248,7 +248,7 @@ SharedSet shared_files(const Arguments& arguments, const Analyzer& analyzer,
     const auto open = [&arguments, run, strengths](const std::string& path) {
         return open_file(path, arguments, strengths, run);
     };
-    const SharedSet files = shared_in_files(arguments.inputs, open, ranks);
+    const SharedSet files = shared_in_files(arguments.inputs, open, ranks, run);
     Arrival points =
         arrival_of(*open(arguments.inputs.front()), !strengths.empty(), analyzer, arguments, run);
     points.count = files.points.count;

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include "cli/session.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 
@@ -36,6 +37,8 @@ std::uint64_t launched_ranks() {
     return std::max<std::uint64_t>(1, ranks.value_or(1));
 }
 
+bool is_launched() { return environment({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}).has_value(); }
+
 bool is_mute(std::string_view verb) {
     if ((verb != "analyze" && verb != "study") || launched_ranks() == 1) return false;
     auto rank = environment({"OMPI_COMM_WORLD_RANK", "PMI_RANK"});
@@ -50,12 +53,16 @@ Ranks& launched(std::string_view verb, const RunContext& run) {
         fail_with_hint(ErrorKind::usage, "build it where MPI is installed, or start one process",
                        "{}: an MPI launcher started {} processes, and this build has no MPI", verb,
                        started);
-    joined() = join_ranks(run.stop);
+    joined() = join_ranks(run.stop, request_stop);
     if (joined()->size() == 1)
         fail_with_hint(ErrorKind::usage, "start them by mpirun, or by srun --mpi=pmix",
                        "{}: a launcher started {} processes, which do not find each other by MPI",
                        verb, started);
     return *joined();
+}
+
+Error shared_failure(const Error& error) {
+    return joined() ? joined()->fail_together(error) : error;
 }
 
 void leave_ranks() { joined().reset(); }

@@ -150,7 +150,7 @@ class Plot {
             "plot takes points, or the JSON of 'stipple analyze'");
         for (std::size_t i = 0; i < sets.size(); ++i) {
             require_width(sets[i], input);
-            take_domain(sets[i], arguments_);
+            naming(input, [&] { take_domain(sets[i], arguments_); });
             const std::string title = plot::title_of_points(sets[i], input);
             sets_.push_back({std::move(sets[i]), input,
                              sets.size() > 1 ? std::optional(i) : std::nullopt,

@@ -8,6 +8,7 @@
 #include <array>
 
 #include "cli/inputs.hpp"
+#include "cli/launched.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
@@ -57,7 +58,9 @@ std::string output_of(const Arguments& arguments) {
     return path;
 }
 
-bool is_terminal(const std::string& path) { return path == "-" && isatty(STDOUT_FILENO) == 1; }
+bool is_terminal(const std::string& path) {
+    return path == "-" && isatty(STDOUT_FILENO) == 1 && !is_launched();
+}
 
 std::string typed_option(const std::string& name, const std::string& value, bool flag) {
     return flag ? fmt::format(" --{}", name) : fmt::format(" --{} {}", name, shell_word(value));

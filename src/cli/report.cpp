@@ -13,7 +13,7 @@
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "io/files.hpp"
+#include "io/output.hpp"
 #include "io/source_text.hpp"
 #include "page/html.hpp"
 #include "page/measures.hpp"
@@ -135,7 +135,7 @@ class Reporter {
         auto sets = read_input(input, arguments_, session_.run());
         for (std::size_t i = 0; i < sets.size(); ++i) {
             require_width(sets[i], input);
-            take_domain(sets[i], arguments_);
+            naming(input, [&] { take_domain(sets[i], arguments_); });
             PendingSet next;
             next.set.source = input;
             next.set.provenance = sets[i].provenance;

@@ -14,7 +14,9 @@
 #include <limits>
 #include <utility>
 
+#include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
+#include "core/machine/allocated_bytes.hpp"
 #include "core/text.hpp"
 #include "core/utf8.hpp"
 
@@ -123,6 +125,8 @@ Session::Session(const Arguments& arguments)
     : quiet_(arguments.has("quiet")), bar_(progress_mode(arguments)) {
     run_.threads = static_cast<unsigned>(arguments.integer("threads").value_or(0));
     run_.max_memory = memory_limit(arguments);
+    limit_whole_files(run_.max_memory / 3);  // what is made of a file takes twice its bytes
+    run_.memory_in_use = allocated_bytes;
     run_.stop = interrupts().get_token();
     run_.seconds = [start = std::chrono::steady_clock::now()] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -133,17 +137,27 @@ Session::Session(const Arguments& arguments)
 }
 
 void Session::warn(const std::string& sentence) {
+    constexpr std::size_t most_at_once = 100;
     if (quiet_) return;
-    bar_.clear();
-    say_line(sentence);
+    warnings_.push_back(sentence);
+    if (warnings_.size() == most_at_once) tell_warnings();
 }
 
-void say_line(std::string_view sentence) { say(fmt::format("stipple: {}\n", printable(sentence))); }
+void Session::tell_warnings() {
+    if (!warnings_.empty()) bar_.clear();
+    for (const std::string& sentence : std::exchange(warnings_, {})) say_line(sentence);
+}
+
+void say_line(std::string_view sentence) {
+    say(fmt::format("stipple: {}\n", printable(cut_short(sentence))));
+}
 
 void say(const std::string& text) {
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);
 }
+
+void request_stop() { interrupts().request_stop(); }
 
 void catch_interrupts() {
     main_thread = pthread_self();

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "cli/parsing/arguments.hpp"
 #include "stipple/run.hpp"
@@ -46,11 +47,16 @@ class Session {
 
     [[nodiscard]] const RunContext& run() const { return run_; }
 
-    /// A sentence on stderr, unless --quiet.
+    /// A sentence for stderr, unless --quiet. It is said when the work is done, or takes long: an
+    /// error says alone what is wrong.
     void warn(const std::string& sentence);
+
+    /// Says what there is to say.
+    void tell_warnings();
 
   private:
     RunContext run_;
+    std::vector<std::string> warnings_;
     bool quiet_;
     ProgressBar bar_;
 };
@@ -60,6 +66,9 @@ void say(const std::string& text);
 
 /// A line "stipple: SENTENCE" on stderr, whoever's words are in it.
 void say_line(std::string_view sentence);
+
+/// Stops the runs of all sessions, as Ctrl-C does.
+void request_stop();
 
 /// From now on Ctrl-C, SIGTERM and SIGHUP stop a Session's run; a second one ends the program at once.
 void catch_interrupts();

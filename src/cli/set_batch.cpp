@@ -33,10 +33,9 @@ void measure_sets(std::span<const FoundSet> sets, const RunContext& run,
     for_each_block(unstopped(run), spread, 1, [&](const Block& block) {
         if (run.stop.stop_requested()) return;
         Outcome& outcome = outcomes[block.index];
-        RunContext one = run;
+        RunContext one = run.share_of_memory(threads);
         one.threads = 1;
         one.progress = {};
-        one.max_memory = run.max_memory / threads;
         one.warn = [&outcome](const std::string& text) { outcome.warnings.push_back(text); };
         try {
             outcome.measurement = measure(sets[block.index], one);

@@ -285,8 +285,8 @@ int study(const Arguments& arguments, Session& session) {
     if (!arguments.inputs.empty())
         fail(ErrorKind::usage, "study takes no input; '{}' is not understood",
              arguments.inputs.front());
-    const Arguments all = with_config(arguments, launched_ranks(), session.run());
     Ranks& ranks = launched("study", session.run());
+    const Arguments all = with_config(arguments, launched_ranks(), session.run());
     std::optional<Study> study;
     try {
         check_choices(all);

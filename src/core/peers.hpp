@@ -19,6 +19,12 @@ class Peers {
     [[nodiscard]] virtual int rank() const { return 0; }
     [[nodiscard]] virtual int size() const { return 1; }
 
+    /// The name of its machine.
+    [[nodiscard]] virtual std::string host() const { return {}; }
+
+    /// To be called by all, which end with one error and need not tell each other.
+    virtual void end_together() {}
+
     /// What each of them says, in the order of ranks. All call it, equally often and in one order.
     virtual std::vector<std::string> exchange(std::string mine) { return {std::move(mine)}; }
 };

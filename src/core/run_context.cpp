@@ -101,11 +101,27 @@ void RunContext::notify(const std::string& sentence) const {
     if (warn) warn(sentence);
 }
 
+std::uint64_t RunContext::memory_left() const {
+    return max_memory - (memory_in_use ? std::min(memory_in_use(), max_memory) : 0);
+}
+
+RunContext RunContext::share_of_memory(std::uint64_t workers) const {
+    RunContext share = *this;
+    if (workers < 2) return share;
+    share.max_memory = memory_left() / workers;
+    share.memory_in_use = {};
+    return share;
+}
+
 void RunContext::need_memory(double bytes, std::string_view what) const {
-    if (bytes > static_cast<double>(max_memory))
-        fail_with_hint(ErrorKind::limit, "raise the limit with --max-memory",
-                       "{} needs {} of memory; the limit is {}", what, format_bytes(bytes),
-                       format_bytes(static_cast<double>(max_memory)));
+    const auto left = static_cast<double>(memory_left());
+    if (bytes <= left) return;
+    const auto limit = static_cast<double>(max_memory);
+    const std::string beside =
+        bytes > limit ? "" : fmt::format(", besides {} in use", format_bytes(limit - left));
+    fail_with_hint(ErrorKind::limit, "raise the limit with --max-memory",
+                   "{} needs {} of memory{}; the limit is {}", what, format_bytes(bytes), beside,
+                   format_bytes(limit));
 }
 
 }  // namespace stipple

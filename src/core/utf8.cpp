@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/locale/utf.hpp>
 #include <iterator>
 
@@ -33,6 +34,15 @@ void append_escaped(std::string& out, char32_t letter) {
         fmt::format_to(end, "\\x{:02x}", code);
     else
         fmt::format_to(end, "\\u{:04x}", code);
+}
+
+/// The first letters, as many as a message shows of a text.
+std::string_view front_of(std::string_view text) {
+    constexpr std::size_t most = 80;
+    std::size_t bytes = 0;
+    for (std::size_t letters = 0; letters < most && bytes < text.size(); ++letters)
+        bytes += first_letter(text.substr(bytes)).size;
+    return text.substr(0, bytes);
 }
 
 }  // namespace
@@ -81,14 +91,27 @@ std::string printable(std::string_view text) {
     return out;
 }
 
+std::string cut_short(std::string_view text) {
+    constexpr std::size_t longest_word = 1000;
+    constexpr std::size_t longest_text = 8000;
+    std::string out;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find(' ', at), text.size() - 1) + 1;
+        const std::string_view word = text.substr(at, end - at);
+        if (out.size() > longest_text) return out + fmt::format("... ({} bytes)", text.size());
+        if (word.size() <= longest_word)
+            out += word;
+        else
+            out += fmt::format("{}... ({} bytes) ", front_of(word), word.size());
+        at = end;
+    }
+    return out;
+}
+
 std::string shown(std::string_view text) {
-    constexpr std::size_t most = 80;
-    std::size_t bytes = 0;
-    for (std::size_t letters = 0; letters < most && bytes < text.size(); ++letters)
-        bytes += first_letter(text.substr(bytes)).size;
-    const std::string front = printable(text.substr(0, bytes));
-    if (bytes == text.size()) return "'" + front + "'";
-    return fmt::format("'{}...' ({} bytes)", front, text.size());
+    const std::string_view front = front_of(text);
+    if (front.size() == text.size()) return "'" + printable(text) + "'";
+    return fmt::format("'{}...' ({} bytes)", printable(front), text.size());
 }
 
 }  // namespace stipple

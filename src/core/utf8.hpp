@@ -30,6 +30,10 @@ std::string utf8_of(std::u32string_view letters);
 /// direction of writing, and bytes that are not UTF-8 as \n, \x1b, \u202e, \xff.
 std::string printable(std::string_view text);
 
+/// The text with words of more than 1000 bytes, and what is behind 8000 bytes, cut short: messages
+/// repeat what somebody gave.
+std::string cut_short(std::string_view text);
+
 /// Such a text in quotes, with its number of bytes where only its first 80 letters are shown.
 std::string shown(std::string_view text);
 

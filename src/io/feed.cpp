@@ -50,6 +50,10 @@ int open_to_read(const std::string& path, struct stat& status) {
     return descriptor;
 }
 
+std::int64_t change_time(const struct stat& status) {
+    return std::int64_t{status.st_mtim.tv_sec} * 1'000'000'000 + status.st_mtim.tv_nsec;
+}
+
 }  // namespace
 
 Feed::Feed(const std::string& path, RunContext run)
@@ -61,6 +65,7 @@ Feed::Feed(const std::string& path, RunContext run)
     if (S_ISFIFO(status.st_mode)) ::fcntl(descriptor_, F_SETPIPE_SZ, 1 << 20);
 #endif
     if (S_ISREG(status.st_mode)) size_ = static_cast<std::size_t>(status.st_size);
+    changed_at_ = change_time(status);
     held_.resize(front_size);
     try {
         held_.resize(fetch(held_));
@@ -78,13 +83,23 @@ std::size_t Feed::fetch(std::span<char> bytes) {
     while (descriptor_ >= 0 && done < bytes.size()) {
         wait_for_bytes(descriptor_, run_);
         const auto got = ::read(descriptor_, bytes.data() + done, bytes.size() - done);
-        if (got == 0) break;
+        if (got == 0) {
+            check_unchanged();
+            break;
+        }
         if (got > 0)
             done += static_cast<std::size_t>(got);
         else if (errno != EINTR && errno != EAGAIN)
             refuse_file(name_, errno);
     }
     return done;
+}
+
+void Feed::check_unchanged() const {
+    struct stat status {};
+    if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode)) return;
+    if (static_cast<std::size_t>(status.st_size) != size_ || change_time(status) != changed_at_)
+        fail(ErrorKind::io, "{}: the file changed while it was read", name_);
 }
 
 std::size_t Feed::read(std::span<char> bytes) {

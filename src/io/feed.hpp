@@ -38,6 +38,7 @@ class Feed {
     }
 
     /// Takes the next bytes, from the front on; fewer than asked for only at the end.
+    /// @throws Error(io) where a file has changed since it was opened
     std::size_t read(std::span<char> bytes);
 
     /// Goes past the next bytes, as many as there are up to `count`, and says how many these were;
@@ -49,11 +50,13 @@ class Feed {
 
   private:
     std::size_t fetch(std::span<char> bytes);
+    void check_unchanged() const;
 
     std::string name_ = {};
     RunContext run_ = {};
     int descriptor_ = -1;
-    std::size_t size_ = 0;  ///< of a file, as it was when it was opened
+    std::size_t size_ = 0;         ///< of a file, as it was when it was opened
+    std::int64_t changed_at_ = 0;  ///< as then; nanoseconds
     std::string held_;
     std::string_view front_;
     std::size_t taken_ = 0;  ///< bytes of the front that were read

@@ -28,7 +28,7 @@ struct Token {
 
 class TokenFile {
   public:
-    /// Reads the file at once. @throws Error(io): missing, a directory, unreadable, over 1 GiB.
+    /// Reads the file at once. @throws Error(io): missing, a directory, unreadable; Error(limit).
     explicit TokenFile(const std::string& path);
 
     /// A text that is there already; messages call it `name`.

@@ -5,7 +5,7 @@
 
 #include "core/error.hpp"
 #include "core/text.hpp"
-#include "io/files.hpp"
+#include "io/output.hpp"
 #include "page/html.hpp"
 #include "page/measures.hpp"
 #include "stipple/study.hpp"

@@ -11,6 +11,7 @@
 #include "core/parallel.hpp"
 #include "generators/density_options.hpp"
 #include "io/carried_meta.hpp"
+#include "io/output.hpp"
 #include "media/png_picture.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/generated.hpp"
@@ -42,8 +43,8 @@ Provenance common_provenance(const std::vector<PointSet>& sets) {
 
 /// Writes sets as they are; `chain` is what gave them, for their density.
 void write_images(const std::vector<PointSet>& images, const WarpChain& chain,
-                  std::size_t first_set, const Target& target, const RunContext& run,
-                  std::optional<std::uint64_t> first_seed = {}) {
+                  std::size_t first_set, std::optional<std::uint64_t> first_seed,
+                  const Target& target, io::Outputs& outputs, const RunContext& run) {
     const bool together = !file_per_set(target.path);
     const Provenance common = common_provenance(images);
     SetsToWrite job{
@@ -63,7 +64,15 @@ void write_images(const std::vector<PointSet>& images, const WarpChain& chain,
         },
         .counts = {}};
     for (const PointSet& set : images) job.counts.push_back(set.count());
-    write_files(job, target, run);
+    write_files(job, target, outputs, run);
+}
+
+/// The same of all sets of a command.
+void write_all(const std::vector<PointSet>& images, const WarpChain& chain, const Target& target,
+               const RunContext& run, std::optional<std::uint64_t> first_seed = {}) {
+    io::Outputs outputs;
+    write_images(images, chain, 0, first_seed, target, outputs, run);
+    outputs.commit();
 }
 
 /// Writes down that the set went through a warp. What was cut in writing was so before it.
@@ -221,6 +230,7 @@ class Producer {
         if (!chain.drops())
             need_memory_for(batch, sets_.plan().count / job_.shard.of * chain.dimension_out(),
                             run_);
+        io::Outputs outputs;
         for (std::size_t first = 0; first < job_.sets; first += batch) {
             std::vector<PointSet> images;
             for (std::size_t set = first; set < first + batch; ++set) {
@@ -228,8 +238,10 @@ class Producer {
                 // Only now is it known how many points fit, or have images.
                 if (set == first) need_memory_for(batch, images[0].flat().size(), run_);
             }
-            write_images(images, chain, first, target_, part_of_run(run_, first, job_.sets));
+            write_images(images, chain, first, {}, target_, outputs,
+                         part_of_run(run_, first, job_.sets));
         }
+        outputs.commit();
     }
 
   private:
@@ -377,7 +389,7 @@ void write_sets(std::vector<PointSet> sets, const Target& target, const RunConte
                  sets[i].dimension(), d);
         if (!sets[i].domain) sets[i].domain = unit_cube(d);
     }
-    write_images(sets, WarpChain({}, d), 0, target, run);
+    write_all(sets, WarpChain({}, d), target, run);
 }
 
 PointSet warped_set(const PointSet& set, const Spec& warp, bool inverse, const RunContext& run) {
@@ -388,7 +400,7 @@ void write_warped(std::vector<PointSet> sets, const Spec& warp, bool inverse, co
                   const RunContext& run) {
     const Warping warping(warp, inverse, sets.front().domain, target, run);
     for (PointSet& set : sets) set = warped(set, warping, run);
-    write_images(sets, *warping.chain, 0, target, run);
+    write_all(sets, *warping.chain, target, run);
 }
 
 bool can_stream(const io::PointStream& stream, const Target& target) {
@@ -433,7 +445,7 @@ void write_scrambled(const std::vector<PointSet>& sets, const Spec& scramble, st
             images.push_back(warped(set, scrambling, run));
         }
     const WarpChain nothing({}, images.front().dimension());
-    write_images(images, nothing, 0, target, run, seed);
+    write_all(images, nothing, target, run, seed);
 }
 
 }  // namespace stipple

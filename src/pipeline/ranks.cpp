@@ -6,13 +6,16 @@
 #ifdef STIPPLE_MPI
 #include <mpi.h>
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <list>
+#include <mutex>
 #include <numeric>
 #include <thread>
 #include <utility>
 
+#include "core/bytes/packed.hpp"
 #include "core/error.hpp"
 #endif
 
@@ -27,38 +30,68 @@ unsigned threads_of(const Ranks& ranks, const RunContext& run) {
 
 namespace {
 
+using namespace std::chrono_literals;
+
+// One thread watches for ranks that fail, while the others wait or compute; no two call MPI at once.
 class MpiRanks : public Ranks {
   public:
-    explicit MpiRanks(std::stop_token stop) : stop_(std::move(stop)) {
+    MpiRanks(std::stop_token stop, std::function<void()> request_stop)
+        : stop_(std::move(stop)), request_stop_(std::move(request_stop)) {
         int provided = 0;
-        MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+        MPI_Init_thread(nullptr, nullptr, MPI_THREAD_SERIALIZED, &provided);
         MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
         MPI_Comm_size(MPI_COMM_WORLD, &size_);
         MPI_Comm machine = MPI_COMM_NULL;
         MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank_, MPI_INFO_NULL, &machine);
         MPI_Comm_size(machine, &on_machine_);
         MPI_Comm_free(&machine);
+        std::array<char, MPI_MAX_PROCESSOR_NAME> name{};
+        int length = 0;
+        MPI_Get_processor_name(name.data(), &length);
+        host_.assign(name.data(), static_cast<std::size_t>(length));
+        if (size_ > 1)
+            watcher_ = std::jthread([this](const std::stop_token& done) { watch(done); });
     }
     MpiRanks(const MpiRanks&) = delete;
     MpiRanks& operator=(const MpiRanks&) = delete;
     ~MpiRanks() override {
-        if (stop_.stop_requested()) return;
-        for (Outgoing& message : outgoing_) MPI_Wait(&message.request, MPI_STATUS_IGNORE);
+        watcher_ = {};
+        if (stop_.stop_requested() && !failed_) return;
+        if (!failed_)
+            for (Outgoing& message : outgoing_) MPI_Wait(&message.request, MPI_STATUS_IGNORE);
         MPI_Finalize();
     }
 
     [[nodiscard]] int rank() const override { return rank_; }
     [[nodiscard]] int size() const override { return size_; }
     [[nodiscard]] int on_machine() const override { return on_machine_; }
+    [[nodiscard]] std::string host() const override { return host_; }
+
+    void end_together() override { failed_ = true; }
 
     void send(int to, std::string bytes) override {
-        Outgoing& message = outgoing_.emplace_back();
-        message.bytes = std::move(bytes);
-        MPI_Isend(message.bytes.data(), static_cast<int>(message.bytes.size()), MPI_BYTE, to, 0,
-                  MPI_COMM_WORLD, &message.request);
+        const std::lock_guard lock(mpi_);
+        send(to, std::move(bytes), message_tag);
+    }
+
+    Error fail_together(const Error& error) override {
+        const std::lock_guard lock(mpi_);
+        if (failed_) return error;
+        hear_failure();
+        if (!heard_ && error.kind() == ErrorKind::cancelled) return error;  // as all others are
+        failed_ = true;
+        if (heard_) return *heard_;
+        const std::string text = fmt::format("rank {} on {}: {}", rank_, host_, error.what());
+        for (int other = 0; other < size_; ++other)
+            if (other != rank_)
+                send(other, Packer().put(error.kind()).put_all(text).put_all(error.hint()).take(),
+                     failure_tag);
+        return rank_ == 0 ? error : Error(error.kind(), text, error.hint());
     }
 
     std::optional<Message> poll() override {
+        const std::lock_guard lock(mpi_);
+        throw_heard();
         std::erase_if(outgoing_, [](Outgoing& message) {
             int sent = 0;
             MPI_Test(&message.request, &sent, MPI_STATUS_IGNORE);
@@ -66,84 +99,141 @@ class MpiRanks : public Ranks {
         });
         int arrived = 0;
         MPI_Status status;
-        MPI_Iprobe(MPI_ANY_SOURCE, 0, MPI_COMM_WORLD, &arrived, &status);
+        MPI_Iprobe(MPI_ANY_SOURCE, message_tag, MPI_COMM_WORLD, &arrived, &status);
         if (arrived == 0) return std::nullopt;
-        int size = 0;
-        MPI_Get_count(&status, MPI_BYTE, &size);
-        Message message{.from = status.MPI_SOURCE,
-                        .bytes = std::string(static_cast<std::size_t>(size), '\0')};
-        MPI_Recv(message.bytes.data(), size, MPI_BYTE, status.MPI_SOURCE, 0, MPI_COMM_WORLD,
-                 MPI_STATUS_IGNORE);
-        return message;
+        return received(status);
     }
 
     std::vector<std::string> exchange(std::string mine) override {
-        std::vector<std::uint64_t> sizes(static_cast<std::size_t>(size_));
-        const std::uint64_t own = mine.size();
-        MPI_Request request = MPI_REQUEST_NULL;
-        MPI_Iallgather(&own, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD,
-                       &request);
-        wait(request);
-        const std::uint64_t all = std::accumulate(sizes.begin(), sizes.end(), std::uint64_t{0});
+        said_ = std::move(mine);
+        sizes_.resize(static_cast<std::size_t>(size_));
+        const std::uint64_t own = said_.size();
+        complete([&](MPI_Request* request) {
+            MPI_Iallgather(&own, 1, MPI_UINT64_T, sizes_.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD,
+                           request);
+        });
+        const std::uint64_t all = std::accumulate(sizes_.begin(), sizes_.end(), std::uint64_t{0});
         if (all > most_bytes)
             fail(ErrorKind::limit, "the ranks have {} bytes to tell each other; {} are possible",
                  all, most_bytes);
-        std::vector<int> counts, places;
-        for (const auto size : sizes) {
-            places.push_back(counts.empty() ? 0 : places.back() + counts.back());
-            counts.push_back(static_cast<int>(size));
+        counts_.clear();
+        places_.clear();
+        for (const auto size : sizes_) {
+            places_.push_back(counts_.empty() ? 0 : places_.back() + counts_.back());
+            counts_.push_back(static_cast<int>(size));
         }
-        std::string text(all, '\0');
-        MPI_Iallgatherv(mine.data(), static_cast<int>(own), MPI_BYTE, text.data(), counts.data(),
-                        places.data(), MPI_BYTE, MPI_COMM_WORLD, &request);
-        wait(request);
+        all_said_.resize(all);
+        complete([&](MPI_Request* request) {
+            MPI_Iallgatherv(said_.data(), static_cast<int>(own), MPI_BYTE, all_said_.data(),
+                            counts_.data(), places_.data(), MPI_BYTE, MPI_COMM_WORLD, request);
+        });
         std::vector<std::string> parts;
-        for (std::size_t i = 0; i < sizes.size(); ++i)
-            parts.push_back(text.substr(static_cast<std::size_t>(places[i]), sizes[i]));
+        for (std::size_t i = 0; i < sizes_.size(); ++i)
+            parts.push_back(all_said_.substr(static_cast<std::size_t>(places_[i]), sizes_[i]));
         return parts;
     }
 
     void give(int to, const std::string& bytes) override {
         const std::uint64_t size = bytes.size();
-        MPI_Request request = MPI_REQUEST_NULL;
-        MPI_Isend(&size, 1, MPI_UINT64_T, to, data_tag, MPI_COMM_WORLD, &request);
-        wait(request);
-        for (std::uint64_t at = 0; at < size; at += most_bytes) {
-            const auto some = static_cast<int>(std::min(size - at, most_bytes));
-            MPI_Isend(bytes.data() + at, some, MPI_BYTE, to, data_tag, MPI_COMM_WORLD, &request);
-            wait(request);
-        }
+        complete([&](MPI_Request* request) {
+            MPI_Isend(&size, 1, MPI_UINT64_T, to, data_tag, MPI_COMM_WORLD, request);
+        });
+        for (std::uint64_t at = 0; at < size; at += most_bytes)
+            complete([&](MPI_Request* request) {
+                const auto some = static_cast<int>(std::min(size - at, most_bytes));
+                MPI_Isend(bytes.data() + at, some, MPI_BYTE, to, data_tag, MPI_COMM_WORLD, request);
+            });
     }
 
     std::string take(int from) override {
         std::uint64_t size = 0;
-        MPI_Request request = MPI_REQUEST_NULL;
-        MPI_Irecv(&size, 1, MPI_UINT64_T, from, data_tag, MPI_COMM_WORLD, &request);
-        wait(request);
+        complete([&](MPI_Request* request) {
+            MPI_Irecv(&size, 1, MPI_UINT64_T, from, data_tag, MPI_COMM_WORLD, request);
+        });
         std::string bytes(size, '\0');
-        for (std::uint64_t at = 0; at < size; at += most_bytes) {
-            const auto some = static_cast<int>(std::min(size - at, most_bytes));
-            MPI_Irecv(bytes.data() + at, some, MPI_BYTE, from, data_tag, MPI_COMM_WORLD, &request);
-            wait(request);
-        }
+        for (std::uint64_t at = 0; at < size; at += most_bytes)
+            complete([&](MPI_Request* request) {
+                const auto some = static_cast<int>(std::min(size - at, most_bytes));
+                MPI_Irecv(bytes.data() + at, some, MPI_BYTE, from, data_tag, MPI_COMM_WORLD,
+                          request);
+            });
         return bytes;
     }
 
   private:
     static constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30;  // of an int
-    static constexpr int data_tag = 1;  // messages of send() have 0
+    static constexpr int message_tag = 0;                                // of send()
+    static constexpr int data_tag = 1;                                   // of give()
+    static constexpr int failure_tag = 2;
 
-    /// Until it is done; others may need the core that would watch it.
-    static void wait(MPI_Request& request) {
+    /// Waits until what was started is done; others may need the core that would watch it.
+    /// @throws Error of another rank, which may never do its part
+    template <class Start>
+    void complete(const Start& start) {
+        MPI_Request request = MPI_REQUEST_NULL;
+        {
+            const std::lock_guard lock(mpi_);
+            start(&request);
+        }
         constexpr int eager = 200;  // looks
-        int finished = 0;
-        for (int looks = 0; finished == 0; ++looks) {
-            MPI_Test(&request, &finished, MPI_STATUS_IGNORE);
-            if (finished != 0) return;
+        for (int looks = 0;; ++looks) {
+            {
+                const std::lock_guard lock(mpi_);
+                int finished = 0;
+                MPI_Test(&request, &finished, MPI_STATUS_IGNORE);
+                if (finished != 0) return;
+                throw_heard();
+            }
             if (looks < eager)
                 std::this_thread::yield();
             else
-                std::this_thread::sleep_for(std::chrono::microseconds(50));
+                std::this_thread::sleep_for(50us);
+        }
+    }
+
+    /// The message that a probe has found.
+    static Message received(const MPI_Status& found) {
+        int size = 0;
+        MPI_Get_count(&found, MPI_BYTE, &size);
+        Message message{.from = found.MPI_SOURCE,
+                        .bytes = std::string(static_cast<std::size_t>(size), '\0')};
+        MPI_Recv(message.bytes.data(), size, MPI_BYTE, found.MPI_SOURCE, found.MPI_TAG,
+                 MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+        return message;
+    }
+
+    void send(int to, std::string bytes, int tag) {
+        Outgoing& message = outgoing_.emplace_back();
+        message.bytes = std::move(bytes);
+        MPI_Isend(message.bytes.data(), static_cast<int>(message.bytes.size()), MPI_BYTE, to, tag,
+                  MPI_COMM_WORLD, &message.request);
+    }
+
+    /// Takes what a rank told of its failure, if one did.
+    void hear_failure() {
+        int arrived = 0;
+        MPI_Status status;
+        MPI_Iprobe(MPI_ANY_SOURCE, failure_tag, MPI_COMM_WORLD, &arrived, &status);
+        if (arrived == 0 || heard_) return;
+        const Message message = received(status);
+        Unpacker from(message.bytes);
+        const auto kind = from.take<ErrorKind>();
+        const std::string what = from.take_text();
+        heard_.emplace(kind, what, from.take_text());
+    }
+
+    void throw_heard() const {
+        if (heard_) throw Error(*heard_);
+    }
+
+    void watch(const std::stop_token& done) {
+        while (!done.stop_requested()) {
+            std::this_thread::sleep_for(20ms);
+            const std::lock_guard lock(mpi_);
+            hear_failure();
+            if (!heard_) continue;
+            request_stop_();
+            return;
         }
     }
 
@@ -154,10 +244,20 @@ class MpiRanks : public Ranks {
     };
 
     std::stop_token stop_;
+    std::function<void()> request_stop_;
     int rank_ = 0;
     int size_ = 1;
     int on_machine_ = 1;
+    std::string host_;
+    std::mutex mpi_;              ///< held by who calls MPI
+    std::optional<Error> heard_;  ///< what ended another rank
+    bool failed_ = false;         ///< the others know, or have failed first
     std::list<Outgoing> outgoing_;
+    // What an exchange reads and writes, also after it was given up.
+    std::string said_, all_said_;
+    std::vector<std::uint64_t> sizes_;
+    std::vector<int> counts_, places_;
+    std::jthread watcher_;
 };
 
 }  // namespace
@@ -172,8 +272,8 @@ std::string mpi_version() {
     return text.substr(0, text.find_first_of(",\n"));
 }
 
-std::unique_ptr<Ranks> join_ranks(std::stop_token stop) {
-    return std::make_unique<MpiRanks>(std::move(stop));
+std::unique_ptr<Ranks> join_ranks(std::stop_token stop, std::function<void()> request_stop) {
+    return std::make_unique<MpiRanks>(std::move(stop), std::move(request_stop));
 }
 
 #else
@@ -182,7 +282,9 @@ bool has_mpi() { return false; }
 
 std::string mpi_version() { return {}; }
 
-std::unique_ptr<Ranks> join_ranks(std::stop_token) { return std::make_unique<Ranks>(); }
+std::unique_ptr<Ranks> join_ranks(std::stop_token, std::function<void()>) {
+    return std::make_unique<Ranks>();
+}
 
 #endif
 

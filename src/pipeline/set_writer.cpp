@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <list>
 #include <unordered_map>
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "io/carried_meta.hpp"
-#include "io/files.hpp"
+#include "io/output.hpp"
 
 namespace stipple {
 namespace {
@@ -95,13 +94,14 @@ Layout layout_of(const SetsToWrite& job, std::size_t first, std::size_t last,
 
 /// One file with sets [first, last) of the job.
 bool write_points(const SetsToWrite& job, const Layout& layout, std::size_t first, std::size_t last,
-                  const std::string& path, const Target& target, const RunContext& run) {
+                  const std::string& path, const Target& target, io::Outputs& outputs,
+                  const RunContext& run) {
     const Format& format = *target.format;
     check_format(format, layout);
     // What is wrong with the first source shall be known before anything is written.
     RunContext part = part_of_run(run, first, job.sets).rising();
     NextRows next = job.source(first, part);
-    io::Output output = target.sink ? io::Output(target.sink) : io::Output(path, run.stop);
+    io::Output& output = target.sink ? outputs.add(target.sink) : outputs.add(path, run.stop);
     std::string bytes;
     if (format.head) format.head(layout, bytes);
     for (std::size_t set = first; set < last; ++set) {
@@ -115,9 +115,7 @@ bool write_points(const SetsToWrite& job, const Layout& layout, std::size_t firs
         if (!write_rows(next, job, layout, target, set - first, output, part)) return false;
     }
     if (format.tail) format.tail(layout, bytes);
-    if (!output.write(bytes)) return false;
-    output.commit();
-    return true;
+    return output.write(bytes);
 }
 
 /// Provenance for a file beside the points, where the format has no place for it; else nothing.
@@ -151,22 +149,20 @@ void check_seeds(const SetsToWrite& job, const Target& target) {
     }
 }
 
-/// The points and what comes with them: all of it or, when it fails, nothing. Who closes the pipe
-/// has seen enough of the points, but did not say so of the other files.
+/// The points and what comes with them. Who closes the pipe has seen enough of the points, but did
+/// not say so of the other files.
 bool write_file(const SetsToWrite& job, std::size_t first, std::size_t last,
-                const std::string& path, const Target& target, const RunContext& run) {
+                const std::string& path, const Target& target, io::Outputs& outputs,
+                const RunContext& run) {
     const Layout layout = layout_of(job, first, last, target);
-    std::list<io::Output> beside;
     const auto put = [&](const std::string& name, const std::string& bytes) {
-        beside.emplace_back(name, run.stop).write(bytes);
+        outputs.add(name, run.stop).write(bytes);
     };
     for (std::size_t set = first; set < last && job.side_files; ++set)
         for (const SideFile& file : job.side_files(set)) put(file.path, file.bytes);
     if (const auto meta = meta_beside(layout, path, target, run); !meta.empty())
         put(io::meta_path(path), meta);
-    const bool whole = write_points(job, layout, first, last, path, target, run);
-    for (io::Output& file : beside) file.commit();
-    return whole;
+    return write_points(job, layout, first, last, path, target, outputs, run);
 }
 
 }  // namespace
@@ -207,17 +203,27 @@ std::string path_of_set(std::string path, std::size_t set, std::uint64_t seed) {
 }
 
 bool write_files(const SetsToWrite& job, const Target& asked, const RunContext& run) {
+    io::Outputs outputs;
+    const bool whole = write_files(job, asked, outputs, run);
+    outputs.commit();
+    return whole;
+}
+
+bool write_files(const SetsToWrite& job, const Target& asked, io::Outputs& outputs,
+                 const RunContext& run) {
     if (asked.take) {
         asked.take(job);
         return true;
     }
     Target target = asked;
     target.format = &format_of(asked);
-    if (!file_per_set(target.path)) return write_file(job, 0, job.sets, target.path, target, run);
+    if (!file_per_set(target.path))
+        return write_file(job, 0, job.sets, target.path, target, outputs, run);
     check_seeds(job, target);
     for (std::size_t set = 0; set < job.sets; ++set) {
         const auto path = path_of_set(target.path, job.first_set + set, seed_of_set(job, set));
-        if (!write_file(job, set, set + 1, path, target, run)) return false;
+        if (set % 1024 == 0) run.need_memory(0, "the list of files");
+        if (!write_file(job, set, set + 1, path, target, outputs, run)) return false;
     }
     return true;
 }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "io/format.hpp"
+#include "io/output.hpp"
 #include "pipeline/generated.hpp"
 
 namespace stipple {
@@ -77,10 +78,14 @@ bool file_per_set(const std::string& path);
 /// The path with {set} and {seed} filled in.
 std::string path_of_set(std::string path, std::size_t set, std::uint64_t seed);
 
-/// Writes the sets to the target's file or files, and what comes with them. False: the pipe was
-/// closed.
+/// Writes the sets to the target's file or files, and what comes with them: all of these or, when
+/// something fails, none. False: the pipe was closed.
 /// @throws Error
 bool write_files(const SetsToWrite& job, const Target& target, const RunContext& run);
+
+/// The same, but leaves the files to be put in place with others.
+bool write_files(const SetsToWrite& job, const Target& target, io::Outputs& outputs,
+                 const RunContext& run);
 
 /// The part of a run's progress that one of several sets is.
 RunContext part_of_run(const RunContext& run, std::size_t set, std::size_t sets);

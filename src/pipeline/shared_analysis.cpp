@@ -3,30 +3,39 @@
 
 #include <algorithm>
 #include <new>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
+#include "core/bytes/fingerprint.hpp"
 #include "core/bytes/packed.hpp"
 #include "core/error.hpp"
+#include "io/feed.hpp"
 
 namespace stipple {
 namespace {
 
-/// What went wrong, for the others; empty: nothing.
-std::string trouble_of(const std::function<void()>& work) {
-    const auto packed = [](ErrorKind kind, std::string_view what, std::string_view hint) {
-        return Packer().put(kind).put_all(what).put_all(hint).take();
-    };
+/// What went wrong on a rank.
+struct Trouble {
+    ErrorKind kind = ErrorKind::io;
+    std::string what, hint, host;
+
+    [[nodiscard]] bool is_that_of(const Trouble& other) const {
+        return kind == other.kind && what == other.what && hint == other.hint;
+    }
+};
+
+std::optional<Trouble> trouble_of(const std::function<void()>& work, const std::string& host) {
     try {
         work();
     } catch (const Error& e) {
-        return packed(e.kind(), e.what(), e.hint());
+        return Trouble{e.kind(), e.what(), e.hint(), host};
     } catch (const std::bad_alloc&) {
-        return packed(ErrorKind::limit, "out of memory", "");
+        return Trouble{ErrorKind::limit, "out of memory", "", host};
     } catch (const std::exception& e) {
-        return packed(ErrorKind::io, fmt::format("internal error: {}", e.what()), "");
+        return Trouble{ErrorKind::io, fmt::format("internal error: {}", e.what()), "", host};
     }
-    return {};
+    return std::nullopt;
 }
 
 /// The points [first, last) of a set.
@@ -84,6 +93,15 @@ struct FileFacts {
     std::string domain = {};
 };
 
+std::uint64_t fingerprint_of(const std::string& path, const RunContext& run) {
+    io::Feed feed(path, run);
+    std::string bytes(io::Feed::front_size, '\0');
+    std::uint64_t hash = fingerprint(std::string_view());
+    while (const std::size_t size = feed.read(bytes))
+        hash = fingerprint(std::string_view(bytes).substr(0, size), hash);
+    return hash;
+}
+
 FileFacts facts_of(const std::string& path, const io::Opener& open) {
     const auto stream = open(path);
     if (!stream->next_set()) fail(ErrorKind::input, "{}: it holds no points", path);
@@ -94,6 +112,21 @@ FileFacts facts_of(const std::string& path, const io::Opener& open) {
         fail_with_hint(ErrorKind::input, "'stipple study' shares many sets",
                        "{}: it holds several sets; ranks share one", path);
     return facts;
+}
+
+/// Ranks may have files of their own under one name.
+/// @throws Error(input) where these do not hold the same bytes
+void check_same_bytes(const std::vector<std::string>& paths, std::vector<Unpacker>& told,
+                      Peers& peers) {
+    for (const auto& path : paths) {
+        const auto bytes = told[0].take<std::uint64_t>();
+        for (std::size_t rank = 1; rank < told.size(); ++rank) {
+            if (told[rank].take<std::uint64_t>() == bytes) continue;
+            peers.end_together();
+            fail(ErrorKind::input, "{}: rank {} has another file of that name than rank 0", path,
+                 rank);
+        }
+    }
 }
 
 void check_alike(const std::vector<std::string>& paths, const std::vector<FileFacts>& facts) {
@@ -123,20 +156,41 @@ void merge(SharedAccumulator* measure, Ranks& ranks, const RunContext& run) {
 }  // namespace
 
 void agreed(Peers& peers, const std::function<void()>& work) {
-    for (const auto& trouble : peers.exchange(trouble_of(work))) {
-        if (trouble.empty()) continue;
-        Unpacker from(trouble);
-        const auto kind = from.take<ErrorKind>();
-        const std::string what = from.take_text();
-        throw Error(kind, what, from.take_text());
+    const auto mine = trouble_of(work, peers.host());
+    Packer packer;
+    if (mine) packer.put(mine->kind).put_all(mine->what).put_all(mine->hint).put_all(mine->host);
+    std::optional<Trouble> first;
+    int rank = 0;
+    bool same = true;
+    const auto said = peers.exchange(packer.take());
+    for (std::size_t i = 0; i < said.size(); ++i) {
+        if (said[i].empty()) {
+            same = false;
+            continue;
+        }
+        Unpacker from(said[i]);
+        Trouble here;
+        here.kind = from.take<ErrorKind>();
+        here.what = from.take_text();
+        here.hint = from.take_text();
+        here.host = from.take_text();
+        same = same && (!first || here.is_that_of(*first));
+        if (first) continue;
+        first = std::move(here);
+        rank = static_cast<int>(i);
     }
+    if (!first) return;
+    peers.end_together();
+    const std::string who = same ? "" : fmt::format("rank {} on {}: ", rank, first->host);
+    throw Error(first->kind, who + first->what, first->hint);
 }
 
 SharedSet shared_in_files(const std::vector<std::string>& paths, const io::Opener& open,
-                          Peers& peers) {
+                          Peers& peers, const RunContext& run) {
     const auto size = static_cast<std::size_t>(peers.size());
     Packer packer;
     agreed(peers, [&] {
+        for (const auto& path : paths) packer.put(fingerprint_of(path, run));
         for (auto i = static_cast<std::size_t>(peers.rank()); i < paths.size(); i += size) {
             const FileFacts facts = facts_of(paths[i], open);
             packer.put(facts.count).put(facts.dimension).put_all(facts.domain);
@@ -144,6 +198,7 @@ SharedSet shared_in_files(const std::vector<std::string>& paths, const io::Opene
     });
     const auto all = peers.exchange(packer.take());
     std::vector<Unpacker> told(all.begin(), all.end());
+    check_same_bytes(paths, told, peers);
     std::vector<FileFacts> facts(paths.size());
     std::uint64_t count = 0;
     for (std::size_t i = 0; i < paths.size(); ++i) {
@@ -180,9 +235,8 @@ std::optional<Found> analyze_shared(const Analyzer& analyzer, const SharedSet& s
                                     const Values& options, Ranks& ranks, const RunContext& run) {
     if (set.points.count == 0U)
         fail(ErrorKind::input, "{} needs at least one point; the set is empty", analyzer.name);
-    RunContext mine = run;
+    RunContext mine = run.share_of_memory(static_cast<std::uint64_t>(ranks.on_machine()));
     mine.threads = threads_of(ranks, run);
-    mine.max_memory = run.max_memory / static_cast<std::uint64_t>(ranks.on_machine());
     std::shared_ptr<SharedAccumulator> measure;
     agreed(ranks, [&] { measure = counted_in(analyzer, set, options, ranks, mine); });
     mine.progress = {};

@@ -33,10 +33,10 @@ struct SharedSet {
 SharedSet shared_in_memory(PointSet points);
 
 /// Files of one set each, one after the other, that all ranks can read; said to be on the unit cube.
-/// Counts their points; the ranks share the files.
+/// Counts their points; the ranks share the files, which must hold the same bytes everywhere.
 /// @throws Error(input), on all ranks, as io::join_points does
 SharedSet shared_in_files(const std::vector<std::string>& paths, const io::Opener& open,
-                          Peers& peers);
+                          Peers& peers, const RunContext& run);
 
 /// Measures the set by an analyzer that takes parts of it; rank 0 gets what was found.
 /// @throws Error, the same on all ranks unless rank 0's report is at fault

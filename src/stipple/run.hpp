@@ -35,6 +35,9 @@ struct RunContext {
     /// Bytes that a computation may plan to use.
     std::uint64_t max_memory = std::numeric_limits<std::uint64_t>::max();
 
+    /// Bytes that are in use and count towards max_memory, such as the points; empty: none do.
+    std::function<std::uint64_t()> memory_in_use = {};
+
     /// Number of threads meant by `threads`, at least 1.
     [[nodiscard]] unsigned thread_count() const;
 
@@ -53,10 +56,17 @@ struct RunContext {
     /// The part of a run whose progress is what lies between two fractions of the whole.
     [[nodiscard]] RunContext stage(double from, double to) const;
 
+    /// Bytes of max_memory that are not in use.
+    [[nodiscard]] std::uint64_t memory_left() const;
+
+    /// This run for one of several workers that share what is left of the memory.
+    [[nodiscard]] RunContext share_of_memory(std::uint64_t workers) const;
+
     /// Gives the user a sentence, if anybody listens.
     void notify(const std::string& sentence) const;
 
-    /// @throws Error(limit) naming `what` when it would need more than max_memory.
+    /// @throws Error(limit) naming `what` when it would need more than max_memory, together with
+    /// what is in use.
     void need_memory(double bytes, std::string_view what) const;
 };
 

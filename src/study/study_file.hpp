@@ -27,7 +27,7 @@
 #include <vector>
 
 #include "core/json.hpp"
-#include "io/files.hpp"
+#include "io/output.hpp"
 #include "study/study_table.hpp"
 #include "study/sweep.hpp"
 #include "study/unit_runner.hpp"

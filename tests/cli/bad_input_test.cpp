@@ -4,8 +4,13 @@
 // file left or harmed.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
 #include <unistd.h>
+
+#include <algorithm>
+#include <map>
 
 #include "support/program.hpp"
 
@@ -29,6 +34,30 @@ std::string npy_header() {
     std::string text = "{'descr': '<f8', 'fortran_order': False, 'shape': (2, 2), }";
     text.resize(117, ' ');
     return std::string("\x93NUMPY\x01\x00\x76\x00", 10) + text + "\n";
+}
+
+/// What stands in the way of a file, in a folder of its own.
+void put_odd_things(const Sandbox& box) {
+    box.write("points.csv", "x,y\n0.5,0.25\n0.25,0.5\n");
+    box.write("empty.csv", "");
+    std::filesystem::create_directory(box.path() / "folder");
+    for (const auto& [target, link] : {std::pair{"nowhere.csv", "dangling.csv"},
+                                       {"circle.csv", "circle.csv"},
+                                       {"points.csv", "link.csv"}})
+        std::filesystem::create_symlink(target, box.path() / link);
+    sockaddr_un address{.sun_family = AF_UNIX, .sun_path = {}};
+    const std::string path = box.path() / "socket.csv";
+    ASSERT_LT(path.size(), sizeof address.sun_path);
+    std::ranges::copy(path, address.sun_path);
+    const int listener = ::socket(AF_UNIX, SOCK_STREAM, 0);
+    ASSERT_EQ(::bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    ::close(listener);
+}
+
+/// Shell words for the size of the file that a process writes and that has no name yet; 0: none.
+std::string unnamed_bytes(const std::string& pid) {
+    return "$(find -L /proc/" + pid +
+           "/fd -type f -links 0 -printf '%s\\n' 2>/dev/null | grep . || echo 0)";
 }
 
 }  // namespace
@@ -63,6 +92,53 @@ TEST(BadInput, NoSuchFile) {
 TEST(BadInput, ADirectory) {
     const Sandbox box;
     expect_refusal(box.run({"analyze", "star-discrepancy", "."}), 4, "folder");
+}
+
+TEST(BadInput, OddInputsEndWithOneLineAndTheRightCode) {
+    const Sandbox box;
+    put_odd_things(box);
+    good(box.run({"analyze", "moments", "link.csv"}));
+    EXPECT_THAT(
+        good(box.shell("mkfifo fifo; (cat points.csv > fifo &); stipple convert fifo; rm fifo")),
+        HasSubstr("0.25"));
+    for (const auto& [name, code] : std::map<std::string, int>{{"empty.csv", 3},
+                                                               {"/dev/null", 3},
+                                                               {"folder", 4},
+                                                               {"dangling.csv", 4},
+                                                               {"circle.csv", 4},
+                                                               {"socket.csv", 4},
+                                                               {"missing.csv", 4},
+                                                               {"points.csv/x", 4}})
+        for (const std::vector<std::string>& verb : {std::vector<std::string>{"analyze", "moments"},
+                                                     {"convert", "-f", "csv"},
+                                                     {"plot", "-f", "svg"},
+                                                     {"report"},
+                                                     {"warp", "disk"}}) {
+            std::vector<std::string> words = verb;
+            words.push_back(name);
+            expect_refusal(box.run(words), code, name);
+        }
+}
+
+TEST(BadInput, OddOutputsEndWithOneLineAndTheRightCode) {
+    const Sandbox box;
+    put_odd_things(box);
+    const auto written = [&](const std::string& name) {
+        return box.run({"generate", "halton", "-n", "20000", "-f", "csv", "-o", name});
+    };
+    for (const char* name : {"folder", "circle.csv", "socket.csv", "/dev/full", "missing/x.csv",
+                             "points.csv/x.csv", "/proc/x.csv"})
+        expect_refusal(written(name), 4, name);
+    for (const char* name : {"link.csv", "dangling.csv", "/dev/null"}) good(written(name));
+    EXPECT_TRUE(std::filesystem::is_symlink(box.path() / "link.csv"));
+    EXPECT_GT(box.read("points.csv").size(), 100'000U);
+    EXPECT_GT(box.read("nowhere.csv").size(), 100'000U);
+    for (const std::string command : {"list", "help", "analyze moments link.csv",
+                                      "generate halton -n 1e6", "plot -f svg link.csv"}) {
+        const Outcome closed = box.shell("set +o pipefail; stipple " + command + " | true");
+        EXPECT_EQ(closed.err, "") << command;
+        expect_refusal(box.shell("stipple " + command + " > /dev/full"), 4, "stdout");
+    }
 }
 
 TEST(BadInput, EmptyFiles) {
@@ -234,21 +310,21 @@ TEST(BadInput, AFailureLeavesTheOldTargetAlone) {
 
 TEST(BadInput, CtrlCLeavesNothingBehind) {
     const Sandbox box;
+    const std::string start = "stipple generate random -n 1e10 -o p.csv 2>&1 & until [ " +
+                              unnamed_bytes("$!") + " -gt 0 ]; do sleep 0.01; done; ";
     for (const std::string signal : {"INT", "TERM", "HUP"}) {
-        const Outcome outcome = box.shell(
-            "stipple generate random -n 1e10 -o p.csv & until [ -s .stipple-*.part ]; do "
-            "sleep 0.01; done; kill -" +
-            signal + " $!; wait $!");
-        expect_refusal(outcome, 130, "interrupted");
+        const Outcome outcome = box.shell(start + "kill -" + signal + " $!; wait $!");
+        EXPECT_EQ(outcome.code, 130);
+        EXPECT_EQ(outcome.out, "stipple: interrupted\n");
         EXPECT_EQ(box.files(), std::vector<std::string>{});
     }
+    EXPECT_EQ(box.shell(start + "kill -KILL $!; wait $!").code, 137);
+    EXPECT_EQ(box.files(), std::vector<std::string>{});
     // What nohup started goes on.
-    const Outcome nohup = box.shell(
-        "nohup stipple generate random -n 1e10 -o p.csv 2>/dev/null & until [ -s .stipple-*.part "
-        "]; "
-        "do sleep 0.01; done; kill -HUP $!; size=$(stat -c %s .stipple-*.part); until [ $(stat -c "
-        "%s "
-        ".stipple-*.part) -gt $((size + 100000)) ]; do sleep 0.01; done; kill -TERM $!; wait $!");
+    const Outcome nohup =
+        box.shell("nohup " + start + "kill -HUP $!; size=" + unnamed_bytes("$!") + "; until [ " +
+                  unnamed_bytes("$!") +
+                  " -gt $((size + 100000)) ]; do sleep 0.01; done; kill -TERM $!; wait $!");
     EXPECT_EQ(nohup.code, 130);
     const Outcome walking =
         box.shell("stipple generate random --rng ranlux48 --start 1e15 -n 1 & pid=$!; " +
@@ -286,6 +362,47 @@ TEST(BadInput, TextOfStrangersIsShownAndNotObeyed) {
         good(box.run({*format == 's' ? "plot" : "report", name, "-o", file}));
         EXPECT_EQ(box.read(file).find('\x1b'), std::string::npos) << format;
     }
+}
+
+TEST(BadInput, LongWordsAreNotRepeated) {
+    const Sandbox box;
+    const std::string word(100'000, 'q');
+    using Words = std::vector<std::string>;
+    for (const Words& words :
+         {Words{word}, Words{"generate", word}, Words{"generate", "halton", "-n", word},
+          Words{"generate", "halton", "--" + word},
+          Words{"generate", "halton", "-w", "disk:" + word},
+          Words{"analyze", "moments", "--column", word}, Words{"convert", "-o", word},
+          Words{"list", word}, Words{"help", word}, Words{"study", "--generators", word}}) {
+        const Outcome outcome = box.run(words);
+        EXPECT_TRUE(outcome.code == 2 || outcome.code == 4) << words.front() << outcome.code;
+        EXPECT_LT(outcome.err.size(), 3000U) << outcome.err.substr(0, 100);
+    }
+}
+
+// What there is to remark is said with a result; an error stands alone.
+TEST(BadInput, AnErrorIsOneLineWhateverThereIsToRemark) {
+    const Sandbox box;
+    const std::string remarked = "stipple generate sobol -n 1000 ";
+    EXPECT_THAT(box.shell(remarked).err, HasSubstr("1000"));
+    expect_refusal(box.shell(remarked + "-w expression-2d:density=x-2"), 2, "density");
+    expect_refusal(box.shell(remarked + "-o missing/p.csv"), 4, "missing");
+}
+
+TEST(BadInput, DomainsThatDoNotFitNameTheFile) {
+    const Sandbox box;
+    box.write("p.csv", "x,y\n0.5,0.25\n0.25,0.5\n");
+    for (const std::string command : {"report -o x.html", "plot -o x.svg", "analyze moments"})
+        expect_refusal(box.shell("stipple " + command + " p.csv --domain sphere"), 3,
+                       "p.csv: the domain sphere has dimension 3; the points have 2");
+}
+
+TEST(BadInput, NamesMayBeginWithADash) {
+    const Sandbox box;
+    box.write("-x.csv", "x,y\n0.5,0.25\n0.25,0.5\n");
+    good(box.run({"analyze", "moments", "--", "-x.csv"}));
+    good(box.run({"convert", "-f", "json", "--", "-x.csv"}));
+    expect_refusal(box.run({"analyze", "moments", "-x.csv"}), 2, "-x.csv");
 }
 
 // The exact value needs hours.

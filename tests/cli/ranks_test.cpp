@@ -2,9 +2,14 @@
 //
 // One set, analyzed by several ranks of MPI. What they find together is tested with many more of
 // them, as threads, in tests/study/shared_analysis_test.cpp.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <filesystem>
+
+#include "core/text.hpp"
 #include "places.hpp"
 #include "support/launcher.hpp"
 #include "support/program.hpp"
@@ -74,6 +79,63 @@ TEST(Ranks, NameTheFileThatIsAtFault) {
         EXPECT_THAT(one.err, HasSubstr("outside.csv: 1 of "));
         EXPECT_THAT(two.err, HasSubstr(one.err));
     }
+}
+
+// Rank 1 has a folder, a memory or an output of its own. Whatever fails there, and whenever, the others
+// do not wait for it, and one line says where it was.
+TEST(Ranks, EndTogetherWhereOneFails) {
+    if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
+    const Sandbox box;
+    if (!can_launch()) GTEST_SKIP() << "no MPI, or no launcher";
+    for (const char* folder : {"missing", "torn", "different", "folder"})
+        std::filesystem::create_directory(box.path() / folder);
+    good(box.shell("stipple generate random -n 20000 -d 3 -o p.csv"));
+    good(box.shell("stipple generate random -n 20000 -d 3 -s 2 -o different/p.csv"));
+    const auto size = box.read("p.csv").size();
+    for (const char* name : {"different/p.csv", "torn/p.csv"}) {
+        std::string bytes = box.read(*name == 'd' ? name : "p.csv").substr(0, size - 30);
+        bytes.resize(size, *name == 'd' ? '\n' : 'x');
+        box.write(name, bytes);
+    }
+    box.write("c.json", R"({"generators":["random"],"counts":[16],"analyze":["moments"]})");
+    std::filesystem::create_directory(box.path() / "folder/p.csv");
+    const auto failing = [&](int ranks, const std::string& there, const std::string& command) {
+        box.write("rank.sh", "[ $OMPI_COMM_WORLD_RANK != 1 ] || " + there + "\nexec \"$@\"\n");
+        const Outcome outcome =
+            box.shell(fmt::format("{}-n {} timeout 60 sh rank.sh "
+                                  "stipple {} < /dev/null",
+                                  mpirun, ranks, command));
+        EXPECT_EQ(outcome.out, "") << command;
+        std::string said;
+        for (const auto line : split(outcome.err, '\n'))
+            if (line.starts_with("stipple: ")) said += std::string(line) + "\n";
+        return fmt::format("{} {}", outcome.code, said);
+    };
+    char host[256] = {};
+    ::gethostname(host, sizeof host - 1);
+    const std::string rank_1 = fmt::format("stipple: rank 1 on {}: ", host);
+    for (const int ranks : {2, 3}) {
+        const auto analysis = [&](const std::string& there) {
+            return failing(ranks, there, "analyze chi-square p.csv");
+        };
+        EXPECT_EQ(analysis("cd missing"), "4 " + rank_1 + "p.csv: no such file\n");
+        EXPECT_EQ(analysis("cd folder"), "4 " + rank_1 + "p.csv: is a folder, not a file\n");
+        EXPECT_THAT(analysis("cd torn"), HasSubstr("3 stipple: p.csv: rank 1 has another file"));
+        EXPECT_THAT(analysis("cd different"), HasSubstr("3 stipple: p.csv: rank 1 has another"));
+        EXPECT_THAT(analysis("set -- \"$@\" --max-memory 10k"), HasSubstr("5 " + rank_1));
+    }
+    EXPECT_THAT(failing(2, "cd missing", "study --config c.json -o s.csv"),
+                HasSubstr("4 " + rank_1 + "c.json: no such file"));
+}
+
+// mpirun gives its first process a terminal, wherever its own output goes.
+TEST(Ranks, OfWhichThereIsOneWriteAsIfAlone) {
+    if (sanitized()) GTEST_SKIP() << "MPI's own leaks are not ours";
+    const Sandbox box;
+    if (!can_launch()) GTEST_SKIP() << "no MPI, or no launcher";
+    good(box.shell("stipple generate random -n 100 -o p.csv"));
+    good(box.shell(mpirun + "-n 1 stipple analyze moments p.csv < /dev/null > r.json"));
+    EXPECT_TRUE(box.read("r.json").starts_with("{"));
 }
 
 TEST(Ranks, AreToldByTheVersion) {

@@ -228,4 +228,28 @@ TEST(Layering, PointsComeFromNoClockAndNoStandardDistribution) {
         expect_nowhere(forbidden, folder);
 }
 
+// Text of strangers reaches nobody raw: messages leave by say_line(), which makes it printable, and no
+// file but these writes anything.
+TEST(Layering, MessagesLeaveInOnePlace) {
+    const std::regex prints(
+        R"re(std::c(out|err|log)\b|\b(puts|f?printf|fputs|fwrite|perror)\(|::write\(\w)re");
+    const std::set<std::string> writers = {"cli/original.cpp", "cli/session.cpp", "io/output.cpp",
+                                           "study/study_file.cpp"};
+    for (const auto& place : line)
+        for (const auto& folder : place)
+            for (const auto& file : files_of(folder)) {
+                if (writers.contains(std::filesystem::relative(file, src))) continue;
+                std::ifstream in(file);
+                for (std::string text; std::getline(in, text);) {
+                    text.erase(std::min(text.find("//"), text.size()));
+                    EXPECT_FALSE(std::regex_search(text, prints)) << file << ": " << text;
+                }
+            }
+    std::ifstream in(src / "cli/session.cpp");
+    for (std::string statement; std::getline(in, statement, ';');)
+        EXPECT_TRUE(statement.find("say(fmt::format(") == statement.npos ||
+                    statement.find("printable(") != statement.npos)
+            << statement;
+}
+
 }  // namespace stipple::testing::layering_test

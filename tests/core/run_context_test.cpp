@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "support/units.hpp"
+
 namespace stipple::testing::run_context_test {
 
 // Stages lie one behind the other, and what goes beyond its own end stays at it.
@@ -30,6 +32,21 @@ TEST(RunContext, TicksWithWordsForWhereItStands) {
     run.stage(0, 0.5).tick(1, 1, "between 1 and 2");
     run.tick(1, 1);
     EXPECT_EQ(seen, (std::vector<std::string>{"between 1 and 2", "part", "all"}));
+}
+
+// What is held already counts, and workers share what is left.
+TEST(RunContext, MemoryInUseCountsTowardsTheLimit) {
+    RunContext run{.max_memory = 1000, .memory_in_use = [] { return std::uint64_t{600}; }};
+    EXPECT_EQ(error_of([&] { run.need_memory(400, "it"); }), "");
+    EXPECT_EQ(error_of([&] { run.need_memory(401, "it"); }),
+              "limit: it needs 401 B of memory, besides 600 B in use; the limit is 1000 B");
+    EXPECT_EQ(error_of([&] { run.need_memory(1001, "it"); }),
+              "limit: it needs 1001 B of memory; the limit is 1000 B");
+    const RunContext share = run.share_of_memory(4);
+    EXPECT_EQ(error_of([&] { share.need_memory(100, "it"); }), "");
+    EXPECT_NE(error_of([&] { share.need_memory(101, "it"); }), "");
+    EXPECT_EQ(error_of([&] { run.share_of_memory(1).need_memory(400, "it"); }), "");
+    EXPECT_NE(error_of([&] { run.share_of_memory(1).need_memory(401, "it"); }), "");
 }
 
 }  // namespace stipple::testing::run_context_test

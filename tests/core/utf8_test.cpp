@@ -32,4 +32,16 @@ TEST(Utf8, ShowsTheFrontOfLongText) {
     EXPECT_EQ(shown(letters), "'" + letters.substr(0, 160) + "...' (162 bytes)");
 }
 
+// Words that somebody gave stand in messages; those of usual length, and many of them, stay whole.
+TEST(Utf8, MessagesOfLongWordsAreCutShort) {
+    const std::string usual = "no 'generator': known are " + std::string(900, 'b') + " and c";
+    EXPECT_EQ(cut_short(usual), usual);
+    EXPECT_EQ(cut_short("no '" + std::string(100'000, 'a') + "' here"),
+              "no '" + std::string(79, 'a') + "... (100003 bytes) here");
+    std::string many;
+    for (int i = 0; i < 50'000; ++i) many += "é ";
+    EXPECT_LT(cut_short(many).size(), 8100U);
+    EXPECT_TRUE(cut_short(many).ends_with("... (150000 bytes)"));
+}
+
 }  // namespace stipple::testing::utf8_test

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,13 +11,16 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <thread>
 
 #include "io/io_support.hpp"
+#include "io/output.hpp"
 
 namespace stipple::testing::files_test {
 
 namespace fs = std::filesystem;
+using namespace std::chrono_literals;
 
 namespace {
 
@@ -98,6 +102,26 @@ TEST_F(Files, InputHonoursTheMemoryLimit) {
     EXPECT_TRUE(error.starts_with("limit: the bytes of /dev/zero needs")) << error;
 }
 
+// What grows, shrinks or is written anew between its first and last byte is not one file.
+TEST_F(Files, InputThatChangesWhileItIsReadIsNamed) {
+    const std::string bytes(3 * io::Feed::front_size, 'x');
+    const std::vector<std::function<void()>> changes = {
+        [&] { fs::resize_file(path("a"), io::Feed::front_size + 10); },
+        [&] { std::ofstream(path("a"), std::ios::app) << "more"; },
+        [&] { fs::last_write_time(path("a"), fs::file_time_type::clock::now() + 1h); },
+        [] {},
+    };
+    for (const auto& change : changes) {
+        put("a", bytes);
+        io::Feed feed(path("a"), {});
+        change();
+        std::string taken(bytes.size() + 100, '\0');
+        const std::string error = error_of([&] { feed.read(taken); });
+        const bool last = &change == &changes.back();
+        EXPECT_EQ(error, last ? "" : "io: " + path("a") + ": the file changed while it was read");
+    }
+}
+
 TEST_F(Files, OutputAppearsWhenItIsWhole) {
     {
         io::Output out(path("a.csv"));
@@ -122,12 +146,58 @@ TEST_F(Files, OutputLeavesNothingBehind) {
     EXPECT_EQ(get("old.csv"), "old");
 }
 
+// A killed process leaves nothing: until commit() the bytes have no name.
+TEST_F(Files, OutputHasNoNameBeforeItIsWhole) {
+    io::Output out(path("a.csv"));
+    out.write("half");
+    if (::open(folder.c_str(), O_TMPFILE | O_WRONLY, 0600) < 0)
+        GTEST_SKIP() << "the file system has no files without a name";
+    EXPECT_EQ(entries(), 0U);
+}
+
+TEST_F(Files, OutputsAppearTogetherOrNotAtAll) {
+    put("old.csv", "old");
+    {
+        io::Outputs failing;
+        failing.add(path("new.csv")).write("new");
+        failing.add(path("old.csv")).write("new");
+        EXPECT_NE(error_of([&] { failing.add(path("none/a.csv")); }), "");
+    }
+    EXPECT_EQ(entries(), 1U);
+    EXPECT_EQ(get("old.csv"), "old");
+
+    // Whose place is taken by a folder while it is written cannot be put there.
+    io::Outputs halfway;
+    halfway.add(path("old.csv")).write("new");
+    halfway.add(path("folder")).write("new");
+    fs::create_directory(path("folder"));
+    const std::string error = error_of([&] { halfway.commit(); });
+    EXPECT_TRUE(error.starts_with("io: " + path("folder") + ": ")) << error;
+    EXPECT_TRUE(error.ends_with("; in place already: " + path("old.csv"))) << error;
+}
+
+// As many files as a command may have, with fewer descriptors than files.
+TEST_F(Files, OutputsMayBeMoreThanTheSystemLetsBeOpen) {
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+    const rlimit few{.rlim_cur = 80, .rlim_max = before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &few), 0);
+    {
+        io::Outputs many;
+        for (int i = 0; i < 200; ++i) many.add(path(std::to_string(i))).write("bytes");
+        many.commit();
+    }
+    ::setrlimit(RLIMIT_NOFILE, &before);
+    EXPECT_EQ(entries(), 200U);
+    EXPECT_EQ(get("199"), "bytes");
+}
+
 TEST_F(Files, OutputKeepsTheModeOfWhatItReplaces) {
     const auto mode_of = [&](const char* name) {
         return fs::status(path(name)).permissions() & fs::perms::all;
     };
     put("old.csv", "old");
-    fs::permissions(path("old.csv"), fs::perms(0640));
+    fs::permissions(path("old.csv"), fs::perms(06640));  // but not setuid and setgid
     io::Output again(path("old.csv"));
     again.write("new");
     again.commit();

@@ -200,7 +200,7 @@ TEST(SharedFiles, GiveThePointsFromAnyPlace) {
     };
     for (const int ranks : {1, 2, 5})
         with_ranks(ranks, [&](Ranks& mine) {
-            const SharedSet shared = shared_in_files(paths, open, mine);
+            const SharedSet shared = shared_in_files(paths, open, mine, {});
             EXPECT_EQ(shared.points.count, 1000U);
             EXPECT_EQ(shared.points.dimension(), 3U);
             for (const std::size_t first : {0, 9, 10, 11, 500, 700, 999}) {
@@ -220,7 +220,7 @@ TEST(SharedFiles, FailOnAllRanksWithTheFirstError) {
     std::atomic<int> failed = 0;
     with_ranks(3, [&](Ranks& mine) {
         try {
-            shared_in_files({"/no/such/a.csv", "/no/such/b.csv"}, open, mine);
+            shared_in_files({"/no/such/a.csv", "/no/such/b.csv"}, open, mine, {});
         } catch (const Error& e) {
             EXPECT_STREQ(e.what(), "/no/such/a.csv: no such file");
             ++failed;

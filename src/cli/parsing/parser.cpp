@@ -195,6 +195,9 @@ Arguments parse_arguments(int argc, const char* const* argv) {
     const VerbInfo* info = words.empty() ? nullptr : find_verb(words.front());
     if (info == nullptr) return parse_without_verb(words);
     words.erase(words.begin());
+    const auto mark = std::ranges::find(words, "--");  // behind it all words are inputs
+    std::vector<std::string> inputs(mark, words.end());
+    words.erase(mark, words.end());
     const Verb verb = info->verb;
     const Kind* kind = units_for(info->name);
     if (verb == Verb::analyze) complete_checks(words);
@@ -210,6 +213,10 @@ Arguments parse_arguments(int argc, const char* const* argv) {
     }
     Arguments arguments{.verb = verb, .unit = {}, .inputs = {}, .common = {}, .settings = {}};
     const auto rest = take_words(std::move(words), kind != nullptr, unit, arguments);
+    if (verb == Verb::generate && inputs.size() > 1)
+        fail(ErrorKind::usage, "unexpected argument '{}'", inputs[1]);
+    if (!inputs.empty())
+        arguments.inputs.insert(arguments.inputs.end(), inputs.begin() + 1, inputs.end());
     if (!arguments.help) check_rest(rest, *info, kind, arguments.unit.empty() ? nullptr : unit);
     if (!spec.name.empty()) take_spec(spec, *unit, arguments);
     if (!arguments.help) check_choices(arguments);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/bytes/file_bytes.hpp"
 
+#include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <memory>
@@ -8,11 +10,15 @@
 
 #include "core/bytes/file_rules.hpp"
 #include "core/error.hpp"
+#include "core/text.hpp"
 
 namespace stipple {
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{1} << 30;
+std::atomic<std::uint64_t>& most_bytes() {
+    static std::atomic<std::uint64_t> most = std::uint64_t{1} << 30;
+    return most;
+}
 
 std::string file_trouble(int error) {
     switch (error) {
@@ -50,13 +56,21 @@ std::string read_file(const std::string& path) {
     constexpr std::size_t step = std::size_t{1} << 16;
     for (std::size_t got = step; got == step;) {
         const std::size_t before = bytes.size();
-        if (before > most_bytes) fail(ErrorKind::io, "{}: the file is larger than 1 GiB", path);
+        if (before > most_bytes())
+            fail_with_hint(ErrorKind::limit, "--max-memory has to be three times its size",
+                           "{}: the file is larger than {}, and has to be read at once", path,
+                           format_bytes(static_cast<double>(most_bytes())));
+        if (before + step > bytes.capacity()) bytes.reserve(before + before / 2 + step);
         bytes.resize(before + step);
         got = std::fread(bytes.data() + before, 1, step, file.get());
         bytes.resize(before + got);
     }
     if (std::ferror(file.get()) != 0) refuse_file(path, errno);
     return bytes;
+}
+
+void limit_whole_files(std::uint64_t bytes) {
+    most_bytes() = std::min(bytes, std::uint64_t{1} << 30);
 }
 
 }  // namespace stipple

@@ -13,8 +13,8 @@ constexpr std::uint64_t prime = 1099511628211U;
 
 }  // namespace
 
-std::uint64_t fingerprint(std::string_view bytes) {
-    std::uint64_t hash = basis;
+std::uint64_t fingerprint(std::string_view bytes, std::optional<std::uint64_t> before) {
+    std::uint64_t hash = before.value_or(basis);
     for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * prime;
     return hash;
 }

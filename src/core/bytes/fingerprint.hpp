@@ -10,13 +10,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
 namespace stipple {
 
-std::uint64_t fingerprint(std::string_view bytes);
+/// @param before the fingerprint of the bytes before these; none: that of no bytes
+std::uint64_t fingerprint(std::string_view bytes, std::optional<std::uint64_t> before = {});
 
 /// Of the numbers as little-endian float64.
 std::uint64_t fingerprint(std::span<const double> numbers);

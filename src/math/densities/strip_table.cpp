@@ -298,6 +298,12 @@ class StripTabulator {
         const SampledStrip strip = std::move(strips_[index]);
         const double middle = strip.low + 0.5 * strip.width();
         if (!(strip.low < middle && middle < strip.high) || count_ > most_patches) refuse(strip);
+        if (count_ > planned_) {
+            planned_ = count_ + count_ / 4 + 4096;
+            constexpr double bytes_a_patch = 300;  // here and in the table
+            run_.need_memory(bytes_a_patch * static_cast<double>(planned_),
+                             "the table of " + what_);
+        }
         error_ -= strip.error;
         mass_ -= strip.mass;
         count_ -= strip.patches.size();
@@ -352,6 +358,7 @@ class StripTabulator {
     std::vector<double> seen_;              ///< by the probes
     const SampledStrip* parent_ = nullptr;  ///< the strip whose half is made
     std::size_t count_ = 0;
+    std::size_t planned_ = 0;  ///< patches for which there is memory
     double error_ = 0;
     double mass_ = 0;
 };

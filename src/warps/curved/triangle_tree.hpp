@@ -7,6 +7,8 @@
 // Promise every triangle within the reach, and no other; in no order to rely on.
 #pragma once
 
+#define BOOST_ALLOW_DEPRECATED_HEADERS  // Boost.Geometry includes one, with a note at each compile
+
 #include <array>
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point.hpp>

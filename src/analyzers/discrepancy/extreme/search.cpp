@@ -33,9 +33,10 @@ class FreeBoxes final : public Problem {
 }  // namespace
 
 double search_memory(const PointSet& points, unsigned threads) {
-    // The lines on the way down to a cell halve in length every few steps.
-    constexpr double lines = 24;
-    const double per_point = static_cast<double>(points.dimension() * axis_bytes(false)) + 40 +
+    // The lines on the way down to a cell halve in length about every 2 d steps.
+    const auto d = static_cast<double>(points.dimension());
+    const double lines = 3 * d + 2;
+    const double per_point = d * static_cast<double>(axis_bytes(false)) + 40 +
                              lines * static_cast<double>(sizeof(Entry) * threads);
     return static_cast<double>(points.count()) * per_point;
 }

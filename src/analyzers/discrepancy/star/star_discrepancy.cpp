@@ -111,7 +111,7 @@ void need_room(const PointSet& points, Family family, const RunContext& run) {
     const double search = d < 3 ? 0 : star::search_bytes(1, d, run.thread_count());
     const double each = static_cast<double>(d * axis_bytes(true)) + 32 + search;
     const double all = static_cast<double>(points.count()) * each;
-    const double room = static_cast<double>(run.max_memory);
+    const double room = static_cast<double>(run.memory_left());
     if (all <= room) return;
     fail_with_hint(ErrorKind::limit,
                    fmt::format("{} points would do; or raise the limit with --max-memory",

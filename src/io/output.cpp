@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include "io/output.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "core/bytes/file_bytes.hpp"
+#include "core/bytes/file_rules.hpp"
+#include "core/error.hpp"
+#include "core/text.hpp"
+#include "core/utf8.hpp"
+
+namespace stipple::io {
+namespace {
+
+/// /dev/fd/3 -> 3; else nothing.
+std::optional<int> standard_descriptor(const std::string& path) {
+    if (path == "-" || path == "/dev/stdout" || path == "/dev/fd/1") return STDOUT_FILENO;
+    if (path == "/dev/stderr" || path == "/dev/fd/2") return STDERR_FILENO;
+    return std::nullopt;
+}
+
+/// What a chain of symbolic links ends in, whether it is there or not.
+std::filesystem::path follow_links(std::filesystem::path path) {
+    std::error_code none;
+    for (int links = 0; links < 40 && std::filesystem::is_symlink(path, none); ++links)
+        path = path.parent_path() / std::filesystem::read_symlink(path, none);
+    return path;
+}
+
+std::string folder_of(const std::filesystem::path& path) {
+    const auto parent = path.parent_path();
+    return parent.empty() ? "." : parent.string();
+}
+
+/// The name by which the system reaches an open file that has none.
+std::string name_of_descriptor(int descriptor) {
+    return fmt::format("/proc/self/fd/{}", descriptor);
+}
+
+/// Whether so many files may be open and leave some for inputs.
+bool leaves_descriptors(int descriptor) {
+    constexpr rlim_t spare = 64;
+    rlimit limit{};
+    return ::getrlimit(RLIMIT_NOFILE, &limit) == 0 &&
+           (limit.rlim_cur == RLIM_INFINITY ||
+            static_cast<rlim_t>(descriptor) + spare < limit.rlim_cur);
+}
+
+}  // namespace
+
+Output::Output(std::string path, std::stop_token stop)
+    : path_(std::move(path)), stop_(std::move(stop)) {
+    if (const auto standard = standard_descriptor(path_)) {
+        descriptor_ = *standard;
+        if (path_ == "-") path_ = "stdout";
+        return;
+    }
+    if (path_.empty()) fail(ErrorKind::io, "the output's name is empty; expected a file's name");
+    FileRules::require_writable(path_);
+    struct stat status {};
+    const bool there = ::stat(path_.c_str(), &status) == 0;
+    if (!there && errno != ENOENT) refuse_file(path_, errno);
+    if (there && S_ISDIR(status.st_mode)) refuse_file(path_, EISDIR);
+    if (there && !S_ISREG(status.st_mode)) {
+        open_in_place();
+        return;
+    }
+    // A file that nobody may write is meant to stay, even where the user could replace it.
+    const bool protected_file = (status.st_mode & 0222) == 0 || ::access(path_.c_str(), W_OK) != 0;
+    if (there && protected_file) fail(ErrorKind::io, "{}: the file is read-only", path_);
+    target_ = follow_links(path_);
+    open_beside();
+    if (!there) return;
+    // The owner stays where that is allowed; the mode comes second, for a change of owner cuts it.
+    // Nobody has checked that the new bytes may run with the rights of the owner or group.
+    if (::fchown(descriptor_, status.st_uid, status.st_gid) != 0) errno = 0;
+    ::fchmod(descriptor_, status.st_mode & 01777);
+}
+
+Output::Output(Sink sink) : sink_(std::move(sink)) {}
+
+void Output::open_in_place() {
+    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+    if (descriptor_ < 0 && errno == EINTR) fail(ErrorKind::cancelled, "interrupted");
+    if (descriptor_ < 0) refuse_file(path_, errno);
+    owned_ = true;
+}
+
+void Output::open_beside() {
+    const std::string folder = folder_of(target_);
+    struct stat status {};
+    if (::stat(folder.c_str(), &status) != 0 && errno == ENOENT)
+        fail(ErrorKind::io, "{}: there is no folder {}", path_, shown(folder));
+    if (open_unnamed()) return;
+    for (int attempt = 0; descriptor_ < 0; ++attempt) {
+        temporary_ = fmt::format("{}/.stipple-{}-{}.part", folder, ::getpid(), attempt);
+        descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor_ >= 0 || errno == EEXIST) continue;
+        temporary_.clear();
+        if (errno == ENOENT) fail(ErrorKind::io, "{}: no file can be made in its folder", path_);
+        refuse_file(path_, errno);
+    }
+    owned_ = true;
+}
+
+/// Makes a file without a name, where the file system has such files and lets them be named later.
+bool Output::open_unnamed() {
+#ifdef O_TMPFILE
+    const std::string folder = folder_of(target_);
+    const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+    if (descriptor < 0) return false;
+    if (leaves_descriptors(descriptor) &&
+        ::access(name_of_descriptor(descriptor).c_str(), F_OK) == 0) {
+        descriptor_ = descriptor;
+        owned_ = true;
+        return true;
+    }
+    ::close(descriptor);
+#endif
+    return false;
+}
+
+Output::~Output() {
+    if (owned_ && descriptor_ >= 0) ::close(descriptor_);
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+bool Output::write(std::string_view bytes) {
+    if (sink_) {
+        broken_ = broken_ || (!bytes.empty() && !sink_(bytes));
+        return !broken_;
+    }
+    while (!bytes.empty() && !broken_) {
+        const auto done = ::write(descriptor_, bytes.data(), bytes.size());
+        if (done >= 0) {
+            bytes.remove_prefix(static_cast<std::size_t>(done));
+        } else if (errno == EPIPE) {
+            broken_ = true;
+        } else if (errno == EAGAIN) {
+            pollfd waiting{.fd = descriptor_, .events = POLLOUT, .revents = 0};
+            ::poll(&waiting, 1, 50);
+        } else if (errno != EINTR) {
+            refuse_file(path_, errno);
+        }
+        if (stop_.stop_requested()) fail(ErrorKind::cancelled, "interrupted");
+    }
+    return !broken_;
+}
+
+void Output::close() {
+    if (!owned_ || descriptor_ < 0) return;
+    const int closed = ::close(descriptor_);
+    descriptor_ = -1;
+    if (closed != 0) refuse_file(path_, errno);
+}
+
+/// Gives a file without a name the target's, or where that is taken one beside it, to be renamed.
+void Output::name_it() {
+    const std::string unnamed = name_of_descriptor(descriptor_);
+    const auto link_as = [&](const std::string& name) {
+        return ::linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+    };
+    if (link_as(target_)) return;
+    for (int attempt = 0; errno == EEXIST; ++attempt) {
+        const std::string name =
+            fmt::format("{}/.stipple-{}-{}.part", folder_of(target_), ::getpid(), attempt);
+        if (!link_as(name)) continue;
+        temporary_ = name;
+        return;
+    }
+    refuse_file(path_, errno);
+}
+
+void Output::commit() {
+    if (!target_.empty() && temporary_.empty() && descriptor_ >= 0) name_it();
+    close();
+    if (temporary_.empty()) return;
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) refuse_file(path_, errno);
+    temporary_.clear();
+}
+
+void Outputs::commit() {
+    std::vector<std::string> there;
+    for (Output& file : files_) {
+        try {
+            file.commit();
+        } catch (const Error& e) {
+            if (there.empty()) throw;
+            const std::size_t some = std::min<std::size_t>(there.size(), 10);
+            const std::string more =
+                some < there.size() ? fmt::format(" and {} others", there.size() - some) : "";
+            there.resize(some);
+            throw Error(
+                e.kind(),
+                fmt::format("{}; in place already: {}{}", e.what(), join(there, ", "), more),
+                e.hint());
+        }
+        there.push_back(file.path());
+    }
+    files_.clear();
+}
+
+}  // namespace stipple::io

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+//
+// Files that are written beside their targets and put in place when all of them are whole.
+#pragma once
+
+#include <functional>
+#include <list>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace stipple::io {
+
+/// A file that comes into being when it is whole, or standard output for "-". Devices and pipes are
+/// written in place; a link's target is replaced, not the link. Until commit() the bytes are in a
+/// file without a name, which vanishes with the process, or in a file NAME.part where the file
+/// system has no such files.
+class Output {
+  public:
+    /// A write that is interrupted by a signal (its handler installed without SA_RESTART) ends when
+    /// `stop` was requested.
+    /// @throws Error(io) when the target cannot be made.
+    explicit Output(std::string path, std::stop_token stop = {});
+    /// Takes the bytes in place of a file; false: it wants no more.
+    using Sink = std::function<bool(std::string_view bytes)>;
+    explicit Output(Sink sink);
+    Output(const Output&) = delete;
+    Output& operator=(const Output&) = delete;
+    /// Removes what was not committed.
+    ~Output();
+
+    /// Writes all bytes. False: the reader of the pipe went away, and nobody wants more (SIGPIPE
+    /// must be ignored).
+    /// @throws Error(io), naming the target and the reason; Error(cancelled).
+    bool write(std::string_view bytes);
+
+    /// Puts the file in its place. @throws Error(io)
+    void commit();
+
+    [[nodiscard]] const std::string& path() const { return path_; }
+
+  private:
+    void open_in_place();
+    void open_beside();
+    bool open_unnamed();
+    void name_it();
+    void close();
+
+    std::string path_;       ///< as messages name it
+    std::string target_;     ///< what is replaced; empty: written in place
+    std::string temporary_;  ///< the name until commit(); empty: none
+    std::stop_token stop_;
+    Sink sink_;
+    int descriptor_ = -1;
+    bool owned_ = false;   ///< the descriptor is ours to close
+    bool broken_ = false;  ///< the pipe has no reader
+};
+
+/// The files of one command, which appear together or not at all.
+class Outputs {
+  public:
+    /// One more, made as an Output is; the reference stays valid.
+    template <class... Arguments>
+    Output& add(Arguments&&... arguments) {
+        return files_.emplace_back(std::forward<Arguments>(arguments)...);
+    }
+
+    /// Puts all files in their places. @throws Error(io), naming those that are in place already
+    void commit();
+
+  private:
+    std::list<Output> files_;
+};
+
+}  // namespace stipple::io
