@@ -6,14 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <exception>
 #include <optional>
 #include <utility>
 
 #include "cli/inputs.hpp"
 #include "cli/launched.hpp"
-#include "cli/set_batch.hpp"
 #include "cli/verbs.hpp"
 #include "core/error.hpp"
+#include "core/parallel.hpp"
 #include "core/spec.hpp"
 #include "core/text.hpp"
 #include "io/output.hpp"
@@ -99,6 +100,22 @@ std::string report_format(const Arguments& arguments, const std::string& path) {
 constexpr std::size_t large = std::size_t{1} << 18;     // coordinates of a set that does not
 constexpr std::size_t together = std::size_t{1} << 20;  // of all that wait
 constexpr std::size_t most_waiting = std::size_t{1} << 12;
+
+/// A set with where it was found.
+struct FoundSet {
+    PointSet points;
+    std::string source;
+    std::size_t number;  ///< in its file
+    std::size_t of;      ///< sets in its file
+};
+
+/// What became of a set that was measured beside others; nothing where a stop came before it.
+struct Outcome {
+    std::optional<Measurement> measurement;
+    std::exception_ptr error;
+    bool over_limit = false;  ///< it would need more than its share of the memory, say
+    std::vector<std::string> warnings;
+};
 
 /// One call: its measurements, checks and outputs.
 class Analysis {
@@ -303,14 +320,55 @@ class Analysis {
             measure_waiting();
     }
 
+    /// Measures the sets that wait side by side. What comes of them is kept in their order, as if they
+    /// had been measured one after the other: up to the first error or, where a stop is requested,
+    /// of those that had begun and were measured nevertheless.
     void measure_waiting() {
         numbers_ = 0;
-        measure_sets(
-            std::exchange(waiting_, {}), session_.run(),
-            [this](const FoundSet& set, const RunContext& run) { return measured(set, run); },
-            [this](const FoundSet& set, Measurement m) {
-                keep(std::move(m), inputs_.size() > 1 || set.of > 1);
-            });
+        const std::vector<FoundSet> sets = std::exchange(waiting_, {});
+        const RunContext& run = session_.run();
+        const std::size_t threads = run.thread_count();
+        // The last ones, too few for a thread each, are measured by all threads one after the other.
+        const std::size_t spread = threads > 1 ? sets.size() - sets.size() % threads : 0;
+        std::vector<Outcome> outcomes(spread);
+        // A set that has begun may come to a result when a stop is requested.
+        for_each_block(unstopped(run), spread, 1, [&](const Block& block) {
+            if (!interrupted())
+                outcomes[block.index] =
+                    measured_alone(sets[block.index], run.share_of_memory(threads));
+        });
+        for (std::size_t i = 0; i < sets.size(); ++i) {
+            const bool again = i >= spread || outcomes[i].over_limit;
+            if (again && interrupted()) continue;
+            if (again) {
+                keep_found(sets[i], measured(sets[i], run));
+                continue;
+            }
+            for (const auto& sentence : outcomes[i].warnings) run.notify(sentence);
+            if (outcomes[i].error) std::rethrow_exception(outcomes[i].error);
+            if (outcomes[i].measurement) keep_found(sets[i], std::move(*outcomes[i].measurement));
+        }
+    }
+
+    /// Measures a set by one thread, beside others.
+    [[nodiscard]] Outcome measured_alone(const FoundSet& set, RunContext one) const {
+        Outcome outcome;
+        one.threads = 1;
+        one.progress = {};
+        one.warn = [&outcome](const std::string& text) { outcome.warnings.push_back(text); };
+        try {
+            outcome.measurement = measured(set, one);
+        } catch (const Error& e) {
+            outcome.error = std::current_exception();
+            outcome.over_limit = e.kind() == ErrorKind::limit;
+        } catch (...) {
+            outcome.error = std::current_exception();
+        }
+        return outcome;
+    }
+
+    void keep_found(const FoundSet& set, Measurement m) {
+        keep(std::move(m), inputs_.size() > 1 || set.of > 1);
     }
 
     /// Errors of an input are reported after the sets before it have been measured.
