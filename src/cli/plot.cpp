@@ -13,14 +13,15 @@
 #include "cli/verbs.hpp"
 #include "core/bytes/npy_header.hpp"
 #include "core/error.hpp"
+#include "core/spec.hpp"
 #include "core/text.hpp"
 #include "io/files.hpp"
 #include "io/provenance.hpp"
 #include "io/source_text.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/pipeline.hpp"
+#include "pipeline/units.hpp"
 #include "plot/distance_chart.hpp"
-#include "plot/picture_title.hpp"
 #include "plot/points_picture.hpp"
 #include "plot/report_charts.hpp"
 #include "plot/spectral_table.hpp"
@@ -49,12 +50,9 @@ Medium medium_of(const Arguments& arguments, const std::string& path) {
         return medium;
     }
     if (path == "-") return terminal ? Medium::text : Medium::svg;
-    const auto dot = path.rfind('.');
-    const std::string extension = dot == std::string::npos ? "" : path.substr(dot);
-    if (extension == ".svg") return Medium::svg;
-    if (extension == ".png") return Medium::png;
-    if (extension == ".txt") return Medium::text;
-    if (path.starts_with("/dev/")) return Medium::svg;
+    if (path.ends_with(".png")) return Medium::png;
+    if (path.ends_with(".txt")) return Medium::text;
+    if (path.ends_with(".svg") || path.starts_with("/dev/")) return Medium::svg;
     fail_with_hint(ErrorKind::usage, "or name the format with -f svg, png or text",
                    "--output: {} has no extension of a picture; expected .svg, .png or .txt", path);
 }
@@ -82,6 +80,51 @@ struct Loaded {
     bool npy;                           ///< so that it may be a table that --grid saved
     std::string title;                  ///< of the points, by where they come from
 };
+
+/// What a picture of points is called: "halton", "sobol, disk"; the file's name, where no generator is
+/// known; else "points".
+std::string title_of_points(const Provenance& from, const std::string& source) {
+    if (from.generator.empty())
+        return source == "-" || source.empty() ? "points" : source.substr(source.rfind('/') + 1);
+    std::string title = from.generator;
+    for (const std::string& warp : from.warps) title += ", " + warp;
+    return title;
+}
+
+bool seed_matters(const Generator& generator, const Provenance& from) {
+    // "owen", "owen:depth=3": random, unlike a warp.
+    for (const std::string& warp : from.warps)
+        if (scramble_named(warp.substr(0, warp.find_first_of(":@"))) != nullptr) return true;
+    try {
+        Values values = generator.options.defaults();
+        for (const auto& [name, text] : from.options) generator.options.set(values, name, text);
+        return uses_seed(generator, values);
+    } catch (const Error&) {
+        return generator.traits.seeded;  // options of another version
+    }
+}
+
+/// "1024 points, seed 3, scramble=owen (set 2)": options that are not what they are by default, and
+/// the seed where it matters.
+std::string subtitle_of(const Loaded& set) {
+    const Provenance& from = set.points.provenance;
+    const std::size_t n = set.points.count();
+    std::string text = fmt::format("{} point{}", n, n == 1 ? "" : "s");
+    if (const Generator* generator = generator_named(from.generator)) {
+        if (seed_matters(*generator, from)) text += fmt::format(", seed {}", from.seed);
+        if (from.start > 0) text += fmt::format(", from index {}", from.start);
+        const auto defaults = typed_settings(generator->options.defaults(), generator->options);
+        for (const auto& setting : from.options) {
+            constexpr std::size_t readable = 40;
+            const auto& [name, value] = setting;
+            const bool is_default = std::ranges::find(defaults, setting) != defaults.end();
+            if (!is_default && value.size() <= readable)
+                text += fmt::format(", {}={}", name, value);
+        }
+    }
+    if (set.number) text += fmt::format(" (set {})", *set.number);
+    return text;
+}
 
 /// One call: the sets or reports that were read, and their picture.
 class Plot {
@@ -151,7 +194,7 @@ class Plot {
         for (std::size_t i = 0; i < sets.size(); ++i) {
             require_width(sets[i], input);
             naming(input, [&] { take_domain(sets[i], arguments_); });
-            const std::string title = plot::title_of_points(sets[i], input);
+            const std::string title = title_of_points(sets[i].provenance, input);
             sets_.push_back({std::move(sets[i]), input,
                              sets.size() > 1 ? std::optional(i) : std::nullopt,
                              bytes.starts_with(npy_magic), title});
@@ -380,12 +423,6 @@ class Plot {
             found.push_back(name.empty() ? set.source : name);
         }
         return found;
-    }
-
-    static std::string subtitle_of(const Loaded& set) {
-        std::string text = plot::subtitle_of_points(set.points);
-        if (set.number) text += fmt::format(" (set {})", *set.number);
-        return text;
     }
 
     // ---------------------------------------------------------------- where it comes from
