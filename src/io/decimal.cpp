@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 
 #include "core/machine/int128.hpp"
 
@@ -100,12 +99,6 @@ const char* read_number(const char* first, const char* last, double& value) {
     if (error == std::errc::invalid_argument) return nullptr;
     if (error == std::errc::result_out_of_range) value = beyond_range(first, end);
     return end;
-}
-
-float to_single(double value) {
-    const auto single = static_cast<float>(value);
-    return std::abs(static_cast<double>(single)) > std::abs(value) ? std::nextafter(single, 0.0F)
-                                                                   : single;
 }
 
 }  // namespace stipple::io

@@ -30,7 +30,4 @@ void append_rows(std::string& out, std::span<const double> rows, std::size_t wid
 /// Returns its end, or null where no number begins.
 const char* read_number(const char* first, const char* last, double& value);
 
-/// `value` as float32, cut toward zero: what was below 1 stays below 1.
-float to_single(double value);
-
 }  // namespace stipple::io

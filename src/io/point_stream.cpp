@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "core/error.hpp"
 #include "io/columns.hpp"
 #include "io/files.hpp"
-#include "io/formats/binary.hpp"
 #include "io/source_text.hpp"
 
 namespace stipple::io {
@@ -84,11 +84,7 @@ class RawStream final : public PointStream {
         std::vector<double> table(plain ? 0 : numbers);
         const std::span<double> to = plain ? rows.first(numbers) : std::span(table);
         take_raw(bytes_, shape_.type, to);
-        check_finite(to, {.source = source_,
-                          .row = shape_.width,
-                          .size = size,
-                          .offset = shape_.offset,
-                          .before = numbers_});
+        check_finite(to, shape_, source_, numbers_);
         if (!plain) std::ranges::copy(keep_coordinates(std::move(table), columns_), rows.begin());
         numbers_ += numbers;
         left_ -= numbers / shape_.width;
@@ -310,6 +306,17 @@ std::vector<PointSet> PointStream::read_all(const RunContext& run) {
 std::unique_ptr<PointStream> stream_raw(std::unique_ptr<Feed> feed, const RawShape& shape,
                                         const ReadOptions& options) {
     return std::make_unique<RawStream>(std::move(feed), shape, options);
+}
+
+void check_finite(std::span<const double> numbers, const RawShape& shape, const std::string& source,
+                  std::size_t before) {
+    const auto it = std::ranges::find_if_not(numbers, [](double x) { return std::isfinite(x); });
+    if (it == numbers.end()) return;
+    const auto index = before + static_cast<std::size_t>(it - numbers.begin());
+    const std::string point =
+        shape.width == 0 ? std::string() : fmt::format(" in point {}", index / shape.width);
+    fail(ErrorKind::input, "{}: byte {}: {}{}; expected finite numbers", source,
+         shape.offset + index * shape.type.size, *it, point);
 }
 
 std::unique_ptr<PointStream> open_points(const std::string& path, const ReadOptions& options,

@@ -89,4 +89,10 @@ struct RawShape {
 std::unique_ptr<PointStream> stream_raw(std::unique_ptr<Feed> feed, const RawShape& shape,
                                         const ReadOptions& options);
 
+/// @throws Error(input) naming the first number that is not finite, its byte and, unless the shape
+/// has the width 0, its point
+/// @param before numbers before these
+void check_finite(std::span<const double> numbers, const RawShape& shape, const std::string& source,
+                  std::size_t before = 0);
+
 }  // namespace stipple::io

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/bytes/raw_numbers.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/decimal.hpp"
@@ -30,7 +31,7 @@ bool each_batch(const SetsToWrite& job, std::size_t set, const Target& written,
         auto numbers = written.columns.any() ? with_columns(rows, written.columns, job)
                                              : std::vector<double>(rows.begin(), rows.end());
         for (double& number : numbers) {
-            if (written.single) number = io::to_single(number);
+            if (written.single) number = to_single(number);
             if (!written.precision) continue;
             text.clear();
             io::append_number(text, number, written.precision);

@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "core/bytes/npy_header.hpp"
+#include "core/bytes/raw_numbers.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "media/png_picture.hpp"
@@ -70,8 +70,7 @@ std::string npy_bytes(const Grid& power) {
     else if (power.rows == side * side)
         shape = {side, side, side};
     std::string bytes = npy_head(shape, false);
-    static_assert(std::endian::native == std::endian::little);
-    bytes.append(reinterpret_cast<const char*>(power.values.data()), 8 * power.values.size());
+    append_raw(bytes, power.values, false);
     return bytes;
 }
 

@@ -10,6 +10,8 @@
 #include <limits>
 #include <random>
 
+#include "core/bytes/raw_numbers.hpp"
+
 namespace stipple::testing::decimal_test {
 
 using namespace stipple::io;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <iterator>
@@ -43,6 +44,27 @@ void take_raw(std::string_view bytes, const RawType& type, std::span<double> num
         convert_sized<int8_t, int16_t, int32_t, int64_t>(bytes, type, numbers);
     if (type.kind == RawType::natural)
         convert_sized<uint8_t, uint16_t, uint32_t, uint64_t>(bytes, type, numbers);
+}
+
+void append_raw(std::string& out, std::span<const double> numbers, bool single) {
+    if (!single) {
+        out.append(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes());
+        return;
+    }
+    const std::size_t start = out.size();
+    out.resize(start + 4 * numbers.size());
+    char* to = out.data() + start;
+    for (const double number : numbers) {
+        const float cut = to_single(number);
+        std::memcpy(to, &cut, 4);
+        to += 4;
+    }
+}
+
+float to_single(double value) {
+    const auto single = static_cast<float>(value);
+    return std::abs(static_cast<double>(single)) > std::abs(value) ? std::nextafter(single, 0.0F)
+                                                                   : single;
 }
 
 }  // namespace stipple

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace stipple {
@@ -19,5 +20,11 @@ struct RawType {
 
 /// Converts numbers.size() numbers from the front of `bytes`.
 void take_raw(std::string_view bytes, const RawType& type, std::span<double> numbers);
+
+/// Appends little-endian float64, or float32 as to_single gives it.
+void append_raw(std::string& out, std::span<const double> numbers, bool single);
+
+/// `value` as float32, cut toward zero: what was below 1 stays below 1.
+float to_single(double value);
 
 }  // namespace stipple

@@ -4,10 +4,10 @@
 // else. The reader must be told the dimension, and takes all points as one set.
 //
 // Promise float32 is cut toward zero: what was below 1 stays below 1.
+#include "core/bytes/raw_numbers.hpp"
 #include "core/error.hpp"
 #include "io/columns.hpp"
 #include "io/format.hpp"
-#include "io/formats/binary.hpp"
 #include "io/point_stream.hpp"
 #include "io/source_text.hpp"
 

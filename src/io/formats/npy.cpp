@@ -9,10 +9,10 @@
 //         versions 2 and 3, both byte orders, column-major order, float32 and integers.
 // Source  numpy.lib.format, NEP 1 (https://numpy.org/neps/nep-0001-npy-format.html).
 #include "core/bytes/npy_header.hpp"
+#include "core/bytes/raw_numbers.hpp"
 #include "core/error.hpp"
 #include "io/columns.hpp"
 #include "io/format.hpp"
-#include "io/formats/binary.hpp"
 #include "io/point_stream.hpp"
 #include "io/source_text.hpp"
 
@@ -68,7 +68,7 @@ std::vector<PointSet> read(std::string_view bytes, const ReadOptions& options,
     const Columns columns = choose_columns({}, shape.width, options, source);
     std::vector<double> table(size);
     take_raw(bytes.substr(header.size), header.type, table);
-    check_finite(table, {.source = source, .size = header.type.size, .offset = header.size});
+    check_finite(table, {.width = 0, .type = header.type, .offset = header.size}, source);
     table = rows_first(table, shape.sets, *shape.count, shape.width);
     std::vector<std::uint64_t> starts(shape.sets);
     for (std::size_t r = 0; r < shape.sets; ++r) starts[r] = r * *shape.count;

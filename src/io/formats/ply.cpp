@@ -9,9 +9,9 @@
 
 #include <algorithm>
 
+#include "core/bytes/raw_numbers.hpp"
 #include "io/decimal.hpp"
 #include "io/format.hpp"
-#include "io/formats/binary.hpp"
 #include "io/provenance.hpp"
 
 namespace stipple::io::ply {
