@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/json.hpp"
@@ -109,12 +108,7 @@ constexpr double chart_height = 300;
 /// Numbers as short as eyes need them.
 Json short_numbers(const std::vector<double>& values) {
     Json list = Json::array();
-    for (const double v : values) {
-        if (!std::isfinite(v))
-            list.push_back(nullptr);
-        else
-            list.push_back(std::stod(fmt::format("{:.4g}", v)));
-    }
+    for (const double v : values) list.push_back(std::stod(fmt::format("{:.4g}", v)));
     return list;
 }
 

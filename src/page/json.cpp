@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "core/json.hpp"
@@ -9,8 +8,6 @@
 
 namespace stipple::page {
 namespace {
-
-Json number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 /// Results and options as `stipple analyze` prints them.
 Json json_of(const Measure& measure) {
@@ -55,13 +52,13 @@ Json json_of(const Row& row) {
     for (std::size_t i = 0; i < row.values.size(); ++i) {
         const auto& known = row.values[i];
         bounds = bounds || (known && !known->exact());
-        object["values"].push_back(known ? number(known->value) : Json(nullptr));
+        object["values"].push_back(known ? Json(known->value) : Json());
         if (row.best[i]) object["best"].push_back(i);
     }
     if (!bounds) return object;
     for (const auto& known : row.values) {
-        object["lower"].push_back(known ? number(known->lower) : Json(nullptr));
-        object["upper"].push_back(known ? number(known->upper) : Json(nullptr));
+        object["lower"].push_back(known ? Json(known->lower) : Json());
+        object["upper"].push_back(known ? Json(known->upper) : Json());
     }
     return object;
 }

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -18,8 +17,6 @@
 
 namespace stipple {
 namespace {
-
-Json number_json(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 /// Option values as JSON numbers and booleans where they are such.
 Json option_json(const std::string& text) {
@@ -184,13 +181,7 @@ std::string text_of(const Report::Item& item) {
 Json json_of(const Report& report) {
     Json object = Json::object();
     const auto convert = []<class T>(const T& value) -> Json {
-        if constexpr (std::is_same_v<T, double>) return number_json(value);
         if constexpr (std::is_same_v<T, Report>) return json_of(value);
-        if constexpr (std::is_same_v<T, Report::Curve>) {
-            Json array = Json::array();
-            for (const double x : value) array.push_back(number_json(x));
-            return array;
-        }
         if constexpr (std::is_constructible_v<Json, T>) return value;
         return {};
     };

@@ -42,7 +42,7 @@ std::optional<Report::Curve> list_at(const Report& report, std::string_view key)
 /// An item for people: long lists are cut short and say so; nothing for grids and groups.
 std::string text_of(const Report::Item& item);
 
-/// An object; numbers that JSON cannot hold (infinities) become null.
+/// An object; numbers that JSON cannot hold (infinities) become null in its text.
 Json json_of(const Report& report);
 
 /// An object of options, numbers and flags as such.
