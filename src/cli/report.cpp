@@ -19,6 +19,7 @@
 #include "page/measures.hpp"
 #include "pipeline/chain.hpp"
 #include "pipeline/generated.hpp"
+#include "pipeline/set_writer.hpp"
 #include "pipeline/units.hpp"
 #include "report/check.hpp"
 
@@ -227,8 +228,8 @@ class Reporter {
     page::Set finished(std::size_t i) {
         auto [points, set, input] = std::move(pending_[i]);
         pending_[i].points = {};
-        return page::finished_set(std::move(set), points, input, work_, {i, pending_.size()},
-                                  !json_, session_.run());
+        return page::finished_set(std::move(set), points, input, work_, i, !json_,
+                                  part_of_run(session_.run(), i, pending_.size()));
     }
 
     /// Whether no condition of --fail-on holds, or may hold: also of a set that was not measured.

@@ -8,6 +8,7 @@
 #include "io/output.hpp"
 #include "page/html.hpp"
 #include "page/measures.hpp"
+#include "pipeline/set_writer.hpp"
 #include "stipple/study.hpp"
 
 namespace stipple {
@@ -31,8 +32,8 @@ void write_report(const std::string& path, std::span<const NamedSet> sets, const
         if (!points.domain) points.domain = unit_cube(points.dimension());
         page::Set set{
             .name = sets[i].name, .source = sets[i].name, .provenance = points.provenance};
-        all.sets.push_back(page::finished_set(std::move(set), points, {}, page::usual_work,
-                                              {i, sets.size()}, true, run));
+        all.sets.push_back(page::finished_set(std::move(set), points, {}, page::usual_work, i, true,
+                                              part_of_run(run, i, sets.size())));
     }
     io::Output output(path, run.stop);
     if (output.write(page::to_html(all))) output.commit();

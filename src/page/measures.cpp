@@ -13,6 +13,7 @@
 #include "core/text.hpp"
 #include "page/figures.hpp"
 #include "pipeline/pipeline.hpp"
+#include "pipeline/set_writer.hpp"
 
 namespace stipple::page {
 namespace {
@@ -134,25 +135,21 @@ std::vector<Measure> measure_set(const PointSet& points, const Input& input, std
     const Cubed cube = cubed(points, input);
     std::vector<Measure> all;
     for (std::size_t i = 0; i < plans.size(); ++i) {
-        const double share = 1 / static_cast<double>(plans.size());
-        const auto at = static_cast<double>(i);
-        all.push_back(measured(plans[i], points, cube, input, work,
-                               mute.stage(at * share, (at + 1) * share)));
+        all.push_back(
+            measured(plans[i], points, cube, input, work, part_of_run(mute, i, plans.size())));
         run.check_stop();
     }
     return all;
 }
 
 Set finished_set(Set set, const PointSet& points, const Input& input, std::int64_t work,
-                 SetPlace place, bool with_pictures, const RunContext& run) {
+                 std::size_t number, bool with_pictures, const RunContext& run) {
     set.count = points.count();
     set.dimension = points.dimension();
     set.domain = points.domain->spec();
-    const auto all = static_cast<double>(place.of);
-    const auto at = static_cast<double>(place.number);
-    set.measures = measure_set(points, input, work, run.stage(at / all, (at + 1) / all));
+    set.measures = measure_set(points, input, work, run);
     if (!with_pictures) return set;
-    set.figures = point_figures(points, set, place.number);
+    set.figures = point_figures(points, set, number);
     if (auto spectrum = spectrum_figure(set); !spectrum.empty())
         set.figures.push_back(std::move(spectrum));
     for (Measure& measure : set.measures)

@@ -33,17 +33,11 @@ struct Input {
 std::vector<Measure> measure_set(const PointSet& points, const Input& input, std::int64_t work,
                                  const RunContext& run);
 
-/// Where a set stands among all of a page, from 0: its colour, and its part of the progress.
-struct SetPlace {
-    std::size_t number = 0;
-    std::size_t of = 1;
-};
-
 /// The set with its size, all measures and, for a page, its pictures; its grids are in these, and
-/// left out.
+/// left out. `number` picks its colour.
 /// @throws Error(cancelled), Error(io)
 Set finished_set(Set set, const PointSet& points, const Input& input, std::int64_t work,
-                 SetPlace place, bool with_pictures, const RunContext& run);
+                 std::size_t number, bool with_pictures, const RunContext& run);
 
 /// Names of all measures, as their keys begin.
 std::vector<std::string> measure_names();
