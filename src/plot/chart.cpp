@@ -345,7 +345,7 @@ void draw_legend(Drawing& drawing, const std::vector<LegendEntry>& entries, Posi
                 Disks{.centres = {{x + swatch - 6, y}}, .radius = 4, .colour = entry.colour});
         else
             drawing.rectangle({x, y - 5, swatch, 10}, entry.colour);
-        drawing.add(Label{.text = shortened_to(entry.name, legend_size, width - swatch - 6),
+        drawing.add(Label{.text = cut_to(entry.name, legend_size, width - swatch - 6, true),
                           .at = {x + swatch + 6, y + 0.36 * legend_size},
                           .size = legend_size,
                           .colour = theme.text});
@@ -365,12 +365,11 @@ TitledDrawing titled_drawing(const std::string& title, const std::string& subtit
         if (text.empty()) return;
         // Bold letters are a little wider.
         const double sized = bold ? 1.08 * size : size;
-        drawing.add(
-            Label{.text = bold ? shortened_to(text, sized, width) : cut_to(text, sized, width),
-                  .at = {picture_margin, y + 0.8 * size},
-                  .size = size,
-                  .colour = colour,
-                  .bold = bold});
+        drawing.add(Label{.text = cut_to(text, sized, width, bold),
+                          .at = {picture_margin, y + 0.8 * size},
+                          .size = size,
+                          .colour = colour,
+                          .bold = bold});
         y += 1.45 * size;
     };
     put(first, 15, true, style.theme->ink);

@@ -54,17 +54,6 @@ Grid grid_of(const PointSet& table, std::size_t rows) {
         .rows = rows, .columns = values.size() / rows, .values = {values.begin(), values.end()}};
 }
 
-/// Whether a square table can be the power at frequencies -F to F.
-bool looks_like_power(const Grid& grid) {
-    return grid.rows == grid.columns && is_side(grid.rows) && is_spectrum(grid.values);
-}
-
-/// Whether it can be the density of pair differences: none at zero.
-bool looks_like_differences(const Grid& grid) {
-    return grid.rows == grid.columns && is_side(grid.rows) && is_symmetric(grid.values) &&
-           grid.values[grid.values.size() / 2] == 0 && std::ranges::max(grid.values) > 0;
-}
-
 Colour grey(double shade) {
     const auto level = static_cast<std::uint8_t>(std::lround(255 * shade));
     return {level, level, level};
@@ -97,9 +86,14 @@ std::optional<SpectralTable> spectral_table(std::span<const PointSet* const> set
         if (!is_side(first.count()) || !is_spectrum(first.flat())) return std::nullopt;
         return SpectralTable{.dimension = 1, .values = grid_of(first, 1)};
     }
+    if (first.dimension() != first.count() || !is_side(first.count()) ||
+        !is_symmetric(first.flat()))
+        return std::nullopt;
     Grid grid = grid_of(first, first.count());
-    const bool differences = looks_like_differences(grid);
-    if (!differences && !looks_like_power(grid)) return std::nullopt;
+    // The density of pair differences is none at zero.
+    const bool differences =
+        grid.values[grid.values.size() / 2] == 0 && std::ranges::max(grid.values) > 0;
+    if (!differences && !is_power(grid.values)) return std::nullopt;
     return SpectralTable{.differences = differences, .values = std::move(grid)};
 }
 

@@ -123,20 +123,11 @@ double text_width(std::string_view text, double size) {
     return units * size / em_units;
 }
 
-std::string shortened_to(const std::string& text, double size, double width) {
+std::string cut_to(const std::string& text, double size, double width, bool end) {
     std::string out = text;
     for (auto rest = code_points(text); !rest.empty() && text_width(out, size) > width;) {
-        rest.erase(0, 1);
-        out = "…" + utf8_of(rest);
-    }
-    return out;
-}
-
-std::string cut_to(const std::string& text, double size, double width) {
-    std::string out = text;
-    for (auto rest = code_points(text); !rest.empty() && text_width(out, size) > width;) {
-        rest.pop_back();
-        out = utf8_of(rest) + "…";
+        rest.erase(end ? 0 : rest.size() - 1, 1);
+        out = end ? "…" + utf8_of(rest) : utf8_of(rest) + "…";
     }
     return out;
 }

@@ -24,10 +24,8 @@ std::vector<std::vector<Position>> strokes_of(char32_t letter);
 /// Width of a line of text of that size.
 double text_width(std::string_view text, double size);
 
-/// The text, or as much of its end as fits into the width, after "…": of a path, its file.
-std::string shortened_to(const std::string& text, double size, double width);
-
-/// The text, or as much of its front as fits, before "…".
-std::string cut_to(const std::string& text, double size, double width);
+/// The text, or as much of its front as fits into the width, before "…"; with `end`, of its end, after
+/// that: of a path, its file.
+std::string cut_to(const std::string& text, double size, double width, bool end = false);
 
 }  // namespace stipple::plot

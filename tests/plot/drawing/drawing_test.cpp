@@ -186,8 +186,8 @@ TEST(Letters, CurvesAreEllipses) {
 }
 
 TEST(Letters, LongTextsLoseTheirFront) {
-    EXPECT_EQ(shortened_to("abc", 12, 100), "abc");
-    const std::string cut = shortened_to("a/long/path/to/points.csv", 12, 80);
+    EXPECT_EQ(cut_to("abc", 12, 100, true), "abc");
+    const std::string cut = cut_to("a/long/path/to/points.csv", 12, 80, true);
     EXPECT_TRUE(cut.starts_with("…"));
     EXPECT_TRUE(cut.ends_with("points.csv"));
     EXPECT_LE(text_width(cut, 12), 80);
