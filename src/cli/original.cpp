@@ -26,9 +26,8 @@ namespace {
 
 /// A row of a study, its sums, or what compares them.
 bool is_study(std::string_view front) {
-    using Style = StudyTable::Style;
     const auto line = front.substr(0, front.find('\n'));
-    for (const Style style : {Style::csv, Style::jsonl})
+    for (const TableStyle style : {TableStyle::csv, TableStyle::jsonl})
         if (StudyTable(style, true).is_head(line)) return true;
     return line.starts_with("table,generator,") || line.starts_with("table,dimension,");
 }

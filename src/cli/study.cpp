@@ -121,15 +121,14 @@ std::string extension_of(const std::string& path) {
     return std::filesystem::path(path).extension().string();
 }
 
-StudyTable::Style table_style(const Arguments& arguments, const std::string& path) {
+TableStyle table_style(const Arguments& arguments, const std::string& path) {
     const std::string extension = extension_of(path);
     const bool lines = extension == ".jsonl" || extension == ".ndjson";
     const auto format = arguments.get("format");
     if (!format && !lines && !extension.empty() && extension != ".csv")
         fail_with_hint(ErrorKind::usage, "--format csv or jsonl says what it is to hold",
                        "--output: a study's table is .csv or .jsonl; '{}' is neither", path);
-    return (format ? *format == "jsonl" : lines) ? StudyTable::Style::jsonl
-                                                 : StudyTable::Style::csv;
+    return (format ? *format == "jsonl" : lines) ? TableStyle::jsonl : TableStyle::csv;
 }
 
 /// study.csv -> study.summary.csv
@@ -220,7 +219,7 @@ class Study {
         const auto means = summary_.means(table_.style(), summary_options_, session_.run());
         const auto pairs = summary_.comparisons(table_.style(), summary_options_, session_.run());
         if (file.is_stream()) {
-            const char* gap = table_.style() == StudyTable::Style::csv ? "\n" : "";
+            const char* gap = table_.style() == TableStyle::csv ? "\n" : "";
             file.finish(gap + means + gap + pairs);
             return;
         }

@@ -39,6 +39,9 @@ std::vector<std::string_view> split(std::string_view text, char separator);
 
 std::string join(std::span<const std::string> words, std::string_view between);
 
+/// The text with a capital letter at its front.
+std::string capitalised(std::string text);
+
 /// The text without white space at its ends.
 std::string_view trim(std::string_view text);
 

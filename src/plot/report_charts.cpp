@@ -403,16 +403,10 @@ bool wanted(Measurements ms, const CurveGroup& group, const std::string& y,
     return key == group.prefix + y || key + "." == group.prefix;
 }
 
-std::string sentence_case(std::string text) {
-    if (!text.empty())
-        text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-    return text;
-}
-
 std::optional<Chart> curves_chart(Measurements ms, const std::string& key) {
     constexpr std::size_t most_panels = 4;
     const bool spectrum = list_at(ms[0].results, "radial.power").has_value();
-    Chart chart = titled(spectrum ? "Power spectrum" : sentence_case(words_of(ms[0].analyzer)), ms);
+    Chart chart = titled(spectrum ? "Power spectrum" : capitalised(words_of(ms[0].analyzer)), ms);
     if (spectrum) chart.subtitle = noted(chart.subtitle, notes_of_spectrum(ms));
     std::string x;
     for (const CurveGroup& group : groups_of(ms[0].results))
@@ -487,7 +481,7 @@ Chart number_over_count(Measurements ms, const std::string& key) {
         panel.series.push_back(series_over_count(family, errors, found[family]));
     panel.log_y = range_of(panel.series).first > 0;
     if (panel.log_y) panel.guides = slopes(panel.series);
-    Chart chart = titled(sentence_case(words_of(ms[0].analyzer)), ms);
+    Chart chart = titled(capitalised(words_of(ms[0].analyzer)), ms);
     chart.panels.push_back(std::move(panel));
     return chart;
 }
@@ -507,7 +501,7 @@ Chart number_histogram(Measurements ms, const std::string& key) {
     const double width = bars.edges[1] - bars.edges[0];
     for (double& height : bars.heights)
         height = std::round(height * width * static_cast<double>(values.size()));
-    Chart chart = titled(sentence_case(words_of(ms[0].analyzer)), ms);
+    Chart chart = titled(capitalised(words_of(ms[0].analyzer)), ms);
     chart.subtitle = noted(chart.subtitle, fmt::format("{} sets", values.size()));
     chart.panels.push_back({.x_name = key == "value" ? words_of(ms[0].analyzer) : words_of(key),
                             .y_name = "sets",

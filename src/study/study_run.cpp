@@ -55,8 +55,6 @@ WorkDone unpacked(Unpacker& from) {
 RunContext share_of(const RunContext& run, std::uint64_t workers, unsigned threads) {
     RunContext share = run.share_of_memory(workers);
     share.threads = threads;
-    share.progress = {};
-    share.warn = {};
     return share;
 }
 

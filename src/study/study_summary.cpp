@@ -89,7 +89,7 @@ std::uint64_t StudySummary::failures_of(const StudyRow& row) const {
     return it == failed_.end() ? 0 : it->second.sets;
 }
 
-std::string StudySummary::means(StudyTable::Style style, const SummaryOptions& options,
+std::string StudySummary::means(TableStyle style, const SummaryOptions& options,
                                 const RunContext& run) const {
     std::string text;
     const auto add = [&](const StudyRow& row, std::span<const double> values,
@@ -128,7 +128,7 @@ std::vector<StudySummary::Pair> StudySummary::pairs_of(const Topic& topic, bool 
     return pairs;
 }
 
-std::string StudySummary::comparisons(StudyTable::Style style, const SummaryOptions& options,
+std::string StudySummary::comparisons(TableStyle style, const SummaryOptions& options,
                                       const RunContext& run) const {
     const auto cells_of_pair = [&](const Pair& pair) -> std::vector<TableCell> {
         const auto& [a, b, sets_a, sets_b, test, p_holm] = pair;

@@ -128,7 +128,8 @@ std::optional<StudyRow> StudyTable::parse(std::string_view line) const {
 }
 
 bool StudyTable::is_head(std::string_view line) const {
-    if (style_ == Style::csv) return line.starts_with("generator,generator_options,dimension,");
+    if (style_ == TableStyle::csv)
+        return line.starts_with("generator,generator_options,dimension,");
     const auto has = [line](std::string_view key) { return line.find(key) != line.npos; };
     return line.starts_with("{") && has("\"measure\":") && has("\"study\":");
 }

@@ -48,8 +48,6 @@ bool belongs(const StudyRow& row, const StudyRow& unit);
 /// How the rows of a file are written.
 class StudyTable {
   public:
-    using Style = TableStyle;
-
     StudyTable(TableStyle style, bool seconds);
 
     [[nodiscard]] TableStyle style() const { return style_; }

@@ -52,7 +52,7 @@ class UnitRunner {
 
     [[nodiscard]] const Sweep& sweep() const { return sweep_; }
 
-    /// @param run its memory is the worker's share
+    /// @param run its memory is the worker's share; it hears of nothing
     /// @throws Error(cancelled)
     [[nodiscard]] WorkDone run(const std::vector<UnitRange>& ranges, const RunContext& run) const;
 

@@ -34,7 +34,7 @@ StudyRow awkward() {
 }  // namespace
 
 TEST(StudyTable, RowsReadBack) {
-    for (const auto style : {StudyTable::Style::csv, StudyTable::Style::jsonl})
+    for (const auto style : {TableStyle::csv, TableStyle::jsonl})
         for (const bool seconds : {true, false}) {
             const StudyTable table(style, seconds);
             const std::string line = table.line(awkward());
@@ -49,7 +49,7 @@ TEST(StudyTable, RowsReadBack) {
 }
 
 TEST(StudyTable, APartOfARowIsNone) {
-    for (const auto style : {StudyTable::Style::csv, StudyTable::Style::jsonl}) {
+    for (const auto style : {TableStyle::csv, TableStyle::jsonl}) {
         const StudyTable table(style, false);
         const std::string line = table.line(awkward());
         for (std::size_t cut = 0; cut + 8 < line.size(); ++cut)
@@ -58,7 +58,7 @@ TEST(StudyTable, APartOfARowIsNone) {
 }
 
 TEST(StudyTable, ARowWhoseNumbersAreNoneIsNone) {
-    const StudyTable table(StudyTable::Style::csv, true);
+    const StudyTable table(TableStyle::csv, true);
     const std::string line = table.line(awkward());
     for (const char* number : {",3,", ",9007199254740993,", ",12,", ",0.1,", ",0.25,"}) {
         std::string broken = line.substr(0, line.size() - 1);
@@ -70,8 +70,8 @@ TEST(StudyTable, ARowWhoseNumbersAreNoneIsNone) {
 TEST(StudyTable, InfiniteAndMissingValuesAreWritten) {
     StudyRow row = awkward();
     row.value = HUGE_VAL;
-    const StudyTable csv(StudyTable::Style::csv, false);
-    const StudyTable jsonl(StudyTable::Style::jsonl, false);
+    const StudyTable csv(TableStyle::csv, false);
+    const StudyTable jsonl(TableStyle::jsonl, false);
     const std::string line = csv.line(row);
     EXPECT_NE(line.find(",inf,"), std::string::npos);
     EXPECT_EQ(csv.parse(line.substr(0, line.size() - 1))->value, HUGE_VAL);

@@ -110,12 +110,6 @@ class HelpPage {
     std::string text_;
 };
 
-std::string capitalised(std::string text) {
-    if (!text.empty())
-        text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-    return text;
-}
-
 void add_common_options(HelpPage& page, Verb verb) {
     for (const CommonOption* common : options_of(verb)) {
         std::string names = common->names;
