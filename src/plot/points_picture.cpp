@@ -590,14 +590,9 @@ Chart histogram_chart(const PointsPicture& picture) {
 
 Drawing draw_points(const PointsPicture& picture, const PictureStyle& style,
                     const RunContext& run) {
-    switch (picture.sets[0]->dimension()) {
-        case 1:
-            return draw_chart(histogram_chart(picture), style);
-        case 3:
-            return draw_space(picture, style, run);
-        default:
-            return draw_pairs(picture, style, run);
-    }
+    const std::size_t d = picture.sets[0]->dimension();
+    if (d == 1) return draw_chart(histogram_chart(picture), style);
+    return d == 3 ? draw_space(picture, style, run) : draw_pairs(picture, style, run);
 }
 
 Drawing draw_pairs(const PointsPicture& picture, const PictureStyle& style, const RunContext& run) {

@@ -84,11 +84,6 @@ void StudySummary::add(const StudyRow& row) {
     sample.values.push_back(row.value.value_or(std::nan("")));
 }
 
-std::uint64_t StudySummary::failures_of(const StudyRow& row) const {
-    const auto it = failed_.find({row.generator, row.dimension, row.count, row.measure});
-    return it == failed_.end() ? 0 : it->second.sets;
-}
-
 std::string StudySummary::means(TableStyle style, const SummaryOptions& options,
                                 const RunContext& run) const {
     std::string text;
@@ -97,7 +92,8 @@ std::string StudySummary::means(TableStyle style, const SummaryOptions& options,
         const SampleSummary s = summarize(values);
         const auto boot = bootstrap_interval(values, options.confidence, options.resamples,
                                              options.seed, stream, run);
-        const auto cells = mean_cells(row, s, failures_of(row), options.confidence,
+        const auto& failed = failed_.at({row.generator, row.dimension, row.count, row.measure});
+        const auto cells = mean_cells(row, s, failed.sets, options.confidence,
                                       t_interval(s, options.confidence), boot);
         if (text.empty()) text = table_head(style, cells);
         text += table_line(style, cells);

@@ -64,7 +64,6 @@ class StudySummary {
     using Topic = std::tuple<std::uint64_t, std::uint64_t, std::string, std::string>;
     using Cell = std::tuple<std::string, std::uint64_t, std::uint64_t, std::string>;
 
-    [[nodiscard]] std::uint64_t failures_of(const StudyRow& row) const;
     [[nodiscard]] std::vector<Pair> pairs_of(const Topic& topic, bool by_seed) const;
 
     std::vector<Sample> samples_;
@@ -76,7 +75,7 @@ class StudySummary {
         std::uint64_t sets = 0;
         bool some_went_well = false;
     };
-    std::map<Cell, Failed> failed_;
+    std::map<Cell, Failed> failed_;  ///< all cells, also those of which nothing failed
 };
 
 }  // namespace stipple
