@@ -100,6 +100,22 @@ std::vector<std::size_t> all_of(std::size_t dimension) {
     return all;
 }
 
+/// What is said where a warp takes another number of coordinates than there are.
+/// @param width numbers of a row
+[[noreturn]] void refuse_coordinates(const Spec& spec, std::size_t takes, std::size_t width) {
+    const std::string wants =
+        fmt::format("warp {} takes {} coordinate{}", spec.name, takes, takes == 1 ? "" : "s");
+    if (!spec.coordinates.empty())
+        fail(ErrorKind::usage, "{}; {} {} named: {}@{}", wants, spec.coordinates.size(),
+             spec.coordinates.size() == 1 ? "is" : "are", spec.name,
+             format_coordinates(spec.coordinates));
+    std::string hint;
+    if (takes < width)
+        hint = fmt::format("name the coordinates: {}@{}", spec.name,
+                           format_coordinates(all_of(takes)));
+    fail_with_hint(ErrorKind::usage, hint, "{}; the points have {}", wants, width);
+}
+
 /// The product of factors and of the unit cube in all other coordinates.
 DomainPtr filled_up(std::vector<Factor> factors, std::size_t dimension) {
     std::vector<std::size_t> taken;
@@ -134,18 +150,15 @@ WarpChain::WarpChain(std::span<const Spec> specs, std::size_t dimension, const C
                           .image = std::move(before.coordinates),
                           .width_in = dimension,
                           .width_out = dimension});
-    for (const Spec& spec : specs) add(spec, set, run);
+    for (const Spec& spec : specs)
+        if (const Scramble* scramble = scramble_named(spec.name))
+            add_scramble(*scramble, spec, set);
+        else
+            add_warp(find_warp(spec.name), spec, run);
     std::vector<Factor> factors;
     for (const Step& step : steps_)
         if (step.domain) factors.push_back({step.domain, step.image});
     domain_ = filled_up(std::move(factors), dimension_out_);
-}
-
-void WarpChain::add(const Spec& spec, const ChainSet& set, const RunContext& run) {
-    if (const Scramble* scramble = scramble_named(spec.name))
-        add_scramble(*scramble, spec, set);
-    else
-        add_warp(find_warp(spec.name), spec, run);
 }
 
 /// They must be there, and still be uniform.
@@ -198,27 +211,12 @@ void WarpChain::add_scramble(const Scramble& scramble, const Spec& spec, const C
     steps_.push_back(std::move(step));
 }
 
-/// What is said where a warp takes another number of coordinates than there are.
-void WarpChain::refuse_coordinates(const Spec& spec, std::size_t takes, const Step& step) {
-    const std::string wants =
-        fmt::format("warp {} takes {} coordinate{}", spec.name, takes, takes == 1 ? "" : "s");
-    if (!spec.coordinates.empty())
-        fail(ErrorKind::usage, "{}; {} {} named: {}@{}", wants, step.coordinates.size(),
-             step.coordinates.size() == 1 ? "is" : "are", spec.name,
-             format_coordinates(step.coordinates));
-    std::string hint;
-    if (takes < step.width_in)
-        hint = fmt::format("name the coordinates: {}@{}", spec.name,
-                           format_coordinates(all_of(takes)));
-    fail_with_hint(ErrorKind::usage, hint, "{}; the points have {}", wants, step.width_in);
-}
-
 void WarpChain::add_warp(const Warp& warp, const Spec& spec, const RunContext& run) {
     const Values values = spec.values(warp.options);
     Step step{.coordinates = coordinates_of(spec), .width_in = dimension_out_};
     step.mapping = warp.make(values, step.coordinates.size(), run);
     const std::size_t takes = step.mapping->cube_dimension();
-    if (takes != step.coordinates.size()) refuse_coordinates(spec, takes, step);
+    if (takes != step.coordinates.size()) refuse_coordinates(spec, takes, step.width_in);
     step.domain = step.mapping->domain();
     const std::size_t gives = step.domain->dimension();
     step.width_out = step.width_in - takes + gives;

@@ -108,14 +108,11 @@ class WarpChain {
         std::size_t width_out = 0;                  ///< and after
     };
 
-    void add(const Spec& spec, const ChainSet& set, const RunContext& run);
     void add_scramble(const Scramble& scramble, const Spec& spec, const ChainSet& set);
     void add_warp(const Warp& warp, const Spec& spec, const RunContext& run);
     template <class Unit>
     void remember(const Unit& unit, const Spec& spec, const Values& values);
     [[nodiscard]] std::vector<std::size_t> coordinates_of(const Spec& spec) const;
-    [[noreturn]] static void refuse_coordinates(const Spec& spec, std::size_t takes,
-                                                const Step& step);
 
     std::vector<Step> steps_;
     std::vector<std::string> specs_;

@@ -45,17 +45,6 @@ void fill_rows(const Sequence& sequence, std::uint64_t first, const WarpChain& c
     });
 }
 
-/// All points of a sequence.
-PointSet fill_all(Sequence& sequence, const Plan& plan, std::uint64_t start,
-                  const RunContext& run) {
-    run.need_memory(static_cast<double>(plan.count) * static_cast<double>(plan.dimension) * 8,
-                    "the point set");
-    PointSet points(Rows::unwritten(plan.count * plan.dimension), plan.dimension);
-    walk_to(sequence, start, plan.dimension, run);
-    fill_rows(sequence, start, WarpChain({}, plan.dimension), {}, points.flat(), run);
-    return points;
-}
-
 }  // namespace
 
 NextRows rows_of(const PointSet& points, std::uint64_t first) {
@@ -91,7 +80,14 @@ PointSet make_points(const Generator& generator, const Request& request, const V
     const Plan plan = plan_for(generator, request, options);
     if (!generator.traits.sequence) return generator.set(plan, options, run);
     const RunContext steady = run.rising();
-    return fill_all(*generator.sequence(plan, options, steady), plan, request.start, steady);
+    const auto sequence = generator.sequence(plan, options, steady);
+    const std::size_t d = plan.dimension;
+    steady.need_memory(8 * static_cast<double>(plan.count) * static_cast<double>(d),
+                       "the point set");
+    PointSet points(Rows::unwritten(plan.count * d), d);
+    walk_to(*sequence, request.start, d, steady);
+    fill_rows(*sequence, request.start, WarpChain({}, d), {}, points.flat(), steady);
+    return points;
 }
 
 GeneratedSets::GeneratedSets(SetsToMake asked, const RunContext& run)

@@ -202,30 +202,27 @@ std::string path_of_set(std::string path, std::size_t set, std::uint64_t seed) {
     return path;
 }
 
-bool write_files(const SetsToWrite& job, const Target& asked, const RunContext& run) {
+void write_files(const SetsToWrite& job, const Target& asked, const RunContext& run) {
     io::Outputs outputs;
-    const bool whole = write_files(job, asked, outputs, run);
+    write_files(job, asked, outputs, run);
     outputs.commit();
-    return whole;
 }
 
-bool write_files(const SetsToWrite& job, const Target& asked, io::Outputs& outputs,
+void write_files(const SetsToWrite& job, const Target& asked, io::Outputs& outputs,
                  const RunContext& run) {
-    if (asked.take) {
-        asked.take(job);
-        return true;
-    }
+    if (asked.take) return asked.take(job);
     Target target = asked;
     target.format = &format_of(asked);
-    if (!file_per_set(target.path))
-        return write_file(job, 0, job.sets, target.path, target, outputs, run);
+    if (!file_per_set(target.path)) {
+        write_file(job, 0, job.sets, target.path, target, outputs, run);
+        return;
+    }
     check_seeds(job, target);
     for (std::size_t set = 0; set < job.sets; ++set) {
         const auto path = path_of_set(target.path, job.first_set + set, seed_of_set(job, set));
         if (set % 1024 == 0) run.need_memory(0, "the list of files");
-        if (!write_file(job, set, set + 1, path, target, outputs, run)) return false;
+        if (!write_file(job, set, set + 1, path, target, outputs, run)) return;
     }
-    return true;
 }
 
 RunContext part_of_run(const RunContext& run, std::size_t set, std::size_t sets) {

@@ -79,12 +79,12 @@ bool file_per_set(const std::string& path);
 std::string path_of_set(std::string path, std::size_t set, std::uint64_t seed);
 
 /// Writes the sets to the target's file or files, and what comes with them: all of these or, when
-/// something fails, none. False: the pipe was closed.
+/// something fails, none. A closed pipe ends it early, without error.
 /// @throws Error
-bool write_files(const SetsToWrite& job, const Target& target, const RunContext& run);
+void write_files(const SetsToWrite& job, const Target& target, const RunContext& run);
 
 /// The same, but leaves the files to be put in place with others.
-bool write_files(const SetsToWrite& job, const Target& target, io::Outputs& outputs,
+void write_files(const SetsToWrite& job, const Target& target, io::Outputs& outputs,
                  const RunContext& run);
 
 /// The part of a run's progress that one of several sets is.
