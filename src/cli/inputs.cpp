@@ -268,11 +268,11 @@ std::uint64_t drawn_seed(std::uint64_t largest) {
     return bits % (std::min(largest, (std::uint64_t{1} << 53) - 1) + 1);
 }
 
+}  // namespace
+
 std::uint64_t largest_seed(const Generator& generator, const Values& values) {
     return generator.max_seed ? generator.max_seed(values) : ~std::uint64_t{0};
 }
-
-}  // namespace
 
 std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session& session) {
     const auto text = arguments.get("seed");
@@ -287,11 +287,6 @@ std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session
         fail(ErrorKind::usage, "--seed: '{}' is not a whole number in [0, 2^64) or 'random'",
              *text);
     return *seed;
-}
-
-std::uint64_t seed_for(const Arguments& arguments, const Generator& generator, const Values& values,
-                       Session& session) {
-    return seed_of(arguments, largest_seed(generator, values), session);
 }
 
 std::uint64_t seed_for(const Arguments& arguments, std::span<const std::string> specs,

@@ -91,9 +91,10 @@ SharedSet shared_files(const Arguments& arguments, const Analyzer& analyzer,
 /// --seed, or one that is drawn and reported, at most `largest`. @throws Error(usage)
 std::uint64_t seed_of(const Arguments& arguments, std::uint64_t largest, Session& session);
 
-/// The same, one that the generator takes; for several specs, all of theirs.
-std::uint64_t seed_for(const Arguments& arguments, const Generator& generator, const Values& values,
-                       Session& session);
+/// The largest seed that the generator takes.
+std::uint64_t largest_seed(const Generator& generator, const Values& values);
+
+/// --seed, one that the generators of all specs take.
 std::uint64_t seed_for(const Arguments& arguments, std::span<const std::string> specs,
                        Session& session);
 

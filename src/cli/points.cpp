@@ -130,7 +130,7 @@ Box bounds_of(const std::string& text, const Production& job) {
 Production production_of(const Arguments& arguments, Session& session) {
     const Generator& generator = find_generator(arguments.unit);
     Production job{sets_asked(generator, settings_of(generator.options, arguments), arguments)};
-    job.request.seed = seed_for(arguments, generator, job.options, session);
+    job.request.seed = seed_of(arguments, largest_seed(generator, job.options), session);
     job.shard = parse_shard(arguments);
     if (const auto bounds = arguments.get("bounds")) job.request.bounds = bounds_of(*bounds, job);
     return job;
