@@ -14,7 +14,6 @@
 #include "core/bytes/npy_header.hpp"
 #include "core/error.hpp"
 #include "core/spec.hpp"
-#include "core/text.hpp"
 #include "io/files.hpp"
 #include "io/provenance.hpp"
 #include "io/source_text.hpp"
@@ -36,18 +35,13 @@ enum class Medium { svg, png, text };
 
 constexpr std::size_t most_sets = 7;  ///< of points, in one picture: as many as there are colours
 
-Medium medium_named(const std::string& name) {
-    return name == "svg" ? Medium::svg : name == "png" ? Medium::png : Medium::text;
-}
-
 Medium medium_of(const Arguments& arguments, const std::string& path) {
     const bool terminal = is_terminal(path);
     if (const auto named = arguments.get("format")) {
-        const Medium medium = medium_named(*named);
-        if (medium == Medium::png && terminal)
+        if (*named == "png" && terminal)
             fail_with_hint(ErrorKind::usage, "name a file with -o, or pipe it on",
                            "--format: png is binary, and standard output is a terminal");
-        return medium;
+        return *named == "svg" ? Medium::svg : *named == "png" ? Medium::png : Medium::text;
     }
     if (path == "-") return terminal ? Medium::text : Medium::svg;
     if (path.ends_with(".png")) return Medium::png;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -19,9 +18,8 @@ namespace {
 Json typed(const std::string& text) {
     if (text == "true") return true;
     if (text == "false") return false;
-    std::int64_t integer = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), integer);
-    if (error == std::errc() && std::to_string(integer) == text) return integer;
+    const auto integer = parse_integer(text);
+    if (integer && std::to_string(*integer) == text) return *integer;
     const auto number = parse_number(text);
     if (number && format_number(*number) == text) return *number;
     return text;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/json.hpp"
+#include "core/text.hpp"
 #include "plot/drawing/html_text.hpp"
 #include "plot/drawing/ticks.hpp"
 #include "plot/report_charts.hpp"
@@ -131,7 +132,9 @@ std::string numbers_of(std::span<const Set> sets, const Chart& chart, const Area
                       {"from", x.low},
                       {"to", x.high},
                       {"curves", curves}};
-    return html_json(json_text(all));
+    std::string text = json_text(all);
+    replace_all(text, "<", "\\u003c");  // "</script" in a name would end the element
+    return text;
 }
 
 /// The first panel of the chart of a measure of these sets, as far as they have the curve.

@@ -144,9 +144,8 @@ std::vector<double> densities(const PointSet& points) {
     return density;
 }
 
-struct Warper::State {
-    explicit State(std::span<const Spec> specs, std::size_t dimension) : chain(specs, dimension) {}
-    WarpChain chain;
+struct Warper::State : WarpChain {
+    using WarpChain::WarpChain;
 };
 
 Warper::Warper(std::span<const std::string> texts, std::size_t dimension) {
@@ -160,25 +159,25 @@ Warper::Warper(Warper&&) noexcept = default;
 Warper& Warper::operator=(Warper&&) noexcept = default;
 Warper::~Warper() = default;
 
-std::size_t Warper::dimension_in() const { return state_->chain.dimension_in(); }
-std::size_t Warper::dimension_out() const { return state_->chain.dimension_out(); }
+std::size_t Warper::dimension_in() const { return state_->dimension_in(); }
+std::size_t Warper::dimension_out() const { return state_->dimension_out(); }
 
 std::vector<double> Warper::forward(std::span<const double> rows) const {
     require_rows(rows, dimension_in());
     for (std::size_t i = 0; i < rows.size(); ++i)
         if (!(rows[i] >= 0 && rows[i] <= 1))
             fail(ErrorKind::input, "number {} is {}, outside [0, 1]", i, rows[i]);
-    return state_->chain.forward({rows.begin(), rows.end()});
+    return state_->forward({rows.begin(), rows.end()});
 }
 
 std::vector<double> Warper::inverse(std::span<const double> rows) const {
     require_rows(rows, dimension_out());
-    return state_->chain.inverse({rows.begin(), rows.end()});
+    return state_->inverse({rows.begin(), rows.end()});
 }
 
 std::vector<double> Warper::density(std::span<const double> rows) const {
     require_rows(rows, dimension_out());
-    return state_->chain.density(rows);
+    return state_->density(rows);
 }
 
 // ---------------------------------------------------------------- files

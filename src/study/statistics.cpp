@@ -11,10 +11,6 @@
 namespace stipple {
 namespace {
 
-double mean_of(std::span<const double> sample) {
-    return std::accumulate(sample.begin(), sample.end(), 0.0) / static_cast<double>(sample.size());
-}
-
 /// Of sorted numbers, between neighbours by a straight line.
 double quantile(std::span<const double> sorted, double q) {
     const double at = q * static_cast<double>(sorted.size() - 1);
@@ -52,7 +48,7 @@ SampleSummary summarize(std::span<const double> sample) {
     s.median = quantile(sorted, 0.5);
     // The mean of equal numbers is that number: a rounded sum would give it an error.
     const bool same = sorted.front() == sorted.back();
-    s.mean = same ? sorted.front() : mean_of(sample);
+    s.mean = same ? sorted.front() : std::accumulate(sample.begin(), sample.end(), 0.0) / n;
     if (sample.size() < 2) return s;
     double squares = 0;
     for (const double x : sample) squares += (x - s.mean) * (x - s.mean);

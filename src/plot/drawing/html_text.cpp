@@ -23,12 +23,6 @@ std::string html_text(std::string_view text) {
     return out;
 }
 
-std::string html_json(std::string_view json) {
-    std::string out(json);
-    replace_all(out, "<", "\\u003c");
-    return out;
-}
-
 std::string base64(std::string_view bytes) {
     constexpr std::string_view digits =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

@@ -14,9 +14,6 @@ std::string xml_text(std::string_view text);
 /// The same, also for an attribute in double quotes.
 std::string html_text(std::string_view text);
 
-/// JSON as it may stand within a script element, which a "</script" in a string would end.
-std::string html_json(std::string_view json);
-
 /// RFC 4648.
 std::string base64(std::string_view bytes);
 
