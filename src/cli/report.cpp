@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string_view>
 
 #include "cli/inputs.hpp"
@@ -20,7 +19,6 @@
 #include "pipeline/chain.hpp"
 #include "pipeline/generated.hpp"
 #include "pipeline/set_writer.hpp"
-#include "pipeline/units.hpp"
 #include "report/check.hpp"
 
 namespace stipple::cli {

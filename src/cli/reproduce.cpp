@@ -21,7 +21,6 @@
 #include "core/utf8.hpp"
 #include "io/carried_meta.hpp"
 #include "io/files.hpp"
-#include "io/provenance.hpp"
 #include "io/source_text.hpp"
 #include "media/png_picture.hpp"
 #include "pipeline/chain.hpp"

@@ -2,7 +2,6 @@
 #include "io/columns.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 #include "core/error.hpp"
 #include "core/text.hpp"

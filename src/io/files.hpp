@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/point_set.hpp"
-#include "io/feed.hpp"
 #include "io/format.hpp"
 #include "stipple/run.hpp"
 

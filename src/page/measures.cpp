@@ -10,7 +10,6 @@
 
 #include "core/error.hpp"
 #include "core/spec.hpp"
-#include "core/text.hpp"
 #include "page/figures.hpp"
 #include "pipeline/pipeline.hpp"
 #include "pipeline/set_writer.hpp"

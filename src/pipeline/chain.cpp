@@ -2,7 +2,6 @@
 #include "pipeline/chain.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <filesystem>
 #include <iterator>
 #include <numeric>

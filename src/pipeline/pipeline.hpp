@@ -8,7 +8,6 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <string_view>
 
 #include "pipeline/generated.hpp"
 #include "pipeline/units.hpp"

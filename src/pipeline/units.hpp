@@ -3,15 +3,11 @@
 // Units by name.
 #pragma once
 
-#include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include "analyzers/analyzer.hpp"
 #include "generators/generator.hpp"
 #include "scrambles/scramble.hpp"
-#include "stipple/generate.hpp"
 #include "warps/warp.hpp"
 
 namespace stipple {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "plot/domain_outline.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>

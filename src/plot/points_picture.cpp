@@ -12,7 +12,6 @@
 #include "io/format.hpp"
 #include "io/formats/disk_size.hpp"
 #include "plot/domain_outline.hpp"
-#include "plot/drawing/letters.hpp"
 
 namespace stipple::plot {
 namespace {

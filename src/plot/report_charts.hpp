@@ -15,10 +15,8 @@
 //         doi:10.1073/pnas.17.12.684: half of a ring's frequencies are free (P(-f) = P(f)).
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 
 #include "plot/chart.hpp"
 #include "report/document.hpp"

@@ -10,7 +10,6 @@
 #include "core/utf8.hpp"
 #include "io/format.hpp"
 #include "plot/drawing/dot_matrix.hpp"
-#include "plot/drawing/letters.hpp"
 #include "plot/drawing/ticks.hpp"
 #include "report/grid_files.hpp"
 

@@ -14,6 +14,7 @@
 #include <functional>
 #include <thread>
 
+#include "io/feed.hpp"
 #include "io/io_support.hpp"
 #include "io/output.hpp"
 

@@ -23,7 +23,6 @@
 
 #include "core/error.hpp"
 #include "core/json.hpp"
-#include "core/text.hpp"
 #include "core/utf8.hpp"
 #include "io/columns.hpp"
 #include "io/decimal.hpp"

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "core/utf8.hpp"
-#include "plot/drawing/letters.hpp"
 
 namespace stipple::plot {
 DotMatrix::DotMatrix(std::size_t columns, std::size_t rows)
