@@ -69,6 +69,29 @@ int end_with(std::string_view verb, const Error& error) {
     return exit_code(cause.kind());
 }
 
+/// The exit code, once what went wrong is said.
+int run_verb(int argc, char** argv) {
+    const std::string_view verb = argc > 1 ? argv[1] : "";
+    try {
+        if (verb == "complete") {
+            write_text("-", complete({argv + 2, argv + argc}));
+            return 0;
+        }
+        return dispatch(parse_arguments(argc, argv));
+    } catch (const Error& e) {
+        return end_with(verb, e);
+    } catch (const std::bad_alloc&) {
+        return end_with(verb, {ErrorKind::limit, "out of memory"});
+    } catch (const std::system_error& e) {
+        if (e.code() == std::errc::resource_unavailable_try_again)
+            return end_with(verb, {ErrorKind::limit, "a thread does not start",
+                                   "limits (ulimit) may allow fewer: --threads"});
+        return end_with(verb, {ErrorKind::io, fmt::format("internal error: {}", e.what())});
+    } catch (const std::exception& e) {
+        return end_with(verb, {ErrorKind::io, fmt::format("internal error: {}", e.what())});
+    }
+}
+
 }  // namespace
 
 void write_text(const std::string& path, const std::string& text) {
@@ -96,33 +119,6 @@ int list(const Arguments& arguments) {
                                                           : list_text(kinds));
     return 0;
 }
-
-namespace {
-
-/// The exit code, once what went wrong is said.
-int run_verb(int argc, char** argv) {
-    const std::string_view verb = argc > 1 ? argv[1] : "";
-    try {
-        if (verb == "complete") {
-            write_text("-", complete({argv + 2, argv + argc}));
-            return 0;
-        }
-        return dispatch(parse_arguments(argc, argv));
-    } catch (const Error& e) {
-        return end_with(verb, e);
-    } catch (const std::bad_alloc&) {
-        return end_with(verb, {ErrorKind::limit, "out of memory"});
-    } catch (const std::system_error& e) {
-        if (e.code() == std::errc::resource_unavailable_try_again)
-            return end_with(verb, {ErrorKind::limit, "a thread does not start",
-                                   "limits (ulimit) may allow fewer: --threads"});
-        return end_with(verb, {ErrorKind::io, fmt::format("internal error: {}", e.what())});
-    } catch (const std::exception& e) {
-        return end_with(verb, {ErrorKind::io, fmt::format("internal error: {}", e.what())});
-    }
-}
-
-}  // namespace
 
 int run(int argc, char** argv) {
     catch_interrupts();

@@ -30,6 +30,15 @@ Shard parse_shard(const Arguments& arguments) {
     return {*index, *of};
 }
 
+/// The box of --bounds, with a range for each coordinate, or one for all. How many there are is
+/// planned in the box itself: options are checked by it.
+Box bounds_of(const std::string& text, const Production& job) {
+    const auto ranges = static_cast<std::size_t>(1 + std::ranges::count(text, ','));
+    Request request = job.request;
+    request.bounds = parse_box(text, request.dimension.value_or(std::max<std::size_t>(ranges, 2)));
+    return parse_box(text, plan_for(*job.generator, request, job.options).dimension);
+}
+
 /// The command that makes these bytes: what was typed, less what cannot change them.
 std::string command_of(const Arguments& arguments, const Production& job, const Target& target) {
     const Generator& generator = *job.generator;
@@ -114,19 +123,6 @@ Values settings_of(const Schema& schema, const Arguments& arguments) {
     return values;
 }
 
-namespace {
-
-/// The box of --bounds, with a range for each coordinate, or one for all. How many there are is
-/// planned in the box itself: options are checked by it.
-Box bounds_of(const std::string& text, const Production& job) {
-    const auto ranges = static_cast<std::size_t>(1 + std::ranges::count(text, ','));
-    Request request = job.request;
-    request.bounds = parse_box(text, request.dimension.value_or(std::max<std::size_t>(ranges, 2)));
-    return parse_box(text, plan_for(*job.generator, request, job.options).dimension);
-}
-
-}  // namespace
-
 Production production_of(const Arguments& arguments, Session& session) {
     const Generator& generator = find_generator(arguments.unit);
     Production job{sets_asked(generator, settings_of(generator.options, arguments), arguments)};
@@ -144,21 +140,6 @@ int generate(const Arguments& arguments, Session& session) {
     return 0;
 }
 
-namespace {
-
-/// Replications of the input by a scramble.
-int scramble(const Arguments& arguments, const Spec& spec, const std::vector<PointSet>& sets,
-             const Target& target, Session& session) {
-    arguments.refuse({"inverse", "with-pdf", "with-weight"},
-                     spec.name + " is a scramble, random and of density 1");
-    const std::uint64_t seed = seed_of(arguments, ~std::uint64_t{0}, session);
-    const auto replications = arguments.integer("sets").value_or(1);
-    write_scrambled(sets, spec, seed, replications, target, session.run());
-    return 0;
-}
-
-}  // namespace
-
 int warp(const Arguments& arguments, Session& session) {
     const Scramble* scrambled = scramble_named(arguments.unit);
     settings_of(scrambled ? scrambled->options : find_warp(arguments.unit).options, arguments);
@@ -170,8 +151,15 @@ int warp(const Arguments& arguments, Session& session) {
     const Target target = target_of(arguments);
     const std::string path = only_input(arguments);
     const RunContext& run = session.run();
-    if (scrambled)
-        return scramble(arguments, spec, read_input(path, arguments, run), target, session);
+    if (scrambled) {
+        const auto sets = read_input(path, arguments, run);
+        arguments.refuse({"inverse", "with-pdf", "with-weight"},
+                         spec.name + " is a scramble, random and of density 1");
+        const std::uint64_t seed = seed_of(arguments, ~std::uint64_t{0}, session);
+        const auto replications = arguments.integer("sets").value_or(1);
+        write_scrambled(sets, spec, seed, replications, target, run);
+        return 0;
+    }
     const auto stream = open_input(path, arguments, run);
     const bool inverse = arguments.has("inverse");
     if (can_stream(*stream, target))

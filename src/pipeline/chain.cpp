@@ -126,6 +126,31 @@ DomainPtr filled_up(std::vector<Factor> factors, std::size_t dimension) {
     return whole ? factors[0].domain : product_domain(std::move(factors));
 }
 
+/// What parts of " x " mean, each of `dimension` coordinates where it names none.
+std::vector<Factor> parse_factors(std::string_view text, std::size_t dimension,
+                                  const RunContext& run) {
+    std::vector<Factor> factors;
+    while (!text.empty()) {
+        const auto times = end_of_factor(text);
+        Spec spec = parse_spec(text.substr(0, times));
+        text = times == std::string_view::npos ? std::string_view() : text.substr(times + 3);
+        const std::size_t given = spec.coordinates.empty() ? dimension : spec.coordinates.size();
+        DomainPtr domain;
+        if (spec.name == "unit-cube") {
+            domain = unit_cube(given);
+        } else if (spec.name == "box") {
+            if (spec.settings.size() != 1 || spec.settings[0].first != "bounds")
+                fail(ErrorKind::usage, "domain box: write box:bounds=[lo..hi,lo..hi]");
+            domain = box_domain(parse_box(spec.settings[0].second, given));
+        } else {
+            const Warp& warp = warp_of_domain(spec.name);
+            domain = warp.make(spec.values(warp.options), given, run)->domain();
+        }
+        factors.push_back({std::move(domain), named_or_all(spec, dimension)});
+    }
+    return factors;
+}
+
 }  // namespace
 
 std::vector<double> gather(std::span<const double> rows, std::size_t width,
@@ -380,35 +405,6 @@ std::vector<std::pair<std::string, std::string>> fingerprints(std::span<const st
     }
     return all;
 }
-
-namespace {
-
-/// What parts of " x " mean, each of `dimension` coordinates where it names none.
-std::vector<Factor> parse_factors(std::string_view text, std::size_t dimension,
-                                  const RunContext& run) {
-    std::vector<Factor> factors;
-    while (!text.empty()) {
-        const auto times = end_of_factor(text);
-        Spec spec = parse_spec(text.substr(0, times));
-        text = times == std::string_view::npos ? std::string_view() : text.substr(times + 3);
-        const std::size_t given = spec.coordinates.empty() ? dimension : spec.coordinates.size();
-        DomainPtr domain;
-        if (spec.name == "unit-cube") {
-            domain = unit_cube(given);
-        } else if (spec.name == "box") {
-            if (spec.settings.size() != 1 || spec.settings[0].first != "bounds")
-                fail(ErrorKind::usage, "domain box: write box:bounds=[lo..hi,lo..hi]");
-            domain = box_domain(parse_box(spec.settings[0].second, given));
-        } else {
-            const Warp& warp = warp_of_domain(spec.name);
-            domain = warp.make(spec.values(warp.options), given, run)->domain();
-        }
-        factors.push_back({std::move(domain), named_or_all(spec, dimension)});
-    }
-    return factors;
-}
-
-}  // namespace
 
 DomainPtr parse_domain(std::string_view text, std::size_t dimension, const RunContext& run) {
     auto factors = parse_factors(text, dimension, run);

@@ -376,14 +376,12 @@ std::vector<PointSet> gather_sets(Rows rows, std::size_t dimension, const Proven
 
     std::vector<std::vector<double>> sets(order.size());
     for (std::size_t m = 0; m < marks.size(); ++m) {
-        const auto first =
-            rows.numbers.begin() + static_cast<std::ptrdiff_t>(marks[m].row * dimension);
-        const auto last =
-            m + 1 < marks.size()
-                ? rows.numbers.begin() + static_cast<std::ptrdiff_t>(marks[m + 1].row * dimension)
-                : rows.numbers.end();
+        const std::size_t first = marks[m].row * dimension;
+        const std::size_t last =
+            m + 1 < marks.size() ? marks[m + 1].row * dimension : rows.numbers.size();
+        const auto part = std::span(rows.numbers).subspan(first, last - first);
         auto& set = sets[order.at(marks[m].number)];
-        set.insert(set.end(), first, last);
+        set.insert(set.end(), part.begin(), part.end());
     }
     std::vector<PointSet> result;
     for (auto& set : sets) result.emplace_back(std::move(set), dimension);
