@@ -105,8 +105,7 @@ constexpr std::size_t most_waiting = std::size_t{1} << 12;
 struct FoundSet {
     PointSet points;
     std::string source;
-    std::size_t number;  ///< in its file
-    std::size_t of;      ///< sets in its file
+    std::optional<std::size_t> number;  ///< in its file, of several
 };
 
 /// What became of a set that was measured beside others; nothing where a stop came before it.
@@ -254,7 +253,8 @@ class Analysis {
                                         text, number_of(set, sets), quiet),
                      sets > 1);
             else
-                add({of_the_cube(generated.made(set, quiet), analyzer_), text, set, sets});
+                add({of_the_cube(generated.made(set, quiet), analyzer_), text,
+                     number_of(set, sets)});
         }
     }
 
@@ -305,7 +305,7 @@ class Analysis {
                 naming(input,
                        [&] { sets[set] = prepared(std::move(sets[set]), analyzer_, arguments_); });
             });
-            add({std::move(sets[set]), input, set, sets.size()});
+            add({std::move(sets[set]), input, number_of(set, sets.size())});
         }
     }
 
@@ -368,7 +368,7 @@ class Analysis {
     }
 
     void keep_found(const FoundSet& set, Measurement m) {
-        keep(std::move(m), inputs_.size() > 1 || set.of > 1);
+        keep(std::move(m), inputs_.size() > 1 || set.number);
     }
 
     /// Errors of an input are reported after the sets before it have been measured.
@@ -413,9 +413,9 @@ class Analysis {
     /// The run, its warnings with the set in front where there are others.
     [[nodiscard]] RunContext naming_set(const FoundSet& set, const RunContext& run) const {
         RunContext named = run;
-        if (set.of == 1 && arguments_.inputs.size() <= 1) return named;
+        if (!set.number && arguments_.inputs.size() <= 1) return named;
         std::string name = io::source_name(set.source);
-        if (set.of > 1) name += fmt::format(", set {}", set.number);
+        if (set.number) name += fmt::format(", set {}", *set.number);
         named.warn = [&run, name](const std::string& sentence) {
             run.notify(fmt::format("{}: {}", name, sentence));
         };
@@ -424,7 +424,7 @@ class Analysis {
 
     [[nodiscard]] Measurement measured(const FoundSet& set, const RunContext& run) const {
         const RunContext named = naming_set(set, run);
-        return timed(set.source, number_of(set.number, set.of), set.points.domain, [&] {
+        return timed(set.source, set.number, set.points.domain, [&] {
             return naming(set.source, [&] {
                 return Found{stipple::analyze(analyzer_, set.points, options_, named),
                              set.points.count()};
