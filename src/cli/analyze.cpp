@@ -483,8 +483,7 @@ class Analysis {
     }
 
     void save_grid(const Report& results, std::size_t number, bool several) {
-        const auto* item = results.find("grid");
-        const Grid* grid = item ? std::get_if<Grid>(item) : nullptr;
+        const auto* grid = std::get_if<Grid>(results.find("grid"));
         for (const std::string name : {"grid", "image"}) {
             auto path = text_of(name);
             if (!path) continue;

@@ -135,19 +135,19 @@ std::shared_ptr<Sequence> GeneratedSets::sequence(std::uint64_t set, const RunCo
 }
 
 NextRows GeneratedSets::stream(std::uint64_t set, const RunContext& run, std::uint64_t first,
-                               std::uint64_t last) const {
+                               std::optional<std::uint64_t> last) const {
     const auto points = sequence(set, run);
     walk_to(*points, asked_.request.start + first, plan_.dimension, run);
-    return
-        [=, at = asked_.request.start + first, end = asked_.request.start + last, bounds = bounds_,
-         chain = chain_for(set, run), lane = silent(run)](std::span<double> rows) mutable {
-            const std::size_t d = chain->dimension_out();
-            const auto some =
-                static_cast<std::size_t>(std::min<std::uint64_t>(end - at, rows.size() / d));
-            fill_rows(*points, at, *chain, bounds, rows.first(some * d), lane);
-            at += some;
-            return some;
-        };
+    return [=, at = asked_.request.start + first,
+            end = asked_.request.start + last.value_or(plan_.count), bounds = bounds_,
+            chain = chain_for(set, run), lane = silent(run)](std::span<double> rows) mutable {
+        const std::size_t d = chain->dimension_out();
+        const auto some =
+            static_cast<std::size_t>(std::min<std::uint64_t>(end - at, rows.size() / d));
+        fill_rows(*points, at, *chain, bounds, rows.first(some * d), lane);
+        at += some;
+        return some;
+    };
 }
 
 PointSet GeneratedSets::made(std::uint64_t set, const RunContext& run) const {

@@ -61,14 +61,10 @@ class GeneratedSets {
     /// Points of a set that come in blocks; nothing where sets must be made in memory.
     [[nodiscard]] std::optional<std::uint64_t> streamed() const;
 
-    /// What gives the points [first, last) of such a set; one at a time where they come in order.
-    [[nodiscard]] NextRows stream(std::uint64_t set, const RunContext& run, std::uint64_t first,
-                                  std::uint64_t last) const;
-    /// All of them from one on.
-    [[nodiscard]] NextRows stream(std::uint64_t set, const RunContext& run,
-                                  std::uint64_t first = 0) const {
-        return stream(set, run, first, plan_.count);
-    }
+    /// What gives the points [first, last) of such a set, all from the first on by default; one at a
+    /// time where they come in order.
+    [[nodiscard]] NextRows stream(std::uint64_t set, const RunContext& run, std::uint64_t first = 0,
+                                  std::optional<std::uint64_t> last = {}) const;
 
     /// All points of a set.
     [[nodiscard]] PointSet made(std::uint64_t set, const RunContext& run) const;

@@ -167,8 +167,7 @@ void make_gaps(std::vector<Series>& all) {
 }
 
 bool holds(const Report& report, std::string_view key) {
-    const Report::Item* item = report.find(key);
-    const bool* flag = item == nullptr ? nullptr : std::get_if<bool>(item);
+    const bool* flag = std::get_if<bool>(report.find(key));
     return flag != nullptr && *flag;
 }
 

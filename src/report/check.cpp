@@ -79,7 +79,6 @@ double bounded(const Check& check, const Report& report, double found) {
 /// The word or flag under a key; empty if it is none.
 std::string word_of(const Report& report, const std::string& key) {
     const Report::Item* item = report.find(key);
-    if (item == nullptr) return {};
     if (const auto* text = std::get_if<std::string>(item)) return *text;
     if (const auto* flag = std::get_if<bool>(item)) return *flag ? "true" : "false";
     return {};

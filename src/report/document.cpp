@@ -76,8 +76,8 @@ std::string to_text(const Measurement& m) {
     for (const auto& key : keys) {
         std::string line = fmt::format("  {:<{}}  {}", key, width, text_of(*m.results.find(key)));
         const Report::Item* error = m.standard_error ? m.standard_error->find(key) : nullptr;
-        if (error && std::holds_alternative<double>(*error))
-            line += fmt::format(" +- {:.3g}", std::get<double>(*error));
+        if (const auto* number = std::get_if<double>(error))
+            line += fmt::format(" +- {:.3g}", *number);
         const std::string& unit = unit_of(m.results, key);
         text += unit.empty() ? line + "\n" : fmt::format("{} {}\n", line, unit);
     }
@@ -198,7 +198,6 @@ Json json_of(const std::vector<std::pair<std::string, std::string>>& options) {
 
 std::optional<double> number_at(const Report& report, std::string_view key) {
     const Report::Item* item = report.find(key);
-    if (item == nullptr) return std::nullopt;
     if (const auto* number = std::get_if<double>(item)) return *number;
     if (const auto* whole = std::get_if<std::int64_t>(item)) return static_cast<double>(*whole);
     return std::nullopt;
@@ -206,7 +205,6 @@ std::optional<double> number_at(const Report& report, std::string_view key) {
 
 std::optional<Report::Curve> list_at(const Report& report, std::string_view key) {
     const Report::Item* item = report.find(key);
-    if (item == nullptr) return std::nullopt;
     if (const auto* curve = std::get_if<Report::Curve>(item)) return *curve;
     if (const auto* whole = std::get_if<Report::Integers>(item))
         return Report::Curve(whole->begin(), whole->end());
