@@ -29,7 +29,6 @@ class ReportAverage {
     /// what has no mean; nor have exact values, chances and errors one, nor what follows from the
     /// mean and scatters in its own way, such as an anisotropy. Empty for fewer than two reports.
     [[nodiscard]] Report standard_error(const Report& mean) const;
-    [[nodiscard]] Report standard_error() const { return standard_error(mean_); }
 
   private:
     std::size_t count_ = 0;

@@ -62,7 +62,7 @@ std::map<std::string, Scatter> scatter_of(const char* words, const char* generat
         for (std::size_t i = 0; i < all[0].size(); ++i) {
             ReportAverage average;
             for (const auto& curve : all) average.add(Report().add("value", curve[i]));
-            const double error = average.standard_error().number("value");
+            const double error = average.standard_error(average.mean()).number("value");
             found[key].found += error * error * groups;
         }
     return found;
@@ -81,7 +81,7 @@ TEST(ReportAverage, MeanAndStandardErrorByHand) {
     EXPECT_EQ(mean.curve("inner.curve"), (Report::Curve{3, 6}));
     EXPECT_EQ(std::get<Grid>(*mean.find("grid")).values, (std::vector<double>{3, -3}));
     // Deviations -2, -1, 3: sum of squares 14, over 3 * 2.
-    const Report error = average.standard_error();
+    const Report error = average.standard_error(average.mean());
     EXPECT_NEAR(error.number("value"), std::sqrt(14.0 / 6), 1e-15);
     EXPECT_NEAR(error.curve("inner.curve")[1], 2 * std::sqrt(14.0 / 6), 1e-15);
     EXPECT_EQ(error.find("word"), nullptr);
@@ -103,7 +103,7 @@ TEST(ReportAverage, OneReportIsItsOwnMeanWithoutError) {
     ReportAverage average;
     average.add(sample(2, 5, "w"));
     EXPECT_EQ(average.mean().number("value"), 2);
-    EXPECT_TRUE(average.standard_error().entries().empty());
+    EXPECT_TRUE(average.standard_error(average.mean()).entries().empty());
 }
 
 TEST(ReportAverage, StandardErrorsOfWhatIsNotInTheMeanAreLeftOut) {
@@ -115,7 +115,7 @@ TEST(ReportAverage, StandardErrorsOfWhatIsNotInTheMeanAreLeftOut) {
     EXPECT_EQ(errors.find("value"), nullptr);
     EXPECT_EQ(errors.find("inner.curve"), nullptr);
     EXPECT_EQ(errors.number("count"), 0);
-    EXPECT_EQ(average.standard_error().curve("inner.curve"), (Report::Curve{0.5, 1}));
+    EXPECT_EQ(average.standard_error(average.mean()).curve("inner.curve"), (Report::Curve{0.5, 1}));
 }
 
 TEST(ReportAverage, WhatIsNoMeanHasNoStandardError) {
@@ -128,7 +128,8 @@ TEST(ReportAverage, WhatIsNoMeanHasNoStandardError) {
         report.add("one", Report().add("exact", 1.0).add("standard_error", x).add("error", x));
         average.add(report);
     }
-    EXPECT_EQ(average.standard_error().keys(), (std::vector<std::string>{"estimate", "one.error"}));
+    EXPECT_EQ(average.standard_error(average.mean()).keys(),
+              (std::vector<std::string>{"estimate", "one.error"}));
 }
 
 // A standard deviation of 60 values has an error of 9 %.
