@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <optional>
 
 #include "core/error.hpp"
@@ -38,21 +37,17 @@ constexpr std::array plans = {
     Planned{"chi-square", "χ² test", "chi-square"},
     Planned{"kolmogorov-smirnov", "Kolmogorov–Smirnov test", "kolmogorov-smirnov"}};
 
-/// What takes n² d steps, for which a comparison of the limit may stand: sums over all pairs, but
-/// for the plane, where there are faster ways, and neighbours where trees do not help any more.
-double steps_of_a_comparison(const Planned& plan, std::size_t dimension) {
-    const std::string_view analyzer = plan.analyzer;
-    if (analyzer == "l2-discrepancy" && dimension > 2) return 20;
-    if (analyzer == "nearest-neighbor" && dimension > 8) return 5;
-    return std::numeric_limits<double>::infinity();
-}
-
+/// n² d steps take sums over all pairs, but for the plane, where there are faster ways, and
+/// neighbours where trees do not help any more. A comparison of the limit may stand for some of them.
 /// @throws Error(limit)
 void need_few_pairs(const Planned& plan, const PointSet& points, std::int64_t work) {
+    const std::string_view analyzer = plan.analyzer;
+    const std::size_t d = points.dimension();
+    const bool sums = analyzer == "l2-discrepancy" && d > 2;
+    if (!sums && (analyzer != "nearest-neighbor" || d <= 8)) return;
     const auto n = static_cast<double>(points.count());
-    const double steps = n * n * static_cast<double>(points.dimension());
-    const double allowed = steps_of_a_comparison(plan, points.dimension());
-    if (steps <= allowed * static_cast<double>(work)) return;
+    const double steps = n * n * static_cast<double>(d);
+    if (steps <= (sums ? 20 : 5) * static_cast<double>(work)) return;
     fail(ErrorKind::limit,
          "it would compare all pairs of {} points in {} dimensions, which takes long; a larger "
          "--max-work allows it, or 'stipple analyze {}'",

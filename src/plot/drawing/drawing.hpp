@@ -6,6 +6,7 @@
 // Promise the same drawing gives the same bytes.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -22,7 +23,12 @@ struct Colour {
 };
 
 /// a + share (b - a).
-Colour mixed(Colour a, Colour b, double share);
+inline Colour mixed(Colour a, Colour b, double share) {
+    const auto mix = [share](std::uint8_t from, std::uint8_t to) {
+        return static_cast<std::uint8_t>(std::lround(from + share * (to - from)));
+    };
+    return {mix(a.red, b.red), mix(a.green, b.green), mix(a.blue, b.blue)};
+}
 
 struct Position {
     double x = 0;
@@ -113,8 +119,16 @@ struct Drawing {
     void add(S shape) {
         shapes.emplace_back(std::in_place_type<S>, std::move(shape));
     }
-    void line(Position from, Position to, Colour colour, double width_of_line = 1);
-    void rectangle(const Area& area, Colour colour);
+    void line(Position from, Position to, Colour colour) {
+        add(Line{.vertices = {from, to}, .colour = colour, .crisp = true});
+    }
+    void rectangle(const Area& area, Colour colour) {
+        add(Patch{.vertices = {{area.left, area.top},
+                               {area.right(), area.top},
+                               {area.right(), area.bottom()},
+                               {area.left, area.bottom()}},
+                  .colour = colour});
+    }
 };
 
 /// What a picture's file says about itself, besides its title: keyword and text.
