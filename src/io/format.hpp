@@ -33,7 +33,6 @@ class Counts {
     [[nodiscard]] std::uint64_t operator[](std::uint64_t set) const {
         return all_.empty() ? first_ : all_[set];
     }
-    [[nodiscard]] std::uint64_t front() const { return first_; }
     [[nodiscard]] bool are_equal() const { return all_.empty(); }
     [[nodiscard]] std::uint64_t total() const;
     /// Those of sets [first, last).

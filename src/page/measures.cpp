@@ -37,8 +37,8 @@ constexpr std::array plans = {
     Planned{"chi-square", "χ² test", "chi-square"},
     Planned{"kolmogorov-smirnov", "Kolmogorov–Smirnov test", "kolmogorov-smirnov"}};
 
-/// n² d steps take sums over all pairs, but for the plane, where there are faster ways, and
-/// neighbours where trees do not help any more. A comparison of the limit may stand for some of them.
+/// Sums over all pairs take n² d steps, but for the plane, where there are faster ways; so do
+/// neighbours where trees do not help any more. A comparison of the limit may stand for some steps.
 /// @throws Error(limit)
 void need_few_pairs(const Planned& plan, const PointSet& points, std::int64_t work) {
     const std::string_view analyzer = plan.analyzer;

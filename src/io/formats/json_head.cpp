@@ -30,7 +30,7 @@ std::string json_head(const Layout& layout, const Counts& counts) {
     head["dimension"] = layout.dimension;
     Json& count = head["count"] = Json::array();
     if (counts.are_equal() && counts.size() > 0)
-        count = counts.front();
+        count = counts[0];
     else
         for (std::uint64_t set = 0; set < counts.size(); ++set) count.push_back(counts[set]);
     if (!layout.extras.empty()) head["columns"] = layout.columns();
