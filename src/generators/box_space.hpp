@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// What generators of sets with distances in a box share: the box, closed to a torus or not, the
-// options that say so, and the step from a dimension to code compiled for it.
+// What generators of sets with distances in a box share: the box, closed to a torus or not, and the
+// options that say so.
 #pragma once
 
 #include <array>
@@ -85,15 +85,7 @@ void put_in_box(const Plan& plan, PointSet& points);
 /// The points, on their box, from index plan.start on.
 PointSet set_in_box(std::vector<double> rows, const Plan& plan);
 
-/// Largest dimension that with_dimension takes.
+/// Largest dimension that code for distances is compiled for.
 inline constexpr std::size_t most_directions = 6;
-
-/// work.template operator()<D>() for D == dimension in 1, ..., most_directions.
-template <std::size_t D = 1, class Work>
-auto with_dimension(std::size_t dimension, Work&& work) {
-    if constexpr (D < most_directions)
-        if (dimension > D) return with_dimension<D + 1>(dimension, work);
-    return work.template operator()<D>();
-}
 
 }  // namespace stipple

@@ -33,8 +33,9 @@ Rows in_order(std::span<const double> rows, const BoxSpace& space, double radius
 
 Rows spread_out(std::span<const double> rows, const BoxSpace& space, double radius,
                 const RunContext& run) {
-    return with_dimension(space.box.dimension(),
-                          [&]<std::size_t D>() { return in_order<D>(rows, space, radius, run); });
+    return with_dimension<most_directions>(space.box.dimension(), [&]<std::size_t D>() {
+        return in_order<D>(rows, space, radius, run);
+    });
 }
 
 }  // namespace stipple

@@ -152,12 +152,9 @@ PairCounts count_pairs(const PointSet& points, const Distances& distances, doubl
     run.need_memory(n * (16 * static_cast<double>(points.dimension()) + 12) +
                         tallies * static_cast<double>(bins + 1) * (with_offsets ? 48 : 32),
                     "the counts of pairs");
-    const auto counted = [&]<std::size_t D>() {
+    return with_dimension<3>(points.dimension(), [&]<std::size_t D>() {
         return PairCounter<D>(points, distances, width, bins, with_offsets, run).count();
-    };
-    if (points.dimension() == 1) return counted.template operator()<1>();
-    if (points.dimension() == 2) return counted.template operator()<2>();
-    return counted.template operator()<3>();
+    });
 }
 
 }  // namespace stipple::analyzers

@@ -126,7 +126,7 @@ Conflicts find_conflicts(const PointSet& points, const Distances& distances,
     return found;
 }
 
-/// What an expectation that does not hold is option_of with.
+/// What an expectation that does not hold is told with.
 std::string complaint(double r, const Conflicts& conflicts, const EmptyBall& ball, bool maximal) {
     std::vector<std::string> reasons;
     if (conflicts.count > 0)

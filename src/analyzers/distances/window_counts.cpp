@@ -76,9 +76,9 @@ WindowCounts count_in_windows(const PointSet& points, const Box& box, std::span<
     const auto sums = static_cast<double>(block_count(windows, windows_in_block) * radii.size());
     run.need_memory(n * (16 * static_cast<double>(points.dimension()) + 12) + 16 * sums,
                     "the counts in windows");
-    const Sums all = points.dimension() == 1   ? count_all<1>(points, box, radii, windows, run)
-                     : points.dimension() == 2 ? count_all<2>(points, box, radii, windows, run)
-                                               : count_all<3>(points, box, radii, windows, run);
+    const Sums all = with_dimension<3>(points.dimension(), [&]<std::size_t D>() {
+        return count_all<D>(points, box, radii, windows, run);
+    });
     WindowCounts found;
     const auto number = static_cast<double>(windows);
     for (std::size_t k = 0; k < radii.size(); ++k) {

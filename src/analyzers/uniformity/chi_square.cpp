@@ -68,6 +68,7 @@
 #include "analyzers/uniformity/verdict.hpp"
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "math/functions/distributions.hpp"
 
 namespace stipple::analyzers::chi_square {
 namespace {
@@ -213,20 +214,6 @@ Judged judge(double statistic, double error, const F& tails) {
             .greatest = tails(statistic + error)};
 }
 
-double p_value_of(const Tails& plain, const Tails* second) {
-    const double p = plain.two_sided();
-    return second ? sidak(std::min(p, second->two_sided()), 2) : p;
-}
-
-/// Of one grid or two.
-std::string verdict_on(const Tails& plain, const Tails* second, double level) {
-    const auto clumped = [&](const Tails& tails) {
-        return tails.upper < tails.lower && p_value_of(tails, second ? &tails : nullptr) < level;
-    };
-    if (p_value_of(plain, second) >= level) return "uniform";
-    return clumped(plain) || (second && clumped(*second)) ? "non-uniform" : "stratified";
-}
-
 Report& add_tails(Report& report, const Tails& tails) {
     return report.add("p_value", tails.two_sided())
         .add("p_upper", tails.upper)
@@ -244,9 +231,9 @@ void conclude(Report& report, const Judged& plain, const std::optional<Judged>& 
     const double p = p_value_of(plain.found, of_second(&Judged::found));
     if (second) report.add("combined_p_value", p);
     const double level = options[level_option];
-    const auto verdict = verdict_on(plain.found, of_second(&Judged::found), level);
+    const auto verdict = verdict_of(plain.found, of_second(&Judged::found), level);
     for (const auto which : {&Judged::least, &Judged::greatest})
-        if (verdict_on(plain.*which, of_second(which), level) != verdict)
+        if (verdict_of(plain.*which, of_second(which), level) != verdict)
             fail_with_hint(ErrorKind::limit, "coarser --cells, or fewer points",
                            "chi-square cannot tell: the cells' probabilities are known within "
                            "{:.2g} in all, and with that the statistic within {:.3g}; it is {:.6g}",

@@ -98,7 +98,7 @@ void conclude(Report& report, const Tails& all, const Values& options) {
     report.add("combined_p_value", all.two_sided())
         .add("combined_p_upper", all.upper)
         .add("combined_p_lower", all.lower);
-    const std::string verdict = verdict_of(all.upper, all.lower, options[level_option]);
+    const std::string verdict = verdict_of(all, nullptr, options[level_option]);
     add_verdict(report, verdict, all.two_sided(), options[expect_uniformity_option]);
 }
 

@@ -213,6 +213,11 @@ Tails count_tails(double statistic, const Fit& fit) {
 
 double sidak(double p, double tests) { return p < 1 ? -std::expm1(tests * std::log1p(-p)) : 1; }
 
+double p_value_of(const Tails& plain, const Tails* second) {
+    const double p = plain.two_sided();
+    return second ? sidak(std::min(p, second->two_sided()), 2) : p;
+}
+
 Tails sidak(std::span<const Tails> tests) {
     Tails least;
     for (const Tails& t : tests) {
@@ -233,10 +238,6 @@ Tails fisher(std::span<const Tails> tests) {
     const double freedom = 2 * static_cast<double>(tests.size());
     return {.upper = chi_square_tails(upper, freedom).upper,
             .lower = chi_square_tails(lower, freedom).upper};
-}
-
-double detectable_noncentrality(double freedom, double level) {
-    return noncentrality_for(freedom, level / 2, 0.1);
 }
 
 }  // namespace stipple::analyzers

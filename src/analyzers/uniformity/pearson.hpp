@@ -85,8 +85,7 @@ Tails fisher(std::span<const Tails> tests);
 /// 1 - (1 - p)^tests.
 double sidak(double p, double tests);
 
-/// The noncentrality at which a test of that two-sided level has too large a statistic with
-/// probability 0.9.
-double detectable_noncentrality(double freedom, double level);
+/// Two-sided, of one test, or of the smaller p of two.
+double p_value_of(const Tails& plain, const Tails* second);
 
 }  // namespace stipple::analyzers

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string>
 
+#include "analyzers/uniformity/pearson.hpp"
 #include "core/options.hpp"
 #include "stipple/report.hpp"
 
@@ -28,11 +28,14 @@ inline constexpr Param<Choice> expect_uniformity_option{
 
 inline constexpr std::string_view uniformity_verdicts = "uniform|non-uniform|stratified";
 
-/// One of these verdicts: which tail of tests is the smaller, and whether its
-/// two-sided p is below the level.
-inline std::string verdict_of(double upper, double lower, double level) {
-    if (2 * std::min(upper, lower) >= level) return "uniform";
-    return upper < lower ? "non-uniform" : "stratified";
+/// One of these verdicts, by the tails on one grid or two: which of them is the smaller, and whether
+/// the p-value is below the level.
+inline std::string verdict_of(const Tails& plain, const Tails* second, double level) {
+    const auto clumped = [&](const Tails& tails) {
+        return tails.upper < tails.lower && p_value_of(tails, second ? &tails : nullptr) < level;
+    };
+    if (p_value_of(plain, second) >= level) return "uniform";
+    return clumped(plain) || (second && clumped(*second)) ? "non-uniform" : "stratified";
 }
 
 /// Adds the verdict that a p-value led to, and complains if another one was wanted; no word: any.

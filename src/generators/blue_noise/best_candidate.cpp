@@ -550,16 +550,10 @@ std::vector<double> all_candidates(const BoxSpace& space, std::uint64_t seed, do
 std::vector<double> rows_in(const BoxSpace& space, const Plan& plan, double factor,
                             const RunContext& run) {
     const std::uint64_t wanted = plan.start + plan.count;
-    switch (plan.dimension) {
-        case 1:
-            return lazily<1>(space, plan, factor, wanted, run);
-        case 2:
-            return lazily<2>(space, plan, factor, wanted, run);
-        case most_lazy:
-            return lazily<most_lazy>(space, plan, factor, wanted, run);
-        default:
-            return all_candidates(space, plan.seed, factor, wanted, run);
-    }
+    if (plan.dimension > most_lazy) return all_candidates(space, plan.seed, factor, wanted, run);
+    return with_dimension<most_lazy>(plan.dimension, [&]<std::size_t D>() {
+        return lazily<D>(space, plan, factor, wanted, run);
+    });
 }
 
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {

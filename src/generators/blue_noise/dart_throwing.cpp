@@ -211,8 +211,8 @@ PointSet make_in(const Plan& plan, const Values& options, const RunContext& run)
 }
 
 PointSet make(const Plan& plan, const Values& options, const RunContext& run) {
-    return with_dimension(plan.dimension,
-                          [&]<std::size_t D>() { return make_in<D>(plan, options, run.rising()); });
+    return with_dimension<most_directions>(
+        plan.dimension, [&]<std::size_t D>() { return make_in<D>(plan, options, run.rising()); });
 }
 
 }  // namespace

@@ -190,7 +190,7 @@ double elimination_memory(double points, std::size_t dimension, bool with_shares
 std::vector<std::uint32_t> eliminate(std::span<const double> rows, const BoxSpace& space,
                                      double r_max, std::uint64_t kept, const RunContext& run,
                                      std::span<const double> shares) {
-    return with_dimension(space.box.dimension(), [&]<std::size_t D>() {
+    return with_dimension<most_directions>(space.box.dimension(), [&]<std::size_t D>() {
         return eliminate_from(LayeredPoints<D>(rows, space, r_max, shares, run), kept, run);
     });
 }

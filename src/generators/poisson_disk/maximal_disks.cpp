@@ -82,7 +82,7 @@ Rows maximal_disks(const BoxSpace& space, double radius, double cell_radius, std
                    const RunContext& run) {
     space.check_resolution(radius, "a radius");
     check_size(space, radius, cell_radius, run);
-    return with_dimension<2>(space.box.dimension(), [&]<std::size_t D>() {
+    return with_dimension<most_directions, 2>(space.box.dimension(), [&]<std::size_t D>() {
         return sample<D>(space, radius, cell_radius, seed, run);
     });
 }

@@ -23,12 +23,12 @@ double chi_square_above(double statistic, double freedom) {
     return boost::math::gamma_q(freedom / 2, statistic / 2, Quiet());
 }
 
-double noncentrality_for(double freedom, double level, double miss) {
+double detectable_noncentrality(double freedom, double level) {
     using namespace boost::math;
     const chi_squared_distribution<double, Quiet> null(freedom);
-    const double critical = quantile(complement(null, level));
+    const double critical = quantile(complement(null, level / 2));
     return non_central_chi_squared_distribution<double, Quiet>::find_non_centrality(freedom,
-                                                                                    critical, miss);
+                                                                                    critical, 0.1);
 }
 
 double student_quantile(double above, double freedom) {

@@ -12,9 +12,9 @@ namespace stipple {
 double chi_square_below(double statistic, double freedom);
 double chi_square_above(double statistic, double freedom);
 
-/// The noncentrality with which chi-square has the probability `miss` not to exceed what the
-/// central one exceeds with the probability `level`.
-double noncentrality_for(double freedom, double level, double miss);
+/// The noncentrality at which a chi-square test of that two-sided level has too large a statistic
+/// with probability 0.9.
+double detectable_noncentrality(double freedom, double level);
 
 /// What Student's t with these degrees of freedom exceeds with the probability `above`.
 double student_quantile(double above, double freedom);

@@ -67,14 +67,12 @@ std::optional<std::vector<Neighbor>> all_nearest_by_grid(std::span<const double>
                                                          const Box& box, bool torus,
                                                          const RunContext& run) {
     const std::size_t d = box.dimension();
-    if (rows.size() / d >= std::numeric_limits<std::uint32_t>::max()) return std::nullopt;
+    if (d > 3 || rows.size() / d >= std::numeric_limits<std::uint32_t>::max()) return std::nullopt;
     for (std::size_t k = 0; k < d; ++k)  // squares that neither vanish nor overflow
         if (const double x = box.extent(k); x != 0 && !(x > 1e-140 && x < 1e140))
             return std::nullopt;
-    if (d == 1) return find_all<1>(rows, box, torus, run);
-    if (d == 2) return find_all<2>(rows, box, torus, run);
-    if (d == 3) return find_all<3>(rows, box, torus, run);
-    return std::nullopt;
+    return with_dimension<3>(d,
+                             [&]<std::size_t D>() { return find_all<D>(rows, box, torus, run); });
 }
 
 }  // namespace stipple

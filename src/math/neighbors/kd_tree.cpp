@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/parallel.hpp"
+#include "math/neighbors/spaced_points.hpp"
 
 namespace stipple {
 namespace {
@@ -243,18 +244,9 @@ auto KdTree::with_metric(const Work& work) const {
         if (torus()) return work(Metric<D, true>(dimension_, sides_.data()));
         return work(Metric<D, false>(dimension_, nullptr));
     };
-    switch (dimension_) {
-        case 1:
-            return with.template operator()<1>();
-        case 2:
-            return with.template operator()<2>();
-        case 3:
-            return with.template operator()<3>();
-        case 4:
-            return with.template operator()<4>();
-        default:
-            return with.template operator()<0>();
-    }
+    constexpr std::size_t most = 4;
+    return dimension_ > most ? with.template operator()<0>()
+                             : with_dimension<most>(dimension_, with);
 }
 
 /// Goes to the leaves that the query wants, the nearest first. It wants a node when a point at the

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //
-// Distances in a box, and cells so small that points which keep a distance have each one of their
-// own.
+// Distances in a box, cells so small that points which keep a distance have each one of their own,
+// and the step from a dimension to code compiled for it.
 //
 //     distance^2 = sum_k d_k^2,    d_k = |p_k - q_k|,  on the torus min(d_k, side_k - d_k).
 #pragma once
@@ -39,6 +39,14 @@ inline std::vector<double> cells_along(const Box& box, double radius) {
         cells.push_back(std::floor(box.extent(k) / most * safety) + 1);
     }
     return cells;
+}
+
+/// work.template operator()<D>() for D == dimension in First, ..., Last.
+template <std::size_t Last, std::size_t First = 1, class Work>
+auto with_dimension(std::size_t dimension, Work&& work) {
+    if constexpr (First < Last)
+        if (dimension > First) return with_dimension<Last, First + 1>(dimension, work);
+    return work.template operator()<First>();
 }
 
 }  // namespace stipple

@@ -31,7 +31,7 @@ TEST(Distributions, StudentInClosedForm) {
 // (Z + m)^2 is above q^2 with probability P(Z > q - m) + P(Z < -q - m).
 TEST(Distributions, NoncentralityHasThePower) {
     for (const double level : {0.05, 0.0005}) {
-        const double m = std::sqrt(noncentrality_for(1, level, 0.1));
+        const double m = std::sqrt(detectable_noncentrality(1, 2 * level));
         double q = 1;
         while (std::erfc(q / std::numbers::sqrt2) > level) q += 1e-5;
         const double power =
