@@ -2,6 +2,21 @@
 //
 // A convex polygon of directions, uniform in solid angle. Its cells are the way back of a map,
 // other than the warp's own, so that they do not line up with its strata.
+//
+// The area of spherical triangles keeps its digits, however small they are:
+//
+//     tan(area / 2) = |a . (b - a) x (c - a)| / (1 + a.b + b.c + c.a)
+//
+// Moments on a polygon of area A, whose edges e have inward unit normals n_e, from those about an
+// axis w, by Stokes's theorem:
+//
+//     T_k(w) = integral of (w . v)^k over it,    T_0 = A,
+//     (k + 1) T_k(w) = (k - 1) w . w T_(k-2)(w) + sum_e w . n_e integral of (w . v)^(k-1) along e
+//
+// Source  J. Arvo, "Applications of irradiance tensors to the simulation of non-Lambertian
+//         phenomena", SIGGRAPH 1995, 335-342, doi:10.1145/218380.218467 (axial moments).
+//         A. Van Oosterom, J. Strackee, "The solid angle of a plane triangle", IEEE Transactions on
+//         Biomedical Engineering 30 (1983) 125-126, doi:10.1109/TBME.1983.325207.
 #pragma once
 
 #include <array>
@@ -9,47 +24,59 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "math/geometry/spherical_polygon.hpp"
+#include "core/domain.hpp"
+#include "math/geometry/vector3.hpp"
 #include "warps/curved/placement.hpp"
 #include "warps/named_domain.hpp"
 
 namespace stipple::warps {
 
+/// Half the area of the triangle of three unit vectors, in turns of 2 pi: in [0, 1/2].
+double half_area_turns(const Vector3& a, const Vector3& b, const Vector3& c);
+
 class SphericalDomain final : public NamedDomain {
   public:
     using Cells = std::function<std::array<double, 2>(std::span<const double>)>;
 
+    /// @param corners in order, either way around; unit vectors, neighbours neither equal nor
+    /// opposite
     /// @param cells the map's way back
     /// @param slack how far beyond the planes of the edges, and how much longer or shorter than 1,
     /// rounding may take a direction that was made
-    SphericalDomain(std::string spec, SphericalPolygon polygon, Cells cells, double area,
-                    double slack, std::vector<std::string> axes)
-        : NamedDomain(std::move(spec), 3, 2),
-          polygon_(std::move(polygon)),
-          cells_(std::move(cells)),
-          area_(area),
-          slack_(slack),
-          axes_(std::move(axes)) {}
+    SphericalDomain(std::string spec, std::vector<Vector3> corners, Cells cells, double area,
+                    double slack, std::vector<std::string> axes);
 
     double measure() const override { return area_; }
     bool contains(std::span<const double> point) const override {
-        return polygon_.contains(vector_of(point), slack_);
+        return holds(vector_of(point), slack_);
     }
-    Box bounding_box() const override { return polygon_.bounding_box(); }
+    Box bounding_box() const override;
     void to_cube(std::span<const double> point, std::span<double> cube) const override {
         put_clamped(cells_(point), cube);
     }
-    std::optional<Discontinuities> discontinuities() const override {
-        return Discontinuities{.circles = polygon_.edges()};
-    }
-    std::optional<Moments> moments() const override { return polygon_.moments(area_); }
+
+    /// The great circles of its edges.
+    std::optional<Discontinuities> discontinuities() const override;
+
+    /// Within 1e-8 of their size; none for areas below 1e-3, where differences lose too many
+    /// digits.
+    std::optional<Moments> moments() const override;
     std::vector<std::string> cube_axes() const override { return axes_; }
 
   private:
-    SphericalPolygon polygon_;
+    /// Whether a vector is of length 1 and inside all edges, both up to `slack`.
+    bool holds(const Vector3& v, double slack) const;
+
+    /// T_1, T_2, T_3 about an axis.
+    std::array<double, 3> axial(const Vector3& w) const;
+
+    /// The highest that the edge after corner i reaches along `up`.
+    double edge_top(std::size_t i, const Vector3& up) const;
+
+    std::vector<Vector3> corners_;
+    std::vector<Vector3> inward_;  ///< unit normal of the plane of the edge after each corner
     Cells cells_;
     double area_;
     double slack_;

@@ -264,8 +264,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
         return std::array{u, v};
     };
     const auto domain = std::make_shared<SphericalDomain>(
-        want.spec(), SphericalPolygon(rectangle.corners()), cells, turned.solid_angle(),
-        16 * epsilon,
+        want.spec(), rectangle.corners(), cells, turned.solid_angle(), 16 * epsilon,
         std::vector<std::string>{"place along ex, as sine of the angle",
                                  "share of the solid angle along ey"});
     return row_mapping(domain, Urena(rectangle));

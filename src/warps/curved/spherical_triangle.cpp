@@ -162,7 +162,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
         return next.inverse(point);
     };
     const auto domain = std::make_shared<SphericalDomain>(
-        want.spec(), SphericalPolygon({v[0], v[1], v[2]}), cells,
+        want.spec(), std::vector<Vector3>(v.begin(), v.end()), cells,
         4 * std::numbers::pi * half_area_turns(v[0], v[1], v[2]), slack_of(v),
         std::vector<std::string>{"share of the area next to bc", "share on the way from c"});
     return row_mapping(domain, Arvo(v[0], v[1], v[2]));

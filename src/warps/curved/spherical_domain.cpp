@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "math/geometry/spherical_polygon.hpp"
+#include "warps/curved/spherical_domain.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,14 +7,21 @@
 
 #include "math/functions/trigonometry.hpp"
 
-namespace stipple {
+namespace stipple::warps {
 
 double half_area_turns(const Vector3& a, const Vector3& b, const Vector3& c) {
     const double volume = dot(a, cross(minus(b, a), minus(c, a)));
     return turns_of(1 + dot(a, b) + dot(b, c) + dot(c, a), std::abs(volume));
 }
 
-SphericalPolygon::SphericalPolygon(std::vector<Vector3> corners) : corners_(std::move(corners)) {
+SphericalDomain::SphericalDomain(std::string spec, std::vector<Vector3> corners, Cells cells,
+                                 double area, double slack, std::vector<std::string> axes)
+    : NamedDomain(std::move(spec), 3, 2),
+      corners_(std::move(corners)),
+      cells_(std::move(cells)),
+      area_(area),
+      slack_(slack),
+      axes_(std::move(axes)) {
     const std::size_t n = corners_.size();
     for (std::size_t i = 0; i < n; ++i) {
         const Vector3 edge = minus(corners_[(i + 1) % n], corners_[i]);
@@ -24,20 +31,20 @@ SphericalPolygon::SphericalPolygon(std::vector<Vector3> corners) : corners_(std:
     }
 }
 
-std::vector<SphereCircle> SphericalPolygon::edges() const {
-    std::vector<SphereCircle> circles;
-    for (const Vector3& normal : inward_) circles.push_back({normal, 0});
-    return circles;
+std::optional<Discontinuities> SphericalDomain::discontinuities() const {
+    Discontinuities found{.circles = {}};
+    for (const Vector3& normal : inward_) found.circles.push_back({normal, 0});
+    return found;
 }
 
-bool SphericalPolygon::contains(const Vector3& v, double slack) const {
+bool SphericalDomain::holds(const Vector3& v, double slack) const {
     if (!(std::abs(length(v) - 1) <= slack)) return false;
     for (std::size_t i = 0; i < corners_.size(); ++i)
         if (!(dot(inward_[i], minus(v, corners_[i])) >= -slack)) return false;
     return true;
 }
 
-double SphericalPolygon::edge_top(std::size_t i, const Vector3& up) const {
+double SphericalDomain::edge_top(std::size_t i, const Vector3& up) const {
     const Vector3& from = corners_[i];
     const Vector3& to = corners_[(i + 1) % corners_.size()];
     const Vector3& normal = inward_[i];
@@ -49,7 +56,7 @@ double SphericalPolygon::edge_top(std::size_t i, const Vector3& up) const {
     return passes ? length(highest) : std::max(dot(from, up), dot(to, up));
 }
 
-std::array<double, 3> SphericalPolygon::axial(const Vector3& w, double area) const {
+std::array<double, 3> SphericalDomain::axial(const Vector3& w) const {
     std::array<double, 3> along{};  // sums of w . n times the integrals of (w . v)^0, ^1, ^2
     for (std::size_t i = 0; i < corners_.size(); ++i) {
         const Vector3& from = corners_[i];
@@ -69,47 +76,47 @@ std::array<double, 3> SphericalPolygon::axial(const Vector3& w, double area) con
     }
     const double ww = dot(w, w);
     const double first = along[0] / 2;
-    return {first, (ww * area + along[1]) / 3, (2 * ww * first + along[2]) / 4};
+    return {first, (ww * area_ + along[1]) / 3, (2 * ww * first + along[2]) / 4};
 }
 
-std::optional<Moments> SphericalPolygon::moments(double area) const {
+std::optional<Moments> SphericalDomain::moments() const {
     constexpr double least = 1e-3;
-    if (area < least) return std::nullopt;
+    if (area_ < least) return std::nullopt;
     Moments m{std::vector<double>(3), std::vector<double>(9), std::vector<double>(3)};
     std::array<double, 3> squares;
     for (std::size_t k = 0; k < 3; ++k) {
         Vector3 w{};
         w[k] = 1;
-        const auto [first, second, third] = axial(w, area);
-        const double mean = first / area;
-        squares[k] = second / area;
+        const auto [first, second, third] = axial(w);
+        const double mean = first / area_;
+        squares[k] = second / area_;
         m.mean[k] = mean;
         m.covariance[4 * k] = squares[k] - mean * mean;
-        m.skewness[k] = (third / area - 3 * mean * squares[k] + 2 * mean * mean * mean) /
+        m.skewness[k] = (third / area_ - 3 * mean * squares[k] + 2 * mean * mean * mean) /
                         std::pow(m.covariance[4 * k], 1.5);
     }
     for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < i; ++j) {
             Vector3 w{};
             w[i] = w[j] = 1;
-            const double both = axial(w, area)[1] / area;
+            const double both = axial(w)[1] / area_;
             m.covariance[3 * i + j] = m.covariance[3 * j + i] =
                 0.5 * (both - squares[i] - squares[j]) - m.mean[i] * m.mean[j];
         }
     return m;
 }
 
-Box SphericalPolygon::bounding_box() const {
+Box SphericalDomain::bounding_box() const {
     Box box;
     for (std::size_t k = 0; k < 3; ++k)
         for (const double sign : {-1.0, 1.0}) {
             Vector3 up{};
             up[k] = sign;
-            double top = contains(up, 0) ? 1 : -1;
+            double top = holds(up, 0) ? 1 : -1;
             for (std::size_t i = 0; i < corners_.size(); ++i) top = std::max(top, edge_top(i, up));
             (sign < 0 ? box.low : box.high).push_back(sign * top);
         }
     return box;
 }
 
-}  // namespace stipple
+}  // namespace stipple::warps
