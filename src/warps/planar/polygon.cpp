@@ -7,8 +7,8 @@
 //     xi0 = A(y) / A,    xi1 = L(x, y) / L(y)
 //
 // with A(y) the area below y, L(y) the length of the row and L(x, y) its length up to x
-// (math/geometry/polygon_rows.hpp): first the marginal of y, then x given y. So the whole polygon
-// is one piece, and strata are not cut as the triangles of a triangulation would cut them.
+// (polygon_domain.hpp): first the marginal of y, then x given y. So the whole polygon is one piece,
+// and strata are not cut as the triangles of a triangulation would cut them.
 //
 // Shape   2 unit coordinates, 2 coordinates; any number of vertices.
 // Strata  xi0 and xi1 are taken as they are, not as 1 - xi: small xi0 is below, small xi1 left.
@@ -26,15 +26,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <memory>
 
 #include "core/bytes/file_bytes.hpp"
 #include "core/error.hpp"
 #include "core/text.hpp"
 #include "io/formats/delimited.hpp"
-#include "math/geometry/polygon_rows.hpp"
-#include "warps/named_domain.hpp"
-#include "warps/planar/area_share.hpp"
+#include "math/geometry/polygon_contact.hpp"
+#include "warps/planar/polygon_domain.hpp"
 
 namespace stipple::warps::polygon {
 namespace {
@@ -158,54 +157,19 @@ std::vector<Ring> rings_of(const Values& options, const Source& source, const Ru
     return rings;
 }
 
-class PolygonDomain final : public NamedDomain {
-  public:
-    PolygonDomain(std::string spec, PolygonRows rows)
-        : NamedDomain(std::move(spec), 2, 2), rows_(std::move(rows)) {}
-
-    double measure() const override { return rows_.area(); }
-    bool contains(std::span<const double> point) const override {
-        return rows_.contains({point[0], point[1]});
-    }
-    Box bounding_box() const override { return rows_.box(); }
-    void to_cube(std::span<const double> point, std::span<double> cube) const override {
-        const auto [u, v] = rows_.inverse({point[0], point[1]});
-        cube[0] = u;
-        cube[1] = v;
-    }
-    std::optional<Estimate> box_mass(const Box& box) const override {
-        return area_share(box, *this, [&](const Polygon& window) {
-            return rows_.area_in({{window[0][0], window[0][1]}, {window[2][0], window[2][1]}});
-        });
-    }
-    std::optional<Moments> moments() const override { return rows_.moments(); }
-    std::vector<std::string> cube_axes() const override {
-        return {"area fraction below", "place along the row"};
-    }
-
-    void from_cube(std::span<const double> cube, std::span<double> image) const {
-        for (std::size_t i = 0; i + 1 < cube.size(); i += 2) {
-            const auto [x, y] = rows_.forward(cube[i], cube[i + 1]);
-            image[i] = x;
-            image[i + 1] = y;
-        }
-    }
-
-  private:
-    PolygonRows rows_;
-};
-
 std::unique_ptr<Mapping> make(const WarpRequest& want) {
     const bool from_file = want.options.given(file);
     if (from_file && want.options.given(vertices))
         fail(ErrorKind::usage, "--file: --vertices is given, too; one of them is allowed");
     const Source source{from_file ? ErrorKind::input : ErrorKind::usage,
                         from_file ? want.options[file] : "--vertices"};
-    PolygonRows rows(rings_of(want.options, source, want.run), want.run);
-    const double extent = std::max(rows.box().extent(0), rows.box().extent(1));
-    if (!(extent > 1e-140 && rows.area() > 4 * rows.slack() * extent))
+    const auto domain = std::make_shared<const PolygonDomain>(
+        want.spec(), rings_of(want.options, source, want.run), want.run);
+    const Box box = domain->bounding_box();
+    const double extent = std::max(box.extent(0), box.extent(1));
+    if (!(extent > 1e-140 && domain->measure() > 4 * domain->slack() * extent))
         source.refuse("the polygon has no area, or one that is lost in rounding");
-    return domain_mapping<PolygonDomain>(want.spec(), std::move(rows));
+    return std::make_unique<DomainMapping<PolygonDomain>>(domain);
 }
 
 }  // namespace

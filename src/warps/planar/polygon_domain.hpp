@@ -22,8 +22,10 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
+#include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/domain.hpp"
@@ -31,33 +33,30 @@
 #include "math/geometry/plane_point.hpp"
 #include "math/geometry/polygon_contact.hpp"
 #include "stipple/run.hpp"
+#include "warps/named_domain.hpp"
 
-namespace stipple {
+namespace stipple::warps {
 
-class PolygonRows {
+class PolygonDomain final : public NamedDomain {
   public:
     /// Rings without contact, with at least 3 vertices each. @throws Error(limit)
-    PolygonRows(const std::vector<Ring>& rings, const RunContext& run);
+    PolygonDomain(std::string spec, const std::vector<Ring>& rings, const RunContext& run);
 
-    [[nodiscard]] double area() const { return area_; }
-    [[nodiscard]] const Box& box() const { return box_; }
+    double measure() const override { return area_; }
 
     /// 16 epsilon (largest coordinate): how far rounding takes a point that was made.
-    [[nodiscard]] double slack() const { return slack_; }
+    double slack() const { return slack_; }
 
     /// Whether the point is inside, or within slack() of the rim.
-    [[nodiscard]] bool contains(PlanePoint p) const;
-
-    /// The area within a finite box.
-    [[nodiscard]] double area_in(const Box& box) const;
-
-    /// Of the uniform distribution.
-    [[nodiscard]] Moments moments() const;
-
-    [[nodiscard]] PlanePoint forward(double u, double v) const;
-
-    /// Into the closed square, for points that it contains.
-    [[nodiscard]] PlanePoint inverse(PlanePoint p) const;
+    bool contains(std::span<const double> point) const override;
+    Box bounding_box() const override { return box_; }
+    void to_cube(std::span<const double> point, std::span<double> cube) const override;
+    std::optional<Estimate> box_mass(const Box& box) const override;
+    std::optional<Moments> moments() const override;
+    std::vector<std::string> cube_axes() const override {
+        return {"area fraction below", "place along the row"};
+    }
+    void from_cube(std::span<const double> cube, std::span<double> image) const;
 
   private:
     /// What is inside between two edges that follow each other from left to right, in one slab.
@@ -67,11 +66,9 @@ class PolygonRows {
         double right_bottom;
         double right_top;
 
-        [[nodiscard]] double left(double t) const {
-            return left_bottom + t * (left_top - left_bottom);
-        }
+        double left(double t) const { return left_bottom + t * (left_top - left_bottom); }
         /// At least left(t), also where rounding crosses two edges that are next to each other.
-        [[nodiscard]] double right(double t) const {
+        double right(double t) const {
             const double x = right_bottom + t * (right_top - right_bottom);
             return x > left(t) ? x : left(t);
         }
@@ -89,23 +86,22 @@ class PolygonRows {
         double share_bottom = 0;  ///< widths as shares of the greater one
         double share_top = 0;
 
-        [[nodiscard]] double height() const { return top - bottom; }
-        [[nodiscard]] double width(double t) const {
-            return width_bottom + t * (width_top - width_bottom);
-        }
+        double height() const { return top - bottom; }
+        double width(double t) const { return width_bottom + t * (width_top - width_bottom); }
     };
 
     void measure_rings(const std::vector<Ring>& rings);
     void cut_slabs(const RunContext& run);
     void measure_slabs();
-    [[nodiscard]] std::span<const Part> parts_of(const Slab& slab) const {
+    PlanePoint forward(double u, double v) const;
+    std::span<const Part> parts_of(const Slab& slab) const {
         return std::span(parts_).subspan(slab.first, slab.last - slab.first);
     }
-    [[nodiscard]] double along_row(const Slab& slab, double t, double way) const;
-    [[nodiscard]] double place_in_row(const Slab& slab, double t, double x) const;
-    [[nodiscard]] double gap(const Slab& slab, PlanePoint p) const;
-    [[nodiscard]] const Slab& slab_around(PlanePoint p) const;
-    [[nodiscard]] double distance_to_rim(PlanePoint p) const;
+    double along_row(const Slab& slab, double t, double way) const;
+    double place_in_row(const Slab& slab, double t, double x) const;
+    double gap(const Slab& slab, PlanePoint p) const;
+    const Slab& slab_around(PlanePoint p) const;
+    double distance_to_rim(PlanePoint p) const;
 
     std::vector<std::pair<PlanePoint, PlanePoint>> rim_;  ///< all edges
     std::vector<Slab> slabs_;
@@ -117,4 +113,4 @@ class PolygonRows {
     double slack_ = 0;
 };
 
-}  // namespace stipple
+}  // namespace stipple::warps

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "math/geometry/polygon_rows.hpp"
+#include "warps/planar/polygon_domain.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,9 @@
 #include "math/densities/line_table.hpp"
 #include "math/geometry/law_moments.hpp"
 #include "math/geometry/planar_area.hpp"
+#include "warps/planar/area_share.hpp"
 
-namespace stipple {
+namespace stipple::warps {
 namespace {
 
 /// An edge that is not level, from its lower to its upper end.
@@ -69,20 +70,22 @@ double distance(PlanePoint p, PlanePoint a, PlanePoint b) {
 
 }  // namespace
 
-PolygonRows::PolygonRows(const std::vector<Ring>& rings, const RunContext& run) {
+PolygonDomain::PolygonDomain(std::string spec, const std::vector<Ring>& rings,
+                             const RunContext& run)
+    : NamedDomain(std::move(spec), 2, 2) {
     measure_rings(rings);
     cut_slabs(run);
     measure_slabs();
 }
 
-void PolygonRows::measure_rings(const std::vector<Ring>& rings) {
+void PolygonDomain::measure_rings(const std::vector<Ring>& rings) {
     std::vector<double> rows;
     for (const Ring& ring : rings)
         for (std::size_t i = 0; i < ring.size(); ++i) {
             rim_.emplace_back(ring[i], ring[(i + 1) % ring.size()]);
             rows.insert(rows.end(), {ring[i].x, ring[i].y});
         }
-    box_ = bounding_box(rows, 2);
+    box_ = stipple::bounding_box(rows, 2);
     double size = 0;
     for (const double x : rows) size = std::max(size, std::abs(x));
     slack_ = 16 * std::numeric_limits<double>::epsilon() * size;
@@ -90,7 +93,7 @@ void PolygonRows::measure_rings(const std::vector<Ring>& rings) {
 
 /// One slab between each height of a vertex and the next, with the parts of it that are inside:
 /// every second interval between the edges that pass through it, from left to right.
-void PolygonRows::cut_slabs(const RunContext& run) {
+void PolygonDomain::cut_slabs(const RunContext& run) {
     std::vector<SlantedEdge> edges;
     std::vector<double> heights;
     for (const auto& [p, q] : rim_) {
@@ -123,7 +126,7 @@ void PolygonRows::cut_slabs(const RunContext& run) {
     }
 }
 
-void PolygonRows::measure_slabs() {
+void PolygonDomain::measure_slabs() {
     std::vector<double> sums;
     for (std::size_t j = 0; j < slabs_.size(); ++j) {
         Slab& slab = slabs_[j];
@@ -150,24 +153,22 @@ void PolygonRows::measure_slabs() {
 }
 
 /// What is between two edges from one height to another is a quadrilateral.
-double PolygonRows::area_in(const Box& box) const {
-    const Polygon window{{box.low[0], box.low[1]},
-                         {box.high[0], box.low[1]},
-                         {box.high[0], box.high[1]},
-                         {box.low[0], box.high[1]}};
-    const auto from = std::ranges::upper_bound(slabs_, box.low[1], {}, &Slab::top);
-    double sum = 0;
-    for (auto slab = from; slab != slabs_.end() && slab->bottom < box.high[1]; ++slab)
-        for (const Part& part : parts_of(*slab))
-            sum += shared_area({{part.left(0), slab->bottom},
-                                {part.right(0), slab->bottom},
-                                {part.right(1), slab->top},
-                                {part.left(1), slab->top}},
-                               window);
-    return sum;
+std::optional<Estimate> PolygonDomain::box_mass(const Box& box) const {
+    return area_share(box, *this, [&](const Polygon& window) {
+        const auto from = std::ranges::upper_bound(slabs_, window[0][1], {}, &Slab::top);
+        double sum = 0;
+        for (auto slab = from; slab != slabs_.end() && slab->bottom < window[2][1]; ++slab)
+            for (const Part& part : parts_of(*slab))
+                sum += shared_area({{part.left(0), slab->bottom},
+                                    {part.right(0), slab->bottom},
+                                    {part.right(1), slab->top},
+                                    {part.left(1), slab->top}},
+                                   window);
+        return sum;
+    });
 }
 
-Moments PolygonRows::moments() const {
+std::optional<Moments> PolygonDomain::moments() const {
     MixedMoments all({0.5 * (box_.low[0] + box_.high[0]), 0.5 * (box_.low[1] + box_.high[1])});
     for (const Slab& slab : slabs_)
         for (const Part& part : parts_of(slab)) {
@@ -182,9 +183,17 @@ Moments PolygonRows::moments() const {
     return all.moments();
 }
 
+void PolygonDomain::from_cube(std::span<const double> cube, std::span<double> image) const {
+    for (std::size_t i = 0; i + 1 < cube.size(); i += 2) {
+        const auto [x, y] = forward(cube[i], cube[i + 1]);
+        image[i] = x;
+        image[i + 1] = y;
+    }
+}
+
 /// From the end of the slab that u is nearer to. Written without branches, since they would be
 /// guessed wrong half of the time.
-PlanePoint PolygonRows::forward(double u, double v) const {
+PlanePoint PolygonDomain::forward(double u, double v) const {
     const Slab& slab = slabs_[areas_.at(u * area_)];
     const bool up = u < 0.5;
     const double rest = (up ? u : 1 - u) * area_ - (up ? slab.area_below : slab.area_above);
@@ -199,7 +208,7 @@ PlanePoint PolygonRows::forward(double u, double v) const {
 }
 
 /// The place in a row, the length `way` from its left end on.
-double PolygonRows::along_row(const Slab& slab, double t, double way) const {
+double PolygonDomain::along_row(const Slab& slab, double t, double way) const {
     const auto parts = parts_of(slab);
     double passed = 0;
     for (std::size_t k = 0;; ++k) {
@@ -212,7 +221,8 @@ double PolygonRows::along_row(const Slab& slab, double t, double way) const {
     }
 }
 
-PlanePoint PolygonRows::inverse(PlanePoint p) const {
+void PolygonDomain::to_cube(std::span<const double> point, std::span<double> cube) const {
+    const PlanePoint p{point[0], point[1]};
     const Slab& slab = slab_around(p);
     const double y = std::clamp(p.y, slab.bottom, slab.top);
     const double t = (y - slab.bottom) / slab.height();
@@ -223,13 +233,13 @@ PlanePoint PolygonRows::inverse(PlanePoint p) const {
         slab.area_above + mass_share(slab.width_top, slab.width_bottom, from_top) * slab.area;
     const double u = below < above ? below / area_ : 1 - above / area_;
     const bool topmost = &slab == &slabs_[last_filled_];
-    return {
-        share_within(u, area_, slab.area_below, topmost ? 2 * area_ : slab.area_below + slab.area),
-        place_in_row(slab, t, p.x)};
+    cube[0] =
+        share_within(u, area_, slab.area_below, topmost ? 2 * area_ : slab.area_below + slab.area);
+    cube[1] = place_in_row(slab, t, p.x);
 }
 
 /// The share of the row's length that is on the left of x, or of the part that is nearest to it.
-double PolygonRows::place_in_row(const Slab& slab, double t, double x) const {
+double PolygonDomain::place_in_row(const Slab& slab, double t, double x) const {
     const double width = slab.width(t);
     if (!(width > 0)) return 0;
     double passed = 0;
@@ -252,7 +262,7 @@ double PolygonRows::place_in_row(const Slab& slab, double t, double x) const {
 }
 
 /// How far the point is from the slab's parts, along its row.
-double PolygonRows::gap(const Slab& slab, PlanePoint p) const {
+double PolygonDomain::gap(const Slab& slab, PlanePoint p) const {
     const double t = (std::clamp(p.y, slab.bottom, slab.top) - slab.bottom) / slab.height();
     double least = std::numeric_limits<double>::infinity();
     for (const Part& part : parts_of(slab))
@@ -261,7 +271,7 @@ double PolygonRows::gap(const Slab& slab, PlanePoint p) const {
 }
 
 /// The slab of the point. Where two meet, or are thinner than rounding, the one that holds it.
-const PolygonRows::Slab& PolygonRows::slab_around(PlanePoint p) const {
+const PolygonDomain::Slab& PolygonDomain::slab_around(PlanePoint p) const {
     const auto above = std::ranges::upper_bound(slabs_, p.y, {}, &Slab::bottom);
     const auto home = above == slabs_.begin() ? above : above - 1;
     auto best = home;
@@ -280,13 +290,14 @@ const PolygonRows::Slab& PolygonRows::slab_around(PlanePoint p) const {
     return *best;
 }
 
-double PolygonRows::distance_to_rim(PlanePoint p) const {
+double PolygonDomain::distance_to_rim(PlanePoint p) const {
     double least = std::numeric_limits<double>::infinity();
     for (const auto& [a, b] : rim_) least = std::min(least, distance(p, a, b));
     return least;
 }
 
-bool PolygonRows::contains(PlanePoint p) const {
+bool PolygonDomain::contains(std::span<const double> point) const {
+    const PlanePoint p{point[0], point[1]};
     const bool near = p.x >= box_.low[0] - slack_ && p.x <= box_.high[0] + slack_ &&
                       p.y >= box_.low[1] - slack_ && p.y <= box_.high[1] + slack_;
     if (!near) return false;
@@ -294,4 +305,4 @@ bool PolygonRows::contains(PlanePoint p) const {
     return (in_rows && gap(slab_around(p), p) <= slack_) || distance_to_rim(p) <= slack_;
 }
 
-}  // namespace stipple
+}  // namespace stipple::warps
