@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "core/machine/large_pages.hpp"
 #include "core/parallel.hpp"
@@ -10,6 +11,35 @@
 
 namespace stipple::discrepancy {
 namespace {
+
+/// A double in [0, 1] as mantissa * 2^-places, with an odd mantissa or 0.
+struct Dyadic {
+    std::uint64_t mantissa;
+    unsigned places;
+};
+
+Dyadic dyadic(double x) {
+    if (x == 0) return {0, 0};
+    int exponent = 0;
+    const auto mantissa = static_cast<std::uint64_t>(std::frexp(x, &exponent) * 0x1p53);
+    const int zeros = std::countr_zero(mantissa);
+    return {mantissa >> zeros, static_cast<unsigned>(53 - exponent - zeros)};
+}
+
+/// above / (below * 2^places), rounded to the nearest double, ties to even. Needs above >= 0.
+double quotient(const Integer& above, std::uint64_t below, unsigned places) {
+    if (above == 0) return 0;
+    const unsigned shift = 128;  // so that the quotient has 64 bits and more
+    Integer rest = 0;
+    Integer whole = 0;
+    divide_qr(Integer(above << shift), Integer(below), whole, rest);
+    const auto spare = static_cast<unsigned>(msb(whole)) - 54;
+    const bool inexact = rest != 0 || lsb(whole) < spare;
+    // 55 bits: those of the double, the next one, and whether anything follows.
+    const auto top = static_cast<std::uint64_t>(Integer(whole >> spare)) | (inexact ? 1U : 0U);
+    return std::ldexp(static_cast<double>(top),
+                      static_cast<int>(spare) - static_cast<int>(shift + places));
+}
 
 /// Points with a coordinate 1, for half-open boxes; none for others.
 std::vector<std::uint32_t> in_no_box(const PointSet& points, Family family) {
@@ -58,6 +88,11 @@ void index_axis(const PointSet& points, std::size_t axis, const std::vector<std:
 
 }  // namespace
 
+Integer scaled(double x, unsigned places) {
+    const Dyadic fraction = dyadic(x);
+    return Integer(fraction.mantissa) << (places - fraction.places);
+}
+
 RankSet ranks_between(Interval ends, Side side, bool wraps) {
     const auto [lower, upper] = ends;
     const bool with_ends = (side == Side::closed) != wraps;
@@ -86,7 +121,7 @@ Integer BoxGrid::exact_length(std::size_t axis, Interval interval, Side side) co
     Integer upper = scaled(values[axis][interval.upper], digits[axis]);
     if (anchored()) return upper;
     upper -= scaled(values[axis][interval.lower], digits[axis]);
-    return interval.wraps(side) ? Integer(upper + power_of_two(digits[axis])) : upper;
+    return interval.wraps(side) ? Integer(upper + (Integer(1) << digits[axis])) : upper;
 }
 
 RankSet BoxGrid::inside(Interval interval, Side side) const {

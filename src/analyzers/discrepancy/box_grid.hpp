@@ -17,16 +17,21 @@
 //         89-97, doi:10.1007/BF02412017 (the finite grid).
 #pragma once
 
+#include <boost/multiprecision/cpp_int.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "core/point_set.hpp"
-#include "math/arithmetic/dyadic.hpp"
 #include "stipple/run.hpp"
 
 namespace stipple::discrepancy {
+
+using Integer = boost::multiprecision::cpp_int;
+
+/// x * 2^places for an x in [0, 1] that has no more binary places than that.
+Integer scaled(double x, unsigned places);
 
 enum class Side { open, closed };
 

@@ -103,7 +103,7 @@ Integer exact_section(const BoxGrid& grid, const Cell& cell, Extent extent) {
     for (std::size_t k = 0; k < axes_of(cell); ++k) {
         const unsigned digits = grid.digits[k + 1];
         product *= length_of<Integer>(
-            ends_on(cell, k), extent, power_of_two(digits),
+            ends_on(cell, k), extent, Integer(1) << digits,
             [&](std::uint32_t i) { return scaled(grid.values[k + 1][i], digits); });
     }
     return product;
@@ -133,7 +133,7 @@ Counted counted_of(const Line& line, Side side) {
 WorstInterval<Integer> worst_on(const BoxGrid& grid, Side side, const Line& line,
                                 const Counted& counted, const Integer& all) {
     const auto height = [&](double x) { return Integer(all * scaled(x, grid.digits[0])); };
-    const Integer weight = power_of_two(grid.all_digits) * grid.weight;
+    const Integer weight = (Integer(1) << grid.all_digits) * grid.weight;
     const LineTerms<Integer> terms{.all = height(1.0),
                                    .weight = weight,
                                    .points = weight * counted.all,
