@@ -11,6 +11,7 @@
 #include "core/rng.hpp"
 
 namespace stipple::discrepancy {
+namespace {
 
 /// One ascent at a time from given boxes; keeps its buffers between them.
 class BoxAscent {
@@ -164,8 +165,6 @@ class BoxAscent {
     std::vector<std::uint32_t> line_;       ///< ranks of these points, ascending
 };
 
-namespace {
-
 /// The largest of d numbers of the generator, those from `first` on; of so many it takes one, drawn
 /// from the distribution of the largest.
 double largest_of(std::size_t d, const Rng& rng, std::uint64_t first) {
@@ -255,6 +254,27 @@ void perturb(const BoxGrid& grid, const Rng& rng, std::uint64_t drawn, GridBox& 
 
 constexpr std::uint64_t draws_of_a_perturbation = 9;
 
+/// One walk of the search by thresholds.
+void walk(const BoxGrid& grid, BoxAscent& ascent, Side side, std::uint64_t number, WorstBox& worst,
+          const SearchLimits& limits, const RunContext& run) {
+    constexpr std::uint64_t effort = 1U << 23;
+    const std::uint64_t size = grid.count * grid.dimension();
+    const std::uint64_t steps = std::clamp<std::uint64_t>(effort / size, 4, 64);
+    constexpr std::uint64_t other_streams = 1U << 20;  // than those of ascend()
+    double here = ascent.run(random_anchored_box(grid, side, other_streams + number), worst);
+    GridBox box = ascent.box();
+    const Rng rng(1, number);
+    for (std::uint64_t step = 0; step < steps && !limits.over(run); ++step) {
+        GridBox next = box;
+        perturb(grid, rng, step * draws_of_a_perturbation, next);
+        const double reached = ascent.run(std::move(next), worst);
+        const double left = 1 - static_cast<double>(step + 1) / static_cast<double>(steps);
+        if (reached < here - 0.1 * left * here) continue;  // the first threshold found by trial
+        here = reached;
+        box = ascent.box();
+    }
+}
+
 }  // namespace
 
 Ascent ascend(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run) {
@@ -283,38 +303,17 @@ Ascent ascend(const BoxGrid& grid, const SearchLimits& limits, const RunContext&
     return all;
 }
 
-void ThresholdSearch::walk(BoxAscent& ascent, Side side, std::uint64_t number, WorstBox& worst,
-                           const SearchLimits& limits, const RunContext& run) const {
-    constexpr std::uint64_t effort = 1U << 23;
-    const std::uint64_t size = grid_.count * grid_.dimension();
-    const std::uint64_t steps = std::clamp<std::uint64_t>(effort / size, 4, 64);
-    constexpr std::uint64_t other_streams = 1U << 20;  // than those of ascend()
-    double here = ascent.run(random_anchored_box(grid_, side, other_streams + number), worst);
-    GridBox box = ascent.box();
-    const Rng rng(1, number);
-    for (std::uint64_t step = 0; step < steps && !limits.over(run); ++step) {
-        GridBox next = box;
-        perturb(grid_, rng, step * draws_of_a_perturbation, next);
-        const double reached = ascent.run(std::move(next), worst);
-        const double left = 1 - static_cast<double>(step + 1) / static_cast<double>(steps);
-        if (reached < here - 0.1 * left * here) continue;  // the first threshold found by trial
-        here = reached;
-        box = ascent.box();
-    }
-}
-
-std::uint64_t ThresholdSearch::go(WorstBox& worst, const SearchLimits& limits,
-                                  const RunContext& run) {
+std::uint64_t accept_thresholds(const BoxGrid& grid, std::uint64_t round, WorstBox& worst,
+                                const SearchLimits& limits, const RunContext& run) {
     constexpr std::size_t walks = 8;
-    std::vector<WorstBox> found(walks, WorstBox(grid_));
+    std::vector<WorstBox> found(walks, WorstBox(grid));
     std::vector<std::uint64_t> work(walks);
     for_each_block(silent(run), walks, 1, [&](const Block& block) {
-        BoxAscent ascent(grid_, limits, run);
-        walk(ascent, block.index % 2 == 0 ? Side::open : Side::closed, round_ * walks + block.index,
-             found[block.index], limits, run);
+        BoxAscent ascent(grid, limits, run);
+        walk(grid, ascent, block.index % 2 == 0 ? Side::open : Side::closed,
+             round * walks + block.index, found[block.index], limits, run);
         work[block.index] = ascent.work();
     });
-    ++round_;
     for (const WorstBox& box : found) worst.offer(box);
     return std::accumulate(work.begin(), work.end(), std::uint64_t{0});
 }

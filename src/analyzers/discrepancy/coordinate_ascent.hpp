@@ -23,27 +23,15 @@ struct Ascent {
 /// there is at least. Deterministic, unless the time or a stop ends it: then with what it has.
 Ascent ascend(const BoxGrid& grid, const SearchLimits& limits, const RunContext& run);
 
-/// A search without end for bad anchored boxes, by threshold accepting: ascents start where others
-/// ended, perturbed on some axes; a worse end is taken for one that is better by less than a
-/// threshold, which falls.
+/// A round of a search without end for bad anchored boxes, by threshold accepting: ascents start
+/// where others ended, perturbed on some axes; a worse end is taken for one that is better by less
+/// than a threshold, which falls. Offers what they find. Deterministic, unless the time ends it.
+/// @param round its number from 0; each takes other ways
+/// @returns the comparisons of coordinates that it took.
 ///
 /// Source  M. Gnewuch, M. Wahlstroem, C. Winzen, SIAM J. Numer. Anal. 50 (2012) 781-807 (threshold
 ///         accepting for star discrepancies, there without ascents).
-class ThresholdSearch {
-  public:
-    /// Keeps a reference to the grid.
-    explicit ThresholdSearch(const BoxGrid& grid) : grid_(grid) {}
-
-    /// Some walks more; offers what they find. Deterministic, unless the time ends it.
-    /// @returns the comparisons of coordinates that it took.
-    std::uint64_t go(WorstBox& worst, const SearchLimits& limits, const RunContext& run);
-
-  private:
-    void walk(class BoxAscent& ascent, Side side, std::uint64_t number, WorstBox& worst,
-              const SearchLimits& limits, const RunContext& run) const;
-
-    const BoxGrid& grid_;
-    std::uint64_t round_ = 0;
-};
+std::uint64_t accept_thresholds(const BoxGrid& grid, std::uint64_t round, WorstBox& worst,
+                                const SearchLimits& limits, const RunContext& run);
 
 }  // namespace stipple::discrepancy

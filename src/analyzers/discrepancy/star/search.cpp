@@ -27,8 +27,7 @@ class AnchoredBoxes final : public Problem {
           logs_(logarithms(grid)),
           points_(all_points(grid)),
           limits_(limits),
-          run_(run),
-          threshold_search_(grid) {}
+          run_(run) {}
 
     [[nodiscard]] std::vector<Cell> all_cells() const override {
         return {whole_cell(grid_, Side::open), whole_cell(grid_, Side::closed)};
@@ -52,7 +51,9 @@ class AnchoredBoxes final : public Problem {
         if (known.work > short_work / 4) look_quickly(known.worst, known.upper);
         constexpr std::uint64_t searches_apart = 16;  // in units of what they cost
         if (known.work > short_work && searches_apart * threshold_work_ < known.work) {
-            const std::uint64_t cost = threshold_search_.go(known.worst, limits_, run_);
+            const std::uint64_t cost =
+                accept_thresholds(grid_, rounds_, known.worst, limits_, run_);
+            ++rounds_;
             threshold_work_ += cost;
             known.work += cost;
         }
@@ -96,7 +97,7 @@ class AnchoredBoxes final : public Problem {
     const Active points_;
     const SearchLimits& limits_;
     const RunContext& run_;
-    ThresholdSearch threshold_search_;
+    std::uint64_t rounds_ = 0;  ///< of accepting thresholds
     std::uint64_t threshold_work_ = 0;
     bool looked_ = false;
     bool covered_ = false;
