@@ -16,18 +16,18 @@ namespace {
 constexpr std::size_t batch_size = 256;
 
 /// Distances of a place to points that stand axis after axis.
+template <std::size_t D>
 struct FromPlace {
-    std::size_t dimension;
-    std::array<const double*, 3> columns;  ///< of the points
-    std::array<double, 3> place;
-    std::array<double, 3> sides;  ///< to wrap around; infinite where distances are straight
+    std::array<const double*, D> columns;  ///< of the points
+    std::array<double, D> place;
+    std::array<double, D> sides;  ///< to wrap around; infinite where distances are straight
 };
 
+/// places[i] = distance of point i, times the scale, at most `last`; bins[i] its whole part.
 template <std::size_t D>
-[[gnu::always_inline]] inline void find_places_in(const FromPlace& from, std::size_t count,
-                                                  double scale, double last, double* places,
-                                                  std::int32_t* bins) {
-    const auto [dimension, columns, p, sides] = from;
+STIPPLE_WIDE void find_places(const FromPlace<D>& from, std::size_t count, double scale,
+                              double last, double* places, std::int32_t* bins) {
+    const auto [columns, p, sides] = from;
     for (std::size_t i = 0; i < count; ++i) {
         double sum = 0;
         for (std::size_t k = 0; k < D; ++k) {
@@ -39,14 +39,6 @@ template <std::size_t D>
         places[i] = place < last ? place : last;
         bins[i] = static_cast<std::int32_t>(places[i]);
     }
-}
-
-/// places[i] = distance of point i, times the scale, at most `last`; bins[i] its whole part.
-STIPPLE_WIDE void find_places(const FromPlace& from, std::size_t count, double scale, double last,
-                              double* places, std::int32_t* bins) {
-    if (from.dimension == 1) return find_places_in<1>(from, count, scale, last, places, bins);
-    if (from.dimension == 2) return find_places_in<2>(from, count, scale, last, places, bins);
-    find_places_in<3>(from, count, scale, last, places, bins);
 }
 
 void add_pairs(const double* places, const std::int32_t* bins, std::size_t count, PairCounts& to) {
@@ -118,7 +110,7 @@ class PairCounter {
 
     /// Counts the pairs of point s and some points from `from` on.
     void measure(std::size_t s, std::size_t from, std::size_t size, PairCounts& to) const {
-        FromPlace here{D, {}, {}, sides_};
+        FromPlace<D> here{{}, {}, sides_};
         for (std::size_t k = 0; k < D; ++k) {
             here.columns[k] = columns_[k].data() + from;
             here.place[k] = columns_[k][s];
@@ -135,7 +127,7 @@ class PairCounter {
     }
 
     SortedPoints<D> points_;
-    std::array<double, 3> sides_{};
+    std::array<double, D> sides_{};
     double scale_;
     std::size_t bins_;
     bool with_offsets_;
