@@ -193,8 +193,7 @@ class Search {
         const double each = matrices_ ? 1e-5 : 5e-8 * static_cast<double>(net_.count);  // seconds
         const RunContext part = worth_threads(run, each * static_cast<double>(count));
         for_each_block(part, count, 1 + count / 256, [&](const Block& block) {
-            const auto probe = matrices_ ? equidistribution::rank_probe(*matrices_, run)
-                                         : equidistribution::counting_probe(net_, run);
+            const auto probe = equidistribution::probe_of(net_, matrices_, run);
             Combination along = combination(block.first / ways, size);
             for (std::uint64_t i = block.first; i < block.last; ++i) {
                 run.check_stop();

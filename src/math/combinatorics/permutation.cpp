@@ -44,11 +44,8 @@ struct Keys {
 };
 
 // The keys are copied so that the compiler sees that the words are not among them.
-STIPPLE_WIDE void encipher(Keys<std::uint32_t> keys, std::uint32_t* x, std::size_t count) {
-    for (std::size_t j = 0; j < count; ++j) x[j] = keys(x[j]);
-}
-
-STIPPLE_WIDE void encipher(Keys<std::uint64_t> keys, std::uint64_t* x, std::size_t count) {
+template <class Word>
+STIPPLE_WIDE void encipher(Keys<Word> keys, Word* x, std::size_t count) {
     for (std::size_t j = 0; j < count; ++j) x[j] = keys(x[j]);
 }
 

@@ -224,12 +224,10 @@ std::optional<Matrices> matrices_of(const Net& net, const RunContext& run) {
     return matrices;
 }
 
-std::unique_ptr<Probe> counting_probe(const Net& net, const RunContext& run) {
+std::unique_ptr<Probe> probe_of(const Net& net, const std::optional<Matrices>& matrices,
+                                const RunContext& run) {
+    if (matrices) return std::make_unique<RankProbe>(*matrices, run);
     return std::make_unique<CountingProbe>(net, run);
-}
-
-std::unique_ptr<Probe> rank_probe(const Matrices& matrices, const RunContext& run) {
-    return std::make_unique<RankProbe>(matrices, run);
 }
 
 bool all_equal(Probe& probe, std::span<const std::size_t> along, std::size_t depth,

@@ -71,8 +71,9 @@ class Probe {
     virtual bool equal(std::size_t depth, std::size_t coordinate, std::size_t digits) = 0;
 };
 
-std::unique_ptr<Probe> counting_probe(const Net& net, const RunContext& run);
-std::unique_ptr<Probe> rank_probe(const Matrices& matrices, const RunContext& run);
+/// By the ranks of the net's matrices, or else by counting points. Keeps references to all.
+std::unique_ptr<Probe> probe_of(const Net& net, const std::optional<Matrices>& matrices,
+                                const RunContext& run);
 
 /// Whether boxes are equal however `digits` digits are dealt to the coordinates from the depth-th
 /// on, each getting some.

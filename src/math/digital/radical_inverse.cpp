@@ -17,7 +17,7 @@ struct Reversed {
 };
 
 Reversed reversed(std::uint64_t index, std::uint64_t base,
-                  std::span<const std::uint32_t> permutation = {}) {
+                  std::span<const std::uint32_t> permutation) {
     Reversed out;
     for (; index > 0; index /= base) {
         const std::uint64_t digit = index % base;
@@ -47,11 +47,6 @@ void join(const Low& low, const Reversed& high, std::uint64_t block, std::size_t
 }
 
 }  // namespace
-
-double radical_inverse(std::uint64_t index, std::uint32_t base) {
-    const Reversed all = reversed(index, base);
-    return ratio(all.digits, all.power);
-}
 
 RadicalInverse::RadicalInverse(std::uint32_t base) : RadicalInverse(base, {}) {}
 

@@ -22,11 +22,8 @@ namespace stipple {
 /// stay in the first-level cache.
 constexpr std::uint64_t largest_digit_table = 1024;
 
-/// phi_base(index).
-double radical_inverse(std::uint64_t index, std::uint32_t base);
-
-/// Radical inverses of consecutive indices: the low digits come reversed from a table, so that each
-/// costs a multiplication, an addition and a division. The numbers are those of radical_inverse.
+/// Radical inverses. Of consecutive indices the low digits come reversed from a table, so that each
+/// costs a multiplication, an addition and a division.
 class RadicalInverse {
   public:
     explicit RadicalInverse(std::uint32_t base);
@@ -34,9 +31,10 @@ class RadicalInverse {
     /// Every digit goes through the permutation, of which 0 is a fixed point, first.
     RadicalInverse(std::uint32_t base, std::vector<std::uint32_t> permutation);
 
+    /// phi_base(index).
     [[nodiscard]] double of(std::uint64_t index) const;
 
-    /// out[j * stride] = phi_base(first + j) for j < count.
+    /// out[j * stride] = of(first + j) for j < count.
     void fill(std::uint64_t first, std::size_t count, double* out, std::size_t stride) const;
 
   private:

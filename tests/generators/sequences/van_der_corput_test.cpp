@@ -25,7 +25,7 @@ TEST(VanDerCorput, AlignedBlocksAreShiftedGrids) {
                                       {{"base", std::to_string(b)}});
             const auto side = static_cast<double>(block);
             // The digits above the block's stand behind its own.
-            const double shift = radical_inverse(number, static_cast<std::uint32_t>(b)) / side;
+            const double shift = RadicalInverse(static_cast<std::uint32_t>(b)).of(number) / side;
             std::set<std::int64_t> seen;
             for (const double x : set.flat()) {
                 const double steps = (x - shift) * side;

@@ -38,9 +38,10 @@ TEST(MirroredDigits, FindTheIndexOfARadicalInverse) {
     for (const std::uint32_t base : {2U, 3U, 5U, 7U, 97U, 541U, 7919U, 65536U}) {
         const std::uint64_t most = power(base, static_cast<int>(digits_of(base)));
         EXPECT_LE(most, std::uint64_t{1} << 50);
+        const RadicalInverse inverse(base);
         for (std::uint64_t k = 0; k < 2000; ++k)
             for (const std::uint64_t q : {k, most - 1 - k, Rng(base).below(k, most)})
-                EXPECT_EQ(reversed_digits(radical_inverse(q, base), base), q) << "base " << base;
+                EXPECT_EQ(reversed_digits(inverse.of(q), base), q) << "base " << base;
         EXPECT_EQ(reversed_digits(1.0, base), most - 1);
     }
 }

@@ -29,12 +29,14 @@ Fraction by_definition(std::uint64_t index, std::uint32_t base) {
 TEST(RadicalInverse, FirstValues) {
     const std::vector<double> base2 = {0, 1. / 2, 1. / 4, 3. / 4, 1. / 8, 5. / 8, 3. / 8, 7. / 8};
     const std::vector<double> base3 = {0, 1. / 3, 2. / 3, 1. / 9, 4. / 9, 7. / 9, 2. / 9, 5. / 9};
+    const RadicalInverse in_base2(2);
+    const RadicalInverse in_base3(3);
     for (std::uint64_t i = 0; i < 8; ++i) {
-        EXPECT_EQ(radical_inverse(i, 2), base2[i]);
-        EXPECT_EQ(radical_inverse(i, 3), base3[i]);
+        EXPECT_EQ(in_base2.of(i), base2[i]);
+        EXPECT_EQ(in_base3.of(i), base3[i]);
     }
-    EXPECT_EQ(radical_inverse(65535, 65536), 65535. / 65536);
-    EXPECT_EQ(radical_inverse(65536, 65536), 0x1p-32);
+    EXPECT_EQ(RadicalInverse(65536).of(65535), 65535. / 65536);
+    EXPECT_EQ(RadicalInverse(65536).of(65536), 0x1p-32);
 }
 
 TEST(RadicalInverse, IsCorrectlyRoundedUpToTheLastIndex) {
@@ -45,7 +47,7 @@ TEST(RadicalInverse, IsCorrectlyRoundedUpToTheLastIndex) {
                                        ? primes[rng.below(2 * i, 1000)]
                                        : static_cast<std::uint32_t>(2 + rng.below(i, 65535));
         const std::uint64_t index = i < 10 ? last - i : rng.bits(2 * i + 1) >> (11 + i % 53);
-        EXPECT_TRUE(is_nearest_double(radical_inverse(index, base), by_definition(index, base)))
+        EXPECT_TRUE(is_nearest_double(RadicalInverse(base).of(index), by_definition(index, base)))
             << index << " in base " << base;
     }
 }
@@ -53,11 +55,12 @@ TEST(RadicalInverse, IsCorrectlyRoundedUpToTheLastIndex) {
 // All digits b - 1: the nearest to 1 that can come out.
 TEST(RadicalInverse, NeverReachesOne) {
     for (const std::uint32_t base : primes) {
+        const RadicalInverse inverse(base);
         std::uint64_t index = 0;
         for (std::uint64_t next = base - 1; next <= last; next = index * base + base - 1)
             index = next;
         for (const std::uint64_t i : {index, last / (index + 1) * (index + 1) - 1, last})
-            EXPECT_LE(radical_inverse(i, base), 1 - 0x1p-53) << i << " in base " << base;
+            EXPECT_LE(inverse.of(i), 1 - 0x1p-53) << i << " in base " << base;
     }
 }
 
@@ -70,7 +73,7 @@ TEST(RadicalInverse, FillGivesTheNumbersOneByOne) {
             std::vector<double> out(2 * 3000, -1);
             table.fill(first, 3000, out.data(), 2);
             for (std::size_t j = 0; j < 3000; ++j) {
-                ASSERT_EQ(out[2 * j], radical_inverse(first + j, base))
+                ASSERT_EQ(out[2 * j], table.of(first + j))
                     << "base " << base << ", index " << first + j;
                 ASSERT_EQ(out[2 * j + 1], -1);
             }

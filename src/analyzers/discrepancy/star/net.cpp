@@ -68,10 +68,9 @@ Net net_in_base_two(const BoxGrid& grid) {
 class NetTest {
   public:
     NetTest(const BoxGrid& grid, const RunContext& run)
-        : net_(net_in_base_two(grid)), matrices_(equidistribution::matrices_of(net_, run)) {
-        probe_ = matrices_ ? equidistribution::rank_probe(*matrices_, run)
-                           : equidistribution::counting_probe(net_, run);
-    }
+        : net_(net_in_base_two(grid)),
+          matrices_(equidistribution::matrices_of(net_, run)),
+          probe_(equidistribution::probe_of(net_, matrices_, run)) {}
 
     /// Comparisons that passes() takes.
     [[nodiscard]] double work(std::size_t t) const {
