@@ -25,7 +25,18 @@ double volume_of(const Box& box);
 struct Estimate {
     double value = 0;
     double error = 0;
+
+    Estimate& operator+=(const Estimate& other) {
+        value += other.value;
+        error += other.error;
+        return *this;
+    }
 };
+
+/// @param factor exact, and not below 0
+inline Estimate operator*(double factor, const Estimate& a) {
+    return {factor * a.value, factor * a.error};
+}
 
 /// Exact moments of a law: per coordinate the mean and the skewness, and the covariance of each
 /// pair of coordinates, row after row.

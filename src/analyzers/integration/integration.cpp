@@ -159,11 +159,7 @@ std::optional<Estimate> integral_over(const Support& support, const Domain& doma
     };
     const Effort effort = d == 1 ? Effort{1e-12, 1000} : Effort{1e-7, 40};
     Estimate sum;
-    for (const Box& box : support.boxes) {
-        const Estimate part = integrate_box(f, box, effort);
-        sum.value += part.value;
-        sum.error += part.error;
-    }
+    for (const Box& box : support.boxes) sum += integrate_box(f, box, effort);
     return sum;
 }
 

@@ -69,8 +69,7 @@ Estimate mass_of(const Domain& domain, const std::vector<Box>& pieces) {
         if (!(part.value >= -part.error) || !(part.error >= 0) || !(part.value <= 1 + part.error))
             fail(ErrorKind::limit, "{}: the cell {} has probability {} within {}", domain.spec(),
                  format_box(piece), part.value, part.error);
-        mass.value += std::max(part.value, 0.0);
-        mass.error += part.error;
+        mass += {std::max(part.value, 0.0), part.error};
     }
     return mass;
 }
@@ -144,10 +143,7 @@ std::vector<Estimate> cell_masses(const Domain& domain, const CellGrid& grid, bo
             masses[c] = mass_of(domain, pieces_of(c, grid, shifted));
     });
     Estimate sum;
-    for (const Estimate& mass : masses) {
-        sum.value += mass.value;
-        sum.error += mass.error;
-    }
+    for (const Estimate& mass : masses) sum += mass;
     // Masses that are called exact are so up to rounding, each.
     const double rounding =
         std::numeric_limits<double>::epsilon() * (64 + 4 * static_cast<double>(masses.size()));

@@ -92,11 +92,8 @@ std::vector<double> ends_of(std::vector<double> cuts, double low, double high) {
 
 Estimate integrate_pieces(const std::function<double(double)>& f, std::span<const double> ends) {
     Estimate total;
-    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-        const Estimate piece = integrate_smooth(f, ends[i], ends[i + 1]);
-        total.value += piece.value;
-        total.error += piece.error;
-    }
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i)
+        total += integrate_smooth(f, ends[i], ends[i + 1]);
     return total;
 }
 
@@ -105,10 +102,6 @@ Estimate integrate_interval(const std::function<double(double)>& f, double low, 
     if (!(low < high)) return {0, 0};
     std::priority_queue<Interval> intervals;
     Estimate total;
-    const auto add = [&](const Interval& interval, double sign) {
-        total.value += sign * interval.sum.value;
-        total.error += sign * interval.sum.error;
-    };
     const double step = (high - low) / static_cast<double>(effort.first);
     const auto cut = [&](std::size_t i) {
         return i < effort.first ? low + static_cast<double>(i) * step : high;
@@ -117,7 +110,7 @@ Estimate integrate_interval(const std::function<double(double)>& f, double low, 
     const auto sum = [&] {
         total = {};
         auto left = intervals;
-        for (; !left.empty(); left.pop()) add(left.top(), 1);
+        for (; !left.empty(); left.pop()) total += left.top().sum;
     };
     sum();
     while (total.error > effort.tolerance * std::abs(total.value) && total.error > 0 &&
@@ -126,10 +119,10 @@ Estimate integrate_interval(const std::function<double(double)>& f, double low, 
         const double middle = 0.5 * (worst.low + worst.high);
         if (!(worst.low < middle && middle < worst.high)) break;
         intervals.pop();
-        add(worst, -1);
+        total += {-worst.sum.value, -worst.sum.error};
         for (const Interval& half :
              {measured(f, worst.low, middle), measured(f, middle, worst.high)}) {
-            add(half, 1);
+            total += half.sum;
             intervals.push(half);
         }
     }

@@ -86,7 +86,7 @@ Estimate integrate_row(const SphereDensity& f, double z, const Zone& zone,
         }
     else
         sum = integrate_pieces(at, turns);
-    return {full_turn * sum.value, full_turn * sum.error};
+    return full_turn * sum;
 }
 
 }  // namespace

@@ -69,8 +69,7 @@ class ByFormula final : public LineDistribution {
                                std::bind_front(&Expression::evaluate, &f_), ends, within, run)) {
         for (const LinePiece& piece : table_.pieces()) {
             before_.push_back(total_.value);
-            total_.value += piece.integral.value;
-            total_.error += piece.integral.error;
+            total_ += piece.integral;
         }
     }
 

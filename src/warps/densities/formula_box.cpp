@@ -125,11 +125,9 @@ Support FormulaBox::support() const {
         return part;
     };
     for (bool more = true; more;) {
-        const Estimate part = integrate_box(
+        positive += integrate_box(
             [&](std::span<const double> point) { return f_.at(point) > 0 ? 1.0 : 0.0; }, cell(),
             {1e-7, 16});
-        positive.value += part.value;
-        positive.error += part.error;
         std::size_t k = 0;
         while (k < d && ++at[k] == steps) at[k++] = 0;
         more = k < d;

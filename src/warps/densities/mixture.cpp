@@ -204,12 +204,8 @@ class MixtureDomain final : public NamedDomain {
     template <class Mass>
     Estimate weighted(const Mass& mass) const {
         Estimate sum;
-        for (std::size_t i = 0; i < parts_.size(); ++i) {
-            if (weights_[i] == 0) continue;
-            const Estimate part = mass(*parts_[i]);
-            sum.value += weights_[i] * part.value;
-            sum.error += weights_[i] * part.error;
-        }
+        for (std::size_t i = 0; i < parts_.size(); ++i)
+            if (weights_[i] != 0) sum += weights_[i] * mass(*parts_[i]);
         return sum;
     }
 

@@ -174,8 +174,7 @@ class NormalDomain final : public NamedDomain {
         if (shape_.diagonal() || k + 1 == d) {
             const double here = low > 0 ? normal_distribution(-low) - normal_distribution(-high)
                                         : normal_distribution(high) - normal_distribution(low);
-            const Estimate rest = mass_from(box, z, k + 1);
-            return {here * rest.value, here * rest.error};
+            return here * mass_from(box, z, k + 1);
         }
         double inner = 0;
         const auto slice = [&](double x) {
