@@ -155,10 +155,10 @@ RadiusField::Nodes RadiusField::children(const Node& node) const {
     Node lower{node.level - 1, node.i, node.j};
     std::uint32_t& along = k == 0 ? lower.i : lower.j;
     along *= 2;
-    if (along + 1 >= fine.count[k]) return {{lower, lower}, 1};
+    if (along + 1 >= fine.count[k]) return {lower};
     Node upper = lower;
     ++(k == 0 ? upper.i : upper.j);
-    return {{lower, upper}, 2};
+    return {lower, upper};
 }
 
 std::array<std::array<double, 2>, 2> RadiusField::corners(const Node& node) const {

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <array>
+#include <boost/container/static_vector.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -51,14 +52,8 @@ class RadiusField {
         std::uint32_t j;
     };
 
-    /// One or two of them, to loop over.
-    struct Nodes {
-        std::array<Node, 2> all;
-        std::size_t count;
-
-        [[nodiscard]] const Node* begin() const { return all.data(); }
-        [[nodiscard]] const Node* end() const { return all.data() + count; }
-    };
+    /// One or two of them.
+    using Nodes = boost::container::static_vector<Node, 2>;
 
     /// @throws Error(input): no place is left; Error(limit)
     RadiusField(const Box& box, const FieldSource& source, const RunContext& run);

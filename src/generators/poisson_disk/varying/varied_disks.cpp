@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/container/static_vector.hpp>
 #include <cmath>
 #include <deque>
 #include <ranges>
@@ -30,10 +31,19 @@ struct VariedGap {
     Node node;          ///< of level 0: a part of this cell; else just this node
 };
 
+using Halves = boost::container::static_vector<VariedGap, 2>;
+
 struct TimedDart {
     Disk disk;
     std::uint64_t time;
 };
+
+Rows centers_of(const std::vector<Disk>& disks) {
+    Rows rows = Rows::unwritten(2 * disks.size());
+    auto out = rows.numbers().begin();
+    for (const Disk& disk : disks) out = std::ranges::copy(disk.at, out).out;
+    return rows;
+}
 
 class VariedSampler {
   public:
@@ -62,10 +72,7 @@ class VariedSampler {
             throw_at_gaps();
             decide();
         }
-        Rows rows = Rows::unwritten(2 * index_.disks().size());
-        auto out = rows.numbers().begin();
-        for (const Disk& disk : index_.disks()) out = std::ranges::copy(disk.at, out).out;
-        return rows;
+        return centers_of(index_.disks());
     }
 
   private:
@@ -128,36 +135,33 @@ class VariedSampler {
             throw_darts(gap, first, mean, least);
             return keep(gap);
         }
-        std::array<VariedGap, 2> halves;
-        const std::size_t count = divide(gap, halves);
         if (++divided_ % often == 0) run_.check_stop();
-        for (std::size_t p = 0; p < count; ++p) {
-            narrow(first, last, halves[p]);
-            throw_at(halves[p], last);
+        for (const VariedGap& half : halves_of(gap)) {
+            narrow(first, last, half);
+            throw_at(half, last);
             near_.resize(last);
         }
     }
 
     /// Halves of a gap, or what its node joins; none of one that is too small to matter.
-    std::size_t divide(const VariedGap& gap, std::array<VariedGap, 2>& halves) const {
-        std::size_t count = 0;
+    [[nodiscard]] Halves halves_of(const VariedGap& gap) const {
+        Halves halves;
         if (gap.node.level > 0) {
             for (const Node& node : field_.children(gap.node)) {
                 const auto corners = field_.corners(node);
-                halves[count] = {corners[0], corners[1], SplitMix64(gap.key + count).next(), node};
-                ++count;
+                halves.push_back({corners[0], corners[1], 0, node});
             }
-            return count;
+        } else {
+            const double width = gap.high[0] - gap.low[0];
+            const double height = gap.high[1] - gap.low[1];
+            if (std::max(width, height) < finest_) return halves;
+            const std::size_t k = width >= height ? 0 : 1;
+            halves = {gap, gap};
+            halves[0].high[k] = halves[1].low[k] = gap.low[k] + (gap.high[k] - gap.low[k]) / 2;
         }
-        const double width = gap.high[0] - gap.low[0];
-        const double height = gap.high[1] - gap.low[1];
-        if (std::max(width, height) < finest_) return 0;
-        const std::size_t k = width >= height ? 0 : 1;
-        const double middle = gap.low[k] + (gap.high[k] - gap.low[k]) / 2;
-        halves = {gap, gap};
-        halves[0].high[k] = halves[1].low[k] = middle;
-        for (VariedGap& half : halves) half.key = SplitMix64(gap.key + count++).next();
-        return count;
+        for (std::size_t i = 0; i < halves.size(); ++i)
+            halves[i].key = SplitMix64(gap.key + i).next();
+        return halves;
     }
 
     /// Darts of the gap: `mean` of them where f is the least all over it, fewer where it is
@@ -297,10 +301,7 @@ Rows spread_varied(std::span<const double> rows, const BoxSpace& space, const Ra
             return true;
         });
     }
-    Rows out = Rows::unwritten(rows.size());
-    auto to = out.numbers().begin();
-    for (const Disk& disk : chosen) to = std::ranges::copy(disk.at, to).out;
-    return out;
+    return centers_of(chosen);
 }
 
 }  // namespace stipple::poisson_disk
