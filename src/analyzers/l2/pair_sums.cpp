@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <span>
 
 #include "analyzers/l2/axis_factor.hpp"
 #include "analyzers/l2/block_pairs.hpp"
@@ -295,47 +296,38 @@ Scaling scaling_of(const Numbers& numbers, const std::vector<const FactorForm*>&
     return scaling;
 }
 
+/// Halves points along an axis, and each half along the next, until they make one block.
+void halve(std::span<std::size_t> order, const PointSet& points, const Axes& axes, bool sides,
+           std::size_t depth) {
+    if (order.size() <= block_width) {
+        std::ranges::sort(order);
+        return;
+    }
+    const std::size_t axis = axes.places[depth % axes.places.size()];
+    const auto at = [&](std::size_t i) { return points[i][axis]; };
+    std::size_t middle = block_count(order.size(), block_width) / 2 * block_width;
+    if (sides && depth < axes.places.size()) {
+        const auto upper =
+            std::ranges::partition(order, [&](std::size_t i) { return at(i) < 0.5; });
+        middle = order.size() - upper.size();
+    } else {
+        std::ranges::nth_element(
+            order, order.begin() + static_cast<std::ptrdiff_t>(middle),
+            [&](std::size_t i, std::size_t j) { return at(i) != at(j) ? at(i) < at(j) : i < j; });
+    }
+    halve(order.first(middle), points, axes, sides, depth + 1);
+    halve(order.subspan(middle), points, axes, sides, depth + 1);
+}
+
 /// An order of the points in which blocks of them lie beside each other on as many axes as may be:
 /// parts are halved along one axis after the other, the first time in the middle of the cube if
 /// sides of it matter.
-class Halving {
-  public:
-    Halving(const PointSet& points, const Axes& axes, bool sides)
-        : points_(points), axes_(axes), sides_(sides), order_(points.count()) {
-        std::iota(order_.begin(), order_.end(), std::size_t{0});
-        halve(0, order_.size(), 0);
-    }
-
-    [[nodiscard]] const std::vector<std::size_t>& order() const { return order_; }
-
-  private:
-    void halve(std::size_t first, std::size_t last, std::size_t depth) {
-        const auto from = order_.begin() + static_cast<std::ptrdiff_t>(first);
-        const auto to = order_.begin() + static_cast<std::ptrdiff_t>(last);
-        if (last - first <= block_width) return std::sort(from, to);
-        const std::size_t axis = axes_.places[depth % axes_.places.size()];
-        const auto at = [&](std::size_t i) { return points_[i][axis]; };
-        std::size_t middle = 0;
-        if (sides_ && depth < axes_.places.size()) {
-            const auto half = std::partition(from, to, [&](std::size_t i) { return at(i) < 0.5; });
-            middle = static_cast<std::size_t>(half - order_.begin());
-        } else {
-            const std::size_t blocks = block_count(last - first, block_width);
-            middle = first + blocks / 2 * block_width;
-            std::nth_element(from, order_.begin() + static_cast<std::ptrdiff_t>(middle), to,
-                             [&](std::size_t i, std::size_t j) {
-                                 return at(i) != at(j) ? at(i) < at(j) : i < j;
-                             });
-        }
-        halve(first, middle, depth + 1);
-        halve(middle, last, depth + 1);
-    }
-
-    const PointSet& points_;
-    const Axes& axes_;
-    bool sides_;
-    std::vector<std::size_t> order_;
-};
+std::vector<std::size_t> block_order(const PointSet& points, const Axes& axes, bool sides) {
+    std::vector<std::size_t> order(points.count());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    halve(order, points, axes, sides, 0);
+    return order;
+}
 
 PairForm form_of(const FactorForm& form, Kind kind, const Numbers& numbers,
                  const std::vector<AxisConstants>& factors) {
@@ -458,7 +450,7 @@ Square pair_square(const PointSet& points, Kind kind, const AxisWeights& weights
     const Scaling scaling = scaling_of(numbers, factors.forms);
     const PairForm form = form_of(axes.forms[0], kind, numbers, factors.constants);
     const BlockTable table = table_of(form, numbers, scaling, factors.constants,
-                                      Halving(points, axes, kind == Kind::centered).order());
+                                      block_order(points, axes, kind == Kind::centered));
     const DoubleDouble sum = sum_over_pairs(table, widest, run);
 
     const AxisProducts of = products_of(axes, scaling);
