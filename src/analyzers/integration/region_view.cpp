@@ -8,8 +8,6 @@
 namespace stipple::analyzers {
 namespace {
 
-using Vector = std::array<double, 3>;
-
 /// A domain fills its bounding box where the two are of the same size.
 std::optional<Box> filled_box(const Domain& domain) {
     if (domain.cube_dimension() != domain.dimension()) return std::nullopt;
@@ -21,16 +19,14 @@ std::optional<Box> filled_box(const Domain& domain) {
 }
 
 /// Three axes at right angles, the last one given.
-std::array<Vector, 3> axes_about(const Vector& z) {
+std::array<Vector3, 3> axes_about(const Vector3& z) {
     const bool near_x = std::abs(z[0]) > 0.5;
-    const Vector other{near_x ? 0.0 : 1.0, near_x ? 1.0 : 0.0, 0.0};
+    const Vector3 other{near_x ? 0.0 : 1.0, near_x ? 1.0 : 0.0, 0.0};
     const double along = near_x ? z[1] : z[0];
-    Vector x;
-    for (std::size_t k = 0; k < 3; ++k) x[k] = other[k] - along * z[k];
-    const double length = std::hypot(x[0], x[1], x[2]);
-    for (double& t : x) t /= length;
-    return {
-        x, {z[1] * x[2] - z[2] * x[1], z[2] * x[0] - z[0] * x[2], z[0] * x[1] - z[1] * x[0]}, z};
+    Vector3 x = minus(other, times(z, along));
+    const double size = std::hypot(x[0], x[1], x[2]);
+    for (double& t : x) t /= size;
+    return {x, cross(z, x), z};
 }
 
 }  // namespace
@@ -56,8 +52,7 @@ void RegionView::see(Region region, std::span<const double> point, std::span<dou
         if (region == Region::cube)
             seen[k] = (point[k] - box_->low[k]) / box_->extent(k);
         else if (region == Region::hemisphere)
-            seen[k] =
-                (*axes_)[k][0] * point[0] + (*axes_)[k][1] * point[1] + (*axes_)[k][2] * point[2];
+            seen[k] = dot((*axes_)[k], {point[0], point[1], point[2]});
         else
             seen[k] = point[k];
     }
@@ -76,7 +71,7 @@ void RegionView::uniform(std::span<const double> cube, std::span<double> point) 
     const double z = 1 - drop;
     const double r = std::sqrt(drop * (2 - drop));
     const double turn = 2 * std::numbers::pi * cube[1];
-    const Vector v{r * std::cos(turn), r * std::sin(turn), z};
+    const Vector3 v{r * std::cos(turn), r * std::sin(turn), z};
     for (std::size_t k = 0; k < 3; ++k)
         point[k] = v[0] * axes[0][k] + v[1] * axes[1][k] + v[2] * axes[2][k];
 }

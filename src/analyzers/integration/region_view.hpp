@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "core/domain.hpp"
+#include "math/geometry/vector3.hpp"
 #include "math/integrands/integrands.hpp"
 
 namespace stipple::analyzers {
@@ -35,13 +36,11 @@ class RegionView {
     void uniform(std::span<const double> cube, std::span<double> point) const;
 
   private:
-    using Vector = std::array<double, 3>;
-
     const Domain& domain_;
-    bool finite_;                                ///< the measure of where the density is not 0
-    std::optional<Box> box_;                     ///< of a domain that fills it
-    std::optional<std::array<Vector, 3>> axes_;  ///< of a hemisphere; the last one is its own
-    std::optional<std::array<Vector, 3>> pole_;  ///< the same, of a law on the whole sphere
+    bool finite_;                                 ///< the measure of where the density is not 0
+    std::optional<Box> box_;                      ///< of a domain that fills it
+    std::optional<std::array<Vector3, 3>> axes_;  ///< of a hemisphere; the last one is its own
+    std::optional<std::array<Vector3, 3>> pole_;  ///< the same, of a law on the whole sphere
 };
 
 }  // namespace stipple::analyzers
