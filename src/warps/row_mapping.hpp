@@ -143,7 +143,6 @@ class RowMapping final : public Mapping {
 
   private:
     static constexpr std::size_t d = ArityOf<Method>::cube;
-    static constexpr std::size_t m = ArityOf<Method>::image;
 
     static const char* why_no_way_back() {
         if constexpr (requires { Method::no_way_back; })

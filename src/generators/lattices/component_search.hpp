@@ -38,7 +38,6 @@ class CyclicCorrelation {
     ~CyclicCorrelation();
 
     [[nodiscard]] std::span<double> values() { return {values_.get(), size_}; }
-    [[nodiscard]] std::span<const double> values() const { return {values_.get(), size_}; }
 
     /// Makes the values the kernel.
     void take_kernel();

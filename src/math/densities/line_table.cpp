@@ -267,7 +267,8 @@ std::size_t LineTable::piece_of(double x) const {
 
 double LineTable::density(double x) const {
     const LinePiece& piece = pieces_[piece_of(x)];
-    return density_in(piece, (x - piece.x_low) / (piece.x_high - piece.x_low));
+    const double t = (x - piece.x_low) / (piece.x_high - piece.x_low);
+    return ((1 - t) * piece.f_low + t * piece.f_high) / masses_.total();
 }
 
 LineMoments LineTable::moments_of(const std::function<double(double)>& f, double mass) const {

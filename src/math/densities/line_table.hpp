@@ -86,11 +86,6 @@ class LineTable {
     /// Density at x, over the mass: at a seam, that of the piece which begins there.
     [[nodiscard]] double density(double x) const;
 
-    /// The same at the fraction t of a piece's width.
-    [[nodiscard]] double density_in(const LinePiece& piece, double t) const {
-        return ((1 - t) * piece.f_low + t * piece.f_high) / masses_.total();
-    }
-
     /// Of the density f / mass, smooth on each piece, by a rule there.
     [[nodiscard]] LineMoments moments_of(const std::function<double(double)>& f, double mass) const;
 
