@@ -126,7 +126,10 @@ Session::Session(const Arguments& arguments)
     run_.threads = static_cast<unsigned>(arguments.integer("threads").value_or(0));
     run_.max_memory = memory_limit(arguments);
     limit_whole_files(run_.max_memory / 3);  // what is made of a file takes twice its bytes
-    run_.memory_in_use = allocated_bytes;
+    run_.memory_in_use = [before = allocated_bytes()] {
+        const std::uint64_t now = allocated_bytes();
+        return now - std::min(before, now);
+    };
     run_.stop = interrupts().get_token();
     run_.seconds = [start = std::chrono::steady_clock::now()] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

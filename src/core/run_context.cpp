@@ -114,11 +114,9 @@ RunContext RunContext::share_of_memory(std::uint64_t workers) const {
 }
 
 void RunContext::need_memory(double bytes, std::string_view what) const {
-    const auto left = static_cast<double>(memory_left());
-    if (bytes <= left) return;
+    if (bytes <= static_cast<double>(memory_left())) return;
     const auto limit = static_cast<double>(max_memory);
-    const std::string beside =
-        bytes > limit ? "" : fmt::format(", besides {} in use", format_bytes(limit - left));
+    const char* beside = bytes > limit ? "" : " besides what is in use";
     fail_with_hint(ErrorKind::limit, "raise the limit with --max-memory",
                    "{} needs {} of memory{}; the limit is {}", what, format_bytes(bytes), beside,
                    format_bytes(limit));

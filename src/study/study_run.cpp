@@ -53,7 +53,9 @@ WorkDone unpacked(Unpacker& from) {
 
 /// A run with the share of memory and threads that one of several workers has.
 RunContext share_of(const RunContext& run, std::uint64_t workers, unsigned threads) {
-    RunContext share = run.share_of_memory(workers);
+    RunContext share = run;
+    share.max_memory = run.max_memory / workers;
+    share.memory_in_use = {};  // it differs with what others do, as no row must
     share.threads = threads;
     return share;
 }

@@ -86,12 +86,12 @@ TEST(Stream, ABadPointLeavesNoFile) {
         << named.err;
 }
 
-// 2 million points take 32 MB as such; 100 MB of address space is room for the program and blocks.
+// 8 million points take 128 MB as such.
 TEST(Stream, MemoryDoesNotGrowWithThePoints) {
     const Sandbox box;
     for (const char* verb : {"analyze chi-square", "analyze moments", "warp disk -f bin"})
-        EXPECT_EQ(box.shell(std::string("stipple generate random -n 2000000 -f bin | stipple ") +
-                            verb + " -d 2 --from bin --max-memory 24M > /dev/null")
+        EXPECT_EQ(box.shell(std::string("stipple generate random -n 8000000 -f bin | stipple ") +
+                            verb + " -d 2 --from bin --max-memory 64M > /dev/null")
                       .code,
                   0)
             << verb;

@@ -39,7 +39,7 @@ TEST(RunContext, MemoryInUseCountsTowardsTheLimit) {
     RunContext run{.max_memory = 1000, .memory_in_use = [] { return std::uint64_t{600}; }};
     EXPECT_EQ(error_of([&] { run.need_memory(400, "it"); }), "");
     EXPECT_EQ(error_of([&] { run.need_memory(401, "it"); }),
-              "limit: it needs 401 B of memory, besides 600 B in use; the limit is 1000 B");
+              "limit: it needs 401 B of memory besides what is in use; the limit is 1000 B");
     EXPECT_EQ(error_of([&] { run.need_memory(1001, "it"); }),
               "limit: it needs 1001 B of memory; the limit is 1000 B");
     const RunContext share = run.share_of_memory(4);

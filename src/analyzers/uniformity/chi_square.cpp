@@ -274,6 +274,7 @@ class Counter final : public SharedAccumulator {
             width_ = std::min(axes_, most_cut_axes);
             run.need_memory(8.0 * static_cast<double>(held_points * width_),
                             "the first points of a stream");
+            held_.reserve(held_points * width_);
         }
     }
 

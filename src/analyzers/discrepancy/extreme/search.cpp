@@ -88,7 +88,7 @@ SearchLimits share_for_bound(const SearchLimits& limits, const RunContext& run) 
 double search_memory(const PointSet& points, unsigned threads) {
     // The lines on the way down to a cell halve in length about every 2 d steps.
     const auto d = static_cast<double>(points.dimension());
-    const double lines = 3 * d + 2;
+    const double lines = std::min(3 * d + 2, 24.0);
     const double per_point = d * static_cast<double>(axis_bytes(false)) + 40 +
                              lines * static_cast<double>(sizeof(Entry) * threads);
     return static_cast<double>(points.count()) * per_point;
