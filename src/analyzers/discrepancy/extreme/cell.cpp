@@ -103,7 +103,7 @@ Integer exact_section(const BoxGrid& grid, const Cell& cell, Extent extent) {
     for (std::size_t k = 0; k < axes_of(cell); ++k) {
         const unsigned digits = grid.digits[k + 1];
         product *= length_of<Integer>(
-            ends_on(cell, k), extent, Integer(1) << digits,
+            ends_on(cell, k), extent, scaled(1.0, digits),
             [&](std::uint32_t i) { return scaled(grid.values[k + 1][i], digits); });
     }
     return product;
