@@ -354,9 +354,11 @@ TEST(Generate, BeginsWithManySetsAtOnce) {
             << generator;
     }
     const Outcome files = box.shell(
-        "ulimit -v 500000; stipple generate random -n 8 -m 1e9 -o 'x{set}.csv' & until [ -f "
-        "x2.csv ]; do sleep 0.01; done; kill -INT $!; wait $!");
+        "ulimit -v 500000; stipple generate random -n 8 -m 1e9 -o 'x{set}.csv' & until find -L "
+        "/proc/$!/fd -type f -links 0 | grep -q .; do sleep 0.01; done; kill -INT $!; wait $!");
     EXPECT_EQ(files.code, 130);
+    EXPECT_EQ(box.files(), std::vector<std::string>{});
+    good(box.run({"generate", "random", "-n", "8", "-m", "2", "-o", "x{set}.csv"}));
     EXPECT_EQ(box.read("x1.csv"), good(box.shell("stipple generate random -n 8 --seed 2")));
 }
 

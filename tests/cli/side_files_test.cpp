@@ -101,8 +101,8 @@ TEST(SideFiles, AreNotLeftByACommandThatFails) {
     const Outcome outcome = box.shell(
         "mkfifo pipe; sleep 9 < pipe & reader=$!;"
         "stipple generate void-and-cluster --size 128x128 -n 16e3 --mask-image n.png -o pipe & "
-        "pid=$!; until ls -A | grep -q part; do sleep 0.01; done; kill -INT $pid; wait $pid; "
-        "kill $reader; exit 0");
+        "pid=$!; until find -L /proc/$pid/fd -type f -links 0 | grep -q .; do sleep 0.01; done; "
+        "kill -INT $pid; wait $pid; kill $reader; exit 0");
     EXPECT_EQ(box.files(), (Names{"m.png", "pipe"})) << outcome.err;
 }
 
