@@ -35,6 +35,11 @@ class Output {
     /// @throws Error(io), naming the target and the reason; Error(cancelled).
     bool write(std::string_view bytes);
 
+    /// No more is written: what has a name till commit() needs no descriptor. @throws Error(io)
+    void finish() {
+        if (!temporary_.empty()) close();
+    }
+
     /// Puts the file in its place. @throws Error(io)
     void commit();
 
@@ -60,9 +65,10 @@ class Output {
 /// The files of one command, which appear together or not at all.
 class Outputs {
   public:
-    /// One more, made as an Output is; the reference stays valid.
+    /// One more, made as an Output is, when the one before is written; the reference stays valid.
     template <class... Arguments>
     Output& add(Arguments&&... arguments) {
+        if (!files_.empty()) files_.back().finish();
         return files_.emplace_back(std::forward<Arguments>(arguments)...);
     }
 
