@@ -440,12 +440,12 @@ TEST(BadInput, TooMuchMemoryIsRefusedBeforeStarting) {
             "what 10000 sets hold together needs 1.37");
     refused("stipple generate poisson-disk --radius 0.03 -m 1000 -f json",
             "what 1000 sets hold together");
-    refused("stipple generate halton -n 99 | stipple warp owen -m 2000", "2000 sets hold together",
-            "2M");
+    refused("stipple generate halton -n 99 | stipple warp owen -m 8000", "8000 sets hold together",
+            "8M");
     refused(
         "stipple generate halton -n 60000 -f csv | grep -v '#' | stipple analyze "
         "kolmogorov-smirnov",
-        "the sorted coordinates", "2M");
+        "the limit is 2 MiB", "2M");
 }
 
 TEST(BadInput, TablesOfGeneratorsAreReadBeforeAnythingIsWritten) {

@@ -39,9 +39,11 @@ TEST(RunContext, MemoryInUseCountsTowardsTheLimit) {
     RunContext run{.max_memory = 1000, .memory_in_use = [] { return std::uint64_t{600}; }};
     EXPECT_EQ(error_of([&] { run.need_memory(400, "it"); }), "");
     EXPECT_EQ(error_of([&] { run.need_memory(401, "it"); }),
-              "limit: it needs 401 B of memory besides what is in use; the limit is 1000 B");
+              "limit: it needs 401 bytes of memory besides what is in use; the limit is 1000 bytes "
+              "| raise the limit with --max-memory");
     EXPECT_EQ(error_of([&] { run.need_memory(1001, "it"); }),
-              "limit: it needs 1001 B of memory; the limit is 1000 B");
+              "limit: it needs 1001 bytes of memory; the limit is 1000 bytes | raise the limit "
+              "with --max-memory");
     const RunContext share = run.share_of_memory(4);
     EXPECT_EQ(error_of([&] { share.need_memory(100, "it"); }), "");
     EXPECT_NE(error_of([&] { share.need_memory(101, "it"); }), "");
