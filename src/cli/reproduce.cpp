@@ -64,10 +64,6 @@ Arguments arguments_of(const Provenance& meta, const std::string& name) {
     typed.verb = Verb::generate;
     typed.unit = meta.generator;
     typed.settings = meta.options;
-    const auto& writes = find_generator(meta.generator).writes;
-    std::erase_if(typed.settings, [&](const auto& setting) {
-        return std::ranges::find(writes, setting.first) != writes.end();
-    });
     typed.common = {{"count", std::to_string(meta.count)}, {"seed", std::to_string(meta.seed)}};
     if (meta.start > 0) typed.common.emplace_back("start", std::to_string(meta.start));
     for (const std::string& warp : meta.warps) typed.common.emplace_back("warp", warp);
@@ -113,10 +109,10 @@ Recipe recipe_of(const Original& original, Session& session) {
     Recipe recipe;
     if (!meta.flaw.empty()) fail(ErrorKind::usage, "{}", meta.flaw);
     recipe.typed = typed_for(original);
-    for (const auto& [name, text] : recipe.typed.settings)
-        if (std::ranges::find(generator.writes, name) != generator.writes.end())
-            fail(ErrorKind::usage, "its command writes a file by --{}; only --output is written",
-                 name);
+    for (const auto* options : std::array{&meta.options, &std::as_const(recipe.typed.settings)})
+        for (const auto& [name, text] : *options)
+            if (std::ranges::find(generator.writes, name) != generator.writes.end())
+                fail(ErrorKind::usage, "it writes a file by --{}; only --output is written", name);
     recipe.job = production_of(recipe.typed, session);
     Production& job = recipe.job;
     if (job.generator->name != generator.name)
@@ -300,8 +296,7 @@ class Reproducer {
     void tell_differences(const Provenance& made) const {
         if (!recipe_.steps.empty() || made.options.empty()) return;
         for (const auto& option : original_.meta.options)
-            if (option.first != original_.picture &&
-                std::ranges::find(made.options, option) == made.options.end())
+            if (std::ranges::find(made.options, option) == made.options.end())
                 session_.warn(
                     fmt::format("{}: its provenance has {} {}, which is not what is found "
                                 "today",

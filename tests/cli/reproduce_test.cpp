@@ -379,8 +379,7 @@ TEST(Reproduce, OpensNoFileThatItsProvenanceNames) {
         const std::string generator = "\"generator\":\"" + unit + "\"";
         expect_refused(generator + ",\"command\":\"stipple generate " + unit + " --" + option +
                        " canary\"");
-        if (option != "mask-image")
-            expect_refused(generator + ",\"count\":1,\"options\":{\"" + option + "\":\"canary\"}");
+        expect_refused(generator + ",\"count\":1,\"options\":{\"" + option + "\":\"canary\"}");
     }
     for (const auto& [unit, option] : of_warps) {
         const std::string warp = unit + ":" + option + "=canary";
