@@ -97,7 +97,7 @@ TEST(Ranks, EndTogetherWhereOneFails) {
         bytes.resize(size, *name == 'd' ? '\n' : 'x');
         box.write(name, bytes);
     }
-    box.write("c.json", R"({"generators":["random"],"counts":[16],"analyze":["moments"]})");
+    box.write("c.json", R"({"generators":["random"],"count":[16],"analyze":["moments"]})");
     std::filesystem::create_directory(box.path() / "folder/p.csv");
     const auto failing = [&](int ranks, const std::string& there, const std::string& command) {
         box.write("rank.sh", "[ $OMPI_COMM_WORLD_RANK != 1 ] || " + there + "\nexec \"$@\"\n");

@@ -200,8 +200,9 @@ TEST_P(Golden, PointsAreTheSameAsEver) {
     std::vector<std::string> expected = table();
     std::erase_if(expected, [](const std::string& line) { return unit_in(line) != GetParam(); });
     EXPECT_EQ(lines_of(GetParam()), expected)
-        << "If this is meant, raise stream_version in the record of " << GetParam()
-        << " and run scripts/golden; points that no release made: scripts/golden --same-version.";
+        << "A new unit, or new cases: run scripts/golden. Other points than before, if that is "
+           "meant: raise stream_version in the record of "
+        << GetParam() << " first; points that no release made: scripts/golden --same-version.";
 }
 
 std::string golden_name(const ::testing::TestParamInfo<std::string>& info) {
