@@ -6,8 +6,6 @@
 #include <array>
 #include <exception>
 #include <map>
-#include <new>
-#include <system_error>
 
 #include "cli/launched.hpp"
 #include "cli/parsing/arguments.hpp"
@@ -78,17 +76,8 @@ int run_verb(int argc, char** argv) {
             return 0;
         }
         return dispatch(parse_arguments(argc, argv));
-    } catch (const Error& e) {
-        return end_with(verb, e);
-    } catch (const std::bad_alloc&) {
-        return end_with(verb, {ErrorKind::limit, "out of memory"});
-    } catch (const std::system_error& e) {
-        if (e.code() == std::errc::resource_unavailable_try_again)
-            return end_with(verb, {ErrorKind::limit, "a thread does not start",
-                                   "limits (ulimit) may allow fewer: --threads"});
-        return end_with(verb, {ErrorKind::io, fmt::format("internal error: {}", e.what())});
-    } catch (const std::exception& e) {
-        return end_with(verb, {ErrorKind::io, fmt::format("internal error: {}", e.what())});
+    } catch (const std::exception&) {
+        return end_with(verb, caught_error());
     }
 }
 

@@ -22,6 +22,11 @@ std::optional<std::uint64_t> environment(std::initializer_list<const char*> name
     return most;
 }
 
+/// Processes that mpirun started, as far as it says so.
+std::optional<std::uint64_t> started_by_mpirun() {
+    return environment({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"});
+}
+
 /// Those that this process has joined.
 std::unique_ptr<Ranks>& joined() {
     static std::unique_ptr<Ranks> ranks;
@@ -31,13 +36,13 @@ std::unique_ptr<Ranks>& joined() {
 }  // namespace
 
 std::uint64_t launched_ranks() {
-    auto ranks = environment({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"});
+    auto ranks = started_by_mpirun();
     // Slurm's own launcher with PMIx names the number of processes nowhere else.
     if (!ranks) ranks = environment({"SLURM_STEP_NUM_TASKS"});
     return std::max<std::uint64_t>(1, ranks.value_or(1));
 }
 
-bool is_launched() { return environment({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}).has_value(); }
+bool is_launched() { return started_by_mpirun().has_value(); }
 
 bool is_mute(std::string_view verb) {
     if ((verb != "analyze" && verb != "study") || launched_ranks() == 1) return false;

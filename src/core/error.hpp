@@ -25,4 +25,8 @@ template <class... Args>
     throw Error(kind, fmt::format(what, std::forward<Args>(args)...), std::move(hint));
 }
 
+/// What a handler of std::exception has caught, as an Error: out of memory and a thread that does not
+/// start are limits, whatever else is none is an internal error.
+Error caught_error();
+
 }  // namespace stipple

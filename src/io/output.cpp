@@ -8,7 +8,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <system_error>
@@ -42,6 +44,13 @@ std::filesystem::path follow_links(std::filesystem::path path) {
 std::string folder_of(const std::filesystem::path& path) {
     const auto parent = path.parent_path();
     return parent.empty() ? "." : parent.string();
+}
+
+/// A new name beside a target. It counts on from the last one, since many files of a command may wait
+/// under such names.
+std::string part_name(const std::filesystem::path& target) {
+    static std::atomic<std::uint64_t> number = 0;
+    return fmt::format("{}/.stipple-{}-{}.part", folder_of(target), ::getpid(), number++);
 }
 
 /// The name by which the system reaches an open file that has none.
@@ -104,8 +113,8 @@ void Output::open_beside() {
     if (::stat(folder.c_str(), &status) != 0 && errno == ENOENT)
         fail(ErrorKind::io, "{}: there is no folder {}", path_, shown(folder));
     if (open_unnamed()) return;
-    for (int attempt = 0; descriptor_ < 0; ++attempt) {
-        temporary_ = fmt::format("{}/.stipple-{}-{}.part", folder, ::getpid(), attempt);
+    while (descriptor_ < 0) {
+        temporary_ = part_name(target_);
         descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor_ >= 0 || errno == EEXIST) continue;
         temporary_.clear();
@@ -173,9 +182,8 @@ void Output::name_it() {
         return ::linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
     };
     if (link_as(target_)) return;
-    for (int attempt = 0; errno == EEXIST; ++attempt) {
-        const std::string name =
-            fmt::format("{}/.stipple-{}-{}.part", folder_of(target_), ::getpid(), attempt);
+    while (errno == EEXIST) {
+        const std::string name = part_name(target_);
         if (!link_as(name)) continue;
         temporary_ = name;
         return;

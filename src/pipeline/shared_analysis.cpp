@@ -2,9 +2,8 @@
 #include "pipeline/shared_analysis.hpp"
 
 #include <algorithm>
-#include <new>
+#include <exception>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
 #include "core/bytes/fingerprint.hpp"
@@ -28,12 +27,9 @@ struct Trouble {
 std::optional<Trouble> trouble_of(const std::function<void()>& work, const std::string& host) {
     try {
         work();
-    } catch (const Error& e) {
-        return Trouble{e.kind(), e.what(), e.hint(), host};
-    } catch (const std::bad_alloc&) {
-        return Trouble{ErrorKind::limit, "out of memory", "", host};
-    } catch (const std::exception& e) {
-        return Trouble{ErrorKind::io, fmt::format("internal error: {}", e.what()), "", host};
+    } catch (const std::exception&) {
+        const Error error = caught_error();
+        return Trouble{error.kind(), error.what(), error.hint(), host};
     }
     return std::nullopt;
 }

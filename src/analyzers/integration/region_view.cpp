@@ -19,7 +19,7 @@ std::optional<Box> filled_box(const Domain& domain) {
 }
 
 /// Three axes at right angles, the last one given.
-std::array<Vector3, 3> axes_about(const Vector3& z) {
+Frame axes_about(const Vector3& z) {
     const bool near_x = std::abs(z[0]) > 0.5;
     const Vector3 other{near_x ? 0.0 : 1.0, near_x ? 1.0 : 0.0, 0.0};
     const double along = near_x ? z[1] : z[0];
@@ -48,14 +48,12 @@ double RegionView::scale(Region region) const {
 }
 
 void RegionView::see(Region region, std::span<const double> point, std::span<double> seen) const {
-    for (std::size_t k = 0; k < point.size(); ++k) {
-        if (region == Region::cube)
-            seen[k] = (point[k] - box_->low[k]) / box_->extent(k);
-        else if (region == Region::hemisphere)
-            seen[k] = dot((*axes_)[k], {point[0], point[1], point[2]});
-        else
-            seen[k] = point[k];
+    if (region == Region::hemisphere) {
+        std::ranges::copy(axes_->in({point[0], point[1], point[2]}), seen.begin());
+        return;
     }
+    for (std::size_t k = 0; k < point.size(); ++k)
+        seen[k] = region == Region::cube ? (point[k] - box_->low[k]) / box_->extent(k) : point[k];
 }
 
 bool RegionView::has_uniform() const { return domain_.even() && (box_ || axes_ || pole_); }
@@ -66,14 +64,12 @@ void RegionView::uniform(std::span<const double> cube, std::span<double> point) 
             point[k] = box_->low[k] + cube[k] * box_->extent(k);
         return;
     }
-    const auto& axes = axes_ ? *axes_ : *pole_;
+    const Frame& axes = axes_ ? *axes_ : *pole_;
     const double drop = axes_ ? cube[0] : 2 * cube[0];
     const double z = 1 - drop;
     const double r = std::sqrt(drop * (2 - drop));
     const double turn = 2 * std::numbers::pi * cube[1];
-    const Vector3 v{r * std::cos(turn), r * std::sin(turn), z};
-    for (std::size_t k = 0; k < 3; ++k)
-        point[k] = v[0] * axes[0][k] + v[1] * axes[1][k] + v[2] * axes[2][k];
+    std::ranges::copy(axes.out({r * std::cos(turn), r * std::sin(turn), z}), point.begin());
 }
 
 }  // namespace stipple::analyzers

@@ -4,7 +4,6 @@
 // its axis is z, or any domain as it is.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -37,10 +36,10 @@ class RegionView {
 
   private:
     const Domain& domain_;
-    bool finite_;                                 ///< the measure of where the density is not 0
-    std::optional<Box> box_;                      ///< of a domain that fills it
-    std::optional<std::array<Vector3, 3>> axes_;  ///< of a hemisphere; the last one is its own
-    std::optional<std::array<Vector3, 3>> pole_;  ///< the same, of a law on the whole sphere
+    bool finite_;                ///< the measure of where the density is not 0
+    std::optional<Box> box_;     ///< of a domain that fills it
+    std::optional<Frame> axes_;  ///< of a hemisphere; z is its own
+    std::optional<Frame> pole_;  ///< the same, of a law on the whole sphere
 };
 
 }  // namespace stipple::analyzers

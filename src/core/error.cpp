@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#include "core/error.hpp"
+
+#include <new>
+#include <system_error>
+
+namespace stipple {
+
+Error caught_error() {
+    try {
+        throw;
+    } catch (const Error& e) {
+        return e;
+    } catch (const std::bad_alloc&) {
+        return {ErrorKind::limit, "out of memory"};
+    } catch (const std::exception& e) {
+        const auto* failed = dynamic_cast<const std::system_error*>(&e);
+        if (failed != nullptr && failed->code() == std::errc::resource_unavailable_try_again)
+            return {ErrorKind::limit, "a thread does not start",
+                    "limits (ulimit) may allow fewer: --threads"};
+        return {ErrorKind::io, fmt::format("internal error: {}", e.what())};
+    }
+}
+
+}  // namespace stipple
