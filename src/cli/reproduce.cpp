@@ -109,6 +109,9 @@ Recipe recipe_of(const Original& original, Session& session) {
     Recipe recipe;
     if (!meta.flaw.empty()) fail(ErrorKind::usage, "{}", meta.flaw);
     recipe.typed = typed_for(original);
+    // As strictly as a command line, though what they say was worked out.
+    Values known = generator.options.defaults();
+    for (const auto& [name, text] : meta.options) generator.options.set(known, name, text);
     for (const auto* options : std::array{&meta.options, &std::as_const(recipe.typed.settings)})
         for (const auto& [name, text] : *options)
             if (std::ranges::find(generator.writes, name) != generator.writes.end())

@@ -408,6 +408,12 @@ TEST(Reproduce, RefusesValuesThatNoneCanHave) {
         const std::string key = was.substr(0, was.find(':'));
         EXPECT_THAT(refusal(box, "b.csv"), HasSubstr("its " + key + " cannot be '")) << is;
     }
+    // Options, too, where the command does not have them.
+    for (const char* option : {"\"mask\":\"m.png\"", "\"cell\":\"nowhere\""}) {
+        good(box.shell("stipple generate void-and-cluster -n 16 --size 8x8 -o c.json"));
+        replace_in(box, "c.json", "\"cell\":\"center\"", option);
+        EXPECT_THAT(refusal(box, "c.json"), HasSubstr("cannot follow its provenance")) << option;
+    }
 }
 
 TEST(Reproduce, LeavesNoFiles) {
