@@ -355,7 +355,8 @@ TEST(Generate, BeginsWithManySetsAtOnce) {
     }
     const Outcome files = box.shell(
         "ulimit -v 500000; stipple generate random -n 8 -m 1e9 -o 'x{set}.csv' & until find -L "
-        "/proc/$!/fd -type f -links 0 | grep -q .; do sleep 0.01; done; kill -INT $!; wait $!");
+        "/proc/$!/fd -type f -links 0 -print -quit | grep -q .; do sleep 0.01; done; kill -INT $!; "
+        "wait $!");
     EXPECT_EQ(files.code, 130);
     EXPECT_EQ(box.files(), std::vector<std::string>{});
     good(box.run({"generate", "random", "-n", "8", "-m", "2", "-o", "x{set}.csv"}));

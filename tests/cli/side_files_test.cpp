@@ -101,7 +101,8 @@ TEST(SideFiles, AreNotLeftByACommandThatFails) {
     const Outcome outcome = box.shell(
         "mkfifo pipe; sleep 9 < pipe & reader=$!;"
         "stipple generate void-and-cluster --size 128x128 -n 16e3 --mask-image n.png -o pipe & "
-        "pid=$!; until find -L /proc/$pid/fd -type f -links 0 | grep -q .; do sleep 0.01; done; "
+        "pid=$!; until find -L /proc/$pid/fd -type f -links 0 -print -quit | grep -q .; do sleep "
+        "0.01; done; "
         "kill -INT $pid; wait $pid; kill $reader; exit 0");
     EXPECT_EQ(box.files(), (Names{"m.png", "pipe"})) << outcome.err;
 }
