@@ -245,16 +245,25 @@ double mass_share(double a, double b, double t) {
 LineTable::LineTable(std::vector<LinePiece> pieces) : pieces_(std::move(pieces)) {
     double top = 0;
     for (const LinePiece& piece : pieces_) top = std::max({top, piece.f_low, piece.f_high});
+    // Densities are given any scale. With the largest at 2^500, less where the range is large, no
+    // mass overflows, and the smallest beside it keep their digits.
+    const double range = pieces_.back().x_high - pieces_.front().x_low;
+    const int down = std::ilogb(top);
+    const int lift = 500 - std::max(0, std::ilogb(range)) - down;
+    top = std::ldexp(top, -down);
     std::vector<double> sums;
     double sum = 0;
     for (LinePiece& piece : pieces_) {
-        // To a largest density of 1, whose square is finite.
-        piece.f_low /= top;
-        piece.f_high /= top;
+        piece.f_low = std::ldexp(piece.f_low, lift) / top;
+        piece.f_high = std::ldexp(piece.f_high, lift) / top;
         const double before = sum;
         const double width = piece.x_high - piece.x_low;
         sums.push_back(sum += 0.5 * (piece.f_low + piece.f_high) * width);
-        rows_.push_back({before, sum - before, piece.f_low, piece.f_high, piece.x_low, width,
+        // A quantile asks for their ratio alone: at a size whose square is a number.
+        int size = 0;
+        std::frexp(std::max(piece.f_low, piece.f_high), &size);
+        rows_.push_back({before, sum - before, std::ldexp(piece.f_low, -size),
+                         std::ldexp(piece.f_high, -size), piece.x_low, width,
                          std::nextafter(piece.x_high, piece.x_low)});
     }
     masses_ = GuideTable(std::move(sums), 2 * pieces_.size());

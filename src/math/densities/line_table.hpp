@@ -111,7 +111,7 @@ class LineTable {
     struct alignas(64) Row {
         double before;  ///< mass below the piece, and of it
         double mass;
-        double f_low;
+        double f_low;  ///< both over a power of 2
         double f_high;
         double x_low;
         double width;

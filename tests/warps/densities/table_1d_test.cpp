@@ -81,6 +81,29 @@ TEST(Table1d, ChiSquareAcceptsItAndRejectsWrongOnes) {
     EXPECT_LT(measure("chi-square", "p_upper", wrong), 1e-4);
 }
 
+// Uniform halves of any height, and a ramp: what squares of the densities over- or underflow with.
+TEST(Table1d, TakesDensitiesOfAnySize) {
+    for (const char* f : {"1e-285", "1e-200", "1e-160", "1", "1e150"}) {
+        const std::string size = f;
+        for (const char* kind : {"linear", "constant"}) {
+            const std::string spec = "table-1d:interpolation=" + std::string(kind) + ",rows=[0," +
+                                     size + " 1," + size + "]";
+            for (const double u : {0.25, 0.5, 0.75}) {
+                EXPECT_DOUBLE_EQ(at(spec, u), u) << spec;
+                EXPECT_DOUBLE_EQ(inverse_of(*mapping(spec), {u, 0.5})[0], u) << spec;
+            }
+        }
+        EXPECT_DOUBLE_EQ(at("table-1d:rows=[0,0 1," + size + "]", 0.25), 0.5) << size;
+    }
+    // Beside one of 1, one of 1e-200 and then of 1e-300: masses of 1e-200 and 1e-300 of the whole.
+    for (const char* f : {"1e-200", "1e-300"}) {
+        const std::string beside =
+            "table-1d:interpolation=constant,rows=[0," + std::string(f) + " 1,1 2,0]";
+        EXPECT_DOUBLE_EQ(at(beside, 0.25 * std::stod(f)), 0.25) << f;
+        EXPECT_DOUBLE_EQ(mapping(beside)->density(std::vector{0.5, 1.5}), std::stod(f)) << f;
+    }
+}
+
 TEST(Table1d, ReadsFiles) {
     const TemporaryFile file("x,density\n0,0\n1,2\n2,0\n");
     EXPECT_DOUBLE_EQ(at("table-1d:file=" + file.path(), 0.125), 0.5);
