@@ -5,21 +5,51 @@
 #include <cmath>
 #include <limits>
 
+#include "math/arithmetic/double_double.hpp"
+
 namespace stipple {
+namespace {
+
+/// The cross product, from exact products: areas of slivers are small differences of large ones.
+Vector3 exact_cross(const ExactEdge& e, const ExactEdge& f) {
+    const auto product = [&](std::size_t i, std::size_t j, double sign) {
+        return DoubleDouble{sign * e.high[i], sign * e.low[i]} * DoubleDouble{f.high[j], f.low[j]};
+    };
+    Vector3 n;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::size_t i = (k + 1) % 3;
+        const std::size_t j = (k + 2) % 3;
+        n[k] = (product(i, j, 1) + product(j, i, -1)).high;
+    }
+    return n;
+}
+
+}  // namespace
+
+ExactEdge exact_edge(const Vector3& from, const Vector3& to) {
+    ExactEdge edge{};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const DoubleDouble difference = exact_sum(to[k], -from[k]);
+        edge.high[k] = difference.high;
+        edge.low[k] = difference.low;
+    }
+    return edge;
+}
+
 Vector3 space_point(std::span<const double> point) {
     return {point[0], point[1], point.size() > 2 ? point[2] : 0};
 }
 
-EdgeFrame::EdgeFrame(const Vector3& corner, const Vector3& a, const Vector3& b, double size)
+EdgeFrame::EdgeFrame(const Vector3& corner, const ExactEdge& a, const ExactEdge& b, double size)
     : corner_(corner) {
     constexpr double epsilon = std::numeric_limits<double>::epsilon();
-    lengths_ = {length(a), length(b), length(minus(b, a))};
+    lengths_ = {length(a.high), length(b.high), length(minus(b.high, a.high))};
     const double longest = *std::ranges::max_element(lengths_);
     // In units of a power of 2 near the longest edge nothing over- or underflows or is rounded.
     const double unit = longest > 1e-140 ? std::ldexp(1.0, std::ilogb(longest)) : 1;
-    const Vector3 e = times(a, 1 / unit);
-    const Vector3 f = times(b, 1 / unit);
-    const Vector3 n = cross(e, f);
+    const Vector3 e = times(a.high, 1 / unit);
+    const Vector3 f = times(b.high, 1 / unit);
+    const Vector3 n = exact_cross({e, times(a.low, 1 / unit)}, {f, times(b.low, 1 / unit)});
     const double area = length(n);
     const double height = area * unit * (unit / longest);
     flat_ = !(longest > 1e-140 && height > 64 * epsilon * size);

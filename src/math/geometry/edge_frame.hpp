@@ -19,6 +19,14 @@ namespace stipple {
 /// A point of two or three coordinates in space; the plane is z = 0.
 Vector3 space_point(std::span<const double> point);
 
+/// The vector high + low between two points, exact where they are within 2^53 of another.
+struct ExactEdge {
+    Vector3 high;
+    Vector3 low{};
+};
+
+ExactEdge exact_edge(const Vector3& from, const Vector3& to);
+
 class EdgeFrame {
   public:
     struct Coordinates {
@@ -27,7 +35,7 @@ class EdgeFrame {
     };
 
     /// `size` is the largest coordinate of the points that are made with it.
-    EdgeFrame(const Vector3& corner, const Vector3& e, const Vector3& f, double size);
+    EdgeFrame(const Vector3& corner, const ExactEdge& e, const ExactEdge& f, double size);
     EdgeFrame() = default;
 
     /// Whether the edges span no area, but for rounding; nothing else may be asked then.
@@ -38,7 +46,7 @@ class EdgeFrame {
     /// Distance from the plane of the edges.
     [[nodiscard]] double off_plane(const Vector3& point) const;
 
-    /// Area of the parallelogram of the edges.
+    /// Area of the parallelogram of the edges, within 4 epsilon of itself however flat it is.
     [[nodiscard]] double area() const { return area_; }
 
     /// Lengths of e, f and f - e.

@@ -102,9 +102,12 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
     if (size > 1e150)
         fail(ErrorKind::usage,
              "--edges: the parallelogram reaches out of [-1e150, 1e150]; it must stay inside");
-    const EdgeFrame frame(c, a, b, size);
+    const EdgeFrame frame(c, {a}, {b}, size);
     if (frame.flat())
-        fail(ErrorKind::usage, "--edges: the parallelogram of {} has no area", format_value(table));
+        fail(ErrorKind::usage,
+             "--edges: the parallelogram of {} has no area, or less than the rounding of points in "
+             "it",
+             format_value(table));
     Table corners;
     for (const Vector3& v : {c, plus(c, a), plus(plus(c, a), b), plus(c, b)})
         corners.emplace_back(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(d));

@@ -135,9 +135,11 @@ std::array<Vector3, 3> corners_of(const Table& table) {
 EdgeFrame frame_of(const std::array<Vector3, 3>& v, const Table& table) {
     const double size = std::max({largest(v[0]), largest(v[1]), largest(v[2])});
     if (size > 1e150) fail(ErrorKind::usage, "--vertices: a coordinate is outside [-1e150, 1e150]");
-    const EdgeFrame frame(v[0], minus(v[1], v[0]), minus(v[2], v[0]), size);
+    const EdgeFrame frame(v[0], exact_edge(v[0], v[1]), exact_edge(v[0], v[2]), size);
     if (frame.flat())
-        fail(ErrorKind::usage, "--vertices: the triangle {} has no area", format_value(table));
+        fail(ErrorKind::usage,
+             "--vertices: the triangle {} has no area, or less than the rounding of points in it",
+             format_value(table));
     return frame;
 }
 

@@ -76,7 +76,8 @@ TEST(Parallelogram, DomainSaysWhatItIsAndParsesBack) {
 TEST(Parallelogram, RefusesWhatIsNoParallelogram) {
     const auto error = [](std::string_view spec) { return error_of([&] { mapping(spec); }); };
     EXPECT_EQ(error("parallelogram:edges=[1,1 2,2]"),
-              "usage: --edges: the parallelogram of 1,1 2,2 has no area");
+              "usage: --edges: the parallelogram of 1,1 2,2 has no area, or less than the "
+              "rounding of points in it");
     EXPECT_NE(error("parallelogram:edges=[0.1,0.1 0.3,0.3]"), "") << "flat but for rounding";
     EXPECT_NE(error("parallelogram:edges=[0,0 1,0]"), "");
     EXPECT_EQ(error("parallelogram:edges=[1,0]"),

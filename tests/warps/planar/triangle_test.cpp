@@ -140,6 +140,9 @@ TEST(Triangle, DensityIsOneOverTheArea) {
     const auto map = mapping(in_space);  // half of |(-1,2,0) x (-1,0,3)| = |(6,3,2)| / 2 = 7/2
     EXPECT_DOUBLE_EQ(map->domain()->measure(), 3.5);
     EXPECT_DOUBLE_EQ(map->density(std::vector{0.5, 0.5, 0.75}), 1 / 3.5);
+    // A sliver with doubles for corners, by exact fractions.
+    const auto sliver = mapping("triangle:vertices=[0.1,0.1 1.1,1.3 0.6,0.7000000001]");
+    EXPECT_DOUBLE_EQ(sliver->density(std::vector{0.6, 0.70000000005}), 19999995569.635998);
 }
 
 // Moments of the uniform density on the right triangle: mean 1/3, variance 1/18, covariance -1/36.
@@ -195,7 +198,8 @@ TEST(Triangle, CubeOfTheDomainIsAreaFromV1) {
 TEST(Triangle, RefusesWhatIsNoTriangle) {
     const auto error = [](std::string_view spec) { return error_of([&] { mapping(spec); }); };
     EXPECT_EQ(error("triangle:vertices=[0,0 1,1 2,2]"),
-              "usage: --vertices: the triangle 0,0 1,1 2,2 has no area");
+              "usage: --vertices: the triangle 0,0 1,1 2,2 has no area, or less than the "
+              "rounding of points in it");
     EXPECT_NE(error("triangle:vertices=[0.1,0.1 0.2,0.2 0.3,0.3]"), "") << "flat but for rounding";
     EXPECT_NE(error("triangle:vertices=[1,1 1,1 1,1]"), "");
     EXPECT_NE(error("triangle:vertices=[0,0 0,0 1,0]"), "");
