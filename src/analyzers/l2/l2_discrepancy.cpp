@@ -134,7 +134,9 @@ Report off_by(const l2::Square& square, l2::Kind which, const char* method, cons
     return result_of(square.squared, method).add("error", error);
 }
 
-Report in_space(const PointSet& points, l2::Kind which, const l2::AxisWeights& weights,
+/// Of one kind; by itself (`alone`) it must have a value.
+/// @throws Error(limit)
+Report in_space(const PointSet& points, l2::Kind which, const l2::AxisWeights& weights, bool alone,
                 const RunContext& run) {
     const std::size_t n = points.count();
     const std::size_t d = points.dimension();
@@ -145,7 +147,14 @@ Report in_space(const PointSet& points, l2::Kind which, const l2::AxisWeights& w
     }
     warn_of_pairs(n, d, which, run);
     run.need_memory(l2::pair_memory(n, d), "the tables of l2-discrepancy");
-    return off_by(l2::pair_square(points, which, weights, run), which, "all-pairs", run);
+    const l2::Square square = l2::pair_square(points, which, weights, run);
+    if (std::isfinite(square.squared)) return off_by(square, which, "all-pairs", run);
+    const std::string why =
+        fmt::format("in {} dimensions its square is beyond the largest double", d);
+    if (alone)
+        fail_with_hint(ErrorKind::limit, "--kind chooses others", "{} discrepancy: {}",
+                       l2::record_of(which).name, why);
+    return Report().add("missing", why);
 }
 
 Report in_spaces(const PointSet& points, const std::vector<l2::Kind>& kinds,
@@ -155,7 +164,8 @@ Report in_spaces(const PointSet& points, const std::vector<l2::Kind>& kinds,
     for (std::size_t i = 0; i < kinds.size(); ++i) {
         const auto at = static_cast<double>(i);
         const RunContext part = run.stage(at / parts, (at + 1) / parts);
-        results.add(l2::record_of(kinds[i]).name, in_space(points, kinds[i], weights, part));
+        results.add(l2::record_of(kinds[i]).name,
+                    in_space(points, kinds[i], weights, kinds.size() == 1, part));
     }
     run.tick(1, 1);
     return results;
@@ -174,27 +184,29 @@ Report analyze(const PointSet& points, const Values& options, const RunContext& 
 }  // namespace
 
 Analyzer unit() {
-    return {.name = "l2-discrepancy",
-            .summary =
-                "L2 discrepancies: star, extreme, periodic, centered, wraparound, mixture, "
-                "modified, and diaphony",
-            .source =
-                "Hickernell 1998, doi:10.1090/S0025-5718-98-00894-1; Heinrich 1996, "
-                "doi:10.1090/S0025-5718-96-00756-4",
-            .traits = {.max_dimension = 10'000},
-            .options = Schema(kind, axis_weights),
-            .results = {{"KIND.value", "the discrepancy of that kind"},
-                        {"KIND.squared", "its square"},
-                        {"KIND.method", "exact-sums, divide-and-conquer or all-pairs", true,
-                         "exact-sums|divide-and-conquer|all-pairs"},
-                        {"KIND.error",
-                         "the value is off by at most this (three and more "
-                         "dimensions; fewer are exact)",
-                         false}},
-            .analyze = analyze,
-            .cost = [](double n, double d) {
-                return d <= 2 ? 5e-7 * n : d * std::min(1e-10 * n * n * d, 1e-5 * n);
-            }};
+    return {
+        .name = "l2-discrepancy",
+        .summary =
+            "L2 discrepancies: star, extreme, periodic, centered, wraparound, mixture, "
+            "modified, and diaphony",
+        .source =
+            "Hickernell 1998, doi:10.1090/S0025-5718-98-00894-1; Heinrich 1996, "
+            "doi:10.1090/S0025-5718-96-00756-4",
+        .traits = {.max_dimension = 10'000},
+        .options = Schema(kind, axis_weights),
+        .results = {{"KIND.value", "the discrepancy of that kind"},
+                    {"KIND.squared", "its square"},
+                    {"KIND.method", "exact-sums, divide-and-conquer or all-pairs", true,
+                     "exact-sums|divide-and-conquer|all-pairs"},
+                    {"KIND.error",
+                     "the value is off by at most this (three and more "
+                     "dimensions; fewer are exact)",
+                     false},
+                    {"KIND.missing", "in place of all these, why the kind has no value", false}},
+        .analyze = analyze,
+        .cost = [](double n, double d) {
+            return d <= 2 ? 5e-7 * n : d * std::min(1e-10 * n * n * d, 1e-5 * n);
+        }};
 }
 
 }  // namespace stipple::analyzers::l2_discrepancy

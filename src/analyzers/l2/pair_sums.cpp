@@ -422,14 +422,6 @@ AxisProducts products_of(const Axes& axes, const Scaling& scaling) {
     return of;
 }
 
-void require_finite(double squared, Kind kind, std::size_t dimension) {
-    if (std::isfinite(squared)) return;
-    fail_with_hint(ErrorKind::limit, "--kind chooses others",
-                   "the {} discrepancy of points in {} dimensions is made of numbers beyond the "
-                   "largest double",
-                   record_of(kind).name, dimension);
-}
-
 }  // namespace
 
 double pair_memory(std::size_t count, std::size_t dimension) {
@@ -457,7 +449,6 @@ Square pair_square(const PointSet& points, Kind kind, const AxisWeights& weights
     const Quad n = points.count();
     const Quad pairs = of.scale * (Quad(sum.high) + sum.low) / (n * n);
     const Quad squared = of.total - 2 * numbers.means + pairs;
-    require_finite(static_cast<double>(squared), kind, points.dimension());
     // What is lost below the smallest double may grow again with the factors that follow.
     const auto chain = static_cast<double>(numbers.factors + 8);
     const double growth = table.any_order() ? scaling.any_order : scaling.growth;

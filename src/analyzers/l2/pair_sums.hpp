@@ -41,8 +41,7 @@
 
 namespace stipple::analyzers::l2 {
 
-/// The squared discrepancy.
-/// @throws Error(limit) where sums on the way to it leave the range of doubles
+/// The squared discrepancy; not finite where it is beyond the largest double.
 Square pair_square(const PointSet& points, Kind kind, const AxisWeights& weights,
                    const RunContext& run, Vectors widest = Vectors::eights);
 

@@ -800,9 +800,17 @@ TEST(L2Discrepancy, RefusesWrongOptionsAndSaysWhy) {
 TEST(L2Discrepancy, RefusesWhatNoDoubleHolds) {
     const PointSet set = random_set(5, 2000, 1);
     EXPECT_EQ(error_of([&] { report_of(set, {}, "wraparound"); }),
-              "limit: the wraparound discrepancy of points in 2000 dimensions is made of numbers "
-              "beyond the largest double | --kind chooses others");
+              "limit: wraparound discrepancy: in 2000 dimensions its square is beyond the largest "
+              "double | --kind chooses others");
     EXPECT_TRUE(std::isfinite(squared(report_of(set, {}, "star"), "star")));
+    // All kinds, of which diaphony is the first that is too large: 500 log10(1 + pi^2/3) = 316.
+    const Report all = report_of(random_set(3, 500, 1));
+    EXPECT_EQ(all.text("diaphony.missing"),
+              "in 500 dimensions its square is beyond the largest double");
+    EXPECT_EQ(all.find("diaphony.value"), nullptr);
+    for (const char* kind :
+         {"star", "extreme", "periodic", "centered", "wraparound", "mixture", "modified"})
+        EXPECT_TRUE(std::isfinite(squared(all, kind))) << kind;
 }
 
 TEST(L2Discrepancy, StopsAtOnceInManyDimensions) {
