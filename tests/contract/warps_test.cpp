@@ -10,6 +10,7 @@
 #include "pipeline/chain.hpp"
 #include "pipeline/pipeline.hpp"
 #include "support/contract.hpp"
+#include "support/planar.hpp"
 
 namespace stipple::testing::warps_test {
 namespace {
@@ -59,37 +60,11 @@ TEST_P(EveryWarp, MapsTheWholeCubeIntoItsDomain) {
     }
 }
 
-/// A number in [0, 1] that warps may stumble over: an end, a place next to one at any scale, or
-/// next to a simple fraction.
-double hostile(std::uint64_t bits) {
-    const double any = to_unit(bits);
-    const auto scale = static_cast<int>(bits / 8 % 64);
-    const double fraction = static_cast<double>(scale % 25) / 24;
-    switch (bits % 8) {
-        case 0:
-            return scale < 32 ? 0 : 1;
-        case 1:
-            return std::ldexp(any, -scale);
-        case 2:
-            return std::ldexp(any, -17 * scale);  // down to denormals
-        case 3:
-            return 1 - std::ldexp(any, -scale);
-        case 4:
-            return std::nextafter(fraction, 0);
-        case 5:
-            return fraction;
-        case 6:
-            return std::min(std::nextafter(fraction, 2), 1.0);
-        default:
-            return any;
-    }
-}
-
 TEST_P(EveryWarp, StandsAHundredThousandHostilePoints) {
     const std::size_t count = 100'000;
     std::vector<double> rows(count * in), image(count * out);
     const Rng rng(17);
-    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = hostile(rng.bits(i));
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = hostile_number(rng.bits(i));
     std::vector<std::uint8_t> keep(count, 1);
     mapping->forward(rows, image, keep);
     std::vector<double> cell(mapping->domain()->cube_dimension());
@@ -100,6 +75,121 @@ TEST_P(EveryWarp, StandsAHundredThousandHostilePoints) {
         ASSERT_TRUE(mapping->density(point) >= 0) << "point " << i;
         mapping->domain()->to_cube(point, cell);
         for (const double u : cell) ASSERT_TRUE(u >= 0 && u <= 1) << "point " << i << ": " << u;
+    }
+}
+
+/// A number in place of another: of any size, a small integer, or next to one that was there.
+class HostileOptions {
+  public:
+    explicit HostileOptions(std::uint64_t seed) : rng_(seed) {}
+
+    /// Settings for all options of numbers and words; those that name files or formulas stay.
+    Settings settings(const Schema& schema) {
+        Settings chosen;
+        for (const Option& option : schema.options()) {
+            if (next() % 4 == 0) continue;
+            if (option.type == "choice")
+                chosen.emplace_back(option.name, option.choices[next() % option.choices.size()]);
+            else if (option.type == "number" || option.type == "integer")
+                chosen.emplace_back(option.name, number_of(option));
+            else if (option.type == "numbers" || option.type == "points")
+                chosen.emplace_back(option.name, with_other_numbers(format_value(option.fallback)));
+        }
+        return chosen;
+    }
+
+  private:
+    std::uint64_t next() { return rng_.bits(at_++); }
+    double part() { return to_unit(next()); }
+
+    std::string number_of(const Option& option) {
+        double x = option.low + hostile_number(next()) * (option.high - option.low);
+        if (!std::isfinite(x) || std::abs(x) < 0x1p-200 || next() % 4 == 0) x = std::abs(number(1));
+        if (option.type == "integer") x = std::trunc(std::min(x, 1e3));
+        return format_number(std::clamp(x, option.low, option.high));
+    }
+
+    double number(double old) {
+        const double sign = next() % 2 == 0 ? 1 : -1;
+        switch (next() % 8) {
+            case 0:
+                return sign * std::ldexp(part(), static_cast<int>(next() % 400) - 200);
+            case 1:
+                return old;
+            case 2:
+                return old + sign * std::ldexp(part(), -static_cast<int>(next() % 54));
+            case 3:
+                return last_;
+            case 4:
+                return last_ + sign * std::ldexp(part(), -static_cast<int>(next() % 54));
+            case 5:
+                return sign * part();
+            default:
+                return sign * static_cast<double>(next() % 10);
+        }
+    }
+
+    std::string with_other_numbers(std::string_view text) {
+        std::string out;
+        while (!text.empty()) {
+            const std::size_t end = std::min(text.find_first_of(", "), text.size());
+            last_ = number(std::stod(std::string(text.substr(0, end))));
+            out += format_number(last_);
+            if (end < text.size()) out += text[end];
+            text.remove_prefix(std::min(end + 1, text.size()));
+        }
+        return out;
+    }
+
+    Rng rng_;
+    std::uint64_t at_ = 0;
+    double last_ = 0;
+};
+
+double density_of_image(const Mapping& map, std::span<const double> cube) {
+    return map.density(image_of(map, {cube.begin(), cube.end()}));
+}
+
+/// Holds that images of hostile points are in the domain and have a density, above 0 and finite; next
+/// to rims and the middle, at least the points beside them. Of a biased method it may be infinite.
+void expect_keeps_points(const Mapping& map, bool biased, std::size_t count) {
+    const PointSet cube = hostile_points(count, map.cube_dimension());
+    const std::size_t d = map.domain()->dimension();
+    std::vector<double> image(count * d);
+    std::vector<std::uint8_t> keep(count, 1);
+    map.forward(cube.flat(), image, keep);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (keep[i] == 0) continue;
+        const auto point = std::span<const double>(image).subspan(i * d, d);
+        const auto telling = [](double u) { return std::abs(2 * u - std::round(2 * u)) < 0x1p-38; };
+        const double density = map.density(point);
+        bool right = density > 0 && (std::isfinite(density) || biased);
+        if (!right && density >= 0 && std::ranges::any_of(cube[i], telling)) {
+            std::vector<double> beside(cube[i].begin(), cube[i].end());
+            for (double& u : beside) u += u < 0.75 ? 0x1p-20 : -0x1p-20;
+            const double there = density_of_image(map, beside);
+            right = there > 0 && std::isfinite(there);
+        }
+        ASSERT_TRUE(map.domain()->contains(point) && right)
+            << "point " << i << ": " << format_number(cube[i].front()) << ", "
+            << format_number(cube[i].back()) << ", density " << density;
+    }
+}
+
+// Of random options, those that the warp takes.
+TEST_P(EveryWarp, KeepsItsPointsWhateverItsOptions) {
+    const Settings needed = needed_options(unit.name);
+    HostileOptions hostile(3);
+    for (int trial = 0; trial < 400 && !HasFailure(); ++trial) {
+        Settings settings = needed;
+        for (auto& [name, text] : hostile.settings(unit.options))
+            if (std::ranges::find(needed, name, &Settings::value_type::first) == needed.end())
+                settings.emplace_back(name, text);
+        const Spec spec{.name = unit.name, .coordinates = {}, .settings = settings};
+        std::unique_ptr<Mapping> map;
+        if (!error_of([&] { map = unit.make(spec.values(unit.options), 2, {}); }).empty()) continue;
+        SCOPED_TRACE(format_spec(unit.name, spec.values(unit.options), unit.options));
+        expect_keeps_points(*map, unit.traits.biased, trial < 50 ? 500 : 60);
     }
 }
 

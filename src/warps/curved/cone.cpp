@@ -64,7 +64,7 @@ class ConeDomain final : public NamedDomain {
     ConeDomain(const Cap& cap, std::string spec)
         : NamedDomain(std::move(spec), 3, 2),
           cap_(cap),
-          rim_slack_(slack * (cap.frame.z[2] == 1 ? std::min(2 * cap.half.sin, 1.0) : 1)) {}
+          rim_slack_(slack * (cap.frame.z == Frame().z ? std::min(2 * cap.half.sin, 1.0) : 1)) {}
 
     double measure() const override { return 2 * std::numbers::pi * cap_.rim_minus(); }
 

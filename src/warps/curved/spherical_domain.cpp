@@ -9,26 +9,42 @@
 
 namespace stipple::warps {
 
-double half_area_turns(const Vector3& a, const Vector3& b, const Vector3& c) {
-    const double volume = dot(a, cross(minus(b, a), minus(c, a)));
-    return turns_of(1 + dot(a, b) + dot(b, c) + dot(c, a), std::abs(volume));
+double corner_volume(const Vector3& a, const Vector3& b, const Vector3& c) {
+    const Vector3 ab = minus(b, a);
+    const Vector3 bc = minus(c, b);
+    const Vector3 ca = minus(a, c);
+    // At the corner between the two shorter edges: the longer ones have lost digits of a short one.
+    const double longest = std::max({dot(ab, ab), dot(bc, bc), dot(ca, ca)});
+    if (dot(bc, bc) == longest) return dot(a, cross(ca, ab));
+    if (dot(ca, ca) == longest) return dot(b, cross(ab, bc));
+    return dot(c, cross(bc, ca));
 }
 
-SphericalDomain::SphericalDomain(std::string spec, std::vector<Vector3> corners, Cells cells,
-                                 double area, double slack, std::vector<std::string> axes)
+double half_area_turns(const Vector3& a, const Vector3& b, const Vector3& c) {
+    return turns_of(1 + dot(a, b) + dot(b, c) + dot(c, a), std::abs(corner_volume(a, b, c)));
+}
+
+SphericalDomain::SphericalDomain(std::string spec, std::vector<Vector3> corners,
+                                 std::vector<Vector3> inward, Cells cells, double area,
+                                 double slack, std::vector<std::string> axes)
     : NamedDomain(std::move(spec), 3, 2),
       corners_(std::move(corners)),
+      inward_(std::move(inward)),
       cells_(std::move(cells)),
       area_(area),
       slack_(slack),
       axes_(std::move(axes)) {
     const std::size_t n = corners_.size();
+    double largest_turn = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const Vector3 edge = minus(corners_[(i + 1) % n], corners_[i]);
         Vector3 normal = normalized(cross(corners_[i], edge));
         if (dot(normal, minus(corners_[(i + 2) % n], corners_[i])) < 0) normal = times(normal, -1);
-        inward_.push_back(normal);
+        if (i == inward_.size()) inward_.push_back(normal);
+        const double turn = dot(cross(corners_[i], edge), inward_[i]);
+        if (std::abs(turn) > std::abs(largest_turn)) largest_turn = turn;
     }
+    turn_ = std::copysign(1.0, largest_turn);
 }
 
 std::optional<Discontinuities> SphericalDomain::discontinuities() const {
@@ -50,9 +66,8 @@ double SphericalDomain::edge_top(std::size_t i, const Vector3& up) const {
     const Vector3& normal = inward_[i];
     const Vector3 highest = minus(up, times(normal, dot(normal, up)));  // of the edge's circle
     // Turning with or against the normal, the edge passes it between its ends or not.
-    const double turn = dot(cross(from, to), normal);
-    const bool passes =
-        turn * dot(cross(from, highest), normal) > 0 && turn * dot(cross(highest, to), normal) > 0;
+    const bool passes = turn_ * dot(cross(from, highest), normal) > 0 &&
+                        turn_ * dot(cross(highest, to), normal) > 0;
     return passes ? length(highest) : std::max(dot(from, up), dot(to, up));
 }
 

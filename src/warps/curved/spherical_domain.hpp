@@ -3,9 +3,10 @@
 // A convex polygon of directions, uniform in solid angle. Its cells are the way back of a map,
 // other than the warp's own, so that they do not line up with its strata.
 //
-// The area of spherical triangles keeps its digits, however small they are:
+// The area of spherical triangles keeps its digits, however small or thin they are:
 //
-//     tan(area / 2) = |a . (b - a) x (c - a)| / (1 + a.b + b.c + c.a)
+//     tan(area / 2) = |a . (b - a) x (c - a)| / (1 + a.b + b.c + c.a),    a where the two shorter
+//                                                                         edges meet
 //
 // Moments on a polygon of area A, whose edges e have inward unit normals n_e, from those about an
 // axis w, by Stokes's theorem:
@@ -33,6 +34,9 @@
 
 namespace stipple::warps {
 
+/// a . (b x c) of three unit vectors, to its last digits where they are close together, too.
+double corner_volume(const Vector3& a, const Vector3& b, const Vector3& c);
+
 /// Half the area of the triangle of three unit vectors, in turns of 2 pi: in [0, 1/2].
 double half_area_turns(const Vector3& a, const Vector3& b, const Vector3& c);
 
@@ -40,13 +44,14 @@ class SphericalDomain final : public NamedDomain {
   public:
     using Cells = std::function<std::array<double, 2>(std::span<const double>)>;
 
-    /// @param corners in order, either way around; unit vectors, neighbours neither equal nor
-    /// opposite
+    /// @param corners in order, either way around; unit vectors, neighbours not equal
+    /// @param inward unit normals of the planes of the edges after each corner; empty: by the
+    /// corners, neighbours of which are not opposite then
     /// @param cells the map's way back
     /// @param slack how far beyond the planes of the edges, and how much longer or shorter than 1,
     /// rounding may take a direction that was made
-    SphericalDomain(std::string spec, std::vector<Vector3> corners, Cells cells, double area,
-                    double slack, std::vector<std::string> axes);
+    SphericalDomain(std::string spec, std::vector<Vector3> corners, std::vector<Vector3> inward,
+                    Cells cells, double area, double slack, std::vector<std::string> axes);
 
     double measure() const override { return area_; }
     bool contains(std::span<const double> point) const override {
@@ -76,7 +81,8 @@ class SphericalDomain final : public NamedDomain {
     double edge_top(std::size_t i, const Vector3& up) const;
 
     std::vector<Vector3> corners_;
-    std::vector<Vector3> inward_;  ///< unit normal of the plane of the edge after each corner
+    std::vector<Vector3> inward_;
+    double turn_ = 1;  ///< of the corners about a direction inside: 1 or -1
     Cells cells_;
     double area_;
     double slack_;

@@ -27,10 +27,10 @@
 //         quadrilaterals between planes through o and a parallel of ey.
 // Cost    O(1) a point; on one core about 14 ns forward, 62 ns back.
 // Promise density 1 / (solid angle). Directions meet the rectangle up to 16 epsilon beyond the
-//         planes through o and its edges. Forward and back again is the same xi within 4e-15,
-//         however flat the rectangle is seen, and the same direction within 1e-14, save above the
-//         rectangle itself: next to its sides an ulp of xi is a direction that is 1e-16 / (angle)
-//         further. The same bits on every machine.
+//         planes through o and its edges. Forward and back again is the same xi within 1e-15 over the
+//         smaller of the two angles at which it is seen, and the same direction within 1e-14, save
+//         above the rectangle itself: next to its sides an ulp of xi is a direction that is
+//         1e-16 / (angle) further. The same bits on every machine.
 // Source  C. Urena, M. Fajardo, A. King, "An area-preserving parametrization for spherical
 //         rectangles", Computer Graphics Forum 32(4) (2013) 59-66, doi:10.1111/cgf.12151.
 
@@ -69,6 +69,14 @@ struct Rectangle {
 
     std::vector<Vector3> corners() const {
         return {towards(x0, y0), towards(x1, y0), towards(x1, y1), towards(x0, y1)};
+    }
+
+    /// Unit normals of the planes through 0 and the edges after these corners.
+    std::vector<Vector3> inward() const {
+        const auto normal = [this](double x, double y, double height) {
+            return normalized(frame.out({x, y, height}));
+        };
+        return {normal(0, z, -y0), normal(-z, 0, x1), normal(0, -z, y1), normal(z, 0, -x0)};
     }
 
     /// x and y change places.
@@ -114,10 +122,14 @@ class Urena {
         const CosSin g_itself = cos_sin_turns(behind_ + half_ * (1 - u));
         const CosSin h = h_itself.cos < 0 ? rest_of(g_itself) : h_itself;
         const CosSin g = g_itself.cos < 0 ? rest_of(h_itself) : g_itself;
-        const double along = h.sin * g.cos - h.cos * g.sin;  // sin(H - G)
+        double along = h.sin * g.cos - h.cos * g.sin;  // sin(H - G)
         const double root =
             h.sin * g.sin * sine_of_sum(h, g, low_, high_) * sine_of_sum(g, h, low_, high_);
-        const double across = 2 * std::sqrt(std::max(root, 0.0));
+        double across = 2 * std::sqrt(std::max(root, 0.0));
+        const bool before = along * seen_.z < across * seen_.x0;  // by rounding
+        const bool behind = along * seen_.z > across * seen_.x1;
+        along = before ? seen_.x0 : behind ? seen_.x1 : along;
+        across = before || behind ? seen_.z : across;
         const double scale = 1 / std::sqrt(along * along + across * across);
         const double sin_phi = along * scale;
         const double cos_phi = across * scale;
@@ -247,10 +259,11 @@ Rectangle rectangle_of(const Values& options) {
     const auto seen_corners = seen.corners();
     const double narrow = std::min(length(minus(seen_corners[1], seen_corners[0])),
                                    length(minus(seen_corners[3], seen_corners[0])));
-    if (!(seen.z > 1e-10 * reach) || !(narrow > 256 * epsilon))
+    const bool above = seen.x0 <= 0 && seen.x1 >= 0 && seen.y0 <= 0 && seen.y1 >= 0;
+    if (!(seen.z > (above ? 1e-100 : 1e-10) * reach) || !(narrow > 256 * epsilon))
         fail(ErrorKind::usage,
-             "--origin: the rectangle fills no solid angle from {}; it lies in its plane or is too "
-             "far away",
+             "--origin: the rectangle fills no solid angle from {}, or too small a one; it lies in "
+             "its plane or is far away",
              format_value(options[origin]));
     return seen;
 }
@@ -264,7 +277,8 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
         return std::array{u, v};
     };
     const auto domain = std::make_shared<SphericalDomain>(
-        want.spec(), rectangle.corners(), cells, turned.solid_angle(), 16 * epsilon,
+        want.spec(), rectangle.corners(), rectangle.inward(), cells, turned.solid_angle(),
+        16 * epsilon,
         std::vector<std::string>{"place along ex, as sine of the angle",
                                  "share of the solid angle along ey"});
     return row_mapping(domain, Urena(rectangle));
@@ -280,6 +294,7 @@ Warp unit() {
                 "xi1 is the share of the solid angle along the first edge, xi2 the place "
                 "along the second, as the sine of the elevation; both as they are",
             .options = Schema(corner, edges, origin),
+            .stream_version = 2,
             .mapping = make};
 }
 

@@ -44,24 +44,29 @@ constexpr Param<Points> vertices{
 class Arvo {
   public:
     Arvo(const Vector3& a, const Vector3& b, const Vector3& c)
-        : a_(a), b_(b), ab_(minus(b, a)), half_area_(half_area_turns(a, b, c)) {
-        const Vector3 to_b = tangent(a, b);
+        : a_(a), b_(b), ab_(minus(b, a)), bc_(minus(c, b)), half_area_(half_area_turns(a, b, c)) {
+        const Vector3 ac = minus(c, a);
         to_c_ = tangent(a, c);
-        const double tan_half = length(ab_) / length(plus(a, b));
-        // Of tan(ab/2) times cosine and sine of alpha.
-        along_ = tan_half * dot(to_b, to_c_);
-        across_ = tan_half * length(cross(to_b, to_c_));
-        turn_ = std::copysign(1.0, dot(a, cross(ab_, minus(c, a))));
+        sin_ = length(ac);
+        cos_ = length(plus(a, c));
+        // tan(ab/2) times cosine and sine of alpha.
+        const double volume = corner_volume(a, b, c);
+        const Vector3 sum = plus(a, b);
+        along_ = length(ab_) / length(sum) * dot(tangent(a, b), to_c_);
+        across_ = 4 * std::abs(volume) / (dot(sum, sum) * sin_ * cos_);
+        turn_ = std::copysign(1.0, volume);
     }
 
     Vector3 forward(const std::array<double, 2>& xi) const {
         const auto [c, s] = cos_sin_turns(half_area_ * xi[0]);
-        const Vector3 arc = arc_from_b(across_ * c - along_ * s, s);
+        const double x = across_ * c - along_ * s;
+        const bool beyond = s * cos_ >= x * sin_;  // c' is at c, or by rounding behind it
+        const Vector3 arc = beyond ? bc_ : arc_from_b(x, s);
         const double whole = 0.25 * dot(arc, arc);  // sin^2 of half the arc from b to c'
         const double part = xi[1] * whole;
         const Vector3 across = plus(arc, times(b_, 2));
         const double rest = 0.25 * dot(across, across);  // 1 - whole
-        const double scale = std::sqrt(xi[1] * (1 - part) / rest);
+        const double scale = std::sqrt(xi[1] * ((1 - xi[1]) + xi[1] * rest) / rest);
         const double lift = 2 * (scale * whole - part);
         return {b_[0] + (scale * arc[0] + lift * b_[0]) + 0.0,
                 b_[1] + (scale * arc[1] + lift * b_[1]) + 0.0,
@@ -74,12 +79,14 @@ class Arvo {
         // cos q and sin q at which the plane through b and w meets the edge ac, times a length.
         const double x = 0 - turn_ * dot(plane, to_c_);
         const double y = std::max(0.0, 0 - turn_ * dot(plane, ab_));
-        const double size = std::sqrt(x * x + y * y);
-        if (size == 0) return {0, 0};            // b itself
-        const double c = x >= 0 ? size + x : y;  // cos(q/2) and sin(q/2), times a length
-        const double s = x >= 0 ? y : size - x;
-        const Vector3 arc = arc_from_b(c, s);
-        return {turns_of(c + along_ * s, across_ * s) / half_area_, dot(way, way) / dot(arc, arc)};
+        if (x * x + y * y == 0) return {0, 0};  // b itself
+        const auto [share, arc] = at(x, y);
+        const Vector3& whole = share < 1 ? arc : bc_;
+        const double part = dot(way, way) / dot(whole, whole);
+        if (part < 1) return {share, part};
+        // On the edge ac: w itself is c', which that plane may not tell where a is next to b.
+        const Vector3 off = minus(vector_of(point), a_);
+        return {at(dot(vector_of(point), a_), std::max(0.0, dot(off, to_c_))).share, 1};
     }
 
   private:
@@ -87,6 +94,19 @@ class Arvo {
     static Vector3 tangent(const Vector3& from, const Vector3& to) {
         const Vector3 chord = minus(to, from);
         return normalized(plus(chord, times(from, 0.5 * dot(chord, chord))));
+    }
+
+    struct Foot {
+        double share;  ///< of the area, next to the edge ab
+        Vector3 arc;   ///< the chord from b to c'
+    };
+
+    /// For cos q and sin q times a length.
+    Foot at(double x, double y) const {
+        const double size = std::sqrt(x * x + y * y);
+        const double c = x >= 0 ? size + x : y;  // cos(q/2) and sin(q/2), times a length
+        const double s = x >= 0 ? y : size - x;
+        return {turns_of(c + along_ * s, across_ * s) / half_area_, arc_from_b(c, s)};
     }
 
     /// The chord from b to c', for cos(q/2) and sin(q/2) times a length.
@@ -100,8 +120,11 @@ class Arvo {
     Vector3 a_;
     Vector3 b_;
     Vector3 ab_;
-    Vector3 to_c_{};  ///< unit tangent at a
+    Vector3 bc_;
     double half_area_;
+    Vector3 to_c_{};  ///< unit tangent at a
+    double sin_ = 0;  ///< sine and cosine of half the arc ac, times 2
+    double cos_ = 0;
     double along_ = 0;
     double across_ = 0;
     double turn_ = 1;  ///< of a, b, c: 1 counter-clockwise, seen from outside
@@ -162,7 +185,7 @@ std::unique_ptr<Mapping> make(const WarpRequest& want) {
         return next.inverse(point);
     };
     const auto domain = std::make_shared<SphericalDomain>(
-        want.spec(), std::vector<Vector3>(v.begin(), v.end()), cells,
+        want.spec(), std::vector<Vector3>(v.begin(), v.end()), std::vector<Vector3>{}, cells,
         4 * std::numbers::pi * half_area_turns(v[0], v[1], v[2]), slack_of(v),
         std::vector<std::string>{"share of the area next to bc", "share on the way from c"});
     return row_mapping(domain, Arvo(v[0], v[1], v[2]));
@@ -178,6 +201,7 @@ Warp unit() {
                 "xi1 is the share of the area from the edge of the first two corners towards "
                 "the third, xi2 the share on the way from the second corner; both as they are",
             .options = Schema(vertices),
+            .stream_version = 2,
             .mapping = make};
 }
 

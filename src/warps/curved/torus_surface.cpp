@@ -78,10 +78,12 @@ struct Torus {
     };
 
     Section section(std::span<const double> point) const {
-        const auto [x, y, z] = frame.in(minus(vector_of(point), center));
-        const double inwards = major - std::sqrt(x * x + y * y);
+        // In units of a power of 2, in which no square over- or underflows.
+        const double unit = std::ldexp(1.0, -std::ilogb(major));
+        const auto [x, y, z] = times(frame.in(minus(vector_of(point), center)), unit);
+        const double inwards = unit * major - std::sqrt(x * x + y * y);
         return {turns_of(inwards, std::abs(z)), z < 0, turns_of(x, y),
-                std::sqrt(inwards * inwards + z * z)};
+                std::sqrt(inwards * inwards + z * z) / unit};
     }
 
     /// Kepler's E - e sin E at an angle in [0, 1/2] turns.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "support/warping.hpp"
+#include "support/planar.hpp"
 
 namespace stipple::testing::spherical_rectangle_test {
 namespace {
@@ -118,6 +118,31 @@ TEST(SphericalRectangle, NearlyFlatRectanglesKeepTheirDigits) {
     }
 }
 
+// Large, askew and endless ones, of which rounding must not leave the sides.
+TEST(SphericalRectangle, KeepsItsPointsOnTheRim) {
+    for (const char* shape : {"corner=[0.717,-1.533,1.483],edges=[-4,2,4 -1.5,3,-3]",
+                              "corner=[-1e10,-1e10,1],edges=[2e10,0,0 0,2e10,0]",
+                              "corner=[-1e10,-1,1],edges=[2e10,0,0 0,2,0]"}) {
+        const auto map = mapping("spherical-rectangle:" + std::string(shape));
+        for (const PointSet& cube : {telling_points(), hostile_points(20'000, 2)})
+            for (std::size_t i = 0; i < cube.count(); ++i) {
+                const Point w = image_of(*map, {cube[i][0], cube[i][1]});
+                ASSERT_EQ(map->density(w), 1 / map->domain()->measure())
+                    << shape << ": " << cube[i][0] << ", " << cube[i][1];
+            }
+    }
+    // What is left of the hemisphere beyond a square of half-width h is 4 sqrt(2) / h.
+    const double left = 2 * std::numbers::pi -
+                        mapping("spherical-rectangle:corner=[-1e3,-1e3,1],edges=[2e3,0,0 0,2e3,0]")
+                            ->domain()
+                            ->measure();
+    EXPECT_NEAR(left / (4 * std::numbers::sqrt2 * 1e-3), 1, 1e-5);
+    EXPECT_DOUBLE_EQ(mapping("spherical-rectangle:corner=[-1e17,-1e17,1],edges=[2e17,0,0 0,2e17,0]")
+                         ->domain()
+                         ->measure(),
+                     2 * std::numbers::pi);
+}
+
 TEST(SphericalRectangle, UnitCoordinatesComeBack) {
     const PointSet cube = telling_points();
     for (std::size_t shape = 0; shape < 5; ++shape) {
@@ -192,8 +217,8 @@ TEST(SphericalRectangle, RefusesWhatIsNoRectangleOrHasNoSolidAngle) {
     EXPECT_EQ(error("corner=[1,2]"), "usage: --corner: 3 numbers are needed, x,y,z; 2 given");
     EXPECT_EQ(
         error("origin=[3,4,1]"),
-        "usage: --origin: the rectangle fills no solid angle from 3,4,1; it lies in its plane "
-        "or is too far away");
+        "usage: --origin: the rectangle fills no solid angle from 3,4,1, or too small a one; it "
+        "lies in its plane or is far away");
     EXPECT_NE(error("origin=[0,0,1e15]"), "");
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "support/warping.hpp"
+#include "support/planar.hpp"
 
 namespace stipple::testing::spherical_triangle_test {
 namespace {
@@ -96,6 +96,33 @@ TEST(SphericalTriangle, RoundTripOverTheWholeSquare) {
     expect_round_trip(*mapping("spherical-triangle:vertices=[1,0,0 1,1,1e-6 0,1,0]"), 2e-15);
     expect_round_trip(*mapping("spherical-triangle:vertices=[1,0,0 -0.99,0.1,0 0.1,-1,-0.1]"),
                       1e-12);
+}
+
+// Corners that are nearly in line with each other, next to each other, or nearly opposite.
+TEST(SphericalTriangle, KeepsItsPointsOnTheRim) {
+    for (const char* vertices :
+         {"2,-3,4 -9,-9,-9 -7,-7,-6",
+          "-2.0744450134764927,0.44853540041231293,0.2525897870052396 "
+          "0.9565666532561078,0.24586647114440302,-0.1566202932107067 "
+          "0.9565666532547824,0.24586647114485297,-0.15662029321151222",
+          "-7e52,0,-5.7e43 -1,-1,-1 0.8603096525744408,0.7985092938047497,0.7985092938047307"}) {
+        const auto map = mapping("spherical-triangle:vertices=[" + std::string(vertices) + "]");
+        for (const PointSet& cube : {telling_points(), hostile_points(20'000, 2)})
+            for (std::size_t i = 0; i < cube.count(); ++i) {
+                const Point w = image_of(*map, {cube[i][0], cube[i][1]});
+                ASSERT_EQ(map->density(w), 1 / map->domain()->measure())
+                    << vertices << ": " << cube[i][0] << ", " << cube[i][1];
+            }
+    }
+}
+
+TEST(SphericalTriangle, ComesBackToACornerBesideAShortEdge) {
+    const auto map =
+        mapping("spherical-triangle:vertices=[0.1,0.2,0.9 0.1000000001,0.2,0.9 0.5,-0.4,0.3]");
+    const Point corner = image_of(*map, {one_minus_ulp, one_minus_ulp});
+    const Point back = inverse_of(*map, corner);
+    expect_near(image_of(*map, back), corner, 1e-14);
+    EXPECT_NEAR(back[1], 1, 1e-14);
 }
 
 TEST(SphericalTriangle, UnitCoordinatesComeBack) {
