@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <limits>
 #include <numeric>
 
 #include "core/bytes/file_bytes.hpp"
@@ -273,6 +274,31 @@ bool WarpChain::drops() const {
         steps_, [](const Step& step) { return step.mapping && step.mapping->drops(); });
 }
 
+void WarpChain::note_infinite(const Step& step, std::span<const double> cube,
+                              std::uint64_t first) const {
+    if (step.mapping->domain()->measure() < std::numeric_limits<double>::infinity()) return;
+    const std::size_t d = step.coordinates.size();
+    for (std::size_t i = 0; i < cube.size(); i += d)
+        if (step.mapping->infinite(cube.subspan(i, d))) {
+            std::uint64_t least = infinite_;
+            const std::uint64_t row = first + i / d;
+            while (row < least && least != told && !infinite_.compare_exchange_weak(least, row)) {
+            }
+            return;
+        }
+}
+
+void WarpChain::tell_infinite(const RunContext& run) const {
+    const std::uint64_t row = infinite_;
+    if (row == none || row == told) return;
+    infinite_ = told;
+    run.notify(
+        fmt::format("point {} has a coordinate 0 or 1 whose image under {} is infinitely far; it "
+                    "is put in the far tail; leave such points out (generate --start 1) or "
+                    "scramble them",
+                    row, join(specs_, ", ")));
+}
+
 std::vector<double> WarpChain::forward(std::vector<double> rows, std::uint64_t first) const {
     for (const Step& step : steps_) {
         if (!step.mapping && !step.randomization) continue;
@@ -282,6 +308,7 @@ std::vector<double> WarpChain::forward(std::vector<double> rows, std::uint64_t f
         const bool drops = step.mapping && step.mapping->drops();
         std::vector<std::uint8_t> keep(drops ? count : 0, 1);
         if (step.mapping) {
+            note_infinite(step, part, first);
             std::vector<double> image(count * step.at.size());
             step.mapping->forward(part, image, keep);
             part = std::move(image);
@@ -323,6 +350,7 @@ std::vector<double> WarpChain::mapped(std::span<const double> rows, bool back, s
         parts[b.index] =
             back ? inverse(std::move(part)) : forward(std::move(part), first + b.first);
     });
+    tell_infinite(run);
     std::size_t numbers = 0;
     for (const auto& part : parts) numbers += part.size();
     std::vector<double> all;

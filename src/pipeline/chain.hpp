@@ -7,6 +7,7 @@
 //        coordinates of the row as it then is.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -90,6 +91,10 @@ class WarpChain {
     /// What preimages of points on `after` are on.
     [[nodiscard]] DomainPtr domain_before(const DomainPtr& after, const RunContext& run) const;
 
+    /// Tells the user, once, of the first row that forward() was given a finite image for though its
+    /// own is infinitely far.
+    void tell_infinite(const RunContext& run) const;
+
     /// Density of each row that forward() gave, with respect to the measure of domain().
     [[nodiscard]] std::vector<double> density(std::span<const double> rows) const;
 
@@ -108,6 +113,9 @@ class WarpChain {
         std::size_t width_out = 0;                  ///< and after
     };
 
+    /// Remembers the first of some rows of a step's cube whose image is infinitely far.
+    void note_infinite(const Step& step, std::span<const double> cube, std::uint64_t first) const;
+
     void add_scramble(const Scramble& scramble, const Spec& spec, const ChainSet& set);
     void add_warp(const Warp& warp, const Spec& spec, const RunContext& run);
     template <class Unit>
@@ -122,6 +130,9 @@ class WarpChain {
     std::size_t dimension_in_;
     std::size_t dimension_out_;
     DomainPtr domain_;
+    mutable std::atomic<std::uint64_t> infinite_ = none;  ///< row
+    static constexpr std::uint64_t none = ~std::uint64_t{0};
+    static constexpr std::uint64_t told = none - 1;
 };
 
 /// Columns of rows as rows of their own.

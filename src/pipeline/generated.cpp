@@ -43,6 +43,7 @@ void fill_rows(const Sequence& sequence, std::uint64_t first, const WarpChain& c
         sequence.fill(first + b.first, raw);
         std::ranges::copy(chain.forward(std::move(raw), first + b.first), place.begin());
     });
+    chain.tell_infinite(run);
 }
 
 }  // namespace

@@ -49,6 +49,10 @@ class DomainMapping final : public Mapping {
                  std::span<std::uint8_t> /*keep*/) const override {
         known_.from_cube(cube, image);
     }
+    bool infinite(std::span<const double> row) const override {
+        if constexpr (requires { known_.infinite(row); }) return known_.infinite(row);
+        return false;
+    }
 
   private:
     const Known& known_;

@@ -43,6 +43,10 @@ class Mapping {
     /// Whether some points may have no image.
     [[nodiscard]] virtual bool drops() const { return false; }
 
+    /// Whether the image of a row of the cube is infinitely far, and a finite one stands for it:
+    /// asked where the domain's measure is infinite.
+    [[nodiscard]] virtual bool infinite(std::span<const double> /*row*/) const { return false; }
+
     /// The way back, into the closed unit cube: the domain's own to_cube(), unless a method has
     /// another. @throws Error(usage) where there is none; Error(input) naming a point outside
     virtual void inverse(std::span<const double> image, std::span<double> cube) const;

@@ -158,4 +158,36 @@ TEST(WarpChain, ScramblesGoByTheSetsSeedOrTheirOwn) {
         "the unit cube");
 }
 
+// The first row of a set, whatever thread it is on; of sequences with a point 0, that one. A mixture's
+// component has its own ends.
+TEST(WarpChain, TellsOnceOfTheFirstPointThatIsInfinitelyFar) {
+    const auto told = [](std::initializer_list<const char*> specs, const PointSet& points) {
+        const auto warps = chain(specs, points.dimension());
+        std::vector<std::string> notes;
+        RunContext run{.threads = 3};
+        run.warn = [&](const std::string& note) { notes.push_back(note); };
+        for (int again = 0; again < 2; ++again)
+            EXPECT_EQ(warps.image(points, run).count(), points.count());
+        return notes;
+    };
+    PointSet far = make("random", points(50'000, 2));
+    EXPECT_TRUE(told({"normal"}, far).empty());
+    far[40'000][1] = far[20'001][0] = far[20'002][1] = 0;
+    const std::vector<std::string> first = told({"normal"}, far);
+    ASSERT_EQ(first.size(), 1U);
+    EXPECT_EQ(
+        first[0],
+        "point 20001 has a coordinate 0 or 1 whose image under normal is infinitely far; it "
+        "is put in the far tail; leave such points out (generate --start 1) or scramble them");
+    EXPECT_TRUE(told({"normal@2"}, far)[0].starts_with("point 20002 has"));
+    EXPECT_TRUE(told({"exponential"}, far).empty()) << "0 is 0 there";
+    EXPECT_TRUE(told({"disk"}, far).empty());
+    far[7][1] = 1;
+    EXPECT_TRUE(told({"exponential"}, far)[0].starts_with("point 7 has"));
+    PointSet half({0.75, 0.5, 0.5, 0.5}, 2);
+    EXPECT_TRUE(told({"normal"}, half).empty());
+    EXPECT_TRUE(
+        told({"mixture:components=[normal|normal:mean=5]"}, half)[0].starts_with("point 1"));
+}
+
 }  // namespace stipple::testing::chain_test

@@ -99,10 +99,11 @@ inline double normal_quantile(double q, double m) {
     return std::abs(q) <= 0.425 ? middle : tail;
 }
 
-/// p, but at least 2^-54, or its complement, but at least 2^-55.
+/// The smaller of p and 1 - p, where that is not 0; 1e-300 for what is below it.
 inline double bounded_tail(double p) {
+    const double m = std::min(p, 1 - p);
     const double least = p < 0.5 ? 0x1p-54 : 0x1p-55;
-    return std::max(std::min(p, 1 - p), least);
+    return m > 0 ? std::max(m, 1e-300) : least;
 }
 
 }  // namespace detail
@@ -112,8 +113,8 @@ inline double normal_quantile(double p) {
     return detail::normal_quantile(p - 0.5, std::min(p, 1 - p));
 }
 
-/// The same for p in [0, 1]. Below 2^-54, the middle of the step of random numbers at 0, p is taken
-/// as 2^-54: -8.2924. 1, which random numbers never are, is taken as 1 - 2^-55: 8.3744.
+/// The same for p in [0, 1], from 1e-300 on. 0 is taken as 2^-54, the middle of the step of random numbers there:
+/// -8.2924. 1, which random numbers never are, is taken as 1 - 2^-55: 8.3744.
 inline double bounded_normal_quantile(double p) {
     return detail::normal_quantile(p - 0.5, detail::bounded_tail(p));
 }

@@ -39,6 +39,7 @@ struct Decay final : LineDistribution {
         constexpr double most = 55 * 0.6931471805599453;  // -log 2^-55
         return (u < 1 ? 0.0 - log_1p(-u) : most) / rate;
     }
+    bool infinite(double u) const { return u >= 1; }
     double inverse(double x) const override { return 0.0 - exp_minus_1(-rate * std::max(x, 0.0)); }
     double density(double x) const override {
         return contains(x) ? rate * stipple::exponential(-rate * x) : 0;

@@ -5,6 +5,7 @@
 //
 //     struct Decay final : LineDistribution {
 //         double forward(double u) const;   // the quantile of u in [0, 1]
+//         bool infinite(double u) const;    // whether that is an endless tail's end; optional
 //         ...                               // what LineDistribution asks for
 //     };
 //
@@ -194,6 +195,12 @@ class LineMapping final : public Mapping {
         std::ranges::copy(cube, image.begin());
         if (laws_.size() == 1) return apply(*laws_[0], image);
         for (std::size_t k = 0; k < laws_.size(); ++k) map_column(k, image);
+    }
+    bool infinite(std::span<const double> row) const override {
+        if constexpr (requires(const Law& law) { law.infinite(1.0); })
+            for (std::size_t k = 0; k < row.size(); ++k)
+                if (laws_[k % laws_.size()]->infinite(row[k])) return true;
+        return false;
     }
     void inverse(std::span<const double> image, std::span<double> cube) const override {
         expect_inside(image);

@@ -252,6 +252,13 @@ class Mixture final : public Mapping {
         }
     }
 
+    bool infinite(std::span<const double> row) const override {
+        const std::size_t c = shares_.at(row[0]);
+        std::vector<double> own(row.size());
+        stretch(c, row, own);
+        return parts_[c].mapping->infinite(own);
+    }
+
     double density(std::span<const double> point) const override {
         double sum = 0;
         for (const Component& part : parts_) sum += part.weight * part.mapping->density(point);
@@ -266,21 +273,22 @@ class Mixture final : public Mapping {
         std::vector<std::uint8_t> keep;
     };
 
+    /// The row of the cube that a component takes in place of its own.
+    void stretch(std::size_t c, std::span<const double> row, std::span<double> to) const {
+        std::ranges::copy(row, to.begin());
+        const double u = (row[0] - shares_.begin(c)) / shares_.width(c);
+        to[0] = std::max(0.0, std::min(u, one_minus_ulp));
+    }
+
     void move(std::size_t c, std::span<const std::uint32_t> rows, std::span<const double> cube,
               std::span<double> image, Work& work) const {
         const std::size_t d = cube_dimension();
         const std::size_t m = domain()->dimension();
-        const double before = shares_.begin(c);
-        const double width = shares_.width(c);
         work.from.resize(rows.size() * d);
         work.to.resize(rows.size() * m);
         work.keep.assign(rows.size(), 1);
-        for (std::size_t j = 0; j < rows.size(); ++j) {
-            const double* const row = &cube[rows[j] * d];
-            const double u = (row[0] - before) / width;
-            work.from[j * d] = std::max(0.0, std::min(u, one_minus_ulp));
-            for (std::size_t k = 1; k < d; ++k) work.from[j * d + k] = row[k];
-        }
+        for (std::size_t j = 0; j < rows.size(); ++j)
+            stretch(c, cube.subspan(rows[j] * d, d), std::span(work.from).subspan(j * d, d));
         parts_[c].mapping->forward(work.from, work.to, work.keep);
         for (std::size_t j = 0; j < rows.size(); ++j)
             for (std::size_t k = 0; k < m; ++k) image[rows[j] * m + k] = work.to[j * m + k];

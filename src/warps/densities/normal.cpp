@@ -10,12 +10,12 @@
 //
 // Shape   any number of coordinates, as many as there are, or as the mean or the covariance has.
 // Strata  xi is taken as it is, not as 1 - xi: small xi is far below the mean. The first and the
-//         last stratum are endless; xi below 2^-54 is taken as 2^-54, the middle of the step of
-//         random numbers at 0, and 1 as 1 - 2^-55, so that they are 8.2924 standard deviations
-//         below and 8.3744 above the mean, not infinitely many.
+//         last stratum are endless; 0 is taken as 2^-54, the middle of the step of random numbers
+//         at 0, and 1 as 1 - 2^-55, so that they are 8.2924 standard deviations below and 8.3744
+//         above the mean, not infinitely many, and a note says so; what is below 1e-300, as 1e-300.
 // Cost    O(1) a coordinate without a covariance, about 6 ns on one core; O(d) with one.
 // Promise forward and back again is the same xi within 1e-14, in the lower tail within 1e-13 of
-//         itself where it is at least 2^-54; with a covariance, times its condition number's root.
+//         itself (2e-15 z^2, below z = -7); with a covariance, times its condition number's root.
 //         Both ways and the density give the same bits on every machine.
 // Source  M. Rosenblatt, Annals of Mathematical Statistics 23 (1952) 470-472,
 //         doi:10.1214/aoms/1177729394. Phi^-1: Wichura 1988, see
@@ -153,6 +153,9 @@ class NormalDomain final : public NamedDomain {
         return axes;
     }
 
+    bool infinite(std::span<const double> row) const {
+        return std::ranges::any_of(row, [](double u) { return u <= 0 || u >= 1; });
+    }
     void from_cube(std::span<const double> cube, std::span<double> image) const {
         std::ranges::copy(cube, image.begin());
         bounded_normal_quantiles(image);

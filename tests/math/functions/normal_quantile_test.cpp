@@ -69,7 +69,9 @@ TEST(NormalQuantile, BoundedIsTheSameButForTheEnds) {
     for (const double p : {0x1p-54, 0x1p-53, 1e-5, 0.3, 0.5, 0.97, 1 - 0x1p-53})
         EXPECT_EQ(bounded_normal_quantile(p), normal_quantile(p)) << p;
     EXPECT_EQ(bounded_normal_quantile(0), normal_quantile(0x1p-54));
-    EXPECT_EQ(bounded_normal_quantile(5e-324), normal_quantile(0x1p-54));
+    for (const auto& [p, x] : {std::pair{0x1p-60, -8.77332116902755}, {1e-300, -37.0470962993612}})
+        EXPECT_NEAR(bounded_normal_quantile(p), x, 1e-13) << p << ", by SciPy's ndtri";
+    EXPECT_EQ(bounded_normal_quantile(5e-324), bounded_normal_quantile(1e-300));
     EXPECT_EQ(bounded_normal_quantile(1), -normal_quantile(0x1p-55));
 }
 
