@@ -123,7 +123,7 @@ FourierSummation::FourierSummation(const Nufft& nufft)
             .side = nufft.side(),
             .stride = stride_of(nufft.side()),
             .cells = cells_.get()},
-      spreader_(nufft.window(), grid_, nufft.count(), nufft.weighted()),
+      spreader_(std::in_place, nufft.window(), grid_, nufft.count(), nufft.weighted()),
       block_(block_of(nufft)) {}
 
 std::uint64_t FourierSummation::block_of(const Nufft& nufft) {
@@ -146,7 +146,7 @@ void FourierSummation::add(std::span<const double> rows, const RunContext& run) 
         }
         const std::uint64_t some = std::min<std::uint64_t>(rows.size() / numbers, block_ - points_);
         const auto here = rows.first(static_cast<std::size_t>(some) * numbers);
-        spreader_.add(here, run);
+        spreader_->add(here, run);
         if (nufft_.weighted())
             for (std::size_t at = numbers - 1; at < here.size(); at += numbers)
                 strongest_ = std::max(strongest_, std::abs(here[at]));
@@ -158,7 +158,7 @@ void FourierSummation::add(std::span<const double> rows, const RunContext& run) 
 }
 
 void FourierSummation::close_block(const RunContext& run) {
-    spreader_.finish(run);
+    spreader_->finish(run);
     sum_.add(cells(), strongest_, run);
     points_ = 0;
     strongest_ = 0;
@@ -176,7 +176,8 @@ void FourierSummation::merge(Unpacker& from, const RunContext& run) {
 
 FourierSums FourierSummation::finish(Planning planning, const RunContext& run) {
     const RunContext quiet = silent(run);
-    spreader_.finish(quiet);
+    spreader_->finish(quiet);
+    spreader_.reset();  // its points need room that the transform takes
     if (!sum_.empty()) {
         if (points_ > 0) sum_.add(cells(), strongest_, quiet);
         sum_.copy_to(cells(), quiet);

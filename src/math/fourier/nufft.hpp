@@ -100,11 +100,11 @@ class FourierSummation {
     Nufft nufft_;
     GridCells cells_;
     CellGrid grid_;
-    Spreader spreader_;
-    std::uint64_t block_;       ///< points
-    std::uint64_t points_ = 0;  ///< of the block at hand
-    double strongest_ = 0;      ///< of these: its strength, or 1
-    ScaledGridSum sum_;         ///< of all blocks before
+    std::optional<Spreader> spreader_;  ///< while points come
+    std::uint64_t block_;               ///< points
+    std::uint64_t points_ = 0;          ///< of the block at hand
+    double strongest_ = 0;              ///< of these: its strength, or 1
+    ScaledGridSum sum_;                 ///< of all blocks before
 };
 
 /// The same by the plain sum, O(n (2F + 1)^d): the oracle. Phases are reduced before they are
