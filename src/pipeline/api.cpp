@@ -79,7 +79,8 @@ Report analyze(std::string_view text, const PointSet& points, const Settings& se
                const RunContext& run) {
     const Spec spec = spec_without_coordinates(text);
     const Analyzer& analyzer = find_analyzer(spec.name);
-    return analyze(analyzer, placed(points), merged(spec, analyzer.options, settings), run);
+    if (!points.domain) return analyze(text, placed(points), settings, run);
+    return analyze(analyzer, points, merged(spec, analyzer.options, settings), run);
 }
 
 // ---------------------------------------------------------------- samples one by one
